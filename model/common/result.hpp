@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Errors as values: what went wrong, where, and how the program ends because of it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace halfway {
+
+/// How the program ends; the numbers are the process's exit codes.
+enum class ExitCode { equal = 0, differs = 1, bad_input = 2, tool_failed = 3 };
+
+struct Error {
+  ExitCode code = ExitCode::bad_input;
+  std::string message;  ///< "file:line: what, and what to do"
+};
+
+inline Error bad_input(std::string message) { return {ExitCode::bad_input, std::move(message)}; }
+inline Error tool_failed(std::string message) { return {ExitCode::tool_failed, std::move(message)}; }
+
+/// A value or the error that kept it from being made.
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+  Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
+
+  explicit operator bool() const { return state_.index() == 0; }
+  T& operator*() { return std::get<0>(state_); }
+  const T& operator*() const { return std::get<0>(state_); }
+  T* operator->() { return &std::get<0>(state_); }
+  const T* operator->() const { return &std::get<0>(state_); }
+  const Error& error() const { return std::get<1>(state_); }
+
+ private:
+  std::variant<T, Error> state_;
+};
+
+struct Ok {};
+using Status = Result<Ok>;
+
+}  // namespace halfway

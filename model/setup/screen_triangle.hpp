@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// A triangle on the screen: snapped coordinates, and what is needed to find the surface point behind any pixel.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+namespace halfway {
+
+/// Screen space: x to the right, y down, pixel (x, y) has its centre at (x + 1/2, y + 1/2) pixels.
+struct ScreenVertex {
+  std::int32_t x, y;   ///< in 1/2^subpixel_bits of a pixel
+  double z;            ///< depth in [0, 1], 0 at the near plane; linear in screen space
+  double inverse_w;    ///< 1 / view-space distance along the viewing axis, > 0; linear in screen space
+  glm::dvec3 position_world;
+  glm::dvec3 normal_world;  ///< as interpolated, not unit after clipping
+};
+
+/// Front-facing, not degenerate after snapping: twice_area > 0.
+/// Vertices run clockwise on the screen (y down), which is counter-clockwise seen with y up.
+struct ScreenTriangle {
+  std::uint32_t source;    ///< number of the scene's triangle
+  std::uint32_t material;  ///< index into Scene::materials
+  std::array<ScreenVertex, 3> vertex;
+
+  /// (x2-x1)(y3-y1) - (y2-y1)(x3-x1), in squared subpixels.
+  std::int64_t twice_area() const {
+    const auto& [a, b, c] = vertex;
+    return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
+  }
+};
+
+}  // namespace halfway
