@@ -17,8 +17,7 @@ struct ScreenVertex {
   glm::dvec3 normal_world;  ///< as interpolated, not unit after clipping
 };
 
-/// Front-facing, not degenerate after snapping: twice_area > 0.
-/// Vertices run clockwise on the screen (y down), which is counter-clockwise seen with y up.
+/// Front-facing, not degenerate after snapping, its vertices ordered so that twice_area() > 0.
 struct ScreenTriangle {
   std::uint32_t source;    ///< number of the scene's triangle
   std::uint32_t material;  ///< index into Scene::materials

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// One edge of a triangle, exactly: which pixel centres lie to its right, line by line.
+// Reference renderers, setup and coverage tests all take their pixels from here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+
+namespace halfway {
+
+struct FrameSize {
+  std::uint32_t width = 0, height = 0;
+};
+
+/// Floor division and its remainder in [0, d), d > 0.
+struct FlooredQuotient {
+  std::int64_t quotient, remainder;
+};
+constexpr FlooredQuotient floor_divide(std::int64_t n, std::int64_t d) {
+  std::int64_t q = n / d, r = n % d;
+  if (r < 0) --q, r += d;
+  return {q, r};
+}
+constexpr std::int64_t ceil_divide(std::int64_t n, std::int64_t d) { return -floor_divide(-n, d).quotient; }
+
+/// A point on the screen in 1/2^unit_bits of a pixel; unit_bits travels beside it (4, and one more for each
+/// level of subdivision, so that midpoints stay exact).
+struct ScreenPoint {
+  std::int32_t x, y;
+  friend bool operator==(const ScreenPoint&, const ScreenPoint&) = default;
+};
+
+/// First line whose pixel centres are at or below y (top rule: a centre on the edge belongs to what is below).
+constexpr std::int64_t first_line(std::int32_t y, int unit_bits) {
+  return ceil_divide(2 * std::int64_t{y} - (std::int64_t{1} << unit_bits), std::int64_t{2} << unit_bits);
+}
+
+/// An edge walked downwards: for a line y, the first pixel whose centre is at or right of the edge (left rule).
+class Edge {
+ public:
+  /// top.y < bottom.y
+  constexpr Edge(ScreenPoint top, ScreenPoint bottom, int unit_bits)
+      : unit_bits_(unit_bits), dx_(std::int64_t{bottom.x} - top.x), dy_(std::int64_t{bottom.y} - top.y), top_(top) {}
+
+  /// Walking state on line y: pixel p = ceil(N/D) with D = dy*2^unit_bits, and error = floor((pD - N)/2^unit_bits)
+  /// in [0, dy). One line down takes floor(dx/dy) from p's step and (dx mod dy) off the error; a borrow adds a pixel.
+  struct State {
+    std::int64_t pixel, error;
+  };
+  constexpr State at(std::int64_t y) const {
+    const std::int64_t unit = std::int64_t{1} << unit_bits_;
+    // x of the edge at the line's centre, less half a pixel, times dy; all doubled to keep the halves whole.
+    const std::int64_t centre2 = (2 * y + 1) * unit;
+    const std::int64_t n2 = (2 * std::int64_t{top_.x} - unit) * dy_ + dx_ * (centre2 - 2 * std::int64_t{top_.y});
+    const std::int64_t pixel = ceil_divide(n2, 2 * dy_ * unit);
+    return {pixel, (pixel * 2 * dy_ * unit - n2) >> (unit_bits_ + 1)};
+  }
+  constexpr std::int64_t pixel(std::int64_t y) const { return at(y).pixel; }
+  constexpr std::int64_t dx() const { return dx_; }
+  constexpr std::int64_t dy() const { return dy_; }
+
+ private:
+  int unit_bits_;
+  std::int64_t dx_, dy_;
+  ScreenPoint top_;
+};
+
+/// Calls span(y, x_begin, x_end) for each line of the frame on which the triangle covers at least one pixel.
+/// The three points may run either way round.
+template <class Span>
+void for_each_span(std::array<ScreenPoint, 3> p, int unit_bits, FrameSize frame, Span&& span) {
+  if (p[1].y < p[0].y) std::swap(p[0], p[1]);
+  if (p[2].y < p[0].y) std::swap(p[0], p[2]);
+  if (p[2].y < p[1].y) std::swap(p[1], p[2]);
+  const auto clamp_to = [](std::int64_t v, std::uint32_t limit) {
+    return v < 0 ? std::int64_t{0} : v > limit ? std::int64_t{limit} : v;
+  };
+  const std::int64_t begin = clamp_to(first_line(p[0].y, unit_bits), frame.height);
+  const std::int64_t middle = first_line(p[1].y, unit_bits);
+  const std::int64_t end = clamp_to(first_line(p[2].y, unit_bits), frame.height);
+  if (begin >= end) return;
+  const Edge edge_long(p[0], p[2], unit_bits);
+  const Edge upper = p[0].y < p[1].y ? Edge(p[0], p[1], unit_bits) : edge_long;
+  const Edge lower = p[1].y < p[2].y ? Edge(p[1], p[2], unit_bits) : edge_long;
+  for (std::int64_t y = begin; y < end; ++y) {
+    std::int64_t a = clamp_to(edge_long.pixel(y), frame.width);
+    std::int64_t b = clamp_to((y < middle ? upper : lower).pixel(y), frame.width);
+    if (b < a) std::swap(a, b);
+    if (a < b) span(static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+  }
+}
+
+}  // namespace halfway
