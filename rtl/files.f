@@ -1,0 +1,10 @@
+tables/formats_pkg.vhd
+arithmetic/saturate.vhd
+stream/parameter_register.vhd
+stream/stream_register.vhd
+interpolation/line_interpolator.vhd
+interpolation/z_interpolator.vhd
+interpolation/quadratic_interpolator.vhd
+raster/edge_walker.vhd
+raster/triangle_walker.vhd
+shaders/quadratic_shader.vhd

@@ -1,0 +1,61 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     The register and the adder that every interpolation here is made of: takes a start value, then adds an
+--             increment a step.
+-- Formats     g_bits of two's complement throughout; sums wrap, modulo 2**g_bits
+-- Latency     1 clock from load or step to value
+-- Throughput  1 step a clock
+-- Error       none of its own; k steps carry k times the increment's rounding
+-- Source      spherical paper, figure 12 (line interpolator); quadratic paper, figure 6 (each of its registers)
+-- Golden twin model/golden/line_interpolator.hpp
+
+library ieee;
+  use ieee.std_logic_1164.all;
+  use ieee.numeric_std.all;
+
+entity line_interpolator is
+  generic (
+    g_bits : positive
+  );
+  port (
+    clk       : in  std_logic;
+    load      : in  std_logic; -- wins over step
+    start     : in  std_logic_vector(g_bits - 1 downto 0);
+    step      : in  std_logic;
+    increment : in  std_logic_vector(g_bits - 1 downto 0);
+    value     : out std_logic_vector(g_bits - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of line_interpolator is
+
+  type reg_t is record
+    value : signed(g_bits - 1 downto 0);
+  end record;
+
+  signal r, r_next : reg_t;
+
+begin
+
+  combinational : process (all)
+    variable v : reg_t;
+  begin
+    v := r;
+    if load = '1' then
+      v.value := signed(start);
+    elsif step = '1' then
+      v.value := r.value + signed(increment);
+    end if;
+    r_next <= v;
+  end process;
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      r <= r_next;
+    end if;
+  end process;
+
+  value <= std_logic_vector(r.value);
+
+end architecture;

@@ -1,0 +1,89 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     An edge, exactly: the first pixel whose centre is at or right of it, line by line, by integer quotient and
+--             remainder. With dx/dy = quotient + remainder/divisor, a step adds the quotient, and one pixel more where
+--             the error, the pixel's distance right of the edge in 1/divisor pixels, is less than the remainder.
+--             The error register runs a line ahead of x, so that the carry of the next step is a register.
+-- Formats     formats_pkg: x and quotient span_x; error, remainder and divisor edge_error
+-- Latency     1 clock from a load or step to x and carry
+-- Throughput  1 line a clock
+-- Error       none; x never leaves the edge
+-- Source      Bresenham; the quadratic paper steps a rounded slope instead (preset published)
+-- Golden twin model/golden/edge_walker.hpp
+
+library ieee;
+  use ieee.std_logic_1164.all;
+  use ieee.numeric_std.all;
+  use work.formats_pkg.all;
+
+entity edge_walker is
+  port (
+    clk            : in  std_logic;
+    load           : in  std_logic; -- wins over step
+    load_x         : in  std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
+    load_quotient  : in  std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
+    load_remainder : in  std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
+    load_divisor   : in  std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
+    load_error     : in  std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0); -- after the first step
+    load_carry     : in  std_logic;                                                      -- of the first step
+    step           : in  std_logic;
+    x              : out std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
+    carry          : out std_logic -- the next step goes one pixel further than the quotient
+  );
+end entity;
+
+architecture rtl of edge_walker is
+
+  subtype span_x_t is signed(c_exact_formats.span_x.bits - 1 downto 0);
+  subtype error_t  is unsigned(c_exact_formats.edge_error.bits - 1 downto 0);
+
+  type reg_t is record
+    x         : span_x_t;
+    quotient  : span_x_t;
+    remainder : error_t;
+    divisor   : error_t;
+    error     : error_t;
+    carry     : std_logic;
+  end record;
+
+  signal r, r_next : reg_t;
+
+begin
+
+  combinational : process (all)
+    variable v : reg_t;
+  begin
+    v := r;
+    if load = '1' then
+      v.x         := signed(load_x);
+      v.quotient  := signed(load_quotient);
+      v.remainder := unsigned(load_remainder);
+      v.divisor   := unsigned(load_divisor);
+      v.error     := unsigned(load_error);
+      v.carry     := load_carry;
+    elsif step = '1' then
+      v.x := r.x + r.quotient;
+      if r.carry = '1' then
+        v.x := r.x + r.quotient + 1;
+      end if;
+      v.error := r.error - r.remainder;
+      v.carry := '0';
+      if r.error < r.remainder then
+        v.error := r.error - r.remainder + r.divisor;
+        v.carry := '1';
+      end if;
+    end if;
+    r_next <= v;
+  end process;
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      r <= r_next;
+    end if;
+  end process;
+
+  x     <= std_logic_vector(r.x);
+  carry <= r.carry;
+
+end architecture;

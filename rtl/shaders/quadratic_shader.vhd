@@ -1,0 +1,286 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     The quadratic shader: an init vector a triangle in, a fragment for each pixel that the triangle covers out.
+--             stream_register -> triangle_walker -> z_interpolator and a quadratic_interpolator a channel -> saturate
+--             -> stream_register
+-- Contract    Both streams are valid/ready; a fragment stands still while it waits. One channel (g_channels = 1) is
+--             given out as red, green and blue.
+-- Formats     formats_pkg: init (header, then a block a channel), depth, colour
+-- Latency     3 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel)
+-- Throughput  1 fragment a clock, with no bubble between spans, lines and triangles; lines that cover no pixel cost a
+--             clock each where no span is being drawn meanwhile
+-- Error       preset exact: the colour is within 0.65 steps of the quadratic through the six samples (0.5 rounding,
+--             0.15 differences), depth within 1.2
+-- Source      quadratic paper, section 5 and figure 6
+-- Golden twin model/golden/quadratic_shader.hpp
+
+library ieee;
+  use ieee.std_logic_1164.all;
+  use work.formats_pkg.all;
+
+entity quadratic_shader is
+  generic (
+    g_exact    : boolean  := true;
+    g_channels : positive := 3;
+    g_probe    : boolean  := false -- bring the stages' registers out
+  );
+  port (
+    clk               : in  std_logic;
+    reset             : in  std_logic;
+    init_valid        : in  std_logic;
+    init_ready        : out std_logic;
+    init_data         : in  std_logic_vector(init_bits(g_exact, g_channels) - 1 downto 0);
+    fragment_valid    : out std_logic;
+    fragment_ready    : in  std_logic;
+    fragment_triangle : out std_logic_vector(formats(g_exact).triangle.bits - 1 downto 0);
+    fragment_y        : out std_logic_vector(formats(g_exact).pixel_y.bits - 1 downto 0);
+    fragment_x        : out std_logic_vector(formats(g_exact).pixel_x.bits - 1 downto 0);
+    fragment_z        : out std_logic_vector(formats(g_exact).depth.bits - 1 downto 0);
+    fragment_red      : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
+    fragment_green    : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
+    fragment_blue     : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
+    busy              : out std_logic; -- something is on its way
+    probe             : out std_logic_vector(probe_bits(g_exact, g_channels) - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of quadratic_shader is
+
+  constant c_formats      : formats_t       := formats(g_exact);
+  constant c_probe        : probe_header_t  := probe_header(g_exact);
+  constant c_part         : probe_channel_t := probe_channel(g_exact);
+  constant c_header_bits  : positive        := init_channel_low(g_exact, 0);
+  constant c_channel_bits : positive        := init_channel_low(g_exact, 1) - c_header_bits;
+  constant c_colour       : positive        := c_formats.colour.bits;
+
+  subtype intensity_t is std_logic_vector(c_formats.intensity.bits - 1 downto 0);
+
+  signal init                          : std_logic_vector(init_data'range);
+  signal waiting                       : std_logic;
+  signal taken                         : std_logic;
+  signal line_load, line_step          : std_logic;
+  signal line_carry                    : std_logic;
+  signal span_load, span_step          : std_logic;
+  signal line_y, y                     : std_logic_vector(fragment_y'range);
+  signal line_start, line_stop, x      : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
+  signal triangle                      : std_logic_vector(fragment_triangle'range);
+  signal line_z, z                     : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
+  signal whole_z                       : std_logic_vector(fragment_z'range);
+  signal colours                       : std_logic_vector(3 * c_colour - 1 downto 0); -- red lowest
+  signal fragment_colours              : std_logic_vector(colours'range);
+  signal pixel, fragment_pixel         : std_logic_vector(fragment_y'length + fragment_x'length - 1 downto 0);
+  signal drawn, drawn_ready, out_valid : std_logic;
+  signal walking                       : std_logic;
+
+begin
+
+  assert g_channels = 1 or g_channels = 3
+    report "quadratic_shader: g_channels is " & integer'image(g_channels) & ", not 1 (grey) or 3 (red, green, blue)"
+    severity failure;
+  assert c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction = c_formats.depth.bits
+    report "quadratic_shader: depth_sum has " & integer'image(c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction)
+           & " whole bits, depth " & integer'image(c_formats.depth.bits)
+    severity failure;
+
+  init_buffer : entity work.stream_register
+    generic map (
+      g_bits => init_data'length
+    )
+    port map (
+      clk       => clk,
+      reset     => reset,
+      in_valid  => init_valid,
+      in_ready  => init_ready,
+      in_data   => init_data,
+      out_valid => waiting,
+      out_ready => taken,
+      out_data  => init
+    );
+
+  walker : entity work.triangle_walker
+    generic map (
+      g_exact => g_exact
+    )
+    port map (
+      clk            => clk,
+      reset          => reset,
+      init_valid     => waiting,
+      init_ready     => taken,
+      init           => init(c_header_bits - 1 downto 0),
+      line_load      => line_load,
+      line_step      => line_step,
+      line_carry     => line_carry,
+      span_load      => span_load,
+      span_step      => span_step,
+      line_y         => line_y,
+      line_start     => line_start,
+      line_stop      => line_stop,
+      fragment_valid => drawn,
+      fragment_ready => drawn_ready,
+      triangle       => triangle,
+      y              => y,
+      x              => x,
+      busy           => walking
+    );
+
+  depth : entity work.z_interpolator
+    generic map (
+      g_exact => g_exact
+    )
+    port map (
+      clk        => clk,
+      init       => init(c_header_bits - 1 downto 0),
+      line_load  => line_load,
+      line_step  => line_step,
+      line_carry => line_carry,
+      span_load  => span_load,
+      span_step  => span_step,
+      line_value => line_z,
+      value      => z
+    );
+
+  channels : for channel in 0 to g_channels - 1 generate
+
+    constant c_low       : natural := init_channel_low(g_exact, channel);
+    constant c_probe_low : natural := probe_channel_low(g_exact, channel);
+
+    signal line_value, line_dx, line_de0, line_de1 : intensity_t;
+    signal value, dx                               : intensity_t;
+
+  begin
+
+    interpolator : entity work.quadratic_interpolator
+      generic map (
+        g_exact => g_exact
+      )
+      port map (
+        clk        => clk,
+        init       => init(c_low + c_channel_bits - 1 downto c_low),
+        line_load  => line_load,
+        line_step  => line_step,
+        line_carry => line_carry,
+        span_load  => span_load,
+        span_step  => span_step,
+        line_value => line_value,
+        line_dx    => line_dx,
+        line_de0   => line_de0,
+        line_de1   => line_de1,
+        value      => value,
+        dx         => dx
+      );
+
+    to_colour : entity work.saturate
+      generic map (
+        g_value_bits    => c_formats.intensity.bits,
+        g_fraction_bits => c_formats.intensity.fraction,
+        g_result_bits   => c_colour
+      )
+      port map (
+        value  => value,
+        result => colours((channel + 1) * c_colour - 1 downto channel * c_colour)
+      );
+
+    probed : if g_probe generate
+
+      probe(c_probe_low + c_part.line_value.high downto c_probe_low + c_part.line_value.low) <= line_value;
+      probe(c_probe_low + c_part.line_dx.high downto c_probe_low + c_part.line_dx.low)       <= line_dx;
+      probe(c_probe_low + c_part.line_de0.high downto c_probe_low + c_part.line_de0.low)     <= line_de0;
+      probe(c_probe_low + c_part.span_value.high downto c_probe_low + c_part.span_value.low) <= value;
+      probe(c_probe_low + c_part.span_dx.high downto c_probe_low + c_part.span_dx.low)       <= dx;
+
+      carried : if g_exact generate
+        probe(c_probe_low + c_part.line_de1.high downto c_probe_low + c_part.line_de1.low) <= line_de1;
+      end generate;
+
+    end generate;
+
+  end generate;
+
+  grey : if g_channels = 1 generate
+    colours(3 * c_colour - 1 downto c_colour) <= colours(c_colour - 1 downto 0) & colours(c_colour - 1 downto 0);
+  end generate;
+
+  -- The register behind the shader: one stream_register, its payload field by field.
+  handshake : entity work.stream_register
+    generic map (
+      g_bits => c_formats.triangle.bits
+    )
+    port map (
+      clk       => clk,
+      reset     => reset,
+      in_valid  => drawn,
+      in_ready  => drawn_ready,
+      in_data   => triangle,
+      out_valid => out_valid,
+      out_ready => fragment_ready,
+      out_data  => fragment_triangle
+    );
+
+  position : entity work.parameter_register
+    generic map (
+      g_bits => pixel'length
+    )
+    port map (
+      clk   => clk,
+      load  => span_step,
+      start => pixel,
+      value => fragment_pixel
+    );
+
+  whole_z    <= z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction);
+  pixel      <= y & x(fragment_x'range);
+  fragment_y <= fragment_pixel(fragment_pixel'high downto fragment_x'length);
+  fragment_x <= fragment_pixel(fragment_x'range);
+
+  depth_out : entity work.parameter_register
+    generic map (
+      g_bits => fragment_z'length
+    )
+    port map (
+      clk   => clk,
+      load  => span_step,
+      start => whole_z,
+      value => fragment_z
+    );
+
+  colour_out : entity work.parameter_register
+    generic map (
+      g_bits => 3 * c_colour
+    )
+    port map (
+      clk   => clk,
+      load  => span_step,
+      start => colours,
+      value => fragment_colours
+    );
+
+  fragment_red   <= fragment_colours(c_colour - 1 downto 0);
+  fragment_green <= fragment_colours(2 * c_colour - 1 downto c_colour);
+  fragment_blue  <= fragment_colours(3 * c_colour - 1 downto 2 * c_colour);
+
+  fragment_valid <= out_valid;
+  busy           <= waiting or walking or out_valid;
+
+  probed : if g_probe generate
+
+    probe(c_probe.line_event.low)                                  <= span_load;
+    probe(c_probe.span_event.low)                                  <= span_step;
+    probe(c_probe.line_y.high downto c_probe.line_y.low)           <= line_y;
+    probe(c_probe.line_start.high downto c_probe.line_start.low)   <= line_start;
+    probe(c_probe.line_stop.high downto c_probe.line_stop.low)     <= line_stop;
+    probe(c_probe.line_z.high downto c_probe.line_z.low)           <= line_z;
+    probe(c_probe.span_y.high downto c_probe.span_y.low)           <= y;
+    probe(c_probe.span_x.high downto c_probe.span_x.low)           <= x;
+    probe(c_probe.span_z.high downto c_probe.span_z.low)           <= z;
+
+    carried : if g_exact generate
+      probe(c_probe.line_carry.low) <= line_carry;
+    end generate;
+
+  else generate
+
+    probe <= (others => '0');
+
+  end generate;
+
+end architecture;

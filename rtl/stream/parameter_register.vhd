@@ -1,0 +1,53 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     Holds words that stay as they are while a triangle or a line is drawn.
+-- Formats     g_bits of anything
+-- Latency     1 clock from load to value
+-- Throughput  1 load a clock
+-- Golden twin model/golden/parameter_register.hpp
+
+library ieee;
+  use ieee.std_logic_1164.all;
+
+entity parameter_register is
+  generic (
+    g_bits : positive
+  );
+  port (
+    clk   : in  std_logic;
+    load  : in  std_logic;
+    start : in  std_logic_vector(g_bits - 1 downto 0);
+    value : out std_logic_vector(g_bits - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of parameter_register is
+
+  type reg_t is record
+    value : std_logic_vector(g_bits - 1 downto 0);
+  end record;
+
+  signal r, r_next : reg_t;
+
+begin
+
+  combinational : process (all)
+    variable v : reg_t;
+  begin
+    v := r;
+    if load = '1' then
+      v.value := start;
+    end if;
+    r_next <= v;
+  end process;
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      r <= r_next;
+    end if;
+  end process;
+
+  value <= r.value;
+
+end architecture;

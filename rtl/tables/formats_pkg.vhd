@@ -1,0 +1,391 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- Made by `make tables` from model/tables/formats.cpp; edit that.
+-- Number formats and the layouts of the flat vectors, for both presets. A slice of (-1, 0) is a field that
+-- the preset does not have.
+
+library ieee;
+  use ieee.std_logic_1164.all;
+
+package formats_pkg is
+
+  type format_t is record
+    bits     : natural;
+    fraction : natural;
+  end record;
+
+  type slice_t is record
+    high : integer;
+    low  : natural;
+  end record;
+
+  type formats_t is record
+    flag : format_t;
+    triangle : format_t;
+    pixel_x : format_t;
+    pixel_y : format_t;
+    lines : format_t;
+    span_x : format_t;
+    colour : format_t;
+    depth : format_t;
+    depth_sum : format_t;
+    edge_error : format_t;
+    edge_x : format_t;
+    intensity : format_t;
+  end record;
+
+  constant c_exact_formats : formats_t := (
+    -- u1.0: one bit
+    flag => (1, 0),
+    -- u32.0: number of the scene's triangle, carried through as a tag
+    triangle => (32, 0),
+    -- u12.0: frames up to 4096 pixels wide
+    pixel_x => (12, 0),
+    -- u12.0: frames up to 4096 lines high
+    pixel_y => (12, 0),
+    -- u13.0: 0 to 4096 lines
+    lines => (13, 0),
+    -- s13.0: -1 to 4096: a span's end is exclusive on either side
+    span_x => (14, 0),
+    -- u8.0: what the frame stores
+    colour => (8, 0),
+    -- u24.0: what the z test compares
+    depth => (24, 0),
+    -- s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
+    depth_sum => (40, 15),
+    -- u18.0: below the edge's height in subpixels: 8192 pixels of 16, doubled at no level of subdivision
+    edge_error => (18, 0),
+    -- s13.0: an edge is a whole pixel and a remainder
+    edge_x => (14, 0),
+    -- s11.28: second differences, each word rounded to 2^-29, k = 4095 lines + 8190 steps: off by at most (1 + k + k^2/2) 2^-29 = 0.15 of a colour step; samples up to 1023 stay within +-2046
+    intensity => (40, 28)
+  );
+
+  constant c_published_formats : formats_t := (
+    -- u1.0: one bit
+    flag => (1, 0),
+    -- u32.0: number of the scene's triangle, carried through as a tag
+    triangle => (32, 0),
+    -- u12.0: frames up to 4096 pixels wide
+    pixel_x => (12, 0),
+    -- u12.0: frames up to 4096 lines high
+    pixel_y => (12, 0),
+    -- u13.0: 0 to 4096 lines
+    lines => (13, 0),
+    -- s13.0: -1 to 4096: a span's end is exclusive on either side
+    span_x => (14, 0),
+    -- u8.0: what the frame stores
+    colour => (8, 0),
+    -- u24.0: what the z test compares
+    depth => (24, 0),
+    -- s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
+    depth_sum => (40, 15),
+    -- u0.0: edges are stepped by a real slope
+    edge_error => (0, 0),
+    -- s13.18: 32 bits, as the quadratic paper's other registers
+    edge_x => (32, 18),
+    -- s11.20: 32 bits, 20 of them fraction: the quadratic paper's figure 7
+    intensity => (32, 20)
+  );
+
+  function formats (exact : boolean) return formats_t;
+
+  type init_header_t is record
+    triangle : slice_t;
+    y : slice_t;
+    upper_lines : slice_t;
+    lower_lines : slice_t;
+    backward : slice_t;
+    start_x : slice_t;
+    start_quotient : slice_t;
+    start_remainder : slice_t;
+    start_divisor : slice_t;
+    start_error : slice_t;
+    start_carry : slice_t;
+    upper_x : slice_t;
+    upper_quotient : slice_t;
+    upper_remainder : slice_t;
+    upper_divisor : slice_t;
+    upper_error : slice_t;
+    upper_carry : slice_t;
+    lower_x : slice_t;
+    lower_quotient : slice_t;
+    lower_remainder : slice_t;
+    lower_divisor : slice_t;
+    lower_error : slice_t;
+    lower_carry : slice_t;
+    z : slice_t;
+    z_dx : slice_t;
+    z_de0 : slice_t;
+    z_de1 : slice_t;
+    start_slope : slice_t;
+    upper_slope : slice_t;
+  end record;
+
+  constant c_exact_init_header : init_header_t := (
+    triangle => (31, 0),
+    y => (43, 32),
+    upper_lines => (56, 44),
+    lower_lines => (69, 57),
+    backward => (70, 70),
+    start_x => (84, 71),
+    start_quotient => (98, 85),
+    start_remainder => (116, 99),
+    start_divisor => (134, 117),
+    start_error => (152, 135),
+    start_carry => (153, 153),
+    upper_x => (167, 154),
+    upper_quotient => (181, 168),
+    upper_remainder => (199, 182),
+    upper_divisor => (217, 200),
+    upper_error => (235, 218),
+    upper_carry => (236, 236),
+    lower_x => (250, 237),
+    lower_quotient => (264, 251),
+    lower_remainder => (282, 265),
+    lower_divisor => (300, 283),
+    lower_error => (318, 301),
+    lower_carry => (319, 319),
+    z => (359, 320),
+    z_dx => (399, 360),
+    z_de0 => (439, 400),
+    z_de1 => (479, 440),
+    start_slope => (-1, 0),
+    upper_slope => (-1, 0)
+  );
+
+  constant c_published_init_header : init_header_t := (
+    triangle => (31, 0),
+    y => (43, 32),
+    upper_lines => (56, 44),
+    lower_lines => (-1, 0),
+    backward => (-1, 0),
+    start_x => (88, 57),
+    start_quotient => (-1, 0),
+    start_remainder => (-1, 0),
+    start_divisor => (-1, 0),
+    start_error => (-1, 0),
+    start_carry => (-1, 0),
+    upper_x => (152, 121),
+    upper_quotient => (-1, 0),
+    upper_remainder => (-1, 0),
+    upper_divisor => (-1, 0),
+    upper_error => (-1, 0),
+    upper_carry => (-1, 0),
+    lower_x => (-1, 0),
+    lower_quotient => (-1, 0),
+    lower_remainder => (-1, 0),
+    lower_divisor => (-1, 0),
+    lower_error => (-1, 0),
+    lower_carry => (-1, 0),
+    z => (224, 185),
+    z_dx => (264, 225),
+    z_de0 => (304, 265),
+    z_de1 => (-1, 0),
+    start_slope => (120, 89),
+    upper_slope => (184, 153)
+  );
+
+  function init_header (exact : boolean) return init_header_t;
+
+  constant c_exact_init_header_bits : natural := 480;
+  constant c_published_init_header_bits : natural := 305;
+
+  type init_channel_t is record
+    value : slice_t;
+    dx : slice_t;
+    de0 : slice_t;
+    de1 : slice_t;
+    dxx : slice_t;
+    dxe0 : slice_t;
+    dxe1 : slice_t;
+    de0e0 : slice_t;
+    de0e1 : slice_t;
+    de1e1 : slice_t;
+  end record;
+
+  constant c_exact_init_channel : init_channel_t := (
+    value => (39, 0),
+    dx => (79, 40),
+    de0 => (119, 80),
+    de1 => (159, 120),
+    dxx => (199, 160),
+    dxe0 => (239, 200),
+    dxe1 => (279, 240),
+    de0e0 => (319, 280),
+    de0e1 => (359, 320),
+    de1e1 => (399, 360)
+  );
+
+  constant c_published_init_channel : init_channel_t := (
+    value => (31, 0),
+    dx => (63, 32),
+    de0 => (95, 64),
+    de1 => (-1, 0),
+    dxx => (127, 96),
+    dxe0 => (159, 128),
+    dxe1 => (-1, 0),
+    de0e0 => (191, 160),
+    de0e1 => (-1, 0),
+    de1e1 => (-1, 0)
+  );
+
+  function init_channel (exact : boolean) return init_channel_t;
+
+  constant c_exact_init_channel_bits : natural := 400;
+  constant c_published_init_channel_bits : natural := 192;
+
+  function init_channel_low (exact : boolean; channel : natural) return natural;
+
+  function init_bits (exact : boolean; channels : natural) return natural;
+
+  type probe_header_t is record
+    line_event : slice_t;
+    span_event : slice_t;
+    line_y : slice_t;
+    line_start : slice_t;
+    line_stop : slice_t;
+    line_carry : slice_t;
+    line_z : slice_t;
+    span_y : slice_t;
+    span_x : slice_t;
+    span_z : slice_t;
+  end record;
+
+  constant c_exact_probe_header : probe_header_t := (
+    line_event => (0, 0),
+    span_event => (1, 1),
+    line_y => (13, 2),
+    line_start => (27, 14),
+    line_stop => (41, 28),
+    line_carry => (42, 42),
+    line_z => (82, 43),
+    span_y => (94, 83),
+    span_x => (108, 95),
+    span_z => (148, 109)
+  );
+
+  constant c_published_probe_header : probe_header_t := (
+    line_event => (0, 0),
+    span_event => (1, 1),
+    line_y => (13, 2),
+    line_start => (27, 14),
+    line_stop => (41, 28),
+    line_carry => (-1, 0),
+    line_z => (81, 42),
+    span_y => (93, 82),
+    span_x => (107, 94),
+    span_z => (147, 108)
+  );
+
+  function probe_header (exact : boolean) return probe_header_t;
+
+  constant c_exact_probe_header_bits : natural := 149;
+  constant c_published_probe_header_bits : natural := 148;
+
+  type probe_channel_t is record
+    line_value : slice_t;
+    line_dx : slice_t;
+    line_de0 : slice_t;
+    line_de1 : slice_t;
+    span_value : slice_t;
+    span_dx : slice_t;
+  end record;
+
+  constant c_exact_probe_channel : probe_channel_t := (
+    line_value => (39, 0),
+    line_dx => (79, 40),
+    line_de0 => (119, 80),
+    line_de1 => (159, 120),
+    span_value => (199, 160),
+    span_dx => (239, 200)
+  );
+
+  constant c_published_probe_channel : probe_channel_t := (
+    line_value => (31, 0),
+    line_dx => (63, 32),
+    line_de0 => (95, 64),
+    line_de1 => (-1, 0),
+    span_value => (127, 96),
+    span_dx => (159, 128)
+  );
+
+  function probe_channel (exact : boolean) return probe_channel_t;
+
+  constant c_exact_probe_channel_bits : natural := 240;
+  constant c_published_probe_channel_bits : natural := 160;
+
+  function probe_channel_low (exact : boolean; channel : natural) return natural;
+
+  function probe_bits (exact : boolean; channels : natural) return natural;
+
+end package;
+
+package body formats_pkg is
+
+  function formats (exact : boolean) return formats_t is
+  begin
+    if exact then
+      return c_exact_formats;
+    end if;
+    return c_published_formats;
+  end function;
+
+  function init_header (exact : boolean) return init_header_t is
+  begin
+    if exact then
+      return c_exact_init_header;
+    end if;
+    return c_published_init_header;
+  end function;
+
+  function init_channel (exact : boolean) return init_channel_t is
+  begin
+    if exact then
+      return c_exact_init_channel;
+    end if;
+    return c_published_init_channel;
+  end function;
+
+  function init_channel_low (exact : boolean; channel : natural) return natural is
+  begin
+    if exact then
+      return c_exact_init_header_bits + channel * c_exact_init_channel_bits;
+    end if;
+    return c_published_init_header_bits + channel * c_published_init_channel_bits;
+  end function;
+
+  function init_bits (exact : boolean; channels : natural) return natural is
+  begin
+    return init_channel_low(exact, channels);
+  end function;
+
+  function probe_header (exact : boolean) return probe_header_t is
+  begin
+    if exact then
+      return c_exact_probe_header;
+    end if;
+    return c_published_probe_header;
+  end function;
+
+  function probe_channel (exact : boolean) return probe_channel_t is
+  begin
+    if exact then
+      return c_exact_probe_channel;
+    end if;
+    return c_published_probe_channel;
+  end function;
+
+  function probe_channel_low (exact : boolean; channel : natural) return natural is
+  begin
+    if exact then
+      return c_exact_probe_header_bits + channel * c_exact_probe_channel_bits;
+    end if;
+    return c_published_probe_header_bits + channel * c_published_probe_channel_bits;
+  end function;
+
+  function probe_bits (exact : boolean; channels : natural) return natural is
+  begin
+    return probe_channel_low(exact, channels);
+  end function;
+
+end package body;
