@@ -180,7 +180,7 @@ begin
         result => colours((channel + 1) * c_colour - 1 downto channel * c_colour)
       );
 
-    probed : if g_probe generate
+    probed_channel : if g_probe generate
 
       probe(c_probe_low + c_part.line_value.high downto c_probe_low + c_part.line_value.low) <= line_value;
       probe(c_probe_low + c_part.line_dx.high downto c_probe_low + c_part.line_dx.low)       <= line_dx;
@@ -188,7 +188,7 @@ begin
       probe(c_probe_low + c_part.span_value.high downto c_probe_low + c_part.span_value.low) <= value;
       probe(c_probe_low + c_part.span_dx.high downto c_probe_low + c_part.span_dx.low)       <= dx;
 
-      carried : if g_exact generate
+      probed_carry : if g_exact generate
         probe(c_probe_low + c_part.line_de1.high downto c_probe_low + c_part.line_de1.low) <= line_de1;
       end generate;
 
@@ -273,7 +273,7 @@ begin
     probe(c_probe.span_x.high downto c_probe.span_x.low)           <= x;
     probe(c_probe.span_z.high downto c_probe.span_z.low)           <= z;
 
-    carried : if g_exact generate
+    probed_carry : if g_exact generate
       probe(c_probe.line_carry.low) <= line_carry;
     end generate;
 
