@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+// Made by `make tables` from model/tables/formats.cpp; edit that.
+// Number formats and the layouts of the flat vectors, for both presets.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace halfway::golden {
+
+/// A named word in a flat vector, bit 0 first; in a channel's block `low` counts from the block's start.
+struct Field {
+  std::string_view name;
+  int low, bits;
+  bool is_signed;
+  int fraction_bits;
+};
+
+struct Exact {
+  static constexpr std::string_view c_name = "exact";
+  // u1.0: one bit
+  static constexpr int c_flag_bits = 1;
+  static constexpr int c_flag_fraction_bits = 0;
+  // u32.0: number of the scene's triangle, carried through as a tag
+  static constexpr int c_triangle_bits = 32;
+  static constexpr int c_triangle_fraction_bits = 0;
+  // u12.0: frames up to 4096 pixels wide
+  static constexpr int c_pixel_x_bits = 12;
+  static constexpr int c_pixel_x_fraction_bits = 0;
+  // u12.0: frames up to 4096 lines high
+  static constexpr int c_pixel_y_bits = 12;
+  static constexpr int c_pixel_y_fraction_bits = 0;
+  // u13.0: 0 to 4096 lines
+  static constexpr int c_lines_bits = 13;
+  static constexpr int c_lines_fraction_bits = 0;
+  // s13.0: -1 to 4096: a span's end is exclusive on either side
+  static constexpr int c_span_x_bits = 14;
+  static constexpr int c_span_x_fraction_bits = 0;
+  // u8.0: what the frame stores
+  static constexpr int c_colour_bits = 8;
+  static constexpr int c_colour_fraction_bits = 0;
+  // u24.0: what the z test compares
+  static constexpr int c_depth_bits = 24;
+  static constexpr int c_depth_fraction_bits = 0;
+  // s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
+  static constexpr int c_depth_sum_bits = 40;
+  static constexpr int c_depth_sum_fraction_bits = 15;
+  // u18.0: below the edge's height in subpixels: 8192 pixels of 16, doubled at no level of subdivision
+  static constexpr int c_edge_error_bits = 18;
+  static constexpr int c_edge_error_fraction_bits = 0;
+  // s13.0: an edge is a whole pixel and a remainder
+  static constexpr int c_edge_x_bits = 14;
+  static constexpr int c_edge_x_fraction_bits = 0;
+  // s11.28: second differences, each word rounded to 2^-29, k = 4095 lines + 8190 steps: off by at most (1 + k + k^2/2) 2^-29 = 0.15 of a colour step; samples up to 1023 stay within +-2046
+  static constexpr int c_intensity_bits = 40;
+  static constexpr int c_intensity_fraction_bits = 28;
+
+  static constexpr int c_init_header_bits = 480;
+  static constexpr std::array<Field, 27> c_init_header = {{
+      {"triangle", 0, 32, false, 0},
+      {"y", 32, 12, false, 0},
+      {"upper_lines", 44, 13, false, 0},
+      {"lower_lines", 57, 13, false, 0},
+      {"backward", 70, 1, false, 0},
+      {"start_x", 71, 14, true, 0},
+      {"start_quotient", 85, 14, true, 0},
+      {"start_remainder", 99, 18, false, 0},
+      {"start_divisor", 117, 18, false, 0},
+      {"start_error", 135, 18, false, 0},
+      {"start_carry", 153, 1, false, 0},
+      {"upper_x", 154, 14, true, 0},
+      {"upper_quotient", 168, 14, true, 0},
+      {"upper_remainder", 182, 18, false, 0},
+      {"upper_divisor", 200, 18, false, 0},
+      {"upper_error", 218, 18, false, 0},
+      {"upper_carry", 236, 1, false, 0},
+      {"lower_x", 237, 14, true, 0},
+      {"lower_quotient", 251, 14, true, 0},
+      {"lower_remainder", 265, 18, false, 0},
+      {"lower_divisor", 283, 18, false, 0},
+      {"lower_error", 301, 18, false, 0},
+      {"lower_carry", 319, 1, false, 0},
+      {"z", 320, 40, true, 15},
+      {"z_dx", 360, 40, true, 15},
+      {"z_de0", 400, 40, true, 15},
+      {"z_de1", 440, 40, true, 15},
+  }};
+  struct init_header_at {
+    static constexpr const Field& triangle = c_init_header[0];
+    static constexpr const Field& y = c_init_header[1];
+    static constexpr const Field& upper_lines = c_init_header[2];
+    static constexpr const Field& lower_lines = c_init_header[3];
+    static constexpr const Field& backward = c_init_header[4];
+    static constexpr const Field& start_x = c_init_header[5];
+    static constexpr const Field& start_quotient = c_init_header[6];
+    static constexpr const Field& start_remainder = c_init_header[7];
+    static constexpr const Field& start_divisor = c_init_header[8];
+    static constexpr const Field& start_error = c_init_header[9];
+    static constexpr const Field& start_carry = c_init_header[10];
+    static constexpr const Field& upper_x = c_init_header[11];
+    static constexpr const Field& upper_quotient = c_init_header[12];
+    static constexpr const Field& upper_remainder = c_init_header[13];
+    static constexpr const Field& upper_divisor = c_init_header[14];
+    static constexpr const Field& upper_error = c_init_header[15];
+    static constexpr const Field& upper_carry = c_init_header[16];
+    static constexpr const Field& lower_x = c_init_header[17];
+    static constexpr const Field& lower_quotient = c_init_header[18];
+    static constexpr const Field& lower_remainder = c_init_header[19];
+    static constexpr const Field& lower_divisor = c_init_header[20];
+    static constexpr const Field& lower_error = c_init_header[21];
+    static constexpr const Field& lower_carry = c_init_header[22];
+    static constexpr const Field& z = c_init_header[23];
+    static constexpr const Field& z_dx = c_init_header[24];
+    static constexpr const Field& z_de0 = c_init_header[25];
+    static constexpr const Field& z_de1 = c_init_header[26];
+  };
+
+  static constexpr int c_init_channel_bits = 400;
+  static constexpr std::array<Field, 10> c_init_channel = {{
+      {"value", 0, 40, true, 28},
+      {"dx", 40, 40, true, 28},
+      {"de0", 80, 40, true, 28},
+      {"de1", 120, 40, true, 28},
+      {"dxx", 160, 40, true, 28},
+      {"dxe0", 200, 40, true, 28},
+      {"dxe1", 240, 40, true, 28},
+      {"de0e0", 280, 40, true, 28},
+      {"de0e1", 320, 40, true, 28},
+      {"de1e1", 360, 40, true, 28},
+  }};
+  struct init_channel_at {
+    static constexpr const Field& value = c_init_channel[0];
+    static constexpr const Field& dx = c_init_channel[1];
+    static constexpr const Field& de0 = c_init_channel[2];
+    static constexpr const Field& de1 = c_init_channel[3];
+    static constexpr const Field& dxx = c_init_channel[4];
+    static constexpr const Field& dxe0 = c_init_channel[5];
+    static constexpr const Field& dxe1 = c_init_channel[6];
+    static constexpr const Field& de0e0 = c_init_channel[7];
+    static constexpr const Field& de0e1 = c_init_channel[8];
+    static constexpr const Field& de1e1 = c_init_channel[9];
+  };
+
+  static constexpr int c_probe_header_bits = 149;
+  static constexpr std::array<Field, 10> c_probe_header = {{
+      {"line_event", 0, 1, false, 0},
+      {"span_event", 1, 1, false, 0},
+      {"line_y", 2, 12, false, 0},
+      {"line_start", 14, 14, true, 0},
+      {"line_stop", 28, 14, true, 0},
+      {"line_carry", 42, 1, false, 0},
+      {"line_z", 43, 40, true, 15},
+      {"span_y", 83, 12, false, 0},
+      {"span_x", 95, 14, true, 0},
+      {"span_z", 109, 40, true, 15},
+  }};
+  struct probe_header_at {
+    static constexpr const Field& line_event = c_probe_header[0];
+    static constexpr const Field& span_event = c_probe_header[1];
+    static constexpr const Field& line_y = c_probe_header[2];
+    static constexpr const Field& line_start = c_probe_header[3];
+    static constexpr const Field& line_stop = c_probe_header[4];
+    static constexpr const Field& line_carry = c_probe_header[5];
+    static constexpr const Field& line_z = c_probe_header[6];
+    static constexpr const Field& span_y = c_probe_header[7];
+    static constexpr const Field& span_x = c_probe_header[8];
+    static constexpr const Field& span_z = c_probe_header[9];
+  };
+
+  static constexpr int c_probe_channel_bits = 240;
+  static constexpr std::array<Field, 6> c_probe_channel = {{
+      {"line_value", 0, 40, true, 28},
+      {"line_dx", 40, 40, true, 28},
+      {"line_de0", 80, 40, true, 28},
+      {"line_de1", 120, 40, true, 28},
+      {"span_value", 160, 40, true, 28},
+      {"span_dx", 200, 40, true, 28},
+  }};
+  struct probe_channel_at {
+    static constexpr const Field& line_value = c_probe_channel[0];
+    static constexpr const Field& line_dx = c_probe_channel[1];
+    static constexpr const Field& line_de0 = c_probe_channel[2];
+    static constexpr const Field& line_de1 = c_probe_channel[3];
+    static constexpr const Field& span_value = c_probe_channel[4];
+    static constexpr const Field& span_dx = c_probe_channel[5];
+  };
+};
+
+struct Published {
+  static constexpr std::string_view c_name = "published";
+  // u1.0: one bit
+  static constexpr int c_flag_bits = 1;
+  static constexpr int c_flag_fraction_bits = 0;
+  // u32.0: number of the scene's triangle, carried through as a tag
+  static constexpr int c_triangle_bits = 32;
+  static constexpr int c_triangle_fraction_bits = 0;
+  // u12.0: frames up to 4096 pixels wide
+  static constexpr int c_pixel_x_bits = 12;
+  static constexpr int c_pixel_x_fraction_bits = 0;
+  // u12.0: frames up to 4096 lines high
+  static constexpr int c_pixel_y_bits = 12;
+  static constexpr int c_pixel_y_fraction_bits = 0;
+  // u13.0: 0 to 4096 lines
+  static constexpr int c_lines_bits = 13;
+  static constexpr int c_lines_fraction_bits = 0;
+  // s13.0: -1 to 4096: a span's end is exclusive on either side
+  static constexpr int c_span_x_bits = 14;
+  static constexpr int c_span_x_fraction_bits = 0;
+  // u8.0: what the frame stores
+  static constexpr int c_colour_bits = 8;
+  static constexpr int c_colour_fraction_bits = 0;
+  // u24.0: what the z test compares
+  static constexpr int c_depth_bits = 24;
+  static constexpr int c_depth_fraction_bits = 0;
+  // s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
+  static constexpr int c_depth_sum_bits = 40;
+  static constexpr int c_depth_sum_fraction_bits = 15;
+  // u0.0: edges are stepped by a real slope
+  static constexpr int c_edge_error_bits = 0;
+  static constexpr int c_edge_error_fraction_bits = 0;
+  // s13.18: 32 bits, as the quadratic paper's other registers
+  static constexpr int c_edge_x_bits = 32;
+  static constexpr int c_edge_x_fraction_bits = 18;
+  // s11.20: 32 bits, 20 of them fraction: the quadratic paper's figure 7
+  static constexpr int c_intensity_bits = 32;
+  static constexpr int c_intensity_fraction_bits = 20;
+
+  static constexpr int c_init_header_bits = 305;
+  static constexpr std::array<Field, 10> c_init_header = {{
+      {"triangle", 0, 32, false, 0},
+      {"y", 32, 12, false, 0},
+      {"upper_lines", 44, 13, false, 0},
+      {"start_x", 57, 32, true, 18},
+      {"start_slope", 89, 32, true, 18},
+      {"upper_x", 121, 32, true, 18},
+      {"upper_slope", 153, 32, true, 18},
+      {"z", 185, 40, true, 15},
+      {"z_dx", 225, 40, true, 15},
+      {"z_de0", 265, 40, true, 15},
+  }};
+  struct init_header_at {
+    static constexpr const Field& triangle = c_init_header[0];
+    static constexpr const Field& y = c_init_header[1];
+    static constexpr const Field& upper_lines = c_init_header[2];
+    static constexpr const Field& start_x = c_init_header[3];
+    static constexpr const Field& start_slope = c_init_header[4];
+    static constexpr const Field& upper_x = c_init_header[5];
+    static constexpr const Field& upper_slope = c_init_header[6];
+    static constexpr const Field& z = c_init_header[7];
+    static constexpr const Field& z_dx = c_init_header[8];
+    static constexpr const Field& z_de0 = c_init_header[9];
+  };
+
+  static constexpr int c_init_channel_bits = 192;
+  static constexpr std::array<Field, 6> c_init_channel = {{
+      {"value", 0, 32, true, 20},
+      {"dx", 32, 32, true, 20},
+      {"de0", 64, 32, true, 20},
+      {"dxx", 96, 32, true, 20},
+      {"dxe0", 128, 32, true, 20},
+      {"de0e0", 160, 32, true, 20},
+  }};
+  struct init_channel_at {
+    static constexpr const Field& value = c_init_channel[0];
+    static constexpr const Field& dx = c_init_channel[1];
+    static constexpr const Field& de0 = c_init_channel[2];
+    static constexpr const Field& dxx = c_init_channel[3];
+    static constexpr const Field& dxe0 = c_init_channel[4];
+    static constexpr const Field& de0e0 = c_init_channel[5];
+  };
+
+  static constexpr int c_probe_header_bits = 148;
+  static constexpr std::array<Field, 9> c_probe_header = {{
+      {"line_event", 0, 1, false, 0},
+      {"span_event", 1, 1, false, 0},
+      {"line_y", 2, 12, false, 0},
+      {"line_start", 14, 14, true, 0},
+      {"line_stop", 28, 14, true, 0},
+      {"line_z", 42, 40, true, 15},
+      {"span_y", 82, 12, false, 0},
+      {"span_x", 94, 14, true, 0},
+      {"span_z", 108, 40, true, 15},
+  }};
+  struct probe_header_at {
+    static constexpr const Field& line_event = c_probe_header[0];
+    static constexpr const Field& span_event = c_probe_header[1];
+    static constexpr const Field& line_y = c_probe_header[2];
+    static constexpr const Field& line_start = c_probe_header[3];
+    static constexpr const Field& line_stop = c_probe_header[4];
+    static constexpr const Field& line_z = c_probe_header[5];
+    static constexpr const Field& span_y = c_probe_header[6];
+    static constexpr const Field& span_x = c_probe_header[7];
+    static constexpr const Field& span_z = c_probe_header[8];
+  };
+
+  static constexpr int c_probe_channel_bits = 160;
+  static constexpr std::array<Field, 5> c_probe_channel = {{
+      {"line_value", 0, 32, true, 20},
+      {"line_dx", 32, 32, true, 20},
+      {"line_de0", 64, 32, true, 20},
+      {"span_value", 96, 32, true, 20},
+      {"span_dx", 128, 32, true, 20},
+  }};
+  struct probe_channel_at {
+    static constexpr const Field& line_value = c_probe_channel[0];
+    static constexpr const Field& line_dx = c_probe_channel[1];
+    static constexpr const Field& line_de0 = c_probe_channel[2];
+    static constexpr const Field& span_value = c_probe_channel[3];
+    static constexpr const Field& span_dx = c_probe_channel[4];
+  };
+};
+
+}  // namespace halfway::golden

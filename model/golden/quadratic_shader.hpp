@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of rtl/shaders/quadratic_shader.vhd: init vectors to fragments, in the order that the hardware emits them.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <vector>
+
+#include "frame/fragment.hpp"
+#include "golden/quadratic_interpolator.hpp"
+#include "golden/saturate.hpp"
+#include "golden/triangle_walker.hpp"
+#include "golden/z_interpolator.hpp"
+
+namespace halfway::golden {
+
+/// A watcher that sees no register: for speed.
+struct Unwatched {
+  template <class Shader>
+  void line(const Shader&) {}
+  template <class Shader>
+  void span(const Shader&, SpanXWord) {}
+};
+
+template <class Preset, int Channels>
+class QuadraticShader {
+  static_assert(Channels == 1 || Channels == 3);
+
+ public:
+  static constexpr int c_init_bits = Preset::c_init_header_bits + Channels * Preset::c_init_channel_bits;
+  static constexpr int c_probe_bits = Preset::c_probe_header_bits + Channels * Preset::c_probe_channel_bits;
+  static constexpr std::size_t c_init_words = (c_init_bits + 31) / 32;
+  static constexpr std::size_t c_probe_words = (c_probe_bits + 31) / 32;
+
+  /// Draws one init vector of c_init_words words: emit(Fragment) for each pixel; watch.line where the span stage takes
+  /// a line, watch.span for each pixel, as the RTL's probe.
+  template <class Emit, class Watch = Unwatched>
+  void draw(std::span<const std::uint32_t> init, Emit&& emit, Watch&& watch = {}) {
+    assert(init.size() >= c_init_words);
+    walker_.line_load(init);
+    depth_.line_load(init);
+    for (int c = 0; c < Channels; ++c)
+      channel_[c].line_load(init, Preset::c_init_header_bits + c * Preset::c_init_channel_bits);
+    for (;;) {
+      if (!walker_.line_empty()) {
+        watch.line(*this);
+        draw_span(emit, watch);
+      }
+      if (walker_.line_last()) return;
+      const bool carry = walker_.carry();
+      walker_.line_step();
+      depth_.line_step(carry);
+      for (auto& channel : channel_) channel.line_step(carry);
+    }
+  }
+
+  /// The stages' registers as the RTL's probe carries them.
+  std::array<std::uint32_t, c_probe_words> line_probe() const {
+    using At = typename Preset::probe_header_at;
+    using ChannelAt = typename Preset::probe_channel_at;
+    std::array<std::uint32_t, c_probe_words> words{};
+    set_bits(words, At::line_event, 1);
+    set_bits(words, At::line_y, walker_.y());
+    set_bits(words, At::line_start, walker_.start().bits());
+    set_bits(words, At::line_stop, walker_.stop().bits());
+    if constexpr (std::is_same_v<Preset, Exact>) set_bits(words, At::line_carry, walker_.carry());
+    set_bits(words, At::line_z, depth_.line_value().bits());
+    for (int c = 0; c < Channels; ++c) {
+      const int low = Preset::c_probe_header_bits + c * Preset::c_probe_channel_bits;
+      set_bits(words, ChannelAt::line_value, channel_[c].line_value().bits(), low);
+      set_bits(words, ChannelAt::line_dx, channel_[c].line_dx().bits(), low);
+      set_bits(words, ChannelAt::line_de0, channel_[c].line_de0().bits(), low);
+      if constexpr (std::is_same_v<Preset, Exact>)
+        set_bits(words, ChannelAt::line_de1, channel_[c].line_de1().bits(), low);
+    }
+    return words;
+  }
+  std::array<std::uint32_t, c_probe_words> span_probe(SpanXWord x) const {
+    using At = typename Preset::probe_header_at;
+    using ChannelAt = typename Preset::probe_channel_at;
+    std::array<std::uint32_t, c_probe_words> words{};
+    set_bits(words, At::span_event, 1);
+    set_bits(words, At::span_y, walker_.y());
+    set_bits(words, At::span_x, x.bits());
+    set_bits(words, At::span_z, depth_.value().bits());
+    for (int c = 0; c < Channels; ++c) {
+      const int low = Preset::c_probe_header_bits + c * Preset::c_probe_channel_bits;
+      set_bits(words, ChannelAt::span_value, channel_[c].value().bits(), low);
+      set_bits(words, ChannelAt::span_dx, channel_[c].dx().bits(), low);
+    }
+    return words;
+  }
+
+ private:
+  template <class Emit, class Watch>
+  void draw_span(Emit& emit, Watch& watch) {
+    depth_.span_load();
+    for (auto& channel : channel_) channel.span_load();
+    const SpanXWord stop = walker_.stop();
+    const SpanXWord step = SpanXWord::from_bits(walker_.backward() ? ~std::uint64_t{0} : 1);
+    Fragment fragment{};
+    fragment.triangle = walker_.triangle();
+    fragment.y = static_cast<std::uint16_t>(walker_.y());
+    for (SpanXWord x = walker_.start(); x != stop; x += step) {
+      watch.span(*this, x);
+      fragment.x = static_cast<std::uint16_t>(low_bits(x.bits(), Preset::c_pixel_x_bits));
+      fragment.z = static_cast<std::uint32_t>(
+          low_bits(depth_.value().bits() >> Preset::c_depth_sum_fraction_bits, Preset::c_depth_bits));
+      fragment.red = colour(0);
+      fragment.green = colour(Channels == 3 ? 1 : 0);
+      fragment.blue = colour(Channels == 3 ? 2 : 0);
+      emit(fragment);
+      depth_.span_step();
+      for (auto& channel : channel_) channel.span_step();
+    }
+  }
+  std::uint8_t colour(int c) const {
+    return static_cast<std::uint8_t>(
+        saturate<Preset::c_intensity_bits, Preset::c_intensity_fraction_bits, Preset::c_colour_bits>(
+            channel_[c].value()));
+  }
+
+  TriangleWalker<Preset> walker_;
+  ZInterpolator<Preset> depth_;
+  std::array<QuadraticInterpolator<Preset>, Channels> channel_;
+};
+
+}  // namespace halfway::golden

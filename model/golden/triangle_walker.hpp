@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of rtl/raster/triangle_walker.vhd: the same lines and pixels in the same order, without the clock.
+#pragma once
+
+#include <type_traits>
+
+#include "golden/edge_walker.hpp"
+#include "golden/line_interpolator.hpp"
+
+namespace halfway::golden {
+
+template <class Preset>
+class TriangleWalker {
+ public:
+  using At = typename Preset::init_header_at;
+  static constexpr bool c_exact = std::is_same_v<Preset, Exact>;
+
+  void line_load(std::span<const std::uint32_t> init) {
+    const auto word = [&](const Field& field) { return static_cast<std::uint32_t>(get_bits(init, field)); };
+    triangle_ = word(At::triangle);
+    y_ = word(At::y);
+    lines_ = word(At::upper_lines);
+    if constexpr (c_exact) {
+      lower_lines_ = word(At::lower_lines);
+      backward_ = word(At::backward) != 0;
+      start_edge_.load({span_x(init, At::start_x), span_x(init, At::start_quotient), word(At::start_remainder),
+                        word(At::start_divisor), word(At::start_error), word(At::start_carry) != 0});
+      stop_edge_.load({span_x(init, At::upper_x), span_x(init, At::upper_quotient), word(At::upper_remainder),
+                       word(At::upper_divisor), word(At::upper_error), word(At::upper_carry) != 0});
+      lower_ = {span_x(init, At::lower_x),     span_x(init, At::lower_quotient), word(At::lower_remainder),
+                word(At::lower_divisor), word(At::lower_error),            word(At::lower_carry) != 0};
+    } else {
+      start_edge_.load(EdgeX::from_bits(get_bits(init, At::start_x)));
+      stop_edge_.load(EdgeX::from_bits(get_bits(init, At::upper_x)));
+      start_slope_ = EdgeX::from_bits(get_bits(init, At::start_slope));
+      stop_slope_ = EdgeX::from_bits(get_bits(init, At::upper_slope));
+    }
+  }
+
+  std::uint32_t triangle() const { return triangle_; }
+  std::uint32_t y() const { return y_; }
+  bool backward() const { return backward_; }
+  bool carry() const {
+    if constexpr (c_exact)
+      return start_edge_.carry();
+    else
+      return false;
+  }
+  /// First pixel of the line, and the one after its last.
+  SpanXWord start() const {
+    if constexpr (c_exact)
+      return start_edge_.x();
+    else
+      return whole(start_edge_.value());
+  }
+  SpanXWord stop() const {
+    if constexpr (c_exact)
+      return stop_edge_.x();
+    else
+      return whole(stop_edge_.value()) + SpanXWord::from_bits(1);
+  }
+  bool line_empty() const {
+    return backward_ ? start().value() <= stop().value() : start().value() >= stop().value();
+  }
+  bool line_last() const { return lines_ == 1 && lower_lines_ == 0; }
+
+  void line_step() {
+    const bool to_lower = lines_ == 1 && lower_lines_ != 0;
+    if constexpr (c_exact) {
+      start_edge_.step();
+      if (to_lower)
+        stop_edge_.load(lower_);
+      else
+        stop_edge_.step();
+    } else {
+      start_edge_.step(start_slope_);
+      stop_edge_.step(stop_slope_);
+    }
+    y_ = static_cast<std::uint32_t>(low_bits(y_ + 1, Preset::c_pixel_y_bits));
+    lines_ = static_cast<std::uint32_t>(low_bits(lines_ - 1, Preset::c_lines_bits));
+    if (to_lower) {
+      lines_ = lower_lines_;
+      lower_lines_ = 0;
+    }
+  }
+
+ private:
+  static constexpr int c_edge_x_bits = Preset::c_edge_x_bits;
+  using EdgeX = Word<c_edge_x_bits>;
+  using StepEdge = std::conditional_t<c_exact, EdgeWalker, LineInterpolator<c_edge_x_bits>>;
+
+  static SpanXWord span_x(std::span<const std::uint32_t> init, const Field& field) {
+    return SpanXWord::from_bits(get_bits(init, field));
+  }
+  static SpanXWord whole(EdgeX x) {
+    return SpanXWord::from_bits(static_cast<std::uint64_t>(x.value() >> Preset::c_edge_x_fraction_bits));
+  }
+
+  std::uint32_t triangle_ = 0, y_ = 0, lines_ = 0, lower_lines_ = 0;
+  bool backward_ = false;
+  StepEdge start_edge_, stop_edge_;
+  EdgeStart lower_;
+  EdgeX start_slope_, stop_slope_;
+};
+
+}  // namespace halfway::golden

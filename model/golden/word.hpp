@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two's-complement words of a stated width, and flat vectors of such words.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "golden/formats.hpp"
+
+namespace halfway::golden {
+
+/// The lowest `bits` bits, 1 to 64.
+constexpr std::uint64_t low_bits(std::uint64_t value, int bits) {
+  return bits >= 64 ? value : value & ((std::uint64_t{1} << bits) - 1);
+}
+
+/// A signed word of W bits; sums wrap modulo 2^W. Kept at the top of 64 bits, where the machine's own sum wraps alike.
+template <int W>
+class Word {
+  static_assert(W >= 1 && W <= 64);
+
+ public:
+  constexpr Word() = default;
+  static constexpr Word from_bits(std::uint64_t bits) {
+    Word word;
+    word.aligned_ = bits << (64 - W);
+    return word;
+  }
+  constexpr std::uint64_t bits() const { return aligned_ >> (64 - W); }
+  constexpr std::int64_t value() const { return static_cast<std::int64_t>(aligned_) >> (64 - W); }
+  constexpr Word& operator+=(Word other) {
+    aligned_ += other.aligned_;
+    return *this;
+  }
+  friend constexpr Word operator+(Word a, Word b) { return a += b; }
+  friend constexpr bool operator==(Word, Word) = default;
+
+ private:
+  std::uint64_t aligned_ = 0;
+};
+
+/// Field `field` of the block that starts at bit `block_low` of a flat vector, bit 0 of words[0] first.
+constexpr std::uint64_t get_bits(std::span<const std::uint32_t> words, const Field& field, int block_low = 0) {
+  const int low = block_low + field.low;
+  const std::size_t first = static_cast<std::size_t>(low) / 32;
+  const int shift = low % 32;
+  std::uint64_t value = words[first] >> shift;
+  for (int have = 32 - shift, i = 1; have < field.bits; have += 32, ++i)
+    value |= std::uint64_t{words[first + static_cast<std::size_t>(i)]} << have;
+  return low_bits(value, field.bits);
+}
+
+constexpr void set_bits(std::span<std::uint32_t> words, const Field& field, std::uint64_t value, int block_low = 0) {
+  for (int done = 0; done < field.bits;) {
+    const int low = block_low + field.low + done;
+    const int shift = low % 32;
+    const int count = 32 - shift < field.bits - done ? 32 - shift : field.bits - done;
+    const std::uint32_t mask = static_cast<std::uint32_t>(low_bits(~std::uint64_t{0}, count) << shift);
+    std::uint32_t& word = words[static_cast<std::size_t>(low / 32)];
+    word = (word & ~mask) | (static_cast<std::uint32_t>((value >> done) << shift) & mask);
+    done += count;
+  }
+}
+
+}  // namespace halfway::golden

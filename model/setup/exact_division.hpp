@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many quotients by one divisor, each rounded correctly, for one floating-point division.
+#pragma once
+
+#include <cstdint>
+
+namespace halfway {
+
+using Int128 = __int128;
+
+/// Divides by a positive number below 2^96. The reciprocal is the only division; a quotient is estimated by it and
+/// mended by the exact remainder, so slivers, whose quotients are huge, come out as exactly as any other triangle.
+class ExactDivider {
+ public:
+  explicit ExactDivider(Int128 divisor) : divisor_(divisor), reciprocal_(1.0 / static_cast<double>(divisor)) {}
+
+  /// round(numerator / divisor), halves up; |numerator| < 2^125.
+  Int128 rounded(Int128 numerator) const {
+    // round(n/d) = floor((2n + d) / 2d) = floor(n/d + 1/2)
+    Int128 quotient = 0;
+    Int128 remainder = numerator + divisor_ / 2;  // an odd divisor's dropped half cannot move the floor
+    // Each turn leaves about 2^-50 of the remainder.
+    while (remainder < 0 || remainder >= divisor_) {
+      Int128 part = static_cast<Int128>(static_cast<double>(remainder) * reciprocal_);
+      if (part == 0) part = remainder < 0 ? -1 : 1;
+      quotient += part;
+      remainder -= part * divisor_;
+    }
+    return quotient;
+  }
+
+ private:
+  Int128 divisor_;
+  double reciprocal_;
+};
+
+}  // namespace halfway

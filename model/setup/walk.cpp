@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "setup/walk.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace halfway {
+namespace {
+
+// Where an edge's pixel lies on the lines of an interval: beside the frame, it is held at the frame's side.
+enum class Held { left, no, right };
+
+struct Interval {
+  std::int64_t begin, end;  // lines
+  Held held;
+  const Edge* edge;
+};
+
+// First line of [begin, end) for which `holds`, which changes once from false to true.
+template <class Holds>
+std::int64_t first_where(std::int64_t begin, std::int64_t end, Holds&& holds) {
+  while (begin < end) {
+    const std::int64_t middle = begin + (end - begin) / 2;
+    if (holds(middle))
+      end = middle;
+    else
+      begin = middle + 1;
+  }
+  return begin;
+}
+
+// Splits the lines [begin, end) of an edge by where it lies; the pixel moves one way only, so three parts at most.
+void split(const Edge& edge, std::int64_t begin, std::int64_t end, std::int64_t width, std::vector<Interval>& out) {
+  const bool to_right = edge.dx() >= 0;
+  const auto left = [&](std::int64_t y) { return edge.pixel(y) < 0; };
+  const auto right = [&](std::int64_t y) { return edge.pixel(y) > width; };
+  const auto first = [&](std::int64_t y) { return to_right ? !left(y) : !right(y); };
+  const auto last = [&](std::int64_t y) { return to_right ? right(y) : left(y); };
+  const std::int64_t a = first_where(begin, end, first);
+  const std::int64_t b = first_where(a, end, last);
+  if (begin < a) out.push_back({begin, a, to_right ? Held::left : Held::right, &edge});
+  if (a < b) out.push_back({a, b, Held::no, &edge});
+  if (b < end) out.push_back({b, end, to_right ? Held::right : Held::left, &edge});
+}
+
+EdgeSection section(const Interval& interval, std::int64_t begin, std::int64_t end, std::int64_t width) {
+  EdgeSection s;
+  if (interval.held != Held::no) {
+    s.pixel = interval.held == Held::left ? 0 : width;
+    return s;
+  }
+  const Edge::State at = interval.edge->at(begin);
+  s.pixel = at.pixel;
+  if (end - begin < 2) return s;  // never stepped; and only a stepped edge is tall enough for its quotient to fit
+  const auto [quotient, remainder] = floor_divide(interval.edge->dx(), interval.edge->dy());
+  s.quotient = quotient;
+  s.remainder = remainder;
+  s.divisor = interval.edge->dy();
+  s.carry = at.error < remainder;
+  s.error = at.error - remainder + (s.carry ? s.divisor : 0);
+  return s;
+}
+
+// A run of lines on which both edges keep to one interval each.
+struct Run {
+  std::int64_t begin, end;
+  const Interval *start, *stop;
+};
+
+}  // namespace
+
+std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> p, int unit_bits, FrameSize frame) {
+  if (p[1].y < p[0].y) std::swap(p[0], p[1]);
+  if (p[2].y < p[0].y) std::swap(p[0], p[2]);
+  if (p[2].y < p[1].y) std::swap(p[1], p[2]);
+  const std::int64_t height = frame.height, width = frame.width;
+  std::int64_t begin = std::clamp(first_line(p[0].y, unit_bits), std::int64_t{0}, height);
+  std::int64_t end = std::clamp(first_line(p[2].y, unit_bits), std::int64_t{0}, height);
+  const std::int64_t middle = std::clamp(first_line(p[1].y, unit_bits), begin, end);
+  std::vector<Walk> walks;
+  if (begin >= end) return walks;
+
+  // Right of the long edge lies the middle vertex: spans run forward.
+  const std::int64_t side = (std::int64_t{p[1].x} - p[0].x) * (std::int64_t{p[2].y} - p[0].y) -
+                            (std::int64_t{p[2].x} - p[0].x) * (std::int64_t{p[1].y} - p[0].y);
+  if (side == 0) return walks;
+  const bool backward = side < 0;
+  const Edge edge_long(p[0], p[2], unit_bits);
+  const Edge edge_upper = p[0].y < p[1].y ? Edge(p[0], p[1], unit_bits) : edge_long;
+  const Edge edge_lower = p[1].y < p[2].y ? Edge(p[1], p[2], unit_bits) : edge_long;
+
+  const auto covers = [&](std::int64_t y) {
+    const std::int64_t a = std::clamp(edge_long.pixel(y), std::int64_t{0}, width);
+    const std::int64_t b = std::clamp((y < middle ? edge_upper : edge_lower).pixel(y), std::int64_t{0}, width);
+    return a != b;
+  };
+  while (begin < end && !covers(begin)) ++begin;
+  while (begin < end && !covers(end - 1)) --end;
+
+  std::vector<Interval> starts, stops;
+  split(edge_long, begin, end, width, starts);
+  if (begin < middle) split(edge_upper, begin, std::min(middle, end), width, stops);
+  if (middle < end) split(edge_lower, std::max(middle, begin), end, width, stops);
+
+  std::vector<Run> runs;
+  for (std::size_t i = 0, j = 0; i < starts.size() && j < stops.size();) {
+    const std::int64_t run_begin = std::max(starts[i].begin, stops[j].begin);
+    const std::int64_t run_end = std::min(starts[i].end, stops[j].end);
+    const bool beside = starts[i].held != Held::no && starts[i].held == stops[j].held;
+    if (!beside) runs.push_back({run_begin, run_end, &starts[i], &stops[j]});
+    if (starts[i].end == run_end) ++i;
+    if (stops[j].end == run_end) ++j;
+  }
+
+  // One walk takes runs in a row that share the start edge's interval, with at most two of the stop edge's.
+  for (std::size_t i = 0; i < runs.size();) {
+    const bool pair = i + 1 < runs.size() && runs[i + 1].begin == runs[i].end && runs[i + 1].start == runs[i].start;
+    const std::int64_t last = pair ? runs[i + 1].end : runs[i].end;
+    Walk walk;
+    walk.y = runs[i].begin;
+    walk.upper_lines = runs[i].end - runs[i].begin;
+    walk.backward = backward;
+    walk.start = section(*runs[i].start, runs[i].begin, last, width);
+    walk.upper = section(*runs[i].stop, runs[i].begin, runs[i].end, width);
+    if (pair) {
+      walk.lower_lines = runs[i + 1].end - runs[i + 1].begin;
+      walk.lower = section(*runs[i + 1].stop, runs[i + 1].begin, runs[i + 1].end, width);
+    }
+    if (backward) {
+      // Spans [stop, start) walked from the right: first pixel start - 1, past the last stop - 1.
+      --walk.start.pixel;
+      --walk.upper.pixel;
+      --walk.lower.pixel;
+    }
+    walks.push_back(walk);
+    i += pair ? 2 : 1;
+  }
+  return walks;
+}
+
+}  // namespace halfway
