@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/shaders/quadratic_shader.vhd: init vectors to fragments, in the order that the hardware emits them.
+// Twin of rtl/shaders/quadratic_shader.vhd: init vectors to fragments, in the order that the hardware emits
+// them.
 #pragma once
 
 #include <array>
@@ -32,8 +33,8 @@ class QuadraticShader {
   static constexpr std::size_t c_init_words = (c_init_bits + 31) / 32;
   static constexpr std::size_t c_probe_words = (c_probe_bits + 31) / 32;
 
-  /// Draws one init vector of c_init_words words: emit(Fragment) for each pixel; watch.line where the span stage takes
-  /// a line, watch.span for each pixel, as the RTL's probe.
+  /// Draws one init vector of c_init_words words: emit(Fragment) for each pixel; watch.line where the span
+  /// stage takes a line, watch.span for each pixel, as the RTL's probe.
   template <class Emit, class Watch = Unwatched>
   void draw(std::span<const std::uint32_t> init, Emit&& emit, Watch&& watch = {}) {
     assert(init.size() >= c_init_words);

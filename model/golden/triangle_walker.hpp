@@ -23,12 +23,14 @@ class TriangleWalker {
     if constexpr (c_exact) {
       lower_lines_ = word(At::lower_lines);
       backward_ = word(At::backward) != 0;
-      start_edge_.load({span_x(init, At::start_x), span_x(init, At::start_quotient), word(At::start_remainder),
-                        word(At::start_divisor), word(At::start_error), word(At::start_carry) != 0});
+      start_edge_.load({span_x(init, At::start_x), span_x(init, At::start_quotient),
+                        word(At::start_remainder), word(At::start_divisor), word(At::start_error),
+                        word(At::start_carry) != 0});
       stop_edge_.load({span_x(init, At::upper_x), span_x(init, At::upper_quotient), word(At::upper_remainder),
                        word(At::upper_divisor), word(At::upper_error), word(At::upper_carry) != 0});
-      lower_ = {span_x(init, At::lower_x),     span_x(init, At::lower_quotient), word(At::lower_remainder),
-                word(At::lower_divisor), word(At::lower_error),            word(At::lower_carry) != 0};
+      lower_ = {span_x(init, At::lower_x), span_x(init, At::lower_quotient),
+                word(At::lower_remainder), word(At::lower_divisor),
+                word(At::lower_error),     word(At::lower_carry) != 0};
     } else {
       start_edge_.load(EdgeX::from_bits(get_bits(init, At::start_x)));
       stop_edge_.load(EdgeX::from_bits(get_bits(init, At::upper_x)));

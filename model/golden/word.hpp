@@ -14,7 +14,8 @@ constexpr std::uint64_t low_bits(std::uint64_t value, int bits) {
   return bits >= 64 ? value : value & ((std::uint64_t{1} << bits) - 1);
 }
 
-/// A signed word of W bits; sums wrap modulo 2^W. Kept at the top of 64 bits, where the machine's own sum wraps alike.
+/// A signed word of W bits; sums wrap modulo 2^W. Kept at the top of 64 bits, where the machine's own sum
+/// wraps alike.
 template <int W>
 class Word {
   static_assert(W >= 1 && W <= 64);
@@ -40,7 +41,8 @@ class Word {
 };
 
 /// Field `field` of the block that starts at bit `block_low` of a flat vector, bit 0 of words[0] first.
-constexpr std::uint64_t get_bits(std::span<const std::uint32_t> words, const Field& field, int block_low = 0) {
+constexpr std::uint64_t get_bits(std::span<const std::uint32_t> words, const Field& field,
+                                 int block_low = 0) {
   const int low = block_low + field.low;
   const std::size_t first = static_cast<std::size_t>(low) / 32;
   const int shift = low % 32;
@@ -50,7 +52,8 @@ constexpr std::uint64_t get_bits(std::span<const std::uint32_t> words, const Fie
   return low_bits(value, field.bits);
 }
 
-constexpr void set_bits(std::span<std::uint32_t> words, const Field& field, std::uint64_t value, int block_low = 0) {
+constexpr void set_bits(std::span<std::uint32_t> words, const Field& field, std::uint64_t value,
+                        int block_low = 0) {
   for (int done = 0; done < field.bits;) {
     const int low = block_low + field.low + done;
     const int shift = low % 32;

@@ -29,8 +29,10 @@ std::int64_t first_where(std::int64_t begin, std::int64_t end, Holds&& holds) {
   return begin;
 }
 
-// Splits the lines [begin, end) of an edge by where it lies; the pixel moves one way only, so three parts at most.
-void split(const Edge& edge, std::int64_t begin, std::int64_t end, std::int64_t width, std::vector<Interval>& out) {
+// Splits the lines [begin, end) of an edge by where it lies; the pixel moves one way only, so three parts at
+// most.
+void split(const Edge& edge, std::int64_t begin, std::int64_t end, std::int64_t width,
+           std::vector<Interval>& out) {
   const bool to_right = edge.dx() >= 0;
   const auto left = [&](std::int64_t y) { return edge.pixel(y) < 0; };
   const auto right = [&](std::int64_t y) { return edge.pixel(y) > width; };
@@ -51,7 +53,8 @@ EdgeSection section(const Interval& interval, std::int64_t begin, std::int64_t e
   }
   const Edge::State at = interval.edge->at(begin);
   s.pixel = at.pixel;
-  if (end - begin < 2) return s;  // never stepped; and only a stepped edge is tall enough for its quotient to fit
+  if (end - begin < 2)
+    return s;  // never stepped; and only a stepped edge is tall enough for its quotient to fit
   const auto [quotient, remainder] = floor_divide(interval.edge->dx(), interval.edge->dy());
   s.quotient = quotient;
   s.remainder = remainder;
@@ -91,7 +94,8 @@ std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> p, int unit_bits, FrameS
 
   const auto covers = [&](std::int64_t y) {
     const std::int64_t a = std::clamp(edge_long.pixel(y), std::int64_t{0}, width);
-    const std::int64_t b = std::clamp((y < middle ? edge_upper : edge_lower).pixel(y), std::int64_t{0}, width);
+    const std::int64_t b =
+        std::clamp((y < middle ? edge_upper : edge_lower).pixel(y), std::int64_t{0}, width);
     return a != b;
   };
   while (begin < end && !covers(begin)) ++begin;
@@ -114,7 +118,8 @@ std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> p, int unit_bits, FrameS
 
   // One walk takes runs in a row that share the start edge's interval, with at most two of the stop edge's.
   for (std::size_t i = 0; i < runs.size();) {
-    const bool pair = i + 1 < runs.size() && runs[i + 1].begin == runs[i].end && runs[i + 1].start == runs[i].start;
+    const bool pair =
+        i + 1 < runs.size() && runs[i + 1].begin == runs[i].end && runs[i + 1].start == runs[i].start;
     const std::int64_t last = pair ? runs[i + 1].end : runs[i].end;
     Walk walk;
     walk.y = runs[i].begin;

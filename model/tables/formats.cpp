@@ -34,7 +34,8 @@ std::vector<Format> joined(std::vector<Format> a, const std::vector<Format>& b) 
 
 const Format& format_of(const PresetFormats& preset, std::string_view name) {
   const auto it = std::ranges::find(preset.formats, name, &Format::name);
-  if (it == preset.formats.end()) throw std::logic_error(fmt::format("format '{}' is not in the table", name));
+  if (it == preset.formats.end())
+    throw std::logic_error(fmt::format("format '{}' is not in the table", name));
   return *it;
 }
 
@@ -184,13 +185,14 @@ constexpr std::string_view c_notice = "Made by `make tables` from model/tables/f
 std::vector<PresetFormats> preset_formats() {
   return {
       {"exact",
-       joined(common_formats(),
-              {{"edge_error", false, 18, 0,
-                "below the edge's height in subpixels: 8192 pixels of 16, doubled at no level of subdivision"},
-               {"edge_x", true, 13, 0, "an edge is a whole pixel and a remainder"},
-               {"intensity", true, 11, 28,
-                "second differences, each word rounded to 2^-29, k = 4095 lines + 8190 steps: off by at most "
-                "(1 + k + k^2/2) 2^-29 = 0.15 of a colour step; samples up to 1023 stay within +-2046"}}),
+       joined(
+           common_formats(),
+           {{"edge_error", false, 18, 0,
+             "below the edge's height in subpixels: 8192 pixels of 16, doubled at no level of subdivision"},
+            {"edge_x", true, 13, 0, "an edge is a whole pixel and a remainder"},
+            {"intensity", true, 11, 28,
+             "second differences, each word rounded to 2^-29, k = 4095 lines + 8190 steps: off by at most "
+             "(1 + k + k^2/2) 2^-29 = 0.15 of a colour step; samples up to 1023 stay within +-2046"}}),
        exact_layouts()},
       {"published",
        joined(common_formats(),
@@ -204,8 +206,10 @@ std::vector<PresetFormats> preset_formats() {
 std::string vhdl_package(const std::vector<PresetFormats>& presets) {
   std::string out = fmt::format(
       "-- SPDX-License-Identifier: Apache-2.0\n-- {}\n"
-      "-- Number formats and the layouts of the flat vectors, for both presets. A slice of (-1, 0) is a field that\n"
-      "-- the preset does not have.\n\nlibrary ieee;\n  use ieee.std_logic_1164.all;\n\npackage formats_pkg is\n\n",
+      "-- Number formats and the layouts of the flat vectors, for both presets. A slice of (-1, 0) is a "
+      "field that\n"
+      "-- the preset does not have.\n\nlibrary ieee;\n  use ieee.std_logic_1164.all;\n\npackage formats_pkg "
+      "is\n\n",
       c_notice);
   auto to = std::back_inserter(out);
   out += "  type format_t is record\n    bits     : natural;\n    fraction : natural;\n  end record;\n\n";
@@ -231,16 +235,19 @@ std::string vhdl_package(const std::vector<PresetFormats>& presets) {
       for (const std::string_view name : names) fmt::format_to(to, "    {} : slice_t;\n", name);
       out += "  end record;\n\n";
       for (const PresetFormats& preset : presets)
-        fmt::format_to(to, "  constant c_{}_{}_{} : {}_{}_t := (\n{}  );\n\n", preset.name, layout, part, layout, part,
-                       vhdl_slices(preset, preset.layouts[i].*members, names));
-      fmt::format_to(to, "  function {}_{} (exact : boolean) return {}_{}_t;\n\n", layout, part, layout, part);
+        fmt::format_to(to, "  constant c_{}_{}_{} : {}_{}_t := (\n{}  );\n\n", preset.name, layout, part,
+                       layout, part, vhdl_slices(preset, preset.layouts[i].*members, names));
+      fmt::format_to(to, "  function {}_{} (exact : boolean) return {}_{}_t;\n\n", layout, part, layout,
+                     part);
       for (const PresetFormats& preset : presets)
         fmt::format_to(to, "  constant c_{}_{}_{}_bits : natural := {};\n", preset.name, layout, part,
                        total_bits(preset, preset.layouts[i].*members));
       out += "\n";
     }
-    fmt::format_to(to, "  function {}_channel_low (exact : boolean; channel : natural) return natural;\n\n", layout);
-    fmt::format_to(to, "  function {}_bits (exact : boolean; channels : natural) return natural;\n\n", layout);
+    fmt::format_to(to, "  function {}_channel_low (exact : boolean; channel : natural) return natural;\n\n",
+                   layout);
+    fmt::format_to(to, "  function {}_bits (exact : boolean; channels : natural) return natural;\n\n",
+                   layout);
   }
   out += "end package;\n\npackage body formats_pkg is\n\n";
   const auto choose = [&](std::string_view name, std::string_view type, std::string_view suffix) {
@@ -257,8 +264,10 @@ std::string vhdl_package(const std::vector<PresetFormats>& presets) {
     fmt::format_to(
         to,
         "  function {0}_channel_low (exact : boolean; channel : natural) return natural is\n  begin\n"
-        "    if exact then\n      return c_exact_{0}_header_bits + channel * c_exact_{0}_channel_bits;\n    end if;\n"
-        "    return c_published_{0}_header_bits + channel * c_published_{0}_channel_bits;\n  end function;\n\n"
+        "    if exact then\n      return c_exact_{0}_header_bits + channel * c_exact_{0}_channel_bits;\n    "
+        "end if;\n"
+        "    return c_published_{0}_header_bits + channel * c_published_{0}_channel_bits;\n  end "
+        "function;\n\n"
         "  function {0}_bits (exact : boolean; channels : natural) return natural is\n  begin\n"
         "    return {0}_channel_low(exact, channels);\n  end function;\n\n",
         name);
@@ -269,22 +278,25 @@ std::string vhdl_package(const std::vector<PresetFormats>& presets) {
 
 std::string cpp_header(const std::vector<PresetFormats>& presets) {
   std::string out = fmt::format(
-      "// SPDX-License-Identifier: Apache-2.0\n// {}\n// Number formats and the layouts of the flat vectors, for both "
+      "// SPDX-License-Identifier: Apache-2.0\n// {}\n// Number formats and the layouts of the flat vectors, "
+      "for both "
       "presets.\n#pragma once\n\n#include <array>\n#include <string_view>\n\n"
       "namespace halfway::golden {{\n\n"
-      "/// A named word in a flat vector, bit 0 first; in a channel's block `low` counts from the block's start.\n"
-      "struct Field {{\n  std::string_view name;\n  int low, bits;\n  bool is_signed;\n  int fraction_bits;\n}};\n\n",
+      "/// A named word in a flat vector, bit 0 first; in a channel's block `low` counts from the block's "
+      "start.\n"
+      "struct Field {{\n  std::string_view name;\n  int low, bits;\n  bool is_signed;\n  int "
+      "fraction_bits;\n}};\n\n",
       c_notice);
   auto to = std::back_inserter(out);
   for (const PresetFormats& preset : presets) {
-    fmt::format_to(to, "struct {} {{\n  static constexpr std::string_view c_name = \"{}\";\n", upper_first(preset.name),
-                   preset.name);
+    fmt::format_to(to, "struct {} {{\n  static constexpr std::string_view c_name = \"{}\";\n",
+                   upper_first(preset.name), preset.name);
     for (const Format& format : preset.formats)
       fmt::format_to(to,
                      "  // {}{}.{}: {}\n  static constexpr int c_{}_bits = {};\n"
                      "  static constexpr int c_{}_fraction_bits = {};\n",
-                     format.is_signed ? 's' : 'u', format.integer_bits, format.fraction_bits, format.why, format.name,
-                     format.bits(), format.name, format.fraction_bits);
+                     format.is_signed ? 's' : 'u', format.integer_bits, format.fraction_bits, format.why,
+                     format.name, format.bits(), format.name, format.fraction_bits);
     for (const Layout& layout : preset.layouts)
       for (const auto& [part, fields] :
            {std::pair{"header", &layout.header}, std::pair{"channel", &layout.channel}}) {
@@ -294,14 +306,15 @@ std::string cpp_header(const std::vector<PresetFormats>& presets) {
         int low = 0;
         for (const Field& field : *fields) {
           const Format& format = format_of(preset, field.format);
-          fmt::format_to(to, "      {{\"{}\", {}, {}, {}, {}}},\n", field.name, low, format.bits(), format.is_signed,
-                         format.fraction_bits);
+          fmt::format_to(to, "      {{\"{}\", {}, {}, {}, {}}},\n", field.name, low, format.bits(),
+                         format.is_signed, format.fraction_bits);
           low += format.bits();
         }
         out += "  }};\n";
         fmt::format_to(to, "  struct {}_at {{\n", name);
         for (std::size_t i = 0; i < fields->size(); ++i)
-          fmt::format_to(to, "    static constexpr const Field& {} = c_{}[{}];\n", (*fields)[i].name, name, i);
+          fmt::format_to(to, "    static constexpr const Field& {} = c_{}[{}];\n", (*fields)[i].name, name,
+                         i);
         out += "  };\n";
       }
     out += "};\n\n";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one table of number formats and of the layouts made from them: the source of rtl/tables/formats_pkg.vhd and
-// of model/golden/formats.hpp.
+// The one table of number formats and of the layouts made from them: the source of rtl/tables/formats_pkg.vhd
+// and of model/golden/formats.hpp.
 #pragma once
 
 #include <string>
