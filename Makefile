@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+# Sets the machine up, builds, and calls `halfway`; the program itself holds everything else.
+
+.DEFAULT_GOAL := help
+MAKEFLAGS += --no-builtin-rules --no-print-directory
+
+# What a target hands to the program. Values travel through the environment and are quoted where they are
+# used: neither make nor a shell ever reads them as code.
+variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS TESTS JOBS
+$(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
+export $(variables)
+
+jobs := $${JOBS:-$$(nproc)}
+option = $${$(1):+$(2)="$$$(1)"}
+scene := $${SCENE:+-- "$$SCENE"}
+run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size)
+sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) \
+  $(call option,OUT,--out)
+
+.PHONY: help sim compare why tables check-tables test bench build program configure setup doctor format \
+  check-format clean
+
+help: ## this list
+	@echo 'Halfway: shading hardware in VHDL, checked bit for bit against C++'
+	@echo
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1	\2/p' Makefile | expand -t 22
+	@echo
+	@echo 'Variables, e.g. make sim SCENE=../shared/meshes/cow.obj SIZE=800x600'
+	@echo '  SCENE      a built-in scene, a TOML file or a mesh file   (default: all built-in scenes)'
+	@echo '  SHADER     quadratic, spherical or processors             (default: quadratic)'
+	@echo '  PRESET     exact or published                             (default: exact)'
+	@echo '  SIZE       WIDTHxHEIGHT in pixels                         (default: 640x480)'
+	@echo '  SIMULATOR  ghdl or verilator                              (default: both)'
+	@echo '  OUT        the folder for results                         (default: build/out)'
+	@echo '  THREADS    threads for triangle setup and golden model    (default: all cores)'
+	@echo '  PIXEL      x,y of the pixel that make why explains'
+	@echo '  TESTS      a regular expression: make test runs only the tests that match'
+	@echo '  JOBS       parallel compilations and tests                (default: all cores)'
+
+sim: program ## scenes through golden model, GHDL and Verilator: compare, write frames
+	@build/halfway sim $(sim_options) $(scene)
+
+compare: program ## the frames that make sim left, once more
+	@build/halfway compare $(run_options) $(call option,OUT,--out) $(scene)
+
+why: program ## one pixel stage by stage, golden beside RTL (SCENE, PIXEL)
+	@build/halfway why $(run_options) $(call option,PIXEL,--pixel) $(call option,OUT,--out) $(scene)
+
+tables: program ## write ROMs and formats anew
+	@build/halfway tables
+
+check-tables: program ## fail if make tables would change anything
+	@build/halfway tables --check
+
+test: build ## every test
+	@ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
+
+bench: build ## speed
+	@build/halfway bench $(call option,THREADS,--threads)
+
+build: program ## program and tests
+	@cmake --build build -j "$(jobs)"
+
+program: configure
+	@cmake --build build -j "$(jobs)" --target halfway
+
+# Again when set-up found a change on the machine; from scratch when the checkout has moved.
+configure: setup
+	@here=$$(pwd -P); key=$$(cat build/setup*.stamp); fresh=; cd "$$here"; \
+	if ! grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$$here" build/CMakeCache.txt; then fresh=--fresh; \
+	elif [ -f build/configure.stamp ] && [ "$$(cat build/configure.stamp)" = "$$key" ]; then exit 0; fi; \
+	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf '%s\n' "$$key" >build/configure.stamp
+
+# Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs one package more.
+setup:
+	@scripts/setup.sh $(filter bench,$(MAKECMDGOALS))
+
+doctor: ## tools and libraries found, and the command that mends what is missing
+	@sh scripts/setup.sh --doctor
+
+format: ## format C++ and VHDL
+	@scripts/format.sh
+
+check-format: ## fail if make format would change anything
+	@scripts/format.sh --check
+
+clean: ## remove everything that was built
+	rm -rf build

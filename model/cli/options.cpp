@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <thread>
+
+#include "frame/frame.hpp"
+
+namespace halfway::cli {
+namespace {
+
+std::optional<FrameSize> parse_size(std::string_view text) {
+  FrameSize size;
+  const char* const end = text.data() + text.size();
+  const auto [x, width_error] = std::from_chars(text.data(), end, size.width);
+  if (width_error != std::errc{} || x == end || *x != 'x') return std::nullopt;
+  const auto [rest, height_error] = std::from_chars(x + 1, end, size.height);
+  if (height_error != std::errc{} || rest != end) return std::nullopt;
+  return size;
+}
+
+}  // namespace
+
+void DrawOptions::add_to(CLI::App& command) {
+  command.add_option("--shader", shader, "quadratic")->capture_default_str();
+  command.add_option("--preset", preset, "exact, or published: the paper's word lengths and edges")
+      ->capture_default_str();
+  command.add_option("--size", size, "WIDTHxHEIGHT in pixels, each 1 to 4096")->capture_default_str();
+  command.add_option("--out", out, "folder for results")->capture_default_str();
+  command.add_option("--highlight-test", highlight_test,
+                     "when a triangle is split in four: none, centroid (as published), or conservative\n"
+                     "(default: conservative in preset exact, centroid in published)");
+  command.add_option("--threshold", threshold, "error that splits a triangle, in colour steps of 1/255")
+      ->capture_default_str();
+  command.add_option("--max-level", max_level, "levels of splitting, 0 to 5")->capture_default_str();
+  command.add_option("--threads", threads, "threads for setup and golden model (0: all cores)")->capture_default_str();
+}
+
+Result<DrawSettings> checked(const DrawOptions& o) {
+  DrawSettings s;
+  if (o.shader != "quadratic")
+    return bad_input(fmt::format("--shader: '{}' is not a shader of this program; take quadratic", o.shader));
+  if (o.preset != "exact" && o.preset != "published")
+    return bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset));
+  s.preset = o.preset == "exact" ? Preset::exact : Preset::published;
+  const std::optional<FrameSize> size = parse_size(o.size);
+  if (!size) return bad_input(fmt::format("--size: '{}' is not WIDTHxHEIGHT in pixels, such as 640x480", o.size));
+  if (size->width < 1 || size->height < 1 || size->width > c_max_frame_side || size->height > c_max_frame_side)
+    return bad_input(fmt::format("--size: {} is out of range; width and height are 1 to {} pixels", o.size,
+                                 c_max_frame_side));
+  s.size = *size;
+  s.setup.test = s.preset == Preset::exact ? HighlightTest::conservative : HighlightTest::centroid;
+  if (o.highlight_test == "none")
+    s.setup.test = HighlightTest::none;
+  else if (o.highlight_test == "centroid")
+    s.setup.test = HighlightTest::centroid;
+  else if (o.highlight_test == "conservative")
+    s.setup.test = HighlightTest::conservative;
+  else if (!o.highlight_test.empty())
+    return bad_input(fmt::format("--highlight-test: '{}' is not a test; take none, centroid or conservative",
+                                 o.highlight_test));
+  if (!(o.threshold > 0.0) || !std::isfinite(o.threshold))
+    return bad_input(fmt::format("--threshold: {} is not above 0", o.threshold));
+  s.setup.threshold = o.threshold;
+  if (o.max_level < 0 || o.max_level > 5) return bad_input(fmt::format("--max-level: {} is not 0 to 5", o.max_level));
+  s.setup.max_level = o.max_level;
+  if (o.threads > 1024) return bad_input(fmt::format("--threads: {} is more than 1024", o.threads));
+  s.threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
+  if (o.out.empty()) return bad_input("--out: the folder has no name");
+  s.out = o.out;
+  return s;
+}
+
+Result<std::vector<std::string>> builtin_scenes(const Folders& folders) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folders.scenes(), error))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  if (error || names.empty())
+    return bad_input(fmt::format("{}: no built-in scenes here; is the checkout whole?", folders.scenes().string()));
+  std::ranges::sort(names);
+  return names;
+}
+
+int report(const Error& error) {
+  fmt::print(stderr, "{}\n", error.message);
+  return static_cast<int>(error.code);
+}
+
+Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() { clear(); }
+
+void Progress::show(double done) {
+  const int percent = static_cast<int>(100.0 * done);
+  if (percent == last_percent_) return;
+  last_percent_ = percent;
+  show(fmt::format("{} %", percent));
+}
+
+void Progress::show(const std::string& text) {
+  if (!terminal_) return;
+  fmt::print(stderr, "\r\033[K{}: {}", what_, text);
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+void Progress::clear() {
+  if (!shown_) return;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+  shown_ = false;
+}
+
+}  // namespace halfway::cli

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the commands share: where things lie, what to draw, how to say it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/result.hpp"
+#include "plan/hardware_key.hpp"
+#include "setup/quadratic_setup.hpp"
+
+namespace halfway::cli {
+
+/// Of the checkout that the program was built from.
+struct Folders {
+  std::filesystem::path source;
+  std::filesystem::path rtl() const { return source / "rtl"; }
+  std::filesystem::path scenes() const { return source / "sim" / "scenes"; }
+  std::filesystem::path cache() const { return source / "build" / "cache"; }
+};
+
+/// Options of every command that draws.
+struct DrawOptions {
+  std::string shader = "quadratic";
+  std::string preset = "exact";
+  std::string size = "640x480";
+  std::string out = "build/out";
+  std::string highlight_test;  ///< empty: conservative in preset exact, centroid in published
+  double threshold = 2.0;
+  int max_level = 5;
+  unsigned threads = 0;
+
+  void add_to(CLI::App& command);
+};
+
+/// The same, checked.
+struct DrawSettings {
+  Preset preset;
+  FrameSize size;
+  QuadraticSetupOptions setup;
+  unsigned threads;
+  std::filesystem::path out;
+};
+
+Result<DrawSettings> checked(const DrawOptions& options);
+
+/// The built-in scenes' names, in alphabetical order.
+Result<std::vector<std::string>> builtin_scenes(const Folders& folders);
+
+/// Prints the error on stderr and gives its exit code.
+int report(const Error& error);
+
+/// A line on a terminal that is written over; silent elsewhere.
+class Progress {
+ public:
+  explicit Progress(std::string what);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  void show(double done);  ///< 0 to 1
+  void show(const std::string& text);
+  void clear();
+
+ private:
+  std::string what_;
+  bool terminal_;
+  bool shown_ = false;
+  int last_percent_ = -1;
+};
+
+// One function a command: adds itself to `app` and sets `exit_code` when it has run.
+void add_sim(CLI::App& app, const Folders& folders, int& exit_code);
+void add_plan(CLI::App& app, const Folders& folders, int& exit_code);
+void add_render(CLI::App& app, const Folders& folders, int& exit_code);
+void add_init(CLI::App& app, const Folders& folders, int& exit_code);
+void add_compare(CLI::App& app, const Folders& folders, int& exit_code);
+void add_why(CLI::App& app, const Folders& folders, int& exit_code);
+void add_tables(CLI::App& app, const Folders& folders, int& exit_code);
+
+}  // namespace halfway::cli

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The golden model of whatever a hardware key names.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "frame/fragment.hpp"
+#include "plan/hardware_key.hpp"
+
+namespace halfway {
+
+/// Stages whose registers a probe shows.
+enum class Stage { line, span };
+
+/// A stage's registers when it took a line or drew a pixel, laid out as the RTL's `probe` port.
+struct ProbeEvent {
+  Stage stage;
+  std::uint32_t triangle, y, x;  ///< x: the pixel; the line's first for Stage::line
+  std::vector<std::uint32_t> words;
+};
+
+class GoldenModel {
+ public:
+  virtual ~GoldenModel() = default;
+  /// Appends the fragments of whole init vectors.
+  virtual void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) = 0;
+  /// The same, and the stages' registers.
+  virtual void draw_probed(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,
+                           std::vector<ProbeEvent>& events) = 0;
+  virtual unsigned init_bits() const = 0;
+  virtual unsigned probe_bits() const = 0;
+};
+
+std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key);
+
+}  // namespace halfway

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the results of a scene and a shader lie.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace halfway {
+
+/// The files that a run leaves in <out>/<scene>/<shader>/.
+struct ResultFiles {
+  std::filesystem::path folder;
+
+  static ResultFiles of(const std::filesystem::path& out, const std::string& scene, const std::string& shader) {
+    return {out / scene / shader};
+  }
+  std::filesystem::path init() const { return folder / "init.txt"; }
+  std::filesystem::path trace(const std::string& who) const { return folder / (who + ".trace"); }
+  std::filesystem::path frame(const std::string& who) const { return folder / (who + ".png"); }
+  std::filesystem::path summary() const { return folder / "summary.json"; }
+};
+
+}  // namespace halfway

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene as a stream of batches: init vectors and the golden model's fragments for them, in the scene's order.
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <vector>
+
+#include "frame/fragment.hpp"
+#include "plan/hardware_key.hpp"
+#include "setup/quadratic_setup.hpp"
+
+namespace halfway {
+
+struct Batch {
+  std::vector<std::uint32_t> init_words;
+  std::vector<Fragment> golden;
+  std::uint32_t triangles_done = 0;  ///< of the scene, this batch's included
+};
+
+/// Setup and golden model on `threads` threads, one batch ahead of who takes them. The stream does not depend on the
+/// number of threads. Memory is bounded by a batch, not by the mesh.
+class SceneStream {
+ public:
+  /// Scene and setup must outlive the stream.
+  SceneStream(const Scene& scene, const QuadraticSetup& setup, const HardwareKey& key, unsigned threads);
+  ~SceneStream();
+
+  /// The next batch; false after the last.
+  bool next(Batch& batch);
+  /// Of all batches taken so far.
+  const SetupCounts& counts() const { return counts_; }
+  /// Processor seconds that setup took, and the golden model.
+  double setup_seconds() const { return setup_seconds_; }
+  double golden_seconds() const { return golden_seconds_; }
+
+ private:
+  struct Work {
+    Batch batch;
+    SetupCounts counts;
+    double setup_seconds = 0, golden_seconds = 0;
+  };
+  Work make(std::uint32_t begin, std::uint32_t end) const;
+  void prefetch();
+
+  const Scene& scene_;
+  const QuadraticSetup& setup_;
+  HardwareKey key_;
+  unsigned threads_;
+  std::uint32_t next_triangle_ = 0;
+  std::future<Work> ahead_;
+  SetupCounts counts_;
+  double setup_seconds_ = 0, golden_seconds_ = 0;
+};
+
+}  // namespace halfway

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two fragment streams, compared field by field as they come.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frame/fragment.hpp"
+
+namespace halfway {
+
+struct Mismatch {
+  std::uint64_t index;  ///< in the stream
+  std::optional<Fragment> golden, rtl;  ///< nothing where that stream has ended
+};
+
+inline constexpr std::array<std::string_view, 7> c_fragment_fields = {"triangle", "line", "pixel", "depth",
+                                                                      "red",      "green", "blue"};
+
+/// A fragment's fields in the order of c_fragment_fields.
+std::array<std::uint32_t, 7> fields(const Fragment& fragment);
+
+class StreamComparator {
+ public:
+  void add_golden(std::span<const Fragment> fragments);
+  void add_rtl(std::span<const Fragment> fragments);
+  /// No more will come: what one stream has and the other has not differs.
+  void finish();
+
+  std::uint64_t mismatches() const { return mismatches_; }  ///< fragments that differ in any field
+  std::uint64_t golden_count() const { return compared_ + pending_golden_.size() - golden_used_; }
+  std::uint64_t rtl_count() const { return compared_ + pending_rtl_.size() - rtl_used_; }
+  const std::array<std::uint64_t, 7>& field_mismatches() const { return field_mismatches_; }
+  /// The first c_kept ones.
+  const std::vector<Mismatch>& first() const { return first_; }
+  static constexpr std::size_t c_kept = 10;
+
+  /// "triangle 3, line 10, pixel 7, red: golden 200, RTL 201", a line a field that differs, at most c_kept, then counts.
+  std::string describe(std::string_view rtl_name) const;
+
+ private:
+  void advance();
+  void note(const std::optional<Fragment>& golden, const std::optional<Fragment>& rtl);
+
+  std::vector<Fragment> pending_golden_, pending_rtl_;
+  std::size_t golden_used_ = 0, rtl_used_ = 0;
+  std::uint64_t compared_ = 0, mismatches_ = 0;
+  std::uint64_t only_golden_ = 0, only_rtl_ = 0;
+  std::array<std::uint64_t, 7> field_mismatches_{};
+  std::vector<Mismatch> first_;
+};
+
+}  // namespace halfway
