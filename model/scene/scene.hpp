@@ -12,17 +12,18 @@ namespace halfway {
 
 enum class Brdf { blinn, phong, cook_torrance };
 
-/// Reflection of one surface. The ambient and the diffuse part take `colour`, the specular part `specular_colour`.
+/// Reflection of one surface. The ambient and the diffuse part take `colour`, the specular part
+/// `specular_colour`.
 struct Material {
   std::string name;
   Brdf brdf = Brdf::blinn;
   glm::dvec3 colour{1.0};
   glm::dvec3 specular_colour{1.0};
-  double ambient = 0.1;    ///< k_a >= 0
-  double diffuse = 0.6;    ///< k_d >= 0
-  double specular = 0.4;   ///< k_s >= 0
-  double exponent = 20.0;  ///< n >= 1: Blinn's (N.H)^n, Phong's (R.V)^n
-  double roughness = 0.3;  ///< m in (0, 1], Beckmann slope of Cook-Torrance
+  double ambient = 0.1;       ///< k_a >= 0
+  double diffuse = 0.6;       ///< k_d >= 0
+  double specular = 0.4;      ///< k_s >= 0
+  double exponent = 20.0;     ///< n >= 1: Blinn's (N.H)^n, Phong's (R.V)^n
+  double roughness = 0.3;     ///< m in (0, 1], Beckmann slope of Cook-Torrance
   double reflectance = 0.05;  ///< F at normal incidence in [0, 1], Cook-Torrance (Schlick's Fresnel term)
 };
 
@@ -74,6 +75,7 @@ struct Scene {
   std::vector<glm::dvec3> positions_world;
   std::vector<glm::dvec3> normals_world;  ///< unit
   std::vector<SceneTriangle> triangles;
+  std::vector<std::string> notes;  ///< what the loader mended or left out, a sentence each; nothing fatal
 };
 
 inline constexpr std::uint32_t c_max_triangles = 10'000'000;

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/builtin_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace halfway {
+namespace {
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+/// How often each edge is walked, by direction.
+std::map<Edge, int> directed_edges(const Mesh& mesh) {
+  std::map<Edge, int> count;
+  for (const SceneTriangle& triangle : mesh.triangles) {
+    for (int side = 0; side < 3; ++side) {
+      ++count[{triangle.position[side], triangle.position[(side + 1) % 3]}];
+    }
+  }
+  return count;
+}
+
+/// Edges without a neighbour; fails where an edge is walked twice in one direction.
+std::vector<Edge> open_edges(const Mesh& mesh) {
+  const std::map<Edge, int> edges = directed_edges(mesh);
+  std::vector<Edge> open;
+  for (const auto& [edge, count] : edges) {
+    EXPECT_EQ(count, 1);
+    if (!edges.contains({edge.second, edge.first})) open.push_back(edge);
+  }
+  return open;
+}
+
+glm::dvec3 cross_of(const Mesh& mesh, const SceneTriangle& triangle) {
+  const glm::dvec3& a = mesh.positions[triangle.position[0]];
+  return glm::cross(mesh.positions[triangle.position[1]] - a, mesh.positions[triangle.position[2]] - a);
+}
+
+void expect_unit_normals_on_the_outside(const Mesh& mesh) {
+  for (const glm::dvec3& normal : mesh.normals) EXPECT_NEAR(glm::length(normal), 1.0, 4e-16);
+  for (const SceneTriangle& triangle : mesh.triangles) {
+    const glm::dvec3 face = cross_of(mesh, triangle);
+    EXPECT_GT(glm::length(face), 0.0);
+    for (const std::uint32_t normal : triangle.normal) EXPECT_GT(glm::dot(face, mesh.normals[normal]), 0.0);
+  }
+}
+
+void expect_no_position_twice(const Mesh& mesh) {
+  std::set<std::vector<double>> seen;
+  for (const glm::dvec3& p : mesh.positions) {
+    EXPECT_TRUE(seen.insert({p.x, p.y, p.z}).second) << p.x << ' ' << p.y << ' ' << p.z;
+  }
+}
+
+TEST(UvSphere, HasThePublishedTriangleCounts) {
+  const std::pair<std::pair<int, int>, std::size_t> cases[] = {
+      {{12, 8}, 168}, {{17, 12}, 374}, {{23, 16}, 690}, {{3, 2}, 6}};
+  for (const auto& [size, triangles] : cases) {
+    EXPECT_EQ(make_uv_sphere(size.first, size.second, 1.0).triangles.size(), triangles);
+    EXPECT_EQ(uv_sphere_triangles(size.first, size.second), triangles);
+  }
+}
+
+TEST(UvSphere, IsClosedAndFacesOutward) {
+  for (const auto& [slices, stacks] : {std::pair{3, 2}, {12, 8}, {17, 12}, {23, 16}}) {
+    const Mesh mesh = make_uv_sphere(slices, stacks, 2.5);
+    EXPECT_TRUE(open_edges(mesh).empty());
+    expect_no_position_twice(mesh);
+    for (const SceneTriangle& triangle : mesh.triangles) {
+      EXPECT_GT(glm::dot(cross_of(mesh, triangle), mesh.positions[triangle.position[0]]), 0.0);
+      for (int corner = 0; corner < 3; ++corner) {
+        EXPECT_EQ(mesh.positions[triangle.position[corner]], 2.5 * mesh.normals[triangle.normal[corner]]);
+      }
+    }
+    for (const glm::dvec3& normal : mesh.normals) EXPECT_NEAR(glm::length(normal), 1.0, 4e-16);
+  }
+}
+
+TEST(Teapot, HasItsTrianglesAndSize) {
+  for (const std::uint32_t divisions : {1u, 2u, 3u, 5u, 8u, 13u}) {
+    const Mesh mesh = make_teapot(divisions);
+    EXPECT_EQ(mesh.triangles.size(), teapot_triangles(divisions));
+    expect_no_position_twice(mesh);
+    double low = 1.0, high = 0.0;
+    for (const glm::dvec3& p : mesh.positions) {
+      low = std::min(low, p.y);
+      high = std::max(high, p.y);
+    }
+    EXPECT_EQ(low, 0.0);
+    EXPECT_EQ(high, 3.15);
+  }
+}
+
+/// The triangles' pieces, joined over edges: the handle touches the pot in a single vertex.
+std::vector<Mesh> pieces(const Mesh& mesh) {
+  std::map<Edge, std::size_t> triangle_of;
+  std::vector<std::size_t> parent(mesh.triangles.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const std::function<std::size_t(std::size_t)> root = [&](std::size_t t) {
+    return parent[t] == t ? t : parent[t] = root(parent[t]);
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int side = 0; side < 3; ++side) {
+      const Edge edge =
+          std::minmax(mesh.triangles[t].position[side], mesh.triangles[t].position[(side + 1) % 3]);
+      const auto [entry, is_new] = triangle_of.try_emplace(edge, t);
+      if (!is_new) parent[root(t)] = root(entry->second);
+    }
+  }
+  std::map<std::size_t, Mesh> by_root;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    by_root[root(t)].triangles.push_back(mesh.triangles[t]);
+  std::vector<Mesh> result;
+  for (auto& [_, piece] : by_root) {
+    piece.positions = mesh.positions;
+    piece.normals = mesh.normals;
+    result.push_back(std::move(piece));
+  }
+  return result;
+}
+
+TEST(Teapot, IsWatertightBetweenItsSixRims) {
+  for (const std::uint32_t divisions : {2u, 3u, 5u, 8u, 11u}) {
+    const Mesh mesh = make_teapot(divisions);
+    // Pot and lid: one rim of four quarters each; handle and spout: two rims of two halves each.
+    EXPECT_EQ(open_edges(mesh).size(), (4u + 4u + 4u + 4u) * divisions);
+    EXPECT_EQ(pieces(mesh).size(), 4u);
+    for (const Edge& edge : open_edges(mesh)) {
+      const glm::dvec3& p = mesh.positions[edge.first];
+      const double radius = std::hypot(p.x, p.z);
+      const bool on_pot = p.y == 2.4 && std::abs(radius - 1.4) < 0.02;
+      const bool on_lid = p.y == 2.4 && std::abs(radius - 1.3) < 0.02;
+      const bool on_handle = std::abs(p.z) <= 0.3 && p.x <= -1.5;
+      const bool on_spout = p.x >= 1.69;
+      EXPECT_TRUE(on_pot || on_lid || on_handle || on_spout) << p.x << ' ' << p.y << ' ' << p.z;
+    }
+  }
+}
+
+TEST(Teapot, EveryPieceFacesOutward) {
+  for (Mesh& piece : pieces(make_teapot(6))) {
+    // Caps over the rims make the piece a solid, whose volume is positive if its triangles face out.
+    const std::vector<Edge> open = open_edges(piece);
+    std::map<std::uint32_t, std::uint32_t> next;
+    for (const Edge& edge : open) next[edge.first] = edge.second;
+    double volume = 0.0;
+    const auto add = [&volume](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+      volume += glm::dot(a, glm::cross(b, c)) / 6.0;
+    };
+    while (!next.empty()) {
+      const std::uint32_t start = next.begin()->first;
+      for (std::uint32_t at = start; next.contains(at);) {
+        const std::uint32_t to = next[at];
+        next.erase(at);
+        add(piece.positions[to], piece.positions[at], piece.positions[start]);
+        at = to;
+      }
+    }
+    for (const SceneTriangle& t : piece.triangles) {
+      add(piece.positions[t.position[0]], piece.positions[t.position[1]], piece.positions[t.position[2]]);
+    }
+    EXPECT_GT(volume, 0.1);
+  }
+}
+
+TEST(Teapot, NormalsAreUnitAndOnTheTrianglesSide) {
+  for (const std::uint32_t divisions : {8u, 12u, 20u})
+    expect_unit_normals_on_the_outside(make_teapot(divisions));
+}
+
+TEST(Teapot, NormalsAgreeWithTheFinerMesh) {
+  // With many divisions a face's own normal tends to the surface's.
+  const Mesh mesh = make_teapot(64);
+  for (const SceneTriangle& triangle : mesh.triangles) {
+    const glm::dvec3 face = glm::normalize(cross_of(mesh, triangle));
+    for (const std::uint32_t normal : triangle.normal) EXPECT_GT(glm::dot(face, mesh.normals[normal]), 0.95);
+  }
+}
+
+TEST(Teapot, PolesLookUpAndDown) {
+  const Mesh mesh = make_teapot(4);
+  int poles = 0;
+  for (const SceneTriangle& triangle : mesh.triangles) {
+    for (int corner = 0; corner < 3; ++corner) {
+      const glm::dvec3& p = mesh.positions[triangle.position[corner]];
+      if (p.x != 0.0 || p.z != 0.0) continue;
+      ++poles;
+      EXPECT_EQ(mesh.normals[triangle.normal[corner]], glm::dvec3(0.0, p.y > 1.0 ? 1.0 : -1.0, 0.0));
+    }
+  }
+  EXPECT_EQ(poles, 2 * 4 * 4);
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+namespace halfway {
+
+namespace {
+
+constexpr double c_min_height = 1e-12;
+constexpr double c_min_normal_length = 1e-9;
+
+struct PositionHash {
+  std::size_t operator()(const glm::dvec3& position) const {
+    std::uint64_t hash = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      hash = (hash ^ std::bit_cast<std::uint64_t>(position[axis])) * 0x9e3779b97f4a7c15u;
+      hash ^= hash >> 29;
+    }
+    return hash;
+  }
+};
+
+// Corner c of triangle t is 3 t + c. Follows a corner to the one that stands for its smooth group.
+std::uint32_t group_of(std::vector<std::uint32_t>& parent, std::uint32_t corner) {
+  while (parent[corner] != corner) {
+    parent[corner] = parent[parent[corner]];
+    corner = parent[corner];
+  }
+  return corner;
+}
+
+void join_groups(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t group_a = group_of(parent, a);
+  const std::uint32_t group_b = group_of(parent, b);
+  parent[std::max(group_a, group_b)] = std::min(group_a, group_b);
+}
+
+glm::dvec3 face_normal(const Mesh& mesh, const SceneTriangle& triangle) {
+  const glm::dvec3& a = mesh.positions[triangle.position[0]];
+  // Scaled by the longest side first: the squares of very small or large edges would leave the double's
+  // range.
+  const glm::dvec3 ab = mesh.positions[triangle.position[1]] - a;
+  const glm::dvec3 ac = mesh.positions[triangle.position[2]] - a;
+  const glm::dvec3 largest = glm::max(glm::abs(ab), glm::abs(ac));
+  const double size = std::max({largest.x, largest.y, largest.z});
+  return glm::normalize(glm::cross(ab / size, ac / size));
+}
+
+double corner_angle(const Mesh& mesh, const SceneTriangle& triangle, int corner) {
+  const glm::dvec3& apex = mesh.positions[triangle.position[corner]];
+  const glm::dvec3 left = glm::normalize(mesh.positions[triangle.position[(corner + 1) % 3]] - apex);
+  const glm::dvec3 right = glm::normalize(mesh.positions[triangle.position[(corner + 2) % 3]] - apex);
+  return std::atan2(glm::length(glm::cross(left, right)), glm::dot(left, right));
+}
+
+// Which corners share a normal.
+std::vector<std::uint32_t> smooth_groups(const Mesh& mesh, const std::vector<glm::dvec3>& face_normals,
+                                         double crease_degrees) {
+  std::vector<std::uint32_t> parent(3 * mesh.triangles.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  if (crease_degrees >= 180.0) {
+    std::vector<std::uint32_t> first(mesh.positions.size(), UINT32_MAX);
+    for (std::uint32_t corner = 0; corner < parent.size(); ++corner) {
+      std::uint32_t& owner = first[mesh.triangles[corner / 3].position[corner % 3]];
+      if (owner == UINT32_MAX) owner = corner;
+      parent[corner] = owner;
+    }
+    return parent;
+  }
+  struct Edge {
+    std::uint32_t low, high;  // position indices
+    std::uint32_t corner_at_low, corner_at_high;
+  };
+  std::vector<Edge> edges;
+  edges.reserve(parent.size());
+  for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
+    for (std::uint32_t side = 0; side < 3; ++side) {
+      const std::uint32_t next = (side + 1) % 3;
+      Edge edge{mesh.triangles[triangle].position[side], mesh.triangles[triangle].position[next],
+                3 * triangle + side, 3 * triangle + next};
+      if (edge.low > edge.high) {
+        std::swap(edge.low, edge.high);
+        std::swap(edge.corner_at_low, edge.corner_at_high);
+      }
+      edges.push_back(edge);
+    }
+  }
+  std::sort(edges.begin(), edges.end(),
+            [](const Edge& a, const Edge& b) { return std::pair(a.low, a.high) < std::pair(b.low, b.high); });
+  const double cos_crease = std::cos(glm::radians(crease_degrees));
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    const Edge& a = edges[i - 1];
+    const Edge& b = edges[i];
+    if (a.low != b.low || a.high != b.high) continue;
+    if (glm::dot(face_normals[a.corner_at_low / 3], face_normals[b.corner_at_low / 3]) < cos_crease) continue;
+    join_groups(parent, a.corner_at_low, b.corner_at_low);
+    join_groups(parent, a.corner_at_high, b.corner_at_high);
+  }
+  for (std::uint32_t corner = 0; corner < parent.size(); ++corner) parent[corner] = group_of(parent, corner);
+  return parent;
+}
+
+}  // namespace
+
+void join_positions(Mesh& mesh) {
+  std::unordered_map<glm::dvec3, std::uint32_t, PositionHash> known;
+  known.reserve(mesh.positions.size());
+  std::vector<std::uint32_t> new_index(mesh.positions.size());
+  std::vector<glm::dvec3> joined;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const glm::dvec3 position = mesh.positions[i] + 0.0;  // -0 becomes 0
+    const auto [entry, is_new] = known.try_emplace(position, static_cast<std::uint32_t>(joined.size()));
+    if (is_new) joined.push_back(position);
+    new_index[i] = entry->second;
+  }
+  for (SceneTriangle& triangle : mesh.triangles) {
+    for (std::uint32_t& index : triangle.position) index = new_index[index];
+  }
+  mesh.positions = std::move(joined);
+}
+
+void transform(Mesh& mesh, const glm::dmat4& matrix) {
+  const glm::dmat3 linear(matrix);
+  const double determinant = glm::determinant(linear);
+  // The cofactors are the inverse transpose times the determinant; only its sign matters, lengths are unit
+  // again.
+  const double side = determinant < 0.0 ? -1.0 : 1.0;
+  const glm::dmat3 cofactors(side * glm::cross(linear[1], linear[2]), side * glm::cross(linear[2], linear[0]),
+                             side * glm::cross(linear[0], linear[1]));
+  for (glm::dvec3& position : mesh.positions) position = linear * position + glm::dvec3(matrix[3]);
+  for (glm::dvec3& normal : mesh.normals) {
+    const glm::dvec3 moved = cofactors * normal;
+    const double length = glm::length(moved);
+    normal = length > 0.0 ? moved / length : glm::dvec3(0.0);
+  }
+  if (determinant < 0.0) {
+    for (SceneTriangle& triangle : mesh.triangles) {
+      std::swap(triangle.position[1], triangle.position[2]);
+      std::swap(triangle.normal[1], triangle.normal[2]);
+    }
+  }
+}
+
+std::size_t drop_zero_area(Mesh& mesh) {
+  return std::erase_if(mesh.triangles, [&mesh](const SceneTriangle& triangle) {
+    const glm::dvec3& a = mesh.positions[triangle.position[0]];
+    const glm::dvec3& b = mesh.positions[triangle.position[1]];
+    const glm::dvec3& c = mesh.positions[triangle.position[2]];
+    const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+    if (!(longest > 0.0)) return true;
+    return !(glm::length(glm::cross((b - a) / longest, (c - a) / longest)) > c_min_height);
+  });
+}
+
+std::size_t fill_normals(Mesh& mesh, double crease_degrees, bool replace_all) {
+  if (replace_all) {
+    mesh.normals.assign(1, glm::dvec3(0.0));
+    for (SceneTriangle& triangle : mesh.triangles) triangle.normal = {0, 0, 0};
+  }
+  // A normal of a length far from 1 is rounding noise or a fault of the file: without it is better.
+  for (glm::dvec3& normal : mesh.normals) {
+    const double length = glm::length(normal);
+    normal = std::isfinite(length) && length > c_min_normal_length ? normal / length : glm::dvec3(0.0);
+  }
+  const auto is_missing = [&mesh](std::uint32_t normal) { return mesh.normals[normal] == glm::dvec3(0.0); };
+  const bool any_missing =
+      std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const SceneTriangle& t) {
+        return is_missing(t.normal[0]) || is_missing(t.normal[1]) || is_missing(t.normal[2]);
+      });
+  if (!any_missing) return 0;
+
+  std::vector<glm::dvec3> face_normals;
+  face_normals.reserve(mesh.triangles.size());
+  for (const SceneTriangle& triangle : mesh.triangles) face_normals.push_back(face_normal(mesh, triangle));
+
+  const std::vector<std::uint32_t> group = smooth_groups(mesh, face_normals, crease_degrees);
+  std::vector<glm::dvec3> sum(group.size(), glm::dvec3(0.0));
+  for (std::uint32_t corner = 0; corner < group.size(); ++corner) {
+    const std::uint32_t triangle = corner / 3;
+    sum[group[corner]] +=
+        corner_angle(mesh, mesh.triangles[triangle], static_cast<int>(corner % 3)) * face_normals[triangle];
+  }
+  std::vector<std::uint32_t> normal_of_group(group.size(), UINT32_MAX);
+  std::size_t filled = 0;
+  const auto add_normal = [&mesh](const glm::dvec3& normal) {
+    mesh.normals.push_back(normal);
+    return static_cast<std::uint32_t>(mesh.normals.size() - 1);
+  };
+  const std::size_t old_normals = mesh.normals.size();
+  for (std::uint32_t corner = 0; corner < group.size(); ++corner) {
+    std::uint32_t& normal = mesh.triangles[corner / 3].normal[corner % 3];
+    if (normal >= old_normals || !is_missing(normal)) continue;
+    ++filled;
+    const double length = glm::length(sum[group[corner]]);
+    if (length <= c_min_normal_length) {  // the faces cancel out, as in two sheets back to back
+      normal = add_normal(face_normals[corner / 3]);
+      continue;
+    }
+    std::uint32_t& shared = normal_of_group[group[corner]];
+    if (shared == UINT32_MAX) shared = add_normal(sum[group[corner]] / length);
+    normal = shared;
+  }
+  return filled;
+}
+
+}  // namespace halfway
