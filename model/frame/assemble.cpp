@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame/assemble.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace halfway {
+namespace {
+
+constexpr std::uint32_t c_greatest_z = (1u << 24) - 1;
+constexpr std::uint32_t c_empty = std::numeric_limits<std::uint32_t>::max();
+
+Error refusal(const Fragment& f, std::uint64_t number, const std::string& why) {
+  return {ExitCode::differs,
+          fmt::format("fragments:{}: fragment of triangle {} at pixel {},{} with z {}: {}; the stream "
+                      "that it comes from is wrong",
+                      number, f.triangle, f.x, f.y, f.z, why)};
+}
+
+}  // namespace
+
+FrameAssembler::FrameAssembler(FrameSize size, glm::dvec3 background)
+    : frame_(size), z_(frame_.pixels(), c_empty) {
+  for (std::size_t i = 0; i < frame_.rgb.size(); ++i)
+    frame_.rgb[i] = to_byte(background[static_cast<glm::dvec3::length_type>(i % 3)]);
+}
+
+Status FrameAssembler::add(std::span<const Fragment> fragments) {
+  for (const Fragment& f : fragments) {
+    ++fragments_;
+    if (f.x >= frame_.size.width || f.y >= frame_.size.height)
+      return refusal(
+          f, fragments_,
+          fmt::format("it lies outside the frame of {}x{}", frame_.size.width, frame_.size.height));
+    if (f.z > c_greatest_z) return refusal(f, fragments_, "z has more than 24 bits");
+    const std::size_t rgb = frame_.offset(f.x, f.y);
+    std::uint32_t& z = z_[rgb / 3];
+    if (f.z >= z) continue;
+    if (z == c_empty) ++covered_pixels_;
+    z = f.z;
+    frame_.rgb[rgb] = f.red;
+    frame_.rgb[rgb + 1] = f.green;
+    frame_.rgb[rgb + 2] = f.blue;
+  }
+  return Ok{};
+}
+
+std::vector<std::uint8_t> FrameAssembler::mask() const {
+  std::vector<std::uint8_t> mask(z_.size());
+  for (std::size_t i = 0; i < z_.size(); ++i) mask[i] = z_[i] != c_empty;
+  return mask;
+}
+
+}  // namespace halfway

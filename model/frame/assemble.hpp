@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a stream of fragments to a frame: z test and write, the same for golden model and simulators.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "common/result.hpp"
+#include "frame/fragment.hpp"
+#include "frame/frame.hpp"
+
+namespace halfway {
+
+class FrameAssembler {
+ public:
+  /// `background` is linear radiance, for pixels without a fragment.
+  FrameAssembler(FrameSize size, glm::dvec3 background);
+
+  /// The smaller z keeps a pixel; of equal ones the first to come. Fails at the first fragment that lies
+  /// outside the frame or whose z has more than 24 bits; those before it are in the frame.
+  Status add(std::span<const Fragment> fragments);
+
+  const Frame& frame() const { return frame_; }
+  /// 1 where a fragment fell, else 0; one byte a pixel.
+  std::vector<std::uint8_t> mask() const;
+  std::uint64_t fragments() const { return fragments_; }
+  std::uint64_t covered_pixels() const { return covered_pixels_; }
+
+ private:
+  Frame frame_;
+  std::vector<std::uint32_t> z_;
+  std::uint64_t fragments_ = 0, covered_pixels_ = 0;
+};
+
+}  // namespace halfway

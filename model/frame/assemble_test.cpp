@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame/assemble.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+namespace halfway {
+namespace {
+
+Fragment fragment(std::uint16_t x, std::uint16_t y, std::uint32_t z, std::uint8_t red) {
+  return {.triangle = 0, .z = z, .y = y, .x = x, .red = red, .green = 2, .blue = 3};
+}
+
+TEST(Assemble, SmallerZWinsAndTheFirstOfEqualOnesStays) {
+  FrameAssembler assembler({3, 2}, {0.0, 0.5, 1.0});
+  const std::array fragments{fragment(1, 0, 500, 10), fragment(1, 0, 500, 11), fragment(1, 0, 501, 12),
+                             fragment(2, 1, 9, 20),   fragment(2, 1, 8, 21),   fragment(0, 1, 0xffffff, 30)};
+  ASSERT_TRUE(assembler.add(fragments));
+  ASSERT_TRUE(assembler.add(std::array{fragment(1, 0, 500, 13)}));
+  EXPECT_EQ(assembler.frame().rgb, (std::vector<std::uint8_t>{0, 128, 255, 10, 2, 3, 0, 128, 255,  //
+                                                              30, 2, 3, 0, 128, 255, 21, 2, 3}));
+  EXPECT_EQ(assembler.mask(), (std::vector<std::uint8_t>{0, 1, 0, 1, 0, 1}));
+  EXPECT_EQ(assembler.fragments(), 7u);
+  EXPECT_EQ(assembler.covered_pixels(), 3u);
+}
+
+TEST(Assemble, RefusesWhatLiesOutside) {
+  for (const Fragment& bad : {fragment(3, 0, 1, 1), fragment(0, 2, 1, 1), fragment(65535, 65535, 1, 1),
+                              fragment(0, 0, 1u << 24, 1), fragment(0, 0, 0xffffffff, 1)}) {
+    FrameAssembler assembler({3, 2}, {});
+    const Status status = assembler.add(std::array{fragment(2, 1, 5, 77), bad});
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, ExitCode::differs);
+    EXPECT_NE(status.error().message.find("fragments:2:"), std::string::npos) << status.error().message;
+    EXPECT_EQ(assembler.frame().rgb[15], 77);
+    EXPECT_EQ(assembler.covered_pixels(), 1u);
+  }
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame/image.hpp"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace halfway {
+namespace {
+
+Error cannot_open(const std::string& path, int error) {
+  const std::string message =
+      fmt::format("{}: cannot be opened for writing ({}); name a folder that exists and may be written", path,
+                  std::strerror(error));
+  return error == ENOSPC || error == EIO || error == EDQUOT ? tool_failed(message) : bad_input(message);
+}
+
+Error cannot_write(const std::string& path, int error) {
+  return tool_failed(
+      fmt::format("{}: writing failed ({}), the file is left as it was; make room and try again", path,
+                  std::strerror(error)));
+}
+
+/// Every byte, and the close that may still report a full disk. 0 or errno.
+int write_and_close(int file, std::span<const unsigned char> bytes) {
+  int error = 0;
+  while (!bytes.empty() && error == 0) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written > 0)
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    else if (written == 0 || errno != EINTR)
+      error = written == 0 ? EIO : errno;
+  }
+  struct stat status {};
+  if (error == 0 && ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && ::fsync(file) != 0)
+    error = errno;
+  if (::close(file) != 0 && error == 0) error = errno;
+  return error;
+}
+
+Status write_whole(const std::string& path, std::span<const unsigned char> bytes) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0) return cannot_open(path, errno);
+    if (const int error = write_and_close(file, bytes); error != 0) return cannot_write(path, error);
+    return Ok{};
+  }
+  std::string temporary;
+  int file = -1;
+  for (int attempt = 0; file < 0; ++attempt) {
+    temporary = fmt::format("{}.{}-{}.part", path, ::getpid(), attempt);
+    file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0 && (errno != EEXIST || attempt == 1000)) return cannot_open(path, errno);
+  }
+  int error = write_and_close(file, bytes);
+  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0) return Ok{};
+  ::unlink(temporary.c_str());
+  return cannot_write(path, error);
+}
+
+Result<std::vector<unsigned char>> encode_png(const std::string& path, const Frame& frame) {
+  std::vector<unsigned char> bytes;
+  const auto failed = [&](const std::string& why) {
+    return tool_failed(
+        fmt::format("{}: OpenImageIO cannot encode the PNG ({}); check its installation", path, why));
+  };
+  try {
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png", &memory);
+    if (!output) return failed(OIIO::geterror());
+    if (!output->set_ioproxy(&memory)) return failed("it does not encode to memory");
+    const OIIO::ImageSpec spec(static_cast<int>(frame.size.width), static_cast<int>(frame.size.height), 3,
+                               OIIO::TypeDesc::UINT8);
+    if (!output->open(path, spec) || !output->write_image(OIIO::TypeDesc::UINT8, frame.rgb.data()) ||
+        !output->close())
+      return failed(output->geterror());
+  } catch (const std::exception& e) {
+    return failed(e.what());
+  }
+  return bytes;
+}
+
+}  // namespace
+
+Status write_png(const std::filesystem::path& path, const Frame& frame) {
+  if (frame.size.width == 0 || frame.size.height == 0 || frame.size.width > c_max_frame_side ||
+      frame.size.height > c_max_frame_side || frame.rgb.size() != 3 * frame.pixels())
+    return bad_input(fmt::format(
+        "{}: a frame of {}x{} with {} bytes is no picture; render 1x1 to {}x{} pixels", path.string(),
+        frame.size.width, frame.size.height, frame.rgb.size(), c_max_frame_side, c_max_frame_side));
+  const Result<std::vector<unsigned char>> bytes = encode_png(path.string(), frame);
+  if (!bytes) return bytes.error();
+  return write_whole(path.string(), *bytes);
+}
+
+Result<Frame> read_png(const std::filesystem::path& path) {
+  const auto unreadable = [&](const std::string& why) {
+    return bad_input(fmt::format("{}: cannot be read as a PNG ({}); render it again", path.string(), why));
+  };
+  try {
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("png");
+    if (!input)
+      return tool_failed(fmt::format("{}: OpenImageIO has no PNG reader ({}); check its installation",
+                                     path.string(), OIIO::geterror()));
+    OIIO::ImageSpec spec;
+    if (!input->open(path.string(), spec)) return unreadable(input->geterror());
+    if (spec.nchannels != 3 || spec.format != OIIO::TypeDesc::UINT8)
+      return unreadable(
+          fmt::format("{} channels of {}, not 3 of 8 bits", spec.nchannels, spec.format.c_str()));
+    const auto fits = [](int side) {
+      return side > 0 && static_cast<std::uint32_t>(side) <= c_max_frame_side;
+    };
+    if (!fits(spec.width) || !fits(spec.height))
+      return unreadable(fmt::format("{}x{} pixels, not up to {}", spec.width, spec.height, c_max_frame_side));
+    Frame frame({static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height)});
+    if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, frame.rgb.data()))
+      return unreadable(input->geterror());
+    return frame;
+  } catch (const std::exception& e) {
+    return unreadable(e.what());
+  }
+}
+
+}  // namespace halfway

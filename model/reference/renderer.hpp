@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures to measure a shader by: Phong shading per pixel, and Gouraud's, both in double with exact
+// coverage.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "frame/frame.hpp"
+#include "scene/scene.hpp"
+#include "setup/screen_triangle.hpp"
+
+namespace halfway {
+
+struct ReferenceImage {
+  Frame frame;
+  std::vector<std::uint8_t> mask;  ///< 1 where a triangle covers the pixel, else 0; one byte a pixel
+};
+
+struct RenderOptions {
+  FrameSize frame;
+  int subpixel_bits = 4;  ///< of the screen triangles' coordinates, 1 to 9
+  unsigned threads = 0;   ///< 0: as many as the machine has. The picture does not depend on it.
+};
+
+/// Normal and position are interpolated perspective-correctly at the pixel's centre and shaded there.
+/// Of two triangles at the same depth the first in the span keeps the pixel.
+ReferenceImage render_reference(const Scene& scene, std::span<const ScreenTriangle> triangles,
+                                const RenderOptions& options);
+
+/// Shades at the vertices, unclamped, and interpolates linearly on the screen; the same coverage.
+ReferenceImage render_gouraud(const Scene& scene, std::span<const ScreenTriangle> triangles,
+                              const RenderOptions& options);
+
+}  // namespace halfway

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/renderer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <random>
+#include <vector>
+
+#include "reference/shade.hpp"
+#include "setup/project.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr FrameSize c_frame{70, 53};
+
+/// Loose triangles, all over and through each other, of two materials under one light of each kind.
+Scene tangle(unsigned seed, int triangles) {
+  Scene scene;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto point = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
+  scene.background = {0.2, 0.4, 0.6};
+  scene.materials.resize(2);
+  scene.materials[0].colour = {1.0, 0.5, 0.2};
+  scene.materials[1].brdf = Brdf::phong;
+  scene.directional = {{glm::normalize(glm::dvec3(1, 2, 3)), {0.5, 0.6, 0.7}}};
+  scene.positional = {{{-2, 2, 3}, {0.3, 0.3, 0.3}}};
+  scene.spots = {{{0, 0, 4}, {0, 0, -1}, 0.98, 0.9, {0.4, 0.2, 0.2}}};
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(triangles); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      scene.positions_world.push_back(2.0 * point());
+      scene.normals_world.push_back(glm::normalize(point() + glm::dvec3(0, 0, 1.8)));
+    }
+    scene.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, {3 * i, 3 * i + 1, 3 * i + 2}, i % 2});
+  }
+  return scene;
+}
+
+/// Pixel by pixel over all triangles, by the sign of three areas.
+std::vector<std::uint32_t> visible_by_search(const std::vector<ScreenTriangle>& triangles, FrameSize frame) {
+  std::vector<std::uint32_t> seen(Frame::pixels(frame), 0xffffffffu);
+  for (std::uint32_t y = 0; y < frame.height; ++y)
+    for (std::uint32_t x = 0; x < frame.width; ++x) {
+      double nearest = 2.0;
+      for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        const auto& v = triangles[i].vertex;
+        bool inside = true;
+        for (int k = 0; k < 3; ++k) {
+          const ScreenVertex &p = v[k], &q = v[(k + 1) % 3];
+          const std::int64_t area = std::int64_t{q.x - p.x} * (std::int64_t{y} * 16 + 8 - p.y) -
+                                    std::int64_t{q.y - p.y} * (std::int64_t{x} * 16 + 8 - p.x);
+          inside &= area > 0 || (area == 0 && (q.y < p.y || (q.y == p.y && q.x > p.x)));
+        }
+        if (!inside) continue;
+        const double z =
+            surface_point(triangles[i], barycentric_screen(triangles[i], 32 * x + 16, 32 * y + 16)).z;
+        if (z < nearest) nearest = z, seen[std::size_t{y} * frame.width + x] = i;
+      }
+    }
+  return seen;
+}
+
+TEST(Renderer, ShadesTheNearestTriangleAtEachCentre) {
+  const Scene scene = tangle(1, 120);
+  const auto triangles = Projector(scene, c_frame, {}).project_all();
+  ASSERT_GT(triangles.size(), 40u);
+  const auto seen = visible_by_search(triangles, c_frame);
+  const ReferenceImage image = render_reference(scene, triangles, {.frame = c_frame});
+  const ReferenceImage gouraud = render_gouraud(scene, triangles, {.frame = c_frame});
+  EXPECT_EQ(image.mask, gouraud.mask);
+  int covered = 0;
+  for (std::uint32_t y = 0; y < c_frame.height; ++y)
+    for (std::uint32_t x = 0; x < c_frame.width; ++x) {
+      const std::size_t pixel = std::size_t{y} * c_frame.width + x;
+      ASSERT_EQ(image.mask[pixel], seen[pixel] != 0xffffffffu);
+      glm::dvec3 phong = scene.background, linear = scene.background;
+      if (image.mask[pixel]) {
+        ++covered;
+        const ScreenTriangle& t = triangles[seen[pixel]];
+        const glm::dvec3 weights = barycentric_screen(t, 32 * x + 16, 32 * y + 16);
+        const SurfacePoint point = surface_point(t, weights);
+        const Material& material = scene.materials[t.material];
+        phong = radiance(scene, material, point.position_world, point.normal_world);
+        linear = {};
+        for (int i = 0; i < 3; ++i)
+          linear += weights[i] * radiance(scene, material, t.vertex[i].position_world,
+                                          glm::normalize(t.vertex[i].normal_world));
+      }
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_EQ(image.frame.rgb[3 * pixel + k], to_byte(phong[k])) << x << ',' << y;
+        ASSERT_NEAR(gouraud.frame.rgb[3 * pixel + k], 255 * std::min(linear[k], 1.0), 0.5 + 1e-9)
+            << x << ',' << y;
+      }
+    }
+  EXPECT_GT(covered, 1000);
+}
+
+TEST(Renderer, TheNumberOfThreadsDoesNotMatter) {
+  const Scene scene = tangle(2, 300);
+  const auto triangles = Projector(scene, {90, 200}, {}).project_all();
+  for (const auto render : {render_reference, render_gouraud}) {
+    const ReferenceImage one = render(scene, triangles, {.frame = {90, 200}, .threads = 1});
+    for (unsigned threads : {0u, 2u, 3u, 16u, 100u}) {
+      const ReferenceImage many = render(scene, triangles, {.frame = {90, 200}, .threads = threads});
+      ASSERT_EQ(one.frame.rgb, many.frame.rgb);
+      ASSERT_EQ(one.mask, many.mask);
+    }
+  }
+}
+
+TEST(Renderer, OfEqualDepthsTheFirstStays) {
+  Scene scene = tangle(3, 0);
+  scene.directional.clear();
+  scene.positional.clear();
+  scene.spots.clear();
+  scene.ambient = glm::dvec3(1.0);
+  for (Material& m : scene.materials) m.ambient = 1.0;
+  scene.materials[0].colour = {1, 0, 0};
+  scene.materials[1].colour = {0, 1, 0};
+  scene.positions_world = {{-9, -9, 0}, {9, -9, 0}, {0, 18, 0}};
+  scene.normals_world = {{0, 0, 1}};
+  scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}, {{0, 1, 2}, {0, 0, 0}, 1}};
+  auto triangles = Projector(scene, c_frame, {}).project_all();
+  ASSERT_EQ(triangles.size(), 2u);
+  for (int turn = 0; turn < 2; ++turn) {
+    const ReferenceImage image = render_reference(scene, triangles, {.frame = c_frame});
+    for (std::size_t i = 0; i < image.mask.size(); ++i) {
+      ASSERT_EQ(image.mask[i], 1);
+      ASSERT_EQ(image.frame.rgb[3 * i], turn == 0 ? 255 : 0);
+      ASSERT_EQ(image.frame.rgb[3 * i + 1], turn == 0 ? 0 : 255);
+    }
+    std::swap(triangles[0], triangles[1]);
+  }
+}
+
+TEST(Renderer, NoTrianglesGiveTheBackground) {
+  Scene scene;
+  scene.background = {1.0, 0.5, 0.0};
+  const ReferenceImage image = render_reference(scene, {}, {.frame = {5, 40}});
+  for (std::size_t i = 0; i < image.mask.size(); ++i) {
+    ASSERT_EQ(image.mask[i], 0);
+    ASSERT_EQ(image.frame.rgb[3 * i], 255);
+    ASSERT_EQ(image.frame.rgb[3 * i + 1], 128);
+    ASSERT_EQ(image.frame.rgb[3 * i + 2], 0);
+  }
+}
+
+// Sums above white at the vertices pull the middle up: they must not be cut before they are interpolated.
+TEST(Renderer, GouraudDoesNotClampItsVertices) {
+  Scene scene;
+  scene.camera.vertical_fov_degrees = 90.0;
+  scene.materials.emplace_back();
+  scene.materials[0].diffuse = 1.0;
+  scene.materials[0].specular = 0.0;
+  scene.ambient = glm::dvec3(0.0);
+  scene.directional = {{{0, 0, 1}, glm::dvec3(3.0)}};
+  scene.positions_world = {{-4, -4, 0}, {4, -4, 0}, {0, 4, 0}};
+  scene.normals_world = {{0, 0, 1}, {1, 0, 0}};
+  scene.triangles = {{{0, 1, 2}, {1, 1, 0}, 0}};  // 0, 0 and 3
+  const auto triangles = Projector(scene, {64, 64}, {}).project_all();
+  const ReferenceImage image = render_gouraud(scene, triangles, {.frame = {64, 64}});
+  // The tip is at y = 32 - 25.6 (snapped 6.375), the foot at 57.6 (57.625): white until two thirds down.
+  for (std::uint32_t y = 8; y < 57; ++y) {
+    const double expected = 3.0 * (57.625 - (y + 0.5)) / (57.625 - 6.375);
+    EXPECT_EQ(image.frame.rgb[image.frame.offset(32, y)], to_byte(expected)) << y;
+  }
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// for_each_span and Edge against coverage by edge functions in 128-bit integers.
+#include "setup/edge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <vector>
+
+namespace halfway {
+namespace {
+
+using Points = std::array<ScreenPoint, 3>;
+using Int128 = __int128;
+
+/// How often each pixel of a frame was covered.
+struct Counts {
+  explicit Counts(FrameSize s) : size(s), count(std::size_t{s.width} * s.height) {}
+  FrameSize size;
+  std::vector<int> count;
+  int& at(std::uint32_t x, std::uint32_t y) { return count[std::size_t{y} * size.width + x]; }
+};
+
+void add_spans(const Points& p, int unit_bits, Counts& counts) {
+  std::int64_t last_y = -1;
+  for_each_span(p, unit_bits, counts.size, [&](std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
+    ASSERT_GT(std::int64_t{y}, last_y);
+    ASSERT_LT(y, counts.size.height);
+    ASSERT_LT(begin, end);
+    ASSERT_LE(end, counts.size.width);
+    last_y = y;
+    for (std::uint32_t x = begin; x < end; ++x) ++counts.at(x, y);
+  });
+}
+
+/// All in half units, so that pixel centres are whole numbers.
+bool covers(Points p, int unit_bits, std::uint32_t x, std::uint32_t y) {
+  const Int128 centre_x = (2 * Int128{x} + 1) << unit_bits, centre_y = (2 * Int128{y} + 1) << unit_bits;
+  const auto side = [&](ScreenPoint from, ScreenPoint to) {
+    return (Int128{to.x} - from.x) * (centre_y - 2 * Int128{from.y}) -
+           (Int128{to.y} - from.y) * (centre_x - 2 * Int128{from.x});
+  };
+  const Int128 area = (Int128{p[1].x} - p[0].x) * (Int128{p[2].y} - p[0].y) -
+                      (Int128{p[1].y} - p[0].y) * (Int128{p[2].x} - p[0].x);
+  if (area == 0) return false;
+  if (area < 0) std::swap(p[1], p[2]);
+  for (int i = 0; i < 3; ++i) {
+    const ScreenPoint from = p[i], to = p[(i + 1) % 3];
+    const Int128 s = side(from, to);
+    const bool top_left = to.y < from.y || (to.y == from.y && to.x > from.x);
+    if (s < 0 || (s == 0 && !top_left)) return false;
+  }
+  return true;
+}
+
+void expect_exact(const Points& p, int unit_bits, FrameSize frame) {
+  Counts counts(frame);
+  add_spans(p, unit_bits, counts);
+  for (std::uint32_t y = 0; y < frame.height; ++y)
+    for (std::uint32_t x = 0; x < frame.width; ++x)
+      ASSERT_EQ(counts.at(x, y), covers(p, unit_bits, x, y) ? 1 : 0)
+          << "pixel " << x << ',' << y << " of (" << p[0].x << ',' << p[0].y << ") (" << p[1].x << ','
+          << p[1].y << ") (" << p[2].x << ',' << p[2].y << ") unit_bits " << unit_bits;
+}
+
+enum class Kind { any, small, sliver, horizontal_edge, on_centres, on_corners, guard_band, point_on_edge };
+
+class RandomTriangles {
+ public:
+  RandomTriangles(unsigned seed, int unit_bits) : random_(seed), unit_bits_(unit_bits) {}
+
+  Points next(Kind kind) {
+    const std::int32_t unit = 1 << unit_bits_;
+    const auto point = [&](int low, int high) {
+      return ScreenPoint{within(low * unit, high * unit), within(low * unit, high * unit)};
+    };
+    Points p{point(-8, 32), point(-8, 32), point(-8, 32)};
+    const auto jitter = [&] { return within(-1, 1); };
+    switch (kind) {
+      case Kind::any:
+        break;
+      case Kind::small:
+        p[0] = point(0, 20);
+        for (int i : {1, 2})
+          p[i] = {p[0].x + within(-2 * unit, 2 * unit), p[0].y + within(-2 * unit, 2 * unit)};
+        break;
+      case Kind::sliver: {
+        const std::int64_t t = within(0, unit);
+        p[2] = {static_cast<std::int32_t>(p[0].x + t * (p[1].x - p[0].x) / unit) + jitter(),
+                static_cast<std::int32_t>(p[0].y + t * (p[1].y - p[0].y) / unit) + jitter()};
+        break;
+      }
+      case Kind::horizontal_edge:
+        p[1].y = p[0].y;
+        break;
+      case Kind::on_centres:
+        for (ScreenPoint& q : p) q = {within(-4, 28) * unit + unit / 2, within(-4, 28) * unit + unit / 2};
+        break;
+      case Kind::on_corners:
+        for (ScreenPoint& q : p) q = {within(-4, 28) * unit, within(-4, 28) * unit};
+        break;
+      case Kind::guard_band:
+        for (ScreenPoint& q : p) q = point(-2048, 6143);
+        break;
+      case Kind::point_on_edge:  // a pixel centre exactly halfway along an edge
+        p[0] = {within(0, 20) * unit + unit / 2 - p[1].x, p[0].y};
+        p[1] = {(2 * within(0, 20) + 1) * unit - p[0].x, (2 * within(0, 20) + 1) * unit - p[0].y};
+        break;
+    }
+    std::shuffle(p.begin(), p.end(), random_);
+    return p;
+  }
+
+ private:
+  std::int32_t within(std::int32_t low, std::int32_t high) {
+    return std::uniform_int_distribution<std::int32_t>(low, high)(random_);
+  }
+  std::mt19937 random_;
+  int unit_bits_;
+};
+
+constexpr std::array c_kinds{Kind::any,        Kind::small,      Kind::sliver,     Kind::horizontal_edge,
+                             Kind::on_centres, Kind::on_corners, Kind::guard_band, Kind::point_on_edge};
+
+TEST(Edge, CoversExactlyTheCentresByTheTopLeftRule) {
+  for (int unit_bits = 4; unit_bits <= 9; ++unit_bits)
+    for (Kind kind : c_kinds) {
+      RandomTriangles random(1000u * static_cast<unsigned>(unit_bits) + static_cast<unsigned>(kind),
+                             unit_bits);
+      for (int i = 0; i < 300; ++i) {
+        expect_exact(random.next(kind), unit_bits, {24, 20});
+        if (HasFatalFailure()) return;
+      }
+    }
+}
+
+TEST(Edge, OrderOfThePointsDoesNotMatter) {
+  RandomTriangles random(7, 4);
+  for (int i = 0; i < 500; ++i) {
+    Points p = random.next(c_kinds[static_cast<std::size_t>(i) % c_kinds.size()]);
+    Counts first({24, 20});
+    add_spans(p, 4, first);
+    std::array<int, 3> order{0, 1, 2};
+    while (std::next_permutation(order.begin(), order.end())) {
+      Counts other({24, 20});
+      add_spans({p[order[0]], p[order[1]], p[order[2]]}, 4, other);
+      ASSERT_EQ(first.count, other.count);
+    }
+  }
+}
+
+TEST(Edge, ATriangleOfNoAreaCoversNothing) {
+  std::mt19937 random(11);
+  std::uniform_int_distribution<std::int32_t> coordinate(-100, 500), step(-3, 3);
+  for (int i = 0; i < 2000; ++i) {
+    const ScreenPoint a{coordinate(random), coordinate(random)};
+    const std::int32_t dx = coordinate(random), dy = coordinate(random), m = step(random), n = step(random);
+    Counts counts({24, 20});
+    add_spans({a, {a.x + m * dx, a.y + m * dy}, {a.x + n * dx, a.y + n * dy}}, 4, counts);
+    for (int c : counts.count) ASSERT_EQ(c, 0);
+  }
+}
+
+// What the hardware's edge walker does line by line must be what at() says of each line.
+TEST(Edge, SteppingByQuotientAndRemainderReproducesAt) {
+  for (int unit_bits = 4; unit_bits <= 9; ++unit_bits)
+    for (Kind kind : c_kinds) {
+      RandomTriangles random(77u + static_cast<unsigned>(unit_bits), unit_bits);
+      for (int i = 0; i < 60; ++i) {
+        const Points p = random.next(kind);
+        const auto [top, bottom] = p[0].y < p[1].y ? std::pair(p[0], p[1]) : std::pair(p[1], p[0]);
+        if (top.y == bottom.y) continue;
+        const Edge edge(top, bottom, unit_bits);
+        const FlooredQuotient slope = floor_divide(edge.dx(), edge.dy());
+        const std::int64_t begin = first_line(top.y, unit_bits), end = first_line(bottom.y, unit_bits);
+        Edge::State state = edge.at(begin);
+        for (std::int64_t y = begin; y < end; ++y) {
+          const Edge::State expected = edge.at(y);
+          ASSERT_EQ(state.pixel, expected.pixel) << "line " << y;
+          ASSERT_EQ(state.error, expected.error) << "line " << y;
+          ASSERT_GE(state.error, 0);
+          ASSERT_LT(state.error, edge.dy());
+          state.pixel += slope.quotient;
+          state.error -= slope.remainder;
+          if (state.error < 0) {
+            state.error += edge.dy();
+            ++state.pixel;
+          }
+        }
+      }
+    }
+}
+
+TEST(Edge, AJitteredGridCoversEachPixelOnce) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 40; ++round) {
+    constexpr int c_cells = 9, c_unit = 16;
+    const FrameSize frame{40, 36};
+    std::uniform_int_distribution<std::int32_t> jitter(-c_unit, c_unit);
+    std::array<std::array<ScreenPoint, c_cells + 1>, c_cells + 1> grid;
+    for (int j = 0; j <= c_cells; ++j)
+      for (int i = 0; i <= c_cells; ++i)
+        // Every other round keeps vertices on lattice lines, where ties are.
+        grid[j][i] = {(i * 6 - 6) * c_unit + (round % 2 ? jitter(random) : c_unit / 2),
+                      (j * 6 - 6) * c_unit + (round % 2 ? jitter(random) : c_unit / 2)};
+    Counts counts(frame);
+    // A triangle split at its edges' midpoints, which take one more bit, must still meet its unsplit
+    // neighbour.
+    const auto draw = [&](ScreenPoint a, ScreenPoint b, ScreenPoint c) {
+      if (random() % 2) return add_spans({a, b, c}, 4, counts);
+      const auto middle = [](ScreenPoint p, ScreenPoint q) { return ScreenPoint{p.x + q.x, p.y + q.y}; };
+      const auto twice = [](ScreenPoint p) { return ScreenPoint{2 * p.x, 2 * p.y}; };
+      const ScreenPoint ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      add_spans({twice(a), ab, ca}, 5, counts);
+      add_spans({ab, twice(b), bc}, 5, counts);
+      add_spans({ca, bc, twice(c)}, 5, counts);
+      add_spans({ab, bc, ca}, 5, counts);
+    };
+    for (int j = 0; j < c_cells; ++j)
+      for (int i = 0; i < c_cells; ++i) {
+        const ScreenPoint a = grid[j][i], b = grid[j][i + 1], c = grid[j + 1][i + 1], d = grid[j + 1][i];
+        if (random() % 2) {
+          draw(a, b, c);
+          draw(a, c, d);
+        } else {
+          draw(a, b, d);
+          draw(b, c, d);
+        }
+      }
+    for (std::uint32_t y = 0; y < frame.height; ++y)
+      for (std::uint32_t x = 0; x < frame.width; ++x) ASSERT_EQ(counts.at(x, y), 1) << x << ',' << y;
+  }
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "setup/project.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <tuple>
+#include <utility>
+
+namespace halfway {
+namespace {
+
+// Far beyond any scene, and far enough from the largest double that no product below overflows.
+constexpr double c_largest_coordinate = 1e100;
+
+// Times the near distance. An edge whose nearer end is farther away than this may pass the eye closely and be
+// cut there with an error of 1/64 pixel or more.
+constexpr double c_largest_to_cut = 1e13;
+
+// Shorter interpolated normals are rounding noise: their direction means nothing.
+constexpr double c_shortest_normal = 1e-8;
+
+bool representable(double v) {
+  return std::abs(v) <= c_largest_coordinate;
+}  // false for NaN
+
+/// Scales before squaring: edges of 1e-200 have a direction too.
+glm::dvec3 unit_or_zero(glm::dvec3 v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return largest > 0 && std::isfinite(largest) ? glm::normalize(v / largest) : glm::dvec3(0.0);
+}
+
+glm::dvec3 geometric_normal_world(const ScreenTriangle& triangle) {
+  const auto& [a, b, c] = triangle.vertex;
+  // Screen order is clockwise seen from outside, y being down: c before b.
+  const glm::dvec3 normal = unit_or_zero(glm::cross(unit_or_zero(c.position_world - a.position_world),
+                                                    unit_or_zero(b.position_world - a.position_world)));
+  if (normal != glm::dvec3(0.0)) return normal;
+  for (const ScreenVertex& v : triangle.vertex)
+    if (const glm::dvec3 n = unit_or_zero(v.normal_world); n != glm::dvec3(0.0)) return n;
+  return {0.0, 0.0, 1.0};
+}
+
+}  // namespace
+
+ProjectionCounts& ProjectionCounts::operator+=(const ProjectionCounts& other) {
+  visible += other.visible;
+  back_facing += other.back_facing;
+  behind_near += other.behind_near;
+  outside += other.outside;
+  degenerate += other.degenerate;
+  unrepresentable += other.unrepresentable;
+  return *this;
+}
+
+Projector::Projector(const Scene& scene, FrameSize frame, ProjectionOptions options)
+    : scene_(&scene), frame_(frame), options_(options) {
+  options_.subpixel_bits = std::clamp(options.subpixel_bits, 0, c_max_subpixel_bits);
+  const double width = frame.width, height = frame.height;
+  const Camera& camera = scene.camera;
+  eye_world_ = camera.eye_world;
+  basis_ = view_basis(camera);
+  depth_range_ = depth_range(camera, bounding_sphere(scene));
+  focal_pixels_ = 0.5 * height / std::tan(0.5 * glm::radians(camera.vertical_fov_degrees));
+  usable_ = has_view(camera) && depth_range_.near > 0 && depth_range_.near < depth_range_.far &&
+            depth_range_.far <= c_largest_coordinate && focal_pixels_ > 0 &&
+            options.subpixel_bits == options_.subpixel_bits;
+
+  const bool to_frame = options.clip_to_frame;
+  const double left = to_frame ? 0.0 : c_guard_begin, right = to_frame ? width : c_guard_end;
+  const double top = to_frame ? 0.0 : c_guard_begin, bottom = to_frame ? height : c_guard_end;
+  planes_ = {{{0, 0, 1, -depth_range_.near},
+              {0, 0, -1, depth_range_.far},
+              {1, 0, -left, 0},
+              {-1, 0, right, 0},
+              {0, 1, -top, 0},
+              {0, -1, bottom, 0}}};
+
+  // A vertex that names a pixel must name one of the frame; a point of the plane may lie on the frame's far
+  // side.
+  const int last = to_frame && options_.subpixel_bits == 0 ? 1 : 0;
+  const auto units = [&](double pixels) {
+    return static_cast<std::int32_t>(pixels) * (1 << options_.subpixel_bits);
+  };
+  snapped_range_ = {units(left), units(right) - last, units(top), units(bottom) - last};
+}
+
+Projector::ClipVertex Projector::transform(glm::dvec3 position_world, glm::dvec3 normal_world) const {
+  const glm::dvec3 from_eye = position_world - eye_world_;
+  const double w = -glm::dot(from_eye, basis_.backward_world);
+  return {focal_pixels_ * glm::dot(from_eye, basis_.right_world) + 0.5 * frame_.width * w,
+          -focal_pixels_ * glm::dot(from_eye, basis_.up_world) + 0.5 * frame_.height * w, w, position_world,
+          normal_world};
+}
+
+// Both triangles at an edge call this with the same two points, in either order: sort them, so that both get
+// the same bits. From the smaller one, because what is added to it rounds relative to the result.
+Projector::ClipVertex Projector::intersect(const ClipVertex& a, const ClipVertex& b, const Plane& plane) {
+  const bool in_order = std::tuple(a.magnitude(), a.x, a.y, a.w) < std::tuple(b.magnitude(), b.x, b.y, b.w);
+  const ClipVertex& p = in_order ? a : b;
+  const ClipVertex& q = in_order ? b : a;
+  const double distance_p = plane.distance(p), distance_q = plane.distance(q);
+  const double t = distance_p / (distance_p - distance_q);
+  const auto mix = [t](auto from, auto to) { return from + t * (to - from); };
+  return {mix(p.x, q.x), mix(p.y, q.y), mix(p.w, q.w), mix(p.position_world, q.position_world),
+          mix(p.normal_world, q.normal_world)};
+}
+
+bool Projector::clip(std::vector<ClipVertex>& polygon, std::vector<ClipVertex>& scratch, const Plane& plane) {
+  const auto inside = [&](const ClipVertex& v) { return plane.distance(v) >= 0; };
+  if (std::all_of(polygon.begin(), polygon.end(), inside)) return false;
+  scratch.clear();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ClipVertex& here = polygon[i];
+    const ClipVertex& next = polygon[(i + 1) % polygon.size()];
+    if (inside(here)) scratch.push_back(here);
+    if (inside(here) != inside(next)) scratch.push_back(intersect(here, next, plane));
+  }
+  std::swap(polygon, scratch);
+  return true;
+}
+
+double Projector::depth(double w) const {
+  const auto [near, far] = depth_range_;
+  return std::clamp(far / w * ((w - near) / (far - near)), 0.0, 1.0);
+}
+
+ScreenVertex Projector::snap(const ClipVertex& v) const {
+  const double w =
+      std::max(v.w, depth_range_.near);  // an intersection may fall a rounding short of the near plane
+  const double scale = 1 << options_.subpixel_bits;
+  const double to_pixel = options_.subpixel_bits == 0 ? 0.5 : 0.0;
+  const auto round_into = [&](double pixels, std::int32_t least, std::int32_t greatest) {
+    const double rounded = std::floor((pixels - to_pixel) * scale + 0.5);
+    return static_cast<std::int32_t>(
+        std::clamp(rounded, static_cast<double>(least), static_cast<double>(greatest)));
+  };
+  return {round_into(v.x / w, snapped_range_[0], snapped_range_[1]),
+          round_into(v.y / w, snapped_range_[2], snapped_range_[3]),
+          depth(w),
+          1.0 / w,
+          v.position_world,
+          v.normal_world};
+}
+
+void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out,
+                        ProjectionCounts& counts) const {
+  const SceneTriangle& source = scene_->triangles[triangle];
+  std::vector<ClipVertex> polygon, scratch;
+  polygon.reserve(9);  // each of the six planes adds a corner at most
+  for (int i = 0; i < 3; ++i) {
+    const ClipVertex v =
+        transform(scene_->positions_world[source.position[i]], scene_->normals_world[source.normal[i]]);
+    if (!usable_ || !representable(v.x) || !representable(v.y) || !representable(v.w)) {
+      ++counts.unrepresentable;
+      return;
+    }
+    polygon.push_back(v);
+  }
+  // Its sign, that of the volume eye and triangle span, tells front from back before any division.
+  const auto& a = polygon[0];
+  const auto& b = polygon[1];
+  const auto& c = polygon[2];
+  const bool faces_away =
+      a.x * (b.y * c.w - b.w * c.y) + a.y * (b.w * c.x - b.x * c.w) + a.w * (b.x * c.y - b.y * c.x) > 0;
+
+  const std::array<double, 3> magnitude{a.magnitude(), b.magnitude(), c.magnitude()};
+  const double middle_magnitude = std::max(std::min(magnitude[0], magnitude[1]),
+                                           std::min(std::max(magnitude[0], magnitude[1]), magnitude[2]));
+  bool was_cut = clip(polygon, scratch, planes_[0]);
+  if (polygon.empty()) {
+    ++counts.behind_near;
+    return;
+  }
+  for (std::size_t i = 1; i < planes_.size() && !polygon.empty(); ++i)
+    was_cut |= clip(polygon, scratch, planes_[i]);
+  if (polygon.empty()) {
+    ++counts.outside;
+    return;
+  }
+  if (was_cut && middle_magnitude > c_largest_to_cut * depth_range_.near) {
+    ++counts.unrepresentable;
+    return;
+  }
+
+  std::vector<ScreenVertex> corner;
+  corner.reserve(polygon.size());
+  for (const ClipVertex& v : polygon) corner.push_back(snap(v));
+  const auto [left, right] = std::minmax_element(corner.begin(), corner.end(),
+                                                 [](const auto& p, const auto& q) { return p.x < q.x; });
+  const auto [top, bottom] = std::minmax_element(corner.begin(), corner.end(),
+                                                 [](const auto& p, const auto& q) { return p.y < q.y; });
+  const std::int32_t unit = 1 << options_.subpixel_bits;
+  if (right->x < 0 || bottom->y < 0 || left->x > std::int64_t{frame_.width} * unit ||
+      top->y > std::int64_t{frame_.height} * unit) {
+    ++counts.outside;
+    return;
+  }
+
+  // The snapped area decides alone which way a triangle faces: what turned over in snapping is covered by its
+  // neighbours, which moved with it.
+  bool any = false;
+  for (std::size_t i = 1; i + 1 < corner.size(); ++i) {
+    const ScreenTriangle piece{triangle, source.material, {corner[0], corner[i + 1], corner[i]}};
+    if (piece.twice_area() <= 0) continue;
+    out.push_back(piece);
+    any = true;
+  }
+  if (any)
+    ++counts.visible;
+  else
+    ++(faces_away ? counts.back_facing : counts.degenerate);
+}
+
+void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out) const {
+  ProjectionCounts ignored;
+  project(triangle, out, ignored);
+}
+
+std::vector<ScreenTriangle> Projector::project_all(ProjectionCounts* counts) const {
+  std::vector<ScreenTriangle> out;
+  ProjectionCounts all;
+  for (std::uint32_t i = 0; i < scene_->triangles.size(); ++i) project(i, out, all);
+  if (counts != nullptr) *counts += all;
+  return out;
+}
+
+glm::dvec3 barycentric_screen(const ScreenTriangle& triangle, std::int64_t x_half, std::int64_t y_half) {
+  const auto& vertex = triangle.vertex;
+  // Twice the area of (point, p, q), doubled by the half units: below 2^46 each, exact.
+  const auto area = [&](const ScreenVertex& p, const ScreenVertex& q) {
+    return (2 * std::int64_t{p.x} - x_half) * (q.y - p.y) - (2 * std::int64_t{p.y} - y_half) * (q.x - p.x);
+  };
+  const double whole = 2.0 * static_cast<double>(triangle.twice_area());
+  const auto weight = [&](int i) {
+    return static_cast<double>(area(vertex[(i + 1) % 3], vertex[(i + 2) % 3])) / whole;
+  };
+  return {weight(0), weight(1), weight(2)};
+}
+
+SurfacePoint surface_point(const ScreenTriangle& triangle, glm::dvec3 barycentric_screen) {
+  const auto& [a, b, c] = triangle.vertex;
+  glm::dvec3 weight = barycentric_screen * glm::dvec3(a.inverse_w, b.inverse_w, c.inverse_w);
+  weight /= weight.x + weight.y + weight.z;
+  const glm::dvec3 normal = weight.x * a.normal_world + weight.y * b.normal_world + weight.z * c.normal_world;
+  const double length = glm::length(normal);
+  return {weight.x * a.position_world + weight.y * b.position_world + weight.z * c.position_world,
+          length > c_shortest_normal ? normal / length : geometric_normal_world(triangle),
+          glm::dot(barycentric_screen, glm::dvec3(a.z, b.z, c.z))};
+}
+
+}  // namespace halfway

@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "setup/project.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <limits>
+#include <map>
+#include <random>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace halfway {
+namespace {
+
+std::vector<int> coverage(std::span<const ScreenTriangle> triangles, FrameSize frame, int subpixel_bits) {
+  std::vector<int> count(std::size_t{frame.width} * frame.height);
+  for (const ScreenTriangle& t : triangles)
+    for_each_span({ScreenPoint{t.vertex[0].x, t.vertex[0].y}, ScreenPoint{t.vertex[1].x, t.vertex[1].y},
+                   ScreenPoint{t.vertex[2].x, t.vertex[2].y}},
+                  subpixel_bits, frame, [&](std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
+                    for (std::uint32_t x = begin; x < end; ++x) ++count[std::size_t{y} * frame.width + x];
+                  });
+  return count;
+}
+
+void expect_sound(std::span<const ScreenTriangle> triangles, FrameSize frame, ProjectionOptions options) {
+  const std::int32_t unit = 1 << options.subpixel_bits;
+  const int last = options.clip_to_frame && options.subpixel_bits == 0 ? 1 : 0;
+  const std::int32_t low = options.clip_to_frame ? 0 : c_guard_begin * unit;
+  const std::int32_t high_x =
+      options.clip_to_frame ? static_cast<std::int32_t>(frame.width) * unit - last : c_guard_end * unit;
+  const std::int32_t high_y =
+      options.clip_to_frame ? static_cast<std::int32_t>(frame.height) * unit - last : c_guard_end * unit;
+  for (const ScreenTriangle& t : triangles) {
+    ASSERT_GT(t.twice_area(), 0);
+    for (const ScreenVertex& v : t.vertex) {
+      ASSERT_GE(v.x, low);
+      ASSERT_GE(v.y, low);
+      ASSERT_LE(v.x, high_x);
+      ASSERT_LE(v.y, high_y);
+      ASSERT_GE(v.z, 0.0);
+      ASSERT_LE(v.z, 1.0);
+      ASSERT_GT(v.inverse_w, 0.0);
+      ASSERT_TRUE(std::isfinite(v.inverse_w));
+    }
+  }
+}
+
+Scene one_triangle(std::array<glm::dvec3, 3> corners) {
+  Scene scene;
+  scene.camera.near = 0.5;
+  scene.camera.far = 100.0;
+  scene.materials.emplace_back();
+  scene.positions_world.assign(corners.begin(), corners.end());
+  scene.normals_world = {{0, 0, 1}};
+  scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}};
+  return scene;
+}
+
+/// An octahedron split `levels` times, its corners on the unit sphere.
+Scene sphere_scene(int levels, unsigned seed) {
+  Scene scene;
+  scene.materials.emplace_back();
+  auto& p = scene.positions_world;
+  p = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  std::vector<std::array<std::uint32_t, 3>> faces{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                                  {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  for (int level = 0; level < levels; ++level) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+      const auto [it, added] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(p.size()));
+      if (added) p.push_back(glm::normalize(p[a] + p[b]));
+      return it->second;
+    };
+    std::vector<std::array<std::uint32_t, 3>> next;
+    for (const auto& [a, b, c] : faces) {
+      const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      next.insert(next.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    faces = next;
+  }
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  const auto direction = [&] {
+    return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+  };
+  scene.camera.eye_world = 4.0 * direction();
+  scene.camera.up_world = direction();
+  scene.normals_world = p;
+  for (const auto& f : faces) scene.triangles.push_back({f, f, 0});
+  return scene;
+}
+
+TEST(Project, AVertexLandsWhereTheCameraPutsIt) {
+  // 90 degrees of height: at distance 5 the frame is 10 high, 64 pixels; x to the right, y turned down.
+  Scene scene = one_triangle({{{0, 0, 0}, {2.5, 0, 0}, {0, 1.25, 0}}});
+  scene.camera.vertical_fov_degrees = 90.0;
+  const Projector projector(scene, {96, 64}, {});
+  const auto triangles = projector.project_all();
+  ASSERT_EQ(triangles.size(), 1u);
+  const auto& [a, b, c] = triangles[0].vertex;  // turned round: y is down
+  EXPECT_EQ(a.x, 48 * 16);
+  EXPECT_EQ(a.y, 32 * 16);
+  EXPECT_EQ(b.x, 48 * 16);
+  EXPECT_EQ(b.y, 24 * 16);
+  EXPECT_EQ(c.x, 64 * 16);
+  EXPECT_EQ(c.y, 32 * 16);
+  EXPECT_DOUBLE_EQ(a.inverse_w, 0.2);
+  EXPECT_DOUBLE_EQ(a.z, 100.0 * 4.5 / (5.0 * 99.5));
+  EXPECT_EQ(a.position_world, glm::dvec3(0.0));
+}
+
+TEST(Project, WithoutSubpixelsAVertexIsThePixelItFallsIn) {
+  Scene scene = one_triangle({{{-5, -5, 0}, {5, -5, 0}, {1.36, 5, 0}}});
+  scene.camera.vertical_fov_degrees = 90.0;
+  const Projector projector(scene, {64, 64}, {.subpixel_bits = 0, .clip_to_frame = true});
+  const auto triangles = projector.project_all();
+  ASSERT_EQ(triangles.size(), 1u);
+  EXPECT_EQ(triangles[0].vertex[0].x, 0);
+  EXPECT_EQ(triangles[0].vertex[0].y, 63);  // y = 64.0 is the frame's end, its last pixel 63
+  EXPECT_EQ(triangles[0].vertex[1].x, 40);  // 32 + 1.36 * 6.4 = 40.704
+  EXPECT_EQ(triangles[0].vertex[1].y, 0);
+  EXPECT_EQ(triangles[0].vertex[2].x, 63);
+}
+
+TEST(Project, CountsWhyNothingIsSeen) {
+  const auto counts_of = [](std::array<glm::dvec3, 3> corners) {
+    const Scene scene = one_triangle(corners);
+    ProjectionCounts counts;
+    const auto triangles = Projector(scene, {64, 64}, {}).project_all(&counts);
+    EXPECT_EQ(triangles.empty(), counts.visible == 0);
+    return counts;
+  };
+  EXPECT_EQ(counts_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}).visible, 1u);
+  EXPECT_EQ(counts_of({{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}}).back_facing, 1u);
+  EXPECT_EQ(counts_of({{{0, 0, 4.6}, {1, 0, 9}, {0, 1, 5}}}).behind_near, 1u);
+  EXPECT_EQ(counts_of({{{0, 0, -96}, {1, 0, -100}, {0, 1, -200}}}).outside, 1u);
+  EXPECT_EQ(counts_of({{{90, 0, 0}, {91, 0, 0}, {90, 1, 0}}}).outside, 1u);
+  EXPECT_EQ(counts_of({{{1e9, 0, 0}, {2e9, 0, 0}, {1e9, 1e9, 0}}}).outside, 1u);
+  EXPECT_EQ(counts_of({{{0, 0, 0}, {1e-5, 0, 0}, {0, 1e-5, 0}}}).degenerate, 1u);
+  EXPECT_EQ(counts_of({{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}}}).degenerate, 1u);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (double bad : {nan, inf, -inf, 1e200, -1e300})
+    EXPECT_EQ(counts_of({{{0, 0, 0}, {1, 0, 0}, {0, bad, 0}}}).unrepresentable, 1u) << bad;
+}
+
+TEST(Project, ACornerNearInfinityIsCutWhereItShould) {
+  // A band of 45 degrees from the frame's middle up to one of its corners, in the scene and mirrored.
+  const FrameSize frame{64, 64};
+  for (const bool to_the_left : {false, true}) {
+    const double side = to_the_left ? -1.0 : 1.0;
+    const glm::dvec3 inner{-0.1 * side, 0, 0}, outer{side, 0, 0}, far{1e60 * side, 1e60, 0};
+    Scene scene = to_the_left ? one_triangle({{inner, far, outer}}) : one_triangle({{inner, outer, far}});
+    scene.camera.vertical_fov_degrees = 90.0;
+    for (bool clip_to_frame : {false, true}) {
+      const auto triangles = Projector(scene, frame, {.clip_to_frame = clip_to_frame}).project_all();
+      const std::vector<int> count = coverage(triangles, frame, 4);
+      for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {  // from the middle its feet are at -0.625 and 6.375 pixels, snapped
+          const double from_middle = (x + 0.5 - 32.0) * side - (32.0 - (y + 0.5));
+          const bool covered = y < 32 && from_middle > -0.625 && from_middle < 6.375;
+          ASSERT_EQ(count[static_cast<std::size_t>(y * 64 + x)], covered ? 1 : 0) << x << ',' << y;
+        }
+    }
+  }
+  // Two such corners: no digits are left to say where the edge between them passes.
+  const Scene scene = one_triangle({{{0, 0, 0}, {1e60, 0, 0}, {-1e60, 1e60, 3}}});
+  ProjectionCounts counts;
+  EXPECT_TRUE(Projector(scene, frame, {}).project_all(&counts).empty());
+  EXPECT_EQ(counts.unrepresentable, 1u);
+}
+
+TEST(Project, ACameraWithoutAViewDrawsNothingAndSaysSo) {
+  Scene scene = one_triangle({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}});
+  scene.camera.up_world = {0, 0, 1};  // along the viewing axis
+  ProjectionCounts counts;
+  EXPECT_TRUE(Projector(scene, {64, 64}, {}).project_all(&counts).empty());
+  EXPECT_EQ(counts.unrepresentable, 1u);
+  scene.camera.up_world = {0, 1, 0};
+  for (int bits : {-1, 10, 1000}) {
+    counts = {};
+    EXPECT_TRUE(Projector(scene, {64, 64}, {.subpixel_bits = bits}).project_all(&counts).empty());
+    EXPECT_EQ(counts.unrepresentable, 1u);
+  }
+}
+
+TEST(Project, AClosedConvexMeshCoversEachPixelOnceWithoutHoles) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const Scene scene = sphere_scene(static_cast<int>(seed % 5), seed);
+    const FrameSize frame{160, 120};
+    for (bool clip_to_frame : {false, true}) {
+      ProjectionCounts counts;
+      const ProjectionOptions options{.subpixel_bits = 4, .clip_to_frame = clip_to_frame};
+      const auto triangles = Projector(scene, frame, options).project_all(&counts);
+      expect_sound(triangles, frame, options);
+      EXPECT_EQ(counts.visible + counts.back_facing + counts.degenerate, scene.triangles.size());
+      const std::vector<int> count = coverage(triangles, frame, 4);
+      int covered = 0;
+      for (std::uint32_t y = 0; y < frame.height; ++y) {
+        int changes = 0;
+        for (std::uint32_t x = 0; x < frame.width; ++x) {
+          const int here = count[std::size_t{y} * frame.width + x];
+          ASSERT_LE(here, 1) << "seed " << seed << " pixel " << x << ',' << y;
+          const int before = x > 0 ? count[std::size_t{y} * frame.width + x - 1] : 0;
+          changes += here != before;
+          covered += here;
+        }
+        ASSERT_LE(changes, 2) << "a hole, seed " << seed << " line " << y;
+      }
+      EXPECT_GT(covered, 1500);
+    }
+  }
+}
+
+/// Ground in world y = 0, cells jittered within the plane, `half` units to each side of the origin.
+Scene ground_scene(unsigned seed, int cells, double half) {
+  Scene scene;
+  scene.materials.emplace_back();
+  scene.normals_world = {{0, 1, 0}};
+  std::mt19937 random(seed);
+  const double cell = 2.0 * half / cells;
+  std::uniform_real_distribution<double> jitter(-0.3 * cell, 0.3 * cell);
+  for (int j = 0; j <= cells; ++j)
+    for (int i = 0; i <= cells; ++i)
+      scene.positions_world.emplace_back(-half + i * cell + jitter(random), 0.0,
+                                         -half + j * cell + jitter(random));
+  const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (cells + 1) + i); };
+  for (int j = 0; j < cells; ++j)
+    for (int i = 0; i < cells; ++i) {
+      const std::uint32_t a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+      // Counter-clockwise seen from above, z towards the viewer.
+      if (random() % 2)
+        scene.triangles.insert(scene.triangles.end(), {{{a, d, c}, {0, 0, 0}, 0}, {{a, c, b}, {0, 0, 0}, 0}});
+      else
+        scene.triangles.insert(scene.triangles.end(), {{{a, d, b}, {0, 0, 0}, 0}, {{b, d, c}, {0, 0, 0}, 0}});
+    }
+  return scene;
+}
+
+// The eye stands on a ground that reaches behind it, so that triangles cross near plane, far plane, guard
+// band and frame. Which pixels see ground is known from the ray through each.
+TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
+  std::mt19937 random(99);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  int clipped_at_guard = 0, clipped_at_near = 0;
+  for (unsigned round = 0; round < 60; ++round) {
+    Scene scene = ground_scene(round, 5, 40.0);
+    Camera& camera = scene.camera;
+    camera.eye_world = {3.0 * unit(random), 1.0, 3.0 * unit(random)};
+    camera.target_world = camera.eye_world + glm::dvec3(unit(random), -0.45, -1.0);
+    camera.up_world = {0.6 * unit(random), 1.0, 0.0};
+    camera.vertical_fov_degrees = 75.0;
+    camera.near = 0.8;
+    camera.far = 12.0;
+    const FrameSize frame{round % 2 ? 120u : 1000u, round % 2 ? 90u : 700u};
+    const ViewBasis basis = view_basis(camera);
+    const double focal = 0.5 * frame.height / std::tan(glm::radians(37.5));
+    for (bool clip_to_frame : {false, true}) {
+      const ProjectionOptions options{.subpixel_bits = 4, .clip_to_frame = clip_to_frame};
+      const auto triangles = Projector(scene, frame, options).project_all();
+      expect_sound(triangles, frame, options);
+      if (HasFatalFailure()) return;
+      for (const ScreenTriangle& t : triangles)
+        for (const ScreenVertex& v : t.vertex) {
+          clipped_at_guard += !clip_to_frame && (v.x == c_guard_begin * 16 || v.x == c_guard_end * 16 ||
+                                                 v.y == c_guard_begin * 16 || v.y == c_guard_end * 16);
+          clipped_at_near += std::abs(v.inverse_w * camera.near - 1.0) < 1e-9;
+        }
+      const std::vector<int> count = coverage(triangles, frame, 4);
+      const auto sees_ground = [&](double x, double y) {
+        const glm::dvec3 ray = (x - 0.5 * frame.width) / focal * basis.right_world -
+                               (y - 0.5 * frame.height) / focal * basis.up_world - basis.backward_world;
+        const double distance = -camera.eye_world.y / ray.y;  // along the viewing axis
+        return ray.y < 0 && distance >= camera.near && distance <= camera.far;
+      };
+      for (std::uint32_t y = 0; y < frame.height; ++y)
+        for (std::uint32_t x = 0; x < frame.width; ++x) {
+          const int here = count[std::size_t{y} * frame.width + x];
+          // Snapped borders move by up to 1/32 of a pixel; inside, nothing may.
+          const double cx = x + 0.5, cy = y + 0.5, d = 1.0 / 16.0;
+          const bool inside = sees_ground(cx, cy);
+          bool near_border = false;
+          for (double dx : {-d, d})
+            for (double dy : {-d, d}) near_border |= sees_ground(cx + dx, cy + dy) != inside;
+          if (near_border)
+            ASSERT_LE(here, 1);
+          else
+            ASSERT_EQ(here, inside ? 1 : 0) << "round " << round << " pixel " << x << ',' << y;
+        }
+    }
+  }
+  // The scenes must be such that the test means something.
+  EXPECT_GT(clipped_at_guard, 100);
+  EXPECT_GT(clipped_at_near, 100);
+}
+
+// Two triangles at one edge, taken in opposite directions, in any position: the points cut on the edge are
+// the same.
+TEST(Project, ASharedEdgeIsCutAtTheSamePoints) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto point = [&] { return glm::dvec3(9 * unit(random), 9 * unit(random), 9 * unit(random)); };
+  int cuts = 0;
+  for (int round = 0; round < 3000; ++round) {
+    Scene scene = one_triangle({point(), point(), point()});
+    scene.positions_world.push_back(point());
+    scene.camera.far = 11.0;
+    const FrameSize frame{64, 48};
+    // By where they lie along the edge, roughly: their place, exactly.
+    const auto cut_points = [&](SceneTriangle t) {
+      scene.triangles = {t};
+      std::map<std::int64_t, std::array<double, 5>> found;
+      for (int turn = 0; turn < 2; ++turn) {  // seen from either side
+        if (turn) std::swap(scene.triangles[0].position[1], scene.triangles[0].position[2]);
+        for (const ScreenTriangle& s :
+             Projector(scene, frame, {.clip_to_frame = round % 2 == 0}).project_all())
+          for (const ScreenVertex& v : s.vertex) {
+            const glm::dvec3 p = v.position_world, a = scene.positions_world[0], b = scene.positions_world[1];
+            const double along = glm::dot(p - a, b - a) / glm::dot(b - a, b - a);
+            if (glm::length(p - (a + along * (b - a))) < 1e-12 && along > 1e-9 && along < 1 - 1e-9)
+              found[std::llround(along * 1e7)] = {double(v.x), double(v.y), p.x, p.y, p.z};
+          }
+      }
+      return found;
+    };
+    const auto first = cut_points({{0, 1, 2}, {0, 0, 0}, 0});
+    const auto second = cut_points({{1, 0, 3}, {0, 0, 0}, 0});
+    for (const auto& [along, point_of_first] : first)
+      if (const auto it = second.find(along);
+          it != second.end()) {  // the other's piece may have snapped to nothing
+        ASSERT_EQ(point_of_first, it->second) << round;
+        ++cuts;
+      }
+  }
+  EXPECT_GT(cuts, 300);
+}
+
+/// A triangle whose vertices lie exactly on snapped coordinates: from the screen back to the world.
+struct Unprojected {
+  Scene scene;
+  ScreenTriangle triangle;
+  ViewBasis basis;
+  double focal;
+  glm::dvec3 ray(double x, double y) const {
+    return (x - 32.0) / focal * basis.right_world - (y - 32.0) / focal * basis.up_world -
+           basis.backward_world;
+  }
+};
+
+Unprojected unprojected(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::uniform_int_distribution<std::int32_t> coordinate(0, 64 * 16);
+  Unprojected u;
+  u.scene.camera.eye_world = {unit(random), unit(random), 5.0};
+  u.scene.camera.near = 1.0;
+  u.scene.camera.far = 20.0;
+  u.basis = view_basis(u.scene.camera);
+  u.focal = 32.0 / std::tan(glm::radians(20.0));
+  do {
+    for (ScreenVertex& v : u.triangle.vertex) {
+      v.x = coordinate(random);
+      v.y = coordinate(random);
+      const double w = 6.0 + 5.0 * unit(random);
+      v.z = 20.0 * (w - 1.0) / (w * 19.0);
+      v.inverse_w = 1.0 / w;
+      v.position_world = u.scene.camera.eye_world + w * u.ray(v.x / 16.0, v.y / 16.0);
+      v.normal_world = glm::normalize(glm::dvec3(unit(random), unit(random), 1.5));
+    }
+  } while (u.triangle.twice_area() < 64 * 256);
+  return u;
+}
+
+TEST(SurfacePoint, IsWhereTheRayMeetsTheTriangle) {
+  std::mt19937 random(17);
+  for (int round = 0; round < 200; ++round) {
+    const Unprojected u = unprojected(random);
+    const auto& [a, b, c] = u.triangle.vertex;
+    const glm::dvec3 normal =
+        glm::cross(b.position_world - a.position_world, c.position_world - a.position_world);
+    for_each_span({ScreenPoint{a.x, a.y}, ScreenPoint{b.x, b.y}, ScreenPoint{c.x, c.y}}, 4, {64, 64},
+                  [&](std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
+                    const std::uint32_t x = (begin + end) / 2;
+                    const glm::dvec3 weights =
+                        barycentric_screen(u.triangle, (2 * x + 1) << 4, (2 * y + 1) << 4);
+                    EXPECT_NEAR(weights.x + weights.y + weights.z, 1.0, 1e-15);
+                    const glm::dvec3 ray = u.ray(x + 0.5, y + 0.5);
+                    const glm::dvec3 eye = u.scene.camera.eye_world;
+                    const double w = glm::dot(normal, a.position_world - eye) / glm::dot(normal, ray);
+                    const SurfacePoint point = surface_point(u.triangle, weights);
+                    EXPECT_LT(glm::length(point.position_world - (eye + w * ray)), 1e-10 * w);
+                    EXPECT_NEAR(point.z, 20.0 * (w - 1.0) / (w * 19.0), 1e-11);
+                    EXPECT_NEAR(glm::length(point.normal_world), 1.0, 1e-14);
+                  });
+  }
+}
+
+TEST(SurfacePoint, BarycentricsAreExactAtVerticesAndMidpoints) {
+  std::mt19937 random(18);
+  for (int round = 0; round < 200; ++round) {
+    const ScreenTriangle t = unprojected(random).triangle;
+    const auto& [a, b, c] = t.vertex;
+    EXPECT_EQ(barycentric_screen(t, 2 * a.x, 2 * a.y), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(barycentric_screen(t, 2 * b.x, 2 * b.y), glm::dvec3(0, 1, 0));
+    EXPECT_EQ(barycentric_screen(t, 2 * c.x, 2 * c.y), glm::dvec3(0, 0, 1));
+    EXPECT_EQ(barycentric_screen(t, b.x + c.x, b.y + c.y), glm::dvec3(0, 0.5, 0.5));
+  }
+}
+
+TEST(SurfacePoint, OpposedNormalsFallBackToTheTrianglesOwn) {
+  Scene scene = one_triangle({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}});
+  auto triangle = Projector(scene, {64, 64}, {}).project_all().at(0);
+  triangle.vertex[0].normal_world = {1, 0, 0};
+  triangle.vertex[1].normal_world = {-1, 0, 0};
+  EXPECT_EQ(surface_point(triangle, {0.5, 0.5, 0.0}).normal_world, glm::dvec3(0, 0, 1));  // towards the eye
+  // One step of rounding beside it the direction is still noise.
+  EXPECT_EQ(surface_point(triangle, {0.5 + 1e-15, 0.5 - 1e-15, 0.0}).normal_world, glm::dvec3(0, 0, 1));
+  EXPECT_NEAR(surface_point(triangle, {0.6, 0.4, 0.0}).normal_world.x, 1.0, 1e-15);
+  // Not even the corners know one: still a unit vector.
+  for (ScreenVertex& v : triangle.vertex) v.position_world = v.normal_world = glm::dvec3(0.0);
+  EXPECT_EQ(glm::length(surface_point(triangle, {0.2, 0.3, 0.5}).normal_world), 1.0);
+}
+
+}  // namespace
+}  // namespace halfway
