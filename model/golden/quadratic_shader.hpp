@@ -55,6 +55,8 @@ class QuadraticShader {
     }
   }
 
+  const TriangleWalker<Preset>& walker() const { return walker_; }
+
   /// The stages' registers as the RTL's probe carries them.
   std::array<std::uint32_t, c_probe_words> line_probe() const {
     using At = typename Preset::probe_header_at;

@@ -52,7 +52,9 @@ begin
   registers : process (clk)
   begin
     if rising_edge(clk) then
-      r <= r_next;
+      if (load or step) = '1' then
+        r <= r_next;
+      end if;
     end if;
   end process;
 

@@ -61,7 +61,7 @@ begin
       v.divisor   := unsigned(load_divisor);
       v.error     := unsigned(load_error);
       v.carry     := load_carry;
-    elsif step = '1' then
+    else
       v.x := r.x + r.quotient;
       if r.carry = '1' then
         v.x := r.x + r.quotient + 1;
@@ -79,7 +79,9 @@ begin
   registers : process (clk)
   begin
     if rising_edge(clk) then
-      r <= r_next;
+      if (load or step) = '1' then
+        r <= r_next;
+      end if;
     end if;
   end process;
 

@@ -6,7 +6,7 @@
 -- Contract    Both streams are valid/ready; a fragment stands still while it waits. One channel (g_channels = 1) is
 --             given out as red, green and blue.
 -- Formats     formats_pkg: init (header, then a block a channel), depth, colour
--- Latency     3 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel)
+-- Latency     4 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel)
 -- Throughput  1 fragment a clock, with no bubble between spans, lines and triangles; lines that cover no pixel cost a
 --             clock each where no span is being drawn meanwhile
 -- Error       preset exact: the colour is within 0.65 steps of the quadratic through the six samples (0.5 rounding,

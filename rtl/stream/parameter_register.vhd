@@ -27,24 +27,18 @@ architecture rtl of parameter_register is
     value : std_logic_vector(g_bits - 1 downto 0);
   end record;
 
-  signal r, r_next : reg_t;
+  signal r : reg_t;
 
 begin
 
-  combinational : process (all)
-    variable v : reg_t;
-  begin
-    v := r;
-    if load = '1' then
-      v.value := start;
-    end if;
-    r_next <= v;
-  end process;
-
+  -- Nothing to compute: the one clocked process is all. Its enable keeps wide words from costing a simulator anything in
+  -- the clocks in which they stand still.
   registers : process (clk)
   begin
     if rising_edge(clk) then
-      r <= r_next;
+      if load = '1' then
+        r.value <= start;
+      end if;
     end if;
   end process;
 

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway compare`: the traces and frames that `halfway sim` left, compared once more.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "cli/options.hpp"
+#include "frame/image.hpp"
+#include "frame/metrics.hpp"
+#include "frame/trace.hpp"
+#include "run/result_files.hpp"
+#include "run/stream_comparator.hpp"
+
+namespace halfway::cli {
+namespace {
+
+struct CompareCommand {
+  std::string shader = "quadratic";
+  std::string out = "build/out";
+  std::vector<std::string> scenes;
+};
+
+constexpr std::size_t c_chunk = 1 << 16;
+
+// Feeds a comparator from two traces.
+Status compare_traces(const std::filesystem::path& golden_path, const std::filesystem::path& rtl_path,
+                      StreamComparator& comparator) {
+  auto golden = TraceReader::open(golden_path, {});
+  if (!golden) return golden.error();
+  auto rtl = TraceReader::open(rtl_path, golden->key_name());
+  if (!rtl) return rtl.error();
+  for (bool more_golden = true, more_rtl = true; more_golden || more_rtl;) {
+    std::vector<Fragment> chunk;
+    const auto read = [&](TraceReader& reader, bool& more) -> Status {
+      chunk.clear();
+      if (!more) return Ok{};
+      const auto count = reader.read(chunk, c_chunk);
+      if (!count) return count.error();
+      more = *count != 0;
+      return Ok{};
+    };
+    if (const Status status = read(*golden, more_golden); !status) return status;
+    comparator.add_golden(chunk);
+    if (const Status status = read(*rtl, more_rtl); !status) return status;
+    comparator.add_rtl(chunk);
+  }
+  comparator.finish();
+  return Ok{};
+}
+
+// A scene as named to `sim`: its results lie under its name without folder and ending.
+std::string result_name(const std::string& scene) {
+  const std::filesystem::path path(scene);
+  return path.has_extension() ? path.stem().string() : path.filename().string();
+}
+
+int run(const Folders& folders, const CompareCommand& command) {
+  std::vector<std::string> scenes = command.scenes;
+  if (scenes.empty()) {
+    auto builtin = builtin_scenes(folders);
+    if (!builtin) return report(builtin.error());
+    scenes = std::move(*builtin);
+  }
+  bool equal = true;
+  for (const std::string& scene : scenes) {
+    const ResultFiles files = ResultFiles::of(command.out, result_name(scene), command.shader);
+    std::error_code error;
+    if (!std::filesystem::exists(files.trace("golden"), error))
+      return report(bad_input(fmt::format("{}: no results here; run `make sim SCENE={}` first",
+                                          files.folder.string(), scene)));
+    bool any = false;
+    for (const char* simulator : {"ghdl", "verilator"}) {
+      if (!std::filesystem::exists(files.trace(simulator), error)) continue;
+      any = true;
+      StreamComparator comparator;
+      if (const Status status = compare_traces(files.trace("golden"), files.trace(simulator), comparator); !status)
+        return report(status.error());
+      const auto golden = read_png(files.frame("golden")), rtl = read_png(files.frame(simulator));
+      if (!golden) return report(golden.error());
+      if (!rtl) return report(rtl.error());
+      const auto distance = frame_distance(*golden, *rtl);
+      if (!distance) return report(distance.error());
+      const bool same = comparator.mismatches() == 0 && distance->differing == 0;
+      equal = equal && same;
+      fmt::print("{:<12} {:<10} {:>9} fragments, {} mismatches; frame: {} of {} pixels differ\n", result_name(scene),
+                 simulator, comparator.golden_count(), comparator.mismatches(), distance->differing, distance->pixels);
+      if (comparator.mismatches() != 0) fmt::print(stderr, "{}", comparator.describe(simulator));
+    }
+    if (!any)
+      return report(bad_input(fmt::format("{}: no trace of a simulator here; run `make sim SCENE={}` first",
+                                          files.folder.string(), scene)));
+  }
+  return static_cast<int>(equal ? ExitCode::equal : ExitCode::differs);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, const Folders& folders, int& exit_code) {
+  CLI::App* sub = app.add_subcommand("compare", "compare what sim left: traces field by field, frames pixel by pixel");
+  auto command = std::make_shared<CompareCommand>();
+  sub->add_option("scene", command->scenes, "as for sim; none: all built-in scenes");
+  sub->add_option("--shader", command->shader, "quadratic")->capture_default_str();
+  sub->add_option("--out", command->out, "folder of results")->capture_default_str();
+  sub->callback([=, &exit_code] { exit_code = run(folders, *command); });
+}
+
+}  // namespace halfway::cli

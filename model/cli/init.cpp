@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway init`: a scene's init vectors as a file, and what setup did.
+#include <fmt/format.h>
+
+#include "cli/options.hpp"
+#include "frame/init_file.hpp"
+#include "plan/plan.hpp"
+#include "run/scene_stream.hpp"
+#include "scene/load_scene.hpp"
+
+namespace halfway::cli {
+namespace {
+
+struct InitCommand {
+  DrawOptions draw;
+  std::string scene;
+  std::string file;
+};
+
+int run(const Folders& folders, const InitCommand& command) {
+  const auto draw = checked(command.draw);
+  if (!draw) return report(draw.error());
+  const auto scene = load_scene(command.scene, folders.scenes());
+  if (!scene) return report(scene.error());
+  for (const std::string& note : scene->notes) fmt::print(stderr, "{}\n", note);
+  const HardwareKey key = plan_quadratic(*scene, draw->preset).key;
+  const QuadraticSetup setup(*scene, draw->size, key, draw->setup);
+  auto file = InitFileWriter::open(command.file, key.name(), setup.init_bits());
+  if (!file) return report(file.error());
+  Progress progress(scene->name);
+  SceneStream stream(*scene, setup, key, draw->threads);
+  for (Batch batch; stream.next(batch);) {
+    progress.show(static_cast<double>(batch.triangles_done) / static_cast<double>(scene->triangles.size()));
+    file->write(batch.init_words);
+  }
+  progress.clear();
+  if (const Status status = file->commit(); !status) return report(status.error());
+  const SetupCounts& n = stream.counts();
+  fmt::print("{}: {} init vectors of {} bits for {}\n", command.file, n.vectors, setup.init_bits(), key.name());
+  fmt::print("  {} triangles: {} back-facing, {} outside, {} degenerate on the screen; {} drawn, {} of them split into "
+             "{} pieces in all; {} points shaded\n",
+             scene->triangles.size(), n.projection.back_facing, n.projection.outside + n.projection.behind_near,
+             n.projection.degenerate, n.triangles, n.subdivided, n.leaves, n.shaded);
+  return 0;
+}
+
+}  // namespace
+
+void add_init(CLI::App& app, const Folders& folders, int& exit_code) {
+  CLI::App* sub = app.add_subcommand("init", "write a scene's init vectors");
+  auto command = std::make_shared<InitCommand>();
+  command->file = "init.txt";
+  sub->add_option("scene", command->scene, "as for sim")->required();
+  command->draw.add_to(*sub);
+  sub->add_option("--file", command->file, "file to write")->capture_default_str();
+  sub->callback([=, &exit_code] { exit_code = run(folders, *command); });
+}
+
+}  // namespace halfway::cli

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway render`: software pictures alone, by reference, Gouraud or the golden model.
+#include <fmt/format.h>
+
+#include "cli/options.hpp"
+#include "frame/assemble.hpp"
+#include "frame/image.hpp"
+#include "frame/metrics.hpp"
+#include "plan/plan.hpp"
+#include "reference/renderer.hpp"
+#include "run/scene_stream.hpp"
+#include "scene/load_scene.hpp"
+
+namespace halfway::cli {
+namespace {
+
+struct RenderCommand {
+  DrawOptions draw;
+  std::string scene;
+  std::string method = "reference";
+  std::string file;
+};
+
+Result<Frame> golden_frame(const Scene& scene, const DrawSettings& draw) {
+  const HardwareKey key = plan_quadratic(scene, draw.preset).key;
+  const QuadraticSetup setup(scene, draw.size, key, draw.setup);
+  SceneStream stream(scene, setup, key, draw.threads);
+  FrameAssembler assembler(draw.size, scene.background);
+  Progress progress(scene.name);
+  for (Batch batch; stream.next(batch);) {
+    progress.show(static_cast<double>(batch.triangles_done) / static_cast<double>(scene.triangles.size()));
+    if (const Status status = assembler.add(batch.golden); !status) return status.error();
+  }
+  return assembler.frame();
+}
+
+int run(const Folders& folders, const RenderCommand& command) {
+  const auto draw = checked(command.draw);
+  if (!draw) return report(draw.error());
+  if (command.method != "reference" && command.method != "gouraud" && command.method != "golden")
+    return report(bad_input(
+        fmt::format("--method: '{}' is not a method; take reference, gouraud or golden", command.method)));
+  const auto scene = load_scene(command.scene, folders.scenes());
+  if (!scene) return report(scene.error());
+  for (const std::string& note : scene->notes) fmt::print(stderr, "{}\n", note);
+
+  const std::vector<ScreenTriangle> triangles = Projector(*scene, draw->size, {}).project_all();
+  const RenderOptions options{.frame = draw->size, .subpixel_bits = 4, .threads = draw->threads};
+  const ReferenceImage reference = render_reference(*scene, triangles, options);
+  Frame frame = reference.frame;
+  if (command.method == "gouraud") frame = render_gouraud(*scene, triangles, options).frame;
+  if (command.method == "golden") {
+    auto drawn = golden_frame(*scene, *draw);
+    if (!drawn) return report(drawn.error());
+    frame = std::move(*drawn);
+  }
+  const std::string file = command.file.empty() ? fmt::format("{}-{}.png", scene->name, command.method) : command.file;
+  if (const Status status = write_png(file, frame); !status) return report(status.error());
+  const auto distance = frame_distance(frame, reference.frame, reference.mask);
+  if (!distance) return report(distance.error());
+  fmt::print("{}: {} against the reference: PSNR {:.2f} dB, largest error {}/255\n", file, command.method,
+             distance->psnr_db, distance->max_lsb);
+  return 0;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, const Folders& folders, int& exit_code) {
+  CLI::App* sub = app.add_subcommand("render", "draw a scene in software: reference, Gouraud or golden model");
+  auto command = std::make_shared<RenderCommand>();
+  sub->add_option("scene", command->scene, "as for sim")->required();
+  command->draw.add_to(*sub);
+  sub->add_option("--method", command->method, "reference, gouraud or golden")->capture_default_str();
+  sub->add_option("--file", command->file, "PNG to write (default: <scene>-<method>.png)");
+  sub->callback([=, &exit_code] { exit_code = run(folders, *command); });
+}
+
+}  // namespace halfway::cli

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// How many of each entity a hardware key elaborates.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "plan/hardware_key.hpp"
+
+namespace halfway {
+
+/// Entities by name, the top left out. Checked against the netlist by hardware_units_test.cpp.
+std::map<std::string, int> hardware_units(const HardwareKey& key);
+
+}  // namespace halfway

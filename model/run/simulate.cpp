@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/simulate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <nlohmann/json.hpp>
+
+#include "common/file.hpp"
+#include "frame/assemble.hpp"
+#include "frame/image.hpp"
+#include "frame/init_file.hpp"
+#include "frame/trace.hpp"
+#include "plan/hardware_units.hpp"
+#include "reference/renderer.hpp"
+#include "run/scene_stream.hpp"
+#include "run/waveform.hpp"
+#include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/verilator/verilator_simulator.hpp"
+
+namespace halfway {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// Cycles without a movement after which the hardware hangs: more than any triangle's empty lines.
+constexpr std::uint32_t c_idle_limit = 20'000;
+// Fragments past the golden model's after which a runaway is stopped.
+constexpr std::uint64_t c_most_surplus = 10'000;
+
+// A simulator's fragments on their way: compared, assembled, written.
+class RtlStream {
+ public:
+  RtlStream(FrameSize size, glm::dvec3 background) : assembler_(size, background) {}
+
+  void add_golden(std::span<const Fragment> fragments) { comparator_.add_golden(fragments); }
+  void add(std::span<const Fragment> fragments) {
+    count_ += fragments.size();
+    comparator_.add_rtl(fragments);
+    // Wrong hardware may draw anywhere; the frame then holds what it drew inside.
+    while (!fragments.empty()) {
+      const std::uint64_t before = assembler_.fragments();
+      if (assembler_.add(fragments)) break;
+      if (fault_.empty()) fault_ = "a fragment lies outside the frame";
+      fragments = fragments.subspan(static_cast<std::size_t>(assembler_.fragments() - before) + 1);
+    }
+  }
+  void set_fault(std::string fault) { fault_ = std::move(fault); }
+  std::uint64_t count() const { return count_; }
+  const FrameAssembler& assembler() const { return assembler_; }
+
+  SimulatorRun finish(std::string simulator) {
+    comparator_.finish();
+    SimulatorRun run;
+    run.simulator = std::move(simulator);
+    run.fragments = count_;
+    run.mismatches = comparator_.mismatches();
+    run.fault = fault_;
+    run.first = comparator_.first();
+    if (run.mismatches != 0) run.description = comparator_.describe(run.simulator == "ghdl" ? "GHDL" : "Verilator");
+    return run;
+  }
+
+ private:
+  StreamComparator comparator_;
+  FrameAssembler assembler_;
+  std::uint64_t count_ = 0;
+  std::string fault_;
+};
+
+struct Pictures {
+  ReferenceImage reference;
+  Status written = Ok{};
+};
+
+class Simulation {
+ public:
+  Simulation(const Scene& scene, const SimulateSettings& settings)
+      : scene_(scene),
+        s_(settings),
+        files_(ResultFiles::of(settings.out, scene.name, settings.shader)),
+        golden_(settings.size, scene.background) {
+    summary_.scene = scene.name;
+    summary_.shader = s_.shader;
+    summary_.size = s_.size;
+    summary_.triangles = scene.triangles.size();
+    summary_.plan = plan_quadratic(scene, s_.preset);
+  }
+
+  Result<SceneSummary> run() {
+    const Clock::time_point start = Clock::now();
+    if (Status status = make_folders(files_.folder); !status) return status.error();
+    if (Status status = forget_old_results(); !status) return status.error();
+    std::future<ReferenceImage> reference = std::async(std::launch::async, [this] { return draw_reference(); });
+    if (Status status = stream(); !status) return status.error();
+    if (s_.ghdl)
+      if (Status status = run_ghdl(); !status) return status.error();
+    s_.on_progress("reference", -1.0);
+    if (Status status = compare_with(reference.get()); !status) return status.error();
+    for (SimulatorRun& run : summary_.runs)
+      if (!run.equal())
+        if (Status status = keep_evidence(run); !status) return status.error();
+    summary_.seconds = seconds_since(start);
+    if (Status status = write_file(files_.summary(), to_json(summary_)); !status) return status.error();
+    return summary_;
+  }
+
+ private:
+  // What a broken run leaves must not pass for this run's.
+  Status forget_old_results() const {
+    for (const char* who : {"golden", "ghdl", "verilator"}) {
+      if (Status status = forget(files_.trace(who)); !status) return status;
+      if (Status status = forget(files_.frame(who)); !status) return status;
+      if (Status status = forget(files_.frame(fmt::format("mismatch-{}", who))); !status) return status;
+      if (Status status = forget(files_.folder / fmt::format("mismatch-{}.fst", who)); !status) return status;
+    }
+    for (const char* who : {"reference", "diff"})
+      if (Status status = forget(files_.frame(who)); !status) return status;
+    if (Status status = forget(files_.init()); !status) return status;
+    return forget(files_.summary());
+  }
+  static Status forget(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    if (error) return tool_failed(fmt::format("{}: cannot remove: {}", path.string(), error.message()));
+    return Ok{};
+  }
+
+  ReferenceImage draw_reference() const {
+    const std::vector<ScreenTriangle> triangles = Projector(scene_, s_.size, {}).project_all();
+    return render_reference(scene_, triangles, {.frame = s_.size, .subpixel_bits = 4, .threads = s_.threads});
+  }
+
+  // Setup, golden model and Verilator, batch by batch; init file and traces written on the way.
+  Status stream() {
+    const QuadraticSetup setup(scene_, s_.size, summary_.plan.key, s_.setup);
+    std::optional<VerilatorSimulator> verilator;
+    std::optional<TraceWriter> verilator_trace;
+    RtlStream rtl(s_.size, scene_.background);
+    const std::string key = summary_.plan.key.name();
+    if (s_.verilator) {
+      s_.on_progress(fmt::format("building {} for Verilator", key), -1.0);
+      auto opened = VerilatorSimulator::open(summary_.plan.key, s_.folders,
+                                             {.stall_seed = s_.stall_seed, .idle_limit = c_idle_limit});
+      if (!opened) return opened.error();
+      verilator.emplace(std::move(*opened));
+      auto trace = TraceWriter::open(files_.trace("verilator"), key);
+      if (!trace) return trace.error();
+      verilator_trace.emplace(std::move(*trace));
+    }
+    auto init_file = InitFileWriter::open(files_.init(), key, setup.init_bits());
+    if (!init_file) return init_file.error();
+    auto golden_trace = TraceWriter::open(files_.trace("golden"), key);
+    if (!golden_trace) return golden_trace.error();
+
+    SceneStream stream(scene_, setup, summary_.plan.key, s_.threads);
+    const std::size_t words_per_vector = (setup.init_bits() + 31) / 32;
+    double verilator_seconds = 0.0;
+    bool rtl_alive = verilator.has_value();
+    std::vector<Fragment> drawn;
+    const auto take_rtl = [&](Clock::time_point begin, const Status& status) -> Status {
+      verilator_seconds += seconds_since(begin);
+      rtl.add(drawn);
+      verilator_trace->write(drawn);
+      drawn.clear();
+      if (status) return Ok{};
+      if (status.error().code != ExitCode::differs) return status;
+      rtl.set_fault(status.error().message);
+      rtl_alive = false;
+      return Ok{};
+    };
+    // `drawn` is emptied on every take, so its limit is what the golden model is ahead by, and some.
+    const auto limit = [&] { return static_cast<std::size_t>(golden_.fragments() + c_most_surplus - std::min(rtl.count(), golden_.fragments())); };
+    for (Batch batch; stream.next(batch);) {
+      s_.on_progress("setup, golden model, Verilator",
+                     static_cast<double>(batch.triangles_done) / static_cast<double>(scene_.triangles.size()));
+      init_file->write(batch.init_words);
+      golden_trace->write(batch.golden);
+      if (Status status = golden_.add(batch.golden); !status)
+        return tool_failed(fmt::format("{}: setup made a fragment outside the frame: {}; please report it", scene_.name,
+                                       status.error().message));
+      rtl.add_golden(batch.golden);
+      if (!rtl_alive) continue;
+      const Clock::time_point begin = Clock::now();
+      const Status ran = verilator->run(batch.init_words, batch.init_words.size() / words_per_vector, drawn, limit());
+      if (Status status = take_rtl(begin, ran); !status) return status;
+    }
+    if (rtl_alive) {
+      const Clock::time_point begin = Clock::now();
+      const Status ran = verilator->finish(drawn, limit());
+      if (Status status = take_rtl(begin, ran); !status) return status;
+    }
+    if (Status status = init_file->commit(); !status) return status;
+    if (Status status = golden_trace->commit(); !status) return status;
+    summary_.setup = stream.counts();
+    if (const std::uint64_t lost = summary_.setup.projection.unrepresentable; lost != 0)
+      return bad_input(fmt::format("{}: {} triangles project to no finite point; bring the scene nearer to the origin, or "
+                                   "the camera away from them",
+                                   scene_.name, lost));
+    summary_.setup_seconds = stream.setup_seconds();
+    summary_.golden_seconds = stream.golden_seconds();
+    summary_.fragments = golden_.fragments();
+    if (Status status = write_png(files_.frame("golden"), golden_.frame()); !status) return status;
+    if (verilator) {
+      if (Status status = verilator_trace->commit(verilator->cycles()); !status) return status;
+      if (Status status = write_png(files_.frame("verilator"), rtl.assembler().frame()); !status) return status;
+      SimulatorRun run = rtl.finish("verilator");
+      run.cycles = verilator->cycles();
+      run.seconds = verilator_seconds;
+      if (Status status = show_difference(run, rtl.assembler().frame()); !status) return status;
+      summary_.runs.push_back(std::move(run));
+    }
+    return Ok{};
+  }
+
+  Status run_ghdl() {
+    const std::string key = summary_.plan.key.name();
+    s_.on_progress(fmt::format("building {} for GHDL", key), -1.0);
+    auto runner = GhdlRunner::open(summary_.plan.key, s_.folders);
+    if (!runner) return runner.error();
+    std::error_code ignored;
+    const auto golden_bytes = static_cast<double>(std::filesystem::file_size(files_.trace("golden"), ignored));
+    GhdlRunOptions options;
+    options.idle_limit = c_idle_limit;
+    options.stall_seed = s_.stall_seed;
+    options.max_fragments = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(summary_.fragments + c_most_surplus, std::uint64_t{0x7fffffff}));
+    options.on_progress = [&](std::uintmax_t bytes) {
+      s_.on_progress("GHDL", std::min(1.0, static_cast<double>(bytes) / golden_bytes));
+    };
+    s_.on_progress("GHDL", 0.0);
+    const auto ran = runner->run(files_.init(), files_.trace("ghdl"), options);
+    if (!ran && ran.error().code != ExitCode::differs) return ran.error();
+
+    RtlStream rtl(s_.size, scene_.background);
+    if (Status status = add_traces(rtl, ran ? "" : ran.error().message); !status) return status;
+    if (Status status = write_png(files_.frame("ghdl"), rtl.assembler().frame()); !status) return status;
+    SimulatorRun run = rtl.finish("ghdl");
+    if (ran) {
+      run.cycles = ran->cycles;
+      run.seconds = ran->seconds;
+    }
+    if (Status status = show_difference(run, rtl.assembler().frame()); !status) return status;
+    summary_.runs.insert(summary_.runs.begin(), std::move(run));
+    return Ok{};
+  }
+
+  Status add_traces(RtlStream& rtl, const std::string& fault) {
+    constexpr std::size_t c_chunk = 1 << 16;
+    const std::string key = summary_.plan.key.name();
+    auto golden = TraceReader::open(files_.trace("golden"), key);
+    if (!golden) return golden.error();
+    std::optional<TraceReader> drawn;
+    if (fault.empty()) {
+      auto opened = TraceReader::open(files_.trace("ghdl"), key);
+      if (!opened) return opened.error();
+      drawn.emplace(std::move(*opened));
+    }
+    for (bool more_golden = true, more_drawn = drawn.has_value(); more_golden || more_drawn;) {
+      std::vector<Fragment> chunk;
+      if (more_golden) {
+        const auto count = golden->read(chunk, c_chunk);
+        if (!count) return count.error();
+        more_golden = *count != 0;
+        rtl.add_golden(chunk);
+        chunk.clear();
+      }
+      if (more_drawn) {
+        const auto count = drawn->read(chunk, c_chunk);
+        if (!count) return count.error();
+        more_drawn = *count != 0;
+        rtl.add(chunk);
+      }
+    }
+    if (!fault.empty()) rtl.set_fault(fault);
+    return Ok{};
+  }
+
+  Status show_difference(SimulatorRun& run, const Frame& frame) const {
+    if (run.equal()) return Ok{};
+    const auto difference = difference_image(golden_.frame(), frame);
+    if (!difference) return difference.error();
+    const std::filesystem::path path = files_.frame(fmt::format("mismatch-{}", run.simulator));
+    if (Status status = write_png(path, *difference); !status) return status;
+    run.evidence.push_back(path);
+    return Ok{};
+  }
+
+  Status compare_with(const ReferenceImage& reference) {
+    std::vector<std::uint8_t> mask = golden_.mask();
+    for (std::size_t i = 0; i < mask.size(); ++i) mask[i] |= reference.mask[i];
+    const auto distance = frame_distance(golden_.frame(), reference.frame, mask);
+    if (!distance) return distance.error();
+    summary_.accuracy = *distance;
+    const auto difference = difference_image(golden_.frame(), reference.frame);
+    if (!difference) return difference.error();
+    if (Status status = write_png(files_.frame("reference"), reference.frame); !status) return status;
+    return write_png(files_.frame("diff"), *difference);
+  }
+
+  Status keep_evidence(SimulatorRun& run) const {
+    s_.on_progress("waveform", -1.0);
+    auto path = write_mismatch_waveform(summary_.plan.key, s_.folders, files_, run.simulator,
+                                        run.first.empty() ? std::nullopt : std::optional(run.first.front().index),
+                                        s_.stall_seed);
+    // The mismatch is what there is to tell; a waveform that cannot be had must not hide it.
+    if (!path) {
+      run.description += fmt::format("  no waveform: {}\n", path.error().message);
+      return Ok{};
+    }
+    run.evidence.push_back(*path);
+    return Ok{};
+  }
+
+  const Scene& scene_;
+  const SimulateSettings& s_;
+  ResultFiles files_;
+  FrameAssembler golden_;
+  SceneSummary summary_;
+};
+
+}  // namespace
+
+bool SceneSummary::equal() const {
+  return std::ranges::all_of(runs, [](const SimulatorRun& run) { return run.equal(); });
+}
+
+Result<SceneSummary> simulate(const Scene& scene, const SimulateSettings& settings) {
+  return Simulation(scene, settings).run();
+}
+
+std::string to_json(const SceneSummary& s) {
+  nlohmann::ordered_json runs = nlohmann::ordered_json::array();
+  for (const SimulatorRun& run : s.runs) {
+    nlohmann::ordered_json entry = {{"simulator", run.simulator},
+                                    {"cycles", run.cycles},
+                                    {"fragments", run.fragments},
+                                    {"mismatches", run.mismatches},
+                                    {"seconds", run.seconds}};
+    if (!run.fault.empty()) entry["fault"] = run.fault;
+    runs.push_back(std::move(entry));
+  }
+  nlohmann::ordered_json units = nlohmann::ordered_json::object();
+  for (const auto& [unit, count] : hardware_units(s.plan.key)) units[unit] = count;
+  const nlohmann::ordered_json json = {
+      {"scene", s.scene},
+      {"shader", s.shader},
+      {"preset", to_string(s.plan.key.preset)},
+      {"width", s.size.width},
+      {"height", s.size.height},
+      {"triangles", s.triangles},
+      {"fragments", s.fragments},
+      {"hardware", {{"key", s.plan.key.name()}, {"units", units}}},
+      {"runs", runs},
+      // JSON has no infinity: null where golden and reference are the same.
+      {"accuracy",
+       {{"psnr_db", std::isfinite(s.accuracy.psnr_db) ? nlohmann::ordered_json(s.accuracy.psnr_db) : nullptr},
+        {"max_lsb", s.accuracy.max_lsb},
+        {"percentile99_lsb", s.accuracy.percentile99},
+        {"rms_lsb", s.accuracy.rms}}},
+      {"setup",
+       {{"back_facing", s.setup.projection.back_facing},
+        {"outside", s.setup.projection.outside + s.setup.projection.behind_near},
+        {"degenerate", s.setup.projection.degenerate},
+        {"on_screen", s.setup.triangles},
+        {"subdivided", s.setup.subdivided},
+        {"leaves", s.setup.leaves},
+        {"unresolved", s.setup.unresolved},
+        {"init_vectors", s.setup.vectors},
+        {"shaded_points", s.setup.shaded},
+        {"overexposed_samples", s.setup.overexposed}}},
+      {"setup_seconds", s.setup_seconds},
+      {"golden_seconds", s.golden_seconds},
+      {"seconds", s.seconds}};
+  return json.dump(2) + "\n";
+}
+
+std::string to_line(const SceneSummary& s) {
+  std::string line = fmt::format("{:<12} {:<10} {:<9} {:>4}x{:<4} {:>8} triangles {:>9} fragments", s.scene, s.shader,
+                                 to_string(s.plan.key.preset), s.size.width, s.size.height, s.triangles, s.fragments);
+  for (const SimulatorRun& run : s.runs)
+    fmt::format_to(std::back_inserter(line), " | {}: {} cycles, {:.3f} a fragment, {} mismatches, {:.2f} s", run.simulator,
+                   run.cycles, run.fragments == 0 ? 0.0 : static_cast<double>(run.cycles) / static_cast<double>(run.fragments),
+                   run.mismatches, run.seconds);
+  if (std::isfinite(s.accuracy.psnr_db))
+    fmt::format_to(std::back_inserter(line), " | reference: PSNR {:.2f} dB, largest error {}/255", s.accuracy.psnr_db,
+                   s.accuracy.max_lsb);
+  else
+    fmt::format_to(std::back_inserter(line), " | reference: equal");
+  fmt::format_to(std::back_inserter(line), " | {:.2f} s", s.seconds);
+  return line;
+}
+
+}  // namespace halfway

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// One pixel's way through the hardware, stage by stage, golden model beside RTL; and where the two part.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/result.hpp"
+#include "plan/hardware_key.hpp"
+#include "scene/scene.hpp"
+#include "setup/quadratic_setup.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+
+namespace halfway {
+
+struct WhySettings {
+  Preset preset = Preset::exact;
+  FrameSize size;
+  QuadraticSetupOptions setup;
+  unsigned threads = 1;
+  std::uint32_t x = 0, y = 0;
+  SimulatorFolders folders;
+  std::function<void(double done)> on_progress = [](double) {};
+};
+
+/// A register or port, as both sides have it.
+struct StageValue {
+  std::string name;
+  std::uint64_t golden = 0, rtl = 0;
+  int bits = 0, fraction_bits = 0;
+  bool is_signed = false;
+};
+
+/// What a stage held for the pixel.
+struct StageState {
+  std::string stage;  ///< "line", "span", "fragment"
+  std::optional<std::uint64_t> cycle;  ///< of the RTL; nothing where the RTL never came here
+  std::vector<StageValue> values;
+};
+
+/// One triangle's fragment at the pixel.
+struct PixelStory {
+  std::uint64_t vector;  ///< number of the init vector in the stream
+  std::uint32_t triangle;
+  std::vector<StageValue> init;  ///< golden == rtl: both are given it
+  std::vector<StageState> stages;
+};
+
+/// Where RTL and golden model part for the first time, anywhere in the frame.
+struct FirstDifference {
+  std::string stage, entity, value;
+  std::uint64_t cycle;
+  std::uint32_t triangle, y, x;
+  std::string golden, rtl;
+};
+
+struct WhyReport {
+  HardwareKey key;
+  std::vector<PixelStory> stories;  ///< in the order drawn; empty where nothing covers the pixel
+  std::optional<FirstDifference> first;
+  std::string fault;  ///< a hang or the like; empty: none
+};
+
+Result<WhyReport> explain_pixel(const Scene& scene, const WhySettings& settings);
+
+}  // namespace halfway
