@@ -101,7 +101,7 @@ void add_compare(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("scene", command->scenes, "as for sim; none: all built-in scenes");
   sub->add_option("--shader", command->shader, "quadratic")->capture_default_str();
   sub->add_option("--out", command->out, "folder of results")->capture_default_str();
-  sub->callback([=, &exit_code] { exit_code = run(folders, *command); });
+  sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }
 
 }  // namespace halfway::cli

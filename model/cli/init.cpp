@@ -53,7 +53,7 @@ void add_init(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("scene", command->scene, "as for sim")->required();
   command->draw.add_to(*sub);
   sub->add_option("--file", command->file, "file to write")->capture_default_str();
-  sub->callback([=, &exit_code] { exit_code = run(folders, *command); });
+  sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }
 
 }  // namespace halfway::cli

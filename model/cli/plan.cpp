@@ -33,7 +33,7 @@ void add_plan(CLI::App& app, const Folders& folders, int& exit_code) {
   auto options = std::make_shared<DrawOptions>();
   command->add_option("scene", *name, "as for sim")->required();
   options->add_to(*command);
-  command->callback([=, &exit_code] { exit_code = run(folders, *name, *options); });
+  command->callback([=, &folders, &exit_code] { exit_code = run(folders, *name, *options); });
 }
 
 }  // namespace halfway::cli

@@ -72,7 +72,7 @@ void add_render(CLI::App& app, const Folders& folders, int& exit_code) {
   command->draw.add_to(*sub);
   sub->add_option("--method", command->method, "reference, gouraud or golden")->capture_default_str();
   sub->add_option("--file", command->file, "PNG to write (default: <scene>-<method>.png)");
-  sub->callback([=, &exit_code] { exit_code = run(folders, *command); });
+  sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }
 
 }  // namespace halfway::cli

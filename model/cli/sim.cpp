@@ -2,7 +2,12 @@
 // `halfway sim`: scenes through golden model, GHDL and Verilator.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstdio>
+#include <future>
+#include <mutex>
+#include <thread>
 
 #include "cli/options.hpp"
 #include "run/simulate.hpp"
@@ -17,6 +22,66 @@ struct SimOptions {
   std::vector<std::string> simulators;
   std::uint32_t stall_seed = 0;
 };
+
+// What each scene is busy with, on one line of a terminal.
+class Board {
+ public:
+  explicit Board(const std::vector<std::string>& scenes) : scenes_(scenes), states_(scenes.size()), progress_("sim") {}
+
+  void show(std::size_t scene, std::string state) {
+    const std::scoped_lock lock(mutex_);
+    if (states_[scene] == state) return;
+    states_[scene] = std::move(state);
+    std::string text;
+    for (std::size_t i = 0; i < scenes_.size(); ++i)
+      if (!states_[i].empty()) text += fmt::format("{}{} {}", text.empty() ? "" : " | ", scenes_[i], states_[i]);
+    progress_.show(text);
+  }
+  void clear() {
+    const std::scoped_lock lock(mutex_);
+    progress_.clear();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::string> scenes_, states_;
+  Progress progress_;
+};
+
+struct Drawn {
+  SceneSummary summary;
+  std::vector<std::string> notes;
+};
+using Outcome = Result<Drawn>;
+
+Outcome draw_scene(const std::string& name, std::size_t number, const Folders& folders, SimulateSettings settings,
+                   Board& board) {
+  board.show(number, "loading");
+  const auto scene = load_scene(name, folders.scenes());
+  if (!scene) return scene.error();
+  settings.on_progress = [&](const std::string& what, double done) {
+    board.show(number, done < 0.0 ? what : fmt::format("{} {} %", what, static_cast<int>(100.0 * done)));
+  };
+  auto summary = simulate(*scene, settings);
+  board.show(number, "");
+  if (!summary) return summary.error();
+  return Drawn{std::move(*summary), scene->notes};
+}
+
+// Whether all was equal.
+bool print(const Drawn& drawn) {
+  for (const std::string& note : drawn.notes) fmt::print(stderr, "{}\n", note);
+  fmt::print("{}\n", to_line(drawn.summary));
+  std::fflush(stdout);
+  for (const SimulatorRun& run : drawn.summary.runs) {
+    if (run.equal()) continue;
+    fmt::print(stderr, "{}: {} differs from the golden model\n", drawn.summary.scene, run.simulator);
+    if (!run.fault.empty()) fmt::print(stderr, "  {}\n", run.fault);
+    fmt::print(stderr, "{}", run.description);
+    for (const auto& path : run.evidence) fmt::print(stderr, "  see {}\n", path.string());
+  }
+  return drawn.summary.equal();
+}
 
 int run(const Folders& folders, const SimOptions& options) {
   const auto draw = checked(options.draw);
@@ -48,33 +113,29 @@ int run(const Folders& folders, const SimOptions& options) {
     scenes = std::move(*builtin);
   }
 
+  // Scenes side by side: GHDL runs on one core, and it is what takes the time.
+  const unsigned workers = std::clamp<unsigned>(static_cast<unsigned>(scenes.size()), 1, draw->threads);
+  settings.threads = std::max(1U, draw->threads / workers);
+  Board board(scenes);
+  std::vector<std::promise<Outcome>> outcomes(scenes.size());
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> stop = false;
+  std::vector<std::jthread> pool;
+  for (unsigned i = 0; i < workers; ++i)
+    pool.emplace_back([&] {
+      for (std::size_t n = next++; n < scenes.size(); n = next++)
+        outcomes[n].set_value(stop ? Outcome(tool_failed("not run")) : draw_scene(scenes[n], n, folders, settings, board));
+    });
+
   bool equal = true;
-  for (const std::string& name : scenes) {
-    Progress progress(name);
-    progress.show("loading");
-    const auto scene = load_scene(name, folders.scenes());
-    if (!scene) {
-      progress.clear();
-      return report(scene.error());
+  for (std::size_t n = 0; n < scenes.size(); ++n) {
+    const Outcome outcome = outcomes[n].get_future().get();
+    board.clear();
+    if (!outcome) {
+      stop = true;
+      return report(outcome.error());
     }
-    progress.clear();
-    for (const std::string& note : scene->notes) fmt::print(stderr, "{}\n", note);
-    settings.on_progress = [&](const std::string& what, double done) {
-      progress.show(done < 0.0 ? what : fmt::format("{}: {} %", what, static_cast<int>(100.0 * done)));
-    };
-    const auto summary = simulate(*scene, settings);
-    progress.clear();
-    if (!summary) return report(summary.error());
-    fmt::print("{}\n", to_line(*summary));
-    std::fflush(stdout);
-    for (const SimulatorRun& run : summary->runs) {
-      if (run.equal()) continue;
-      equal = false;
-      fmt::print(stderr, "{}: {} differs from the golden model\n", summary->scene, run.simulator);
-      if (!run.fault.empty()) fmt::print(stderr, "  {}\n", run.fault);
-      fmt::print(stderr, "{}", run.description);
-      for (const auto& path : run.evidence) fmt::print(stderr, "  see {}\n", path.string());
-    }
+    equal = print(*outcome) && equal;
   }
   return static_cast<int>(equal ? ExitCode::equal : ExitCode::differs);
 }
@@ -91,7 +152,7 @@ void add_sim(CLI::App& app, const Folders& folders, int& exit_code) {
   command->add_option("--simulator", options->simulators, "ghdl or verilator (default: both)");
   command->add_option("--stalls", options->stall_seed, "stall both streams at random, by this seed (0: full speed)")
       ->capture_default_str();
-  command->callback([=, &exit_code] { exit_code = run(folders, *options); });
+  command->callback([=, &folders, &exit_code] { exit_code = run(folders, *options); });
 }
 
 }  // namespace halfway::cli

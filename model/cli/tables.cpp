@@ -51,7 +51,7 @@ void add_tables(CLI::App& app, const Folders& folders, int& exit_code) {
   CLI::App* command = app.add_subcommand("tables", "write the generated VHDL and C++ (formats) anew");
   auto check = std::make_shared<bool>(false);
   command->add_flag("--check", *check, "write nothing; exit 1 if a file is not as it would be written");
-  command->callback([=, &exit_code] { exit_code = run(folders, *check); });
+  command->callback([=, &folders, &exit_code] { exit_code = run(folders, *check); });
 }
 
 }  // namespace halfway::cli

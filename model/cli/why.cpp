@@ -102,7 +102,7 @@ void add_why(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("scene", command->scene, "as for sim")->required();
   sub->add_option("--pixel", command->pixel, "x,y from the frame's top left")->required();
   command->draw.add_to(*sub);
-  sub->callback([=, &exit_code] { exit_code = run(folders, *command); });
+  sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }
 
 }  // namespace halfway::cli

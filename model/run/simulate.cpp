@@ -310,7 +310,7 @@ class Simulation {
                                         s_.stall_seed);
     // The mismatch is what there is to tell; a waveform that cannot be had must not hide it.
     if (!path) {
-      run.description += fmt::format("  no waveform: {}\n", path.error().message);
+      run.description += fmt::format("  no waveform: {}\n", path.error().message.substr(0, path.error().message.find('\n')));
       return Ok{};
     }
     run.evidence.push_back(*path);

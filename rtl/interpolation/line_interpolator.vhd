@@ -33,27 +33,19 @@ architecture rtl of line_interpolator is
     value : signed(g_bits - 1 downto 0);
   end record;
 
-  signal r, r_next : reg_t;
+  signal r : reg_t;
 
 begin
 
-  combinational : process (all)
-    variable v : reg_t;
-  begin
-    v := r;
-    if load = '1' then
-      v.value := signed(start);
-    elsif step = '1' then
-      v.value := r.value + signed(increment);
-    end if;
-    r_next <= v;
-  end process;
-
+  -- One clocked process: with r_next beside it GHDL would form the sum at every delta in which an input moves, which
+  -- costs a frame 1.6 times the instructions.
   registers : process (clk)
   begin
     if rising_edge(clk) then
-      if (load or step) = '1' then
-        r <= r_next;
+      if load = '1' then
+        r.value <= signed(start);
+      elsif step = '1' then
+        r.value <= r.value + signed(increment);
       end if;
     end if;
   end process;

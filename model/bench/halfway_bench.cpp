@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// Speed, as ratios within one run: golden model, Verilator with comparison, GHDL, setup, and a million-triangle mesh as a
+// whole process. Absolute figures belong to the machine that prints them.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "common/file.hpp"
+#include "frame/init_file.hpp"
+#include "plan/plan.hpp"
+#include "run/golden_run.hpp"
+#include "run/scene_stream.hpp"
+#include "run/stream_comparator.hpp"
+#include "scene/load_scene.hpp"
+#include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/verilator/verilator_simulator.hpp"
+
+namespace {
+
+using namespace halfway;
+
+const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
+const SimulatorFolders c_folders{c_source, c_source / "build" / "cache"};
+
+[[noreturn]] void fail(const Error& error) {
+  fmt::print(stderr, "{}\n", error.message);
+  std::exit(static_cast<int>(error.code));
+}
+
+template <class T>
+T must(Result<T> result) {
+  if (!result) fail(result.error());
+  return std::move(*result);
+}
+
+// A built-in scene's init vectors and the golden model's fragments for them.
+struct Stream {
+  HardwareKey key;
+  unsigned init_bits;
+  std::vector<std::uint32_t> words;
+  std::vector<Fragment> golden;
+  std::size_t vectors() const { return words.size() / ((init_bits + 31) / 32); }
+};
+
+const Stream& stream_of(const std::string& name, FrameSize size) {
+  static std::map<std::pair<std::string, std::uint32_t>, Stream> streams;
+  const auto [it, fresh] = streams.try_emplace({name, size.width});
+  Stream& s = it->second;
+  if (!fresh) return s;
+  const Scene scene = must(load_scene(name, c_source / "sim" / "scenes"));
+  s.key = plan_quadratic(scene, Preset::exact).key;
+  const QuadraticSetup setup(scene, size, s.key, {});
+  s.init_bits = setup.init_bits();
+  SceneStream source(scene, setup, s.key, 1);
+  for (Batch batch; source.next(batch);) {
+    s.words.insert(s.words.end(), batch.init_words.begin(), batch.init_words.end());
+    s.golden.insert(s.golden.end(), batch.golden.begin(), batch.golden.end());
+  }
+  return s;
+}
+
+constexpr FrameSize c_large{1600, 1200}, c_small{320, 240};
+
+void report_fragments(benchmark::State& state, std::size_t fragments) {
+  state.counters["fragments/s"] =
+      benchmark::Counter(static_cast<double>(fragments), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void setup(benchmark::State& state) {
+  const Scene scene = must(load_scene("teapot", c_source / "sim" / "scenes"));
+  const HardwareKey key = plan_quadratic(scene, Preset::exact).key;
+  const QuadraticSetup quadratic(scene, c_large, key, {});
+  SetupCounts counts;
+  for (auto _ : state) {
+    counts = {};
+    std::vector<std::uint32_t> words;
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) quadratic.append(t, words, counts);
+    benchmark::DoNotOptimize(words.data());
+  }
+  state.counters["vectors/s"] =
+      benchmark::Counter(static_cast<double>(counts.vectors), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void golden_model(benchmark::State& state, const char* scene) {
+  const Stream& s = stream_of(scene, c_large);
+  const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
+  std::vector<Fragment> fragments;
+  fragments.reserve(s.golden.size());
+  for (auto _ : state) {
+    fragments.clear();
+    golden->draw(s.words, fragments);
+    benchmark::DoNotOptimize(fragments.data());
+  }
+  report_fragments(state, s.golden.size());
+}
+
+// Hardware alone, then with the golden model drawing the same on the same core and every field compared.
+void verilator(benchmark::State& state, const char* scene, bool compared) {
+  const Stream& s = stream_of(scene, c_large);
+  auto simulator = must(VerilatorSimulator::open(s.key, c_folders));
+  const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
+  const std::size_t words_per_vector = (s.init_bits + 31) / 32;
+  constexpr std::size_t c_batch = 512;  // vectors
+  std::vector<Fragment> drawn, expected;
+  drawn.reserve(1 << 20);
+  expected.reserve(1 << 20);
+  const std::uint64_t before = simulator.cycles();
+  for (auto _ : state) {
+    StreamComparator comparator;
+    const auto take = [&] {
+      if (compared) comparator.add_rtl(drawn);
+      drawn.clear();
+    };
+    for (std::size_t at = 0; at < s.vectors(); at += c_batch) {
+      const std::size_t count = std::min(c_batch, s.vectors() - at);
+      const auto words = std::span(s.words).subspan(at * words_per_vector, count * words_per_vector);
+      if (compared) {
+        expected.clear();
+        golden->draw(words, expected);
+        comparator.add_golden(expected);
+      }
+      if (const Status ran = simulator.run(words, count, drawn, SIZE_MAX); !ran) fail(ran.error());
+      take();
+    }
+    if (const Status ended = simulator.finish(drawn, SIZE_MAX); !ended) fail(ended.error());
+    take();
+    comparator.finish();
+    if (comparator.mismatches() != 0) {
+      state.SkipWithError("the RTL differs from the golden model");
+      return;
+    }
+  }
+  report_fragments(state, s.golden.size());
+  state.counters["cycles/fragment"] =
+      static_cast<double>(simulator.cycles() - before) /
+      (static_cast<double>(s.golden.size()) * static_cast<double>(state.iterations()));
+}
+
+void ghdl(benchmark::State& state, const char* scene) {
+  const Stream& s = stream_of(scene, c_small);
+  const auto runner = must(GhdlRunner::open(s.key, c_folders));
+  const std::filesystem::path folder = c_source / "build" / "bench";
+  if (const Status made = make_folders(folder); !made) fail(made.error());
+  if (const Status wrote = write_init_file(folder / "init.txt", s.key.name(), {s.init_bits, s.words}); !wrote)
+    fail(wrote.error());
+  for (auto _ : state) {
+    const GhdlRun run = must(runner.run(folder / "init.txt", folder / "ghdl.trace"));
+    state.SetIterationTime(run.seconds);
+  }
+  report_fragments(state, s.golden.size());
+}
+
+// The whole of `halfway sim` on a mesh of a million triangles: seconds and peak memory of the process.
+void million_triangles(benchmark::State& state) {
+  const std::filesystem::path folder = c_source / "build" / "bench";
+  if (const Status made = make_folders(folder); !made) fail(made.error());
+  const std::filesystem::path scene = folder / "million.toml";
+  if (const Status wrote = write_file(scene,
+                                      "[camera]\nfit = true\n[[directional]]\nto_light = [1.0, 2.0, 3.0]\n"
+                                      "[[material]]\nname = \"m\"\ncolour = [0.8, 0.5, 0.3]\n"
+                                      "[[mesh]]\nkind = \"sphere\"\nslices = 709\nstacks = 707\nmaterial = \"m\"\n");
+      !wrote)
+    fail(wrote.error());
+  const std::string program = c_source / "build" / "halfway", scene_name = scene, out = folder / "out";
+  for (auto _ : state) {
+    const pid_t child = fork();
+    if (child == 0) {
+      execl(program.c_str(), program.c_str(), "sim", "--simulator", "verilator", "--size", "1920x1080", "--out",
+            out.c_str(), "--", scene_name.c_str(), nullptr);
+      _exit(127);
+    }
+    int status = 0;
+    rusage usage{};
+    wait4(child, &status, 0, &usage);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+      state.SkipWithError("halfway sim failed");
+      return;
+    }
+    state.counters["peak_MiB"] = static_cast<double>(usage.ru_maxrss) / 1024.0;
+    state.counters["cpu_s"] = static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+                              1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+  }
+}
+
+// Keeps each benchmark's rate to print ratios at the end.
+class Ratios final : public benchmark::ConsoleReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    ConsoleReporter::ReportRuns(runs);
+    for (const Run& run : runs)
+      if (const auto rate = run.counters.find("fragments/s"); !run.error_occurred && rate != run.counters.end())
+        rates_[run.benchmark_name()] = rate->second.value;
+  }
+  void Finalize() override {
+    const auto rate = [&](std::string_view part) {
+      for (const auto& [name, value] : rates_)
+        if (name.find(part) != std::string::npos) return value;
+      return 0.0;
+    };
+    const double compared = rate("verilator_compared/spheres"), golden = rate("golden/spheres");
+    const double alone = rate("verilator/spheres"), in_ghdl = rate("ghdl/spheres");
+    if (compared == 0.0 || golden == 0.0 || in_ghdl == 0.0) return;
+    fmt::print("\nspheres, fragments a second a core, as ratios within this run:\n"
+               "  Verilator with comparison        1.00  ({:.1f} million)\n"
+               "  Verilator alone                  {:.2f}\n  golden model alone               {:.2f}\n"
+               "  GHDL                             1/{:.0f}\n",
+               compared / 1e6, alone / compared, golden / compared, compared / in_ghdl);
+  }
+
+ private:
+  std::map<std::string, double> rates_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::RegisterBenchmark("setup/teapot", setup)->Unit(benchmark::kMillisecond);
+  for (const char* scene : {"spheres", "matte"}) {
+    benchmark::RegisterBenchmark(fmt::format("golden/{}", scene).c_str(), golden_model, scene)
+        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(fmt::format("verilator/{}", scene).c_str(), verilator, scene, false)
+        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(fmt::format("verilator_compared/{}", scene).c_str(), verilator, scene, true)
+        ->Unit(benchmark::kMillisecond);
+  }
+  benchmark::RegisterBenchmark("ghdl/spheres", ghdl, "spheres")
+      ->Unit(benchmark::kMillisecond)
+      ->UseManualTime()
+      ->Iterations(1);
+  benchmark::RegisterBenchmark("million_triangles/1920x1080", million_triangles)
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->Iterations(1);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  Ratios ratios;
+  benchmark::RunSpecifiedBenchmarks(&ratios);
+  return 0;
+}

@@ -1,0 +1,337 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- Drives a shader from an init file and writes its fragments as a trace (model/frame/init_file.hpp and trace.hpp
+-- give the formats). At most one vector and one fragment move at each rising edge; inputs change after the edge,
+-- outputs are sampled with the next one, as a register would.
+--
+-- Cycles are numbered from 0, the edge that takes the first vector. With g_stall_seed other than 0 both streams
+-- stall at random; sim/verilator/harness.cpp draws the same pattern, so that both simulators give the same cycles.
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use std.textio.all;
+
+entity frame_tb is
+  generic (
+    g_exact         : boolean  := true;
+    g_channels      : positive := 3;
+    g_probe         : boolean  := false;
+    g_init_file     : string   := "init.txt";
+    g_trace_file    : string   := "trace.txt";
+    g_probe_file    : string   := "";            -- where g_probe: lines of cycle and hexadecimal probe
+    g_max_fragments : natural  := natural'high;  -- more than these is a failure
+    g_idle_limit    : positive := 100_000;       -- cycles in which nothing moves: a hang
+    g_stall_seed    : natural  := 0              -- 0: full speed
+  );
+end entity;
+
+architecture sim of frame_tb is
+  constant c_init_bits  : positive := work.formats_pkg.init_bits(g_exact, g_channels);
+  constant c_probe_bits : positive := work.formats_pkg.probe_bits(g_exact, g_channels);
+
+  signal clk               : std_logic := '0';
+  signal reset             : std_logic := '1';
+  signal init_valid        : std_logic := '0';
+  signal init_ready        : std_logic;
+  signal init_data         : std_logic_vector(c_init_bits - 1 downto 0) := (others => '0');
+  signal fragment_valid    : std_logic;
+  signal fragment_ready    : std_logic := '0';
+  signal fragment_triangle : std_logic_vector(31 downto 0);
+  signal fragment_y        : std_logic_vector(11 downto 0);
+  signal fragment_x        : std_logic_vector(11 downto 0);
+  signal fragment_z        : std_logic_vector(23 downto 0);
+  signal fragment_red      : std_logic_vector(7 downto 0);
+  signal fragment_green    : std_logic_vector(7 downto 0);
+  signal fragment_blue     : std_logic_vector(7 downto 0);
+  signal busy              : std_logic;
+  signal probe             : std_logic_vector(c_probe_bits - 1 downto 0);
+  signal finished          : boolean := false;
+
+  -- An unsigned number of up to 32 bits in decimal: an integer has no room for the 32nd.
+  procedure write_decimal(text : inout line; value : in std_logic_vector) is
+    constant wide : unsigned(31 downto 0) := resize(unsigned(value), 32);
+    variable high : natural;
+    variable low  : natural;
+    variable rest : unsigned(31 downto 0);
+  begin
+    if wide(31) = '0' then
+      write(text, to_integer(wide(30 downto 0)));
+    else
+      high := 214_748_364;  -- 2**31 = 10 * 214748364 + 8
+      low  := 8;
+      rest := '0' & wide(30 downto 0);
+      high := high + to_integer(rest(30 downto 0)) / 10;
+      low  := low + to_integer(rest(30 downto 0)) mod 10;
+      write(text, high + low / 10);
+      write(text, low mod 10);
+    end if;
+  end procedure;
+
+  -- xorshift32 (Marsaglia 2003, shifts 13, 17, 5)
+  function next_random(state : unsigned(31 downto 0)) return unsigned is
+    variable x : unsigned(31 downto 0) := state;
+  begin
+    x := x xor shift_left(x, 13);
+    x := x xor shift_right(x, 17);
+    x := x xor shift_left(x, 5);
+    return x;
+  end function;
+begin
+  dut : entity work.quadratic_shader
+    generic map (g_exact => g_exact, g_channels => g_channels, g_probe => g_probe)
+    port map (
+      clk               => clk,
+      reset             => reset,
+      init_valid        => init_valid,
+      init_ready        => init_ready,
+      init_data         => init_data,
+      fragment_valid    => fragment_valid,
+      fragment_ready    => fragment_ready,
+      fragment_triangle => fragment_triangle,
+      fragment_y        => fragment_y,
+      fragment_x        => fragment_x,
+      fragment_z        => fragment_z,
+      fragment_red      => fragment_red,
+      fragment_green    => fragment_green,
+      fragment_blue     => fragment_blue,
+      busy              => busy,
+      probe             => probe);
+
+  clock : process is
+  begin
+    while not finished loop
+      wait for 5 ns;
+      clk <= '1';
+      wait for 5 ns;
+      clk <= '0';
+    end loop;
+    wait;
+  end process;
+
+  run : process is
+    file init_file  : text;
+    file trace_file : text;
+    file probe_file : text;
+
+    variable status      : file_open_status;
+    variable text_in     : line;
+    variable text_out    : line;
+    variable field       : string(1 to 13);
+    variable number      : integer;
+    variable letter      : character;
+    variable good        : boolean;
+    variable vector      : std_logic_vector(c_init_bits - 1 downto 0);
+    variable fresh       : boolean := false;   -- vector is not yet in init_data
+    variable at_end      : boolean := false;   -- of the init file
+    variable offered     : boolean := false;   -- init_valid stays until the vector is taken
+    variable started     : boolean := false;
+    variable vectors     : natural := 0;
+    variable fragments   : natural := 0;
+    variable cycle       : natural := 0;
+    variable last_cycle  : natural := 0;
+    variable idle        : natural := 0;
+    variable moved       : boolean;
+    variable random      : unsigned(31 downto 0) := to_unsigned(g_stall_seed, 32);
+    variable payload     : std_logic_vector(103 downto 0);
+    variable held        : std_logic_vector(103 downto 0);
+    variable holding     : boolean := false;   -- the fragment of the last edge was not taken
+
+    procedure next_vector is
+    begin
+      if endfile(init_file) then
+        report g_init_file & ": ends without its last line, end <count>" severity failure;
+      end if;
+      readline(init_file, text_in);
+      if text_in'length > 4 and text_in(text_in'left to text_in'left + 3) = "end " then
+        read(text_in, field(1 to 4));
+        read(text_in, number, good);
+        if not good or number /= vectors then
+          report g_init_file & ": the last line does not give the number of vectors, " & to_string(vectors)
+            severity failure;
+        end if;
+        at_end := true;
+      else
+        if text_in'length /= (c_init_bits + 3) / 4 then
+          report g_init_file & ": vector " & to_string(vectors) & " has not " & to_string((c_init_bits + 3) / 4)
+            & " digits" severity failure;
+        end if;
+        hread(text_in, vector, good);
+        if not good or is_x(vector) then
+          report g_init_file & ": vector " & to_string(vectors) & " is no hexadecimal number of "
+            & to_string(c_init_bits) & " bits" severity failure;
+        end if;
+        vectors := vectors + 1;
+        fresh   := true;
+        -- Once a vector, not once a clock: a simulator pays for every bit.
+        if fresh then
+          init_data <= vector;
+          fresh     := false;
+        end if;
+      end if;
+    end procedure;
+
+    procedure drive is
+    begin
+      if g_stall_seed /= 0 then
+        random := next_random(random);
+        if random(0) = '1' then
+          fragment_ready <= '1';
+        else
+          fragment_ready <= '0';
+        end if;
+        offered := not at_end and (offered or random(1) = '1');
+      else
+        fragment_ready <= '1';
+        offered        := not at_end;
+      end if;
+      if offered then
+        init_valid <= '1';
+      else
+        init_valid <= '0';
+      end if;
+    end procedure;
+  begin
+    -- Header: halfway-init 1 <key name> <bits>; the trace takes over the key's name.
+    file_open(status, init_file, g_init_file, read_mode);
+    if status /= open_ok then
+      report g_init_file & ": cannot open" severity failure;
+    end if;
+    if endfile(init_file) then
+      report g_init_file & ": is empty" severity failure;
+    end if;
+    readline(init_file, text_in);
+    read(text_in, field(1 to 13), good);
+    if not good or field /= "halfway-init " then
+      report g_init_file & ": is no init file" severity failure;
+    end if;
+    read(text_in, number, good);
+    if not good or number /= 1 or text_in'length < 2 then
+      report g_init_file & ": is an init file of another version" severity failure;
+    end if;
+    file_open(status, trace_file, g_trace_file, write_mode);
+    if status /= open_ok then
+      report g_trace_file & ": cannot write" severity failure;
+    end if;
+    write(text_out, string'("halfway-trace 1"));
+    read(text_in, letter, good);  -- the space before the name
+    loop
+      write(text_out, letter);
+      read(text_in, letter, good);
+      exit when not good or letter = ' ';
+    end loop;
+    writeline(trace_file, text_out);
+    read(text_in, number, good);
+    if not good or number /= c_init_bits then
+      report g_init_file & ": its vectors are not of " & to_string(c_init_bits) & " bits" severity failure;
+    end if;
+    if g_probe and g_probe_file'length > 0 then
+      file_open(status, probe_file, g_probe_file, write_mode);
+      if status /= open_ok then
+        report g_probe_file & ": cannot write" severity failure;
+      end if;
+    end if;
+
+    reset <= '1';
+    for i in 1 to 4 loop
+      wait until rising_edge(clk);
+    end loop;
+    reset <= '0';
+    next_vector;
+    drive;
+
+    loop
+      wait until rising_edge(clk);
+      moved := false;
+      if is_x(init_ready) or is_x(fragment_valid) or is_x(busy) then
+        report "metavalue in init_ready, fragment_valid or busy in cycle " & to_string(cycle) severity failure;
+      end if;
+      if init_valid = '1' and init_ready = '1' then
+        moved   := true;
+        started := true;
+        offered := false;
+        next_vector;
+      end if;
+      if fragment_valid = '1' then
+        payload := fragment_triangle & fragment_y & fragment_x & fragment_z & fragment_red & fragment_green
+          & fragment_blue;
+        if is_x(payload) then
+          report "metavalue in fragment " & to_string(fragments) & " in cycle " & to_string(cycle) & ": "
+            & to_string(payload) severity failure;
+        end if;
+        if holding and payload /= held then
+          report "fragment " & to_string(fragments) & " changed while it was not taken, in cycle "
+            & to_string(cycle) severity failure;
+        end if;
+        held := payload;
+        if fragment_ready = '1' then
+          if fragments = g_max_fragments then
+            report "more than " & to_string(g_max_fragments) & " fragments" severity failure;
+          end if;
+          moved     := true;
+          fragments := fragments + 1;
+          write_decimal(text_out, fragment_triangle);
+          write(text_out, ' ');
+          write_decimal(text_out, fragment_y);
+          write(text_out, ' ');
+          write_decimal(text_out, fragment_x);
+          write(text_out, ' ');
+          write_decimal(text_out, fragment_z);
+          write(text_out, ' ');
+          write_decimal(text_out, fragment_red);
+          write(text_out, ' ');
+          write_decimal(text_out, fragment_green);
+          write(text_out, ' ');
+          write_decimal(text_out, fragment_blue);
+          writeline(trace_file, text_out);
+        end if;
+      elsif holding then
+        report "fragment " & to_string(fragments) & " was withdrawn in cycle " & to_string(cycle) severity failure;
+      end if;
+      holding := fragment_valid = '1' and fragment_ready = '0';
+
+      if g_probe and g_probe_file'length > 0 and started and probe(1 downto 0) /= "00" then
+        if is_x(probe(1 downto 0)) then
+          report "metavalue in the probe's events in cycle " & to_string(cycle) severity failure;
+        end if;
+        write(text_out, cycle);
+        write(text_out, ' ');
+        hwrite(text_out, probe);
+        writeline(probe_file, text_out);
+      end if;
+
+      if moved then
+        last_cycle := cycle;
+        idle       := 0;
+      else
+        idle := idle + 1;
+      end if;
+      exit when at_end and not offered and busy = '0' and fragment_valid = '0' and not moved;
+      if idle >= g_idle_limit then
+        report "hang: nothing moved for " & to_string(g_idle_limit) & " cycles after " & to_string(fragments)
+          & " fragments; the vectors were " & boolean'image(at_end and not offered) & " all taken, busy is "
+          & to_string(busy) severity failure;
+      end if;
+      if started then
+        cycle := cycle + 1;
+      end if;
+      drive;
+    end loop;
+
+    if started then
+      write(text_out, string'("cycles "));
+      write(text_out, last_cycle + 1);
+    else
+      write(text_out, string'("cycles 0"));
+    end if;
+    writeline(trace_file, text_out);
+    write(text_out, string'("end "));
+    write(text_out, fragments);
+    writeline(trace_file, text_out);
+    file_close(trace_file);
+    file_close(init_file);
+    if g_probe and g_probe_file'length > 0 then
+      file_close(probe_file);
+    end if;
+    finished <= true;
+    wait;
+  end process;
+end architecture;

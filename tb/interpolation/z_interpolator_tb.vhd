@@ -1,0 +1,91 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- Both presets: every combination of the walker's strobes at random, clock by clock against the golden twin.
+library ieee;
+use ieee.std_logic_1164.all;
+use work.formats_pkg.all;
+use work.tb_pkg.all;
+
+entity z_interpolator_run is
+  generic (
+    g_exact : boolean;
+    g_file  : string
+  );
+  port (
+    finished : out boolean := false
+  );
+end entity;
+
+architecture sim of z_interpolator_run is
+  signal clk        : std_logic := '0';
+  signal init       : std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0) := (others => '0');
+  signal line_load  : std_logic := '0';
+  signal line_step  : std_logic := '0';
+  signal line_carry : std_logic := '0';
+  signal span_load  : std_logic := '0';
+  signal span_step  : std_logic := '0';
+  signal line_value : std_logic_vector(formats(g_exact).depth_sum.bits - 1 downto 0);
+  signal value      : std_logic_vector(line_value'range);
+begin
+  dut : entity work.z_interpolator
+    generic map (g_exact => g_exact)
+    port map (
+      clk        => clk,
+      init       => init,
+      line_load  => line_load,
+      line_step  => line_step,
+      line_carry => line_carry,
+      span_load  => span_load,
+      span_step  => span_step,
+      line_value => line_value,
+      value      => value);
+
+  clk <= not clk after c_half_period when not finished;
+
+  run : process is
+    variable vectors  : vectors_t;
+    variable checked  : std_logic;
+    variable init_now : std_logic_vector(init'range);
+    variable strobe   : std_logic_vector(1 to 5);
+  begin
+    vectors.open_file(g_file);
+    while vectors.next_vector loop
+      vectors.read_flag(checked);
+      vectors.read_word(init_now);
+      for i in strobe'range loop
+        vectors.read_flag(strobe(i));
+      end loop;
+      init <= init_now;
+      (line_load, line_step, line_carry, span_load, span_step) <= strobe;
+      wait until rising_edge(clk);
+      vectors.check_word_if(checked, "line_value", line_value);
+      vectors.check_word_if(checked, "value", value);
+    end loop;
+    finished <= true;
+    wait;
+  end process;
+end architecture;
+
+entity z_interpolator_tb is
+  generic (
+    g_folder : string := "z_interpolator"
+  );
+end entity;
+
+architecture sim of z_interpolator_tb is
+  signal finished : boolean_vector(0 to 1);
+begin
+  exact : entity work.z_interpolator_run
+    generic map (g_exact => true, g_file => g_folder & "/exact.txt")
+    port map (finished => finished(0));
+
+  published : entity work.z_interpolator_run
+    generic map (g_exact => false, g_file => g_folder & "/published.txt")
+    port map (finished => finished(1));
+
+  done : process is
+  begin
+    wait until and finished;
+    report "z_interpolator_tb: passed" severity note;
+    wait;
+  end process;
+end architecture;

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// halfway_mutants SOURCE VECTORS SCRATCH: puts one small fault after the other into a copy of the RTL and
+// runs the entity's testbench on it; each must be found. SOURCE is the project's root, VECTORS what
+// halfway_vectors wrote.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cstdio>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+
+namespace halfway {
+namespace {
+
+struct Mutant {
+  const char* file;       ///< in rtl/; its entity's testbench has to find the fault
+  std::string_view from;  ///< occurs once
+  std::string_view to;
+};
+
+constexpr Mutant c_mutants[] = {
+    // The top bit does not saturate; negative values give white.
+    {"arithmetic/saturate.vhd", "value(c_sign - 1 downto c_result_high + 1) & '0'",
+     "value(c_sign - 2 downto c_result_high + 1) & \"00\""},
+    {"arithmetic/saturate.vhd", "result <= (others => '0')", "result <= (others => '1')"},
+    // Loads without being told to.
+    {"stream/parameter_register.vhd", "if load = '1' then", "if load = '1' or start(0) = '1' then"},
+    // Overwrites a word that waits; survives reset.
+    {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= '1'"},
+    {"stream/stream_register.vhd", "v.valid := '0'", "v.valid := r.valid"},
+    // The wrong sign; step wins over load.
+    {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
+    {"interpolation/line_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '0' then"},
+    // Carry turned round; the span takes the next triangle's step.
+    {"interpolation/z_interpolator.vhd", "de <= de1 when line_carry = '1' else de0",
+     "de <= de0 when line_carry = '1' else de1"},
+    {"interpolation/z_interpolator.vhd", "increment => span_dx", "increment => dx"},
+    // Carry ignored in one register; the span takes the next triangle's step.
+    {"interpolation/quadratic_interpolator.vhd", "de0_step   <= de0e1 when", "de0_step   <= de0e0 when"},
+    {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
+    // No carry into x; a carry too early.
+    {"raster/edge_walker.vhd", "r.x + r.quotient + 1", "r.x + r.quotient"},
+    {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
+    // A clock lost between triangles, and between lines; a line lost to a stall; the stop edge never bends.
+    {"raster/triangle_walker.vhd", "not r.line.valid or (line_step and line_last)", "not r.line.valid"},
+    {"raster/triangle_walker.vhd", "not r.span.valid or (fragment_ready and span_last)", "not r.span.valid"},
+    {"raster/triangle_walker.vhd", "(fragment_ready and span_last)", "span_last"},
+    {"raster/triangle_walker.vhd", "line_load or (line_step and to_lower)", "line_load"},
+    // Not busy while only the buffer in front holds a triangle; the colour of a fragment that waits moves on.
+    {"shaders/quadratic_shader.vhd", "waiting or walking or out_valid", "walking or out_valid"},
+    {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => colours",
+     "load  => drawn,\n      start => colours"},
+};
+
+struct Folders {
+  std::filesystem::path source, vectors, scratch;
+};
+
+std::string entity_of(const char* file) {
+  return std::filesystem::path(file).stem();
+}
+
+// What the run of a testbench came to.
+enum class Outcome { passed, found };
+
+Result<ProcessEnd> ghdl(std::vector<std::string> arguments, const std::filesystem::path& folder) {
+  arguments.insert(arguments.begin(), "ghdl");
+  return run_process(
+      {.arguments = std::move(arguments), .working_folder = folder, .timeout = std::chrono::minutes(5)},
+      kInstallGhdl);
+}
+
+// `mutant` null: the RTL as it is.
+Result<Outcome> run(const Folders& folders, const char* file, const Mutant* mutant) {
+  auto folder = TemporaryFolder::make(folders.scratch);
+  if (!folder) return folder.error();
+  auto sources = read_rtl_sources(folders.source);
+  if (!sources) return sources.error();
+  const std::string entity = entity_of(file), top = entity + "_tb";
+  for (const std::string& name :
+       {std::string("tb/tb_pkg.vhd"),
+        "tb/" + (std::filesystem::path(file).parent_path() / (top + ".vhd")).string()}) {
+    auto source = read_vhdl_source(folders.source, name);
+    if (!source) return source.error();
+    sources->push_back(std::move(*source));
+  }
+  std::vector<std::string> names = {"-i", "--std=08"};
+  for (VhdlSource& source : *sources) {
+    if (mutant != nullptr && source.name == std::string("rtl/") + file) {
+      const std::size_t at = source.content.find(mutant->from);
+      if (at == std::string::npos || source.content.find(mutant->from, at + 1) != std::string::npos)
+        return bad_input(
+            fmt::format("{}: `{}` does not occur once; mend the list of mutants", source.name, mutant->from));
+      source.content.replace(at, mutant->from.size(), mutant->to);
+    }
+    if (auto written = write_file(folder->path() / source.name, source.content); !written)
+      return written.error();
+    names.push_back(source.name);
+  }
+  // Analyses what the testbench needs, no more.
+  for (const auto& arguments : {names, std::vector<std::string>{"-m", "--std=08", top}}) {
+    const auto end = ghdl(arguments, folder->path());
+    if (!end) return end.error();
+    if (!end->succeeded())
+      return tool_failed(fmt::format("{}: GHDL cannot analyse it:\n{}", file, end->output));
+  }
+  const auto end = ghdl({"-r", "--std=08", top, "-gg_folder=" + (folders.vectors / entity).string(),
+                         "--ieee-asserts=disable", "--assert-level=error"},
+                        folder->path());
+  if (!end) return end.error();
+  if (end->succeeded() && end->output.find(top + ": passed") != std::string::npos) return Outcome::passed;
+  // Only a testbench's own verdict counts, not whatever else may end a run.
+  if (end->succeeded() || end->output.find(" failure): ") == std::string::npos ||
+      end->output.find("cannot open") != std::string::npos)
+    return tool_failed(
+        fmt::format("{}: the testbench came to no verdict ({}):\n{}", top, end->how(), end->output));
+  return Outcome::found;
+}
+
+}  // namespace
+}  // namespace halfway
+
+int main(int argc, char** argv) {
+  using namespace halfway;
+  if (argc != 4) {
+    fmt::print(stderr, "usage: halfway_mutants SOURCE VECTORS SCRATCH\n");
+    return static_cast<int>(ExitCode::bad_input);
+  }
+  const Folders folders{std::filesystem::absolute(argv[1]), std::filesystem::absolute(argv[2]),
+                        std::filesystem::absolute(argv[3])};
+  // The first job has no fault in it, and must pass.
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  int missed = 0, broken = 0;
+  const auto work = [&] {
+    for (std::size_t job; (job = next++) <= std::size(c_mutants);) {
+      const Mutant* mutant = job == 0 ? nullptr : &c_mutants[job - 1];
+      const char* file = mutant == nullptr ? c_mutants[0].file : mutant->file;
+      const auto outcome = run(folders, file, mutant);
+      const std::lock_guard lock(mutex);
+      if (!outcome) {
+        ++broken;
+        fmt::print("{}\n", outcome.error().message);
+      } else if (mutant == nullptr && *outcome == Outcome::found) {
+        ++missed;
+        fmt::print("{}: its testbench fails without any fault\n", file);
+      } else if (mutant != nullptr && *outcome == Outcome::passed) {
+        ++missed;
+        fmt::print("{}: its testbench passes with `{}` for `{}`\n", file, mutant->to, mutant->from);
+      } else if (mutant != nullptr) {
+        fmt::print("{}: found `{}`\n", file, mutant->to);
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (int i = 0; i < 2; ++i) workers.emplace_back(work);
+  }
+  fmt::print("{} of {} mutants not found, {} could not be run\n", missed, std::size(c_mutants), broken);
+  return static_cast<int>(broken > 0   ? ExitCode::tool_failed
+                          : missed > 0 ? ExitCode::differs
+                                       : ExitCode::equal);
+}

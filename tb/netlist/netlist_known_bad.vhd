@@ -1,0 +1,76 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- Constructs that GHDL 2.0.0 turns into a wrong netlist without a word. The test of the netlist must catch each:
+-- refused by the driver, or seen as a difference between GHDL's simulation and Verilator's.
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.netlist_constructs_pkg.all;
+
+entity netlist_known_bad is
+  generic (
+    g_construct : natural := 0
+  );
+  port (
+    clk      : in  std_logic;
+    reset    : in  std_logic;
+    stimulus : in  std_logic_vector(c_stimulus - 1 downto 0);
+    response : out std_logic_vector(c_lanes * c_lane - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of netlist_known_bad is
+  signal a, b   : signed(39 downto 0);
+  signal result : signed(39 downto 0);
+begin
+  a <= signed(stimulus(55 downto 16));
+  b <= signed(stimulus(127 downto 88));
+
+  sound : if g_construct = 0 generate
+    result <= a + b;
+  end generate;
+  shift : if g_construct = 1 generate
+    result <= shift_right(a, 3);
+  end generate;
+  narrow : if g_construct = 2 generate
+    result <= resize(resize(a, 12), 40);
+  end generate;
+  absolute : if g_construct = 3 generate
+    result <= abs a;
+  end generate;
+  divide : if g_construct = 4 generate
+    result <= a / b when b /= 0 else a;
+  end generate;
+  smaller : if g_construct = 5 generate
+    result <= minimum(a, b);
+  end generate;
+  wide_constant : if g_construct = 6 generate
+    result <= a + signed'(x"8000000001");
+  end generate;
+  modulo : if g_construct = 7 generate
+    result <= a mod b when b /= 0 else a;
+  end generate;
+  fallback : if g_construct = 8 generate
+    choose : process (all)
+    begin
+      case stimulus(1 downto 0) is
+        when "00" =>
+          result <= a;
+        when "01" =>
+          result <= b;
+        when others =>
+          result <= a + b;
+      end case;
+    end process;
+  end generate;
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      if reset = '1' then
+        response <= (others => '0');
+      else
+        response <= std_logic_vector(resize(result, response'length));
+      end if;
+    end if;
+  end process;
+end architecture;

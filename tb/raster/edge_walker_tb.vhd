@@ -1,0 +1,80 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- Edges of random triangles, and random words, with steps and waits at random: clock by clock against the golden twin.
+library ieee;
+use ieee.std_logic_1164.all;
+use work.formats_pkg.all;
+use work.tb_pkg.all;
+
+entity edge_walker_tb is
+  generic (
+    g_folder : string := "edge_walker"
+  );
+end entity;
+
+architecture sim of edge_walker_tb is
+  subtype span_x_t is std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
+  subtype error_t  is std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
+
+  signal clk            : std_logic := '0';
+  signal load           : std_logic := '0';
+  signal load_x         : span_x_t := (others => '0');
+  signal load_quotient  : span_x_t := (others => '0');
+  signal load_remainder : error_t := (others => '0');
+  signal load_divisor   : error_t := (others => '0');
+  signal load_error     : error_t := (others => '0');
+  signal load_carry     : std_logic := '0';
+  signal step           : std_logic := '0';
+  signal x              : span_x_t;
+  signal carry          : std_logic;
+  signal finished       : boolean := false;
+begin
+  dut : entity work.edge_walker
+    port map (
+      clk            => clk,
+      load           => load,
+      load_x         => load_x,
+      load_quotient  => load_quotient,
+      load_remainder => load_remainder,
+      load_divisor   => load_divisor,
+      load_error     => load_error,
+      load_carry     => load_carry,
+      step           => step,
+      x              => x,
+      carry          => carry);
+
+  clk <= not clk after c_half_period when not finished;
+
+  run : process is
+    variable vectors                    : vectors_t;
+    variable checked, flag              : std_logic;
+    variable x_now, quotient            : span_x_t;
+    variable remainder, divisor, error  : error_t;
+  begin
+    vectors.open_file(g_folder & "/edges.txt");
+    while vectors.next_vector loop
+      vectors.read_flag(checked);
+      vectors.read_flag(flag);
+      load <= flag;
+      vectors.read_word(x_now);
+      vectors.read_word(quotient);
+      vectors.read_word(remainder);
+      vectors.read_word(divisor);
+      vectors.read_word(error);
+      load_x         <= x_now;
+      load_quotient  <= quotient;
+      load_remainder <= remainder;
+      load_divisor   <= divisor;
+      load_error     <= error;
+      vectors.read_flag(flag);
+      load_carry <= flag;
+      vectors.read_flag(flag);
+      step <= flag;
+      wait until rising_edge(clk);
+      vectors.check_word_if(checked, "x", x);
+      vectors.check_flag_if(checked, "carry", carry);
+    end loop;
+    finished <= true;
+    report "edge_walker_tb: passed" severity note;
+    wait;
+  end process;
+end architecture;

@@ -1,0 +1,213 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- What the testbenches share: files of vectors (tb/vectors/vector_file.hpp gives the format), the comparison that ends
+-- a run with vector number, got and expected, random stalls.
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use std.textio.all;
+
+package tb_pkg is
+
+  constant c_half_period : time := 5 ns;
+
+  -- A file of vectors, read one by one.
+  type vectors_t is protected
+    procedure open_file (name : in string);
+    procedure close_file;
+    -- Goes to the next vector; false at the end of a whole file that held at least one.
+    impure function next_vector return boolean;
+    -- As next_vector, where one must be: `what` came, and the file expects no more.
+    procedure expect_vector (what : in string);
+    -- The next word of this vector.
+    procedure read_word (word : out std_logic_vector);
+    procedure read_flag (flag : out std_logic);
+    -- The next word of this vector is what `got` must be; of a wider one only the bits set in `mask` count.
+    procedure check_word (name : in string; got : in std_logic_vector);
+    procedure check_word (name : in string; got, mask : in std_logic_vector);
+    -- As the two above, where `checked` is '1'; else the word is passed over.
+    procedure check_word_if (checked : in std_logic; name : in string; got : in std_logic_vector);
+    procedure check_flag (name : in string; got : in std_logic);
+    procedure check_flag_if (checked : in std_logic; name : in string; got : in std_logic);
+    -- The next word as a number below 2**31.
+    impure function read_number return natural;
+    -- Ends the run: file, number of the vector, and the message.
+    procedure fail (message : in string);
+  end protected;
+
+  function to_flag (value : boolean) return std_logic;
+
+  -- xorshift32 (Marsaglia 2003, shifts 13, 17, 5)
+  function next_random (state : unsigned(31 downto 0)) return unsigned;
+
+  -- True for one value of `random` in 2**exponent.
+  function chance (random : unsigned(7 downto 0); exponent : natural range 0 to 8) return boolean;
+
+end package;
+
+package body tb_pkg is
+
+  type vectors_t is protected body
+    file vectors         : text;
+    variable file_name   : line;
+    variable text_in     : line;
+    variable position    : positive;
+    variable count       : natural;
+
+    procedure fail (message : in string) is
+    begin
+      report file_name.all & ": vector " & to_string(count - 1) & ": " & message severity failure;
+    end procedure;
+
+    procedure open_file (name : in string) is
+      variable status : file_open_status;
+    begin
+      deallocate(file_name);
+      file_name := new string'(name);
+      count     := 0;
+      file_open(status, vectors, name, read_mode);
+      if status /= open_ok then
+        report name & ": cannot open; halfway_vectors writes it" severity failure;
+      end if;
+    end procedure;
+
+    procedure close_file is
+    begin
+      file_close(vectors);
+    end procedure;
+
+    impure function next_vector return boolean is
+    begin
+      if endfile(vectors) then
+        report file_name.all & ": ends without its last line, end <count>" severity failure;
+      end if;
+      readline(vectors, text_in);
+      position := text_in'low;
+      if text_in'length > 4 and text_in(text_in'low to text_in'low + 3) = "end " then
+        if count = 0 or text_in(text_in'low + 4 to text_in'high) /= to_string(count) then
+          report file_name.all & ": holds " & to_string(count) & " vectors, its last line is " & text_in.all
+            severity failure;
+        end if;
+        return false;
+      end if;
+      count := count + 1;
+      return true;
+    end function;
+
+    procedure expect_vector (what : in string) is
+    begin
+      if not next_vector then
+        report file_name.all & ": " & what & " came after all " & to_string(count) & " expected" severity failure;
+      end if;
+    end procedure;
+
+    procedure read_word (word : out std_logic_vector) is
+      constant c_digits : positive := (word'length + 3) / 4;
+
+      variable digits : std_logic_vector(4 * c_digits - 1 downto 0);
+      variable digit  : natural;
+    begin
+      for i in c_digits - 1 downto 0 loop
+        if position > text_in'high then
+          fail("ends too early");
+        end if;
+        case text_in(position) is
+          when '0' to '9' => digit := character'pos(text_in(position)) - character'pos('0');
+          when 'A' to 'F' => digit := character'pos(text_in(position)) - character'pos('A') + 10;
+          when others =>
+            digit := 0;
+            fail("has a word of another width than " & to_string(word'length) & " bits");
+        end case;
+        digits(4 * i + 3 downto 4 * i) := std_logic_vector(to_unsigned(digit, 4));
+        position := position + 1;
+      end loop;
+      if position <= text_in'high and text_in(position) /= ' ' then
+        fail("has a word of another width than " & to_string(word'length) & " bits");
+      end if;
+      position := position + 1;
+      word := digits(word'length - 1 downto 0);
+    end procedure;
+
+    procedure read_flag (flag : out std_logic) is
+      variable word : std_logic_vector(0 downto 0);
+    begin
+      read_word(word);
+      flag := word(0);
+    end procedure;
+
+    impure function read_number return natural is
+      variable word : std_logic_vector(31 downto 0);
+    begin
+      read_word(word);
+      return to_integer(unsigned(word));
+    end function;
+
+    -- Hexadecimal; where a digit has no value, all bits as well.
+    function to_text (word : std_logic_vector) return string is
+    begin
+      if is_x(word) then
+        return to_hstring(word) & " (" & to_string(word) & ")";
+      end if;
+      return to_hstring(word);
+    end function;
+
+    procedure compare (name : in string; got, expected, mask : in std_logic_vector) is
+    begin
+      if (got and mask) /= (expected and mask) then
+        fail(name & " is " & to_text(got and mask) & ", expected " & to_text(expected and mask));
+      end if;
+    end procedure;
+
+    procedure check_word (name : in string; got, mask : in std_logic_vector) is
+      variable expected : std_logic_vector(got'range);
+    begin
+      read_word(expected);
+      compare(name, got, expected, mask);
+    end procedure;
+
+    procedure check_word (name : in string; got : in std_logic_vector) is
+      variable all_bits : std_logic_vector(got'range) := (others => '1');
+    begin
+      check_word(name, got, all_bits);
+    end procedure;
+
+    procedure check_word_if (checked : in std_logic; name : in string; got : in std_logic_vector) is
+      variable mask : std_logic_vector(got'range) := (others => checked);
+    begin
+      check_word(name, got, mask);
+    end procedure;
+
+    procedure check_flag_if (checked : in std_logic; name : in string; got : in std_logic) is
+      variable word : std_logic_vector(0 downto 0) := (others => got);
+    begin
+      check_word_if(checked, name, word);
+    end procedure;
+
+    procedure check_flag (name : in string; got : in std_logic) is
+    begin
+      check_flag_if('1', name, got);
+    end procedure;
+  end protected body;
+
+  function to_flag (value : boolean) return std_logic is
+  begin
+    if value then
+      return '1';
+    end if;
+    return '0';
+  end function;
+
+  function next_random (state : unsigned(31 downto 0)) return unsigned is
+    variable x : unsigned(31 downto 0) := state;
+  begin
+    x := x xor shift_left(x, 13);
+    x := x xor shift_right(x, 17);
+    x := x xor shift_left(x, 5);
+    return x;
+  end function;
+
+  function chance (random : unsigned(7 downto 0); exponent : natural range 0 to 8) return boolean is
+  begin
+    return to_integer(random) mod 2 ** exponent = 0;
+  end function;
+
+end package body;

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stimulus and expected answers of each testbench, from the golden twin. `folder` is the entity's own.
+#pragma once
+
+#include <filesystem>
+
+#include "common/result.hpp"
+
+namespace halfway::vectors {
+
+Status write_saturate(const std::filesystem::path& folder);
+Status write_parameter_register(const std::filesystem::path& folder);
+Status write_stream_register(const std::filesystem::path& folder);
+Status write_line_interpolator(const std::filesystem::path& folder);
+Status write_z_interpolator(const std::filesystem::path& folder);
+Status write_quadratic_interpolator(const std::filesystem::path& folder);
+Status write_edge_walker(const std::filesystem::path& folder);
+Status write_triangle_walker(const std::filesystem::path& folder);
+Status write_quadratic_shader(const std::filesystem::path& folder);
+
+}  // namespace halfway::vectors

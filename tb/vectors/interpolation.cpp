@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include "golden/line_interpolator.hpp"
+#include "golden/quadratic_interpolator.hpp"
+#include "golden/z_interpolator.hpp"
+#include "vectors/entities.hpp"
+#include "vectors/random.hpp"
+#include "vectors/vector_file.hpp"
+
+namespace halfway::vectors {
+namespace {
+
+using golden::Exact, golden::Published;
+
+// A line: checked, load, start, step, increment; value, before the edge that may load or step.
+template <int W>
+Status write_line(const std::filesystem::path& folder) {
+  Random random(W);
+  VectorFile file;
+  golden::LineInterpolator<W> twin;
+  for (int i = 0; i < 4000; ++i) {
+    const bool load = i == 0 || random.one_in(12), step = !random.one_in(5);
+    const auto start = random.word<W>(), increment = random.word<W>();
+    file.flag(i > 0).flag(load).word(start).flag(step).word(increment).word(twin.value()).end_vector();
+    if (load)
+      twin.load(start);
+    else if (step)
+      twin.step(increment);
+  }
+  return file.write(folder / (std::to_string(W) + ".txt"));
+}
+
+// What the walker tells the interpolators in one clock.
+struct Strobes {
+  bool line_load, line_step, line_carry, span_load, span_step;
+};
+
+// Every combination comes up, though the walker does not give them all. The first two fill the registers.
+Strobes random_strobes(Random& random, int i) {
+  if (i == 0) return {true, false, false, false, false};
+  if (i == 1) return {false, false, false, true, false};
+  const bool busy = i / 200 % 2 == 0;
+  return {random.one_in(busy ? 4 : 40), !random.one_in(3), random.one_in(2), random.one_in(busy ? 3 : 20),
+          !random.one_in(4)};
+}
+
+// The span stage takes what the line stage held before this edge, so it goes first.
+template <class Twin, class LineLoad>
+void clock(Twin& twin, const Strobes& s, LineLoad&& line_load) {
+  if (s.span_load)
+    twin.span_load();
+  else if (s.span_step)
+    twin.span_step();
+  if (s.line_load)
+    line_load();
+  else if (s.line_step)
+    twin.line_step(s.line_carry);
+}
+
+void add_strobes(VectorFile& file, const Strobes& s) {
+  file.flag(s.line_load).flag(s.line_step).flag(s.line_carry).flag(s.span_load).flag(s.span_step);
+}
+
+// A line: checked, init, strobes; line_value, value, before the edge.
+template <class Preset>
+Status write_z(const std::filesystem::path& folder) {
+  using At = typename Preset::init_header_at;
+  Random random(40);
+  VectorFile file;
+  golden::ZInterpolator<Preset> twin;
+  for (int i = 0; i < 2500; ++i) {
+    std::array<std::uint32_t, (Preset::c_init_header_bits + 31) / 32> init;
+    random.fill(init);
+    for (const golden::Field* field : {&At::z, &At::z_dx, &At::z_de0})
+      set_bits(init, *field, random.word(field->bits));
+    const Strobes s = random_strobes(random, i);
+    file.flag(i > 1).words_of(init, Preset::c_init_header_bits);
+    add_strobes(file, s);
+    file.word(twin.line_value()).word(twin.value()).end_vector();
+    clock(twin, s, [&] { twin.line_load(init); });
+  }
+  return file.write(folder / (std::string(Preset::c_name) + ".txt"));
+}
+
+// A line: checked, init, strobes; line_value, line_dx, line_de0, line_de1, value, dx, before the edge.
+template <class Preset>
+Status write_quadratic(const std::filesystem::path& folder) {
+  Random random(41);
+  VectorFile file;
+  golden::QuadraticInterpolator<Preset> twin;
+  for (int i = 0; i < 3000; ++i) {
+    std::array<std::uint32_t, (Preset::c_init_channel_bits + 31) / 32> init;
+    random.fill(init);
+    for (const golden::Field& field : Preset::c_init_channel) set_bits(init, field, random.word(field.bits));
+    const Strobes s = random_strobes(random, i);
+    file.flag(i > 1).words_of(init, Preset::c_init_channel_bits);
+    add_strobes(file, s);
+    file.word(twin.line_value()).word(twin.line_dx()).word(twin.line_de0()).word(twin.line_de1());
+    file.word(twin.value()).word(twin.dx()).end_vector();
+    clock(twin, s, [&] { twin.line_load(init, 0); });
+  }
+  return file.write(folder / (std::string(Preset::c_name) + ".txt"));
+}
+
+}  // namespace
+
+Status write_line_interpolator(const std::filesystem::path& folder) {
+  if (auto s = write_line<3>(folder); !s) return s;
+  if (auto s = write_line<Published::c_intensity_bits>(folder); !s) return s;
+  return write_line<Exact::c_intensity_bits>(folder);
+}
+
+Status write_z_interpolator(const std::filesystem::path& folder) {
+  if (auto s = write_z<Exact>(folder); !s) return s;
+  return write_z<Published>(folder);
+}
+
+Status write_quadratic_interpolator(const std::filesystem::path& folder) {
+  if (auto s = write_quadratic<Exact>(folder); !s) return s;
+  return write_quadratic<Published>(folder);
+}
+
+}  // namespace halfway::vectors

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// halfway_vectors ENTITY|all FOLDER: writes FOLDER/ENTITY/*.txt for tb/**/ENTITY_tb.vhd.
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+#include "vectors/entities.hpp"
+
+int main(int argc, char** argv) {
+  using namespace halfway;
+  using namespace halfway::vectors;
+  constexpr std::array entities = {
+      std::pair{"saturate", &write_saturate},
+      std::pair{"parameter_register", &write_parameter_register},
+      std::pair{"stream_register", &write_stream_register},
+      std::pair{"line_interpolator", &write_line_interpolator},
+      std::pair{"z_interpolator", &write_z_interpolator},
+      std::pair{"quadratic_interpolator", &write_quadratic_interpolator},
+      std::pair{"edge_walker", &write_edge_walker},
+      std::pair{"triangle_walker", &write_triangle_walker},
+      std::pair{"quadratic_shader", &write_quadratic_shader},
+  };
+  bool found = false;
+  for (const auto& [name, write] : entities) {
+    if (argc != 3 || (argv[1] != std::string_view("all") && argv[1] != std::string_view(name))) continue;
+    found = true;
+    if (const Status written = write(std::filesystem::path(argv[2]) / name); !written) {
+      fmt::print(stderr, "{}\n", written.error().message);
+      return static_cast<int>(written.error().code);
+    }
+  }
+  if (found) return static_cast<int>(ExitCode::equal);
+  fmt::print(stderr, "usage: halfway_vectors ENTITY|all FOLDER\nentities:");
+  for (const auto& entity : entities) fmt::print(stderr, " {}", entity.first);
+  fmt::print(stderr, "\n");
+  return static_cast<int>(ExitCode::bad_input);
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "golden/edge_walker.hpp"
+#include "vectors/entities.hpp"
+#include "vectors/random.hpp"
+#include "vectors/triangles.hpp"
+#include "vectors/vector_file.hpp"
+
+namespace halfway::vectors {
+namespace {
+
+using golden::EdgeStart, golden::Exact, golden::Published, golden::SpanXWord;
+
+EdgeStart edge_start(const EdgeSection& s) {
+  return {SpanXWord::from_bits(static_cast<std::uint64_t>(s.pixel)),
+          SpanXWord::from_bits(static_cast<std::uint64_t>(s.quotient)),
+          static_cast<std::uint32_t>(s.remainder),
+          static_cast<std::uint32_t>(s.divisor),
+          static_cast<std::uint32_t>(s.error),
+          s.carry};
+}
+
+EdgeStart garbage_edge(Random& random) {
+  const auto error = [&] { return static_cast<std::uint32_t>(random.word(Exact::c_edge_error_bits)); };
+  return {random.word<Exact::c_span_x_bits>(),
+          random.word<Exact::c_span_x_bits>(),
+          error(),
+          error(),
+          error(),
+          random.one_in(2)};
+}
+
+struct SetNames {
+  Mix mix;
+  const char* name;
+};
+constexpr SetNames c_sets[] = {{Mix::dense, "dense"}, {Mix::mixed, "mixed"}};
+
+// init: the header, and the clock in which it is taken at full speed; lines: y, start, stop, empty, last,
+// carry; fragments: triangle, y, x, and the clock in which it is given out at full speed.
+template <class Preset>
+Status write_walker(const std::filesystem::path& folder) {
+  using At = typename Preset::init_header_at;
+  Random random(Preset::c_init_header_bits);
+  for (const auto& [mix, name] : c_sets) {
+    auto set = random_triangles<Preset>(random, mix, Preset::c_init_header_bits, 5000);
+    if (mix == Mix::mixed) {
+      // No line at all counts as all that the counter holds; here they are empty.
+      InitVector none = set.front();
+      set_bits(none, At::upper_lines, 0);
+      if constexpr (std::is_same_v<Preset, Exact>) {
+        Walk walk;
+        walk.start.pixel = walk.upper.pixel = 9;
+        put_walk(none, walk);
+      } else {
+        set_bits(none, At::start_x, 9u << Published::c_edge_x_fraction_bits);
+        set_bits(none, At::upper_x, 2u << Published::c_edge_x_fraction_bits);
+        set_bits(none, At::start_slope, 0);
+        set_bits(none, At::upper_slope, 0);
+      }
+      set.insert(set.begin() + static_cast<std::ptrdiff_t>(set.size() / 2), none);
+    }
+    VectorFile inits, line_file, fragments;
+    WalkerClock clock;
+    for (const InitVector& init : set) {
+      inits.words_of(init, Preset::c_init_header_bits);
+      inits.word(static_cast<std::uint64_t>(clock.take_init()), 32).end_vector();
+      for (const WalkedLine& line : walk_lines<Preset>(init)) {
+        line_file.word(line.y, Preset::c_pixel_y_bits).word(line.start).word(line.stop);
+        line_file.flag(line.pixels() == 0).flag(line.last).flag(line.carry).end_vector();
+        const std::int64_t first = clock.take_line(line.pixels());
+        for (std::int64_t i = 0; i < line.pixels(); ++i) {
+          const std::int64_t x = line.start.value() + (line.backward ? -i : i);
+          fragments.word(line.triangle, Preset::c_triangle_bits).word(line.y, Preset::c_pixel_y_bits);
+          fragments.word(static_cast<std::uint64_t>(x), Preset::c_span_x_bits);
+          fragments.word(static_cast<std::uint64_t>(first + i), 32).end_vector();
+        }
+      }
+    }
+    const std::string stem = std::string(Preset::c_name) + '_' + name;
+    if (auto s = inits.write(folder / (stem + "_init.txt")); !s) return s;
+    if (auto s = line_file.write(folder / (stem + "_lines.txt")); !s) return s;
+    if (auto s = fragments.write(folder / (stem + "_fragments.txt")); !s) return s;
+  }
+  return Ok{};
+}
+
+}  // namespace
+
+// A line: checked, load, x, quotient, remainder, divisor, error, carry, step; x, carry, before the edge.
+Status write_edge_walker(const std::filesystem::path& folder) {
+  Random random(14);
+  VectorFile file;
+  golden::EdgeWalker twin;
+  std::vector<EdgeStart> edges;
+  for (int i = 0; i < 6000; ++i) {
+    if (edges.empty()) {
+      for (const Walk& walk : random_walks(random))
+        for (const EdgeSection* section : {&walk.start, &walk.upper, &walk.lower})
+          edges.push_back(edge_start(*section));
+      edges.push_back(garbage_edge(random));
+    }
+    const EdgeStart& e = edges.back();
+    const bool load = i == 0 || random.one_in(16), step = !random.one_in(5);
+    file.flag(i > 0).flag(load).word(e.x).word(e.quotient);
+    for (const std::uint32_t word : {e.remainder, e.divisor, e.error})
+      file.word(word, Exact::c_edge_error_bits);
+    file.flag(e.carry).flag(step).word(twin.x()).flag(twin.carry()).end_vector();
+    if (load) {
+      twin.load(e);
+      edges.pop_back();
+    } else if (step) {
+      twin.step();
+    }
+  }
+  return file.write(folder / "edges.txt");
+}
+
+Status write_triangle_walker(const std::filesystem::path& folder) {
+  if (auto s = write_walker<Exact>(folder); !s) return s;
+  return write_walker<Published>(folder);
+}
+
+}  // namespace halfway::vectors

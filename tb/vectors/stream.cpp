@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include "golden/parameter_register.hpp"
+#include "golden/stream_register.hpp"
+#include "vectors/entities.hpp"
+#include "vectors/random.hpp"
+#include "vectors/vector_file.hpp"
+
+namespace halfway::vectors {
+namespace {
+
+template <int Bits>
+using FlatWord = std::array<std::uint32_t, (Bits + 31) / 32>;
+
+template <int Bits>
+FlatWord<Bits> random_word(Random& random) {
+  FlatWord<Bits> word;
+  random.fill(word);
+  return word;
+}
+
+// A line: checked, load, start; value, before the edge that may load.
+template <int Bits>
+Status write_parameter(const std::filesystem::path& folder) {
+  Random random(Bits);
+  VectorFile file;
+  golden::ParameterRegister<FlatWord<Bits>> twin;
+  for (int i = 0; i < 600; ++i) {
+    const bool load = i == 0 || random.one_in(i < 300 ? 2 : 6);
+    const auto start = random_word<Bits>(random);
+    file.flag(i > 0).flag(load).words_of(start, Bits).words_of(twin.value(), Bits).end_vector();
+    if (load) twin.load(start);
+  }
+  return file.write(folder / (std::to_string(Bits) + ".txt"));
+}
+
+// A line: reset, in_valid, in_data, out_ready; in_ready, out_valid, out_data (meant where out_valid).
+template <int Bits>
+Status write_stream(const std::filesystem::path& folder) {
+  Random random(Bits);
+  VectorFile file;
+  golden::StreamRegister<FlatWord<Bits>> twin;
+  constexpr int c_vectors = 3000;
+  for (int i = 0; i < c_vectors; ++i) {
+    // Full speed, then a fast source, a fast sink, both at random, with a reset now and then.
+    const int part = i * 4 / c_vectors;
+    const bool in_valid = part < 2 || random.one_in(2),
+               out_ready = part == 0 || part == 2 || random.one_in(2);
+    const bool reset = i == 0 || (i > c_vectors / 8 && random.one_in(60));
+    const auto data = random_word<Bits>(random);
+    file.flag(i > 0).flag(reset).flag(in_valid).words_of(data, Bits).flag(out_ready);
+    file.flag(twin.in_ready(out_ready)).flag(twin.out_valid()).words_of(twin.out_data(), Bits).end_vector();
+    twin.clock(reset, in_valid, data, out_ready);
+  }
+  return file.write(folder / (std::to_string(Bits) + ".txt"));
+}
+
+}  // namespace
+
+Status write_parameter_register(const std::filesystem::path& folder) {
+  if (auto s = write_parameter<1>(folder); !s) return s;
+  if (auto s = write_parameter<40>(folder); !s) return s;
+  return write_parameter<83>(folder);
+}
+
+Status write_stream_register(const std::filesystem::path& folder) {
+  if (auto s = write_stream<1>(folder); !s) return s;
+  if (auto s = write_stream<32>(folder); !s) return s;
+  return write_stream<497>(folder);
+}
+
+}  // namespace halfway::vectors

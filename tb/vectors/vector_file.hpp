@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A testbench's vectors as text, for tb/tb_pkg.vhd: words in hexadecimal with a blank between, a vector a
+// line, `end <count>` last, so that a file cut short is seen.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "common/file.hpp"
+#include "golden/word.hpp"
+
+namespace halfway::vectors {
+
+class VectorFile {
+ public:
+  /// A word of `bits` bits; what `value` holds above them is dropped.
+  VectorFile& word(std::uint64_t value, int bits) {
+    const std::uint32_t words[] = {static_cast<std::uint32_t>(value),
+                                   static_cast<std::uint32_t>(value >> 32)};
+    return words_of(words, bits);
+  }
+  VectorFile& flag(bool value) { return word(value, 1); }
+  template <int W>
+  VectorFile& word(golden::Word<W> value) {
+    return word(value.bits(), W);
+  }
+  /// `bits` bits of a flat vector, bit 0 of words[0] lowest.
+  VectorFile& words_of(std::span<const std::uint32_t> words, int bits) {
+    for (int low = (bits - 1) / 4 * 4; low >= 0; low -= 4) {
+      const auto nibble = words[static_cast<std::size_t>(low) / 32] >> (low % 32) & 0xF;
+      text_ += "0123456789ABCDEF"[golden::low_bits(nibble, bits - low < 4 ? bits - low : 4)];
+    }
+    text_ += ' ';
+    return *this;
+  }
+  void end_vector() {
+    text_.back() = '\n';
+    ++count_;
+  }
+  std::size_t size() const { return count_; }
+  Status write(const std::filesystem::path& path) const {
+    if (auto made = make_folders(path.parent_path()); !made) return made;
+    return write_file(path, text_ + "end " + std::to_string(count_) + '\n');
+  }
+
+ private:
+  std::string text_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace halfway::vectors
