@@ -120,7 +120,6 @@ begin
     variable letter      : character;
     variable good        : boolean;
     variable vector      : std_logic_vector(c_init_bits - 1 downto 0);
-    variable fresh       : boolean := false;   -- vector is not yet in init_data
     variable at_end      : boolean := false;   -- of the init file
     variable offered     : boolean := false;   -- init_valid stays until the vector is taken
     variable started     : boolean := false;
@@ -160,12 +159,8 @@ begin
             & to_string(c_init_bits) & " bits" severity failure;
         end if;
         vectors := vectors + 1;
-        fresh   := true;
         -- Once a vector, not once a clock: a simulator pays for every bit.
-        if fresh then
-          init_data <= vector;
-          fresh     := false;
-        end if;
+        init_data <= vector;
       end if;
     end procedure;
 

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/ghdl/ghdl_library.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+
+namespace halfway {
+namespace {
+
+const std::vector<std::string> kAnalysisFlags = {
+    "--std=08", "-Wlibrary", "-Wdefault-binding", "-Wbinding", "-Wport", "-Wunused",
+    "-Whide",   "-Wshared",  "-Wstatic",          "-Wuseless", "-Werror"};
+
+constexpr std::chrono::minutes kAnalysisTimeout{10};
+
+Result<std::string> run_ghdl(Command command, const std::string& doing) {
+  command.timeout = kAnalysisTimeout;
+  const auto end = run_process(command, kInstallGhdl);
+  if (!end) return end.error();
+  if (end->succeeded()) return end->output;
+  return tool_failed(fmt::format("{}: ghdl failed ({}):\n{}\n  while running: {}", doing, end->how(),
+                                 end->output, to_string(command)));
+}
+
+/// GHDL 2.0.0 leaves out of a Verilog `case` what the VHDL has under `when others`, and nothing in the
+/// Verilog shows it. The same netlist as VHDL does: only "X...X when others", after a full list of choices,
+/// may be left out.
+Status check_choices(const std::string& entity, std::string_view vhdl) {
+  constexpr std::string_view mark = " when others;";
+  for (std::size_t at = vhdl.find(mark); at != std::string_view::npos; at = vhdl.find(mark, at + 1)) {
+    const std::size_t begin = vhdl.rfind('\n', at) + 1;
+    const std::string_view value = vhdl.substr(begin, at - begin);
+    if (value.find_first_not_of(" \"'X") == std::string_view::npos) continue;
+    if (value.find(" downto 0 => 'X')") != std::string_view::npos) continue;
+    const std::size_t where = vhdl.rfind("  -- ", at);
+    const std::string_view place = vhdl.substr(where + 5, vhdl.find('\n', where) - where - 5);
+    return tool_failed(
+        fmt::format("{}: synthesis of {}: GHDL's Verilog forgets what stands under `when others`; "
+                    "write every choice out and 'X' under others, or if and elsif",
+                    place, entity));
+  }
+  return Ok{};
+}
+
+}  // namespace
+
+Result<GhdlTool> GhdlTool::find() {
+  Command command{.arguments = {"ghdl", "--version"}, .timeout = std::chrono::seconds(30)};
+  const auto end = run_process(command, kInstallGhdl);
+  if (!end) return end.error();
+  if (!end->succeeded()) {
+    return tool_failed(fmt::format("ghdl: does not run ({}): {}; install it with: {}", end->how(),
+                                   end->output, kInstallGhdl));
+  }
+  GhdlTool tool{GhdlBackEnd::mcode, end->output};
+  if (end->output.find("llvm") != std::string::npos) tool.back_end = GhdlBackEnd::llvm;
+  if (end->output.find("GCC") != std::string::npos) tool.back_end = GhdlBackEnd::gcc;
+  return tool;
+}
+
+Result<VhdlSource> read_vhdl_source(const std::filesystem::path& source_folder, const std::string& name) {
+  auto content = read_file(source_folder / name);
+  if (!content) return tool_failed(content.error().message);
+  return VhdlSource{name, std::move(*content)};
+}
+
+Result<std::vector<VhdlSource>> read_rtl_sources(const std::filesystem::path& source_folder) {
+  auto reader = LineReader::open(source_folder / "rtl/files.f");
+  if (!reader) return tool_failed(reader.error().message);
+  std::vector<VhdlSource> sources;
+  std::string_view line;
+  while (true) {
+    const auto next = reader->next(line);
+    if (next == LineReader::Next::failed) return tool_failed(reader->error().message);
+    if (next == LineReader::Next::end_of_file) return sources;
+    if (line.empty() || line.front() == '#') continue;
+    if (line.find("..") != std::string_view::npos || line.front() == '/') {
+      return tool_failed(reader->at("not a path inside rtl/").message);
+    }
+    auto source = read_vhdl_source(source_folder, "rtl/" + std::string(line));
+    if (!source) return source.error();
+    sources.push_back(std::move(*source));
+  }
+}
+
+Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
+                                      const std::string& top, const std::filesystem::path& cache) {
+  ContentHash hash;
+  hash.add("ghdl library 1").add(tool.version).add(top);
+  for (const std::string& flag : kAnalysisFlags) hash.add(flag);
+  for (const VhdlSource& source : sources) hash.add(source.name).add(source.content);
+
+  // GHDL's library file holds absolute names of folders where given such: all commands run inside the folder.
+  const std::filesystem::path folder = std::filesystem::absolute(cache) / "ghdl" / hash.hex();
+  GhdlLibrary library(tool, folder, hash.hex());
+  if (std::filesystem::exists(folder)) return library;
+
+  auto fresh = TemporaryFolder::make(folder.parent_path());
+  if (!fresh) return fresh.error();
+  Command analyse{.arguments = {"ghdl", "-a"}, .working_folder = fresh->path()};
+  if (tool.back_end != GhdlBackEnd::mcode) analyse.arguments.emplace_back("-O2");
+  analyse.arguments.insert(analyse.arguments.end(), kAnalysisFlags.begin(), kAnalysisFlags.end());
+  for (const VhdlSource& source : sources) {
+    if (auto written = write_file(fresh->path() / source.name, source.content); !written)
+      return written.error();
+    analyse.arguments.push_back(source.name);
+  }
+  if (auto done = run_ghdl(analyse, "analysis of the VHDL"); !done) return done.error();
+  if (!top.empty() && tool.back_end != GhdlBackEnd::mcode) {
+    Command elaborate{.arguments = {"ghdl", "-e", "--std=08", top}, .working_folder = fresh->path()};
+    if (auto done = run_ghdl(elaborate, "elaboration of " + top); !done) return done.error();
+  }
+  if (auto moved = fresh->move_to(folder); !moved) return moved.error();
+  return library;
+}
+
+Result<std::string> GhdlLibrary::synthesize(
+    const std::string& entity, const std::vector<std::pair<std::string, std::string>>& generics) const {
+  const auto netlist = [&](const std::string& language) -> Result<std::string> {
+    // Standard output goes to a file: warnings on standard error must not get into the netlist.
+    auto scratch = TemporaryFolder::make(folder_.parent_path());
+    if (!scratch) return scratch.error();
+    Command command{.arguments = {"ghdl", "--synth", "--std=08", "--no-formal", "--out=" + language},
+                    .working_folder = folder_,
+                    .standard_output = scratch->path() / "netlist"};
+    for (const auto& [name, value] : generics) command.arguments.push_back("-g" + name + '=' + value);
+    command.arguments.push_back(entity);
+    if (auto done = run_ghdl(command, "synthesis of " + entity); !done) return done.error();
+    return read_file(command.standard_output);
+  };
+  const auto vhdl = netlist("vhdl");
+  if (!vhdl) return vhdl.error();
+  if (auto sound = check_choices(entity, *vhdl); !sound) return sound.error();
+  return netlist("verilog");
+}
+
+std::vector<std::string> GhdlLibrary::run_arguments(const std::string& top) const {
+  if (tool_.back_end == GhdlBackEnd::mcode) return {"ghdl", "-r", "--std=08", top};
+  return {(folder_ / top).string()};
+}
+
+}  // namespace halfway

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/ghdl/ghdl_runner.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr const char* kTestbench = "frame_tb";
+constexpr const char* kTestbenchFile = "tb/frame_tb.vhd";
+constexpr std::string_view kTestbenchShader = "entity work.quadratic_shader";
+
+/// Removes the file at the end unless it was renamed.
+class ScratchFile {
+ public:
+  explicit ScratchFile(std::filesystem::path path) : path_(std::move(path)) {}
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  ~ScratchFile() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+  Status rename_to(const std::filesystem::path& target) {
+    std::error_code error;
+    std::filesystem::rename(path_, target, error);
+    if (error) return tool_failed(fmt::format("{}: cannot write: {}", target.string(), error.message()));
+    path_.clear();
+    return Ok{};
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The numbers of the last two lines, `cycles <n>` and `end <count>`, if they are there.
+std::optional<GhdlRun> read_trailer(const std::filesystem::path& trace_file) {
+  std::ifstream file(trace_file, std::ios::binary | std::ios::ate);
+  if (!file) return std::nullopt;
+  const std::streamoff size = file.tellg();
+  const std::streamoff length = std::min<std::streamoff>(size, 128);
+  std::string tail(static_cast<std::size_t>(length), '\0');
+  file.seekg(size - length);
+  if (!file.read(tail.data(), length) || tail.empty() || tail.back() != '\n') return std::nullopt;
+  const std::size_t cycles_at = tail.rfind("\ncycles ");
+  if (cycles_at == std::string::npos) return std::nullopt;
+  const char* at = tail.data() + cycles_at + 8;
+  const char* const end = tail.data() + tail.size();
+  GhdlRun run;
+  auto parsed = std::from_chars(at, end, run.cycles);
+  constexpr std::string_view between = "\nend ";
+  if (parsed.ec != std::errc() || std::string_view(parsed.ptr, end).substr(0, between.size()) != between) {
+    return std::nullopt;
+  }
+  parsed = std::from_chars(parsed.ptr + between.size(), end, run.fragments);
+  if (parsed.ec != std::errc() || std::string_view(parsed.ptr, end) != "\n") return std::nullopt;
+  return run;
+}
+
+/// What the testbench reported, without GHDL's own lines around it; empty where it reported nothing.
+std::string reported_failure(const std::string& output) {
+  constexpr std::string_view mark = "(report failure): ";
+  const std::size_t at = output.find(mark);
+  if (at == std::string::npos) return {};
+  const std::size_t from = at + mark.size();
+  return output.substr(from, output.find('\n', from) - from);
+}
+
+}  // namespace
+
+Result<GhdlRunner> GhdlRunner::open(const HardwareKey& key, const SimulatorFolders& folders) {
+  const auto tool = GhdlTool::find();
+  if (!tool) return tool.error();
+  auto sources = read_rtl_sources(folders.source);
+  if (!sources) return sources.error();
+  auto testbench = read_vhdl_source(folders.source, kTestbenchFile);
+  if (!testbench) return testbench.error();
+  // All shaders have the same ports: one testbench, into which the entity's name is put.
+  const std::size_t at = testbench->content.find(kTestbenchShader);
+  if (at == std::string::npos) {
+    return tool_failed(fmt::format("{}: does not name \"{}\"", kTestbenchFile, kTestbenchShader));
+  }
+  testbench->content.replace(at, kTestbenchShader.size(), "entity work." + key.entity);
+  sources->push_back(std::move(*testbench));
+  auto library = GhdlLibrary::open(*tool, *sources, kTestbench, folders.cache);
+  if (!library) return library.error();
+  return GhdlRunner(key, std::move(*library));
+}
+
+Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
+                                const std::filesystem::path& trace_file,
+                                const GhdlRunOptions& options) const {
+  const auto absolute_trace = std::filesystem::absolute(trace_file);
+  if (auto made = make_folders(absolute_trace.parent_path()); !made) return made.error();
+  const std::string suffix = fmt::format(".part-{}", ::getpid());
+  ScratchFile trace(absolute_trace.string() + suffix);
+  ScratchFile probes(options.probe_file.empty()
+                         ? std::string()
+                         : std::filesystem::absolute(options.probe_file).string() + suffix);
+
+  Command command{.arguments = library_.run_arguments(kTestbench), .working_folder = library_.folder()};
+  const auto generic = [&](std::string_view name, const std::string& value) {
+    command.arguments.push_back(fmt::format("-g{}={}", name, value));
+  };
+  for (const auto& [name, value] : key_.generics()) generic(name, value);
+  generic("g_init_file", std::filesystem::absolute(init_file).string());
+  generic("g_trace_file", trace.path().string());
+  if (!options.probe_file.empty()) generic("g_probe_file", probes.path().string());
+  generic("g_max_fragments", std::to_string(std::min(options.max_fragments, 0x7fffffffU)));
+  generic("g_idle_limit", std::to_string(std::clamp(options.idle_limit, 1U, 0x7fffffffU)));
+  generic("g_stall_seed", std::to_string(options.stall_seed & 0x7fffffffU));
+  // The registers of the data path have no value until the first triangle loads them; the testbench itself
+  // looks for metavalues in all that comes out.
+  command.arguments.emplace_back("--ieee-asserts=disable");
+  command.arguments.emplace_back("--assert-level=error");
+  if (!options.wave_file.empty()) {
+    const std::string kind = options.wave_file.extension() == ".fst"   ? "--fst="
+                             : options.wave_file.extension() == ".vcd" ? "--vcd="
+                                                                       : "--wave=";
+    command.arguments.push_back(kind + std::filesystem::absolute(options.wave_file).string());
+  }
+  command.timeout = options.timeout;
+  if (options.on_progress) {
+    command.on_poll = [&] {
+      std::error_code error;
+      const auto bytes = std::filesystem::file_size(trace.path(), error);
+      if (!error) options.on_progress(bytes);
+    };
+  }
+
+  const auto start = std::chrono::steady_clock::now();
+  const auto end = run_process(command, kInstallGhdl);
+  if (!end) return end.error();
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+
+  if (end->timed_out) {
+    return tool_failed(
+        fmt::format("{}: the GHDL simulation did not end within {} s; allow it more time or draw a "
+                    "smaller frame",
+                    init_file.string(), std::chrono::duration<double>(*options.timeout).count()));
+  }
+  if (!end->succeeded()) {
+    const std::string failure = reported_failure(end->output);
+    const std::string file = std::filesystem::absolute(init_file).string() + ": ";
+    if (failure.compare(0, file.size(), file) == 0) return bad_input(failure);
+    if (!failure.empty() && failure.find(": cannot write") == std::string::npos) {
+      return Error{ExitCode::differs, fmt::format("{} in GHDL: {}", key_.name(), failure)};
+    }
+    std::error_code error;
+    const auto space = std::filesystem::space(absolute_trace.parent_path(), error);
+    const bool full = !error && space.available < (1U << 16);
+    return tool_failed(fmt::format("{}: the GHDL simulation failed ({}){}:\n{}\n  while running: {}",
+                                   init_file.string(), end->how(), full ? ", the disk is full" : "",
+                                   end->output, to_string(command)));
+  }
+  auto run = read_trailer(trace.path());
+  if (!run) {
+    return tool_failed(
+        fmt::format("{}: GHDL ended without an error, but the trace is not whole; is the disk full?",
+                    absolute_trace.string()));
+  }
+  run->seconds = taken.count();
+  if (auto renamed = trace.rename_to(absolute_trace); !renamed) return renamed.error();
+  if (!options.probe_file.empty()) {
+    if (auto renamed = probes.rename_to(std::filesystem::absolute(options.probe_file)); !renamed) {
+      return renamed.error();
+    }
+  }
+  return *run;
+}
+
+}  // namespace halfway

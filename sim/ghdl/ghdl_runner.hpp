@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs a shader's RTL in GHDL, through tb/frame_tb.vhd: an init file in, a trace out.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "common/result.hpp"
+#include "plan/hardware_key.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+
+namespace halfway {
+
+struct GhdlRunOptions {
+  std::filesystem::path probe_file{};  ///< where the key has probes: lines of `cycle hex`; empty: none
+  std::uint32_t max_fragments = 0x7fffffff;
+  std::uint32_t idle_limit = 100'000;  ///< cycles in which nothing moves: a hang
+  std::uint32_t stall_seed = 0;        ///< 0: full speed; else both streams stall at random
+  std::optional<std::chrono::milliseconds> timeout{};
+  std::function<void(std::uintmax_t trace_bytes)> on_progress{};  ///< with the bytes of trace written so far
+  std::filesystem::path wave_file{};                              ///< .ghw, .fst or .vcd; empty: none
+};
+
+struct GhdlRun {
+  std::uint64_t fragments = 0, cycles = 0;
+  double seconds = 0;  ///< of the simulation alone
+};
+
+class GhdlRunner {
+ public:
+  /// Analyses the RTL and the testbench, or takes them from the cache.
+  static Result<GhdlRunner> open(const HardwareKey& key, const SimulatorFolders& folders);
+
+  /// Writes `trace_file` (under a temporary name until it is whole). A fault of the hardware that the
+  /// testbench sees (a hang, a metavalue, a payload that does not stand still) ends with the exit code
+  /// `differs`.
+  Result<GhdlRun> run(const std::filesystem::path& init_file, const std::filesystem::path& trace_file,
+                      const GhdlRunOptions& options = {}) const;
+
+ private:
+  GhdlRunner(HardwareKey key, GhdlLibrary library) : key_(std::move(key)), library_(std::move(library)) {}
+  HardwareKey key_;
+  GhdlLibrary library_;
+};
+
+}  // namespace halfway

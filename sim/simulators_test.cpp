@@ -1,0 +1,466 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two drivers on a small RTL of the test's own, with the shader's ports: both must give the fragments
+// that can be foretold, the same cycles, and see each fault.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/file.hpp"
+#include "frame/init_file.hpp"
+#include "frame/trace.hpp"
+#include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/verilator/verilator_simulator.hpp"
+
+namespace halfway {
+namespace {
+
+const char* const kPackage = R"(
+package formats_pkg is
+  function init_bits(exact : boolean; channels : positive) return positive;
+  function probe_bits(exact : boolean; channels : positive) return positive;
+end package;
+package body formats_pkg is
+  function init_bits(exact : boolean; channels : positive) return positive is
+  begin
+    if exact then
+      return 70 + channels;
+    end if;
+    return 60;
+  end function;
+  function probe_bits(exact : boolean; channels : positive) return positive is
+  begin
+    return 40;
+  end function;
+end package body;
+)";
+
+// Emits `count` fragments along x for each vector: bits 11..0 count, 43..12 triangle, 55..44 y. @...@ is put
+// in by the tests.
+const char* const kShader = R"(
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.formats_pkg.all;
+entity quadratic_shader is
+  generic (g_exact : boolean := true; g_channels : positive := 3; g_probe : boolean := false);
+  port (
+    clk, reset : in std_logic;
+    init_valid : in std_logic; init_ready : out std_logic;
+    init_data : in std_logic_vector(init_bits(g_exact, g_channels) - 1 downto 0);
+    fragment_valid : out std_logic; fragment_ready : in std_logic;
+    fragment_triangle : out std_logic_vector(31 downto 0);
+    fragment_y, fragment_x : out std_logic_vector(11 downto 0);
+    fragment_z : out std_logic_vector(23 downto 0);
+    fragment_red, fragment_green, fragment_blue : out std_logic_vector(7 downto 0);
+    busy : out std_logic;
+    probe : out std_logic_vector(probe_bits(g_exact, g_channels) - 1 downto 0));
+end entity;
+architecture rtl of quadratic_shader is
+  type reg_t is record
+    valid    : std_logic;
+    left     : unsigned(11 downto 0);
+    x        : unsigned(11 downto 0);
+    triangle : std_logic_vector(31 downto 0);
+    y        : std_logic_vector(11 downto 0);
+  end record;
+  signal r, r_next : reg_t;
+  signal ready, take : std_logic;
+begin
+  ready      <= not r.valid or (fragment_ready and @LAST@);
+  init_ready <= ready;
+  take       <= init_valid and ready;
+  combinational : process (all)
+    variable v : reg_t;
+  begin
+    v := r;
+    if r.valid = '1' and fragment_ready = '1' then
+      v.left := r.left - 1;
+      v.x    := r.x + 1;
+      if r.left = 1 then
+        v.valid := '0';
+      end if;
+    end if;
+    if take = '1' then
+      v.left     := unsigned(init_data(11 downto 0));
+      v.triangle := init_data(43 downto 12);
+      v.y        := init_data(55 downto 44);
+      v.x        := (others => '0');
+      v.valid    := '1';
+      if unsigned(init_data(11 downto 0)) = 0 then
+        v.valid := '0';
+      end if;
+    end if;
+    if reset = '1' then
+      v.valid := '0';
+    end if;
+    @FAULT@
+    r_next <= v;
+  end process;
+  process (clk) is
+  begin
+    if rising_edge(clk) then
+      r <= r_next;
+    end if;
+  end process;
+  busy              <= r.valid;
+  fragment_valid    <= @VALID@;
+  fragment_triangle <= r.triangle;
+  fragment_y        <= r.y;
+  fragment_x        <= std_logic_vector(r.x);
+  fragment_z        <= x"000" & std_logic_vector(r.left);
+  fragment_red      <= @RED@;
+  fragment_green    <= r.triangle(7 downto 0);
+  fragment_blue     <= x"a5";
+  probed : if g_probe generate
+    probe <= r.triangle & "000000" & (r.valid and fragment_ready) & take;
+  else generate
+    probe <= (others => '0');
+  end generate;
+end architecture;
+)";
+
+struct Parts {
+  std::string last = "is_last", fault = "", valid = "r.valid", red = "std_logic_vector(r.x(7 downto 0))";
+};
+
+void replace(std::string& text, const std::string& what, const std::string& with) {
+  for (std::size_t at; (at = text.find(what)) != std::string::npos;) text.replace(at, what.size(), with);
+}
+
+class Simulators : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto made = TemporaryFolder::make(std::filesystem::path(testing::TempDir()) / "simulators");
+    ASSERT_TRUE(made) << made.error().message;
+    scratch_.emplace(std::move(*made));
+    folders_ = {scratch_->path() / "tree", HALFWAY_CACHE_DIR};
+    const std::filesystem::path root = HALFWAY_SOURCE_DIR;
+    for (const char* folder : {"sim/verilator", "tb"}) {
+      std::filesystem::create_directories(folders_.source / folder);
+      std::filesystem::copy(root / folder, folders_.source / folder,
+                            std::filesystem::copy_options::recursive);
+    }
+    write_rtl({});
+    init_.bits = 73;
+    for (const unsigned count : {5U, 0U, 1U, 300U, 2U, 0U, 0U, 77U, 1U}) add_triangle(count);
+  }
+
+  void write_rtl(const Parts& parts) {
+    std::string text = kShader;
+    replace(text, "@LAST@", parts.last == "is_last" ? "one_left" : parts.last);
+    replace(text, "@FAULT@", parts.fault);
+    replace(text, "@VALID@", parts.valid);
+    replace(text, "@RED@", parts.red);
+    replace(text, "  signal ready, take : std_logic;\nbegin",
+            "  signal ready, take : std_logic;\n  signal one_left : std_logic;\nbegin\n"
+            "  one_left <= '1' when r.left = 1 else '0';");
+    ASSERT_TRUE(write_file(folders_.source / "rtl/formats_pkg.vhd", kPackage));
+    ASSERT_TRUE(write_file(folders_.source / "rtl/shaders/quadratic_shader.vhd", text));
+    ASSERT_TRUE(
+        write_file(folders_.source / "rtl/files.f", "formats_pkg.vhd\nshaders/quadratic_shader.vhd\n"));
+  }
+
+  void add_triangle(unsigned count) {
+    const auto triangle = static_cast<std::uint32_t>(0xfffffff0U + 3 * init_.size());
+    const std::uint32_t y = 4095 - static_cast<std::uint32_t>(init_.size());
+    init_.words.push_back(count | triangle << 12);
+    init_.words.push_back(triangle >> 20 | y << 12 | 0x5a000000);
+    init_.words.push_back(0x1ab);
+    for (std::uint32_t x = 0; x < count; ++x) {
+      expected_.push_back({.triangle = triangle,
+                           .z = count - x,
+                           .y = static_cast<std::uint16_t>(y),
+                           .x = static_cast<std::uint16_t>(x),
+                           .red = static_cast<std::uint8_t>(x),
+                           .green = static_cast<std::uint8_t>(triangle),
+                           .blue = 0xa5});
+    }
+  }
+
+  Result<Trace> ghdl(GhdlRunOptions options = {}) {
+    const auto init_file = scratch_->path() / "init.txt", trace_file = scratch_->path() / "out/ghdl.trace";
+    if (auto written = write_init_file(init_file, key_.name(), init_); !written) return written.error();
+    auto runner = GhdlRunner::open(key_, folders_);
+    if (!runner) return runner.error();
+    if (key_.probe) options.probe_file = scratch_->path() / "ghdl.probe";
+    auto run = runner->run(init_file, trace_file, options);
+    if (!run) {
+      EXPECT_FALSE(std::filesystem::exists(trace_file));
+      return run.error();
+    }
+    auto trace = read_trace(trace_file, key_.name());
+    if (trace) {
+      EXPECT_EQ(run->fragments, trace->fragments.size());
+      EXPECT_EQ(run->cycles, trace->cycles);
+    }
+    return trace;
+  }
+
+  /// Fed in pieces, as a streaming caller would.
+  Result<Trace> verilator(const VerilatorOptions& options = {}, std::size_t most = 1U << 20,
+                          std::size_t piece = 2) {
+    auto simulator = VerilatorSimulator::open(key_, folders_, options);
+    if (!simulator) return simulator.error();
+    Trace trace;
+    for (std::size_t i = 0; i < init_.size(); i += piece) {
+      const std::size_t count = std::min(piece, init_.size() - i);
+      const auto words =
+          std::span(init_.words).subspan(i * init_.words_per_vector(), count * init_.words_per_vector());
+      if (auto run = simulator->run(words, count, trace.fragments, most); !run) return run.error();
+    }
+    if (auto done = simulator->finish(trace.fragments, most); !done) return done.error();
+    trace.cycles = simulator->cycles();
+    probes_ = std::move(simulator->probes());
+    return trace;
+  }
+
+  void expect_both_fail(const std::string& with, const std::string& in_verilator) {
+    const auto from_ghdl = ghdl({.max_fragments = 1000, .idle_limit = 500, .stall_seed = 9});
+    ASSERT_FALSE(from_ghdl);
+    EXPECT_EQ(from_ghdl.error().code, ExitCode::differs) << from_ghdl.error().message;
+    EXPECT_NE(from_ghdl.error().message.find(with), std::string::npos) << from_ghdl.error().message;
+    if (in_verilator.empty()) return;
+    const auto from_verilator = verilator({.stall_seed = 9, .idle_limit = 500});
+    ASSERT_FALSE(from_verilator);
+    EXPECT_EQ(from_verilator.error().code, ExitCode::differs) << from_verilator.error().message;
+    EXPECT_NE(from_verilator.error().message.find(in_verilator), std::string::npos)
+        << from_verilator.error().message;
+  }
+
+  HardwareKey key_;
+  std::optional<TemporaryFolder> scratch_;
+  SimulatorFolders folders_;
+  InitStream init_;
+  std::vector<Fragment> expected_;
+  std::vector<ProbeRecord> probes_;
+};
+
+TEST_F(Simulators, BothGiveTheExpectedFragmentsAndCycles) {
+  const auto from_ghdl = ghdl();
+  ASSERT_TRUE(from_ghdl) << from_ghdl.error().message;
+  EXPECT_EQ(from_ghdl->fragments, expected_);
+  // One cycle takes the first vector, then a fragment a cycle; three vectors without one cost a cycle each,
+  // as the next cannot be taken along with a last fragment.
+  EXPECT_EQ(from_ghdl->cycles, expected_.size() + 1 + 3);
+  for (const std::size_t piece : {std::size_t{1}, std::size_t{2}, init_.size()}) {
+    const auto from_verilator = verilator({}, expected_.size(), piece);
+    ASSERT_TRUE(from_verilator) << from_verilator.error().message;
+    EXPECT_EQ(from_verilator->fragments, expected_);
+    EXPECT_EQ(from_verilator->cycles, from_ghdl->cycles);
+  }
+}
+
+TEST_F(Simulators, StallsChangeTheCyclesAlikeAndNothingElse) {
+  for (const std::uint32_t seed : {1U, 77U}) {
+    const auto from_ghdl = ghdl({.stall_seed = seed});
+    ASSERT_TRUE(from_ghdl) << from_ghdl.error().message;
+    EXPECT_EQ(from_ghdl->fragments, expected_);
+    EXPECT_GT(*from_ghdl->cycles, expected_.size() + expected_.size() / 2);
+    for (const bool plain : {false, true}) {
+      const auto from_verilator = verilator({.stall_seed = seed, .plain_eval = plain});
+      ASSERT_TRUE(from_verilator) << from_verilator.error().message;
+      EXPECT_EQ(from_verilator->fragments, expected_);
+      EXPECT_EQ(from_verilator->cycles, from_ghdl->cycles);
+    }
+  }
+}
+
+TEST_F(Simulators, ProbesAreEqualCycleByCycle) {
+  key_.probe = true;
+  for (const std::uint32_t seed : {0U, 5U}) {
+    ASSERT_TRUE(ghdl({.stall_seed = seed}));
+    ASSERT_TRUE(verilator({.stall_seed = seed, .record_probes = true}));
+    std::string text;
+    for (const ProbeRecord& record : probes_) {
+      text += fmt::format("{} {:02X}{:08X}\n", record.cycle, record.words[1], record.words[0]);
+    }
+    auto written = read_file(scratch_->path() / "ghdl.probe");
+    ASSERT_TRUE(written);
+    // The triangle's register has no value before the first vector; Verilator has only zeros and ones.
+    replace(*written, "X", "0");
+    EXPECT_EQ(*written, text);
+    EXPECT_GE(probes_.size(), expected_.size());
+  }
+}
+
+TEST_F(Simulators, AnotherKeyIsAnotherBuild) {
+  key_.preset = Preset::published;
+  init_.bits = 60;
+  std::vector<std::uint32_t> narrow;
+  for (std::size_t i = 0; i < init_.words.size(); i += 3) {
+    narrow.push_back(init_.words[i]);
+    narrow.push_back(init_.words[i + 1] & 0x0fffffff);
+  }
+  init_.words = narrow;
+  const auto from_ghdl = ghdl();
+  ASSERT_TRUE(from_ghdl) << from_ghdl.error().message;
+  EXPECT_EQ(from_ghdl->fragments, expected_);
+  const auto from_verilator = verilator();
+  ASSERT_TRUE(from_verilator) << from_verilator.error().message;
+  EXPECT_EQ(from_verilator->fragments, expected_);
+}
+
+TEST_F(Simulators, NoVectorsGiveAnEmptyTrace) {
+  init_.words.clear();
+  const auto from_ghdl = ghdl();
+  ASSERT_TRUE(from_ghdl) << from_ghdl.error().message;
+  EXPECT_TRUE(from_ghdl->fragments.empty());
+  EXPECT_EQ(from_ghdl->cycles, 0U);
+  const auto from_verilator = verilator();
+  ASSERT_TRUE(from_verilator) << from_verilator.error().message;
+  EXPECT_TRUE(from_verilator->fragments.empty());
+  EXPECT_EQ(from_verilator->cycles, 0U);
+}
+
+TEST_F(Simulators, AHangIsSeen) {
+  write_rtl({.fault = "if r.left = 9 then v := r; end if;", .valid = "'0' when r.left = 9 else r.valid"});
+  expect_both_fail("hang", "hang");
+}
+
+TEST_F(Simulators, APayloadThatMovesIsSeen) {
+  write_rtl({.red = "(7 downto 1 => '0') & fragment_ready"});
+  // The payload changes with fragment_ready alone.
+  expect_both_fail("changed while it was not taken", "changed or was withdrawn");
+}
+
+TEST_F(Simulators, AWithdrawnFragmentIsSeen) {
+  write_rtl(
+      {.fault = "if r.left = 7 and fragment_ready = '0' then v.left := r.left - 1; v.valid := '0'; end if;"});
+  expect_both_fail("was withdrawn", "withdrawn");
+}
+
+TEST_F(Simulators, AMetavalueIsSeen) {
+  write_rtl({.red = "\"0000000X\" when r.left = 3 else x\"00\""});
+  expect_both_fail("metavalue in fragment", "");
+}
+
+TEST_F(Simulators, MoreFragmentsThanAllowedAreSeen) {
+  const auto limit = static_cast<std::uint32_t>(expected_.size() - 1);
+  const auto from_ghdl = ghdl({.max_fragments = limit});
+  ASSERT_FALSE(from_ghdl);
+  EXPECT_EQ(from_ghdl.error().code, ExitCode::differs);
+  const auto from_verilator = verilator({}, limit);
+  ASSERT_FALSE(from_verilator);
+  EXPECT_EQ(from_verilator.error().code, ExitCode::differs);
+}
+
+TEST_F(Simulators, BrokenRtlIsToldWithItsLine) {
+  write_rtl({.valid = "nonsense"});
+  for (const auto& result : {ghdl(), verilator()}) {
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ExitCode::tool_failed);
+    EXPECT_NE(result.error().message.find("rtl/shaders/quadratic_shader.vhd:"), std::string::npos)
+        << result.error().message;
+  }
+}
+
+TEST_F(Simulators, AWrongInitFileIsBadInput) {
+  const auto init_file = scratch_->path() / "init.txt";
+  const auto runner = GhdlRunner::open(key_, folders_);
+  ASSERT_TRUE(runner) << runner.error().message;
+  ASSERT_TRUE(write_init_file(init_file, "other", {.bits = 80, .words = {1, 2, 3}}));
+  const auto run = runner->run(init_file, scratch_->path() / "t");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, ExitCode::bad_input) << run.error().message;
+  EXPECT_NE(run.error().message.find("not of 73 bits"), std::string::npos) << run.error().message;
+  ASSERT_TRUE(write_file(init_file, "halfway-init 1 k 73\n0000000000000000000\n"));
+  EXPECT_EQ(runner->run(init_file, scratch_->path() / "t").error().code, ExitCode::bad_input);
+  ASSERT_TRUE(write_file(init_file, "halfway-init 1 k 73\n000000000000000zzzz\nend 1\n"));
+  EXPECT_EQ(runner->run(init_file, scratch_->path() / "t").error().code, ExitCode::bad_input);
+  EXPECT_EQ(runner->run(scratch_->path() / "none", scratch_->path() / "t").error().code, ExitCode::bad_input);
+}
+
+TEST_F(Simulators, ATimeoutEndsTheRun) {
+  for (int i = 0; i < 400; ++i) add_triangle(4095);
+  const auto start = std::chrono::steady_clock::now();
+  const auto run = ghdl({.timeout = std::chrono::milliseconds(300)});
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, ExitCode::tool_failed);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+}
+
+TEST_F(Simulators, AFullDiskIsToldAndLeavesNoTrace) {
+  const auto runner = GhdlRunner::open(key_, folders_);
+  ASSERT_TRUE(runner) << runner.error().message;
+  const auto init_file = scratch_->path() / "init.txt";
+  ASSERT_TRUE(write_init_file(init_file, key_.name(), init_));
+  // A folder that takes no file stands for the disk that takes none: /dev/full under the temporary name.
+  const auto trace = scratch_->path() / "full.trace";
+  std::filesystem::create_symlink("/dev/full", trace.string() + ".part-" + std::to_string(::getpid()));
+  const auto run = runner->run(init_file, trace);
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, ExitCode::tool_failed) << run.error().message;
+  EXPECT_FALSE(std::filesystem::exists(trace));
+}
+
+TEST_F(Simulators, MissingToolsAreToldWithTheCommandThatBringsThem) {
+  const std::string path = ::getenv("PATH");
+  ::setenv("PATH", (scratch_->path() / "empty").c_str(), 1);
+  const auto from_ghdl = ghdl();
+  const auto from_verilator = verilator();
+  // ghdl alone, without Verilator
+  std::filesystem::create_directories(scratch_->path() / "bin");
+  for (const char* name :
+       {"ghdl", "ghdl-llvm", "ghdl-mcode", "ghdl-gcc", "sh", "dirname", "gcc", "as", "ld"}) {
+    std::error_code ignored;
+    if (std::filesystem::exists(std::string("/usr/bin/") + name)) {
+      std::filesystem::create_symlink(std::string("/usr/bin/") + name, scratch_->path() / "bin" / name,
+                                      ignored);
+    }
+  }
+  ::setenv("PATH", (scratch_->path() / "bin").c_str(), 1);
+  const auto without_verilator = verilator();
+  ::setenv("PATH", path.c_str(), 1);
+  ASSERT_FALSE(from_ghdl);
+  EXPECT_EQ(from_ghdl.error().code, ExitCode::tool_failed);
+  EXPECT_NE(from_ghdl.error().message.find("apt-get install ghdl"), std::string::npos)
+      << from_ghdl.error().message;
+  ASSERT_FALSE(from_verilator);
+  EXPECT_EQ(from_verilator.error().code, ExitCode::tool_failed);
+  ASSERT_FALSE(without_verilator);
+  EXPECT_NE(without_verilator.error().message.find("apt-get install verilator"), std::string::npos)
+      << without_verilator.error().message;
+}
+
+TEST_F(Simulators, WavesOfAWindowAreWritten) {
+  const auto wave_file = scratch_->path() / "waves.fst";
+  const auto run = verilator({.wave_file = wave_file, .waves_from = 10, .waves_to = 60});
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(run->fragments, expected_);
+  ASSERT_TRUE(std::filesystem::exists(wave_file));
+  EXPECT_GT(std::filesystem::file_size(wave_file), 400U);
+}
+
+TEST_F(Simulators, TwoBuildsAtOnceAndOneKilledGiveAWholeOne) {
+  folders_.cache = scratch_->path() / "cache";
+  const pid_t killed = ::fork();
+  if (killed == 0) {
+    (void)verilator();
+    ::_exit(0);
+  }
+  ::usleep(1'500'000);
+  ::kill(killed, SIGKILL);
+  ::waitpid(killed, nullptr, 0);
+  const pid_t other = ::fork();
+  if (other == 0) {
+    const auto trace = verilator();
+    ::_exit(trace && trace->fragments == expected_ ? 0 : 1);
+  }
+  const auto trace = verilator();
+  int status = 0;
+  ::waitpid(other, &status, 0);
+  ASSERT_TRUE(trace) << trace.error().message;
+  EXPECT_EQ(trace->fragments, expected_);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+}
+
+}  // namespace
+}  // namespace halfway

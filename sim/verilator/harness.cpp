@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled against the verilated model (prefix Vshader) as one translation unit with it.
+//
+// A cycle, as in tb/frame_tb.vhd: inputs change after the rising edge, outputs are sampled just before the
+// next. The model is evaluated once for the edge; once more only where inputs changed, which at full speed is
+// once a vector.
+#include <concepts>
+#include <cstring>
+#include <memory>
+#include <type_traits>
+
+#include "Vshader.h"
+#include "Vshader___024root.h"
+#include "sim/verilator/harness_api.h"
+#include "verilated.h"
+#ifdef HALFWAY_WAVES
+#include "verilated_fst_c.h"
+#endif
+
+#define HALFWAY_EXPORT extern "C" __attribute__((visibility("default")))
+
+namespace {
+
+constexpr bool kWaves =
+#ifdef HALFWAY_WAVES
+    true;
+#else
+    false;
+#endif
+
+constexpr std::size_t words_of(std::size_t bits) {
+  return (bits + 31) / 32;
+}
+constexpr std::size_t kInitWords = words_of(HALFWAY_INIT_BITS);
+constexpr std::size_t kProbeWords = words_of(HALFWAY_PROBE_BITS);
+
+// Ports of up to 64 bits are plain integers, wider ones arrays of words.
+template <class Port>
+void write_port(Port& port, const std::uint32_t* words) {
+  if constexpr (std::is_integral_v<Port>) {
+    std::uint64_t value = words[0];
+    if constexpr (sizeof(Port) == 8) value |= static_cast<std::uint64_t>(words[1]) << 32;
+    port = static_cast<Port>(value);
+  } else {
+    static_assert(sizeof(Port) == 4 * kInitWords);
+    std::memcpy(&port[0], words, sizeof(Port));
+  }
+}
+
+template <class Port>
+void read_port(const Port& port, std::uint32_t* words) {
+  if constexpr (std::is_integral_v<Port>) {
+    words[0] = static_cast<std::uint32_t>(port);
+    if constexpr (sizeof(Port) == 8) words[1] = static_cast<std::uint32_t>(port >> 32);
+  } else {
+    static_assert(sizeof(Port) == 4 * kProbeWords);
+    std::memcpy(words, &port[0], sizeof(Port));
+  }
+}
+
+template <class Port>
+std::uint32_t first_word(const Port& port) {
+  if constexpr (std::is_integral_v<Port>) {
+    return static_cast<std::uint32_t>(port);
+  } else {
+    return port[0];
+  }
+}
+
+// Verilator's eval() evaluates all that depends on inputs and looks for edges, each time. Where the model has
+// one trigger, the clock's rising edge, and keeps to the names of Verilator 5.006, the harness calls what
+// lies behind it: the registers with all that depends on them, or only what depends on inputs. Other models
+// go through eval().
+template <class Root>
+concept HasOneTrigger = requires(Root& root) {
+  { root.__VnbaTriggered } -> std::same_as<VlTriggerVec<1>&>;
+  { root.__VicoTriggered } -> std::same_as<VlTriggerVec<1>&>;
+  Vshader___024root___eval_nba(&root);
+  Vshader___024root___eval_ico(&root);
+};
+
+template <class Root>
+void rise_directly(Root& root) {
+  root.__VnbaTriggered.at(0) = 1;
+  Vshader___024root___eval_nba(&root);
+}
+
+template <class Root>
+void settle_directly(Root& root) {
+  root.__VicoTriggered.at(0) = 1;
+  Vshader___024root___eval_ico(&root);
+}
+
+constexpr bool kDirect =
+#ifdef HALFWAY_PLAIN_EVAL
+    false;
+#else
+    !kWaves && HasOneTrigger<Vshader___024root>;
+#endif
+
+class Model {
+ public:
+  explicit Model(const HalfwayOptions& options) : options_(options), random_(options.stall_seed) {
+    context_.traceEverOn(kWaves);
+    shader_ = std::make_unique<Vshader>(&context_, "shader");
+#ifdef HALFWAY_WAVES
+    if (options.waves_path != nullptr) {
+      waves_ = std::make_unique<VerilatedFstC>();
+      shader_->trace(waves_.get(), 99);
+      waves_->open(options.waves_path);
+    }
+#endif
+    shader_->clk = 0;
+    shader_->reset = 1;
+    shader_->init_valid = 0;
+    shader_->fragment_ready = 0;
+    shader_->eval();
+    for (int i = 0; i < 4; ++i) rising_edge();
+    shader_->reset = 0;
+    settle();
+  }
+
+  ~Model() {
+#ifdef HALFWAY_WAVES
+    if (waves_) waves_->close();
+#endif
+    shader_->final();
+  }
+
+  bool waves_failed() const {
+#ifdef HALFWAY_WAVES
+    return waves_ && !waves_->isOpen();
+#else
+    return false;
+#endif
+  }
+
+  std::uint64_t cycles() const {
+    return started_ ? last_move_ + 1 : 0;
+  }
+
+  int advance(HalfwayStreams& streams, bool drain) {
+    const bool stall = options_.stall_seed != 0;
+    const bool probe = options_.on_probe != nullptr;
+    if (kWaves || probe) return stall ? loop<true, true>(streams, drain) : loop<false, true>(streams, drain);
+    return stall ? loop<true, false>(streams, drain) : loop<false, false>(streams, drain);
+  }
+
+ private:
+  // Inputs changed: what depends on them without a register follows.
+  void settle() {
+    if constexpr (kDirect) {
+      settle_directly(*shader_->rootp);
+    } else {
+      shader_->eval();
+    }
+  }
+
+  void rising_edge() {
+    if constexpr (kDirect) {
+      rise_directly(*shader_->rootp);
+    } else {
+      shader_->clk = 1;
+      shader_->eval();
+      shader_->clk = 0;
+      shader_->eval();
+    }
+  }
+
+  std::uint32_t next_random() {  // xorshift32 (Marsaglia 2003), as in tb/frame_tb.vhd
+    random_ ^= random_ << 13;
+    random_ ^= random_ >> 17;
+    random_ ^= random_ << 5;
+    return random_;
+  }
+
+  template <bool stall>
+  void drive(const HalfwayStreams& streams) {
+    bool ready = true;
+    if constexpr (stall) {
+      const std::uint32_t random = next_random();
+      ready = (random & 1U) != 0;
+      offered_ = streams.vectors > 0 && (offered_ || (random & 2U) != 0);
+    } else {
+      offered_ = streams.vectors > 0;
+    }
+    shader_->fragment_ready = ready;
+    shader_->init_valid = offered_;
+    if (offered_) write_port(shader_->init_data, streams.words);
+    settle();
+  }
+
+  HalfwayFragment fragment() const {
+    return {static_cast<std::uint32_t>(shader_->fragment_triangle),
+            static_cast<std::uint32_t>(shader_->fragment_z),
+            static_cast<std::uint16_t>(shader_->fragment_y),
+            static_cast<std::uint16_t>(shader_->fragment_x),
+            static_cast<std::uint8_t>(shader_->fragment_red),
+            static_cast<std::uint8_t>(shader_->fragment_green),
+            static_cast<std::uint8_t>(shader_->fragment_blue),
+            0};
+  }
+
+  void record(std::uint64_t cycle) {
+    if (options_.on_probe == nullptr || (first_word(shader_->probe) & 3U) == 0) return;
+    std::uint32_t words[kProbeWords];
+    read_port(shader_->probe, words);
+    options_.on_probe(options_.probe_context, cycle, words);
+  }
+
+  void dump([[maybe_unused]] std::uint64_t cycle, [[maybe_unused]] bool clock) {
+#ifdef HALFWAY_WAVES
+    if (waves_ == nullptr || cycle < options_.waves_from || cycle >= options_.waves_to) return;
+    waves_->dump(10 * cycle + (clock ? 5 : 0));
+#endif
+  }
+
+  template <bool stall, bool observe>
+  int loop(HalfwayStreams& streams, bool drain) {
+    std::uint64_t cycle = cycle_, last_move = last_move_;
+    int status = HALFWAY_DONE;
+    if (!drain && streams.vectors == 0) return status;
+    if (!stall || drive_due_) drive<stall>(streams);
+    while (true) {
+      drive_due_ = false;
+      if (streams.count == streams.capacity) {
+        status = HALFWAY_BUFFER_FULL;
+        break;
+      }
+      const bool take = offered_ && shader_->init_ready;
+      const bool valid = shader_->fragment_valid;
+      const bool emit = valid && (!stall || shader_->fragment_ready);
+      if (take && !started_) {
+        started_ = true;
+        cycle = 0;  // cycles count from here
+      }
+      if constexpr (stall) {
+        const HalfwayFragment now = fragment();
+        if (holding_ && (!valid || std::memcmp(&now, &held_, sizeof now) != 0)) {
+          status = HALFWAY_CHANGED;
+          break;
+        }
+        held_ = now;
+        holding_ = valid && !emit;
+      }
+      if (emit) streams.fragments[streams.count++] = fragment();
+      if constexpr (observe) {
+        if (started_) {
+          record(cycle);
+          dump(cycle, false);
+        }
+      }
+      if (take || emit) {
+        last_move = cycle;
+      } else {
+        if (drain && !valid && !shader_->busy) break;
+        if (cycle - last_move >= options_.idle_limit) {
+          status = HALFWAY_HANG;
+          break;
+        }
+      }
+      rising_edge();
+      if constexpr (observe) {
+        if (started_) dump(cycle, true);
+      }
+      ++cycle;
+      if (take) {
+        offered_ = false;
+        streams.words += kInitWords;
+        --streams.vectors;
+        if (!drain && streams.vectors == 0) {
+          drive_due_ = true;
+          break;
+        }
+      }
+      if (stall || take) drive<stall>(streams);
+    }
+    cycle_ = cycle;
+    last_move_ = last_move;
+    return status;
+  }
+
+  HalfwayOptions options_;
+  VerilatedContext context_;
+  std::unique_ptr<Vshader> shader_;
+#ifdef HALFWAY_WAVES
+  std::unique_ptr<VerilatedFstC> waves_;
+#endif
+  std::uint64_t cycle_ = 0, last_move_ = 0;
+  std::uint32_t random_;
+  bool started_ = false, offered_ = false, holding_ = false;
+  bool drive_due_ = true;  ///< the inputs of the coming cycle are still to be set
+  HalfwayFragment held_{};
+};
+
+}  // namespace
+
+HALFWAY_EXPORT int halfway_run(void* model, HalfwayStreams* streams) {
+  return static_cast<Model*>(model)->advance(*streams, false);
+}
+
+HALFWAY_EXPORT int halfway_drain(void* model, HalfwayStreams* streams) {
+  streams->vectors = 0;
+  return static_cast<Model*>(model)->advance(*streams, true);
+}
+
+HALFWAY_EXPORT uint64_t halfway_cycles(const void* model) {
+  return static_cast<const Model*>(model)->cycles();
+}
+
+HALFWAY_EXPORT uint32_t halfway_harness_version(void) {
+  return HALFWAY_HARNESS_VERSION;
+}
+
+HALFWAY_EXPORT void* halfway_create(const HalfwayOptions* options) {
+  if (options->init_bits != HALFWAY_INIT_BITS || options->probe_bits != HALFWAY_PROBE_BITS) return nullptr;
+  if (options->waves_path != nullptr && !kWaves) return nullptr;
+  auto model = std::make_unique<Model>(*options);
+  return model->waves_failed() ? nullptr : model.release();
+}
+
+HALFWAY_EXPORT void halfway_destroy(void* model) {
+  delete static_cast<Model*>(model);
+}

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The text of the Verilog netlist that `ghdl --synth` writes, on its way to Verilator. GHDL 2.0.0 miscompiles
+// some constructs in silence; what can be seen in the text is mended or refused here, the rest is left to the
+// randomized test in tb/netlist/.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "common/result.hpp"
+
+namespace halfway {
+
+/// The width of a port of module `top`; 0 where it has no such port.
+unsigned port_bits(std::string_view netlist, std::string_view top, std::string_view port);
+
+/// Makes wide constants, which GHDL quotes like strings, binary numbers, and bits that nothing drives unknown
+/// ones. Refuses (exit code tool_failed) a netlist that still holds a quoted string or VHDL text, a right
+/// shift of a signed value, which GHDL prints as a logical one, and signed division.
+Result<std::string> mend_netlist(std::string_view netlist);
+
+/// Makes registers hold by condition: `q <= load ? d : q` becomes `if (load) q <= d`, and a register of
+/// several fields becomes one register a field. The meaning is the same; Verilator leaves out what does not
+/// change.
+std::string split_registers(std::string_view netlist);
+
+}  // namespace halfway

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/verilator/netlist.hpp"
+
+#include <gtest/gtest.h>
+
+namespace halfway {
+namespace {
+
+TEST(Netlist, KnowsThePortsWidths) {
+  const std::string text =
+      "module inner\n  (input  [7:0] init_data,\n   output o);\nendmodule\n"
+      "module top\n  (input  clk,\n   input  [1679:0] init_data,\n   output [868:0] probe);\n  wire [3:0] "
+      "w;\nendmodule\n";
+  EXPECT_EQ(port_bits(text, "top", "init_data"), 1680U);
+  EXPECT_EQ(port_bits(text, "top", "probe"), 869U);
+  EXPECT_EQ(port_bits(text, "top", "clk"), 1U);
+  EXPECT_EQ(port_bits(text, "inner", "init_data"), 8U);
+  EXPECT_EQ(port_bits(text, "top", "w"), 0U);
+  EXPECT_EQ(port_bits(text, "none", "clk"), 0U);
+}
+
+TEST(Netlist, MendsWideConstantsAndUndrivenBits) {
+  EXPECT_EQ(*mend_netlist(
+                "  assign a = b + \"1010\";\n  assign c = {d, 3'bZ};\n  assign e = \"XU-0\"; // \"note\"\n"),
+            "  assign a = b + 4'b1010;\n  assign c = {d, 3'bx};\n  assign e = 4'bxxx0; \n");
+}
+
+TEST(Netlist, RefusesWhatItCannotMend) {
+  for (const char* line : {
+           "  assign a = \"1012\";",
+           "  assign a = \"101",
+           "  assign a = \"\";",
+           "  assign a = $signed(b) >> 31'b0101;",
+           "  assign a = b / c; // sdiv",
+           "  assign a = b % c; // smod",
+           "  assign a = b % c; // srem",
+           "  n33_o <= std_logic_vector(abs $signed(a));",
+           "  n34_o <= a when $signed(a) < $signed(b) else b;",
+           "  n34_o <= a;",
+       }) {
+    const auto mended = mend_netlist(std::string("module t\n") + line + "\nendmodule\n");
+    ASSERT_FALSE(mended) << line;
+    EXPECT_EQ(mended.error().code, ExitCode::tool_failed);
+    EXPECT_EQ(mended.error().message.find("netlist.v:2: "), 0U) << mended.error().message;
+  }
+  const std::string sound =
+      "  assign a = b <= c;\n  assign a = b >> 4'b0101;\n  always @*\n    case (s)\n      2'b10: n <= a;\n"
+      "      2'b01: n <= b;\n    endcase\n  always @(posedge clk)\n    q <= n;\n";
+  EXPECT_EQ(*mend_netlist(sound), sound);
+}
+
+TEST(Netlist, MakesRegistersHoldAndSplitsTheirFields) {
+  const std::string netlist = R"(module m
+  (input  clk,
+   input  load,
+   input  step,
+   input  [3:0] d,
+   output [3:0] o);
+  wire [4:0] r;
+  wire [3:0] n1_o;
+  wire [3:0] n2_o;
+  wire [3:0] n3_o;
+  wire n4_o;
+  wire n5_o;
+  wire [4:0] n6_o;
+  reg [4:0] q;
+  assign o = n1_o;
+  assign r = q;
+  assign n1_o = r[3:0];
+  assign n2_o = n1_o + d;
+  assign n3_o = step ? n2_o : n1_o;
+  assign n4_o = r[4];
+  assign n5_o = load ? n4_o : step;
+  assign n6_o = {n5_o, n3_o};
+  always @(posedge clk)
+    q <= n6_o;
+endmodule
+)";
+  const std::string split = split_registers(netlist);
+  EXPECT_NE(split.find("reg [3:0] q__0;"), std::string::npos) << split;
+  EXPECT_NE(split.find("reg [0:0] q__1;"), std::string::npos) << split;
+  EXPECT_NE(split.find("assign q = {q__1, q__0};"), std::string::npos) << split;
+  EXPECT_NE(split.find("if (step) begin q__0 <= n1_o + d; end\n"), std::string::npos) << split;
+  EXPECT_NE(split.find("if (!load) begin q__1 <= step; end\n"), std::string::npos) << split;
+  EXPECT_NE(split.find("assign n1_o = q__0;"), std::string::npos) << split;
+  EXPECT_EQ(split.find("q <= n6_o"), std::string::npos) << split;
+}
+
+TEST(Netlist, LeavesAloneWhatItDoesNotUnderstand) {
+  const std::string netlist =
+      "module m\n  (input  clk,\n   input  a);\n  reg [3:0] mem[15:0] ; // memory\n  always @(posedge clk)\n"
+      "    if (a)\n      mem[1] <= 4'b0;\n  initial begin\n    mem[0] = 4'b0001;\n  end\nendmodule\n";
+  EXPECT_EQ(split_registers(netlist), netlist);
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/verilator/verilator_simulator.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "common/file.hpp"
+#include "sim/verilator/harness_api.h"
+#include "sim/verilator/netlist.hpp"
+#include "sim/verilator/verilated_library.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr std::size_t kChunk = 1U << 14;  ///< fragments made room for at a time
+
+static_assert(sizeof(Fragment) == sizeof(HalfwayFragment));
+static_assert(offsetof(Fragment, triangle) == offsetof(HalfwayFragment, triangle));
+static_assert(offsetof(Fragment, z) == offsetof(HalfwayFragment, z));
+static_assert(offsetof(Fragment, y) == offsetof(HalfwayFragment, y));
+static_assert(offsetof(Fragment, x) == offsetof(HalfwayFragment, x));
+static_assert(offsetof(Fragment, red) == offsetof(HalfwayFragment, red));
+static_assert(offsetof(Fragment, green) == offsetof(HalfwayFragment, green));
+static_assert(offsetof(Fragment, blue) == offsetof(HalfwayFragment, blue));
+
+/// The mended netlist of a key, cached by what it is made from: synthesis takes longer than all else when
+/// nothing changed.
+Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders) {
+  const auto tool = GhdlTool::find();
+  if (!tool) return tool.error();
+  const auto sources = read_rtl_sources(folders.source);
+  if (!sources) return sources.error();
+  const auto library = GhdlLibrary::open(*tool, *sources, "", folders.cache);
+  if (!library) return library.error();
+  const auto netlist = library->synthesize(key.entity, key.generics());
+  if (!netlist) return netlist.error();
+  auto mended = mend_netlist(*netlist);
+  if (!mended) return mended.error();
+  return split_registers(*mended);
+}
+
+}  // namespace
+
+struct VerilatorSimulator::State {
+  explicit State(VerilatedLibrary loaded) : library(std::move(loaded)) {}
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() {
+    if (model != nullptr) destroy(model);
+  }
+
+  VerilatedLibrary library;
+  std::string name;
+  HalfwayOptions options{};
+  std::string wave_path;
+  std::size_t probe_words = 0;
+  std::vector<ProbeRecord> probes;
+  void* model = nullptr;
+  decltype(&halfway_run) run = nullptr;
+  decltype(&halfway_drain) drain = nullptr;
+  decltype(&halfway_cycles) cycles = nullptr;
+  decltype(&halfway_destroy) destroy = nullptr;
+};
+
+Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,
+                                                    const VerilatorOptions& options) {
+  if (options.record_probes && !key.probe) {
+    return bad_input(
+        fmt::format("{}: this hardware has no probes; ask for a key with probe set", key.name()));
+  }
+  auto netlist = netlist_of(key, folders);
+  if (!netlist) return netlist.error();
+  const unsigned init_bits = port_bits(*netlist, key.entity, "init_data");
+  const unsigned probe_bits = port_bits(*netlist, key.entity, "probe");
+  if (init_bits == 0 || probe_bits == 0) {
+    return tool_failed(
+        fmt::format("{}: the netlist has no module with the ports init_data and probe", key.name()));
+  }
+  const std::filesystem::path folder = folders.source / "sim/verilator";
+  const VerilatedBuild build{
+      .name = key.name() + (options.wave_file.empty() ? "" : "-waves") + (options.plain_eval ? "-plain" : ""),
+      .netlist = std::move(*netlist),
+      .top = key.entity,
+      .harness = folder / "harness.cpp",
+      .include_folder = folders.source,
+      .harness_headers = {folder / "harness_api.h"},
+      .definitions = {fmt::format("HALFWAY_INIT_BITS={}", init_bits),
+                      fmt::format("HALFWAY_PROBE_BITS={}", probe_bits),
+                      options.plain_eval ? "HALFWAY_PLAIN_EVAL=1" : "HALFWAY_DIRECT_EVAL=1"},
+      .waves = !options.wave_file.empty(),
+      .compiler = options.compiler};
+  auto library = VerilatedLibrary::open(build, folders.cache);
+  if (!library) return library.error();
+
+  auto state = std::make_shared<State>(std::move(*library));
+  const auto version = state->library.function<decltype(halfway_harness_version)>("halfway_harness_version");
+  const auto create = state->library.function<decltype(halfway_create)>("halfway_create");
+  const auto destroy = state->library.function<decltype(halfway_destroy)>("halfway_destroy");
+  const auto run = state->library.function<decltype(halfway_run)>("halfway_run");
+  const auto drain = state->library.function<decltype(halfway_drain)>("halfway_drain");
+  const auto cycles = state->library.function<decltype(halfway_cycles)>("halfway_cycles");
+  if (!version) return version.error();
+  if (!create) return create.error();
+  if (!destroy) return destroy.error();
+  if (!run) return run.error();
+  if (!drain) return drain.error();
+  if (!cycles) return cycles.error();
+  if ((*version)() != HALFWAY_HARNESS_VERSION) {
+    return tool_failed(
+        fmt::format("{}: of another version; delete it and try again", state->library.file().string()));
+  }
+  state->name = key.name();
+  state->run = *run;
+  state->drain = *drain;
+  state->cycles = *cycles;
+  state->destroy = *destroy;
+  state->probe_words = (probe_bits + 31) / 32;
+  state->options.init_bits = init_bits;
+  state->options.probe_bits = probe_bits;
+  state->options.stall_seed = options.stall_seed;
+  state->options.idle_limit = std::max<std::uint64_t>(options.idle_limit, 1);
+  if (options.record_probes) {
+    state->options.probe_context = state.get();
+    state->options.on_probe = [](void* context, std::uint64_t cycle, const std::uint32_t* words) {
+      auto& owner = *static_cast<State*>(context);
+      owner.probes.push_back({cycle, std::vector<std::uint32_t>(words, words + owner.probe_words)});
+    };
+  }
+  if (!options.wave_file.empty()) {
+    const auto absolute = std::filesystem::absolute(options.wave_file);
+    if (auto made = make_folders(absolute.parent_path()); !made) return made.error();
+    state->wave_path = absolute.string();
+    state->options.waves_path = state->wave_path.c_str();
+    state->options.waves_from = options.waves_from;
+    state->options.waves_to = options.waves_to;
+  }
+  state->model = (*create)(&state->options);
+  if (state->model == nullptr) {
+    return tool_failed(options.wave_file.empty()
+                           ? fmt::format("{}: does not fit {}; delete it and try again",
+                                         state->library.file().string(), key.name())
+                           : fmt::format("{}: cannot write the waveforms", options.wave_file.string()));
+  }
+  return VerilatorSimulator(std::move(state));
+}
+
+unsigned VerilatorSimulator::init_bits() const {
+  return state_->options.init_bits;
+}
+unsigned VerilatorSimulator::probe_bits() const {
+  return state_->options.probe_bits;
+}
+std::uint64_t VerilatorSimulator::cycles() const {
+  return state_->cycles(state_->model);
+}
+std::vector<ProbeRecord>& VerilatorSimulator::probes() {
+  return state_->probes;
+}
+
+Status VerilatorSimulator::run(std::span<const std::uint32_t> init_words, std::size_t vector_count,
+                               std::vector<Fragment>& out, std::size_t max_fragments) {
+  const std::size_t words_per_vector = (state_->options.init_bits + 31) / 32;
+  if (init_words.size() != words_per_vector * vector_count) {
+    return bad_input(fmt::format("{}: {} words are not {} vectors of {} bits", state_->name,
+                                 init_words.size(), vector_count, state_->options.init_bits));
+  }
+  return advance(init_words.data(), vector_count, false, out, max_fragments);
+}
+
+Status VerilatorSimulator::finish(std::vector<Fragment>& out, std::size_t max_fragments) {
+  return advance(nullptr, 0, true, out, max_fragments);
+}
+
+Status VerilatorSimulator::advance(const std::uint32_t* words, std::size_t vectors, bool drain,
+                                   std::vector<Fragment>& out, std::size_t max_fragments) {
+  HalfwayStreams streams{words, vectors, nullptr, 0, 0};
+  while (true) {
+    const std::size_t before = out.size();
+    if (before > max_fragments) {
+      return Error{ExitCode::differs,
+                   fmt::format("{} in Verilator: more than {} fragments", state_->name, max_fragments)};
+    }
+    // One more than allowed, to see whether there is one. resize writes zeros; a small chunk stays in the
+    // cache.
+    const std::size_t room = std::min(kChunk, max_fragments - before + 1);
+    out.resize(before + std::max<std::size_t>(room, 1));
+    streams.fragments = reinterpret_cast<HalfwayFragment*>(out.data() + before);
+    streams.capacity = out.size() - before;
+    streams.count = 0;
+    const int status = drain ? state_->drain(state_->model, &streams) : state_->run(state_->model, &streams);
+    out.resize(before + streams.count);
+    switch (status) {
+      case HALFWAY_DONE:
+        if (out.size() <= max_fragments) return Ok{};
+        break;
+      case HALFWAY_BUFFER_FULL:
+        break;
+      case HALFWAY_HANG:
+        return Error{
+            ExitCode::differs,
+            fmt::format("{} in Verilator: hang: nothing moved for {} cycles after {} cycles, with {} vectors "
+                        "still to be taken",
+                        state_->name, state_->options.idle_limit, cycles(), streams.vectors)};
+      case HALFWAY_CHANGED:
+        return Error{
+            ExitCode::differs,
+            fmt::format("{} in Verilator: a fragment changed or was withdrawn while it was not taken, after "
+                        "{} cycles",
+                        state_->name, cycles())};
+      default:
+        return tool_failed(fmt::format("{} in Verilator: unknown status {}", state_->name, status));
+    }
+  }
+}
+
+}  // namespace halfway
