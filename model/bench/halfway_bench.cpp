@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed, as ratios within one run: golden model, Verilator with comparison, GHDL, setup, and a million-triangle mesh as a
-// whole process. Absolute figures belong to the machine that prints them.
+// Speed, as ratios within one run: golden model, Verilator with comparison, GHDL, setup, and a
+// million-triangle mesh as a whole process. Absolute figures belong to the machine that prints them.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -162,18 +162,19 @@ void million_triangles(benchmark::State& state) {
   const std::filesystem::path folder = c_source / "build" / "bench";
   if (const Status made = make_folders(folder); !made) fail(made.error());
   const std::filesystem::path scene = folder / "million.toml";
-  if (const Status wrote = write_file(scene,
-                                      "[camera]\nfit = true\n[[directional]]\nto_light = [1.0, 2.0, 3.0]\n"
-                                      "[[material]]\nname = \"m\"\ncolour = [0.8, 0.5, 0.3]\n"
-                                      "[[mesh]]\nkind = \"sphere\"\nslices = 709\nstacks = 707\nmaterial = \"m\"\n");
+  if (const Status wrote =
+          write_file(scene,
+                     "[camera]\nfit = true\n[[directional]]\nto_light = [1.0, 2.0, 3.0]\n"
+                     "[[material]]\nname = \"m\"\ncolour = [0.8, 0.5, 0.3]\n"
+                     "[[mesh]]\nkind = \"sphere\"\nslices = 709\nstacks = 707\nmaterial = \"m\"\n");
       !wrote)
     fail(wrote.error());
   const std::string program = c_source / "build" / "halfway", scene_name = scene, out = folder / "out";
   for (auto _ : state) {
     const pid_t child = fork();
     if (child == 0) {
-      execl(program.c_str(), program.c_str(), "sim", "--simulator", "verilator", "--size", "1920x1080", "--out",
-            out.c_str(), "--", scene_name.c_str(), nullptr);
+      execl(program.c_str(), program.c_str(), "sim", "--simulator", "verilator", "--size", "1920x1080",
+            "--out", out.c_str(), "--", scene_name.c_str(), nullptr);
       _exit(127);
     }
     int status = 0;
@@ -195,7 +196,8 @@ class Ratios final : public benchmark::ConsoleReporter {
   void ReportRuns(const std::vector<Run>& runs) override {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs)
-      if (const auto rate = run.counters.find("fragments/s"); !run.error_occurred && rate != run.counters.end())
+      if (const auto rate = run.counters.find("fragments/s");
+          !run.error_occurred && rate != run.counters.end())
         rates_[run.benchmark_name()] = rate->second.value;
   }
   void Finalize() override {
@@ -207,11 +209,12 @@ class Ratios final : public benchmark::ConsoleReporter {
     const double compared = rate("verilator_compared/spheres"), golden = rate("golden/spheres");
     const double alone = rate("verilator/spheres"), in_ghdl = rate("ghdl/spheres");
     if (compared == 0.0 || golden == 0.0 || in_ghdl == 0.0) return;
-    fmt::print("\nspheres, fragments a second a core, as ratios within this run:\n"
-               "  Verilator with comparison        1.00  ({:.1f} million)\n"
-               "  Verilator alone                  {:.2f}\n  golden model alone               {:.2f}\n"
-               "  GHDL                             1/{:.0f}\n",
-               compared / 1e6, alone / compared, golden / compared, compared / in_ghdl);
+    fmt::print(
+        "\nspheres, fragments a second a core, as ratios within this run:\n"
+        "  Verilator with comparison        1.00  ({:.1f} million)\n"
+        "  Verilator alone                  {:.2f}\n  golden model alone               {:.2f}\n"
+        "  GHDL                             1/{:.0f}\n",
+        compared / 1e6, alone / compared, golden / compared, compared / in_ghdl);
   }
 
  private:

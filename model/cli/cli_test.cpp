@@ -103,7 +103,8 @@ TEST_F(CliTest, BadUsageExitsTwoAndSaysWhatToDo) {
 }
 
 TEST_F(CliTest, BadScenesAndMeshesExitTwoAndLeaveNothing) {
-  const std::string scene = "[[directional]]\nto_light = [0, 0, 1]\n[[material]]\nname = \"m\"\nexponent = 20\n";
+  const std::string scene =
+      "[[directional]]\nto_light = [0, 0, 1]\n[[material]]\nname = \"m\"\nexponent = 20\n";
   const std::string mesh = "[[mesh]]\nkind = \"sphere\"\nslices = 8\nstacks = 6\nmaterial = \"m\"\n";
   const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
       {"empty.obj", "", "empty.obj"},
@@ -120,7 +121,8 @@ TEST_F(CliTest, BadScenesAndMeshesExitTwoAndLeaveNothing) {
       {"n.toml", "[[material]]\nname = \"m\"\nexponent = 0.5\n" + mesh, "n.toml:3:"},
       {"k.toml", "[[material]]\nname = \"m\"\nk_d = -1\n" + mesh, "k.toml:3:"},
       {"none.toml", scene, "none.toml"},
-      {"many.toml", scene + "[[mesh]]\nkind = \"sphere\"\nslices = 100000\nstacks = 100000\nmaterial = \"m\"\n",
+      {"many.toml",
+       scene + "[[mesh]]\nkind = \"sphere\"\nslices = 100000\nstacks = 100000\nmaterial = \"m\"\n",
        "many.toml"},
       {"missing.toml", scene + "[[mesh]]\nfile = \"gone.obj\"\nmaterial = \"m\"\n", "gone.obj"},
   };
@@ -137,13 +139,18 @@ TEST_F(CliTest, BadScenesAndMeshesExitTwoAndLeaveNothing) {
 
 TEST_F(CliTest, CameraInsideTheMeshOrBehindItStillDraws) {
   const std::string common =
-      "[[directional]]\nto_light = [0, 0, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nkind = \"sphere\"\nslices = 8\n"
+      "[[directional]]\nto_light = [0, 0, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nkind = "
+      "\"sphere\"\nslices = 8\n"
       "stacks = 6\nradius = 1\nmaterial = \"m\"\n";
-  const auto inside = write("inside.toml", "[camera]\neye = [0, 0, 0]\ntarget = [0, 0, -1]\nup = [0, 1, 0]\n" + common);
-  const auto behind = write("behind.toml", "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 9]\nup = [0, 1, 0]\n" + common);
-  const auto through = write("through.toml", "[camera]\neye = [0, 0, 0.99]\ntarget = [0, 0.3, 5]\nup = [0, 1, 0]\n" + common);
+  const auto inside =
+      write("inside.toml", "[camera]\neye = [0, 0, 0]\ntarget = [0, 0, -1]\nup = [0, 1, 0]\n" + common);
+  const auto behind =
+      write("behind.toml", "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 9]\nup = [0, 1, 0]\n" + common);
+  const auto through =
+      write("through.toml", "[camera]\neye = [0, 0, 0.99]\ntarget = [0, 0.3, 5]\nup = [0, 1, 0]\n" + common);
   for (const auto& scene : {inside, behind, through}) {
-    const Outcome outcome = run({"sim", scene, "--out", out(), "--size", "64x48", "--simulator", "verilator"});
+    const Outcome outcome =
+        run({"sim", scene, "--out", out(), "--size", "64x48", "--simulator", "verilator"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr(" 0 mismatches"));
   }
@@ -193,11 +200,12 @@ TEST_F(CliTest, CompareSeesAChangedTraceAndRefusesADamagedOne) {
   ASSERT_TRUE(write_file(path, changed));
   const Outcome differs = run({"compare", "one", "--out", out()});
   EXPECT_EQ(differs.exit_code, 1) << differs.output;
-  EXPECT_THAT(differs.output, ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, blue: golden [0-9]+, verilator"));
+  EXPECT_THAT(differs.output,
+              ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, blue: golden [0-9]+, verilator"));
 
   for (const std::string& damaged :
-       {whole->substr(0, whole->size() / 2), std::string("P6\n20 15\n"), std::string(), *whole + "1 2 3 4 5 6 7\n",
-        std::string("halfway-trace 1 other-key\nend 0\n")}) {
+       {whole->substr(0, whole->size() / 2), std::string("P6\n20 15\n"), std::string(),
+        *whole + "1 2 3 4 5 6 7\n", std::string("halfway-trace 1 other-key\nend 0\n")}) {
     ASSERT_TRUE(write_file(path, damaged));
     const Outcome refused = run({"compare", "one", "--out", out()});
     EXPECT_EQ(refused.exit_code, 2) << refused.output;
@@ -209,14 +217,15 @@ TEST_F(CliTest, AMissingOrDyingToolExitsThree) {
   const auto mesh = write("one.obj", c_triangle);
   const auto fake = folder_->path() / "bin";
   ASSERT_TRUE(make_folders(fake));
-  const Outcome missing = run({"sim", mesh, "--out", out(), "--size", "8x6", "--simulator", "ghdl"}, {{"PATH", fake}});
+  const Outcome missing =
+      run({"sim", mesh, "--out", out(), "--size", "8x6", "--simulator", "ghdl"}, {{"PATH", fake}});
   EXPECT_EQ(missing.exit_code, 3) << missing.output;
   EXPECT_THAT(missing.output, HasSubstr("apt-get install ghdl"));
 
   ASSERT_TRUE(write_file(fake / "ghdl", "#!/bin/sh\nkill -SEGV $$\n"));
   std::filesystem::permissions(fake / "ghdl", std::filesystem::perms::all);
-  const Outcome dying =
-      run({"sim", mesh, "--out", out(), "--size", "8x6", "--simulator", "ghdl"}, {{"PATH", fake.string() + ":/usr/bin:/bin"}});
+  const Outcome dying = run({"sim", mesh, "--out", out(), "--size", "8x6", "--simulator", "ghdl"},
+                            {{"PATH", fake.string() + ":/usr/bin:/bin"}});
   EXPECT_EQ(dying.exit_code, 3) << dying.output;
   EXPECT_THAT(dying.output, HasSubstr("ghdl"));
 }
@@ -266,12 +275,14 @@ TEST_P(WrongRtl, IsCaughtAndLocated) {
   const auto text = read_file(copy / "rtl" / fault.file);
   ASSERT_TRUE(text);
   const std::size_t at = text->find(fault.from);
-  ASSERT_NE(at, std::string::npos) << "mend this test's list: '" << fault.from << "' is not in " << fault.file;
+  ASSERT_NE(at, std::string::npos) << "mend this test's list: '" << fault.from << "' is not in "
+                                   << fault.file;
   std::string changed = *text;
   changed.replace(at, std::string(fault.from).size(), fault.to);
   ASSERT_TRUE(write_file(copy / "rtl" / fault.file, changed));
 
-  const Outcome sim = run({"--source", copy, "sim", "spheres", "--size", "96x72", "--simulator", "ghdl", "--out", out()});
+  const Outcome sim =
+      run({"--source", copy, "sim", "spheres", "--size", "96x72", "--simulator", "ghdl", "--out", out()});
   EXPECT_EQ(sim.exit_code, 1) << sim.output;
   EXPECT_THAT(sim.output, HasSubstr("ghdl differs from the golden model"));
   const Outcome why = run({"--source", copy, "why", "spheres", "--pixel", "20,20", "--size", "96x72"});
@@ -281,14 +292,15 @@ TEST_P(WrongRtl, IsCaughtAndLocated) {
 
 INSTANTIATE_TEST_SUITE_P(
     Mutants, WrongRtl,
-    ::testing::Values(Fault{"line_interpolator_sign", "interpolation/line_interpolator.vhd", "r.value + signed(increment)",
-                            "r.value - signed(increment)", "line stage"},
+    ::testing::Values(Fault{"line_interpolator_sign", "interpolation/line_interpolator.vhd",
+                            "r.value + signed(increment)", "r.value - signed(increment)", "line stage"},
                       Fault{"edge_without_carry", "raster/edge_walker.vhd", "v.x := r.x + r.quotient + 1;",
                             "v.x := r.x + r.quotient;", "edge_walker"},
-                      Fault{"saturate_off_by_a_bit", "arithmetic/saturate.vhd", "value(c_result_high downto g_fraction_bits)",
+                      Fault{"saturate_off_by_a_bit", "arithmetic/saturate.vhd",
+                            "value(c_result_high downto g_fraction_bits)",
                             "value(c_result_high + 1 downto g_fraction_bits + 1)", "fragment stage"},
-                      Fault{"span_one_pixel_long", "raster/triangle_walker.vhd", "v.span.valid := not span_last;",
-                            "v.span.valid := '1';", "triangle_walker"}),
+                      Fault{"span_one_pixel_long", "raster/triangle_walker.vhd",
+                            "v.span.valid := not span_last;", "v.span.valid := '1';", "triangle_walker"}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -66,14 +66,15 @@ int run(const Folders& folders, const CompareCommand& command) {
     const ResultFiles files = ResultFiles::of(command.out, result_name(scene), command.shader);
     std::error_code error;
     if (!std::filesystem::exists(files.trace("golden"), error))
-      return report(bad_input(fmt::format("{}: no results here; run `make sim SCENE={}` first",
-                                          files.folder.string(), scene)));
+      return report(bad_input(
+          fmt::format("{}: no results here; run `make sim SCENE={}` first", files.folder.string(), scene)));
     bool any = false;
     for (const char* simulator : {"ghdl", "verilator"}) {
       if (!std::filesystem::exists(files.trace(simulator), error)) continue;
       any = true;
       StreamComparator comparator;
-      if (const Status status = compare_traces(files.trace("golden"), files.trace(simulator), comparator); !status)
+      if (const Status status = compare_traces(files.trace("golden"), files.trace(simulator), comparator);
+          !status)
         return report(status.error());
       const auto golden = read_png(files.frame("golden")), rtl = read_png(files.frame(simulator));
       if (!golden) return report(golden.error());
@@ -82,8 +83,9 @@ int run(const Folders& folders, const CompareCommand& command) {
       if (!distance) return report(distance.error());
       const bool same = comparator.mismatches() == 0 && distance->differing == 0;
       equal = equal && same;
-      fmt::print("{:<12} {:<10} {:>9} fragments, {} mismatches; frame: {} of {} pixels differ\n", result_name(scene),
-                 simulator, comparator.golden_count(), comparator.mismatches(), distance->differing, distance->pixels);
+      fmt::print("{:<12} {:<10} {:>9} fragments, {} mismatches; frame: {} of {} pixels differ\n",
+                 result_name(scene), simulator, comparator.golden_count(), comparator.mismatches(),
+                 distance->differing, distance->pixels);
       if (comparator.mismatches() != 0) fmt::print(stderr, "{}", comparator.describe(simulator));
     }
     if (!any)
@@ -96,7 +98,8 @@ int run(const Folders& folders, const CompareCommand& command) {
 }  // namespace
 
 void add_compare(CLI::App& app, const Folders& folders, int& exit_code) {
-  CLI::App* sub = app.add_subcommand("compare", "compare what sim left: traces field by field, frames pixel by pixel");
+  CLI::App* sub =
+      app.add_subcommand("compare", "compare what sim left: traces field by field, frames pixel by pixel");
   auto command = std::make_shared<CompareCommand>();
   sub->add_option("scene", command->scenes, "as for sim; none: all built-in scenes");
   sub->add_option("--shader", command->shader, "quadratic")->capture_default_str();

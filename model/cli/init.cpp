@@ -36,11 +36,14 @@ int run(const Folders& folders, const InitCommand& command) {
   progress.clear();
   if (const Status status = file->commit(); !status) return report(status.error());
   const SetupCounts& n = stream.counts();
-  fmt::print("{}: {} init vectors of {} bits for {}\n", command.file, n.vectors, setup.init_bits(), key.name());
-  fmt::print("  {} triangles: {} back-facing, {} outside, {} degenerate on the screen; {} drawn, {} of them split into "
-             "{} pieces in all; {} points shaded\n",
-             scene->triangles.size(), n.projection.back_facing, n.projection.outside + n.projection.behind_near,
-             n.projection.degenerate, n.triangles, n.subdivided, n.leaves, n.shaded);
+  fmt::print("{}: {} init vectors of {} bits for {}\n", command.file, n.vectors, setup.init_bits(),
+             key.name());
+  fmt::print(
+      "  {} triangles: {} back-facing, {} outside, {} degenerate on the screen; {} drawn, {} of them split "
+      "into "
+      "{} pieces in all; {} points shaded\n",
+      scene->triangles.size(), n.projection.back_facing, n.projection.outside + n.projection.behind_near,
+      n.projection.degenerate, n.triangles, n.subdivided, n.leaves, n.shaded);
   return 0;
 }
 

@@ -40,7 +40,8 @@ void DrawOptions::add_to(CLI::App& command) {
   command.add_option("--threshold", threshold, "error that splits a triangle, in colour steps of 1/255")
       ->capture_default_str();
   command.add_option("--max-level", max_level, "levels of splitting, 0 to 5")->capture_default_str();
-  command.add_option("--threads", threads, "threads for setup and golden model (0: all cores)")->capture_default_str();
+  command.add_option("--threads", threads, "threads for setup and golden model (0: all cores)")
+      ->capture_default_str();
 }
 
 Result<DrawSettings> checked(const DrawOptions& o) {
@@ -51,8 +52,10 @@ Result<DrawSettings> checked(const DrawOptions& o) {
     return bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset));
   s.preset = o.preset == "exact" ? Preset::exact : Preset::published;
   const std::optional<FrameSize> size = parse_size(o.size);
-  if (!size) return bad_input(fmt::format("--size: '{}' is not WIDTHxHEIGHT in pixels, such as 640x480", o.size));
-  if (size->width < 1 || size->height < 1 || size->width > c_max_frame_side || size->height > c_max_frame_side)
+  if (!size)
+    return bad_input(fmt::format("--size: '{}' is not WIDTHxHEIGHT in pixels, such as 640x480", o.size));
+  if (size->width < 1 || size->height < 1 || size->width > c_max_frame_side ||
+      size->height > c_max_frame_side)
     return bad_input(fmt::format("--size: {} is out of range; width and height are 1 to {} pixels", o.size,
                                  c_max_frame_side));
   s.size = *size;
@@ -69,7 +72,8 @@ Result<DrawSettings> checked(const DrawOptions& o) {
   if (!(o.threshold > 0.0) || !std::isfinite(o.threshold))
     return bad_input(fmt::format("--threshold: {} is not above 0", o.threshold));
   s.setup.threshold = o.threshold;
-  if (o.max_level < 0 || o.max_level > 5) return bad_input(fmt::format("--max-level: {} is not 0 to 5", o.max_level));
+  if (o.max_level < 0 || o.max_level > 5)
+    return bad_input(fmt::format("--max-level: {} is not 0 to 5", o.max_level));
   s.setup.max_level = o.max_level;
   if (o.threads > 1024) return bad_input(fmt::format("--threads: {} is more than 1024", o.threads));
   s.threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
@@ -84,7 +88,8 @@ Result<std::vector<std::string>> builtin_scenes(const Folders& folders) {
   for (const auto& entry : std::filesystem::directory_iterator(folders.scenes(), error))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   if (error || names.empty())
-    return bad_input(fmt::format("{}: no built-in scenes here; is the checkout whole?", folders.scenes().string()));
+    return bad_input(
+        fmt::format("{}: no built-in scenes here; is the checkout whole?", folders.scenes().string()));
   std::ranges::sort(names);
   return names;
 }
@@ -96,7 +101,9 @@ int report(const Error& error) {
 
 Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0) {}
 
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+  clear();
+}
 
 void Progress::show(double done) {
   const int percent = static_cast<int>(100.0 * done);

@@ -54,7 +54,8 @@ int run(const Folders& folders, const RenderCommand& command) {
     if (!drawn) return report(drawn.error());
     frame = std::move(*drawn);
   }
-  const std::string file = command.file.empty() ? fmt::format("{}-{}.png", scene->name, command.method) : command.file;
+  const std::string file =
+      command.file.empty() ? fmt::format("{}-{}.png", scene->name, command.method) : command.file;
   if (const Status status = write_png(file, frame); !status) return report(status.error());
   const auto distance = frame_distance(frame, reference.frame, reference.mask);
   if (!distance) return report(distance.error());
@@ -66,7 +67,8 @@ int run(const Folders& folders, const RenderCommand& command) {
 }  // namespace
 
 void add_render(CLI::App& app, const Folders& folders, int& exit_code) {
-  CLI::App* sub = app.add_subcommand("render", "draw a scene in software: reference, Gouraud or golden model");
+  CLI::App* sub =
+      app.add_subcommand("render", "draw a scene in software: reference, Gouraud or golden model");
   auto command = std::make_shared<RenderCommand>();
   sub->add_option("scene", command->scene, "as for sim")->required();
   command->draw.add_to(*sub);

@@ -26,7 +26,8 @@ struct SimOptions {
 // What each scene is busy with, on one line of a terminal.
 class Board {
  public:
-  explicit Board(const std::vector<std::string>& scenes) : scenes_(scenes), states_(scenes.size()), progress_("sim") {}
+  explicit Board(const std::vector<std::string>& scenes)
+      : scenes_(scenes), states_(scenes.size()), progress_("sim") {}
 
   void show(std::size_t scene, std::string state) {
     const std::scoped_lock lock(mutex_);
@@ -34,7 +35,8 @@ class Board {
     states_[scene] = std::move(state);
     std::string text;
     for (std::size_t i = 0; i < scenes_.size(); ++i)
-      if (!states_[i].empty()) text += fmt::format("{}{} {}", text.empty() ? "" : " | ", scenes_[i], states_[i]);
+      if (!states_[i].empty())
+        text += fmt::format("{}{} {}", text.empty() ? "" : " | ", scenes_[i], states_[i]);
     progress_.show(text);
   }
   void clear() {
@@ -54,8 +56,8 @@ struct Drawn {
 };
 using Outcome = Result<Drawn>;
 
-Outcome draw_scene(const std::string& name, std::size_t number, const Folders& folders, SimulateSettings settings,
-                   Board& board) {
+Outcome draw_scene(const std::string& name, std::size_t number, const Folders& folders,
+                   SimulateSettings settings, Board& board) {
   board.show(number, "loading");
   const auto scene = load_scene(name, folders.scenes());
   if (!scene) return scene.error();
@@ -103,7 +105,8 @@ int run(const Folders& folders, const SimOptions& options) {
       else if (name == "verilator")
         settings.verilator = true;
       else
-        return report(bad_input(fmt::format("--simulator: '{}' is not a simulator; take ghdl or verilator", name)));
+        return report(
+            bad_input(fmt::format("--simulator: '{}' is not a simulator; take ghdl or verilator", name)));
     }
   }
   std::vector<std::string> scenes = options.scenes;
@@ -124,7 +127,8 @@ int run(const Folders& folders, const SimOptions& options) {
   for (unsigned i = 0; i < workers; ++i)
     pool.emplace_back([&] {
       for (std::size_t n = next++; n < scenes.size(); n = next++)
-        outcomes[n].set_value(stop ? Outcome(tool_failed("not run")) : draw_scene(scenes[n], n, folders, settings, board));
+        outcomes[n].set_value(stop ? Outcome(tool_failed("not run"))
+                                   : draw_scene(scenes[n], n, folders, settings, board));
     });
 
   bool equal = true;
@@ -143,14 +147,17 @@ int run(const Folders& folders, const SimOptions& options) {
 }  // namespace
 
 void add_sim(CLI::App& app, const Folders& folders, int& exit_code) {
-  CLI::App* command = app.add_subcommand("sim", "draw scenes by golden model, GHDL and Verilator and compare");
+  CLI::App* command =
+      app.add_subcommand("sim", "draw scenes by golden model, GHDL and Verilator and compare");
   auto options = std::make_shared<SimOptions>();
   command->add_option("scene", options->scenes,
                       "a built-in scene's name, a scene file (.toml) or a mesh (.obj .ply .stl .gltf .glb);\n"
                       "none: all built-in scenes");
   options->draw.add_to(*command);
   command->add_option("--simulator", options->simulators, "ghdl or verilator (default: both)");
-  command->add_option("--stalls", options->stall_seed, "stall both streams at random, by this seed (0: full speed)")
+  command
+      ->add_option("--stalls", options->stall_seed,
+                   "stall both streams at random, by this seed (0: full speed)")
       ->capture_default_str();
   command->callback([=, &folders, &exit_code] { exit_code = run(folders, *options); });
 }

@@ -32,7 +32,8 @@ int run(const Folders& folders, bool check) {
     if (check) {
       std::size_t line = 1;
       if (present)
-        for (std::size_t i = 0; i < std::min(present->size(), file.text.size()) && (*present)[i] == file.text[i]; ++i)
+        for (std::size_t i = 0;
+             i < std::min(present->size(), file.text.size()) && (*present)[i] == file.text[i]; ++i)
           line += file.text[i] == '\n';
       fmt::print(stderr, "{}:{}: not what the generator writes; edit model/tables, then run `make tables`\n",
                  file.path.string(), line);

@@ -45,8 +45,8 @@ void print_stage(const StageState& stage) {
     fmt::print("  {} stage: the RTL never came here\n", stage.stage);
   for (const StageValue& v : stage.values) {
     const bool same = stage.cycle && v.golden == v.rtl;
-    fmt::print("    {:<20} golden {:<28} RTL {}{}\n", v.name, word(v.golden, v), stage.cycle ? word(v.rtl, v) : "-",
-               same ? "" : "   <-- differs");
+    fmt::print("    {:<20} golden {:<28} RTL {}{}\n", v.name, word(v.golden, v),
+               stage.cycle ? word(v.rtl, v) : "-", same ? "" : "   <-- differs");
   }
 }
 
@@ -54,10 +54,11 @@ int run(const Folders& folders, const WhyCommand& command) {
   const auto draw = checked(command.draw);
   if (!draw) return report(draw.error());
   const auto pixel = parse_pixel(command.pixel);
-  if (!pixel) return report(bad_input(fmt::format("--pixel: '{}' is not x,y, such as 120,45", command.pixel)));
+  if (!pixel)
+    return report(bad_input(fmt::format("--pixel: '{}' is not x,y, such as 120,45", command.pixel)));
   if (pixel->first >= draw->size.width || pixel->second >= draw->size.height)
-    return report(bad_input(fmt::format("--pixel: {} lies outside the frame of {}x{}", command.pixel, draw->size.width,
-                                        draw->size.height)));
+    return report(bad_input(fmt::format("--pixel: {} lies outside the frame of {}x{}", command.pixel,
+                                        draw->size.width, draw->size.height)));
   const auto scene = load_scene(command.scene, folders.scenes());
   if (!scene) return report(scene.error());
   Progress progress(scene->name);
@@ -74,8 +75,8 @@ int run(const Folders& folders, const WhyCommand& command) {
   progress.clear();
   if (!why) return report(why.error());
 
-  fmt::print("{}: pixel {},{} of {}x{}, hardware {}: {} triangles cover it\n", scene->name, settings.x, settings.y,
-             settings.size.width, settings.size.height, why->key.name(), why->stories.size());
+  fmt::print("{}: pixel {},{} of {}x{}, hardware {}: {} triangles cover it\n", scene->name, settings.x,
+             settings.y, settings.size.width, settings.size.height, why->key.name(), why->stories.size());
   for (const PixelStory& story : why->stories) {
     fmt::print("\ntriangle {}, init vector {}\n", story.triangle, story.vector);
     fmt::print("  init vector (given to both)\n");
@@ -85,9 +86,11 @@ int run(const Folders& folders, const WhyCommand& command) {
   if (!why->fault.empty()) fmt::print("\n{}\n", why->fault);
   if (why->first) {
     const FirstDifference& d = *why->first;
-    fmt::print("\nfirst difference in the frame: {} stage ({}), cycle {}: triangle {}, line {}, pixel {}: {}: golden {}, "
-               "RTL {}\n",
-               d.stage, d.entity, d.cycle, d.triangle, d.y, d.x, d.value, d.golden, d.rtl);
+    fmt::print(
+        "\nfirst difference in the frame: {} stage ({}), cycle {}: triangle {}, line {}, pixel {}: {}: "
+        "golden {}, "
+        "RTL {}\n",
+        d.stage, d.entity, d.cycle, d.triangle, d.y, d.x, d.value, d.golden, d.rtl);
     return static_cast<int>(ExitCode::differs);
   }
   fmt::print("\ngolden model and RTL agree at every stage of the whole frame\n");

@@ -9,7 +9,9 @@
 namespace halfway {
 
 enum class Preset { exact, published };
-inline const char* to_string(Preset preset) { return preset == Preset::exact ? "exact" : "published"; }
+inline const char* to_string(Preset preset) {
+  return preset == Preset::exact ? "exact" : "published";
+}
 
 struct HardwareKey {
   std::string entity = "quadratic_shader";  ///< top entity in rtl/shaders

@@ -8,7 +8,9 @@
 namespace halfway {
 namespace {
 
-bool is_grey(const glm::dvec3& v) { return v.x == v.y && v.y == v.z; }
+bool is_grey(const glm::dvec3& v) {
+  return v.x == v.y && v.y == v.z;
+}
 
 // The first colour that is not grey, named; empty where all are.
 std::string first_colour(const Scene& scene) {
@@ -44,7 +46,8 @@ Plan plan_quadratic(const Scene& scene, Preset preset) {
   const std::string colour = first_colour(scene);
   plan.key.channels = colour.empty() ? 1 : 3;
   plan.effects = {
-      {"colour channels", !colour.empty(), colour.empty() ? "every light and material is grey: one channel" : colour},
+      {"colour channels", !colour.empty(),
+       colour.empty() ? "every light and material is grey: one channel" : colour},
       {"depth", true, "the z test needs every fragment's depth"},
       {"exact edges", preset == Preset::exact,
        preset == Preset::exact ? "preset exact: quotient and remainder" : "preset published: real slopes"},

@@ -16,7 +16,8 @@ class Model final : public GoldenModel {
   void draw_probed(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,
                    std::vector<ProbeEvent>& events) override {
     for (; init_words.size() >= Shader::c_init_words; init_words = init_words.subspan(Shader::c_init_words))
-      shader_.draw(init_words, [&](const Fragment& f) { fragments.push_back(f); }, Watch{events});
+      shader_.draw(
+          init_words, [&](const Fragment& f) { fragments.push_back(f); }, Watch{events});
   }
   unsigned init_bits() const override { return Shader::c_init_bits; }
   unsigned probe_bits() const override { return Shader::c_probe_bits; }
@@ -27,9 +28,13 @@ class Model final : public GoldenModel {
     void line(const Shader& shader) {
       add(shader, Stage::line, shader.walker().start(), shader.line_probe());
     }
-    void span(const Shader& shader, golden::SpanXWord x) { add(shader, Stage::span, x, shader.span_probe(x)); }
+    void span(const Shader& shader, golden::SpanXWord x) {
+      add(shader, Stage::span, x, shader.span_probe(x));
+    }
     void add(const Shader& shader, Stage stage, golden::SpanXWord x, const auto& words) {
-      events.push_back({stage, shader.walker().triangle(), shader.walker().y(),
+      events.push_back({stage,
+                        shader.walker().triangle(),
+                        shader.walker().y(),
                         static_cast<std::uint32_t>(golden::low_bits(x.bits(), golden::Exact::c_pixel_x_bits)),
                         {words.begin(), words.end()}});
     }
@@ -46,7 +51,8 @@ std::unique_ptr<GoldenModel> make(unsigned channels) {
 }  // namespace
 
 std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key) {
-  return key.preset == Preset::exact ? make<golden::Exact>(key.channels) : make<golden::Published>(key.channels);
+  return key.preset == Preset::exact ? make<golden::Exact>(key.channels)
+                                     : make<golden::Published>(key.channels);
 }
 
 }  // namespace halfway

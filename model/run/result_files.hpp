@@ -11,7 +11,8 @@ namespace halfway {
 struct ResultFiles {
   std::filesystem::path folder;
 
-  static ResultFiles of(const std::filesystem::path& out, const std::string& scene, const std::string& shader) {
+  static ResultFiles of(const std::filesystem::path& out, const std::string& scene,
+                        const std::string& shader) {
     return {out / scene / shader};
   }
   std::filesystem::path init() const { return folder / "init.txt"; }

@@ -20,7 +20,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-SceneStream::SceneStream(const Scene& scene, const QuadraticSetup& setup, const HardwareKey& key, unsigned threads)
+SceneStream::SceneStream(const Scene& scene, const QuadraticSetup& setup, const HardwareKey& key,
+                         unsigned threads)
     : scene_(scene), setup_(setup), key_(key), threads_(std::max(1U, threads)) {
   prefetch();
 }
@@ -74,7 +75,8 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) cons
   Work all = std::move(parts[0]);
   for (std::size_t i = 1; i < chunks; ++i) {
     Work& part = parts[i];
-    all.batch.init_words.insert(all.batch.init_words.end(), part.batch.init_words.begin(), part.batch.init_words.end());
+    all.batch.init_words.insert(all.batch.init_words.end(), part.batch.init_words.begin(),
+                                part.batch.init_words.end());
     all.batch.golden.insert(all.batch.golden.end(), part.batch.golden.begin(), part.batch.golden.end());
     part.batch = {};
     all.counts += part.counts;

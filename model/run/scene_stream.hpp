@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene as a stream of batches: init vectors and the golden model's fragments for them, in the scene's order.
+// A scene as a stream of batches: init vectors and the golden model's fragments for them, in the scene's
+// order.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@ struct Batch {
   std::uint32_t triangles_done = 0;  ///< of the scene, this batch's included
 };
 
-/// Setup and golden model on `threads` threads, one batch ahead of who takes them. The stream does not depend on the
-/// number of threads. Memory is bounded by a batch, not by the mesh.
+/// Setup and golden model on `threads` threads, one batch ahead of who takes them. The stream does not depend
+/// on the number of threads. Memory is bounded by a batch, not by the mesh.
 class SceneStream {
  public:
   /// Scene and setup must outlive the stream.

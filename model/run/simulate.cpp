@@ -26,7 +26,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 // Cycles without a movement after which the hardware hangs: more than any triangle's empty lines.
 constexpr std::uint32_t c_idle_limit = 20'000;
@@ -62,7 +64,8 @@ class RtlStream {
     run.mismatches = comparator_.mismatches();
     run.fault = fault_;
     run.first = comparator_.first();
-    if (run.mismatches != 0) run.description = comparator_.describe(run.simulator == "ghdl" ? "GHDL" : "Verilator");
+    if (run.mismatches != 0)
+      run.description = comparator_.describe(run.simulator == "ghdl" ? "GHDL" : "Verilator");
     return run;
   }
 
@@ -96,7 +99,8 @@ class Simulation {
     const Clock::time_point start = Clock::now();
     if (Status status = make_folders(files_.folder); !status) return status.error();
     if (Status status = forget_old_results(); !status) return status.error();
-    std::future<ReferenceImage> reference = std::async(std::launch::async, [this] { return draw_reference(); });
+    std::future<ReferenceImage> reference =
+        std::async(std::launch::async, [this] { return draw_reference(); });
     if (Status status = stream(); !status) return status.error();
     if (s_.ghdl)
       if (Status status = run_ghdl(); !status) return status.error();
@@ -175,19 +179,23 @@ class Simulation {
       return Ok{};
     };
     // `drawn` is emptied on every take, so its limit is what the golden model is ahead by, and some.
-    const auto limit = [&] { return static_cast<std::size_t>(golden_.fragments() + c_most_surplus - std::min(rtl.count(), golden_.fragments())); };
+    const auto limit = [&] {
+      return static_cast<std::size_t>(golden_.fragments() + c_most_surplus -
+                                      std::min(rtl.count(), golden_.fragments()));
+    };
     for (Batch batch; stream.next(batch);) {
-      s_.on_progress("setup, golden model, Verilator",
-                     static_cast<double>(batch.triangles_done) / static_cast<double>(scene_.triangles.size()));
+      s_.on_progress("setup, golden model, Verilator", static_cast<double>(batch.triangles_done) /
+                                                           static_cast<double>(scene_.triangles.size()));
       init_file->write(batch.init_words);
       golden_trace->write(batch.golden);
       if (Status status = golden_.add(batch.golden); !status)
-        return tool_failed(fmt::format("{}: setup made a fragment outside the frame: {}; please report it", scene_.name,
-                                       status.error().message));
+        return tool_failed(fmt::format("{}: setup made a fragment outside the frame: {}; please report it",
+                                       scene_.name, status.error().message));
       rtl.add_golden(batch.golden);
       if (!rtl_alive) continue;
       const Clock::time_point begin = Clock::now();
-      const Status ran = verilator->run(batch.init_words, batch.init_words.size() / words_per_vector, drawn, limit());
+      const Status ran =
+          verilator->run(batch.init_words, batch.init_words.size() / words_per_vector, drawn, limit());
       if (Status status = take_rtl(begin, ran); !status) return status;
     }
     if (rtl_alive) {
@@ -199,16 +207,18 @@ class Simulation {
     if (Status status = golden_trace->commit(); !status) return status;
     summary_.setup = stream.counts();
     if (const std::uint64_t lost = summary_.setup.projection.unrepresentable; lost != 0)
-      return bad_input(fmt::format("{}: {} triangles project to no finite point; bring the scene nearer to the origin, or "
-                                   "the camera away from them",
-                                   scene_.name, lost));
+      return bad_input(
+          fmt::format("{}: {} triangles project to no finite point; bring the scene nearer to the origin, or "
+                      "the camera away from them",
+                      scene_.name, lost));
     summary_.setup_seconds = stream.setup_seconds();
     summary_.golden_seconds = stream.golden_seconds();
     summary_.fragments = golden_.fragments();
     if (Status status = write_png(files_.frame("golden"), golden_.frame()); !status) return status;
     if (verilator) {
       if (Status status = verilator_trace->commit(verilator->cycles()); !status) return status;
-      if (Status status = write_png(files_.frame("verilator"), rtl.assembler().frame()); !status) return status;
+      if (Status status = write_png(files_.frame("verilator"), rtl.assembler().frame()); !status)
+        return status;
       SimulatorRun run = rtl.finish("verilator");
       run.cycles = verilator->cycles();
       run.seconds = verilator_seconds;
@@ -224,7 +234,8 @@ class Simulation {
     auto runner = GhdlRunner::open(summary_.plan.key, s_.folders);
     if (!runner) return runner.error();
     std::error_code ignored;
-    const auto golden_bytes = static_cast<double>(std::filesystem::file_size(files_.trace("golden"), ignored));
+    const auto golden_bytes =
+        static_cast<double>(std::filesystem::file_size(files_.trace("golden"), ignored));
     GhdlRunOptions options;
     options.idle_limit = c_idle_limit;
     options.stall_seed = s_.stall_seed;
@@ -305,12 +316,13 @@ class Simulation {
 
   Status keep_evidence(SimulatorRun& run) const {
     s_.on_progress("waveform", -1.0);
-    auto path = write_mismatch_waveform(summary_.plan.key, s_.folders, files_, run.simulator,
-                                        run.first.empty() ? std::nullopt : std::optional(run.first.front().index),
-                                        s_.stall_seed);
+    auto path = write_mismatch_waveform(
+        summary_.plan.key, s_.folders, files_, run.simulator,
+        run.first.empty() ? std::nullopt : std::optional(run.first.front().index), s_.stall_seed);
     // The mismatch is what there is to tell; a waveform that cannot be had must not hide it.
     if (!path) {
-      run.description += fmt::format("  no waveform: {}\n", path.error().message.substr(0, path.error().message.find('\n')));
+      run.description +=
+          fmt::format("  no waveform: {}\n", path.error().message.substr(0, path.error().message.find('\n')));
       return Ok{};
     }
     run.evidence.push_back(*path);
@@ -381,15 +393,18 @@ std::string to_json(const SceneSummary& s) {
 }
 
 std::string to_line(const SceneSummary& s) {
-  std::string line = fmt::format("{:<12} {:<10} {:<9} {:>4}x{:<4} {:>8} triangles {:>9} fragments", s.scene, s.shader,
-                                 to_string(s.plan.key.preset), s.size.width, s.size.height, s.triangles, s.fragments);
+  std::string line =
+      fmt::format("{:<12} {:<10} {:<9} {:>4}x{:<4} {:>8} triangles {:>9} fragments", s.scene, s.shader,
+                  to_string(s.plan.key.preset), s.size.width, s.size.height, s.triangles, s.fragments);
   for (const SimulatorRun& run : s.runs)
-    fmt::format_to(std::back_inserter(line), " | {}: {} cycles, {:.3f} a fragment, {} mismatches, {:.2f} s", run.simulator,
-                   run.cycles, run.fragments == 0 ? 0.0 : static_cast<double>(run.cycles) / static_cast<double>(run.fragments),
-                   run.mismatches, run.seconds);
+    fmt::format_to(
+        std::back_inserter(line), " | {}: {} cycles, {:.3f} a fragment, {} mismatches, {:.2f} s",
+        run.simulator, run.cycles,
+        run.fragments == 0 ? 0.0 : static_cast<double>(run.cycles) / static_cast<double>(run.fragments),
+        run.mismatches, run.seconds);
   if (std::isfinite(s.accuracy.psnr_db))
-    fmt::format_to(std::back_inserter(line), " | reference: PSNR {:.2f} dB, largest error {}/255", s.accuracy.psnr_db,
-                   s.accuracy.max_lsb);
+    fmt::format_to(std::back_inserter(line), " | reference: PSNR {:.2f} dB, largest error {}/255",
+                   s.accuracy.psnr_db, s.accuracy.max_lsb);
   else
     fmt::format_to(std::back_inserter(line), " | reference: equal");
   fmt::format_to(std::back_inserter(line), " | {:.2f} s", s.seconds);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The main job: a scene through golden model, simulators and reference renderer; streams compared, frames and summary
-// written.
+// The main job: a scene through golden model, simulators and reference renderer; streams compared, frames and
+// summary written.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +38,8 @@ struct SimulatorRun {
   std::string simulator;
   std::uint64_t cycles = 0, fragments = 0, mismatches = 0;
   double seconds = 0.0;
-  std::string fault;              ///< of the hardware, as the simulator tells it; empty: none
-  std::string description;        ///< the first mismatches and their counts; empty: none
+  std::string fault;        ///< of the hardware, as the simulator tells it; empty: none
+  std::string description;  ///< the first mismatches and their counts; empty: none
   std::vector<Mismatch> first;
   std::vector<std::filesystem::path> evidence;  ///< difference image, waveform
   bool equal() const { return mismatches == 0 && fault.empty(); }
@@ -58,7 +58,8 @@ struct SceneSummary {
   bool equal() const;
 };
 
-/// Results lie in ResultFiles::of(out, scene, shader). Hardware that differs is no error: see SceneSummary::equal.
+/// Results lie in ResultFiles::of(out, scene, shader). Hardware that differs is no error: see
+/// SceneSummary::equal.
 Result<SceneSummary> simulate(const Scene& scene, const SimulateSettings& settings);
 
 /// summary.json.

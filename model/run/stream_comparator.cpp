@@ -8,7 +8,9 @@
 
 namespace halfway {
 
-std::array<std::uint32_t, 7> fields(const Fragment& f) { return {f.triangle, f.y, f.x, f.z, f.red, f.green, f.blue}; }
+std::array<std::uint32_t, 7> fields(const Fragment& f) {
+  return {f.triangle, f.y, f.x, f.z, f.red, f.green, f.blue};
+}
 
 void StreamComparator::add_golden(std::span<const Fragment> fragments) {
   pending_golden_.insert(pending_golden_.end(), fragments.begin(), fragments.end());
@@ -88,7 +90,8 @@ std::string StreamComparator::describe(std::string_view rtl_name) const {
       const auto golden = fields(*m.golden), rtl = fields(*m.rtl);
       for (std::size_t i = 0; i < golden.size() && lines < c_kept; ++i) {
         if (golden[i] == rtl[i]) continue;
-        fmt::format_to(to, "{}, {}: golden {}, {} {}\n", where, c_fragment_fields[i], golden[i], rtl_name, rtl[i]);
+        fmt::format_to(to, "{}, {}: golden {}, {} {}\n", where, c_fragment_fields[i], golden[i], rtl_name,
+                       rtl[i]);
         ++lines;
       }
     }

@@ -15,11 +15,11 @@
 namespace halfway {
 
 struct Mismatch {
-  std::uint64_t index;  ///< in the stream
+  std::uint64_t index;                  ///< in the stream
   std::optional<Fragment> golden, rtl;  ///< nothing where that stream has ended
 };
 
-inline constexpr std::array<std::string_view, 7> c_fragment_fields = {"triangle", "line", "pixel", "depth",
+inline constexpr std::array<std::string_view, 7> c_fragment_fields = {"triangle", "line",  "pixel", "depth",
                                                                       "red",      "green", "blue"};
 
 /// A fragment's fields in the order of c_fragment_fields.
@@ -40,7 +40,8 @@ class StreamComparator {
   const std::vector<Mismatch>& first() const { return first_; }
   static constexpr std::size_t c_kept = 10;
 
-  /// "triangle 3, line 10, pixel 7, red: golden 200, RTL 201", a line a field that differs, at most c_kept, then counts.
+  /// "triangle 3, line 10, pixel 7, red: golden 200, RTL 201", a line a field that differs, at most c_kept,
+  /// then counts.
   std::string describe(std::string_view rtl_name) const;
 
  private:

@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t c_vectors_a_read = 64;
 constexpr std::uint64_t c_idle_limit = 20'000;
 
-// Runs the init file until `fragments` have come, or to the end. `last_vectors` bounds how far past them the hardware
-// is fed.
+// Runs the init file until `fragments` have come, or to the end. `last_vectors` bounds how far past them the
+// hardware is fed.
 Status run_until(VerilatorSimulator& simulator, const ResultFiles& files, const std::string& key_name,
                  std::uint64_t fragments) {
   auto file = InitFileReader::open(files.init(), key_name);
@@ -34,8 +34,8 @@ Status run_until(VerilatorSimulator& simulator, const ResultFiles& files, const 
     const auto vectors = file->read(words, c_vectors_a_read);
     if (!vectors) return vectors.error();
     const auto limit = static_cast<std::size_t>(fragments - count);
-    const Status status = *vectors == 0 ? simulator.finish(drawn, limit)
-                                        : simulator.run(words, *vectors, drawn, limit);
+    const Status status =
+        *vectors == 0 ? simulator.finish(drawn, limit) : simulator.run(words, *vectors, drawn, limit);
     if (!taken(status) || *vectors == 0) break;  // enough fragments, a hang, or the end
   }
   return Ok{};
@@ -45,7 +45,8 @@ Status run_until(VerilatorSimulator& simulator, const ResultFiles& files, const 
 
 Result<std::filesystem::path> write_mismatch_waveform(const HardwareKey& key, const SimulatorFolders& folders,
                                                       const ResultFiles& files, const std::string& simulator,
-                                                      std::optional<std::uint64_t> index, std::uint32_t stall_seed) {
+                                                      std::optional<std::uint64_t> index,
+                                                      std::uint32_t stall_seed) {
   const std::filesystem::path path = files.folder / fmt::format("mismatch-{}.fst", simulator);
   VerilatorOptions options{.stall_seed = stall_seed, .idle_limit = c_idle_limit};
   const std::uint64_t fragments = index ? *index + 1 : UINT64_MAX;
@@ -61,7 +62,8 @@ Result<std::filesystem::path> write_mismatch_waveform(const HardwareKey& key, co
   options.waves_to = at + c_waveform_after;
   auto second = VerilatorSimulator::open(key, folders, options);
   if (!second) return second.error();
-  const std::uint64_t past = fragments > UINT64_MAX - c_waveform_after ? fragments : fragments + c_waveform_after;
+  const std::uint64_t past =
+      fragments > UINT64_MAX - c_waveform_after ? fragments : fragments + c_waveform_after;
   if (const Status status = run_until(*second, files, key.name(), past); !status) return status.error();
   return path;
 }

@@ -17,11 +17,12 @@ namespace halfway {
 /// Cycles shown before and after the fragment.
 inline constexpr std::uint64_t c_waveform_before = 200, c_waveform_after = 100;
 
-/// Runs the init file once more and writes <folder>/mismatch-<simulator>.fst around fragment `index` of the stream, or
-/// around the run's end where there is none. Verilator's netlist is the GHDL design, register for register, so its
-/// waveform serves both simulators.
+/// Runs the init file once more and writes <folder>/mismatch-<simulator>.fst around fragment `index` of the
+/// stream, or around the run's end where there is none. Verilator's netlist is the GHDL design, register for
+/// register, so its waveform serves both simulators.
 Result<std::filesystem::path> write_mismatch_waveform(const HardwareKey& key, const SimulatorFolders& folders,
                                                       const ResultFiles& files, const std::string& simulator,
-                                                      std::optional<std::uint64_t> index, std::uint32_t stall_seed);
+                                                      std::optional<std::uint64_t> index,
+                                                      std::uint32_t stall_seed);
 
 }  // namespace halfway

@@ -43,7 +43,8 @@ std::vector<PlacedField> init_fields(unsigned channels) {
 }
 template <class P>
 std::vector<PlacedField> probe_fields(unsigned channels) {
-  return place(P::c_probe_header, P::c_probe_header_bits, P::c_probe_channel, P::c_probe_channel_bits, channels);
+  return place(P::c_probe_header, P::c_probe_header_bits, P::c_probe_channel, P::c_probe_channel_bits,
+               channels);
 }
 
 bool belongs(const PlacedField& f, std::string_view stage) {
@@ -61,17 +62,23 @@ std::string_view entity_of(std::string_view field) {
 
 std::string shown(std::uint64_t word, const PlacedField& f) {
   const int digits = (f.field.bits + 3) / 4;
-  const std::int64_t value = f.field.is_signed
-                                 ? static_cast<std::int64_t>(word << (64 - f.field.bits)) >> (64 - f.field.bits)
-                                 : static_cast<std::int64_t>(word);
+  const std::int64_t value =
+      f.field.is_signed ? static_cast<std::int64_t>(word << (64 - f.field.bits)) >> (64 - f.field.bits)
+                        : static_cast<std::int64_t>(word);
   if (f.field.fraction_bits == 0) return fmt::format("{:0{}x} ({})", word, digits, value);
-  return fmt::format("{:0{}x} ({:.6f})", word, digits,
-                     static_cast<double>(value) / static_cast<double>(std::uint64_t{1} << f.field.fraction_bits));
+  return fmt::format(
+      "{:0{}x} ({:.6f})", word, digits,
+      static_cast<double>(value) / static_cast<double>(std::uint64_t{1} << f.field.fraction_bits));
 }
 
-StageValue value_of(const PlacedField& f, std::span<const std::uint32_t> golden, std::span<const std::uint32_t> rtl) {
-  return {f.name, golden::get_bits(golden, f.field, f.block_low), golden::get_bits(rtl, f.field, f.block_low),
-          f.field.bits, f.field.fraction_bits, f.field.is_signed};
+StageValue value_of(const PlacedField& f, std::span<const std::uint32_t> golden,
+                    std::span<const std::uint32_t> rtl) {
+  return {f.name,
+          golden::get_bits(golden, f.field, f.block_low),
+          golden::get_bits(rtl, f.field, f.block_low),
+          f.field.bits,
+          f.field.fraction_bits,
+          f.field.is_signed};
 }
 
 class Explainer {
@@ -82,8 +89,10 @@ class Explainer {
     report_.key = key;
     key.probe = true;
     const bool exact = key.preset == Preset::exact;
-    init_fields_ = exact ? init_fields<golden::Exact>(key.channels) : init_fields<golden::Published>(key.channels);
-    probe_fields_ = exact ? probe_fields<golden::Exact>(key.channels) : probe_fields<golden::Published>(key.channels);
+    init_fields_ =
+        exact ? init_fields<golden::Exact>(key.channels) : init_fields<golden::Published>(key.channels);
+    probe_fields_ =
+        exact ? probe_fields<golden::Exact>(key.channels) : probe_fields<golden::Published>(key.channels);
     auto simulator = VerilatorSimulator::open(key, s_.folders, {.idle_limit = 20'000, .record_probes = true});
     if (!simulator) return simulator.error();
     const QuadraticSetup setup(scene_, s_.size, report_.key, s_.setup);
@@ -93,7 +102,8 @@ class Explainer {
     SceneStream stream(scene_, setup, report_.key, s_.threads);
     bool alive = true;
     for (Batch batch; alive && stream.next(batch);) {
-      s_.on_progress(static_cast<double>(batch.triangles_done) / static_cast<double>(scene_.triangles.size()));
+      s_.on_progress(static_cast<double>(batch.triangles_done) /
+                     static_cast<double>(scene_.triangles.size()));
       for (std::size_t at = 0; alive && at < batch.init_words.size(); at += words_per_vector, ++vector_) {
         const auto words = std::span(batch.init_words).subspan(at, words_per_vector);
         draw_golden(*golden, words);
@@ -157,7 +167,12 @@ class Explainer {
     story.stages[2].stage = "fragment";
     const auto golden = fields(fragment);
     for (std::size_t i = 0; i < golden.size(); ++i)
-      story.stages[2].values.push_back({std::string(c_fragment_fields[i]), golden[i], 0, i == 3 ? 24 : i == 0 ? 32 : i < 3 ? 12 : 8, 0, false});
+      story.stages[2].values.push_back({std::string(c_fragment_fields[i]), golden[i], 0,
+                                        i == 3   ? 24
+                                        : i == 0 ? 32
+                                        : i < 3  ? 12
+                                                 : 8,
+                                        0, false});
     report_.stories.push_back(std::move(story));
     return report_.stories.size() - 1;
   }
@@ -167,10 +182,12 @@ class Explainer {
     const std::string_view prefix = stage == 0 ? "line_" : "span_";
     const std::vector<std::uint32_t> none(event.words.size(), 0);
     for (const PlacedField& f : probe_fields_)
-      if (belongs(f, prefix)) report_.stories[story].stages[stage].values.push_back(value_of(f, event.words, none));
+      if (belongs(f, prefix))
+        report_.stories[story].stages[stage].values.push_back(value_of(f, event.words, none));
   }
 
-  // What the simulator has drawn since the last call, against what is expected. False once nothing more can be learnt.
+  // What the simulator has drawn since the last call, against what is expected. False once nothing more can
+  // be learnt.
   bool take(const Status& status, VerilatorSimulator& simulator) {
     for (const ProbeRecord& record : simulator.probes()) {
       if ((record.words[0] & 1) != 0) check(record, "line", "line_", lines_, 0);
@@ -187,10 +204,11 @@ class Explainer {
     return false;
   }
 
-  void check(const ProbeRecord& record, std::string_view stage, std::string_view prefix, std::deque<Expected>& queue,
-             std::size_t index) {
+  void check(const ProbeRecord& record, std::string_view stage, std::string_view prefix,
+             std::deque<Expected>& queue, std::size_t index) {
     if (queue.empty()) {
-      differ({std::string(stage), "triangle_walker", fmt::format("a {} too many", stage), record.cycle, 0, 0, 0, "nothing", "one"});
+      differ({std::string(stage), "triangle_walker", fmt::format("a {} too many", stage), record.cycle, 0, 0,
+              0, "nothing", "one"});
       return;
     }
     const Expected expected = std::move(queue.front());
@@ -207,8 +225,8 @@ class Explainer {
       const std::uint64_t golden = golden::get_bits(expected.event.words, f.field, f.block_low);
       const std::uint64_t rtl = golden::get_bits(record.words, f.field, f.block_low);
       if (golden == rtl) continue;
-      differ({std::string(stage), std::string(entity_of(f.field.name)), f.name, record.cycle, expected.event.triangle,
-              expected.event.y, expected.event.x, shown(golden, f), shown(rtl, f)});
+      differ({std::string(stage), std::string(entity_of(f.field.name)), f.name, record.cycle,
+              expected.event.triangle, expected.event.y, expected.event.x, shown(golden, f), shown(rtl, f)});
       return;
     }
   }
@@ -238,8 +256,8 @@ class Explainer {
     const auto missing = [&](std::string_view stage, const std::deque<Expected>& queue) {
       if (queue.empty()) return;
       const ProbeEvent& e = queue.front().event;
-      differ({std::string(stage), "triangle_walker", fmt::format("a {} that never came", stage), UINT64_MAX, e.triangle,
-              e.y, e.x, "one", "nothing"});
+      differ({std::string(stage), "triangle_walker", fmt::format("a {} that never came", stage), UINT64_MAX,
+              e.triangle, e.y, e.x, "one", "nothing"});
     };
     missing("line", lines_);
     missing("span", spans_);

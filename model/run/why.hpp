@@ -36,7 +36,7 @@ struct StageValue {
 
 /// What a stage held for the pixel.
 struct StageState {
-  std::string stage;  ///< "line", "span", "fragment"
+  std::string stage;                   ///< "line", "span", "fragment"
   std::optional<std::uint64_t> cycle;  ///< of the RTL; nothing where the RTL never came here
   std::vector<StageValue> values;
 };

@@ -23,9 +23,8 @@ const std::vector<std::string> kVerilatorFlags = {
     "--cc", "--prefix",   "Vshader", "--x-assign", "fast",         "--x-initial",
     "fast", "--noassert", "-O3",     "--flatten",  "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE"};
 const std::vector<std::string> kCompilerFlags = {
-    "-std=gnu++20",    "-O3",      "-march=native",       "-fPIC",          "-shared",
-    "-pthread",        "-w",       "-fvisibility=hidden", "-Wl,-Bsymbolic", "-Wl,-z,defs",
-    "-DVM_COVERAGE=0", "-DVM_SC=0"};
+    "-std=gnu++20",        "-march=native",  "-fPIC",       "-shared",         "-pthread", "-w",
+    "-fvisibility=hidden", "-Wl,-Bsymbolic", "-Wl,-z,defs", "-DVM_COVERAGE=0", "-DVM_SC=0"};
 
 Result<std::string> run_tool(Command command, const std::string& install, const std::string& doing) {
   command.timeout = kBuildTimeout;
@@ -94,7 +93,8 @@ Result<VerilatedLibrary> VerilatedLibrary::open(const VerilatedBuild& build,
       .add(build.netlist)
       .add(build.top)
       .add(*harness)
-      .add(build.waves ? "waves" : "");
+      .add(build.waves ? "waves" : "")
+      .add(build.fast ? "-O3" : "-O1");
   for (const auto& header : build.harness_headers) {
     const auto text = read_file(header);
     if (!text) return tool_failed(text.error().message);
@@ -133,6 +133,7 @@ Result<VerilatedLibrary> VerilatedLibrary::open(const VerilatedBuild& build,
     Command compile{.arguments = {compiler}, .working_folder = fresh->path()};
     auto& arguments = compile.arguments;
     arguments.insert(arguments.end(), kCompilerFlags.begin(), kCompilerFlags.end());
+    arguments.emplace_back(build.fast ? "-O3" : "-O1");
     // g++ would let all libraries in the process share the inline variables of the first.
     if (compiler.find("clang") == std::string::npos) arguments.emplace_back("-fno-gnu-unique");
     arguments.emplace_back(build.waves ? "-DVM_TRACE=1" : "-DVM_TRACE=0");

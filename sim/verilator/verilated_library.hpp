@@ -23,6 +23,7 @@ struct VerilatedBuild {
   std::vector<std::filesystem::path> harness_headers;  ///< which its meaning depends on
   std::vector<std::string> definitions;                ///< NAME=value for the harness
   bool waves = false;                                  ///< with FST tracing, which costs speed
+  bool fast = true;                                    ///< worth a long compilation
   std::string compiler;                                ///< empty: clang++ where it is installed, else g++
 };
 

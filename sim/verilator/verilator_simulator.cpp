@@ -91,6 +91,7 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
                       fmt::format("HALFWAY_PROBE_BITS={}", probe_bits),
                       options.plain_eval ? "HALFWAY_PLAIN_EVAL=1" : "HALFWAY_DIRECT_EVAL=1"},
       .waves = !options.wave_file.empty(),
+      .fast = options.wave_file.empty() && !key.probe,  // those are for looking at a few cycles
       .compiler = options.compiler};
   auto library = VerilatedLibrary::open(build, folders.cache);
   if (!library) return library.error();
