@@ -27,7 +27,7 @@ help: ## this list
 	@echo
 	@echo 'Variables, e.g. make sim SCENE=../shared/meshes/cow.obj SIZE=800x600'
 	@echo '  SCENE      a built-in scene, a TOML file or a mesh file   (default: all built-in scenes)'
-	@echo '  SHADER     quadratic, spherical or processors             (default: quadratic)'
+	@echo '  SHADER     quadratic                                     (default: quadratic)'
 	@echo '  PRESET     exact or published                             (default: exact)'
 	@echo '  SIZE       WIDTHxHEIGHT in pixels                         (default: 640x480)'
 	@echo '  SIMULATOR  ghdl or verilator                              (default: both)'
@@ -41,7 +41,7 @@ sim: program ## scenes through golden model, GHDL and Verilator: compare, write 
 	@build/halfway sim $(sim_options) $(scene)
 
 compare: program ## the frames that make sim left, once more
-	@build/halfway compare $(run_options) $(call option,OUT,--out) $(scene)
+	@build/halfway compare $(call option,SHADER,--shader) $(call option,OUT,--out) $(scene)
 
 why: program ## one pixel stage by stage, golden beside RTL (SCENE, PIXEL)
 	@build/halfway why $(run_options) $(call option,PIXEL,--pixel) $(call option,OUT,--out) $(scene)
@@ -55,8 +55,8 @@ check-tables: program ## fail if make tables would change anything
 test: build ## every test
 	@ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
 
-bench: build ## speed
-	@build/halfway bench $(call option,THREADS,--threads)
+bench: program ## speed, as ratios within one run
+	@cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench
 
 build: program ## program and tests
 	@cmake --build build -j "$(jobs)"

@@ -57,9 +57,10 @@ format_cpp() {
   fi
 }
 
-# Every VHDL file so that units come before their users: rtl/files.f, and then what it does not name.
+# Every VHDL file so that units come before their users: rtl/files.f, then packages, then the rest.
 compile_order() {
   sed -e 's/[#].*//' -e 's/--.*//' -e 's/ *$//' -e '/^$/d' -e 's|^|rtl/|' rtl/files.f
+  find rtl tb -type f -name '*_pkg.vhd' | sort
   find rtl tb -type f -name '*.vhd' | sort
 }
 

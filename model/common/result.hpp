@@ -16,8 +16,12 @@ struct Error {
   std::string message;  ///< "file:line: what, and what to do"
 };
 
-inline Error bad_input(std::string message) { return {ExitCode::bad_input, std::move(message)}; }
-inline Error tool_failed(std::string message) { return {ExitCode::tool_failed, std::move(message)}; }
+inline Error bad_input(std::string message) {
+  return {ExitCode::bad_input, std::move(message)};
+}
+inline Error tool_failed(std::string message) {
+  return {ExitCode::tool_failed, std::move(message)};
+}
 
 /// A value or the error that kept it from being made.
 template <class T>

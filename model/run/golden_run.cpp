@@ -11,7 +11,7 @@ class Model final : public GoldenModel {
  public:
   void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) override {
     for (; init_words.size() >= Shader::c_init_words; init_words = init_words.subspan(Shader::c_init_words))
-      shader_.draw(init_words, [&](const Fragment& f) { fragments.push_back(f); });
+      shader_.draw(init_words, Room{fragments});
   }
   void draw_probed(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,
                    std::vector<ProbeEvent>& events) override {
@@ -23,6 +23,13 @@ class Model final : public GoldenModel {
   unsigned probe_bits() const override { return Shader::c_probe_bits; }
 
  private:
+  struct Room {
+    std::vector<Fragment>& fragments;
+    Fragment* room(std::size_t count) {
+      fragments.resize(fragments.size() + count);
+      return fragments.data() + fragments.size() - count;
+    }
+  };
   struct Watch {
     std::vector<ProbeEvent>& events;
     void line(const Shader& shader) {

@@ -22,7 +22,9 @@ constexpr FlooredQuotient floor_divide(std::int64_t n, std::int64_t d) {
   if (r < 0) --q, r += d;
   return {q, r};
 }
-constexpr std::int64_t ceil_divide(std::int64_t n, std::int64_t d) { return -floor_divide(-n, d).quotient; }
+constexpr std::int64_t ceil_divide(std::int64_t n, std::int64_t d) {
+  return -floor_divide(-n, d).quotient;
+}
 
 /// A point on the screen in 1/2^unit_bits of a pixel; unit_bits travels beside it (4, and one more for each
 /// level of subdivision, so that midpoints stay exact).
@@ -31,20 +33,26 @@ struct ScreenPoint {
   friend bool operator==(const ScreenPoint&, const ScreenPoint&) = default;
 };
 
-/// First line whose pixel centres are at or below y (top rule: a centre on the edge belongs to what is below).
+/// First line whose pixel centres are at or below y (top rule: a centre on the edge belongs to what is
+/// below).
 constexpr std::int64_t first_line(std::int32_t y, int unit_bits) {
   return ceil_divide(2 * std::int64_t{y} - (std::int64_t{1} << unit_bits), std::int64_t{2} << unit_bits);
 }
 
-/// An edge walked downwards: for a line y, the first pixel whose centre is at or right of the edge (left rule).
+/// An edge walked downwards: for a line y, the first pixel whose centre is at or right of the edge (left
+/// rule).
 class Edge {
  public:
   /// top.y < bottom.y
   constexpr Edge(ScreenPoint top, ScreenPoint bottom, int unit_bits)
-      : unit_bits_(unit_bits), dx_(std::int64_t{bottom.x} - top.x), dy_(std::int64_t{bottom.y} - top.y), top_(top) {}
+      : unit_bits_(unit_bits),
+        dx_(std::int64_t{bottom.x} - top.x),
+        dy_(std::int64_t{bottom.y} - top.y),
+        top_(top) {}
 
-  /// Walking state on line y: pixel p = ceil(N/D) with D = dy*2^unit_bits, and error = floor((pD - N)/2^unit_bits)
-  /// in [0, dy). One line down takes floor(dx/dy) from p's step and (dx mod dy) off the error; a borrow adds a pixel.
+  /// Walking state on line y: pixel p = ceil(N/D) with D = dy*2^unit_bits, and error = floor((pD -
+  /// N)/2^unit_bits) in [0, dy). One line down takes floor(dx/dy) from p's step and (dx mod dy) off the
+  /// error; a borrow adds a pixel.
   struct State {
     std::int64_t pixel, error;
   };
@@ -52,7 +60,8 @@ class Edge {
     const std::int64_t unit = std::int64_t{1} << unit_bits_;
     // x of the edge at the line's centre, less half a pixel, times dy; all doubled to keep the halves whole.
     const std::int64_t centre2 = (2 * y + 1) * unit;
-    const std::int64_t n2 = (2 * std::int64_t{top_.x} - unit) * dy_ + dx_ * (centre2 - 2 * std::int64_t{top_.y});
+    const std::int64_t n2 =
+        (2 * std::int64_t{top_.x} - unit) * dy_ + dx_ * (centre2 - 2 * std::int64_t{top_.y});
     const std::int64_t pixel = ceil_divide(n2, 2 * dy_ * unit);
     return {pixel, (pixel * 2 * dy_ * unit - n2) >> (unit_bits_ + 1)};
   }
@@ -87,7 +96,8 @@ void for_each_span(std::array<ScreenPoint, 3> p, int unit_bits, FrameSize frame,
     std::int64_t a = clamp_to(edge_long.pixel(y), frame.width);
     std::int64_t b = clamp_to((y < middle ? upper : lower).pixel(y), frame.width);
     if (b < a) std::swap(a, b);
-    if (a < b) span(static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+    if (a < b)
+      span(static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A triangle on the screen: snapped coordinates, and what is needed to find the surface point behind any pixel.
+// A triangle on the screen: snapped coordinates, and what is needed to find the surface point behind any
+// pixel.
 #pragma once
 
 #include <array>
@@ -10,9 +11,9 @@ namespace halfway {
 
 /// Screen space: x to the right, y down, pixel (x, y) has its centre at (x + 1/2, y + 1/2) pixels.
 struct ScreenVertex {
-  std::int32_t x, y;   ///< in 1/2^subpixel_bits of a pixel
-  double z;            ///< depth in [0, 1], 0 at the near plane; linear in screen space
-  double inverse_w;    ///< 1 / view-space distance along the viewing axis, > 0; linear in screen space
+  std::int32_t x, y;  ///< in 1/2^subpixel_bits of a pixel
+  double z;           ///< depth in [0, 1], 0 at the near plane; linear in screen space
+  double inverse_w;   ///< 1 / view-space distance along the viewing axis, > 0; linear in screen space
   glm::dvec3 position_world;
   glm::dvec3 normal_world;  ///< as interpolated, not unit after clipping
 };

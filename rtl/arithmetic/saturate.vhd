@@ -9,8 +9,8 @@
 -- Golden twin model/golden/saturate.hpp
 
 library ieee;
-  use ieee.std_logic_1164.all;
-  use ieee.numeric_std.all;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
 
 entity saturate is
   generic (
@@ -35,7 +35,7 @@ begin
 
   assert g_value_bits >= g_fraction_bits + g_result_bits + 2
     report "saturate: " & integer'image(g_value_bits) & " bits hold no bit above the result's "
-           & integer'image(g_result_bits) & " and the fraction's " & integer'image(g_fraction_bits)
+    & integer'image(g_result_bits) & " and the fraction's " & integer'image(g_fraction_bits)
     severity failure;
 
   above <= value(c_sign - 1 downto c_result_high + 1) & '0';

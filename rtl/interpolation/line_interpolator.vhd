@@ -10,8 +10,8 @@
 -- Golden twin model/golden/line_interpolator.hpp
 
 library ieee;
-  use ieee.std_logic_1164.all;
-  use ieee.numeric_std.all;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
 
 entity line_interpolator is
   generic (

@@ -14,8 +14,8 @@
 -- Golden twin model/golden/quadratic_interpolator.hpp
 
 library ieee;
-  use ieee.std_logic_1164.all;
-  use work.formats_pkg.all;
+use ieee.std_logic_1164.all;
+use work.formats_pkg.all;
 
 entity quadratic_interpolator is
   generic (
@@ -57,93 +57,93 @@ begin
   dxx_register : entity work.parameter_register
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk   => clk,
       load  => line_load,
       start => init(c_init.dxx.high downto c_init.dxx.low),
       value => dxx
-    );
+      );
 
   dxe0_register : entity work.parameter_register
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk   => clk,
       load  => line_load,
       start => init(c_init.dxe0.high downto c_init.dxe0.low),
       value => dxe0
-    );
+      );
 
   de0e0_register : entity work.parameter_register
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk   => clk,
       load  => line_load,
       start => init(c_init.de0e0.high downto c_init.de0e0.low),
       value => de0e0
-    );
+      );
 
   carried : if g_exact generate
 
     signal dxe1, de0e1, de1e1 : word_t;
     signal de1_step           : word_t;
 
-  begin
+    begin
 
-    dxe1_register : entity work.parameter_register
-      generic map (
-        g_bits => c_bits
-      )
-      port map (
-        clk   => clk,
-        load  => line_load,
-        start => init(c_init.dxe1.high downto c_init.dxe1.low),
-        value => dxe1
-      );
+      dxe1_register : entity work.parameter_register
+        generic map (
+          g_bits => c_bits
+          )
+        port map (
+          clk   => clk,
+          load  => line_load,
+          start => init(c_init.dxe1.high downto c_init.dxe1.low),
+          value => dxe1
+          );
 
-    de0e1_register : entity work.parameter_register
-      generic map (
-        g_bits => c_bits
-      )
-      port map (
-        clk   => clk,
-        load  => line_load,
-        start => init(c_init.de0e1.high downto c_init.de0e1.low),
-        value => de0e1
-      );
+      de0e1_register : entity work.parameter_register
+        generic map (
+          g_bits => c_bits
+          )
+        port map (
+          clk   => clk,
+          load  => line_load,
+          start => init(c_init.de0e1.high downto c_init.de0e1.low),
+          value => de0e1
+          );
 
-    de1e1_register : entity work.parameter_register
-      generic map (
-        g_bits => c_bits
-      )
-      port map (
-        clk   => clk,
-        load  => line_load,
-        start => init(c_init.de1e1.high downto c_init.de1e1.low),
-        value => de1e1
-      );
+      de1e1_register : entity work.parameter_register
+        generic map (
+          g_bits => c_bits
+          )
+        port map (
+          clk   => clk,
+          load  => line_load,
+          start => init(c_init.de1e1.high downto c_init.de1e1.low),
+          value => de1e1
+          );
 
-    de1_along_edge : entity work.line_interpolator
-      generic map (
-        g_bits => c_bits
-      )
-      port map (
-        clk       => clk,
-        load      => line_load,
-        start     => init(c_init.de1.high downto c_init.de1.low),
-        step      => line_step,
-        increment => de1_step,
-        value     => line_de1
-      );
+      de1_along_edge : entity work.line_interpolator
+        generic map (
+          g_bits => c_bits
+          )
+        port map (
+          clk       => clk,
+          load      => line_load,
+          start     => init(c_init.de1.high downto c_init.de1.low),
+          step      => line_step,
+          increment => de1_step,
+          value     => line_de1
+          );
 
-    value_step <= line_de1 when line_carry = '1' else line_de0;
-    dx_step    <= dxe1 when line_carry = '1' else dxe0;
-    de0_step   <= de0e1 when line_carry = '1' else de0e0;
-    de1_step   <= de1e1 when line_carry = '1' else de0e1;
+      value_step <= line_de1 when line_carry = '1' else line_de0;
+      dx_step    <= dxe1 when line_carry = '1' else dxe0;
+      de0_step   <= de0e1 when line_carry = '1' else de0e0;
+      de1_step   <= de1e1 when line_carry = '1' else de0e1;
 
   else generate
 
@@ -157,7 +157,7 @@ begin
   value_along_edge : entity work.line_interpolator
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk       => clk,
       load      => line_load,
@@ -165,12 +165,12 @@ begin
       step      => line_step,
       increment => value_step,
       value     => line_value
-    );
+      );
 
   dx_along_edge : entity work.line_interpolator
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk       => clk,
       load      => line_load,
@@ -178,12 +178,12 @@ begin
       step      => line_step,
       increment => dx_step,
       value     => line_dx
-    );
+      );
 
   de0_along_edge : entity work.line_interpolator
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk       => clk,
       load      => line_load,
@@ -191,24 +191,24 @@ begin
       step      => line_step,
       increment => de0_step,
       value     => line_de0
-    );
+      );
 
-  -- The line stage may hold the next triangle already, so the span keeps its own second difference.
+    -- The line stage may hold the next triangle already, so the span keeps its own second difference.
   span_dxx_register : entity work.parameter_register
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk   => clk,
       load  => span_load,
       start => dxx,
       value => span_dxx
-    );
+      );
 
   value_along_line : entity work.line_interpolator
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk       => clk,
       load      => span_load,
@@ -216,12 +216,12 @@ begin
       step      => span_step,
       increment => dx,
       value     => value
-    );
+      );
 
   dx_along_line : entity work.line_interpolator
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk       => clk,
       load      => span_load,
@@ -229,6 +229,6 @@ begin
       step      => span_step,
       increment => span_dxx,
       value     => dx
-    );
+      );
 
 end architecture;

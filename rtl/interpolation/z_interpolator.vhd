@@ -13,8 +13,8 @@
 -- Golden twin model/golden/z_interpolator.hpp
 
 library ieee;
-  use ieee.std_logic_1164.all;
-  use work.formats_pkg.all;
+use ieee.std_logic_1164.all;
+use work.formats_pkg.all;
 
 entity z_interpolator is
   generic (
@@ -47,43 +47,43 @@ begin
   dx_register : entity work.parameter_register
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk   => clk,
       load  => line_load,
       start => init(c_init.z_dx.high downto c_init.z_dx.low),
       value => dx
-    );
+      );
 
   de0_register : entity work.parameter_register
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk   => clk,
       load  => line_load,
       start => init(c_init.z_de0.high downto c_init.z_de0.low),
       value => de0
-    );
+      );
 
   carried : if g_exact generate
 
     signal de1 : word_t;
 
-  begin
+    begin
 
-    de1_register : entity work.parameter_register
-      generic map (
-        g_bits => c_bits
-      )
-      port map (
-        clk   => clk,
-        load  => line_load,
-        start => init(c_init.z_de1.high downto c_init.z_de1.low),
-        value => de1
-      );
+      de1_register : entity work.parameter_register
+        generic map (
+          g_bits => c_bits
+          )
+        port map (
+          clk   => clk,
+          load  => line_load,
+          start => init(c_init.z_de1.high downto c_init.z_de1.low),
+          value => de1
+          );
 
-    de <= de1 when line_carry = '1' else de0;
+      de <= de1 when line_carry = '1' else de0;
 
   else generate
 
@@ -94,7 +94,7 @@ begin
   along_edge : entity work.line_interpolator
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk       => clk,
       load      => line_load,
@@ -102,24 +102,24 @@ begin
       step      => line_step,
       increment => de,
       value     => line_value
-    );
+      );
 
-  -- The line stage may hold the next triangle already, so the span keeps its own step.
+    -- The line stage may hold the next triangle already, so the span keeps its own step.
   span_dx_register : entity work.parameter_register
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk   => clk,
       load  => span_load,
       start => dx,
       value => span_dx
-    );
+      );
 
   along_line : entity work.line_interpolator
     generic map (
       g_bits => c_bits
-    )
+      )
     port map (
       clk       => clk,
       load      => span_load,
@@ -127,6 +127,6 @@ begin
       step      => span_step,
       increment => span_dx,
       value     => value
-    );
+      );
 
 end architecture;

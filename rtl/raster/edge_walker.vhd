@@ -12,9 +12,9 @@
 -- Golden twin model/golden/edge_walker.hpp
 
 library ieee;
-  use ieee.std_logic_1164.all;
-  use ieee.numeric_std.all;
-  use work.formats_pkg.all;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.formats_pkg.all;
 
 entity edge_walker is
   port (
@@ -61,7 +61,7 @@ begin
       v.divisor   := unsigned(load_divisor);
       v.error     := unsigned(load_error);
       v.carry     := load_carry;
-    else
+    elsif step = '1' then
       v.x := r.x + r.quotient;
       if r.carry = '1' then
         v.x := r.x + r.quotient + 1;
@@ -79,9 +79,7 @@ begin
   registers : process (clk)
   begin
     if rising_edge(clk) then
-      if (load or step) = '1' then
-        r <= r_next;
-      end if;
+      r <= r_next;
     end if;
   end process;
 

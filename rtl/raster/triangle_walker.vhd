@@ -18,9 +18,9 @@
 -- Golden twin model/golden/triangle_walker.hpp
 
 library ieee;
-  use ieee.std_logic_1164.all;
-  use ieee.numeric_std.all;
-  use work.formats_pkg.all;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.formats_pkg.all;
 
 entity triangle_walker is
   generic (
@@ -108,7 +108,7 @@ begin
   span_free <= not r.span.valid or (fragment_ready and span_last);
 
   line_empty <= '1' when (r.line.backward = '0' and start >= stop) or (r.line.backward = '1' and start <= stop) else
-                '0';
+    '0';
 
   section_last <= '1' when r.line.lines = 1 else '0';
   line_last    <= '1' when section_last = '1' and r.line.lower_lines = 0 else '0';
@@ -183,60 +183,60 @@ begin
       return whole(field.high - c_init.upper_x.low downto field.low - c_init.upper_x.low);
     end function;
 
-  begin
+    begin
 
-    init_lower_lines <= unsigned(init(c_init.lower_lines.high downto c_init.lower_lines.low));
-    init_backward    <= init(c_init.backward.low);
+      init_lower_lines <= unsigned(init(c_init.lower_lines.high downto c_init.lower_lines.low));
+      init_backward    <= init(c_init.backward.low);
 
-    start_edge : entity work.edge_walker
-      port map (
-        clk            => clk,
-        load           => line_load,
-        load_x         => init(c_init.start_x.high downto c_init.start_x.low),
-        load_quotient  => init(c_init.start_quotient.high downto c_init.start_quotient.low),
-        load_remainder => init(c_init.start_remainder.high downto c_init.start_remainder.low),
-        load_divisor   => init(c_init.start_divisor.high downto c_init.start_divisor.low),
-        load_error     => init(c_init.start_error.high downto c_init.start_error.low),
-        load_carry     => init(c_init.start_carry.low),
-        step           => line_step,
-        x              => start_x,
-        carry          => line_carry
-      );
+      start_edge : entity work.edge_walker
+        port map (
+          clk            => clk,
+          load           => line_load,
+          load_x         => init(c_init.start_x.high downto c_init.start_x.low),
+          load_quotient  => init(c_init.start_quotient.high downto c_init.start_quotient.low),
+          load_remainder => init(c_init.start_remainder.high downto c_init.start_remainder.low),
+          load_divisor   => init(c_init.start_divisor.high downto c_init.start_divisor.low),
+          load_error     => init(c_init.start_error.high downto c_init.start_error.low),
+          load_carry     => init(c_init.start_carry.low),
+          step           => line_step,
+          x              => start_x,
+          carry          => line_carry
+          );
 
-    upper <= init(c_init.upper_carry.high downto c_init.upper_x.low);
-    lower <= init(c_init.lower_carry.high downto c_init.lower_x.low);
+      upper <= init(c_init.upper_carry.high downto c_init.upper_x.low);
+      lower <= init(c_init.lower_carry.high downto c_init.lower_x.low);
 
-    lower_section : entity work.parameter_register
-      generic map (
-        g_bits => c_section_bits
-      )
-      port map (
-        clk   => clk,
-        load  => line_load,
-        start => lower,
-        value => held_lower
-      );
+      lower_section : entity work.parameter_register
+        generic map (
+          g_bits => c_section_bits
+          )
+        port map (
+          clk   => clk,
+          load  => line_load,
+          start => lower,
+          value => held_lower
+          );
 
-    section   <= upper when line_load = '1' else held_lower;
-    stop_load <= line_load or (line_step and to_lower);
+      section   <= upper when line_load = '1' else held_lower;
+      stop_load <= line_load or (line_step and to_lower);
 
-    stop_edge : entity work.edge_walker
-      port map (
-        clk            => clk,
-        load           => stop_load,
-        load_x         => part(section, c_init.upper_x),
-        load_quotient  => part(section, c_init.upper_quotient),
-        load_remainder => part(section, c_init.upper_remainder),
-        load_divisor   => part(section, c_init.upper_divisor),
-        load_error     => part(section, c_init.upper_error),
-        load_carry     => section(c_section_bits - 1),
-        step           => line_step,
-        x              => stop_x,
-        carry          => open
-      );
+      stop_edge : entity work.edge_walker
+        port map (
+          clk            => clk,
+          load           => stop_load,
+          load_x         => part(section, c_init.upper_x),
+          load_quotient  => part(section, c_init.upper_quotient),
+          load_remainder => part(section, c_init.upper_remainder),
+          load_divisor   => part(section, c_init.upper_divisor),
+          load_error     => part(section, c_init.upper_error),
+          load_carry     => section(c_section_bits - 1),
+          step           => line_step,
+          x              => stop_x,
+          carry          => open
+          );
 
-    start <= signed(start_x);
-    stop  <= signed(stop_x);
+      start <= signed(start_x);
+      stop  <= signed(stop_x);
 
   else generate
 
@@ -246,67 +246,67 @@ begin
 
     signal start_x, start_slope, stop_x, stop_slope : edge_t;
 
-  begin
+    begin
 
-    assert c_formats.edge_x.bits - c_fraction = c_formats.span_x.bits
-      report "triangle_walker: edge_x has " & integer'image(c_formats.edge_x.bits - c_fraction)
-             & " whole bits, span_x " & integer'image(c_formats.span_x.bits)
-      severity failure;
+      assert c_formats.edge_x.bits - c_fraction = c_formats.span_x.bits
+        report "triangle_walker: edge_x has " & integer'image(c_formats.edge_x.bits - c_fraction)
+        & " whole bits, span_x " & integer'image(c_formats.span_x.bits)
+        severity failure;
 
-    init_lower_lines <= (others => '0');
-    init_backward    <= '0';
-    line_carry       <= '0';
+      init_lower_lines <= (others => '0');
+      init_backward    <= '0';
+      line_carry       <= '0';
 
-    start_slope_register : entity work.parameter_register
-      generic map (
-        g_bits => c_formats.edge_x.bits
-      )
-      port map (
-        clk   => clk,
-        load  => line_load,
-        start => init(c_init.start_slope.high downto c_init.start_slope.low),
-        value => start_slope
-      );
+      start_slope_register : entity work.parameter_register
+        generic map (
+          g_bits => c_formats.edge_x.bits
+          )
+        port map (
+          clk   => clk,
+          load  => line_load,
+          start => init(c_init.start_slope.high downto c_init.start_slope.low),
+          value => start_slope
+          );
 
-    start_edge : entity work.line_interpolator
-      generic map (
-        g_bits => c_formats.edge_x.bits
-      )
-      port map (
-        clk       => clk,
-        load      => line_load,
-        start     => init(c_init.start_x.high downto c_init.start_x.low),
-        step      => line_step,
-        increment => start_slope,
-        value     => start_x
-      );
+      start_edge : entity work.line_interpolator
+        generic map (
+          g_bits => c_formats.edge_x.bits
+          )
+        port map (
+          clk       => clk,
+          load      => line_load,
+          start     => init(c_init.start_x.high downto c_init.start_x.low),
+          step      => line_step,
+          increment => start_slope,
+          value     => start_x
+          );
 
-    stop_slope_register : entity work.parameter_register
-      generic map (
-        g_bits => c_formats.edge_x.bits
-      )
-      port map (
-        clk   => clk,
-        load  => line_load,
-        start => init(c_init.upper_slope.high downto c_init.upper_slope.low),
-        value => stop_slope
-      );
+      stop_slope_register : entity work.parameter_register
+        generic map (
+          g_bits => c_formats.edge_x.bits
+          )
+        port map (
+          clk   => clk,
+          load  => line_load,
+          start => init(c_init.upper_slope.high downto c_init.upper_slope.low),
+          value => stop_slope
+          );
 
-    stop_edge : entity work.line_interpolator
-      generic map (
-        g_bits => c_formats.edge_x.bits
-      )
-      port map (
-        clk       => clk,
-        load      => line_load,
-        start     => init(c_init.upper_x.high downto c_init.upper_x.low),
-        step      => line_step,
-        increment => stop_slope,
-        value     => stop_x
-      );
+      stop_edge : entity work.line_interpolator
+        generic map (
+          g_bits => c_formats.edge_x.bits
+          )
+        port map (
+          clk       => clk,
+          load      => line_load,
+          start     => init(c_init.upper_x.high downto c_init.upper_x.low),
+          step      => line_step,
+          increment => stop_slope,
+          value     => stop_x
+          );
 
-    start <= signed(start_x(c_formats.edge_x.bits - 1 downto c_fraction));
-    stop  <= signed(stop_x(c_formats.edge_x.bits - 1 downto c_fraction)) + 1;
+      start <= signed(start_x(c_formats.edge_x.bits - 1 downto c_fraction));
+      stop  <= signed(stop_x(c_formats.edge_x.bits - 1 downto c_fraction)) + 1;
 
   end generate;
 

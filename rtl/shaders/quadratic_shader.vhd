@@ -15,8 +15,8 @@
 -- Golden twin model/golden/quadratic_shader.hpp
 
 library ieee;
-  use ieee.std_logic_1164.all;
-  use work.formats_pkg.all;
+use ieee.std_logic_1164.all;
+use work.formats_pkg.all;
 
 entity quadratic_shader is
   generic (
@@ -79,13 +79,13 @@ begin
     severity failure;
   assert c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction = c_formats.depth.bits
     report "quadratic_shader: depth_sum has " & integer'image(c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction)
-           & " whole bits, depth " & integer'image(c_formats.depth.bits)
+    & " whole bits, depth " & integer'image(c_formats.depth.bits)
     severity failure;
 
   init_buffer : entity work.stream_register
     generic map (
       g_bits => init_data'length
-    )
+      )
     port map (
       clk       => clk,
       reset     => reset,
@@ -95,12 +95,12 @@ begin
       out_valid => waiting,
       out_ready => taken,
       out_data  => init
-    );
+      );
 
   walker : entity work.triangle_walker
     generic map (
       g_exact => g_exact
-    )
+      )
     port map (
       clk            => clk,
       reset          => reset,
@@ -121,12 +121,12 @@ begin
       y              => y,
       x              => x,
       busy           => walking
-    );
+      );
 
   depth : entity work.z_interpolator
     generic map (
       g_exact => g_exact
-    )
+      )
     port map (
       clk        => clk,
       init       => init(c_header_bits - 1 downto 0),
@@ -137,7 +137,7 @@ begin
       span_step  => span_step,
       line_value => line_z,
       value      => z
-    );
+      );
 
   channels : for channel in 0 to g_channels - 1 generate
 
@@ -147,52 +147,52 @@ begin
     signal line_value, line_dx, line_de0, line_de1 : intensity_t;
     signal value, dx                               : intensity_t;
 
-  begin
+    begin
 
-    interpolator : entity work.quadratic_interpolator
-      generic map (
-        g_exact => g_exact
-      )
-      port map (
-        clk        => clk,
-        init       => init(c_low + c_channel_bits - 1 downto c_low),
-        line_load  => line_load,
-        line_step  => line_step,
-        line_carry => line_carry,
-        span_load  => span_load,
-        span_step  => span_step,
-        line_value => line_value,
-        line_dx    => line_dx,
-        line_de0   => line_de0,
-        line_de1   => line_de1,
-        value      => value,
-        dx         => dx
-      );
+      interpolator : entity work.quadratic_interpolator
+        generic map (
+          g_exact => g_exact
+          )
+        port map (
+          clk        => clk,
+          init       => init(c_low + c_channel_bits - 1 downto c_low),
+          line_load  => line_load,
+          line_step  => line_step,
+          line_carry => line_carry,
+          span_load  => span_load,
+          span_step  => span_step,
+          line_value => line_value,
+          line_dx    => line_dx,
+          line_de0   => line_de0,
+          line_de1   => line_de1,
+          value      => value,
+          dx         => dx
+          );
 
-    to_colour : entity work.saturate
-      generic map (
-        g_value_bits    => c_formats.intensity.bits,
-        g_fraction_bits => c_formats.intensity.fraction,
-        g_result_bits   => c_colour
-      )
-      port map (
-        value  => value,
-        result => colours((channel + 1) * c_colour - 1 downto channel * c_colour)
-      );
+      to_colour : entity work.saturate
+        generic map (
+          g_value_bits    => c_formats.intensity.bits,
+          g_fraction_bits => c_formats.intensity.fraction,
+          g_result_bits   => c_colour
+          )
+        port map (
+          value  => value,
+          result => colours((channel + 1) * c_colour - 1 downto channel * c_colour)
+          );
 
-    probed_channel : if g_probe generate
+      probed_channel : if g_probe generate
 
-      probe(c_probe_low + c_part.line_value.high downto c_probe_low + c_part.line_value.low) <= line_value;
-      probe(c_probe_low + c_part.line_dx.high downto c_probe_low + c_part.line_dx.low)       <= line_dx;
-      probe(c_probe_low + c_part.line_de0.high downto c_probe_low + c_part.line_de0.low)     <= line_de0;
-      probe(c_probe_low + c_part.span_value.high downto c_probe_low + c_part.span_value.low) <= value;
-      probe(c_probe_low + c_part.span_dx.high downto c_probe_low + c_part.span_dx.low)       <= dx;
+        probe(c_probe_low + c_part.line_value.high downto c_probe_low + c_part.line_value.low) <= line_value;
+        probe(c_probe_low + c_part.line_dx.high downto c_probe_low + c_part.line_dx.low)       <= line_dx;
+        probe(c_probe_low + c_part.line_de0.high downto c_probe_low + c_part.line_de0.low)     <= line_de0;
+        probe(c_probe_low + c_part.span_value.high downto c_probe_low + c_part.span_value.low) <= value;
+        probe(c_probe_low + c_part.span_dx.high downto c_probe_low + c_part.span_dx.low)       <= dx;
 
-      probed_carry : if g_exact generate
-        probe(c_probe_low + c_part.line_de1.high downto c_probe_low + c_part.line_de1.low) <= line_de1;
+        probed_carry : if g_exact generate
+          probe(c_probe_low + c_part.line_de1.high downto c_probe_low + c_part.line_de1.low) <= line_de1;
+        end generate;
+
       end generate;
-
-    end generate;
 
   end generate;
 
@@ -204,7 +204,7 @@ begin
   handshake : entity work.stream_register
     generic map (
       g_bits => c_formats.triangle.bits
-    )
+      )
     port map (
       clk       => clk,
       reset     => reset,
@@ -214,18 +214,18 @@ begin
       out_valid => out_valid,
       out_ready => fragment_ready,
       out_data  => fragment_triangle
-    );
+      );
 
   position : entity work.parameter_register
     generic map (
       g_bits => pixel'length
-    )
+      )
     port map (
       clk   => clk,
       load  => span_step,
       start => pixel,
       value => fragment_pixel
-    );
+      );
 
   whole_z    <= z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction);
   pixel      <= y & x(fragment_x'range);
@@ -235,24 +235,24 @@ begin
   depth_out : entity work.parameter_register
     generic map (
       g_bits => fragment_z'length
-    )
+      )
     port map (
       clk   => clk,
       load  => span_step,
       start => whole_z,
       value => fragment_z
-    );
+      );
 
   colour_out : entity work.parameter_register
     generic map (
       g_bits => 3 * c_colour
-    )
+      )
     port map (
       clk   => clk,
       load  => span_step,
       start => colours,
       value => fragment_colours
-    );
+      );
 
   fragment_red   <= fragment_colours(c_colour - 1 downto 0);
   fragment_green <= fragment_colours(2 * c_colour - 1 downto c_colour);

@@ -7,7 +7,7 @@
 -- Golden twin model/golden/parameter_register.hpp
 
 library ieee;
-  use ieee.std_logic_1164.all;
+use ieee.std_logic_1164.all;
 
 entity parameter_register is
   generic (

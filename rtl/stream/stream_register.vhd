@@ -10,7 +10,7 @@
 -- Golden twin model/golden/stream_register.hpp
 
 library ieee;
-  use ieee.std_logic_1164.all;
+use ieee.std_logic_1164.all;
 
 entity stream_register is
   generic (
@@ -67,13 +67,13 @@ begin
   payload : entity work.parameter_register
     generic map (
       g_bits => g_bits
-    )
+      )
     port map (
       clk   => clk,
       load  => take,
       start => in_data,
       value => out_data
-    );
+      );
 
   out_valid <= r.valid;
 

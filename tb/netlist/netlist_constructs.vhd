@@ -60,7 +60,7 @@ package body netlist_constructs_pkg is
   begin
     for i in table'range loop
       table(i) := std_logic_vector(to_unsigned(i * 65_521, 24)) & std_logic_vector(to_signed(-i * 99_991, 24))
-                  & std_logic_vector(to_unsigned(i * 7919, 24));
+        & std_logic_vector(to_unsigned(i * 7919, 24));
     end loop;
     return table;
   end function;
@@ -253,8 +253,8 @@ begin
 
   -- Multiplexers.
   lanes(25) <= lane(a) when control(0) = '1' else
-               lane(b) when control(2 downto 1) = "10" else
-               lane(std_logic_vector(c_wide_value));
+    lane(b) when control(2 downto 1) = "10" else
+    lane(std_logic_vector(c_wide_value));
 
   choose : process (all)
   begin
@@ -287,7 +287,7 @@ begin
   lanes(28) <= lane(c_rom(to_integer(unsigned(a(5 downto 0)))));
   lanes(29) <= lane(c_wide_rom(to_integer(unsigned(b(70 downto 67)))));
   lanes(30) <= lane(saturate(wa(c_wide - 1 downto c_formats.wide.fraction), 8) & saturate(nb, 8)
-                    & saturate(sa, 40));
+    & saturate(sa, 40));
 
   -- A register of records and a state machine in two processes.
   combinational : process (all)
@@ -341,7 +341,7 @@ begin
   end process;
   lanes(31) <= lane(r.payload);
   lanes(32) <= lane(std_logic_vector(r.lower.count) & std_logic_vector(r.lower.value)
-                    & std_logic_vector(r.upper.count) & r.valid & r.flag & step);
+    & std_logic_vector(r.upper.count) & r.valid & r.flag & step);
 
   -- A counter with wrap and enable, a generate loop of instances, an array written by a loop.
   count : process (clk)
@@ -363,20 +363,20 @@ begin
   instances : for i in 0 to 3 generate
     present : if i < g_count generate
       signal load : std_logic;
-    begin
-      load <= '1' when control(12 downto 11) = std_logic_vector(to_unsigned(i, 2)) or reset = '1' else '0';
+      begin
+        load <= '1' when control(12 downto 11) = std_logic_vector(to_unsigned(i, 2)) or reset = '1' else '0';
 
-      held_value : entity work.netlist_register
-        generic map (
-          g_bits => 20
-        )
-        port map (
-          clk   => clk,
-          load  => load,
-          step  => control(13),
-          start => a(i * 9 + 19 downto i * 9),
-          value => held(i * 20 + 19 downto i * 20)
-        );
+        held_value : entity work.netlist_register
+          generic map (
+            g_bits => 20
+            )
+          port map (
+            clk   => clk,
+            load  => load,
+            step  => control(13),
+            start => a(i * 9 + 19 downto i * 9),
+            value => held(i * 20 + 19 downto i * 20)
+            );
     else generate
       held(i * 20 + 19 downto i * 20) <= (others => '0');
     end generate;
