@@ -57,11 +57,12 @@ format_cpp() {
   fi
 }
 
-# Every VHDL file so that units come before their users: rtl/files.f, then packages, then the rest.
+# Every VHDL file so that units come before their users: rtl/files.f, packages, the rest, and testbenches last.
 compile_order() {
   sed -e 's/[#].*//' -e 's/--.*//' -e 's/ *$//' -e '/^$/d' -e 's|^|rtl/|' rtl/files.f
   find rtl tb -type f -name '*_pkg.vhd' | sort
-  find rtl tb -type f -name '*.vhd' | sort
+  find rtl tb -type f -name '*.vhd' ! -name '*_tb.vhd' | sort
+  find rtl tb -type f -name '*_tb.vhd' | sort
 }
 
 # `ghdl fmt` needs the units that a file uses analysed. It drops comments after the last `end`, which compare-tokens
