@@ -8,11 +8,13 @@ namespace halfway {
 
 using Int128 = __int128;
 
-/// Divides by a positive number below 2^96. The reciprocal is the only division; a quotient is estimated by it and
-/// mended by the exact remainder, so slivers, whose quotients are huge, come out as exactly as any other triangle.
+/// Divides by a positive number below 2^96. The reciprocal is the only division; a quotient is estimated by
+/// it and mended by the exact remainder, so slivers, whose quotients are huge, come out as exactly as any
+/// other triangle.
 class ExactDivider {
  public:
-  explicit ExactDivider(Int128 divisor) : divisor_(divisor), reciprocal_(1.0 / static_cast<double>(divisor)) {}
+  explicit ExactDivider(Int128 divisor)
+      : divisor_(divisor), reciprocal_(1.0 / static_cast<double>(divisor)) {}
 
   /// round(numerator / divisor), halves up; |numerator| < 2^125.
   Int128 rounded(Int128 numerator) const {

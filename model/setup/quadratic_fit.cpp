@@ -55,17 +55,20 @@ QuadraticWords QuadraticFit::words(const SixSamples& i, const DifferenceStart& s
   // Six words are rounded, the others are sums of them: whole-number differences stay consistent.
   const Int128 value = divider_.rounded(Int128{i.vertex[0]} * d_ * d_ + (t2 * u + t1 * v) * d_ + t5 * u * u +
                                         t4 * u * v + t3 * v * v);
-  const Int128 step_x = divider_.rounded(gradient_u * s + t5 * s * s);
+  // The span's own step is the one rounded, so that its error does not grow with the other direction's.
+  const int sign = start.backward ? -1 : 1;
+  const Int128 dx = divider_.rounded(sign * gradient_u * s + t5 * s * s);
   const Int128 step_e0 =
       divider_.rounded(gradient_u * a + gradient_v * s + t5 * a * a + t4 * a * s + t3 * s * s);
   const Int128 xx = divider_.rounded(2 * t5 * s * s);
   const Int128 xe0 = divider_.rounded((2 * t5 * a + t4 * s) * s);
   const Int128 e0e0 = divider_.rounded(2 * (t5 * a * a + t4 * a * s + t3 * s * s));
 
+  const Int128 step_x = start.backward ? xx - dx : dx;
+
   QuadraticWords w;
-  const int sign = start.backward ? -1 : 1;
   w.value = value + half;
-  w.dx = start.backward ? xx - step_x : step_x;
+  w.dx = dx;
   w.de0 = step_e0;
   w.de1 = step_e0 + step_x + xe0;
   w.dxx = xx;

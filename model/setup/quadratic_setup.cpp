@@ -8,7 +8,7 @@
 
 #include "golden/quadratic_shader.hpp"
 #include "reference/shade.hpp"
-#include "setup/highlight_test.hpp"
+#include "setup/highlight_bound.hpp"
 #include "setup/quadratic_fit.hpp"
 #include "setup/walk.hpp"
 
@@ -115,7 +115,7 @@ bool needs_split(const Piece& p, const Sampler& sampler, const QuadraticSetupOpt
     t.radiance[i] = p.samples[i].radiance;
   }
   if (options.test == HighlightTest::conservative &&
-      missed_highlight_bound(sampler.scene(), sampler.material(), t, options.threshold) > options.threshold)
+      missed_highlight_bound(sampler.scene(), sampler.material(), t) > options.threshold)
     return true;
   const glm::dvec3 centroid =
       (p.samples[0].corner.barycentric + p.samples[1].corner.barycentric + p.samples[2].corner.barycentric) /
@@ -372,6 +372,9 @@ void QuadraticSetup::append_published(const ScreenTriangle& triangle, std::vecto
     const Real zu = ((p[1].z - p[0].z) * y3 - (p[2].z - p[0].z) * y2) / d;
     const Real zv = ((p[2].z - p[0].z) * x2 - (p[1].z - p[0].z) * x3) / d;
 
+    // Whole numbers: a rounded edge could fall on the wrong side of a vertex that it meets.
+    const bool long_left = (bottom.x - top.x) * (mid.y - top.y) < (mid.x - top.x) * (bottom.y - top.y);
+
     // A horizontal-sided half: `apex` at one end, the other end between x_a and x_b.
     const auto half_triangle = [&](const Vertex& from, const Vertex& to) {
       if (from.y == to.y) return;
@@ -379,9 +382,6 @@ void QuadraticSetup::append_published(const ScreenTriangle& triangle, std::vecto
       InitVector<Published> init(words, init_bits_);
       const Real along = (bottom.x - top.x) / (bottom.y - top.y);
       const Real x_long = top.x + (from.y - top.y) * along, slope_short = (to.x - from.x) / (to.y - from.y);
-      // Which of the two edges is the left one shows at the half's wide end.
-      const Real x_long_end = top.x + (to.y - top.y) * along;
-      const bool long_left = x_long < from.x || x_long_end < to.x;
       const Real x_start = long_left ? x_long : from.x, slope_start = long_left ? along : slope_short;
       const Real x_stop = long_left ? from.x : x_long, slope_stop = long_left ? slope_short : along;
       init.put(At::triangle, triangle.source);

@@ -29,8 +29,9 @@ struct Walk {
   EdgeSection upper, lower;  ///< stop edge: its pixel is the one after the span's last
 };
 
-/// The walks of a triangle: one where its start edge, the long one, crosses neither side of the frame, up to
-/// five where it does; none where no pixel is covered. Points either way round, in 1/2^unit_bits pixels.
+/// The walks of a triangle: none where no pixel is covered, one where it crosses neither side of the frame,
+/// and three at most: beside the frame an edge is held at its side, and a walk takes one section of the start
+/// edge with two of the stop edge. Points either way round, in 1/2^unit_bits pixels.
 std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> points, int unit_bits, FrameSize frame);
 
 }  // namespace halfway

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// For tests: this project's integers as GMP's, where sums and quotients are exact without thought.
+#pragma once
+
+#include <gmpxx.h>
+
+#include "setup/exact_division.hpp"
+
+namespace halfway {
+
+inline mpz_class to_mpz(Int128 v) {
+  const unsigned __int128 magnitude = v < 0 ? -static_cast<unsigned __int128>(v) : v;
+  mpz_class z = static_cast<unsigned long>(magnitude >> 64);
+  z <<= 64;
+  z += static_cast<unsigned long>(magnitude);
+  return v < 0 ? mpz_class(-z) : z;
+}
+
+/// Of a number below 2^127 in magnitude.
+inline Int128 to_int128(const mpz_class& z) {
+  const mpz_class magnitude = abs(z), high = magnitude >> 64;
+  const Int128 v = (static_cast<Int128>(high.get_ui()) << 64) | magnitude.get_ui();
+  return z < 0 ? -v : v;
+}
+
+/// round(v), halves up: what every rounding of a word in setup means.
+inline mpz_class rounded(const mpq_class& v) {
+  const mpz_class doubled = 2 * v.get_num() + v.get_den(), divisor = 2 * v.get_den();
+  mpz_class quotient;
+  mpz_fdiv_q(quotient.get_mpz_t(), doubled.get_mpz_t(), divisor.get_mpz_t());
+  return quotient;
+}
+
+}  // namespace halfway

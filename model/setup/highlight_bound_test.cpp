@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: Apache-2.0
+// The highlight test against the radiance sampled densely: what it lets pass, and what it splits in vain.
+#include "setup/highlight_bound.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec2.hpp>
+#include <iostream>
+#include <random>
+
+#include "reference/shade.hpp"
+#include "scene/builtin_meshes.hpp"
+#include "setup/quadratic_setup.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr double c_threshold = 2.0;
+
+/// A triangle of a surface, in barycentrics of a triangle on the screen.
+using Corners = std::array<glm::dvec3, 3>;
+constexpr Corners c_whole = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+struct Case {
+  Scene scene;
+  ScreenTriangle triangle{};
+
+  SurfacePoint surface(glm::dvec3 barycentric) const { return surface_point(triangle, barycentric); }
+  glm::dvec3 radiance_at(glm::dvec3 barycentric) const {
+    const SurfacePoint p = surface(barycentric);
+    return radiance(scene, scene.materials[0], p.position_world, p.normal_world);
+  }
+};
+
+SampledTriangle sampled(const Case& c, const Corners& corners) {
+  const auto& [p, q, r] = corners;
+  const std::array<glm::dvec3, 6> at = {p, q, r, 0.5 * (p + q), 0.5 * (p + r), 0.5 * (q + r)};
+  SampledTriangle t;
+  for (std::size_t i = 0; i < 6; ++i) {
+    t.surface[i] = c.surface(at[i]);
+    t.radiance[i] = c.radiance_at(at[i]);
+  }
+  return t;
+}
+
+double centroid_test(const Case& c, const Corners& corners, const SampledTriangle& t) {
+  return centroid_error(t, c.radiance_at((corners[0] + corners[1] + corners[2]) / 3.0));
+}
+
+/// Largest error of the quadratic in colour steps, both clamped as the frame clamps them, samples held as
+/// setup holds them. Ends early past `enough`.
+double dense_error(const Case& c, const Corners& corners, const SampledTriangle& t, int divisions,
+                   double enough = 1e9) {
+  std::array<glm::dvec3, 6> r = t.radiance;
+  for (glm::dvec3& sample : r) sample = glm::min(sample, glm::dvec3(c_largest_sample / 255.0));
+  double worst = 0.0;
+  for (int i = 0; i <= divisions; ++i)
+    for (int j = 0; i + j <= divisions; ++j) {
+      const glm::dvec3 b = glm::dvec3(i, j, divisions - i - j) / double(divisions);
+      const glm::dvec3 quadratic = r[0] * b.x * (2 * b.x - 1) + r[1] * b.y * (2 * b.y - 1) +
+                                   r[2] * b.z * (2 * b.z - 1) +
+                                   4.0 * (r[3] * b.x * b.y + r[4] * b.x * b.z + r[5] * b.y * b.z);
+      const glm::dvec3 exact = c.radiance_at(b.x * corners[0] + b.y * corners[1] + b.z * corners[2]);
+      const glm::dvec3 off = glm::abs(glm::clamp(quadratic, 0.0, 1.0) - glm::clamp(exact, 0.0, 1.0));
+      worst = std::max({worst, 255.0 * off.x, 255.0 * off.y, 255.0 * off.z});
+      if (worst > enough) return worst;
+    }
+  return worst;
+}
+
+double angle(glm::dvec3 a, glm::dvec3 b) {
+  return 2.0 * std::atan2(glm::length(a - b), glm::length(a + b));
+}
+
+/// Curved patches, eyes and lights near and far, most of them with a highlight in or beside the patch.
+class RandomCases {
+ public:
+  /// `grazing`: positional lights about the horizon of the patch.
+  explicit RandomCases(unsigned seed, bool grazing = false) : random_(seed), grazing_(grazing) {}
+
+  Case next(Brdf brdf) {
+    for (;;)
+      if (Case c; fill(c, brdf)) return c;
+  }
+
+ private:
+  double within(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  double of_any_size(double low, double high) { return std::exp(within(std::log(low), std::log(high))); }
+  bool chance(double p) { return within(0, 1) < p; }
+  glm::dvec3 direction() {
+    std::normal_distribution<double> normal;
+    return glm::normalize(glm::dvec3(normal(random_), normal(random_), normal(random_)));
+  }
+
+  bool fill(Case& c, Brdf brdf) {
+    const double size = of_any_size(0.05, 2.0), largest_edge = glm::radians(of_any_size(1.0, 60.0));
+    std::array<glm::dvec3, 3> p, slope, n;
+    for (glm::dvec3& v : p) v = size * glm::dvec3(within(-1, 1), within(-1, 1), 0);
+    if (std::abs(glm::cross(p[1] - p[0], p[2] - p[0]).z) < 0.1 * size * size) return false;
+    // Two curvatures along two axes, spherical, cylindrical or saddle, then leant over.
+    const double first = within(-1, 1), second = chance(0.4) ? first : within(-1, 1),
+                 turn = within(0, 3.1416);
+    const glm::dvec3 u(std::cos(turn), std::sin(turn), 0), v(-u.y, u.x, 0),
+        up = glm::dvec3(0, 0, 1) + within(0, 0.5) * direction();
+    for (std::size_t i = 0; i < 3; ++i)
+      slope[i] = (first * glm::dot(p[i], u) * u + second * glm::dot(p[i], v) * v) / size;
+    const auto edge = [&](double bend) {
+      for (std::size_t i = 0; i < 3; ++i) n[i] = glm::normalize(up + bend * slope[i]);
+      return std::max({angle(n[0], n[1]), angle(n[0], n[2]), angle(n[1], n[2])});
+    };
+    double low = 0, high = 50;
+    if (edge(high) < largest_edge) return false;
+    for (int i = 0; i < 40; ++i) (edge(0.5 * (low + high)) < largest_edge ? low : high) = 0.5 * (low + high);
+
+    glm::dvec3 to_eye = direction();
+    to_eye.z = std::abs(to_eye.z);
+    const double distance = size * (chance(0.5) ? of_any_size(1.5, 6) : of_any_size(6, 100));
+    const glm::dvec3 eye = distance * to_eye, axis = glm::normalize(eye - (p[0] + p[1] + p[2]) / 3.0);
+    c.scene.camera.eye_world = eye;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double w = glm::dot(eye - p[i], axis);
+      if (to_eye.z < 0.1 || w < 0.05 * distance) return false;
+      c.triangle.vertex[i] = {0, 0, 0.5, 1.0 / w, p[i], n[i]};
+    }
+
+    Material m;
+    m.brdf = brdf;
+    m.exponent = of_any_size(1, 1000);
+    m.roughness = of_any_size(0.05, 1);
+    m.colour = {within(0, 1), within(0, 1), within(0, 1)};
+    m.diffuse = within(0, 0.8);
+    m.specular = within(0.1, 0.8);
+    c.scene.materials = {m};
+
+    glm::dvec3 b(within(0, 1), within(0, 1), within(0, 1));
+    b /= b.x + b.y + b.z;
+    if (chance(0.3)) b += within(-1, 1) * glm::dvec3(0.4, -0.2, -0.2);  // beside the triangle
+    const SurfacePoint peak = c.surface(b);
+    const glm::dvec3 peak_to_eye = glm::normalize(eye - peak.position_world);
+    const glm::dvec3 about =
+        glm::normalize(peak.normal_world +
+                       direction() * (chance(0.7) ? within(0, 3) / std::sqrt(m.exponent) : within(0, 1)));
+    const glm::dvec3 to_light =
+        chance(0.05) ? direction() : 2 * glm::dot(about, peak_to_eye) * about - peak_to_eye;
+    const glm::dvec3 intensity(within(0.3, 1), within(0.3, 1), within(0.3, 1));
+    const glm::dvec3 light =
+        peak.position_world + to_light * size * (chance(0.5) ? of_any_size(0.3, 3) : of_any_size(3, 100));
+    if (grazing_) {
+      const glm::dvec3 outward = peak.normal_world, across = glm::normalize(glm::cross(outward, direction()));
+      const glm::dvec3 grazing = glm::normalize(across + within(-0.1, 0.1) * outward);
+      c.scene.positional.push_back({peak.position_world + grazing * size * of_any_size(0.3, 5), intensity});
+      return true;
+    }
+    const double kind = within(0, 1);
+    if (kind < 0.4) {
+      c.scene.directional.push_back({to_light, intensity});
+    } else if (kind < 0.75) {
+      c.scene.positional.push_back({light, intensity});
+    } else {
+      const double outer = of_any_size(0.02, 1.4);
+      c.scene.spots.push_back({light, glm::normalize(within(0, 0.6) * direction() - to_light),
+                               std::cos(outer * within(0, 0.95)), std::cos(outer), intensity});
+    }
+    return true;
+  }
+
+  std::mt19937_64 random_;
+  bool grazing_;
+};
+
+struct Outcome {
+  int cases = 0, followed = 0, passed = 0, split_in_vain = 0;
+  double worst = 0.0;                           // error of what passed, in thresholds
+  int passed_centroid = 0, wrong_centroid = 0;  // the published test alone, and past twice the threshold
+  double worst_centroid = 0.0;                  // in colour steps
+};
+
+Outcome outcome(Brdf brdf, unsigned seed, int cases, bool grazing = false) {
+  RandomCases random(seed, grazing);
+  Outcome o;
+  for (; o.cases < cases; ++o.cases) {
+    const Case c = random.next(brdf);
+    const SampledTriangle t = sampled(c, c_whole);
+    const double centroid = centroid_test(c, c_whole, t), error = dense_error(c, c_whole, t, 40);
+    const bool pass =
+        centroid <= c_threshold && missed_highlight_bound(c.scene, c.scene.materials[0], t) <= c_threshold;
+    o.followed += error <= c_threshold;
+    o.passed += pass;
+    o.split_in_vain += !pass && error <= c_threshold;
+    if (pass) o.worst = std::max(o.worst, error / c_threshold);
+    if (centroid <= c_threshold) {
+      ++o.passed_centroid;
+      o.wrong_centroid += error > 2 * c_threshold;
+      o.worst_centroid = std::max(o.worst_centroid, error);
+    }
+  }
+  std::cout << o.cases << " triangles, a quadratic follows " << o.followed << "; the test passes " << o.passed
+            << ", the worst off by " << o.worst << " thresholds, and splits " << o.split_in_vain
+            << " in vain; the published test alone passes " << o.passed_centroid << ", " << o.wrong_centroid
+            << " past twice the threshold, the worst off by " << o.worst_centroid << " steps\n";
+  return o;
+}
+
+// What passes is off by twice the threshold at most; and it is no test that splits everything.
+TEST(HighlightTest, WhatPassesIsWithinTwiceTheThreshold) {
+  for (const Brdf brdf : {Brdf::blinn, Brdf::phong}) {
+    const Outcome o = outcome(brdf, 1, 25000);
+    EXPECT_LE(o.worst, 2.0);
+    EXPECT_GT(o.worst, 0.5) << "needlessly strict";
+    EXPECT_LT(o.split_in_vain, 0.33 * o.followed);
+    EXPECT_GT(o.wrong_centroid, 1000) << "the published test alone should not do";
+    EXPECT_GT(o.worst_centroid, 100.0);
+  }
+}
+
+// Where a light just rises over a patch, all six samples may lie in the dark and a highlight, cut off by the
+// terminator, between them.
+TEST(HighlightTest, AHighlightAtTheTerminatorIsNotMissed) {
+  for (const Brdf brdf : {Brdf::blinn, Brdf::phong}) {
+    const Outcome o = outcome(brdf, 3, 20000, true);
+    EXPECT_LE(o.worst, 2.0);
+    EXPECT_GT(o.passed, 500);
+    EXPECT_GT(o.worst_centroid, 100.0);
+  }
+}
+
+// Grazing Cook-Torrance is held less tightly.
+TEST(HighlightTest, CookTorrancePassesWithinThreeThresholds) {
+  const Outcome o = outcome(Brdf::cook_torrance, 2, 12000);
+  EXPECT_LE(o.worst, 3.0);
+  EXPECT_LT(o.split_in_vain, 0.35 * o.followed);
+}
+
+// A sphere's triangle whose vertices' normals lie `degrees` apart, far from eye and light.
+Case sphere_patch(double degrees, double exponent, glm::dvec3 light_barycentric) {
+  Case c;
+  const double circumradius = std::asin(2.0 / std::sqrt(3.0) * std::sin(glm::radians(degrees) / 2));
+  for (int i = 0; i < 3; ++i) {
+    const double turn = 2.0 * 3.14159265358979 * i / 3;
+    const glm::dvec3 n(std::sin(circumradius) * std::cos(turn), std::sin(circumradius) * std::sin(turn),
+                       std::cos(circumradius));
+    c.triangle.vertex[static_cast<std::size_t>(i)] = {0, 0, 0.5, 1.0, n, n};
+  }
+  c.scene.camera.eye_world = {0, 0, 1e6};
+  c.scene.materials.emplace_back();
+  c.scene.materials[0].diffuse = 0.0;
+  c.scene.materials[0].specular = 1.0;
+  c.scene.materials[0].exponent = exponent;
+  const glm::dvec3 halfway = c.surface(light_barycentric).normal_world;
+  c.scene.directional.push_back({2.0 * halfway.z * halfway - glm::dvec3(0, 0, 1), glm::dvec3(1.0)});
+  return c;
+}
+
+// Toolchain figures: triangles that pass the centroid test at 4 steps err by 36 (10 degrees, n = 200) to 255
+// (40 degrees, n = 500).
+TEST(HighlightTest, ThePublishedTestAloneMissesHighlightsThatThisOneFinds) {
+  struct Expected {
+    double degrees, exponent, at_least;
+  };
+  for (const auto& [degrees, exponent, at_least] :
+       {Expected{10, 200, 36}, Expected{20, 200, 140}, Expected{40, 200, 245}, Expected{40, 500, 249}}) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    double worst = 0.0;
+    for (int i = 0; i < 1500; ++i) {
+      const glm::dvec2 b(2.0 * unit(random) - 0.5, 2.0 * unit(random) - 0.5);  // in or beside the triangle
+      const Case c = sphere_patch(degrees, exponent, {b.x, b.y, 1.0 - b.x - b.y});
+      const SampledTriangle t = sampled(c, c_whole);
+      if (centroid_test(c, c_whole, t) > 4.0) continue;
+      const double error = dense_error(c, c_whole, t, 40);
+      worst = std::max(worst, error);
+      if (error > 2 * 4.0) {
+        EXPECT_GT(missed_highlight_bound(c.scene, c.scene.materials[0], t), 4.0)
+            << degrees << " degrees, n = " << exponent << ", off by " << error;
+      }
+    }
+    std::cout << degrees << " degrees, n = " << exponent << ": the published test alone lets pass " << worst
+              << " steps\n";
+    EXPECT_GE(worst, at_least) << degrees << " degrees, n = " << exponent;
+  }
+}
+
+/// Leaves of a mesh's subdivision by a test that says which pieces to split.
+struct Leaves {
+  std::uint64_t leaves = 0;
+  double worst = 0.0;  // error of leaves above the last level
+};
+using Test = std::function<bool(const Case&, const Corners&, const SampledTriangle&)>;
+
+void subdivide(const Case& c, const Corners& corners, int levels, const Test& splits, Leaves& out) {
+  const SampledTriangle t = sampled(c, corners);
+  if (splits(c, corners, t)) {
+    if (levels > 0) {
+      const auto& [p, q, r] = corners;
+      const glm::dvec3 pq = 0.5 * (p + q), pr = 0.5 * (p + r), qr = 0.5 * (q + r);
+      for (const Corners& piece :
+           {Corners{p, pq, pr}, Corners{pq, q, qr}, Corners{pr, qr, r}, Corners{pq, qr, pr}})
+        subdivide(c, piece, levels - 1, splits, out);
+      return;
+    }
+  } else {
+    out.worst = std::max(out.worst, dense_error(c, corners, t, 12));
+  }
+  ++out.leaves;
+}
+
+Leaves subdivided(const Scene& scene, const Test& splits) {
+  Case c{scene, {}};
+  Leaves leaves;
+  for (const ScreenTriangle& t : Projector(scene, {640, 480}, {}).project_all()) {
+    c.triangle = t;
+    subdivide(c, c_whole, 5, splits, leaves);
+  }
+  return leaves;
+}
+
+// Against an oracle that splits only what is off by more than the threshold. Coarse spheres pay for the
+// terminator.
+TEST(HighlightTest, SplitsMeshesNotMuchMoreThanAnOracle) {
+  struct Expected {
+    const char* name;
+    Mesh mesh;
+    Brdf brdf;
+    double exponent, at_most;
+  };
+  for (const Expected& e :
+       {Expected{"sphere 12x8, Blinn 5", make_uv_sphere(12, 8, 1.6), Brdf::blinn, 5, 3.0},
+        Expected{"sphere 12x8, Blinn 20", make_uv_sphere(12, 8, 1.6), Brdf::blinn, 20, 2.25},
+        Expected{"sphere 12x8, Blinn 200", make_uv_sphere(12, 8, 1.6), Brdf::blinn, 200, 2.25},
+        Expected{"sphere 23x16, Phong 50", make_uv_sphere(23, 16, 1.6), Brdf::phong, 50, 2.0},
+        Expected{"teapot 4, Blinn 40", make_teapot(4), Brdf::blinn, 40, 2.0},
+        Expected{"teapot 8, Phong 40", make_teapot(8), Brdf::phong, 40, 2.0}}) {
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.materials[0].brdf = e.brdf;
+    scene.materials[0].colour = {0.9, 0.45, 0.15};
+    scene.materials[0].exponent = e.exponent;
+    scene.positions_world = e.mesh.positions;
+    scene.normals_world = e.mesh.normals;
+    scene.triangles = e.mesh.triangles;
+    for (SceneTriangle& t : scene.triangles) t.material = 0;
+    scene.camera.eye_world = {1.6, 5.0, 9.4};
+    scene.camera.target_world = {0.0, e.mesh.triangles.size() > 700 ? 1.4 : 0.0, 0.0};
+    scene.directional = {{glm::normalize(glm::dvec3(-0.6, 0.9, 0.8)), {1.0, 0.97, 0.9}},
+                         {glm::normalize(glm::dvec3(0.9, 0.1, 0.5)), {0.15, 0.2, 0.3}}};
+    const Leaves oracle =
+        subdivided(scene, [](const Case& c, const Corners& corners, const SampledTriangle& t) {
+          return dense_error(c, corners, t, 12, c_threshold) > c_threshold;
+        });
+    const Leaves test =
+        subdivided(scene, [](const Case& c, const Corners& corners, const SampledTriangle& t) {
+          return centroid_test(c, corners, t) > c_threshold ||
+                 missed_highlight_bound(c.scene, c.scene.materials[0], t) > c_threshold;
+        });
+    const Leaves published =
+        subdivided(scene, [](const Case& c, const Corners& corners, const SampledTriangle& t) {
+          return centroid_test(c, corners, t) > c_threshold;
+        });
+    std::cout << e.name << ": oracle " << oracle.leaves << " leaves, test " << test.leaves << ", worst "
+              << test.worst << " steps; published test " << published.leaves << ", worst " << published.worst
+              << " steps\n";
+    EXPECT_LE(static_cast<double>(test.leaves), e.at_most * static_cast<double>(oracle.leaves)) << e.name;
+    EXPECT_LE(test.worst, 2 * c_threshold) << e.name;
+  }
+}
+
+TEST(HighlightTest, CentroidErrorIsTheQuadraticsAgainstTheRadiance) {
+  SampledTriangle t{};
+  for (std::size_t i = 0; i < 6; ++i) t.radiance[i] = glm::dvec3(i < 3 ? 0.2 : 0.5, 0.1, 0.3);
+  // (4 * 1.5 - 0.6)/9 = 0.6, and constants stay what they are.
+  EXPECT_NEAR(centroid_error(t, {0.6, 0.1, 0.3}), 0.0, 1e-12);
+  EXPECT_NEAR(centroid_error(t, {0.6, 0.2, 0.3}), 25.5, 1e-12);
+  EXPECT_NEAR(centroid_error(t, {0.5, 0.1, 0.1}), 51.0, 1e-12);
+  for (glm::dvec3& r : t.radiance) r *= 100.0;
+  EXPECT_EQ(centroid_error(t, glm::dvec3(7.0)), 0.0) << "over-exposed is over-exposed";
+}
+
+TEST(HighlightTest, NothingIsMissedWithoutLightAndWhereNoneComes) {
+  Case c = sphere_patch(20, 100, {0.3, 0.5, 0.2});
+  const SampledTriangle t = sampled(c, c_whole);
+  EXPECT_GT(missed_highlight_bound(c.scene, c.scene.materials[0], t), 50.0);
+  c.scene.directional[0].to_light_world = {0, 0, -1};
+  EXPECT_EQ(missed_highlight_bound(c.scene, c.scene.materials[0], t), 0.0);
+  c.scene.directional.clear();
+  EXPECT_EQ(missed_highlight_bound(c.scene, c.scene.materials[0], t), 0.0);
+}
+
+// Eye or light in the triangle, at a corner, normals all ways: a number, and a large one.
+TEST(HighlightTest, DegenerateDirectionsGiveALargeBound) {
+  const Case base = sphere_patch(20, 100, {0.3, 0.5, 0.2});
+  const SampledTriangle t = sampled(base, c_whole);
+  const auto expect_large = [&](const Scene& scene, const SampledTriangle& triangle) {
+    const double bound = missed_highlight_bound(scene, scene.materials[0], triangle);
+    EXPECT_TRUE(std::isfinite(bound));
+    EXPECT_GT(bound, 50.0);
+  };
+  for (const std::size_t i : {0u, 3u, 5u})
+    for (const Brdf brdf : {Brdf::blinn, Brdf::phong, Brdf::cook_torrance}) {
+      Scene scene = base.scene;
+      scene.materials[0].brdf = brdf;
+      scene.camera.eye_world = t.surface[i].position_world;
+      expect_large(scene, t);
+      scene = base.scene;
+      scene.materials[0].brdf = brdf;
+      scene.directional.clear();
+      scene.positional = {{t.surface[i].position_world, glm::dvec3(1.0)}};
+      expect_large(scene, t);
+    }
+  SampledTriangle all_ways = t;
+  for (std::size_t i = 0; i < 3; ++i)
+    all_ways.surface[i].normal_world = {std::cos(2.0944 * double(i)), std::sin(2.0944 * double(i)), 0.0};
+  expect_large(base.scene, all_ways);
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: Apache-2.0
+// QuadraticFit and DepthFit against the 6x6 and 3x3 systems solved in rationals, and the golden model's
+// fragments against those rationals at every covered pixel.
+#include "setup/quadratic_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <utility>
+#include <vector>
+
+#include "golden/quadratic_shader.hpp"
+#include "setup/gmp_numbers.hpp"
+#include "setup/random_triangles.hpp"
+
+namespace halfway {
+namespace {
+
+using golden::Exact;
+
+constexpr int c_fraction = Exact::c_intensity_fraction_bits;
+constexpr std::int64_t c_largest_sample_word = std::int64_t{1023} << c_fraction;
+constexpr FrameSize c_frame = {4096, 4096};
+
+/// Solves A x = b by elimination; A is regular.
+template <std::size_t N>
+std::array<mpq_class, N> solved(std::array<std::array<mpq_class, N + 1>, N> rows) {
+  for (std::size_t i = 0; i < N; ++i) {
+    std::size_t pivot = i;
+    while (rows[pivot][i] == 0) ++pivot;
+    std::swap(rows[i], rows[pivot]);
+    for (std::size_t j = 0; j < N; ++j) {
+      if (j == i || rows[j][i] == 0) continue;
+      const mpq_class factor = rows[j][i] / rows[i][i];
+      for (std::size_t k = i; k <= N; ++k) rows[j][k] -= factor * rows[i][k];
+    }
+  }
+  std::array<mpq_class, N> x;
+  for (std::size_t i = 0; i < N; ++i) x[i] = rows[i][N] / rows[i][i];
+  return x;
+}
+
+/// a x^2 + b xy + c y^2 + d x + e y + f, x and y in units of the triangle's, from its first vertex.
+struct Quadratic {
+  std::array<mpq_class, 6> k;
+  mpq_class at(const mpq_class& x, const mpq_class& y) const {
+    return (k[0] * x + k[1] * y + k[3]) * x + (k[2] * y + k[4]) * y + k[5];
+  }
+};
+
+Quadratic through(const Points& p, const SixSamples& s) {
+  const auto point = [&](int i, int j) {
+    const auto from_first = [](std::int64_t sum, std::int32_t first) -> mpq_class {
+      return mpq_class(static_cast<long>(sum - 2 * std::int64_t{first})) / 2;
+    };
+    return std::pair(from_first(std::int64_t{p[i].x} + p[j].x, p[0].x),
+                     from_first(std::int64_t{p[i].y} + p[j].y, p[0].y));
+  };
+  const std::array<std::pair<mpq_class, mpq_class>, 6> at = {point(0, 0), point(1, 1), point(2, 2),
+                                                             point(0, 1), point(0, 2), point(1, 2)};
+  const std::array<std::int64_t, 6> sample = {s.vertex[0], s.vertex[1], s.vertex[2],
+                                              s.edge12,    s.edge13,    s.edge23};
+  std::array<std::array<mpq_class, 7>, 6> rows;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto& [x, y] = at[i];
+    rows[i] = {x * x, x * y, y * y, x, y, 1, static_cast<long>(sample[i])};
+  }
+  return {solved<6>(rows)};
+}
+
+std::int64_t twice_area(const Points& p) {
+  return std::int64_t{p[1].x - p[0].x} * (p[2].y - p[0].y) -
+         std::int64_t{p[1].y - p[0].y} * (p[2].x - p[0].x);
+}
+
+/// The centre of a pixel from the first vertex, in the triangle's units.
+std::int64_t centre(std::int64_t pixel, std::int32_t origin, int unit_bits) {
+  const std::int64_t unit = std::int64_t{1} << unit_bits;
+  return pixel * unit + unit / 2 - origin;
+}
+
+SixSamples random_samples(RandomTriangles& random, int round) {
+  std::array<std::int64_t, 6> s;
+  for (std::int64_t& v : s)
+    v = (std::int64_t{random.within(0, 1023)} << c_fraction) * (random.within(0, 3) > 0);
+  if (round % 3 == 0)  // every control point at its extreme
+    for (int i = 0; i < 6; ++i) s[i] = round / 3 >> i & 1 ? c_largest_sample_word : 0;
+  if (round % 3 == 1)
+    for (std::int64_t& v : s)
+      v = std::min(c_largest_sample_word, v + random.within(0, (1 << c_fraction) - 1));
+  return {{s[0], s[1], s[2]}, s[3], s[4], s[5]};
+}
+
+TEST(QuadraticFit, EachWordIsTheRationalRoundedOnce) {
+  int slivers = 0, backward = 0;
+  for (int unit_bits = 4; unit_bits <= 9; ++unit_bits)
+    for (const TriangleKind kind : c_triangle_kinds) {
+      RandomTriangles random(static_cast<unsigned>(10 * unit_bits + static_cast<int>(kind)));
+      for (int round = 0, done = 0; round < 400 && done < 8; ++round) {
+        const Points p = random.next(kind, unit_bits, c_frame, unit_bits - 4);
+        const std::vector<Walk> walks = plan_walks(p, unit_bits, c_frame);
+        if (walks.empty()) continue;
+        ++done;
+        const SixSamples samples = random_samples(random, done + 7 * unit_bits);
+        const Quadratic quadratic = through(p, samples);
+        slivers += std::abs(twice_area(p)) < (std::int64_t{100} << unit_bits);
+        for (const Walk& walk : walks) {
+          backward += walk.backward;
+          const DifferenceStart start{walk.start.pixel, walk.y, walk.start.quotient, walk.backward};
+          const std::int64_t half = std::int64_t{1} << (c_fraction - 1);
+          const QuadraticWords w = QuadraticFit(p, unit_bits).words(samples, start, half);
+          // The forward differences by their definition: the quadratic at pixels from the first one on.
+          const auto at = [&](std::int64_t dx, std::int64_t dy) {
+            return quadratic.at(static_cast<long>(centre(start.x + dx, p[0].x, unit_bits)),
+                                static_cast<long>(centre(start.y + dy, p[0].y, unit_bits)));
+          };
+          const std::int64_t q = start.quotient, s = walk.backward ? -1 : 1;
+          const auto step = [&](std::int64_t ax, std::int64_t ay) -> mpq_class {
+            return at(ax, ay) - at(0, 0);
+          };
+          const auto second = [&](std::int64_t ax, std::int64_t ay, std::int64_t bx,
+                                  std::int64_t by) -> mpq_class {
+            return at(ax + bx, ay + by) - at(ax, ay) - at(bx, by) + at(0, 0);
+          };
+          ASSERT_EQ(to_mpz(w.value - half), rounded(at(0, 0)));
+          ASSERT_EQ(to_mpz(w.dx), rounded(step(s, 0)));
+          ASSERT_EQ(to_mpz(w.de0), rounded(step(q, 1)));
+          ASSERT_EQ(to_mpz(w.dxx), rounded(second(s, 0, s, 0)));
+          ASSERT_EQ(to_mpz(w.de0e0), rounded(second(q, 1, q, 1)));
+          // The mixed one is rounded forward, whichever way the span runs.
+          const mpz_class xe0 = rounded(second(1, 0, q, 1));
+          ASSERT_EQ(to_mpz(w.dxe0), s * xe0);
+          // The others are sums of the words, as those of one whole-number quadratic.
+          const Int128 forward_x = walk.backward ? w.dxx - w.dx : w.dx, forward_xe0 = s * w.dxe0;
+          ASSERT_TRUE(w.de1 == w.de0 + forward_x + forward_xe0);
+          ASSERT_TRUE(w.dxe1 == s * (forward_xe0 + w.dxx));
+          ASSERT_TRUE(w.de0e1 == w.de0e0 + forward_xe0);
+          ASSERT_TRUE(w.de1e1 == w.de0e0 + 2 * forward_xe0 + w.dxx);
+        }
+      }
+    }
+  EXPECT_GT(slivers, 50);
+  EXPECT_GT(backward, 100);
+}
+
+TEST(DepthFit, EachWordIsTheRationalRoundedOnce) {
+  for (const TriangleKind kind : c_triangle_kinds) {
+    RandomTriangles random(static_cast<unsigned>(kind));
+    for (int round = 0; round < 60; ++round) {
+      const int level = round % 6, unit_bits = 4 + level;
+      const Points p = random.next(kind, unit_bits, c_frame, level);
+      if (twice_area(p) == 0) continue;
+      const std::array<std::int64_t, 3> z = {
+          random.within(1, (1 << 24) - 3) * (std::int64_t{1} << 15),
+          random.within(1, (1 << 24) - 3) * (std::int64_t{1} << 15) + 12345,
+          random.within(1, 2) * (std::int64_t{1} << 15)};
+      std::array<std::array<mpq_class, 4>, 3> rows;
+      for (std::size_t i = 0; i < 3; ++i)
+        rows[i] = {p[i].x - p[0].x, p[i].y - p[0].y, 1, static_cast<long>(z[i])};
+      const std::array<mpq_class, 3> plane = solved<3>(rows);
+      for (const Walk& walk : plan_walks(p, unit_bits, c_frame)) {
+        const DifferenceStart start{walk.start.pixel, walk.y, walk.start.quotient, walk.backward};
+        const DepthWords w = DepthFit(p, unit_bits, z).words(start, 1 << 14);
+        const long unit = 1L << unit_bits;
+        const mpq_class value = plane[0] * static_cast<long>(centre(start.x, p[0].x, unit_bits)) +
+                                plane[1] * static_cast<long>(centre(start.y, p[0].y, unit_bits)) + plane[2];
+        const mpz_class step_x = rounded(plane[0] * unit);
+        ASSERT_EQ(to_mpz(w.value - (1 << 14)), rounded(value));
+        ASSERT_EQ(to_mpz(w.dx), walk.backward ? mpz_class(-step_x) : step_x);
+        ASSERT_EQ(to_mpz(w.de0), rounded((plane[0] * static_cast<long>(start.quotient) + plane[1]) * unit));
+        ASSERT_EQ(to_mpz(w.de1), to_mpz(w.de0) + step_x);
+      }
+    }
+  }
+}
+
+/// What the golden model made of a triangle, worst cases over its pixels. Errors as parts of their bound.
+struct Worst {
+  double intensity = 0.0, intensity_steps = 0.0, depth = 0.0, depth_steps = 0.0, colour_steps = 0.0;
+  std::int64_t pixels = 0, lowest = 0, highest = 0;
+  void take(const Worst& o) {
+    intensity = std::max(intensity, o.intensity);
+    intensity_steps = std::max(intensity_steps, o.intensity_steps);
+    depth = std::max(depth, o.depth);
+    depth_steps = std::max(depth_steps, o.depth_steps);
+    colour_steps = std::max(colour_steps, o.colour_steps);
+    pixels += o.pixels;
+    lowest = std::min(lowest, o.lowest);
+    highest = std::max(highest, o.highest);
+  }
+};
+
+/// Sees every pixel's registers beside the rationals, which it holds as numerators over D^2 and D.
+class Comparison {
+ public:
+  Comparison(const Points& p, int unit_bits, const SixSamples& samples, const std::array<std::int64_t, 3>& z)
+      : points_(p), unit_bits_(unit_bits), d_(twice_area(p)), squared_(d_ * d_) {
+    const Quadratic quadratic = through(p, samples);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const mpq_class k = quadratic.k[i] * to_mpz(squared_);
+      EXPECT_EQ(k.get_den(), 1);
+      numerator_[i] = to_int128(k.get_num());
+    }
+    std::array<std::array<mpq_class, 4>, 3> rows;
+    for (std::size_t i = 0; i < 3; ++i)
+      rows[i] = {p[i].x - p[0].x, p[i].y - p[0].y, 1, static_cast<long>(z[i])};
+    const std::array<mpq_class, 3> plane = solved<3>(rows);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const mpq_class k = plane[i] * to_mpz(squared_);
+      EXPECT_EQ(k.get_den(), 1);
+      plane_[i] = to_int128(k.get_num());
+    }
+  }
+
+  void begin(const Walk& walk) { walk_ = walk, carries_ = -1; }
+
+  template <class Shader>
+  void line(const Shader& shader) {
+    const auto probe = shader.line_probe();
+    line_start_ = word(probe, Exact::probe_header_at::line_start);
+    const std::int64_t y = word(probe, Exact::probe_header_at::line_y);
+    carries_ = line_start_ - walk_.start.pixel - walk_.start.quotient * (y - walk_.y);
+  }
+
+  template <class Shader>
+  void span(const Shader& shader, golden::SpanXWord at) {
+    const auto probe = shader.span_probe(at);
+    const std::int64_t x = at.value(), y = word(probe, Exact::probe_header_at::span_y);
+    const Int128 u = centre(x, points_[0].x, unit_bits_), v = centre(y, points_[0].y, unit_bits_);
+    // Where the words are those of one quadratic, only how far the pixel is from the start counts, not the
+    // way.
+    const std::int64_t lines = y - walk_.y, steps = std::abs(carries_ + x - line_start_), k = lines + steps;
+
+    const Int128 exact = (numerator_[0] * u + numerator_[1] * v + numerator_[3]) * u +
+                         (numerator_[2] * v + numerator_[4]) * v + numerator_[5];
+    const std::int64_t value = word(probe, Exact::probe_channel_at::span_value, Exact::c_probe_header_bits) -
+                               (1LL << (c_fraction - 1));
+    const Int128 off = 4 * magnitude(value * squared_ - exact), bound = (2 + 2 * k + k * k) * squared_;
+    ASSERT_TRUE(off <= bound) << "pixel " << x << ',' << y << ", k = " << k << ": off by "
+                              << static_cast<double>(off) / static_cast<double>(bound) << " of the bound";
+    worst_.intensity = std::max(worst_.intensity, static_cast<double>(off) / static_cast<double>(bound));
+    worst_.intensity_steps =
+        std::max(worst_.intensity_steps,
+                 std::ldexp(static_cast<double>(off) / static_cast<double>(squared_), -c_fraction - 2));
+    worst_.lowest = std::min(worst_.lowest, value);
+    worst_.highest = std::max(worst_.highest, value);
+    const double steps_exact =
+        std::ldexp(static_cast<double>(exact) / static_cast<double>(squared_), -c_fraction);
+    exact_colour_ = std::clamp(steps_exact, 0.0, 255.0);
+
+    const Int128 depth = plane_[0] * u + plane_[1] * v + plane_[2];
+    const std::int64_t z = word(probe, Exact::probe_header_at::span_z) - (1 << 14);
+    const Int128 z_off = 2 * magnitude(z * squared_ - depth),
+                 z_bound = (1 + lines + carries_ + std::abs(x - line_start_)) * squared_;
+    ASSERT_TRUE(z_off <= z_bound) << "depth of pixel " << x << ',' << y;
+    worst_.depth = std::max(worst_.depth, static_cast<double>(z_off) / static_cast<double>(z_bound));
+    worst_.depth_steps = std::max(
+        worst_.depth_steps, std::ldexp(static_cast<double>(z_off) / static_cast<double>(squared_), -16));
+    exact_depth_ = std::ldexp(static_cast<double>(depth) / static_cast<double>(squared_), -15);
+    ++worst_.pixels;
+  }
+
+  void fragment(const Fragment& f) {
+    // What the shader's header states: 0.5 by rounding and what the differences may add.
+    const double colour_off = std::abs(f.red - exact_colour_);
+    ASSERT_LE(colour_off, 0.65) << "pixel " << f.x << ',' << f.y;
+    worst_.colour_steps = std::max(worst_.colour_steps, colour_off);
+    ASSERT_LE(std::abs(f.z - exact_depth_), 0.69) << "pixel " << f.x << ',' << f.y;
+  }
+  const Worst& worst() const { return worst_; }
+
+ private:
+  static Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
+  template <class Probe>
+  static std::int64_t word(const Probe& probe, const golden::Field& field, int block_low = 0) {
+    const std::uint64_t bits = golden::get_bits(probe, field, block_low);
+    const int unused = 64 - field.bits;
+    return field.is_signed ? static_cast<std::int64_t>(bits << unused) >> unused
+                           : static_cast<std::int64_t>(bits);
+  }
+
+  Points points_;
+  int unit_bits_;
+  Int128 d_, squared_;
+  std::array<Int128, 6> numerator_;
+  std::array<Int128, 3> plane_;
+  Walk walk_;
+  std::int64_t line_start_ = 0, carries_ = 0;
+  double exact_colour_ = 0.0, exact_depth_ = 0.0;
+  Worst worst_;
+};
+
+/// Draws one triangle with the golden model, one channel.
+Worst draw(const Points& p, int unit_bits, FrameSize frame, const SixSamples& samples,
+           const std::array<std::int64_t, 3>& z) {
+  using Shader = golden::QuadraticShader<Exact, 1>;
+  using At = Exact::init_header_at;
+  using ChannelAt = Exact::init_channel_at;
+  const std::vector<Walk> walks = plan_walks(p, unit_bits, frame);
+  if (walks.empty()) return {};
+  const QuadraticFit fit(p, unit_bits);
+  const DepthFit depth(p, unit_bits, z);
+  Comparison comparison(p, unit_bits, samples, z);
+  for (const Walk& walk : walks) {
+    const DifferenceStart start{walk.start.pixel, walk.y, walk.start.quotient, walk.backward};
+    std::array<std::uint32_t, Shader::c_init_words> init{};
+    put_walk(init, walk);
+    const auto put = [&](const golden::Field& field, Int128 value) {
+      golden::set_bits(init, field, static_cast<std::uint64_t>(value));
+    };
+    const DepthWords dw = depth.words(start, 1 << 14);
+    put(At::z, dw.value);
+    put(At::z_dx, dw.dx);
+    put(At::z_de0, dw.de0);
+    put(At::z_de1, dw.de1);
+    const QuadraticWords qw = fit.words(samples, start, std::int64_t{1} << (c_fraction - 1));
+    const auto put_channel = [&](const golden::Field& field, Int128 value) {
+      golden::set_bits(init, field, static_cast<std::uint64_t>(value), Exact::c_init_header_bits);
+    };
+    put_channel(ChannelAt::value, qw.value);
+    put_channel(ChannelAt::dx, qw.dx);
+    put_channel(ChannelAt::de0, qw.de0);
+    put_channel(ChannelAt::de1, qw.de1);
+    put_channel(ChannelAt::dxx, qw.dxx);
+    put_channel(ChannelAt::dxe0, qw.dxe0);
+    put_channel(ChannelAt::dxe1, qw.dxe1);
+    put_channel(ChannelAt::de0e0, qw.de0e0);
+    put_channel(ChannelAt::de0e1, qw.de0e1);
+    put_channel(ChannelAt::de1e1, qw.de1e1);
+    comparison.begin(walk);
+    Shader shader;
+    shader.draw(
+        init, [&](const Fragment& f) { comparison.fragment(f); }, comparison);
+  }
+  return comparison.worst();
+}
+
+void print(const char* what, const Worst& w) {
+  std::cout << what << ": " << w.pixels << " pixels; intensity at most " << w.intensity << " of its bound, "
+            << w.intensity_steps << " steps; depth at most " << w.depth << " of its bound, " << w.depth_steps
+            << " steps; colour at most " << w.colour_steps << " off; values from "
+            << std::ldexp(static_cast<double>(w.lowest), -c_fraction) << " to "
+            << std::ldexp(static_cast<double>(w.highest), -c_fraction) << '\n';
+}
+
+constexpr std::int64_t c_far = std::int64_t{(1 << 24) - 3} << 15, c_near = std::int64_t{1} << 15;
+
+TEST(GoldenQuadratic, EveryPixelOfARandomTriangleIsWithinTheStatedBound) {
+  Worst worst;
+  for (int level = 0; level <= 5; ++level)
+    for (const TriangleKind kind : c_triangle_kinds) {
+      RandomTriangles random(static_cast<unsigned>(100 * level + static_cast<int>(kind)));
+      for (int round = 0; round < 40; ++round) {
+        const FrameSize frame{200, 160};
+        const Points p = random.next(kind, 4 + level, frame, level);
+        worst.take(
+            draw(p, 4 + level, frame, random_samples(random, round),
+                 {round % 2 ? c_near : c_far, round % 3 ? c_far : c_near, random.within(1, 1 << 24) << 7}));
+        if (HasFatalFailure()) return;
+      }
+    }
+  print("random triangles", worst);
+  EXPECT_GT(worst.pixels, 1'000'000);
+}
+
+TEST(GoldenQuadratic, LongAndTallTrianglesAreWithinTheStatedBound) {
+  Worst worst;
+  RandomTriangles random(7);
+  const auto units = [&](int pixels) { return 16 * pixels + random.within(-8, 8); };
+  for (int round = 0; round < 12; ++round) {
+    // From corner to corner and along each side, wide and thin, forward and backward; beyond the frame as
+    // well.
+    const int thick = round % 4 == 0 ? 4096 : round % 4 == 1 ? 64 : 2, by = round % 3 == 0 ? 2000 : 0;
+    const std::array<Points, 6> shapes = {{
+        {{{units(-by), units(-by)}, {units(4096 + by), units(4096 + by)}, {units(thick), units(0)}}},
+        {{{units(4096 + by), units(-by)}, {units(-by), units(4096 + by)}, {units(4096 - thick), units(0)}}},
+        {{{units(0), units(-by)}, {units(0), units(4096 + by)}, {units(thick), units(4096)}}},
+        {{{units(4096), units(0)},
+          {units(4096), units(4096)},
+          {units(4096 - thick), units(random.within(0, 4096))}}},
+        {{{units(-by), units(0)}, {units(4096 + by), units(1)}, {units(4096), units(thick)}}},
+        {{{units(4096), units(0)}, {units(0), units(1)}, {units(0), units(thick)}}},
+    }};
+    const Points& p = shapes[static_cast<std::size_t>(round) % shapes.size()];
+    worst.take(draw(p, 4, c_frame, random_samples(random, round), {c_near, c_far, c_near + 12345}));
+    if (HasFatalFailure()) return;
+  }
+  print("long and tall triangles", worst);
+  EXPECT_GT(worst.pixels, 1'000'000);
+}
+
+// Samples of nothing and of the largest, in every combination: control points reach -1023 and 2046, and no
+// value leaves the format. A value that did would come out 2^12 steps off, and `draw` would see it.
+TEST(GoldenQuadratic, NoValueLeavesTheFormatWhateverTheSamples) {
+  Worst worst;
+  RandomTriangles random(9);
+  for (int bits = 0; bits < 64; ++bits) {
+    const auto sample = [&](int i) { return bits >> i & 1 ? c_largest_sample_word : 0; };
+    const SixSamples samples{{sample(0), sample(1), sample(2)}, sample(3), sample(4), sample(5)};
+    for (const TriangleKind kind :
+         {TriangleKind::any, TriangleKind::small, TriangleKind::sliver, TriangleKind::crossing})
+      worst.take(draw(random.next(kind, 4, {96, 80}), 4, {96, 80}, samples, {c_near, c_far, c_near}));
+    if (HasFatalFailure()) return;
+  }
+  print("extreme samples", worst);
+  const auto steps = [](std::int64_t word) { return std::ldexp(static_cast<double>(word), -c_fraction); };
+  EXPECT_GE(steps(worst.lowest), -1023.0 - 0.15);
+  EXPECT_LE(steps(worst.highest), 2046.0 + 0.15);
+  // Near enough to the hull's ends to mean something.
+  EXPECT_LT(steps(worst.lowest), -300.0);
+  EXPECT_GT(steps(worst.highest), 1300.0);
+}
+
+}  // namespace
+}  // namespace halfway

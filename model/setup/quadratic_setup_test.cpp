@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+// From scenes to fragments: the golden model fed by the setup, against coverage, plane and quadratic computed
+// apart from it.
+#include "setup/quadratic_setup.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <random>
+#include <tuple>
+#include <vector>
+
+#include "golden/quadratic_shader.hpp"
+#include "reference/shade.hpp"
+#include "scene/builtin_meshes.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr int c_subpixel_bits = 4;
+
+void add_mesh(Scene& scene, const Mesh& mesh) {
+  const auto positions = static_cast<std::uint32_t>(scene.positions_world.size());
+  const auto normals = static_cast<std::uint32_t>(scene.normals_world.size());
+  scene.positions_world.insert(scene.positions_world.end(), mesh.positions.begin(), mesh.positions.end());
+  scene.normals_world.insert(scene.normals_world.end(), mesh.normals.begin(), mesh.normals.end());
+  for (SceneTriangle t : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) t.position[i] += positions, t.normal[i] += normals;
+    t.material = 0;
+    scene.triangles.push_back(t);
+  }
+}
+
+Scene lit_scene() {
+  Scene scene;
+  scene.materials.push_back({.name = "m", .colour = {0.8, 0.5, 0.2}, .exponent = 60.0});
+  scene.directional.push_back({glm::normalize(glm::dvec3(-0.4, 0.5, 1.0)), {1.0, 0.9, 0.7}});
+  scene.positional.push_back({{2.0, 1.0, 3.0}, {0.2, 0.3, 0.5}});
+  return scene;
+}
+
+/// Vertices moved along the sphere; a closed mesh of any shape where `bump` moves them off it as well.
+Scene sphere_scene(unsigned seed, double jitter, double bump) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Scene scene = lit_scene();
+  Mesh mesh = make_uv_sphere(12, 8, 1.0);
+  for (glm::dvec3& p : mesh.positions)
+    p = glm::normalize(p + jitter * glm::dvec3(unit(random), unit(random), unit(random))) *
+        (1.0 + bump * unit(random));
+  add_mesh(scene, mesh);
+  scene.camera.eye_world = 3.5 * glm::normalize(glm::dvec3(unit(random), unit(random), unit(random) + 2.0));
+  scene.camera.target_world = {0.9 * unit(random), 0.9 * unit(random), 0.0};  // off the frame's middle
+  return scene;
+}
+
+Scene teapot_scene() {
+  Scene scene = lit_scene();
+  add_mesh(scene, make_teapot(3));
+  scene.camera.eye_world = {1.6, 5.0, 9.4};
+  scene.camera.target_world = {0.2, 1.4, 0.0};
+  return scene;
+}
+
+struct Drawn {
+  std::vector<Fragment> fragments;
+  std::vector<std::uint32_t> words;
+  std::size_t words_per_vector = 0;
+  SetupCounts counts;
+};
+
+template <class Preset, int Channels>
+void draw_words(Drawn& drawn) {
+  using Shader = golden::QuadraticShader<Preset, Channels>;
+  ASSERT_EQ(drawn.words_per_vector, Shader::c_init_words);
+  Shader shader;
+  for (std::size_t i = 0; i < drawn.words.size(); i += drawn.words_per_vector)
+    shader.draw(std::span(drawn.words).subspan(i, drawn.words_per_vector),
+                [&](const Fragment& f) { drawn.fragments.push_back(f); });
+}
+
+Drawn draw(const Scene& scene, FrameSize frame, QuadraticSetupOptions options, Preset preset = Preset::exact,
+           unsigned channels = 3) {
+  const QuadraticSetup setup(scene, frame, {.preset = preset, .channels = channels}, options);
+  Drawn drawn;
+  drawn.words_per_vector = (setup.init_bits() + 31) / 32;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) setup.append(t, drawn.words, drawn.counts);
+  EXPECT_EQ(drawn.words.size(), drawn.counts.vectors * drawn.words_per_vector);
+  if (preset == Preset::exact)
+    channels == 3 ? draw_words<golden::Exact, 3>(drawn) : draw_words<golden::Exact, 1>(drawn);
+  else
+    channels == 3 ? draw_words<golden::Published, 3>(drawn) : draw_words<golden::Published, 1>(drawn);
+  return drawn;
+}
+
+std::vector<ScreenTriangle> projected(const Scene& scene, FrameSize frame) {
+  return Projector(scene, frame, {.subpixel_bits = c_subpixel_bits}).project_all();
+}
+
+using Pixels = std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>>;  // triangle, y, x
+
+Pixels covered(const std::vector<ScreenTriangle>& triangles, FrameSize frame) {
+  Pixels pixels;
+  for (const ScreenTriangle& t : triangles)
+    for_each_span({ScreenPoint{t.vertex[0].x, t.vertex[0].y}, ScreenPoint{t.vertex[1].x, t.vertex[1].y},
+                   ScreenPoint{t.vertex[2].x, t.vertex[2].y}},
+                  c_subpixel_bits, frame, [&](std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
+                    for (std::uint32_t x = begin; x < end; ++x) pixels.emplace_back(t.source, y, x);
+                  });
+  std::ranges::sort(pixels);
+  return pixels;
+}
+
+Pixels drawn_pixels(const std::vector<Fragment>& fragments) {
+  Pixels pixels;
+  for (const Fragment& f : fragments) pixels.emplace_back(f.triangle, f.y, f.x);
+  std::ranges::sort(pixels);
+  return pixels;
+}
+
+constexpr QuadraticSetupOptions c_whole = {.test = HighlightTest::none};
+// So small a threshold that nearly every triangle is split, some to the last level.
+constexpr QuadraticSetupOptions c_split = {.test = HighlightTest::conservative, .threshold = 0.05};
+constexpr QuadraticSetupOptions c_split_some = {
+    .test = HighlightTest::conservative, .threshold = 1.0, .max_level = 2};
+constexpr std::array<FrameSize, 5> c_frames = {{{160, 120}, {37, 91}, {320, 64}, {1, 1}, {500, 400}}};
+
+// Split or not, next to split or unsplit neighbours, partly beside the frame: each triangle of the scene
+// draws its own pixels, each once.
+TEST(QuadraticSetup, EachTriangleDrawsItsPixelsOnceHoweverItIsSplit) {
+  std::vector<Scene> scenes = {teapot_scene()};
+  for (unsigned seed = 0; seed < 3; ++seed) scenes.push_back(sphere_scene(seed, 0.1, 0.15));
+  scenes.push_back(sphere_scene(9, 0.1, 0.15));
+  scenes.back().camera.eye_world = {0.3, 0.2, 1.3};  // inside the guard band's reach
+  std::uint64_t split = 0, walks = 0;
+  for (const Scene& scene : scenes)
+    for (const FrameSize frame : c_frames) {
+      const Pixels expected = covered(projected(scene, frame), frame);
+      for (const QuadraticSetupOptions& options : {c_whole, c_split, c_split_some}) {
+        if (options.threshold < 0.1 && frame.width > 400) continue;  // for time
+        const Drawn drawn = draw(scene, frame, options);
+        ASSERT_TRUE(drawn_pixels(drawn.fragments) == expected)
+            << frame.width << 'x' << frame.height << ", " << drawn.counts.leaves << " leaves";
+        split += drawn.counts.subdivided;
+        walks += drawn.counts.vectors > drawn.counts.triangles;
+      }
+    }
+  EXPECT_GT(split, 1000u);
+  EXPECT_GT(walks, 5u);
+}
+
+TEST(QuadraticSetup, AClosedConvexMeshIsDrawnWithoutGapsAndOnce) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    const Scene scene = sphere_scene(seed, 0.0, 0.0);
+    const FrameSize frame = c_frames[seed % c_frames.size()];
+    for (const QuadraticSetupOptions& options : {c_whole, c_split, c_split_some}) {
+      std::vector<int> count(std::size_t{frame.width} * frame.height);
+      for (const Fragment& f : draw(scene, frame, options).fragments)
+        ++count[std::size_t{f.y} * frame.width + f.x];
+      for (std::uint32_t y = 0; y < frame.height; ++y) {
+        int changes = 0, before = 0;
+        for (std::uint32_t x = 0; x < frame.width; ++x) {
+          const int here = count[std::size_t{y} * frame.width + x];
+          ASSERT_LE(here, 1) << "seed " << seed << " pixel " << x << ',' << y;
+          changes += here != before && x > 0;
+          before = here;
+        }
+        ASSERT_LE(changes, 2) << "a gap, seed " << seed << " line " << y;
+      }
+      EXPECT_GT(20 * std::ranges::count(count, 1), std::ssize(count));
+    }
+  }
+}
+
+// Unsplit: colour by the Lagrange form of the six samples, depth by the plane, both at the pixel's centre.
+TEST(QuadraticSetup, FragmentsAreTheQuadraticThroughTheRadianceAndThePlaneThroughTheDepths) {
+  for (Scene scene : {teapot_scene(), sphere_scene(4, 0.1, 0.1)}) {
+    scene.directional[0].intensity *= 1.7;  // over-exposes in places
+    const FrameSize frame{320, 240};
+    std::map<std::uint32_t, ScreenTriangle> by_source;
+    for (const ScreenTriangle& t : projected(scene, frame))
+      ASSERT_TRUE(by_source.emplace(t.source, t).second) << "clipped: choose another camera";
+    const Drawn drawn = draw(scene, frame, c_whole);
+    EXPECT_EQ(drawn.counts.subdivided, 0u);
+    ASSERT_GT(drawn.fragments.size(), 10000u);
+    int white = 0;
+    for (const Fragment& f : drawn.fragments) {
+      const ScreenTriangle& t = by_source.at(f.triangle);
+      const auto sample = [&](glm::dvec3 barycentric) {
+        const SurfacePoint p = surface_point(t, barycentric);
+        return 255.0 * radiance(scene, scene.materials[0], p.position_world, p.normal_world);
+      };
+      const glm::dvec3 b =
+          barycentric_screen(t, (2 * f.x + 1) << c_subpixel_bits, (2 * f.y + 1) << c_subpixel_bits);
+      const glm::dvec3 colour =
+          b.x * (2 * b.x - 1) * sample({1, 0, 0}) + b.y * (2 * b.y - 1) * sample({0, 1, 0}) +
+          b.z * (2 * b.z - 1) * sample({0, 0, 1}) + 4 * b.x * b.y * sample({0.5, 0.5, 0}) +
+          4 * b.x * b.z * sample({0.5, 0, 0.5}) + 4 * b.y * b.z * sample({0, 0.5, 0.5});
+      // Rounding, and what the differences may add over a triangle of less than 100 pixels.
+      const double most = 0.5 + 1e-4;
+      ASSERT_NEAR(f.red, std::clamp(colour.x, 0.0, 255.0), most);
+      ASSERT_NEAR(f.green, std::clamp(colour.y, 0.0, 255.0), most);
+      ASSERT_NEAR(f.blue, std::clamp(colour.z, 0.0, 255.0), most);
+      const double z = surface_point(t, b).z * double((1 << 24) - 1);
+      ASSERT_NEAR(f.z, z, 0.5 + 0.01);
+      white += f.red == 255;
+    }
+    EXPECT_GT(white, 100);
+  }
+}
+
+TEST(QuadraticSetup, DepthDoesNotDependOnSplitting) {
+  const Scene scene = sphere_scene(2, 0.1, 0.1);
+  const FrameSize frame{160, 120};
+  const auto depths = [&](const QuadraticSetupOptions& options) {
+    std::map<std::tuple<std::uint32_t, int, int>, std::uint32_t> z;
+    for (const Fragment& f : draw(scene, frame, options).fragments) z[{f.triangle, f.y, f.x}] = f.z;
+    return z;
+  };
+  const auto whole = depths(c_whole), split = depths(c_split);
+  ASSERT_EQ(whole.size(), split.size());
+  for (const auto& [pixel, z] : whole) {
+    const std::int64_t other = split.at(pixel);
+    ASSERT_LE(std::abs(other - z), 1);
+  }
+}
+
+TEST(QuadraticSetup, OneChannelIsAnyOfThreeWhereTheSceneIsGrey) {
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    Scene scene = sphere_scene(3, 0.1, 0.0);
+    scene.materials[0].colour = glm::dvec3(0.7);
+    scene.directional[0].intensity = glm::dvec3(0.9);
+    scene.positional[0].intensity = glm::dvec3(0.3);
+    const FrameSize frame{160, 120};
+    const Drawn one = draw(scene, frame, c_split_some, preset, 1),
+                three = draw(scene, frame, c_split_some, preset, 3);
+    ASSERT_GT(one.fragments.size(), 1000u);
+    EXPECT_TRUE(one.fragments == three.fragments);
+    EXPECT_EQ(one.counts.leaves, three.counts.leaves);
+    for (const Fragment& f : three.fragments) {
+      ASSERT_EQ(f.red, f.green);
+      ASSERT_EQ(f.red, f.blue);
+    }
+  }
+}
+
+// Light without measure: samples are held, so that no control point leaves the format.
+TEST(QuadraticSetup, OverexposureIsHeldAndCounted) {
+  Scene scene = sphere_scene(1, 0.0, 0.0);
+  const FrameSize frame{160, 120};
+  EXPECT_EQ(draw(scene, frame, c_whole).counts.overexposed, 0u);
+  scene.directional[0].intensity = glm::dvec3(1e9);
+  scene.ambient = glm::dvec3(100.0);
+  const Drawn drawn = draw(scene, frame, c_whole);
+  EXPECT_GT(drawn.counts.overexposed, 100u);
+  ASSERT_GT(drawn.fragments.size(), 1000u);
+  for (const Fragment& f : drawn.fragments) {
+    ASSERT_EQ(f.red, 255);
+    ASSERT_EQ(f.green, 255);
+    ASSERT_EQ(f.blue, 255);
+  }
+}
+
+TEST(QuadraticSetup, CountsSayWhatWasDone) {
+  const Scene scene = sphere_scene(5, 0.0, 0.0);
+  const FrameSize frame{160, 120};
+  const SetupCounts whole = draw(scene, frame, c_whole).counts, split = draw(scene, frame, c_split).counts;
+  EXPECT_EQ(whole.subdivided, 0u);
+  EXPECT_EQ(whole.unresolved, 0u);
+  EXPECT_EQ(whole.leaves, whole.shaded / 6);
+  EXPECT_GT(split.subdivided, 0u);
+  EXPECT_EQ(whole.triangles, split.triangles);
+  EXPECT_GT(split.leaves, 2 * whole.leaves);
+  SetupCounts sum = whole;
+  sum += split;
+  EXPECT_EQ(sum.leaves, whole.leaves + split.leaves);
+  EXPECT_EQ(sum.shaded, whole.shaded + split.shaded);
+  // No deeper than asked, and what that leaves unresolved is said.
+  QuadraticSetupOptions shallow = c_split;
+  shallow.max_level = 1;
+  const SetupCounts once = draw(scene, frame, shallow).counts;
+  EXPECT_GT(once.unresolved, 0u);
+  EXPECT_LE(once.leaves, 4 * once.triangles);
+}
+
+// The papers' walk: lines and spans closed at both ends, from real slopes. It draws every pixel inside and
+// none more than a pixel off, all in the frame; it repeats pixels along shared edges, as published.
+TEST(QuadraticSetup, PublishedWalkCoversTheInsideAndStaysBesideTheEdges) {
+  std::vector<Scene> scenes = {teapot_scene(), sphere_scene(6, 0.1, 0.1), sphere_scene(7, 0.1, 0.1)};
+  scenes[2].camera.eye_world = {0.3, 0.2, 1.3};
+  for (const Scene& scene : scenes)
+    for (const FrameSize frame : {FrameSize{160, 120}, FrameSize{37, 91}, FrameSize{500, 400}}) {
+      const Drawn drawn = draw(scene, frame, c_whole, Preset::published);
+      std::map<std::uint32_t, std::vector<ScreenTriangle>> by_source;
+      const Projector projector(scene, frame, {.subpixel_bits = 0, .clip_to_frame = true});
+      for (const ScreenTriangle& t : projector.project_all()) by_source[t.source].push_back(t);
+      // Twice the area of the pixel with each edge, positive inside; and how far off the edge that is.
+      const auto least_distance = [](const ScreenTriangle& t, int x, int y) {
+        double least = 1e9;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const ScreenVertex &a = t.vertex[i], &b = t.vertex[(i + 1) % 3];
+          const double ex = b.x - a.x, ey = b.y - a.y;
+          least = std::min(least, (ex * (y - a.y) - ey * (x - a.x)) / std::hypot(ex, ey));
+        }
+        return least;
+      };
+      Pixels pixels = drawn_pixels(drawn.fragments);
+      for (const auto& [source, y, x] : pixels) {
+        ASSERT_LT(x, frame.width);
+        ASSERT_LT(y, frame.height);
+        double best = -1e9;
+        for (const ScreenTriangle& t : by_source.at(source))
+          best = std::max(best, least_distance(t, static_cast<int>(x), static_cast<int>(y)));
+        ASSERT_GT(best, -1.0) << "pixel " << x << ',' << y;
+      }
+      for (const auto& [source, triangles] : by_source)
+        for (const ScreenTriangle& t : triangles) {
+          const auto [x0, x1] = std::minmax({t.vertex[0].x, t.vertex[1].x, t.vertex[2].x});
+          const auto [y0, y1] = std::minmax({t.vertex[0].y, t.vertex[1].y, t.vertex[2].y});
+          for (int y = y0; y <= y1; ++y)
+            for (int x = x0; x <= x1; ++x)
+              if (least_distance(t, x, y) > 0) {
+                ASSERT_TRUE(std::ranges::binary_search(
+                    pixels, std::tuple(source, static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(x))))
+                    << "pixel " << x << ',' << y << " of (" << t.vertex[0].x << ',' << t.vertex[0].y << ") ("
+                    << t.vertex[1].x << ',' << t.vertex[1].y << ") (" << t.vertex[2].x << ',' << t.vertex[2].y
+                    << ')';
+              }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace halfway

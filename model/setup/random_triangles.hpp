@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// For tests: triangles on the screen that setup must survive, and their init vectors' header words.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <random>
+#include <span>
+
+#include "golden/word.hpp"
+#include "setup/edge.hpp"
+#include "setup/walk.hpp"
+
+namespace halfway {
+
+using Points = std::array<ScreenPoint, 3>;
+
+enum class TriangleKind {
+  any,              ///< of the frame's size, partly beside it
+  small,            ///< a few pixels
+  subpixel,         ///< within one pixel
+  one_line,         ///< a line high, any width
+  sliver,           ///< a unit off degenerate, of the frame's size
+  horizontal_edge,  ///< flat at the top or the bottom
+  on_centres,       ///< vertices on pixel centres
+  crossing,         ///< over the whole guard band, most of it beside the frame
+  thin_across,      ///< over the whole guard band, a few units thick
+  outside           ///< beside the frame
+};
+inline constexpr std::array c_triangle_kinds = {TriangleKind::any,         TriangleKind::small,
+                                                TriangleKind::subpixel,    TriangleKind::one_line,
+                                                TriangleKind::sliver,      TriangleKind::horizontal_edge,
+                                                TriangleKind::on_centres,  TriangleKind::crossing,
+                                                TriangleKind::thin_across, TriangleKind::outside};
+
+class RandomTriangles {
+ public:
+  explicit RandomTriangles(unsigned seed) : random_(seed) {}
+
+  /// In 1/2^unit_bits pixels, vertices in any order. `level` of subdivision: the guard band of 8191 pixels is
+  /// halved as often, as setup's triangles are.
+  Points next(TriangleKind kind, int unit_bits, FrameSize frame, int level = 0) {
+    const int unit = 1 << unit_bits, reach = 8191 >> level;
+    const int width = static_cast<int>(frame.width), height = static_cast<int>(frame.height);
+    // An origin such that all that is within `reach` of it lies in the guard band.
+    const int left = level == 0 ? -2048 : within(-reach, width - 1),
+              top = level == 0 ? -2048 : within(-reach, height - 1);
+    const auto anywhere = [&] {
+      return ScreenPoint{left * unit + within(0, reach * unit), top * unit + within(0, reach * unit)};
+    };
+    const auto about_frame = [&] {
+      const int w = std::min(width, reach / 2), h = std::min(height, reach / 2);
+      return ScreenPoint{within(-w / 4 * unit - unit, (w + w / 4) * unit + unit),
+                         within(-h / 4 * unit - unit, (h + h / 4) * unit + unit)};
+    };
+    const auto beside = [&](ScreenPoint p, int by) {
+      return ScreenPoint{p.x + within(-by, by), p.y + within(-by, by)};
+    };
+    Points p = {about_frame(), about_frame(), about_frame()};
+    switch (kind) {
+      case TriangleKind::any:
+        break;
+      case TriangleKind::small:
+        p = {p[0], beside(p[0], 4 * unit), beside(p[0], 4 * unit)};
+        break;
+      case TriangleKind::subpixel:
+        p = {p[0], beside(p[0], unit / 2), beside(p[0], unit / 2)};
+        break;
+      case TriangleKind::one_line: {
+        p = {anywhere(), anywhere(), anywhere()};
+        const int line = within(-1, height);
+        for (ScreenPoint& q : p) q.y = line * unit + within(0, unit);
+        break;
+      }
+      case TriangleKind::sliver:
+      case TriangleKind::thin_across: {
+        if (kind == TriangleKind::thin_across) p = {anywhere(), anywhere(), anywhere()};
+        const std::int64_t t = within(0, 64);
+        const ScreenPoint on_edge = {static_cast<std::int32_t>(p[0].x + t * (p[1].x - p[0].x) / 64),
+                                     static_cast<std::int32_t>(p[0].y + t * (p[1].y - p[0].y) / 64)};
+        p[2] = beside(on_edge, kind == TriangleKind::sliver ? 1 : 20);
+        break;
+      }
+      case TriangleKind::horizontal_edge:
+        p[1].y = p[0].y;
+        break;
+      case TriangleKind::on_centres:
+        for (ScreenPoint& q : p) q = {floor_to(q.x, unit) + unit / 2, floor_to(q.y, unit) + unit / 2};
+        break;
+      case TriangleKind::crossing:
+        p = {anywhere(), anywhere(), anywhere()};
+        break;
+      case TriangleKind::outside: {
+        const bool across = random_() % 2, past = random_() % 2;
+        const int room = std::min(reach / 2, 2000);
+        for (ScreenPoint& q : p) {
+          const std::int32_t by =
+              past ? (across ? width : height) * unit + within(0, room * unit) : -within(0, room * unit);
+          (across ? q.x : q.y) = by;
+        }
+        break;
+      }
+    }
+    std::shuffle(p.begin(), p.end(), random_);
+    return p;
+  }
+
+  int within(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+
+ private:
+  static std::int32_t floor_to(std::int32_t v, int unit) {
+    return static_cast<std::int32_t>(floor_divide(v, unit).quotient) * unit;
+  }
+  std::mt19937 random_;
+};
+
+/// Does `value` fit the field as it stands, without wrapping?
+inline bool fits(const golden::Field& field, std::int64_t value) {
+  const std::int64_t least = field.is_signed ? -(std::int64_t{1} << (field.bits - 1)) : 0;
+  const std::int64_t greatest = (std::int64_t{1} << (field.is_signed ? field.bits - 1 : field.bits)) - 1;
+  return value >= least && value <= greatest;
+}
+
+/// Writes a walk into the header of an init vector; every word must fit its format.
+inline void put_walk(std::span<std::uint32_t> words, const Walk& walk) {
+  using At = golden::Exact::init_header_at;
+  const auto put = [&](const golden::Field& field, std::int64_t value) {
+    EXPECT_TRUE(fits(field, value)) << field.name << ' ' << value;
+    golden::set_bits(words, field, static_cast<std::uint64_t>(value));
+  };
+  put(At::y, walk.y);
+  put(At::upper_lines, walk.upper_lines);
+  put(At::lower_lines, walk.lower_lines);
+  put(At::backward, walk.backward);
+  put(At::start_x, walk.start.pixel);
+  put(At::start_quotient, walk.start.quotient);
+  put(At::start_remainder, walk.start.remainder);
+  put(At::start_divisor, walk.start.divisor);
+  put(At::start_error, walk.start.error);
+  put(At::start_carry, walk.start.carry);
+  put(At::upper_x, walk.upper.pixel);
+  put(At::upper_quotient, walk.upper.quotient);
+  put(At::upper_remainder, walk.upper.remainder);
+  put(At::upper_divisor, walk.upper.divisor);
+  put(At::upper_error, walk.upper.error);
+  put(At::upper_carry, walk.upper.carry);
+  put(At::lower_x, walk.lower.pixel);
+  put(At::lower_quotient, walk.lower.quotient);
+  put(At::lower_remainder, walk.lower.remainder);
+  put(At::lower_divisor, walk.lower.divisor);
+  put(At::lower_error, walk.lower.error);
+  put(At::lower_carry, walk.lower.carry);
+}
+
+}  // namespace halfway

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the golden triangle walker makes of plan_walks' words against for_each_span, line by line and pixel by
+// pixel.
+#include "setup/walk.hpp"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <map>
+#include <ostream>
+#include <vector>
+
+#include "golden/triangle_walker.hpp"
+#include "setup/random_triangles.hpp"
+
+namespace halfway {
+namespace {
+
+using golden::Exact;
+
+struct Span {
+  std::int64_t y, begin, end;
+  friend bool operator==(const Span&, const Span&) = default;
+  friend std::ostream& operator<<(std::ostream& out, const Span& s) {
+    return out << "line " << s.y << " [" << s.begin << ", " << s.end << ')';
+  }
+};
+
+std::vector<Span> expected_spans(const Points& points, int unit_bits, FrameSize frame) {
+  std::vector<Span> spans;
+  for_each_span(points, unit_bits, frame, [&](std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
+    spans.push_back({y, begin, end});
+  });
+  return spans;
+}
+
+// The spans of one walk as the hardware draws them; its first and last line cover a pixel.
+void append_walk(const Walk& walk, std::vector<Span>& spans) {
+  std::array<std::uint32_t, (Exact::c_init_header_bits + 31) / 32> words{};
+  put_walk(words, walk);
+  golden::TriangleWalker<Exact> walker;
+  walker.line_load(words);
+  EXPECT_FALSE(walker.line_empty()) << "first line";
+  for (;;) {
+    const std::int64_t start = walker.start().value(), stop = walker.stop().value();
+    if (!walker.line_empty())
+      spans.push_back(walker.backward() ? Span{walker.y(), stop + 1, start + 1}
+                                        : Span{walker.y(), start, stop});
+    if (walker.line_last()) break;
+    walker.line_step();
+  }
+  EXPECT_FALSE(walker.line_empty()) << "last line";
+}
+
+struct Seen {
+  std::map<std::size_t, int> walks;  // triangles by their number of walks
+  int backward = 0, upper_and_lower = 0;
+};
+
+void expect_walks(const Points& p, int unit_bits, FrameSize frame, Seen& seen) {
+  SCOPED_TRACE(::testing::Message() << '(' << p[0].x << ',' << p[0].y << ") (" << p[1].x << ',' << p[1].y
+                                    << ") (" << p[2].x << ',' << p[2].y << ") unit_bits " << unit_bits
+                                    << " frame " << frame.width << 'x' << frame.height);
+  const std::vector<Walk> walks = plan_walks(p, unit_bits, frame);
+  std::vector<Span> drawn;
+  for (const Walk& walk : walks) {
+    EXPECT_GE(walk.upper_lines, 1);
+    EXPECT_GE(walk.lower_lines, 0);
+    append_walk(walk, drawn);
+    seen.backward += walk.backward;
+    seen.upper_and_lower += walk.lower_lines > 0;
+  }
+  EXPECT_LE(walks.size(), 3u);
+  EXPECT_EQ(drawn, expected_spans(p, unit_bits, frame));
+  ++seen.walks[walks.size()];
+}
+
+constexpr std::array<FrameSize, 9> c_frames = {
+    {{1, 1}, {1, 4096}, {4096, 1}, {7, 5}, {64, 48}, {333, 200}, {640, 480}, {1000, 700}, {4096, 4096}}};
+
+TEST(Walk, TheHardwareDrawsExactlyTheSpansOfEveryKindOfTriangle) {
+  Seen seen;
+  for (int unit_bits = 4; unit_bits <= 9; ++unit_bits)
+    for (const FrameSize frame : c_frames)
+      for (const TriangleKind kind : c_triangle_kinds) {
+        RandomTriangles random(static_cast<unsigned>(unit_bits * 1000 + static_cast<int>(kind)));
+        const int rounds = frame.height > 1000 ? 12 : 40;
+        for (int i = 0; i < rounds; ++i) {
+          expect_walks(random.next(kind, unit_bits, frame, unit_bits - 4), unit_bits, frame, seen);
+          if (::testing::Test::HasFailure()) return;
+        }
+      }
+  // The triangles must be such that the test means something.
+  EXPECT_GT(seen.backward, 1000);
+  EXPECT_GT(seen.upper_and_lower, 1000);
+  for (const auto& [walks, triangles] : seen.walks)
+    std::cout << triangles << " triangles with " << walks << " walks\n";
+  for (const std::size_t walks : {0u, 1u, 2u, 3u}) EXPECT_GT(seen.walks[walks], 50) << walks;
+}
+
+// Every triangle of a small lattice: ties, horizontal edges and crossings of a tiny frame in every
+// combination.
+TEST(Walk, EveryTriangleOfALatticeAroundATinyFrame) {
+  Seen seen;
+  constexpr int c_side = 6, c_points = c_side * c_side;
+  const auto point = [](int i) {
+    return ScreenPoint{(i % c_side) * 8 - 12, (i / c_side) * 8 - 12};  // half pixels: centres and corners
+  };
+  for (int a = 0; a < c_points; ++a)
+    for (int b = a + 1; b < c_points; ++b)
+      for (int c = b + 1; c < c_points; ++c) {
+        expect_walks({point(a), point(b), point(c)}, 4, {1, 2}, seen);
+        if (::testing::Test::HasFailure()) return;
+      }
+  EXPECT_EQ(seen.walks[0] + seen.walks[1] + seen.walks[2] + seen.walks[3],
+            c_points * (c_points - 1) * (c_points - 2) / 6);
+}
+
+TEST(Walk, OrderOfThePointsDoesNotMatter) {
+  RandomTriangles random(5);
+  for (int i = 0; i < 400; ++i) {
+    const TriangleKind kind = c_triangle_kinds[static_cast<std::size_t>(i) % c_triangle_kinds.size()];
+    const Points p = random.next(kind, 4, {64, 48});
+    std::vector<Span> first;
+    for (const Walk& walk : plan_walks(p, 4, {64, 48})) append_walk(walk, first);
+    std::array<int, 3> order = {0, 1, 2};
+    while (std::next_permutation(order.begin(), order.end())) {
+      std::vector<Span> other;
+      for (const Walk& walk : plan_walks({p[order[0]], p[order[1]], p[order[2]]}, 4, {64, 48}))
+        append_walk(walk, other);
+      ASSERT_EQ(first, other);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halfway

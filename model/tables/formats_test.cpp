@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The committed package and header are the table's own; its bounds are what its comments say.
+#include "tables/formats.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "golden/formats.hpp"
+
+namespace halfway::tables {
+namespace {
+
+std::string committed(const std::string& name) {
+  std::ifstream file(std::string(HALFWAY_SOURCE_DIR) + "/" + name, std::ios::binary);
+  EXPECT_TRUE(file) << name;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Formats, TheCommittedFilesAreTheTablesOwn) {
+  const auto presets = preset_formats();
+  EXPECT_TRUE(vhdl_package(presets) == committed("rtl/tables/formats_pkg.vhd")) << "run `make tables`";
+  EXPECT_TRUE(cpp_header(presets) == committed("model/golden/formats.hpp")) << "run `make tables`";
+}
+
+const Format& format_of(const PresetFormats& preset, std::string_view name) {
+  return *std::ranges::find(preset.formats, name, &Format::name);
+}
+
+// What the golden model reads a vector by: each layout without gap or overlap, as wide as its formats.
+template <std::size_t Count>
+void expect_layout(const PresetFormats& preset, const std::vector<Field>& fields,
+                   const std::array<golden::Field, Count>& compiled, int bits) {
+  ASSERT_EQ(fields.size(), Count);
+  int low = 0;
+  for (std::size_t i = 0; i < Count; ++i) {
+    const Format& format = format_of(preset, fields[i].format);
+    EXPECT_EQ(compiled[i].name, fields[i].name);
+    EXPECT_EQ(compiled[i].low, low) << fields[i].name;
+    EXPECT_EQ(compiled[i].bits, format.bits()) << fields[i].name;
+    EXPECT_EQ(compiled[i].is_signed, format.is_signed) << fields[i].name;
+    EXPECT_EQ(compiled[i].fraction_bits, format.fraction_bits) << fields[i].name;
+    low += format.bits();
+  }
+  EXPECT_EQ(low, bits);
+}
+
+template <class Preset>
+void expect_preset(const PresetFormats& preset) {
+  EXPECT_EQ(preset.name, Preset::c_name);
+  ASSERT_EQ(preset.layouts.size(), 2u);
+  expect_layout(preset, preset.layouts[0].header, Preset::c_init_header, Preset::c_init_header_bits);
+  expect_layout(preset, preset.layouts[0].channel, Preset::c_init_channel, Preset::c_init_channel_bits);
+  expect_layout(preset, preset.layouts[1].header, Preset::c_probe_header, Preset::c_probe_header_bits);
+  expect_layout(preset, preset.layouts[1].channel, Preset::c_probe_channel, Preset::c_probe_channel_bits);
+}
+
+TEST(Formats, TheCompiledLayoutsHaveNeitherGapsNorOverlaps) {
+  const auto presets = preset_formats();
+  ASSERT_EQ(presets.size(), 2u);
+  expect_preset<golden::Exact>(presets[0]);
+  expect_preset<golden::Published>(presets[1]);
+}
+
+TEST(Formats, NamesAreUniqueAndTheSameInBothPresets) {
+  const auto presets = preset_formats();
+  std::vector<std::string_view> names[2];
+  for (int p = 0; p < 2; ++p) {
+    for (const Format& f : presets[p].formats) names[p].push_back(f.name);
+    EXPECT_EQ(std::set(names[p].begin(), names[p].end()).size(), names[p].size());
+  }
+  EXPECT_EQ(names[0], names[1]);
+}
+
+TEST(Formats, AWrongFormatNameIsRefused) {
+  auto presets = preset_formats();
+  presets[0].layouts[0].header[0].format = "no such format";
+  EXPECT_THROW(cpp_header(presets), std::logic_error);
+}
+
+// The bounds written beside the formats, from the numbers that they name.
+TEST(Formats, ErrorBoundsFollowFromTheFractionBits) {
+  using golden::Exact;
+  constexpr double c_lines = 4095, c_steps = 8190, c_walked = c_lines + c_steps;
+  const double half_ulp = std::ldexp(1.0, -Exact::c_intensity_fraction_bits - 1);
+  EXPECT_LE((1 + c_walked + c_walked * c_walked / 2) * half_ulp, 0.15);
+  EXPECT_LE((1 + c_walked) * std::ldexp(1.0, -Exact::c_depth_sum_fraction_bits - 1), 0.19);
+  // Control points reach 2 * 1023; half a step for rounding and the bound above come on top.
+  EXPECT_LT(2046 + 0.5 + 0.15,
+            std::ldexp(1.0, Exact::c_intensity_bits - 1 - Exact::c_intensity_fraction_bits));
+  EXPECT_LT(1023 + 0.15, std::ldexp(1.0, Exact::c_intensity_bits - 1 - Exact::c_intensity_fraction_bits));
+  // Guard band: differences below 2^13 pixels of 16 subpixels.
+  EXPECT_LE(8191 * 16, (1 << Exact::c_edge_error_bits) - 1);
+}
+
+}  // namespace
+}  // namespace halfway::tables
