@@ -22,9 +22,9 @@ struct CompareCommand {
 
 constexpr std::size_t c_chunk = 1 << 16;
 
-// Feeds a comparator from two traces.
-Status compare_traces(const std::filesystem::path& golden_path, const std::filesystem::path& rtl_path,
-                      StreamComparator& comparator) {
+// Feeds a comparator from two traces; gives the hardware key's name.
+Result<std::string> compare_traces(const std::filesystem::path& golden_path,
+                                   const std::filesystem::path& rtl_path, StreamComparator& comparator) {
   auto golden = TraceReader::open(golden_path, {});
   if (!golden) return golden.error();
   auto rtl = TraceReader::open(rtl_path, golden->key_name());
@@ -39,19 +39,13 @@ Status compare_traces(const std::filesystem::path& golden_path, const std::files
       more = *count != 0;
       return Ok{};
     };
-    if (const Status status = read(*golden, more_golden); !status) return status;
+    if (const Status status = read(*golden, more_golden); !status) return status.error();
     comparator.add_golden(chunk);
-    if (const Status status = read(*rtl, more_rtl); !status) return status;
+    if (const Status status = read(*rtl, more_rtl); !status) return status.error();
     comparator.add_rtl(chunk);
   }
   comparator.finish();
-  return Ok{};
-}
-
-// A scene as named to `sim`: its results lie under its name without folder and ending.
-std::string result_name(const std::string& scene) {
-  const std::filesystem::path path(scene);
-  return path.has_extension() ? path.stem().string() : path.filename().string();
+  return golden->key_name();
 }
 
 int run(const Folders& folders, const CompareCommand& command) {
@@ -73,9 +67,8 @@ int run(const Folders& folders, const CompareCommand& command) {
       if (!std::filesystem::exists(files.trace(simulator), error)) continue;
       any = true;
       StreamComparator comparator;
-      if (const Status status = compare_traces(files.trace("golden"), files.trace(simulator), comparator);
-          !status)
-        return report(status.error());
+      const auto key = compare_traces(files.trace("golden"), files.trace(simulator), comparator);
+      if (!key) return report(key.error());
       const auto golden = read_png(files.frame("golden")), rtl = read_png(files.frame(simulator));
       if (!golden) return report(golden.error());
       if (!rtl) return report(rtl.error());
@@ -83,9 +76,9 @@ int run(const Folders& folders, const CompareCommand& command) {
       if (!distance) return report(distance.error());
       const bool same = comparator.mismatches() == 0 && distance->differing == 0;
       equal = equal && same;
-      fmt::print("{:<12} {:<10} {:>9} fragments, {} mismatches; frame: {} of {} pixels differ\n",
-                 result_name(scene), simulator, comparator.golden_count(), comparator.mismatches(),
-                 distance->differing, distance->pixels);
+      fmt::print("{:<12} {:<10} {} {}x{} {:>9} fragments, {} mismatches; frame: {} of {} pixels differ\n",
+                 result_name(scene), simulator, *key, golden->size.width, golden->size.height,
+                 comparator.golden_count(), comparator.mismatches(), distance->differing, distance->pixels);
       if (comparator.mismatches() != 0) fmt::print(stderr, "{}", comparator.describe(simulator));
     }
     if (!any)

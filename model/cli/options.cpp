@@ -94,6 +94,11 @@ Result<std::vector<std::string>> builtin_scenes(const Folders& folders) {
   return names;
 }
 
+std::string result_name(const std::string& scene) {
+  const std::filesystem::path path(scene);
+  return path.has_extension() ? path.stem().string() : path.filename().string();
+}
+
 int report(const Error& error) {
   fmt::print(stderr, "{}\n", error.message);
   return static_cast<int>(error.code);

@@ -49,6 +49,9 @@ Result<DrawSettings> checked(const DrawOptions& options);
 /// The built-in scenes' names, in alphabetical order.
 Result<std::vector<std::string>> builtin_scenes(const Folders& folders);
 
+/// The folder's name under which the results of a scene lie, however it was named: without folder and ending.
+std::string result_name(const std::string& scene);
+
 /// Prints the error on stderr and gives its exit code.
 int report(const Error& error);
 

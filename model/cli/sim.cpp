@@ -72,7 +72,8 @@ Outcome draw_scene(const std::string& name, std::size_t number, const Folders& f
 
 // Whether all was equal.
 bool print(const Drawn& drawn) {
-  for (const std::string& note : drawn.notes) fmt::print(stderr, "{}\n", note);
+  for (const auto* notes : {&drawn.notes, &drawn.summary.notes})
+    for (const std::string& note : *notes) fmt::print(stderr, "{}\n", note);
   fmt::print("{}\n", to_line(drawn.summary));
   std::fflush(stdout);
   for (const SimulatorRun& run : drawn.summary.runs) {
@@ -115,6 +116,15 @@ int run(const Folders& folders, const SimOptions& options) {
     if (!builtin) return report(builtin.error());
     scenes = std::move(*builtin);
   }
+
+  // Results lie under a scene's name.
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (result_name(scenes[i]) == result_name(scenes[j]))
+        return report(
+            bad_input(fmt::format("{}: its results would overwrite those of {}; draw them one at a time, or "
+                                  "into another --out",
+                                  scenes[i], scenes[j])));
 
   // Scenes side by side: GHDL runs on one core, and it is what takes the time.
   const unsigned workers = std::clamp<unsigned>(static_cast<unsigned>(scenes.size()), 1, draw->threads);

@@ -93,7 +93,9 @@ int run(const Folders& folders, const WhyCommand& command) {
         d.stage, d.entity, d.cycle, d.triangle, d.y, d.x, d.value, d.golden, d.rtl);
     return static_cast<int>(ExitCode::differs);
   }
-  fmt::print("\ngolden model and RTL agree at every stage of the whole frame\n");
+  fmt::print(
+      "\ngolden model and RTL agree at every stage of the whole frame, as Verilator simulates it\n"
+      "(where GHDL alone differs, a register is used before it is set: see its waveform)\n");
   return static_cast<int>(why->fault.empty() ? ExitCode::equal : ExitCode::differs);
 }
 

@@ -68,9 +68,11 @@ Status write_file(const std::filesystem::path& path, std::string_view content) {
 Status make_folders(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error)
-    return tool_failed(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
-  return Ok{};
+  if (!error) return Ok{};
+  // A full or failing disk is no fault of who named the folder.
+  const bool disk = error == std::errc::no_space_on_device || error == std::errc::io_error;
+  return Error{disk ? ExitCode::tool_failed : ExitCode::bad_input,
+               fmt::format("{}: cannot make the folder: {}", folder.string(), error.message())};
 }
 
 void ContentHash::add_bytes(const void* bytes, std::size_t count) {

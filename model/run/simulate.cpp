@@ -10,12 +10,14 @@
 #include <nlohmann/json.hpp>
 
 #include "common/file.hpp"
+#include "common/folder_lock.hpp"
 #include "frame/assemble.hpp"
 #include "frame/image.hpp"
 #include "frame/init_file.hpp"
 #include "frame/trace.hpp"
 #include "plan/hardware_units.hpp"
 #include "reference/renderer.hpp"
+#include "run/limits.hpp"
 #include "run/scene_stream.hpp"
 #include "run/waveform.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
@@ -29,11 +31,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-// Cycles without a movement after which the hardware hangs: more than any triangle's empty lines.
-constexpr std::uint32_t c_idle_limit = 20'000;
-// Fragments past the golden model's after which a runaway is stopped.
-constexpr std::uint64_t c_most_surplus = 10'000;
 
 // A simulator's fragments on their way: compared, assembled, written.
 class RtlStream {
@@ -98,6 +95,9 @@ class Simulation {
   Result<SceneSummary> run() {
     const Clock::time_point start = Clock::now();
     if (Status status = make_folders(files_.folder); !status) return status.error();
+    const auto lock = FolderLock::take(
+        files_.folder, [this] { s_.on_progress("waiting for another run in its folder", -1.0); });
+    if (!lock) return lock.error();
     if (Status status = forget_old_results(); !status) return status.error();
     std::future<ReferenceImage> reference =
         std::async(std::launch::async, [this] { return draw_reference(); });
@@ -109,6 +109,7 @@ class Simulation {
     for (SimulatorRun& run : summary_.runs)
       if (!run.equal())
         if (Status status = keep_evidence(run); !status) return status.error();
+    note_what_is_unusual();
     summary_.seconds = seconds_since(start);
     if (Status status = write_file(files_.summary(), to_json(summary_)); !status) return status.error();
     return summary_;
@@ -126,6 +127,11 @@ class Simulation {
     for (const char* who : {"reference", "diff"})
       if (Status status = forget(files_.frame(who)); !status) return status;
     if (Status status = forget(files_.init()); !status) return status;
+    // Unfinished files: with the folder locked, of runs that were killed.
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(files_.folder, error))
+      if (entry.path().filename().string().find(".part") != std::string::npos)
+        if (Status status = forget(entry.path()); !status) return status;
     return forget(files_.summary());
   }
   static Status forget(const std::filesystem::path& path) {
@@ -133,6 +139,32 @@ class Simulation {
     std::filesystem::remove(path, error);
     if (error) return tool_failed(fmt::format("{}: cannot remove: {}", path.string(), error.message()));
     return Ok{};
+  }
+
+  // A frame that proves little, or is worse than asked for, is not passed over in silence.
+  void note_what_is_unusual() {
+    const auto note = [this](std::string text) {
+      summary_.notes.push_back(scene_.name + ": " + std::move(text));
+    };
+    const SetupCounts& n = summary_.setup;
+    if (summary_.fragments == 0)
+      note(fmt::format(
+          "no triangle covers a pixel ({} back-facing, {} nearer than the near plane, {} outside, {} too "
+          "small): the frame shows nothing of the hardware",
+          n.projection.back_facing, n.projection.behind_near, n.projection.outside, n.projection.degenerate));
+    const bool near_fitted = scene_.camera.near <= 0.0;
+    if (n.projection.behind_near != 0 && near_fitted)
+      note(fmt::format(
+          "{} triangles lie behind the eye or nearer than the near plane, which was fitted to {:.4g}; set "
+          "near in [camera] to see nearer ones",
+          n.projection.behind_near, depth_range(scene_.camera, bounding_sphere(scene_)).near));
+    if (n.unresolved != 0 && s_.setup.max_level > 0)
+      note(fmt::format(
+          "{} pieces may err by more than {} colour steps after {} levels of splitting; a finer mesh helps",
+          n.unresolved, s_.setup.threshold, s_.setup.max_level));
+    if (n.overexposed != 0)
+      note(
+          fmt::format("{} samples are over-exposed more than four times and were held there", n.overexposed));
   }
 
   ReferenceImage draw_reference() const {
@@ -216,7 +248,9 @@ class Simulation {
     summary_.fragments = golden_.fragments();
     if (Status status = write_png(files_.frame("golden"), golden_.frame()); !status) return status;
     if (verilator) {
-      if (Status status = verilator_trace->commit(verilator->cycles()); !status) return status;
+      // A run that was broken off leaves no trace that could pass for whole.
+      if (rtl_alive)
+        if (Status status = verilator_trace->commit(verilator->cycles()); !status) return status;
       if (Status status = write_png(files_.frame("verilator"), rtl.assembler().frame()); !status)
         return status;
       SimulatorRun run = rtl.finish("verilator");
@@ -377,7 +411,8 @@ std::string to_json(const SceneSummary& s) {
         {"rms_lsb", s.accuracy.rms}}},
       {"setup",
        {{"back_facing", s.setup.projection.back_facing},
-        {"outside", s.setup.projection.outside + s.setup.projection.behind_near},
+        {"behind_near", s.setup.projection.behind_near},
+        {"outside", s.setup.projection.outside},
         {"degenerate", s.setup.projection.degenerate},
         {"on_screen", s.setup.triangles},
         {"subdivided", s.setup.subdivided},

@@ -53,7 +53,8 @@ struct SceneSummary {
   std::uint64_t triangles = 0;  ///< of the scene
   std::uint64_t fragments = 0;  ///< golden
   std::vector<SimulatorRun> runs;
-  FrameDistance accuracy;  ///< golden frame against the reference, over the pixels that either covers
+  FrameDistance accuracy;          ///< golden frame against the reference, over the pixels that either covers
+  std::vector<std::string> notes;  ///< what a reader of the figures should know
   double setup_seconds = 0.0, golden_seconds = 0.0, seconds = 0.0;
   bool equal() const;
 };

@@ -6,17 +6,19 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/file.hpp"
 #include "frame/init_file.hpp"
+#include "run/golden_run.hpp"
+#include "run/limits.hpp"
+#include "sim/ghdl/ghdl_runner.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {
 namespace {
 
 constexpr std::size_t c_vectors_a_read = 64;
-constexpr std::uint64_t c_idle_limit = 20'000;
 
-// Runs the init file until `fragments` have come, or to the end. `last_vectors` bounds how far past them the
-// hardware is fed.
+// Runs the init file until `fragments` have come, or to the end.
 Status run_until(VerilatorSimulator& simulator, const ResultFiles& files, const std::string& key_name,
                  std::uint64_t fragments) {
   auto file = InitFileReader::open(files.init(), key_name);
@@ -41,13 +43,63 @@ Status run_until(VerilatorSimulator& simulator, const ResultFiles& files, const 
   return Ok{};
 }
 
+// The init vectors around fragment `index`: two before its own, and two after.
+Result<InitStream> vectors_around(const HardwareKey& key, const ResultFiles& files, std::uint64_t index) {
+  constexpr std::size_t c_around = 2;
+  auto file = InitFileReader::open(files.init(), key.name());
+  if (!file) return file.error();
+  const std::unique_ptr<GoldenModel> golden = make_golden_model(key);
+  InitStream kept{file->bits(), {}};
+  std::vector<std::uint32_t> words;
+  std::uint64_t drawn = 0;
+  for (std::size_t after = 0; after <= c_around;) {
+    words.clear();
+    const auto count = file->read(words, 1);
+    if (!count) return count.error();
+    if (*count == 0) break;
+    std::vector<Fragment> fragments;
+    golden->draw(words, fragments);
+    drawn += fragments.size();
+    kept.words.insert(kept.words.end(), words.begin(), words.end());
+    if (drawn > index)
+      ++after;
+    else if (kept.size() > c_around)
+      kept.words.erase(kept.words.begin(),
+                       kept.words.begin() + static_cast<std::ptrdiff_t>(kept.words_per_vector()));
+  }
+  return kept;
+}
+
+Result<std::filesystem::path> write_ghdl_waveform(const HardwareKey& key, const SimulatorFolders& folders,
+                                                  const ResultFiles& files, std::uint64_t index,
+                                                  std::uint32_t stall_seed) {
+  const auto vectors = vectors_around(key, files, index);
+  if (!vectors) return vectors.error();
+  const std::filesystem::path path = files.folder / "mismatch-ghdl.fst";
+  const auto scratch = TemporaryFolder::make(files.folder);
+  if (!scratch) return scratch.error();
+  const std::filesystem::path init = scratch->path() / "init.txt";
+  if (const Status status = write_init_file(init, key.name(), *vectors); !status) return status.error();
+  const auto runner = GhdlRunner::open(key, folders);
+  if (!runner) return runner.error();
+  GhdlRunOptions options;
+  options.idle_limit = static_cast<std::uint32_t>(c_waveform_before);
+  options.stall_seed = stall_seed;
+  options.max_fragments = c_idle_limit;
+  options.wave_file = path;
+  const auto run = runner->run(init, scratch->path() / "trace", options);
+  if (!run && run.error().code != ExitCode::differs) return run.error();
+  return path;
+}
+
 }  // namespace
 
 Result<std::filesystem::path> write_mismatch_waveform(const HardwareKey& key, const SimulatorFolders& folders,
                                                       const ResultFiles& files, const std::string& simulator,
                                                       std::optional<std::uint64_t> index,
                                                       std::uint32_t stall_seed) {
-  const std::filesystem::path path = files.folder / fmt::format("mismatch-{}.fst", simulator);
+  if (simulator == "ghdl") return write_ghdl_waveform(key, folders, files, index.value_or(0), stall_seed);
+  const std::filesystem::path path = files.folder / "mismatch-verilator.fst";
   VerilatorOptions options{.stall_seed = stall_seed, .idle_limit = c_idle_limit};
   const std::uint64_t fragments = index ? *index + 1 : UINT64_MAX;
   std::uint64_t at = 0;

@@ -11,6 +11,7 @@
 #include "golden/word.hpp"
 #include "plan/plan.hpp"
 #include "run/golden_run.hpp"
+#include "run/limits.hpp"
 #include "run/scene_stream.hpp"
 #include "run/stream_comparator.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
@@ -81,6 +82,12 @@ StageValue value_of(const PlacedField& f, std::span<const std::uint32_t> golden,
           f.field.is_signed};
 }
 
+// As c_fragment_fields; the same in both presets.
+constexpr std::array<int, 7> c_fragment_bits = {golden::Exact::c_triangle_bits, golden::Exact::c_pixel_y_bits,
+                                                golden::Exact::c_pixel_x_bits,  golden::Exact::c_depth_bits,
+                                                golden::Exact::c_colour_bits,   golden::Exact::c_colour_bits,
+                                                golden::Exact::c_colour_bits};
+
 class Explainer {
  public:
   Explainer(const Scene& scene, const WhySettings& settings) : scene_(scene), s_(settings) {}
@@ -93,7 +100,8 @@ class Explainer {
         exact ? init_fields<golden::Exact>(key.channels) : init_fields<golden::Published>(key.channels);
     probe_fields_ =
         exact ? probe_fields<golden::Exact>(key.channels) : probe_fields<golden::Published>(key.channels);
-    auto simulator = VerilatorSimulator::open(key, s_.folders, {.idle_limit = 20'000, .record_probes = true});
+    auto simulator =
+        VerilatorSimulator::open(key, s_.folders, {.idle_limit = c_idle_limit, .record_probes = true});
     if (!simulator) return simulator.error();
     const QuadraticSetup setup(scene_, s_.size, report_.key, s_.setup);
     const std::unique_ptr<GoldenModel> golden = make_golden_model(report_.key);
@@ -112,6 +120,7 @@ class Explainer {
       }
     }
     if (alive) take(simulator->finish(rtl_fragments_, golden_fragments_.size() + c_surplus), *simulator);
+    if (tool_error_) return *tool_error_;
     note_missing();
     return report_;
   }
@@ -167,12 +176,8 @@ class Explainer {
     story.stages[2].stage = "fragment";
     const auto golden = fields(fragment);
     for (std::size_t i = 0; i < golden.size(); ++i)
-      story.stages[2].values.push_back({std::string(c_fragment_fields[i]), golden[i], 0,
-                                        i == 3   ? 24
-                                        : i == 0 ? 32
-                                        : i < 3  ? 12
-                                                 : 8,
-                                        0, false});
+      story.stages[2].values.push_back(
+          {std::string(c_fragment_fields[i]), golden[i], 0, c_fragment_bits[i], 0, false});
     report_.stories.push_back(std::move(story));
     return report_.stories.size() - 1;
   }
@@ -190,6 +195,7 @@ class Explainer {
   // be learnt.
   bool take(const Status& status, VerilatorSimulator& simulator) {
     for (const ProbeRecord& record : simulator.probes()) {
+      last_cycle_ = record.cycle;
       if ((record.words[0] & 1) != 0) check(record, "line", "line_", lines_, 0);
       if ((record.words[0] & 2) != 0) {
         check(record, "span", "span_", spans_, 1);
@@ -200,7 +206,10 @@ class Explainer {
     for (const Fragment& f : rtl_fragments_) check_fragment(f);
     rtl_fragments_.clear();
     if (status) return true;
-    report_.fault = status.error().message;
+    if (status.error().code == ExitCode::differs)
+      report_.fault = status.error().message;
+    else
+      tool_error_ = status.error();
     return false;
   }
 
@@ -261,12 +270,11 @@ class Explainer {
     };
     missing("line", lines_);
     missing("span", spans_);
-    if (report_.first && report_.first->cycle == UINT64_MAX) report_.first->cycle = last_cycle_;
+    if (report_.first && report_.first->cycle == UINT64_MAX) report_.first->cycle = last_cycle_ + 1;
   }
 
   // Keeps the earliest; of equal cycles the earlier stage, which is checked first.
   void differ(FirstDifference difference) {
-    if (difference.cycle != UINT64_MAX) last_cycle_ = std::max(last_cycle_, difference.cycle);
     if (!report_.first || difference.cycle < report_.first->cycle) report_.first = std::move(difference);
   }
 
@@ -279,6 +287,7 @@ class Explainer {
   std::deque<std::uint64_t> fragment_cycles_;
   std::vector<Fragment> rtl_fragments_;
   ProbeEvent line_event_{};
+  std::optional<Error> tool_error_;
   std::uint64_t vector_ = 0, last_cycle_ = 0;
 };
 

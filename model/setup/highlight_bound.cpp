@@ -42,7 +42,8 @@ std::optional<Cone> cone_around(const std::array<glm::dvec3, 3>& directions) {
 // Parts of a derivative's or a jump's greatest effect that a quadratic through six samples may miss, for a
 // side of one: along an edge x(x - 1/2)(x - 1)/6 is 0.008 at most, times 1.38, the third derivative of
 // exp(-x^2/2); the bend max(0, x - a) is missed by 0.094, the parabola of second derivative 6 that begins at
-// a by 0.094. Rounded up over random triangles, whose insides do a little worse: see highlight_bound_test.cpp.
+// a by 0.094. Rounded up over random triangles, whose insides do a little worse: see
+// highlight_bound_test.cpp.
 constexpr double c_third_derivative = 0.009;
 constexpr double c_bend = 0.1;
 constexpr double c_spot_edge = 0.1;
