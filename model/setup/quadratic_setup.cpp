@@ -375,7 +375,7 @@ void QuadraticSetup::append_published(const ScreenTriangle& triangle, std::vecto
     // Whole numbers: a rounded edge could fall on the wrong side of a vertex that it meets.
     const bool long_left = (bottom.x - top.x) * (mid.y - top.y) < (mid.x - top.x) * (bottom.y - top.y);
 
-    // A horizontal-sided half: `apex` at one end, the other end between x_a and x_b.
+    // The lines from one vertex to the next below it; the long edge runs past both.
     const auto half_triangle = [&](const Vertex& from, const Vertex& to) {
       if (from.y == to.y) return;
       ++counts.vectors;
