@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "setup/edge.hpp"
+#include "frame/frame_size.hpp"
 
 namespace halfway {
 

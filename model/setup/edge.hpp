@@ -7,11 +7,9 @@
 #include <cstdint>
 #include <utility>
 
-namespace halfway {
+#include "frame/frame_size.hpp"
 
-struct FrameSize {
-  std::uint32_t width = 0, height = 0;
-};
+namespace halfway {
 
 /// Floor division and its remainder in [0, d), d > 0.
 struct FlooredQuotient {

@@ -10,7 +10,8 @@
 -- Throughput  1 fragment a clock, with no bubble between spans, lines and triangles; lines that cover no pixel cost a
 --             clock each where no span is being drawn meanwhile
 -- Error       preset exact: the colour is within 0.65 steps of the quadratic through the six samples (0.5 rounding,
---             0.15 differences), depth within 1.2
+--             0.15 differences), depth within 0.69 of the triangle's plane, and a step more within a step of 0 or of
+--             its largest value, which setup keeps clear
 -- Source      quadratic paper, section 5 and figure 6
 -- Golden twin model/golden/quadratic_shader.hpp
 
