@@ -243,7 +243,7 @@ TEST_F(CliTest, AFullDiskExitsThreeAndLeavesNothingHalfWritten) {
 TEST_F(CliTest, AnUnwritableFolderIsBadInput) {
   write("file", "not a folder");
   const Outcome outcome = run({"sim", "spheres", "--size", "8x6", "--out", folder_->path() / "file" / "out"});
-  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("file"));
 }
 

@@ -95,7 +95,7 @@ int run(const Folders& folders, const WhyCommand& command) {
   }
   fmt::print(
       "\ngolden model and RTL agree at every stage of the whole frame, as Verilator simulates it\n"
-      "(where GHDL alone differs, a register is used before it is set: see its waveform)\n");
+      "(what GHDL alone finds wrong is a register used before it is set: see its waveform)\n");
   return static_cast<int>(why->fault.empty() ? ExitCode::equal : ExitCode::differs);
 }
 

@@ -37,7 +37,7 @@ TEST_F(File, ErrorsNameTheFileAndLeaveNothing) {
   const auto full = LineWriter::open("/proc/halfway/file");
   ASSERT_FALSE(full);
   EXPECT_NE(full.error().message.find("/proc/halfway"), std::string::npos);
-  EXPECT_EQ(full.error().code, ExitCode::tool_failed);
+  EXPECT_EQ(full.error().code, ExitCode::bad_input);
   // A folder stands where the file should be: the rename fails after everything was written.
   ASSERT_TRUE(make_folders(*this / "taken"));
   EXPECT_FALSE(write_file(*this / "taken", "content"));
