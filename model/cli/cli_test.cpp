@@ -264,6 +264,10 @@ struct Fault {
   const char *name, *file, *from, *to, *stage;
 };
 
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << fault.name;
+}
+
 class WrongRtl : public CliTest, public ::testing::WithParamInterface<Fault> {};
 
 TEST_P(WrongRtl, IsCaughtAndLocated) {
