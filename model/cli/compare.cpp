@@ -10,6 +10,7 @@
 #include "frame/trace.hpp"
 #include "run/result_files.hpp"
 #include "run/stream_comparator.hpp"
+#include "run/trace_pair.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -20,8 +21,6 @@ struct CompareCommand {
   std::vector<std::string> scenes;
 };
 
-constexpr std::size_t c_chunk = 1 << 16;
-
 // Feeds a comparator from two traces; gives the hardware key's name.
 Result<std::string> compare_traces(const std::filesystem::path& golden_path,
                                    const std::filesystem::path& rtl_path, StreamComparator& comparator) {
@@ -29,21 +28,11 @@ Result<std::string> compare_traces(const std::filesystem::path& golden_path,
   if (!golden) return golden.error();
   auto rtl = TraceReader::open(rtl_path, golden->key_name());
   if (!rtl) return rtl.error();
-  for (bool more_golden = true, more_rtl = true; more_golden || more_rtl;) {
-    std::vector<Fragment> chunk;
-    const auto read = [&](TraceReader& reader, bool& more) -> Status {
-      chunk.clear();
-      if (!more) return Ok{};
-      const auto count = reader.read(chunk, c_chunk);
-      if (!count) return count.error();
-      more = *count != 0;
-      return Ok{};
-    };
-    if (const Status status = read(*golden, more_golden); !status) return status.error();
-    comparator.add_golden(chunk);
-    if (const Status status = read(*rtl, more_rtl); !status) return status.error();
-    comparator.add_rtl(chunk);
-  }
+  if (const Status status = read_side_by_side(
+          *golden, &*rtl, [&](auto fragments) { comparator.add_golden(fragments); },
+          [&](auto fragments) { comparator.add_rtl(fragments); });
+      !status)
+    return status.error();
   comparator.finish();
   return golden->key_name();
 }

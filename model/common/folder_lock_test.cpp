@@ -25,7 +25,8 @@ TEST(FolderLock, MakesTheSecondWaitForTheFirst) {
     EXPECT_TRUE(lock);
     taken = true;
   });
-  while (!waited) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  for (int i = 0; i < 10'000 && !waited; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(waited) << "the second did not meet the first's lock";
   EXPECT_FALSE(taken);
   held.reset();
   second.join();

@@ -19,6 +19,7 @@
 #include "reference/renderer.hpp"
 #include "run/limits.hpp"
 #include "run/scene_stream.hpp"
+#include "run/trace_pair.hpp"
 #include "run/waveform.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
@@ -296,7 +297,6 @@ class Simulation {
   }
 
   Status add_traces(RtlStream& rtl, const std::string& fault) {
-    constexpr std::size_t c_chunk = 1 << 16;
     const std::string key = summary_.plan.key.name();
     auto golden = TraceReader::open(files_.trace("golden"), key);
     if (!golden) return golden.error();
@@ -306,22 +306,11 @@ class Simulation {
       if (!opened) return opened.error();
       drawn.emplace(std::move(*opened));
     }
-    for (bool more_golden = true, more_drawn = drawn.has_value(); more_golden || more_drawn;) {
-      std::vector<Fragment> chunk;
-      if (more_golden) {
-        const auto count = golden->read(chunk, c_chunk);
-        if (!count) return count.error();
-        more_golden = *count != 0;
-        rtl.add_golden(chunk);
-        chunk.clear();
-      }
-      if (more_drawn) {
-        const auto count = drawn->read(chunk, c_chunk);
-        if (!count) return count.error();
-        more_drawn = *count != 0;
-        rtl.add(chunk);
-      }
-    }
+    if (Status status = read_side_by_side(
+            *golden, drawn ? &*drawn : nullptr, [&](auto fragments) { rtl.add_golden(fragments); },
+            [&](auto fragments) { rtl.add(fragments); });
+        !status)
+      return status;
     if (!fault.empty()) rtl.set_fault(fault);
     return Ok{};
   }
