@@ -8,7 +8,9 @@
 
 #include "golden/quadratic_shader.hpp"
 #include "reference/shade.hpp"
+#include "setup/half_triangle.hpp"
 #include "setup/highlight_bound.hpp"
+#include "setup/init_vector.hpp"
 #include "setup/quadratic_fit.hpp"
 #include "setup/walk.hpp"
 
@@ -157,80 +159,15 @@ double held_sample(double radiance, SetupCounts& counts) {
   return c_largest_sample;
 }
 
-// One init vector under construction, at the end of a list of words.
-template <class Preset>
-class InitVector {
- public:
-  InitVector(std::vector<std::uint32_t>& words, unsigned bits) {
-    const std::size_t begin = words.size(), count = (bits + 31) / 32;
-    words.resize(begin + count, 0);
-    words_ = std::span(words).subspan(begin, count);
-  }
-  void put(const golden::Field& field, std::int64_t value) {
-    golden::set_bits(words_, field, static_cast<std::uint64_t>(value));
-  }
-  // Sums wrap modulo the field's width, so a start word may as well.
-  void put_wrapped(const golden::Field& field, Int128 value) {
-    golden::set_bits(words_, field, static_cast<std::uint64_t>(value));
-  }
-  void put_channel(int channel, const golden::Field& field, Int128 value) {
-    golden::set_bits(words_, field, static_cast<std::uint64_t>(value),
-                     Preset::c_init_header_bits + channel * Preset::c_init_channel_bits);
-  }
-
- private:
-  std::span<std::uint32_t> words_;
-};
-
-constexpr double c_depth_steps = double((1 << Exact::c_depth_bits) - 1);
-
-std::int64_t fixed(double value, int fraction_bits) {
-  return std::llround(std::ldexp(value, fraction_bits));
-}
-
-// Depth words keep one step clear of either end, so that rounding never wraps the 24 bits.
+// Depth words of the whole triangle.
 std::array<std::int64_t, 3> fixed_depths(const ScreenTriangle& t) {
   std::array<std::int64_t, 3> z;
   for (std::size_t i = 0; i < 3; ++i)
-    z[i] = fixed(std::clamp(t.vertex[i].z * c_depth_steps, 1.0, c_depth_steps - 2.0),
-                 Exact::c_depth_sum_fraction_bits);
+    z[i] = fixed(depth_steps(t.vertex[i].z), Exact::c_depth_sum_fraction_bits);
   return z;
 }
 
-constexpr std::int64_t half(int fraction_bits) {
-  return std::int64_t{1} << (fraction_bits - 1);
-}
-
-void put_section(InitVector<Exact>& init, const EdgeSection& s, const golden::Field& x,
-                 const golden::Field& quotient, const golden::Field& remainder, const golden::Field& divisor,
-                 const golden::Field& error, const golden::Field& carry) {
-  init.put(x, s.pixel);
-  init.put(quotient, s.quotient);
-  init.put(remainder, s.remainder);
-  init.put(divisor, s.divisor);
-  init.put(error, s.error);
-  init.put(carry, s.carry);
-}
-
-// Word of a real number modulo 2^bits; a sliver's differences may be far past any integer type.
-std::int64_t wrapped_word(long double value, int fraction_bits, int bits) {
-  const long double modulus = std::ldexp(1.0L, bits);
-  return static_cast<std::int64_t>(std::fmod(std::rint(std::ldexp(value, fraction_bits)), modulus));
-}
-
 }  // namespace
-
-SetupCounts& SetupCounts::operator+=(const SetupCounts& o) {
-  projection += o.projection;
-  triangles += o.triangles;
-  subdivided += o.subdivided;
-  leaves += o.leaves;
-  vectors += o.vectors;
-  shaded += o.shaded;
-  overexposed += o.overexposed;
-  unresolved += o.unresolved;
-  return *this;
-}
 
 QuadraticSetup::QuadraticSetup(const Scene& scene, FrameSize frame, const HardwareKey& key,
                                QuadraticSetupOptions options)
@@ -271,7 +208,6 @@ void QuadraticSetup::append_exact(const ScreenTriangle& triangle, std::vector<st
   const Sampler sampler(*scene_, triangle, counts);
   const std::array<std::int64_t, 3> depths = fixed_depths(triangle);
   constexpr int c_fraction = Exact::c_intensity_fraction_bits;
-  using At = Exact::init_header_at;
   using ChannelAt = Exact::init_channel_at;
 
   subdivide(whole(triangle, sampler), sampler, options_, subpixel_bits, counts, [&](const Piece& piece) {
@@ -295,36 +231,22 @@ void QuadraticSetup::append_exact(const ScreenTriangle& triangle, std::vector<st
     }
     for (const Walk& walk : walks) {
       ++counts.vectors;
-      InitVector<Exact> init(words, init_bits_);
-      init.put(At::triangle, triangle.source);
-      init.put(At::y, walk.y);
-      init.put(At::upper_lines, walk.upper_lines);
-      init.put(At::lower_lines, walk.lower_lines);
-      init.put(At::backward, walk.backward);
-      put_section(init, walk.start, At::start_x, At::start_quotient, At::start_remainder, At::start_divisor,
-                  At::start_error, At::start_carry);
-      put_section(init, walk.upper, At::upper_x, At::upper_quotient, At::upper_remainder, At::upper_divisor,
-                  At::upper_error, At::upper_carry);
-      put_section(init, walk.lower, At::lower_x, At::lower_quotient, At::lower_remainder, At::lower_divisor,
-                  At::lower_error, At::lower_carry);
-      const DifferenceStart start{walk.start.pixel, walk.y, walk.start.quotient, walk.backward};
-      const DepthWords z = depth.words(start, half(Exact::c_depth_sum_fraction_bits));
-      init.put_wrapped(At::z, z.value);
-      init.put_wrapped(At::z_dx, z.dx);
-      init.put_wrapped(At::z_de0, z.de0);
-      init.put_wrapped(At::z_de1, z.de1);
+      InitVector init(words, init_bits_);
+      const DifferenceStart start = difference_start(walk);
+      put_header(init, triangle.source, walk, depth.words(start, half(Exact::c_depth_sum_fraction_bits)));
       for (int c = 0; c < channels_; ++c) {
         const QuadraticWords w = fit.words(channel[static_cast<std::size_t>(c)], start, half(c_fraction));
-        init.put_channel(c, ChannelAt::value, w.value);
-        init.put_channel(c, ChannelAt::dx, w.dx);
-        init.put_channel(c, ChannelAt::de0, w.de0);
-        init.put_channel(c, ChannelAt::de1, w.de1);
-        init.put_channel(c, ChannelAt::dxx, w.dxx);
-        init.put_channel(c, ChannelAt::dxe0, w.dxe0);
-        init.put_channel(c, ChannelAt::dxe1, w.dxe1);
-        init.put_channel(c, ChannelAt::de0e0, w.de0e0);
-        init.put_channel(c, ChannelAt::de0e1, w.de0e1);
-        init.put_channel(c, ChannelAt::de1e1, w.de1e1);
+        const int low = Exact::c_init_header_bits + c * Exact::c_init_channel_bits;
+        init.put(ChannelAt::value, w.value, low);
+        init.put(ChannelAt::dx, w.dx, low);
+        init.put(ChannelAt::de0, w.de0, low);
+        init.put(ChannelAt::de1, w.de1, low);
+        init.put(ChannelAt::dxx, w.dxx, low);
+        init.put(ChannelAt::dxe0, w.dxe0, low);
+        init.put(ChannelAt::dxe1, w.dxe1, low);
+        init.put(ChannelAt::de0e0, w.de0e0, low);
+        init.put(ChannelAt::de0e1, w.de0e1, low);
+        init.put(ChannelAt::de1e1, w.de1e1, low);
       }
     }
   });
@@ -334,19 +256,12 @@ void QuadraticSetup::append_published(const ScreenTriangle& triangle, std::vecto
                                       SetupCounts& counts) const {
   const Sampler sampler(*scene_, triangle, counts);
   constexpr int c_fraction = Published::c_intensity_fraction_bits, c_bits = Published::c_intensity_bits;
-  constexpr int c_x_fraction = Published::c_edge_x_fraction_bits, c_x_bits = Published::c_edge_x_bits;
-  constexpr int c_z_fraction = Published::c_depth_sum_fraction_bits, c_z_bits = Published::c_depth_sum_bits;
-  using At = Published::init_header_at;
   using ChannelAt = Published::init_channel_at;
   using Real = long double;
 
   subdivide(whole(triangle, sampler), sampler, options_, 0, counts, [&](const Piece& piece) {
     // Vertices are whole pixels: a midpoint between them is rounded, and a T-junction may open (a published
     // fault).
-    struct Vertex {
-      Real x, y, z;
-      std::array<Real, 3> value;
-    };
     const auto vertex = [&](std::size_t i) {
       const Corner& corner = piece.samples[i].corner;
       const auto whole_pixel = [&](std::int32_t v) {
@@ -354,53 +269,25 @@ void QuadraticSetup::append_published(const ScreenTriangle& triangle, std::vecto
                                               std::int64_t{2} << piece.level)
                                      .quotient);
       };
-      Vertex v{whole_pixel(corner.point.x),
-               whole_pixel(corner.point.y),
-               std::clamp(piece.samples[i].surface.z * c_depth_steps, 1.0, c_depth_steps - 2.0),
-               {}};
-      for (int c = 0; c < channels_; ++c)
-        v.value[static_cast<std::size_t>(c)] = held_sample(piece.samples[i].radiance[c], counts);
-      return v;
+      return HalfVertex{whole_pixel(corner.point.x), whole_pixel(corner.point.y),
+                        depth_steps(piece.samples[i].surface.z)};
     };
-    const std::array<Vertex, 3> p = {vertex(0), vertex(1), vertex(2)};
+    const std::array<HalfVertex, 3> p = {vertex(0), vertex(1), vertex(2)};
+    std::array<std::array<Real, 6>, 3> sample{};
+    for (std::size_t c = 0; c < static_cast<std::size_t>(channels_); ++c)
+      for (std::size_t n = 0; n < 6; ++n)
+        sample[c][n] = held_sample(piece.samples[n].radiance[static_cast<int>(c)], counts);
     const Real x2 = p[1].x - p[0].x, y2 = p[1].y - p[0].y, x3 = p[2].x - p[0].x, y3 = p[2].y - p[0].y;
     const Real d = x2 * y3 - y2 * x3;
-    if (d == 0) return;
-    std::array<std::size_t, 3> order = {0, 1, 2};
-    std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return p[a].y < p[b].y; });
-    const Vertex &top = p[order[0]], &mid = p[order[1]], &bottom = p[order[2]];
-    const Real zu = ((p[1].z - p[0].z) * y3 - (p[2].z - p[0].z) * y2) / d;
-    const Real zv = ((p[2].z - p[0].z) * x2 - (p[1].z - p[0].z) * x3) / d;
-
-    // Whole numbers: a rounded edge could fall on the wrong side of a vertex that it meets.
-    const bool long_left = (bottom.x - top.x) * (mid.y - top.y) < (mid.x - top.x) * (bottom.y - top.y);
-
-    // The lines from one vertex to the next below it; the long edge runs past both.
-    const auto half_triangle = [&](const Vertex& from, const Vertex& to) {
-      if (from.y == to.y) return;
+    for (const HalfTriangle& half_triangle : half_triangles(p)) {
       ++counts.vectors;
-      InitVector<Published> init(words, init_bits_);
-      const Real along = (bottom.x - top.x) / (bottom.y - top.y);
-      const Real x_long = top.x + (from.y - top.y) * along, slope_short = (to.x - from.x) / (to.y - from.y);
-      const Real x_start = long_left ? x_long : from.x, slope_start = long_left ? along : slope_short;
-      const Real x_stop = long_left ? from.x : x_long, slope_stop = long_left ? slope_short : along;
-      init.put(At::triangle, triangle.source);
-      init.put(At::y, static_cast<std::int64_t>(from.y));
-      init.put(At::upper_lines, static_cast<std::int64_t>(to.y - from.y) + 1);
-      // The half makes the whole part the nearest pixel.
-      init.put(At::start_x, wrapped_word(x_start + 0.5L, c_x_fraction, c_x_bits));
-      init.put(At::start_slope, wrapped_word(slope_start, c_x_fraction, c_x_bits));
-      init.put(At::upper_x, wrapped_word(x_stop + 0.5L, c_x_fraction, c_x_bits));
-      init.put(At::upper_slope, wrapped_word(slope_stop, c_x_fraction, c_x_bits));
-      const Real u = x_start - p[0].x, v = from.y - p[0].y, a = slope_start;
-      init.put(At::z, wrapped_word(p[0].z + zu * u + zv * v + 0.5L, c_z_fraction, c_z_bits));
-      init.put(At::z_dx, wrapped_word(zu, c_z_fraction, c_z_bits));
-      init.put(At::z_de0, wrapped_word(zu * a + zv, c_z_fraction, c_z_bits));
+      InitVector init(words, init_bits_);
+      put_header(init, triangle.source, half_triangle, p);
+      const Real u = half_triangle.x_start - p[0].x, v = static_cast<Real>(half_triangle.y) - p[0].y;
+      const Real a = half_triangle.slope_start;
       for (int c = 0; c < channels_; ++c) {
-        const auto i = [&](std::size_t n) {
-          return n < 3 ? p[n].value[static_cast<std::size_t>(c)]
-                       : static_cast<Real>(held_sample(piece.samples[n].radiance[c], counts));
-        };
+        const int low = Published::c_init_header_bits + c * Published::c_init_channel_bits;
+        const auto i = [&](std::size_t n) { return sample[static_cast<std::size_t>(c)][n]; };
         const Real c2 = 4 * i(3) - 3 * i(0) - i(1), c3 = 4 * i(4) - 3 * i(0) - i(2);
         const Real q2 = 2 * (i(0) + i(1) - 2 * i(3)), q3 = 2 * (i(0) + i(2) - 2 * i(4));
         const Real b = 4 * (i(5) - i(3) - i(4) + i(0));
@@ -409,19 +296,16 @@ void QuadraticSetup::append_published(const ScreenTriangle& triangle, std::vecto
         const Real t4 = (-2 * q2 * x3 * y3 + b * (x2 * y3 + x3 * y2) - 2 * q3 * x2 * y2) / (d * d);
         const Real t5 = (q2 * y3 * y3 - b * y2 * y3 + q3 * y2 * y2) / (d * d);
         const auto word = [&](Real value) { return Int128{wrapped_word(value, c_fraction, c_bits)}; };
-        init.put_channel(c, ChannelAt::value,
-                         word(i(0) + t2 * u + t1 * v + t5 * u * u + t4 * u * v + t3 * v * v + 0.5L));
-        init.put_channel(c, ChannelAt::dx, word(2 * t5 * u + t4 * v + t5 + t2));
-        init.put_channel(
-            c, ChannelAt::de0,
-            word(t5 * a * a + (2 * t5 * u + t4 * v + t4 + t2) * a + t4 * u + 2 * t3 * v + t3 + t1));
-        init.put_channel(c, ChannelAt::dxx, word(2 * t5));
-        init.put_channel(c, ChannelAt::dxe0, word(2 * t5 * a + t4));
-        init.put_channel(c, ChannelAt::de0e0, word(2 * (t5 * a * a + t4 * a + t3)));
+        init.put(ChannelAt::value, word(i(0) + t2 * u + t1 * v + t5 * u * u + t4 * u * v + t3 * v * v + 0.5L),
+                 low);
+        init.put(ChannelAt::dx, word(2 * t5 * u + t4 * v + t5 + t2), low);
+        init.put(ChannelAt::de0,
+                 word(t5 * a * a + (2 * t5 * u + t4 * v + t4 + t2) * a + t4 * u + 2 * t3 * v + t3 + t1), low);
+        init.put(ChannelAt::dxx, word(2 * t5), low);
+        init.put(ChannelAt::dxe0, word(2 * t5 * a + t4), low);
+        init.put(ChannelAt::de0e0, word(2 * (t5 * a * a + t4 * a + t3)), low);
       }
-    };
-    half_triangle(top, mid);
-    half_triangle(mid, bottom);
+    }
   });
 }
 

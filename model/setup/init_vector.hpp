@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Init vectors under construction: words into the fields of a flat vector.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "golden/word.hpp"
+#include "setup/exact_division.hpp"
+#include "setup/quadratic_fit.hpp"
+#include "setup/walk.hpp"
+
+namespace halfway {
+
+/// One vector of `bits` bits, zero at first, at the end of a list of words.
+class InitVector {
+ public:
+  InitVector(std::vector<std::uint32_t>& words, unsigned bits) {
+    const std::size_t begin = words.size(), count = (bits + 31) / 32;
+    words.resize(begin + count, 0);
+    words_ = std::span(words).subspan(begin, count);
+  }
+  /// The value modulo 2^bits of the field, in the block that starts at bit `block_low`: sums wrap, so a start
+  /// word may as well.
+  void put(const golden::Field& field, Int128 value, int block_low = 0) {
+    golden::set_bits(words_, field, static_cast<std::uint64_t>(value), block_low);
+  }
+  std::span<const std::uint32_t> words() const { return words_; }
+
+ private:
+  std::span<std::uint32_t> words_;
+};
+
+/// value * 2^fraction_bits, rounded.
+inline std::int64_t fixed(double value, int fraction_bits) {
+  return std::llround(std::ldexp(value, fraction_bits));
+}
+
+constexpr std::int64_t half(int fraction_bits) {
+  return std::int64_t{1} << (fraction_bits - 1);
+}
+
+/// Word of a real number modulo 2^bits; a sliver's differences may be far past any integer type.
+inline std::int64_t wrapped_word(long double value, int fraction_bits, int bits) {
+  const long double modulus = std::ldexp(1.0L, bits);
+  return static_cast<std::int64_t>(std::fmod(std::rint(std::ldexp(value, fraction_bits)), modulus));
+}
+
+inline constexpr double c_depth_steps = double((1 << golden::Exact::c_depth_bits) - 1);
+
+/// Depth in [0, 1] in steps, a step clear of either end, so that rounding never wraps the 24 bits.
+inline double depth_steps(double z) {
+  return std::clamp(z * c_depth_steps, 1.0, c_depth_steps - 2.0);
+}
+
+/// The header of preset exact: triangle, walk and depth.
+void put_header(InitVector& init, std::uint32_t triangle, const Walk& walk, const DepthWords& depth);
+
+/// Where forward differences start on a walk.
+inline DifferenceStart difference_start(const Walk& walk) {
+  return {walk.start.pixel, walk.y, walk.start.quotient, walk.backward};
+}
+
+}  // namespace halfway

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "setup/setup.hpp"
+
+#include "setup/quadratic_setup.hpp"
+
+namespace halfway {
+
+SetupCounts& SetupCounts::operator+=(const SetupCounts& o) {
+  projection += o.projection;
+  triangles += o.triangles;
+  subdivided += o.subdivided;
+  leaves += o.leaves;
+  vectors += o.vectors;
+  records += o.records;
+  shaded += o.shaded;
+  overexposed += o.overexposed;
+  unresolved += o.unresolved;
+  return *this;
+}
+
+std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                                  const SetupOptions& options) {
+  return std::make_unique<QuadraticSetup>(scene, frame, key, options.quadratic);
+}
+
+}  // namespace halfway

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the shaders' setups have in common: from the scene's triangles to init vectors.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "frame/frame_size.hpp"
+#include "plan/hardware_key.hpp"
+#include "scene/scene.hpp"
+#include "setup/project.hpp"
+
+namespace halfway {
+
+enum class HighlightTest {
+  none,         ///< never split
+  centroid,     ///< as published: at the centroid
+  conservative  ///< and a bound that no highlight slips through
+};
+
+struct QuadraticSetupOptions {
+  HighlightTest test = HighlightTest::conservative;
+  double threshold = 2.0;  ///< colour steps of 1/255; past it a triangle is split in four
+  int max_level = 5;       ///< of subdivision, 0 to 5
+};
+
+/// Where the spherical shader takes the vectors at the two ends of a span from.
+enum class SpanEnds {
+  on_surface,           ///< the surface behind the end pixels' centres, perspective-correct
+  slerped_along_edges,  ///< as published: spherical interpolation along the triangle's edges
+};
+
+struct SphericalSetupOptions {
+  SpanEnds ends = SpanEnds::on_surface;  ///< of preset exact; published has slerped_along_edges always
+};
+
+struct SetupOptions {
+  QuadraticSetupOptions quadratic;
+  SphericalSetupOptions spherical;
+};
+
+struct SetupCounts {
+  ProjectionCounts projection;
+  std::uint64_t triangles = 0;    ///< screen triangles
+  std::uint64_t subdivided = 0;   ///< of these, split at least once
+  std::uint64_t leaves = 0;       ///< triangles after subdivision
+  std::uint64_t vectors = 0;      ///< init vectors that begin a triangle
+  std::uint64_t records = 0;      ///< line records that follow them
+  std::uint64_t shaded = 0;       ///< quadratic: evaluations of the illumination model; spherical: of vectors
+  std::uint64_t overexposed = 0;  ///< samples or factors held at c_largest_sample
+  std::uint64_t unresolved = 0;   ///< leaves past the threshold at the last level
+  SetupCounts& operator+=(const SetupCounts& other);
+};
+
+/// Samples are held at four times full exposure, 1023 steps: then no control point of the quadratic leaves
+/// the intensity format, and the quadratic stays inside the hull of its control points.
+inline constexpr double c_largest_sample = 1023.0;
+
+class Setup {
+ public:
+  virtual ~Setup() = default;
+
+  /// Bits of one vector of the stream.
+  virtual unsigned init_bits() const = 0;
+  /// Appends the vectors of one of the scene's triangles, (init_bits() + 31)/32 words each.
+  virtual void append(std::uint32_t triangle, std::vector<std::uint32_t>& words,
+                      SetupCounts& counts) const = 0;
+};
+
+/// The setup of the hardware that the key names. The scene must outlive it.
+std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                                  const SetupOptions& options);
+
+}  // namespace halfway
