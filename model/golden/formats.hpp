@@ -45,6 +45,15 @@ struct Exact {
   // s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
   static constexpr int c_depth_sum_bits = 40;
   static constexpr int c_depth_sum_fraction_bits = 15;
+  // u10.8: colour steps up to 1023; off by at most 2^-9 of a step
+  static constexpr int c_factor_bits = 18;
+  static constexpr int c_factor_fraction_bits = 8;
+  // u16.0: a cosine table's entry, of whatever size, for the probe
+  static constexpr int c_sample_word_bits = 16;
+  static constexpr int c_sample_word_fraction_bits = 0;
+  // u36.0: a factor times a table's entry, for the probe
+  static constexpr int c_product_word_bits = 36;
+  static constexpr int c_product_word_fraction_bits = 0;
   // u18.0: below the edge's height in subpixels: 8192 pixels of 16, doubled at no level of subdivision
   static constexpr int c_edge_error_bits = 18;
   static constexpr int c_edge_error_fraction_bits = 0;
@@ -54,6 +63,12 @@ struct Exact {
   // s11.28: second differences, each word rounded to 2^-29, k = 4095 lines + 8190 steps: off by at most (1 + k + k^2/2) 2^-29 = 0.15 of a colour step; samples up to 1023 stay within +-2046
   static constexpr int c_intensity_bits = 40;
   static constexpr int c_intensity_fraction_bits = 28;
+  // s10.22: half bells; start and slope each rounded to 2^-23, at most 4095 steps: off by at most 2^-11, a quarter of a 2^-9 cell; exponents up to 10^6 stay within +-1024
+  static constexpr int c_angle_bits = 33;
+  static constexpr int c_angle_fraction_bits = 22;
+  // u3.0: which table: cosine to the power 2^word
+  static constexpr int c_power_bits = 3;
+  static constexpr int c_power_fraction_bits = 0;
 
   static constexpr int c_init_header_bits = 480;
   static constexpr std::array<Field, 27> c_init_header = {{
@@ -141,30 +156,34 @@ struct Exact {
     static constexpr const Field& de1e1 = c_init_channel[9];
   };
 
-  static constexpr int c_probe_header_bits = 149;
-  static constexpr std::array<Field, 10> c_probe_header = {{
+  static constexpr int c_probe_header_bits = 151;
+  static constexpr std::array<Field, 12> c_probe_header = {{
       {"line_event", 0, 1, false, 0},
       {"span_event", 1, 1, false, 0},
-      {"line_y", 2, 12, false, 0},
-      {"line_start", 14, 14, true, 0},
-      {"line_stop", 28, 14, true, 0},
-      {"line_carry", 42, 1, false, 0},
-      {"line_z", 43, 40, true, 15},
-      {"span_y", 83, 12, false, 0},
-      {"span_x", 95, 14, true, 0},
-      {"span_z", 109, 40, true, 15},
+      {"sample_event", 2, 1, false, 0},
+      {"product_event", 3, 1, false, 0},
+      {"line_y", 4, 12, false, 0},
+      {"line_start", 16, 14, true, 0},
+      {"line_stop", 30, 14, true, 0},
+      {"line_carry", 44, 1, false, 0},
+      {"line_z", 45, 40, true, 15},
+      {"span_y", 85, 12, false, 0},
+      {"span_x", 97, 14, true, 0},
+      {"span_z", 111, 40, true, 15},
   }};
   struct probe_header_at {
     static constexpr const Field& line_event = c_probe_header[0];
     static constexpr const Field& span_event = c_probe_header[1];
-    static constexpr const Field& line_y = c_probe_header[2];
-    static constexpr const Field& line_start = c_probe_header[3];
-    static constexpr const Field& line_stop = c_probe_header[4];
-    static constexpr const Field& line_carry = c_probe_header[5];
-    static constexpr const Field& line_z = c_probe_header[6];
-    static constexpr const Field& span_y = c_probe_header[7];
-    static constexpr const Field& span_x = c_probe_header[8];
-    static constexpr const Field& span_z = c_probe_header[9];
+    static constexpr const Field& sample_event = c_probe_header[2];
+    static constexpr const Field& product_event = c_probe_header[3];
+    static constexpr const Field& line_y = c_probe_header[4];
+    static constexpr const Field& line_start = c_probe_header[5];
+    static constexpr const Field& line_stop = c_probe_header[6];
+    static constexpr const Field& line_carry = c_probe_header[7];
+    static constexpr const Field& line_z = c_probe_header[8];
+    static constexpr const Field& span_y = c_probe_header[9];
+    static constexpr const Field& span_x = c_probe_header[10];
+    static constexpr const Field& span_z = c_probe_header[11];
   };
 
   static constexpr int c_probe_channel_bits = 240;
@@ -183,6 +202,94 @@ struct Exact {
     static constexpr const Field& line_de1 = c_probe_channel[3];
     static constexpr const Field& span_value = c_probe_channel[4];
     static constexpr const Field& span_dx = c_probe_channel[5];
+  };
+
+  static constexpr int c_ambient_header_bits = 0;
+
+  static constexpr int c_ambient_channel_bits = 18;
+  static constexpr std::array<Field, 1> c_ambient_channel = {{
+      {"ambient", 0, 18, false, 8},
+  }};
+  struct ambient_channel_at {
+    static constexpr const Field& ambient = c_ambient_channel[0];
+  };
+
+  static constexpr int c_diffuse_header_bits = 66;
+  static constexpr std::array<Field, 2> c_diffuse_header = {{
+      {"angle", 0, 33, true, 22},
+      {"slope", 33, 33, true, 22},
+  }};
+  struct diffuse_header_at {
+    static constexpr const Field& angle = c_diffuse_header[0];
+    static constexpr const Field& slope = c_diffuse_header[1];
+  };
+
+  static constexpr int c_diffuse_channel_bits = 18;
+  static constexpr std::array<Field, 1> c_diffuse_channel = {{
+      {"factor", 0, 18, false, 8},
+  }};
+  struct diffuse_channel_at {
+    static constexpr const Field& factor = c_diffuse_channel[0];
+  };
+
+  static constexpr int c_specular_header_bits = 69;
+  static constexpr std::array<Field, 3> c_specular_header = {{
+      {"angle", 0, 33, true, 22},
+      {"slope", 33, 33, true, 22},
+      {"power", 66, 3, false, 0},
+  }};
+  struct specular_header_at {
+    static constexpr const Field& angle = c_specular_header[0];
+    static constexpr const Field& slope = c_specular_header[1];
+    static constexpr const Field& power = c_specular_header[2];
+  };
+
+  static constexpr int c_specular_channel_bits = 18;
+  static constexpr std::array<Field, 1> c_specular_channel = {{
+      {"factor", 0, 18, false, 8},
+  }};
+  struct specular_channel_at {
+    static constexpr const Field& factor = c_specular_channel[0];
+  };
+
+  static constexpr int c_diffuse_probe_header_bits = 50;
+  static constexpr std::array<Field, 3> c_diffuse_probe_header = {{
+      {"angle", 0, 33, true, 22},
+      {"inside", 33, 1, false, 0},
+      {"sample", 34, 16, false, 0},
+  }};
+  struct diffuse_probe_header_at {
+    static constexpr const Field& angle = c_diffuse_probe_header[0];
+    static constexpr const Field& inside = c_diffuse_probe_header[1];
+    static constexpr const Field& sample = c_diffuse_probe_header[2];
+  };
+
+  static constexpr int c_diffuse_probe_channel_bits = 36;
+  static constexpr std::array<Field, 1> c_diffuse_probe_channel = {{
+      {"product", 0, 36, false, 0},
+  }};
+  struct diffuse_probe_channel_at {
+    static constexpr const Field& product = c_diffuse_probe_channel[0];
+  };
+
+  static constexpr int c_specular_probe_header_bits = 50;
+  static constexpr std::array<Field, 3> c_specular_probe_header = {{
+      {"angle", 0, 33, true, 22},
+      {"inside", 33, 1, false, 0},
+      {"sample", 34, 16, false, 0},
+  }};
+  struct specular_probe_header_at {
+    static constexpr const Field& angle = c_specular_probe_header[0];
+    static constexpr const Field& inside = c_specular_probe_header[1];
+    static constexpr const Field& sample = c_specular_probe_header[2];
+  };
+
+  static constexpr int c_specular_probe_channel_bits = 36;
+  static constexpr std::array<Field, 1> c_specular_probe_channel = {{
+      {"product", 0, 36, false, 0},
+  }};
+  struct specular_probe_channel_at {
+    static constexpr const Field& product = c_specular_probe_channel[0];
   };
 };
 
@@ -215,6 +322,15 @@ struct Published {
   // s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
   static constexpr int c_depth_sum_bits = 40;
   static constexpr int c_depth_sum_fraction_bits = 15;
+  // u10.8: colour steps up to 1023; off by at most 2^-9 of a step
+  static constexpr int c_factor_bits = 18;
+  static constexpr int c_factor_fraction_bits = 8;
+  // u16.0: a cosine table's entry, of whatever size, for the probe
+  static constexpr int c_sample_word_bits = 16;
+  static constexpr int c_sample_word_fraction_bits = 0;
+  // u36.0: a factor times a table's entry, for the probe
+  static constexpr int c_product_word_bits = 36;
+  static constexpr int c_product_word_fraction_bits = 0;
   // u0.0: edges are stepped by a real slope
   static constexpr int c_edge_error_bits = 0;
   static constexpr int c_edge_error_fraction_bits = 0;
@@ -224,6 +340,12 @@ struct Published {
   // s11.20: 32 bits, 20 of them fraction: the quadratic paper's figure 7
   static constexpr int c_intensity_bits = 32;
   static constexpr int c_intensity_fraction_bits = 20;
+  // s0.11: 12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the bell's ends
+  static constexpr int c_angle_bits = 12;
+  static constexpr int c_angle_fraction_bits = 11;
+  // u0.0: cosine squared alone
+  static constexpr int c_power_bits = 0;
+  static constexpr int c_power_fraction_bits = 0;
 
   static constexpr int c_init_header_bits = 305;
   static constexpr std::array<Field, 10> c_init_header = {{
@@ -269,28 +391,32 @@ struct Published {
     static constexpr const Field& de0e0 = c_init_channel[5];
   };
 
-  static constexpr int c_probe_header_bits = 148;
-  static constexpr std::array<Field, 9> c_probe_header = {{
+  static constexpr int c_probe_header_bits = 150;
+  static constexpr std::array<Field, 11> c_probe_header = {{
       {"line_event", 0, 1, false, 0},
       {"span_event", 1, 1, false, 0},
-      {"line_y", 2, 12, false, 0},
-      {"line_start", 14, 14, true, 0},
-      {"line_stop", 28, 14, true, 0},
-      {"line_z", 42, 40, true, 15},
-      {"span_y", 82, 12, false, 0},
-      {"span_x", 94, 14, true, 0},
-      {"span_z", 108, 40, true, 15},
+      {"sample_event", 2, 1, false, 0},
+      {"product_event", 3, 1, false, 0},
+      {"line_y", 4, 12, false, 0},
+      {"line_start", 16, 14, true, 0},
+      {"line_stop", 30, 14, true, 0},
+      {"line_z", 44, 40, true, 15},
+      {"span_y", 84, 12, false, 0},
+      {"span_x", 96, 14, true, 0},
+      {"span_z", 110, 40, true, 15},
   }};
   struct probe_header_at {
     static constexpr const Field& line_event = c_probe_header[0];
     static constexpr const Field& span_event = c_probe_header[1];
-    static constexpr const Field& line_y = c_probe_header[2];
-    static constexpr const Field& line_start = c_probe_header[3];
-    static constexpr const Field& line_stop = c_probe_header[4];
-    static constexpr const Field& line_z = c_probe_header[5];
-    static constexpr const Field& span_y = c_probe_header[6];
-    static constexpr const Field& span_x = c_probe_header[7];
-    static constexpr const Field& span_z = c_probe_header[8];
+    static constexpr const Field& sample_event = c_probe_header[2];
+    static constexpr const Field& product_event = c_probe_header[3];
+    static constexpr const Field& line_y = c_probe_header[4];
+    static constexpr const Field& line_start = c_probe_header[5];
+    static constexpr const Field& line_stop = c_probe_header[6];
+    static constexpr const Field& line_z = c_probe_header[7];
+    static constexpr const Field& span_y = c_probe_header[8];
+    static constexpr const Field& span_x = c_probe_header[9];
+    static constexpr const Field& span_z = c_probe_header[10];
   };
 
   static constexpr int c_probe_channel_bits = 160;
@@ -307,6 +433,92 @@ struct Published {
     static constexpr const Field& line_de0 = c_probe_channel[2];
     static constexpr const Field& span_value = c_probe_channel[3];
     static constexpr const Field& span_dx = c_probe_channel[4];
+  };
+
+  static constexpr int c_ambient_header_bits = 0;
+
+  static constexpr int c_ambient_channel_bits = 18;
+  static constexpr std::array<Field, 1> c_ambient_channel = {{
+      {"ambient", 0, 18, false, 8},
+  }};
+  struct ambient_channel_at {
+    static constexpr const Field& ambient = c_ambient_channel[0];
+  };
+
+  static constexpr int c_diffuse_header_bits = 24;
+  static constexpr std::array<Field, 2> c_diffuse_header = {{
+      {"angle", 0, 12, true, 11},
+      {"slope", 12, 12, true, 11},
+  }};
+  struct diffuse_header_at {
+    static constexpr const Field& angle = c_diffuse_header[0];
+    static constexpr const Field& slope = c_diffuse_header[1];
+  };
+
+  static constexpr int c_diffuse_channel_bits = 18;
+  static constexpr std::array<Field, 1> c_diffuse_channel = {{
+      {"factor", 0, 18, false, 8},
+  }};
+  struct diffuse_channel_at {
+    static constexpr const Field& factor = c_diffuse_channel[0];
+  };
+
+  static constexpr int c_specular_header_bits = 24;
+  static constexpr std::array<Field, 2> c_specular_header = {{
+      {"angle", 0, 12, true, 11},
+      {"slope", 12, 12, true, 11},
+  }};
+  struct specular_header_at {
+    static constexpr const Field& angle = c_specular_header[0];
+    static constexpr const Field& slope = c_specular_header[1];
+  };
+
+  static constexpr int c_specular_channel_bits = 18;
+  static constexpr std::array<Field, 1> c_specular_channel = {{
+      {"factor", 0, 18, false, 8},
+  }};
+  struct specular_channel_at {
+    static constexpr const Field& factor = c_specular_channel[0];
+  };
+
+  static constexpr int c_diffuse_probe_header_bits = 29;
+  static constexpr std::array<Field, 3> c_diffuse_probe_header = {{
+      {"angle", 0, 12, true, 11},
+      {"inside", 12, 1, false, 0},
+      {"sample", 13, 16, false, 0},
+  }};
+  struct diffuse_probe_header_at {
+    static constexpr const Field& angle = c_diffuse_probe_header[0];
+    static constexpr const Field& inside = c_diffuse_probe_header[1];
+    static constexpr const Field& sample = c_diffuse_probe_header[2];
+  };
+
+  static constexpr int c_diffuse_probe_channel_bits = 36;
+  static constexpr std::array<Field, 1> c_diffuse_probe_channel = {{
+      {"product", 0, 36, false, 0},
+  }};
+  struct diffuse_probe_channel_at {
+    static constexpr const Field& product = c_diffuse_probe_channel[0];
+  };
+
+  static constexpr int c_specular_probe_header_bits = 29;
+  static constexpr std::array<Field, 3> c_specular_probe_header = {{
+      {"angle", 0, 12, true, 11},
+      {"inside", 12, 1, false, 0},
+      {"sample", 13, 16, false, 0},
+  }};
+  struct specular_probe_header_at {
+    static constexpr const Field& angle = c_specular_probe_header[0];
+    static constexpr const Field& inside = c_specular_probe_header[1];
+    static constexpr const Field& sample = c_specular_probe_header[2];
+  };
+
+  static constexpr int c_specular_probe_channel_bits = 36;
+  static constexpr std::array<Field, 1> c_specular_probe_channel = {{
+      {"product", 0, 36, false, 0},
+  }};
+  struct specular_probe_channel_at {
+    static constexpr const Field& product = c_specular_probe_channel[0];
   };
 };
 

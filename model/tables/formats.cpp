@@ -24,6 +24,9 @@ std::vector<Format> common_formats() {
       {"depth_sum", true, 24, 15,
        "first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: "
        "off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step"},
+      {"factor", false, 10, 8, "colour steps up to 1023; off by at most 2^-9 of a step"},
+      {"sample_word", false, 16, 0, "a cosine table's entry, of whatever size, for the probe"},
+      {"product_word", false, 36, 0, "a factor times a table's entry, for the probe"},
   };
 }
 
@@ -37,6 +40,27 @@ const Format& format_of(const PresetFormats& preset, std::string_view name) {
   if (it == preset.formats.end())
     throw std::logic_error(fmt::format("format '{}' is not in the table", name));
   return *it;
+}
+
+// What the spherical shader has beside the walk: with the header of `init` a word a channel; then for each line
+// and light a diffuse and a specular part. Angles are in units of half a bell: 1 is where the bell has come down
+// to zero.
+std::vector<Layout> spherical_layouts(bool exact) {
+  std::vector<Field> specular = {{"angle", "angle"}, {"slope", "angle"}};
+  if (exact) specular.push_back({"power", "power"});
+  const std::vector<Field> probe = {{"angle", "angle"}, {"inside", "flag"}, {"sample", "sample_word"}};
+  return {
+      {"ambient", {}, {{"ambient", "factor"}}},
+      {"diffuse", {{"angle", "angle"}, {"slope", "angle"}}, {{"factor", "factor"}}},
+      {"specular", specular, {{"factor", "factor"}}},
+      {"diffuse_probe", probe, {{"product", "product_word"}}},
+      {"specular_probe", probe, {{"product", "product_word"}}},
+  };
+}
+
+std::vector<Layout> joined(std::vector<Layout> a, const std::vector<Layout>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
 }
 
 std::vector<Layout> exact_layouts() {
@@ -82,6 +106,8 @@ std::vector<Layout> exact_layouts() {
       {"probe",
        {{"line_event", "flag"},
         {"span_event", "flag"},
+        {"sample_event", "flag"},
+        {"product_event", "flag"},
         {"line_y", "pixel_y"},
         {"line_start", "span_x"},
         {"line_stop", "span_x"},
@@ -121,6 +147,8 @@ std::vector<Layout> published_layouts() {
       {"probe",
        {{"line_event", "flag"},
         {"span_event", "flag"},
+        {"sample_event", "flag"},
+        {"product_event", "flag"},
         {"line_y", "pixel_y"},
         {"line_start", "span_x"},
         {"line_stop", "span_x"},
@@ -192,14 +220,22 @@ std::vector<PresetFormats> preset_formats() {
             {"edge_x", true, 13, 0, "an edge is a whole pixel and a remainder"},
             {"intensity", true, 11, 28,
              "second differences, each word rounded to 2^-29, k = 4095 lines + 8190 steps: off by at most "
-             "(1 + k + k^2/2) 2^-29 = 0.15 of a colour step; samples up to 1023 stay within +-2046"}}),
-       exact_layouts()},
+             "(1 + k + k^2/2) 2^-29 = 0.15 of a colour step; samples up to 1023 stay within +-2046"},
+            {"angle", true, 10, 22,
+             "half bells; start and slope each rounded to 2^-23, at most 4095 steps: off by at most 2^-11, a quarter "
+             "of a 2^-9 cell; exponents up to 10^6 stay within +-1024"},
+            {"power", false, 3, 0, "which table: cosine to the power 2^word"}}),
+       joined(exact_layouts(), spherical_layouts(true))},
       {"published",
        joined(common_formats(),
               {{"edge_error", false, 0, 0, "edges are stepped by a real slope"},
                {"edge_x", true, 13, 18, "32 bits, as the quadratic paper's other registers"},
-               {"intensity", true, 11, 20, "32 bits, 20 of them fraction: the quadratic paper's figure 7"}}),
-       published_layouts()},
+               {"intensity", true, 11, 20, "32 bits, 20 of them fraction: the quadratic paper's figure 7"},
+               {"angle", true, 0, 11,
+                "12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the "
+                "bell's ends"},
+               {"power", false, 0, 0, "cosine squared alone"}}),
+       joined(published_layouts(), spherical_layouts(false))},
   };
 }
 
@@ -231,14 +267,16 @@ std::string vhdl_package(const std::vector<PresetFormats>& presets) {
     for (const auto& [part, members] :
          {std::pair{"header", &Layout::header}, std::pair{"channel", &Layout::channel}}) {
       const std::vector<std::string_view> names = all_names(presets, i, members);
-      fmt::format_to(to, "  type {}_{}_t is record\n", layout, part);
-      for (const std::string_view name : names) fmt::format_to(to, "    {} : slice_t;\n", name);
-      out += "  end record;\n\n";
-      for (const PresetFormats& preset : presets)
-        fmt::format_to(to, "  constant c_{}_{}_{} : {}_{}_t := (\n{}  );\n\n", preset.name, layout, part,
-                       layout, part, vhdl_slices(preset, preset.layouts[i].*members, names));
-      fmt::format_to(to, "  function {}_{} (exact : boolean) return {}_{}_t;\n\n", layout, part, layout,
-                     part);
+      if (!names.empty()) {
+        fmt::format_to(to, "  type {}_{}_t is record\n", layout, part);
+        for (const std::string_view name : names) fmt::format_to(to, "    {} : slice_t;\n", name);
+        out += "  end record;\n\n";
+        for (const PresetFormats& preset : presets)
+          fmt::format_to(to, "  constant c_{}_{}_{} : {}_{}_t := (\n{}  );\n\n", preset.name, layout, part,
+                         layout, part, vhdl_slices(preset, preset.layouts[i].*members, names));
+        fmt::format_to(to, "  function {}_{} (exact : boolean) return {}_{}_t;\n\n", layout, part, layout,
+                       part);
+      }
       for (const PresetFormats& preset : presets)
         fmt::format_to(to, "  constant c_{}_{}_{}_bits : natural := {};\n", preset.name, layout, part,
                        total_bits(preset, preset.layouts[i].*members));
@@ -259,7 +297,7 @@ std::string vhdl_package(const std::vector<PresetFormats>& presets) {
   choose("formats", "formats_t", "formats");
   for (const Layout& layout : presets[0].layouts) {
     const std::string name(layout.name);
-    choose(name + "_header", name + "_header_t", name + "_header");
+    if (!layout.header.empty()) choose(name + "_header", name + "_header_t", name + "_header");
     choose(name + "_channel", name + "_channel_t", name + "_channel");
     fmt::format_to(
         to,
@@ -302,6 +340,7 @@ std::string cpp_header(const std::vector<PresetFormats>& presets) {
            {std::pair{"header", &layout.header}, std::pair{"channel", &layout.channel}}) {
         const std::string name = fmt::format("{}_{}", layout.name, part);
         fmt::format_to(to, "\n  static constexpr int c_{}_bits = {};\n", name, total_bits(preset, *fields));
+        if (fields->empty()) continue;
         fmt::format_to(to, "  static constexpr std::array<Field, {}> c_{} = {{{{\n", fields->size(), name);
         int low = 0;
         for (const Field& field : *fields) {

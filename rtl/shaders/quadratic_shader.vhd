@@ -266,6 +266,8 @@ begin
 
     probe(c_probe.line_event.low)                                  <= span_load;
     probe(c_probe.span_event.low)                                  <= span_step;
+    probe(c_probe.sample_event.low)                                <= '0'; -- stages of another shader
+    probe(c_probe.product_event.low)                               <= '0';
     probe(c_probe.line_y.high downto c_probe.line_y.low)           <= line_y;
     probe(c_probe.line_start.high downto c_probe.line_start.low)   <= line_start;
     probe(c_probe.line_stop.high downto c_probe.line_stop.low)     <= line_stop;

@@ -28,9 +28,14 @@ package formats_pkg is
     colour : format_t;
     depth : format_t;
     depth_sum : format_t;
+    factor : format_t;
+    sample_word : format_t;
+    product_word : format_t;
     edge_error : format_t;
     edge_x : format_t;
     intensity : format_t;
+    angle : format_t;
+    power : format_t;
   end record;
 
   constant c_exact_formats : formats_t := (
@@ -52,12 +57,22 @@ package formats_pkg is
     depth => (24, 0),
     -- s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
     depth_sum => (40, 15),
+    -- u10.8: colour steps up to 1023; off by at most 2^-9 of a step
+    factor => (18, 8),
+    -- u16.0: a cosine table's entry, of whatever size, for the probe
+    sample_word => (16, 0),
+    -- u36.0: a factor times a table's entry, for the probe
+    product_word => (36, 0),
     -- u18.0: below the edge's height in subpixels: 8192 pixels of 16, doubled at no level of subdivision
     edge_error => (18, 0),
     -- s13.0: an edge is a whole pixel and a remainder
     edge_x => (14, 0),
     -- s11.28: second differences, each word rounded to 2^-29, k = 4095 lines + 8190 steps: off by at most (1 + k + k^2/2) 2^-29 = 0.15 of a colour step; samples up to 1023 stay within +-2046
-    intensity => (40, 28)
+    intensity => (40, 28),
+    -- s10.22: half bells; start and slope each rounded to 2^-23, at most 4095 steps: off by at most 2^-11, a quarter of a 2^-9 cell; exponents up to 10^6 stay within +-1024
+    angle => (33, 22),
+    -- u3.0: which table: cosine to the power 2^word
+    power => (3, 0)
   );
 
   constant c_published_formats : formats_t := (
@@ -79,12 +94,22 @@ package formats_pkg is
     depth => (24, 0),
     -- s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
     depth_sum => (40, 15),
+    -- u10.8: colour steps up to 1023; off by at most 2^-9 of a step
+    factor => (18, 8),
+    -- u16.0: a cosine table's entry, of whatever size, for the probe
+    sample_word => (16, 0),
+    -- u36.0: a factor times a table's entry, for the probe
+    product_word => (36, 0),
     -- u0.0: edges are stepped by a real slope
     edge_error => (0, 0),
     -- s13.18: 32 bits, as the quadratic paper's other registers
     edge_x => (32, 18),
     -- s11.20: 32 bits, 20 of them fraction: the quadratic paper's figure 7
-    intensity => (32, 20)
+    intensity => (32, 20),
+    -- s0.11: 12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the bell's ends
+    angle => (12, 11),
+    -- u0.0: cosine squared alone
+    power => (0, 0)
   );
 
   function formats (exact : boolean) return formats_t;
@@ -241,6 +266,8 @@ package formats_pkg is
   type probe_header_t is record
     line_event : slice_t;
     span_event : slice_t;
+    sample_event : slice_t;
+    product_event : slice_t;
     line_y : slice_t;
     line_start : slice_t;
     line_stop : slice_t;
@@ -254,33 +281,37 @@ package formats_pkg is
   constant c_exact_probe_header : probe_header_t := (
     line_event => (0, 0),
     span_event => (1, 1),
-    line_y => (13, 2),
-    line_start => (27, 14),
-    line_stop => (41, 28),
-    line_carry => (42, 42),
-    line_z => (82, 43),
-    span_y => (94, 83),
-    span_x => (108, 95),
-    span_z => (148, 109)
+    sample_event => (2, 2),
+    product_event => (3, 3),
+    line_y => (15, 4),
+    line_start => (29, 16),
+    line_stop => (43, 30),
+    line_carry => (44, 44),
+    line_z => (84, 45),
+    span_y => (96, 85),
+    span_x => (110, 97),
+    span_z => (150, 111)
   );
 
   constant c_published_probe_header : probe_header_t := (
     line_event => (0, 0),
     span_event => (1, 1),
-    line_y => (13, 2),
-    line_start => (27, 14),
-    line_stop => (41, 28),
+    sample_event => (2, 2),
+    product_event => (3, 3),
+    line_y => (15, 4),
+    line_start => (29, 16),
+    line_stop => (43, 30),
     line_carry => (-1, 0),
-    line_z => (81, 42),
-    span_y => (93, 82),
-    span_x => (107, 94),
-    span_z => (147, 108)
+    line_z => (83, 44),
+    span_y => (95, 84),
+    span_x => (109, 96),
+    span_z => (149, 110)
   );
 
   function probe_header (exact : boolean) return probe_header_t;
 
-  constant c_exact_probe_header_bits : natural := 149;
-  constant c_published_probe_header_bits : natural := 148;
+  constant c_exact_probe_header_bits : natural := 151;
+  constant c_published_probe_header_bits : natural := 150;
 
   type probe_channel_t is record
     line_value : slice_t;
@@ -317,6 +348,203 @@ package formats_pkg is
   function probe_channel_low (exact : boolean; channel : natural) return natural;
 
   function probe_bits (exact : boolean; channels : natural) return natural;
+
+  constant c_exact_ambient_header_bits : natural := 0;
+  constant c_published_ambient_header_bits : natural := 0;
+
+  type ambient_channel_t is record
+    ambient : slice_t;
+  end record;
+
+  constant c_exact_ambient_channel : ambient_channel_t := (
+    ambient => (17, 0)
+  );
+
+  constant c_published_ambient_channel : ambient_channel_t := (
+    ambient => (17, 0)
+  );
+
+  function ambient_channel (exact : boolean) return ambient_channel_t;
+
+  constant c_exact_ambient_channel_bits : natural := 18;
+  constant c_published_ambient_channel_bits : natural := 18;
+
+  function ambient_channel_low (exact : boolean; channel : natural) return natural;
+
+  function ambient_bits (exact : boolean; channels : natural) return natural;
+
+  type diffuse_header_t is record
+    angle : slice_t;
+    slope : slice_t;
+  end record;
+
+  constant c_exact_diffuse_header : diffuse_header_t := (
+    angle => (32, 0),
+    slope => (65, 33)
+  );
+
+  constant c_published_diffuse_header : diffuse_header_t := (
+    angle => (11, 0),
+    slope => (23, 12)
+  );
+
+  function diffuse_header (exact : boolean) return diffuse_header_t;
+
+  constant c_exact_diffuse_header_bits : natural := 66;
+  constant c_published_diffuse_header_bits : natural := 24;
+
+  type diffuse_channel_t is record
+    factor : slice_t;
+  end record;
+
+  constant c_exact_diffuse_channel : diffuse_channel_t := (
+    factor => (17, 0)
+  );
+
+  constant c_published_diffuse_channel : diffuse_channel_t := (
+    factor => (17, 0)
+  );
+
+  function diffuse_channel (exact : boolean) return diffuse_channel_t;
+
+  constant c_exact_diffuse_channel_bits : natural := 18;
+  constant c_published_diffuse_channel_bits : natural := 18;
+
+  function diffuse_channel_low (exact : boolean; channel : natural) return natural;
+
+  function diffuse_bits (exact : boolean; channels : natural) return natural;
+
+  type specular_header_t is record
+    angle : slice_t;
+    slope : slice_t;
+    power : slice_t;
+  end record;
+
+  constant c_exact_specular_header : specular_header_t := (
+    angle => (32, 0),
+    slope => (65, 33),
+    power => (68, 66)
+  );
+
+  constant c_published_specular_header : specular_header_t := (
+    angle => (11, 0),
+    slope => (23, 12),
+    power => (-1, 0)
+  );
+
+  function specular_header (exact : boolean) return specular_header_t;
+
+  constant c_exact_specular_header_bits : natural := 69;
+  constant c_published_specular_header_bits : natural := 24;
+
+  type specular_channel_t is record
+    factor : slice_t;
+  end record;
+
+  constant c_exact_specular_channel : specular_channel_t := (
+    factor => (17, 0)
+  );
+
+  constant c_published_specular_channel : specular_channel_t := (
+    factor => (17, 0)
+  );
+
+  function specular_channel (exact : boolean) return specular_channel_t;
+
+  constant c_exact_specular_channel_bits : natural := 18;
+  constant c_published_specular_channel_bits : natural := 18;
+
+  function specular_channel_low (exact : boolean; channel : natural) return natural;
+
+  function specular_bits (exact : boolean; channels : natural) return natural;
+
+  type diffuse_probe_header_t is record
+    angle : slice_t;
+    inside : slice_t;
+    sample : slice_t;
+  end record;
+
+  constant c_exact_diffuse_probe_header : diffuse_probe_header_t := (
+    angle => (32, 0),
+    inside => (33, 33),
+    sample => (49, 34)
+  );
+
+  constant c_published_diffuse_probe_header : diffuse_probe_header_t := (
+    angle => (11, 0),
+    inside => (12, 12),
+    sample => (28, 13)
+  );
+
+  function diffuse_probe_header (exact : boolean) return diffuse_probe_header_t;
+
+  constant c_exact_diffuse_probe_header_bits : natural := 50;
+  constant c_published_diffuse_probe_header_bits : natural := 29;
+
+  type diffuse_probe_channel_t is record
+    product : slice_t;
+  end record;
+
+  constant c_exact_diffuse_probe_channel : diffuse_probe_channel_t := (
+    product => (35, 0)
+  );
+
+  constant c_published_diffuse_probe_channel : diffuse_probe_channel_t := (
+    product => (35, 0)
+  );
+
+  function diffuse_probe_channel (exact : boolean) return diffuse_probe_channel_t;
+
+  constant c_exact_diffuse_probe_channel_bits : natural := 36;
+  constant c_published_diffuse_probe_channel_bits : natural := 36;
+
+  function diffuse_probe_channel_low (exact : boolean; channel : natural) return natural;
+
+  function diffuse_probe_bits (exact : boolean; channels : natural) return natural;
+
+  type specular_probe_header_t is record
+    angle : slice_t;
+    inside : slice_t;
+    sample : slice_t;
+  end record;
+
+  constant c_exact_specular_probe_header : specular_probe_header_t := (
+    angle => (32, 0),
+    inside => (33, 33),
+    sample => (49, 34)
+  );
+
+  constant c_published_specular_probe_header : specular_probe_header_t := (
+    angle => (11, 0),
+    inside => (12, 12),
+    sample => (28, 13)
+  );
+
+  function specular_probe_header (exact : boolean) return specular_probe_header_t;
+
+  constant c_exact_specular_probe_header_bits : natural := 50;
+  constant c_published_specular_probe_header_bits : natural := 29;
+
+  type specular_probe_channel_t is record
+    product : slice_t;
+  end record;
+
+  constant c_exact_specular_probe_channel : specular_probe_channel_t := (
+    product => (35, 0)
+  );
+
+  constant c_published_specular_probe_channel : specular_probe_channel_t := (
+    product => (35, 0)
+  );
+
+  function specular_probe_channel (exact : boolean) return specular_probe_channel_t;
+
+  constant c_exact_specular_probe_channel_bits : natural := 36;
+  constant c_published_specular_probe_channel_bits : natural := 36;
+
+  function specular_probe_channel_low (exact : boolean; channel : natural) return natural;
+
+  function specular_probe_bits (exact : boolean; channels : natural) return natural;
 
 end package;
 
@@ -386,6 +614,143 @@ package body formats_pkg is
   function probe_bits (exact : boolean; channels : natural) return natural is
   begin
     return probe_channel_low(exact, channels);
+  end function;
+
+  function ambient_channel (exact : boolean) return ambient_channel_t is
+  begin
+    if exact then
+      return c_exact_ambient_channel;
+    end if;
+    return c_published_ambient_channel;
+  end function;
+
+  function ambient_channel_low (exact : boolean; channel : natural) return natural is
+  begin
+    if exact then
+      return c_exact_ambient_header_bits + channel * c_exact_ambient_channel_bits;
+    end if;
+    return c_published_ambient_header_bits + channel * c_published_ambient_channel_bits;
+  end function;
+
+  function ambient_bits (exact : boolean; channels : natural) return natural is
+  begin
+    return ambient_channel_low(exact, channels);
+  end function;
+
+  function diffuse_header (exact : boolean) return diffuse_header_t is
+  begin
+    if exact then
+      return c_exact_diffuse_header;
+    end if;
+    return c_published_diffuse_header;
+  end function;
+
+  function diffuse_channel (exact : boolean) return diffuse_channel_t is
+  begin
+    if exact then
+      return c_exact_diffuse_channel;
+    end if;
+    return c_published_diffuse_channel;
+  end function;
+
+  function diffuse_channel_low (exact : boolean; channel : natural) return natural is
+  begin
+    if exact then
+      return c_exact_diffuse_header_bits + channel * c_exact_diffuse_channel_bits;
+    end if;
+    return c_published_diffuse_header_bits + channel * c_published_diffuse_channel_bits;
+  end function;
+
+  function diffuse_bits (exact : boolean; channels : natural) return natural is
+  begin
+    return diffuse_channel_low(exact, channels);
+  end function;
+
+  function specular_header (exact : boolean) return specular_header_t is
+  begin
+    if exact then
+      return c_exact_specular_header;
+    end if;
+    return c_published_specular_header;
+  end function;
+
+  function specular_channel (exact : boolean) return specular_channel_t is
+  begin
+    if exact then
+      return c_exact_specular_channel;
+    end if;
+    return c_published_specular_channel;
+  end function;
+
+  function specular_channel_low (exact : boolean; channel : natural) return natural is
+  begin
+    if exact then
+      return c_exact_specular_header_bits + channel * c_exact_specular_channel_bits;
+    end if;
+    return c_published_specular_header_bits + channel * c_published_specular_channel_bits;
+  end function;
+
+  function specular_bits (exact : boolean; channels : natural) return natural is
+  begin
+    return specular_channel_low(exact, channels);
+  end function;
+
+  function diffuse_probe_header (exact : boolean) return diffuse_probe_header_t is
+  begin
+    if exact then
+      return c_exact_diffuse_probe_header;
+    end if;
+    return c_published_diffuse_probe_header;
+  end function;
+
+  function diffuse_probe_channel (exact : boolean) return diffuse_probe_channel_t is
+  begin
+    if exact then
+      return c_exact_diffuse_probe_channel;
+    end if;
+    return c_published_diffuse_probe_channel;
+  end function;
+
+  function diffuse_probe_channel_low (exact : boolean; channel : natural) return natural is
+  begin
+    if exact then
+      return c_exact_diffuse_probe_header_bits + channel * c_exact_diffuse_probe_channel_bits;
+    end if;
+    return c_published_diffuse_probe_header_bits + channel * c_published_diffuse_probe_channel_bits;
+  end function;
+
+  function diffuse_probe_bits (exact : boolean; channels : natural) return natural is
+  begin
+    return diffuse_probe_channel_low(exact, channels);
+  end function;
+
+  function specular_probe_header (exact : boolean) return specular_probe_header_t is
+  begin
+    if exact then
+      return c_exact_specular_probe_header;
+    end if;
+    return c_published_specular_probe_header;
+  end function;
+
+  function specular_probe_channel (exact : boolean) return specular_probe_channel_t is
+  begin
+    if exact then
+      return c_exact_specular_probe_channel;
+    end if;
+    return c_published_specular_probe_channel;
+  end function;
+
+  function specular_probe_channel_low (exact : boolean; channel : natural) return natural is
+  begin
+    if exact then
+      return c_exact_specular_probe_header_bits + channel * c_exact_specular_probe_channel_bits;
+    end if;
+    return c_published_specular_probe_header_bits + channel * c_published_specular_probe_channel_bits;
+  end function;
+
+  function specular_probe_bits (exact : boolean; channels : natural) return natural is
+  begin
+    return specular_probe_channel_low(exact, channels);
   end function;
 
 end package body;
