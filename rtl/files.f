@@ -1,5 +1,10 @@
 tables/formats_pkg.vhd
+tables/cosine_pkg.vhd
+tables/cosine_rom.vhd
 arithmetic/saturate.vhd
+arithmetic/multiplier.vhd
+arithmetic/angle_address.vhd
+arithmetic/saturating_sum.vhd
 stream/parameter_register.vhd
 stream/stream_register.vhd
 interpolation/line_interpolator.vhd
@@ -7,4 +12,8 @@ interpolation/z_interpolator.vhd
 interpolation/quadratic_interpolator.vhd
 raster/edge_walker.vhd
 raster/triangle_walker.vhd
+illumination/diffuse_slice.vhd
+illumination/specular_slice.vhd
 shaders/quadratic_shader.vhd
+shaders/spherical_pkg.vhd
+shaders/spherical_shader.vhd

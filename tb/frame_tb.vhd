@@ -12,9 +12,18 @@ use std.textio.all;
 
 entity frame_tb is
   generic (
-    g_exact         : boolean  := true;
-    g_channels      : positive := 3;
-    g_probe         : boolean  := false;
+    -- The shader's own; each shader takes those that it has.
+    g_exact              : boolean  := true;
+    g_channels           : positive := 3;
+    g_lights             : natural  := 1;
+    g_diffuse            : boolean  := true;
+    g_specular           : boolean  := true;
+    g_highlight_channels : positive := 1;
+    g_powers             : natural  := 2;
+    g_address_bits       : positive := 6;
+    g_data_bits          : positive := 6;
+    g_probe              : boolean  := false;
+
     g_init_file     : string   := "init.txt";
     g_trace_file    : string   := "trace.txt";
     g_probe_file    : string   := "";            -- where g_probe: lines of cycle and hexadecimal probe
@@ -27,6 +36,10 @@ end entity;
 architecture sim of frame_tb is
   constant c_init_bits  : positive := work.formats_pkg.init_bits(g_exact, g_channels);
   constant c_probe_bits : positive := work.formats_pkg.probe_bits(g_exact, g_channels);
+
+  -- The probe's lowest bits: what the stages do in this cycle.
+  subtype events_t is std_logic_vector(3 downto 0);
+  constant c_no_event : events_t := (others => '0');
 
   signal clk               : std_logic := '0';
   signal reset             : std_logic := '1';
@@ -283,8 +296,8 @@ begin
       end if;
       holding := fragment_valid = '1' and fragment_ready = '0';
 
-      if g_probe and g_probe_file'length > 0 and started and probe(1 downto 0) /= "00" then
-        if is_x(probe(1 downto 0)) then
+      if g_probe and g_probe_file'length > 0 and started and probe(events_t'range) /= c_no_event then
+        if is_x(probe(events_t'range)) then
           report "metavalue in the probe's events in cycle " & to_string(cycle) severity failure;
         end if;
         write(text_out, cycle);

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <tuple>
 
 #include "common/file.hpp"
 #include "frame/init_file.hpp"
@@ -46,22 +47,35 @@ struct Stream {
   unsigned init_bits;
   std::vector<std::uint32_t> words;
   std::vector<Fragment> golden;
-  std::size_t vectors() const { return words.size() / ((init_bits + 31) / 32); }
+  std::vector<std::size_t> batches;  // in vectors; whole triangles
 };
 
-const Stream& stream_of(const std::string& name, FrameSize size) {
-  static std::map<std::pair<std::string, std::uint32_t>, Stream> streams;
-  const auto [it, fresh] = streams.try_emplace({name, size.width});
+constexpr std::size_t c_batch = 512;  // vectors, at least
+
+const Stream& stream_of(Shader shader, const std::string& name, FrameSize size) {
+  static std::map<std::tuple<Shader, std::string, std::uint32_t>, Stream> streams;
+  const auto [it, fresh] = streams.try_emplace({shader, name, size.width});
   Stream& s = it->second;
   if (!fresh) return s;
   const Scene scene = must(load_scene(name, c_source / "sim" / "scenes"));
-  s.key = plan_quadratic(scene, Preset::exact).key;
-  const QuadraticSetup setup(scene, size, s.key, {});
-  s.init_bits = setup.init_bits();
-  SceneStream source(scene, setup, s.key, 1);
+  s.key = must(plan_scene(scene, {.shader = shader})).key;
+  const std::unique_ptr<Setup> setup = make_setup(scene, size, s.key, {});
+  s.init_bits = setup->init_bits();
+  SceneStream source(scene, *setup, s.key, 1);
   for (Batch batch; source.next(batch);) {
     s.words.insert(s.words.end(), batch.init_words.begin(), batch.init_words.end());
     s.golden.insert(s.golden.end(), batch.golden.begin(), batch.golden.end());
+  }
+  const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
+  const std::size_t words_per_vector = (s.init_bits + 31) / 32;
+  std::size_t vectors = 0;
+  for (auto rest = std::span<const std::uint32_t>(s.words); !rest.empty();) {
+    const std::size_t triangle = golden->group(rest);
+    rest = rest.subspan(triangle * words_per_vector);
+    vectors += triangle;
+    if (vectors < c_batch && !rest.empty()) continue;
+    s.batches.push_back(vectors);
+    vectors = 0;
   }
   return s;
 }
@@ -73,23 +87,23 @@ void report_fragments(benchmark::State& state, std::size_t fragments) {
       benchmark::Counter(static_cast<double>(fragments), benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void setup(benchmark::State& state) {
+void setup(benchmark::State& state, Shader shader) {
   const Scene scene = must(load_scene("teapot", c_source / "sim" / "scenes"));
-  const HardwareKey key = plan_quadratic(scene, Preset::exact).key;
-  const QuadraticSetup quadratic(scene, c_large, key, {});
+  const HardwareKey key = must(plan_scene(scene, {.shader = shader})).key;
+  const std::unique_ptr<Setup> maker = make_setup(scene, c_large, key, {});
   SetupCounts counts;
   for (auto _ : state) {
     counts = {};
     std::vector<std::uint32_t> words;
-    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) quadratic.append(t, words, counts);
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) maker->append(t, words, counts);
     benchmark::DoNotOptimize(words.data());
   }
-  state.counters["vectors/s"] =
-      benchmark::Counter(static_cast<double>(counts.vectors), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["vectors/s"] = benchmark::Counter(static_cast<double>(counts.vectors + counts.records),
+                                                   benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void golden_model(benchmark::State& state, const char* scene) {
-  const Stream& s = stream_of(scene, c_large);
+void golden_model(benchmark::State& state, Shader shader, const char* scene) {
+  const Stream& s = stream_of(shader, scene, c_large);
   const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
   std::vector<Fragment> fragments;
   fragments.reserve(s.golden.size());
@@ -102,12 +116,11 @@ void golden_model(benchmark::State& state, const char* scene) {
 }
 
 // Hardware alone, then with the golden model drawing the same on the same core and every field compared.
-void verilator(benchmark::State& state, const char* scene, bool compared) {
-  const Stream& s = stream_of(scene, c_large);
+void verilator(benchmark::State& state, Shader shader, const char* scene, bool compared) {
+  const Stream& s = stream_of(shader, scene, c_large);
   auto simulator = must(VerilatorSimulator::open(s.key, c_folders));
   const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
   const std::size_t words_per_vector = (s.init_bits + 31) / 32;
-  constexpr std::size_t c_batch = 512;  // vectors
   std::vector<Fragment> drawn, expected;
   drawn.reserve(1 << 20);
   expected.reserve(1 << 20);
@@ -118,9 +131,10 @@ void verilator(benchmark::State& state, const char* scene, bool compared) {
       if (compared) comparator.add_rtl(drawn);
       drawn.clear();
     };
-    for (std::size_t at = 0; at < s.vectors(); at += c_batch) {
-      const std::size_t count = std::min(c_batch, s.vectors() - at);
-      const auto words = std::span(s.words).subspan(at * words_per_vector, count * words_per_vector);
+    auto rest = std::span<const std::uint32_t>(s.words);
+    for (const std::size_t count : s.batches) {
+      const auto words = rest.first(count * words_per_vector);
+      rest = rest.subspan(words.size());
       if (compared) {
         expected.clear();
         golden->draw(words, expected);
@@ -143,8 +157,8 @@ void verilator(benchmark::State& state, const char* scene, bool compared) {
       (static_cast<double>(s.golden.size()) * static_cast<double>(state.iterations()));
 }
 
-void ghdl(benchmark::State& state, const char* scene) {
-  const Stream& s = stream_of(scene, c_small);
+void ghdl(benchmark::State& state, Shader shader, const char* scene) {
+  const Stream& s = stream_of(shader, scene, c_small);
   const auto runner = must(GhdlRunner::open(s.key, c_folders));
   const std::filesystem::path folder = c_source / "build" / "bench";
   if (const Status made = make_folders(folder); !made) fail(made.error());
@@ -206,15 +220,18 @@ class Ratios final : public benchmark::ConsoleReporter {
         if (name.find(part) != std::string::npos) return value;
       return 0.0;
     };
-    const double compared = rate("verilator_compared/spheres"), golden = rate("golden/spheres");
-    const double alone = rate("verilator/spheres"), in_ghdl = rate("ghdl/spheres");
-    if (compared == 0.0 || golden == 0.0 || in_ghdl == 0.0) return;
-    fmt::print(
-        "\nspheres, fragments a second a core, as ratios within this run:\n"
-        "  Verilator with comparison        1.00  ({:.1f} million)\n"
-        "  Verilator alone                  {:.2f}\n  golden model alone               {:.2f}\n"
-        "  GHDL                             1/{:.0f}\n",
-        compared / 1e6, alone / compared, golden / compared, compared / in_ghdl);
+    for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+      const std::string of = fmt::format("/{}/spheres", to_string(shader));
+      const double compared = rate("verilator_compared" + of), golden = rate("golden" + of);
+      const double alone = rate("verilator" + of), in_ghdl = rate("ghdl" + of);
+      if (compared == 0.0 || golden == 0.0 || in_ghdl == 0.0) continue;
+      fmt::print(
+          "\n{}, spheres, fragments a second a core, as ratios within this run:\n"
+          "  Verilator with comparison        1.00  ({:.1f} million)\n"
+          "  Verilator alone                  {:.2f}\n  golden model alone               {:.2f}\n"
+          "  GHDL                             1/{:.0f}\n",
+          to_string(shader), compared / 1e6, alone / compared, golden / compared, compared / in_ghdl);
+    }
   }
 
  private:
@@ -224,19 +241,20 @@ class Ratios final : public benchmark::ConsoleReporter {
 }  // namespace
 
 int main(int argc, char** argv) {
-  benchmark::RegisterBenchmark("setup/teapot", setup)->Unit(benchmark::kMillisecond);
-  for (const char* scene : {"spheres", "matte"}) {
-    benchmark::RegisterBenchmark(fmt::format("golden/{}", scene).c_str(), golden_model, scene)
-        ->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark(fmt::format("verilator/{}", scene).c_str(), verilator, scene, false)
-        ->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark(fmt::format("verilator_compared/{}", scene).c_str(), verilator, scene, true)
-        ->Unit(benchmark::kMillisecond);
+  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+    const auto add = [&](const char* what, const char* scene, auto&&... arguments) {
+      return benchmark::RegisterBenchmark(fmt::format("{}/{}/{}", what, to_string(shader), scene).c_str(),
+                                          arguments...)
+          ->Unit(benchmark::kMillisecond);
+    };
+    add("setup", "teapot", setup, shader);
+    for (const char* scene : {"spheres", "matte"}) {
+      add("golden", scene, golden_model, shader, scene);
+      add("verilator", scene, verilator, shader, scene, false);
+      add("verilator_compared", scene, verilator, shader, scene, true);
+    }
+    add("ghdl", "spheres", ghdl, shader, "spheres")->UseManualTime()->Iterations(1);
   }
-  benchmark::RegisterBenchmark("ghdl/spheres", ghdl, "spheres")
-      ->Unit(benchmark::kMillisecond)
-      ->UseManualTime()
-      ->Iterations(1);
   benchmark::RegisterBenchmark("million_triangles/1920x1080", million_triangles)
       ->Unit(benchmark::kMillisecond)
       ->UseRealTime()

@@ -23,12 +23,14 @@ int run(const Folders& folders, const InitCommand& command) {
   const auto scene = load_scene(command.scene, folders.scenes());
   if (!scene) return report(scene.error());
   for (const std::string& note : scene->notes) fmt::print(stderr, "{}\n", note);
-  const HardwareKey key = plan_quadratic(*scene, draw->preset).key;
-  const QuadraticSetup setup(*scene, draw->size, key, draw->setup);
-  auto file = InitFileWriter::open(command.file, key.name(), setup.init_bits());
+  const auto plan = plan_scene(*scene, draw->plan);
+  if (!plan) return report(plan.error());
+  const HardwareKey& key = plan->key;
+  const std::unique_ptr<Setup> setup = make_setup(*scene, draw->size, key, draw->setup);
+  auto file = InitFileWriter::open(command.file, key.name(), setup->init_bits());
   if (!file) return report(file.error());
   Progress progress(scene->name);
-  SceneStream stream(*scene, setup, key, draw->threads);
+  SceneStream stream(*scene, *setup, key, draw->threads);
   for (Batch batch; stream.next(batch);) {
     progress.show(static_cast<double>(batch.triangles_done) / static_cast<double>(scene->triangles.size()));
     file->write(batch.init_words);
@@ -36,8 +38,8 @@ int run(const Folders& folders, const InitCommand& command) {
   progress.clear();
   if (const Status status = file->commit(); !status) return report(status.error());
   const SetupCounts& n = stream.counts();
-  fmt::print("{}: {} init vectors of {} bits for {}\n", command.file, n.vectors, setup.init_bits(),
-             key.name());
+  fmt::print("{}: {} init vectors and {} line records, of {} bits, for {}\n", command.file, n.vectors,
+             n.records, setup->init_bits(), key.name());
   fmt::print(
       "  {} triangles: {} back-facing, {} outside, {} degenerate on the screen; {} drawn, {} of them split "
       "into "

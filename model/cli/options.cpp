@@ -29,7 +29,7 @@ std::optional<FrameSize> parse_size(std::string_view text) {
 }  // namespace
 
 void DrawOptions::add_to(CLI::App& command) {
-  command.add_option("--shader", shader, "quadratic")->capture_default_str();
+  command.add_option("--shader", shader, "quadratic or spherical")->capture_default_str();
   command.add_option("--preset", preset, "exact, or published: the paper's word lengths and edges")
       ->capture_default_str();
   command.add_option("--size", size, "WIDTHxHEIGHT in pixels, each 1 to 4096")->capture_default_str();
@@ -37,20 +37,39 @@ void DrawOptions::add_to(CLI::App& command) {
   command.add_option("--highlight-test", highlight_test,
                      "when a triangle is split in four: none, centroid (as published), or conservative\n"
                      "(default: conservative in preset exact, centroid in published)");
-  command.add_option("--threshold", threshold, "error that splits a triangle, in colour steps of 1/255")
+  command
+      .add_option("--threshold", threshold, "error past which a triangle is split, in colour steps of 1/255")
       ->capture_default_str();
   command.add_option("--max-level", max_level, "levels of splitting, 0 to 5")->capture_default_str();
+  command.add_option(
+      "--address-bits", address_bits,
+      "spherical: address bits of the cosine tables; with --data-bits, a size that `make tables`\n"
+      "has made (default: the preset's)");
+  command.add_option("--data-bits", data_bits, "spherical: data bits of the cosine tables");
+  command.add_option(
+      "--span-ends", span_ends,
+      "spherical, preset exact: vectors at a span's ends from the surface, or by slerp along the\n"
+      "edges, as published (default: surface)");
   command.add_option("--threads", threads, "threads for setup and golden model (0: all cores)")
       ->capture_default_str();
 }
 
 Result<DrawSettings> checked(const DrawOptions& o) {
   DrawSettings s;
-  if (o.shader != "quadratic")
-    return bad_input(fmt::format("--shader: '{}' is not a shader of this program; take quadratic", o.shader));
+  if (o.shader != "quadratic" && o.shader != "spherical")
+    return bad_input(
+        fmt::format("--shader: '{}' is not a shader of this program; take quadratic or spherical", o.shader));
+  s.plan.shader = o.shader == "quadratic" ? Shader::quadratic : Shader::spherical;
   if (o.preset != "exact" && o.preset != "published")
     return bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset));
-  s.preset = o.preset == "exact" ? Preset::exact : Preset::published;
+  s.plan.preset = o.preset == "exact" ? Preset::exact : Preset::published;
+  if ((o.address_bits == 0) != (o.data_bits == 0))
+    return bad_input("--address-bits and --data-bits go together; give both");
+  if (o.address_bits != 0) s.plan.tables = TableSize{o.address_bits, o.data_bits};
+  if (o.span_ends == "slerp")
+    s.setup.spherical.ends = SpanEnds::slerped_along_edges;
+  else if (!o.span_ends.empty() && o.span_ends != "surface")
+    return bad_input(fmt::format("--span-ends: '{}' is not a way; take surface or slerp", o.span_ends));
   const std::optional<FrameSize> size = parse_size(o.size);
   if (!size)
     return bad_input(fmt::format("--size: '{}' is not WIDTHxHEIGHT in pixels, such as 640x480", o.size));
@@ -59,22 +78,23 @@ Result<DrawSettings> checked(const DrawOptions& o) {
     return bad_input(fmt::format("--size: {} is out of range; width and height are 1 to {} pixels", o.size,
                                  c_max_frame_side));
   s.size = *size;
-  s.setup.test = s.preset == Preset::exact ? HighlightTest::conservative : HighlightTest::centroid;
+  s.setup.quadratic.test =
+      s.plan.preset == Preset::exact ? HighlightTest::conservative : HighlightTest::centroid;
   if (o.highlight_test == "none")
-    s.setup.test = HighlightTest::none;
+    s.setup.quadratic.test = HighlightTest::none;
   else if (o.highlight_test == "centroid")
-    s.setup.test = HighlightTest::centroid;
+    s.setup.quadratic.test = HighlightTest::centroid;
   else if (o.highlight_test == "conservative")
-    s.setup.test = HighlightTest::conservative;
+    s.setup.quadratic.test = HighlightTest::conservative;
   else if (!o.highlight_test.empty())
     return bad_input(fmt::format("--highlight-test: '{}' is not a test; take none, centroid or conservative",
                                  o.highlight_test));
   if (!(o.threshold > 0.0) || !std::isfinite(o.threshold))
     return bad_input(fmt::format("--threshold: {} is not above 0", o.threshold));
-  s.setup.threshold = o.threshold;
+  s.setup.quadratic.threshold = s.setup.spherical.threshold = o.threshold;
   if (o.max_level < 0 || o.max_level > 5)
     return bad_input(fmt::format("--max-level: {} is not 0 to 5", o.max_level));
-  s.setup.max_level = o.max_level;
+  s.setup.quadratic.max_level = o.max_level;
   if (o.threads > 1024) return bad_input(fmt::format("--threads: {} is more than 1024", o.threads));
   s.threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
   if (o.out.empty()) return bad_input("--out: the folder has no name");

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "common/result.hpp"
-#include "plan/hardware_key.hpp"
-#include "setup/quadratic_setup.hpp"
+#include "plan/plan.hpp"
+#include "setup/setup.hpp"
 
 namespace halfway::cli {
 
@@ -24,6 +24,8 @@ struct Folders {
 /// Options of every command that draws.
 struct DrawOptions {
   std::string shader = "quadratic";
+  int address_bits = 0, data_bits = 0;  ///< of the spherical shader's tables; 0: the preset's
+  std::string span_ends;                ///< empty: surface in preset exact, slerp in published
   std::string preset = "exact";
   std::string size = "640x480";
   std::string out = "build/out";
@@ -37,9 +39,9 @@ struct DrawOptions {
 
 /// The same, checked.
 struct DrawSettings {
-  Preset preset;
+  PlanRequest plan;
   FrameSize size;
-  QuadraticSetupOptions setup;
+  SetupOptions setup;
   unsigned threads;
   std::filesystem::path out;
 };

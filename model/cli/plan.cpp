@@ -16,7 +16,9 @@ int run(const Folders& folders, const std::string& name, const DrawOptions& opti
   if (!draw) return report(draw.error());
   const auto scene = load_scene(name, folders.scenes());
   if (!scene) return report(scene.error());
-  const Plan plan = plan_quadratic(*scene, draw->preset);
+  const auto planned = plan_scene(*scene, draw->plan);
+  if (!planned) return report(planned.error());
+  const Plan& plan = *planned;
   fmt::print("scene {}, shader {}: hardware {}\n\n", scene->name, options.shader, plan.key.name());
   for (const PlannedEffect& effect : plan.effects)
     fmt::print("  {:<16} {:<4} {}\n", effect.name, effect.called_for ? "yes" : "no", effect.why);

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway render`: software pictures alone, by reference, Gouraud or the golden model.
+// `halfway render`: software pictures alone, by reference, Gouraud, the golden model, or spherical
+// interpolation in double.
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "cli/options.hpp"
 #include "frame/assemble.hpp"
@@ -8,11 +13,15 @@
 #include "frame/metrics.hpp"
 #include "plan/plan.hpp"
 #include "reference/renderer.hpp"
+#include "reference/spherical_renderer.hpp"
 #include "run/scene_stream.hpp"
 #include "scene/load_scene.hpp"
 
 namespace halfway::cli {
 namespace {
+
+constexpr std::array<std::string_view, 5> c_methods{"reference", "gouraud", "golden", "spherical-fixed",
+                                                    "spherical-both"};
 
 struct RenderCommand {
   DrawOptions draw;
@@ -22,9 +31,10 @@ struct RenderCommand {
 };
 
 Result<Frame> golden_frame(const Scene& scene, const DrawSettings& draw) {
-  const HardwareKey key = plan_quadratic(scene, draw.preset).key;
-  const QuadraticSetup setup(scene, draw.size, key, draw.setup);
-  SceneStream stream(scene, setup, key, draw.threads);
+  const auto plan = plan_scene(scene, draw.plan);
+  if (!plan) return plan.error();
+  const std::unique_ptr<Setup> setup = make_setup(scene, draw.size, plan->key, draw.setup);
+  SceneStream stream(scene, *setup, plan->key, draw.threads);
   FrameAssembler assembler(draw.size, scene.background);
   Progress progress(scene.name);
   for (Batch batch; stream.next(batch);) {
@@ -37,9 +47,9 @@ Result<Frame> golden_frame(const Scene& scene, const DrawSettings& draw) {
 int run(const Folders& folders, const RenderCommand& command) {
   const auto draw = checked(command.draw);
   if (!draw) return report(draw.error());
-  if (command.method != "reference" && command.method != "gouraud" && command.method != "golden")
+  if (std::find(c_methods.begin(), c_methods.end(), command.method) == c_methods.end())
     return report(bad_input(
-        fmt::format("--method: '{}' is not a method; take reference, gouraud or golden", command.method)));
+        fmt::format("--method: '{}' is not a method; take {}", command.method, fmt::join(c_methods, ", "))));
   const auto scene = load_scene(command.scene, folders.scenes());
   if (!scene) return report(scene.error());
   for (const std::string& note : scene->notes) fmt::print(stderr, "{}\n", note);
@@ -49,6 +59,12 @@ int run(const Folders& folders, const RenderCommand& command) {
   const ReferenceImage reference = render_reference(*scene, triangles, options);
   Frame frame = reference.frame;
   if (command.method == "gouraud") frame = render_gouraud(*scene, triangles, options).frame;
+  if (command.method == "spherical-fixed" || command.method == "spherical-both") {
+    const SphericalMethod method{
+        command.method == "spherical-fixed" ? VectorScheme::one_fixed : VectorScheme::both_interpolated,
+        draw->setup.spherical.ends};
+    frame = render_spherical(*scene, triangles, options, method).frame;
+  }
   if (command.method == "golden") {
     auto drawn = golden_frame(*scene, *draw);
     if (!drawn) return report(drawn.error());
@@ -68,11 +84,14 @@ int run(const Folders& folders, const RenderCommand& command) {
 
 void add_render(CLI::App& app, const Folders& folders, int& exit_code) {
   CLI::App* sub =
-      app.add_subcommand("render", "draw a scene in software: reference, Gouraud or golden model");
+      app.add_subcommand("render", "draw a scene in software, and measure it against the reference");
   auto command = std::make_shared<RenderCommand>();
   sub->add_option("scene", command->scene, "as for sim")->required();
   command->draw.add_to(*sub);
-  sub->add_option("--method", command->method, "reference, gouraud or golden")->capture_default_str();
+  sub->add_option("--method", command->method,
+                  "reference, gouraud or golden; spherical-fixed or spherical-both: spherical interpolation\n"
+                  "in double, with one vector held fixed or both interpolated")
+      ->capture_default_str();
   sub->add_option("--file", command->file, "PNG to write (default: <scene>-<method>.png)");
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }

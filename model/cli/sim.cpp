@@ -90,8 +90,7 @@ int run(const Folders& folders, const SimOptions& options) {
   const auto draw = checked(options.draw);
   if (!draw) return report(draw.error());
   SimulateSettings settings;
-  settings.shader = options.draw.shader;
-  settings.preset = draw->preset;
+  settings.plan = draw->plan;
   settings.size = draw->size;
   settings.setup = draw->setup;
   settings.threads = draw->threads;

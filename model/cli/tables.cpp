@@ -2,34 +2,115 @@
 // `halfway tables`: writes what is generated, or checks that it is as it would be written.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <optional>
+
 #include "cli/options.hpp"
 #include "common/file.hpp"
+#include "tables/cosine.hpp"
 #include "tables/formats.hpp"
 
 namespace halfway::cli {
 namespace {
+
+struct TablesOptions {
+  bool check = false;
+  bool errors = false;
+  std::string preset = "exact";
+  std::optional<std::string> address_bits, data_bits;
+};
+
+/// The same, checked.
+struct TablesSettings {
+  bool exact;
+  tables::CosineSizes sizes;
+};
+
+std::optional<int> whole_number(const std::string& text, int smallest, int largest) {
+  int number = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || rest != text.data() + text.size() || number < smallest || number > largest)
+    return std::nullopt;
+  return number;
+}
+
+Result<TablesSettings> checked(const TablesOptions& o) {
+  if (o.preset != "exact" && o.preset != "published")
+    return bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset));
+  TablesSettings s{o.preset == "exact", {}};
+  tables::CosineSize& size = (s.exact ? s.sizes.exact : s.sizes.published).front();
+  for (const auto& [option, text, bits] :
+       {std::tuple{"--address-bits", &o.address_bits, &tables::CosineSize::address_bits},
+        std::tuple{"--data-bits", &o.data_bits, &tables::CosineSize::data_bits}}) {
+    if (!*text) continue;
+    const int smallest = tables::c_smallest_cosine_size.*bits, largest = tables::c_largest_cosine_size.*bits;
+    const std::optional<int> number = whole_number(**text, smallest, largest);
+    if (!number)
+      return bad_input(
+          fmt::format("{}: '{}' is not a whole number from {} to {}", option, **text, smallest, largest));
+    size.*bits = *number;
+  }
+  return s;
+}
 
 struct GeneratedFile {
   std::filesystem::path path;  ///< from the checkout's root
   std::string text;
 };
 
-std::vector<GeneratedFile> generated_files() {
+std::vector<GeneratedFile> generated_files(const tables::CosineSizes& sizes) {
   const auto presets = tables::preset_formats();
   return {{"rtl/tables/formats_pkg.vhd", tables::vhdl_package(presets)},
-          {"model/golden/formats.hpp", tables::cpp_header(presets)}};
+          {"model/golden/formats.hpp", tables::cpp_header(presets)},
+          {"rtl/tables/cosine_pkg.vhd", tables::cosine_vhdl_package(sizes)},
+          {"model/golden/cosine_tables.hpp", tables::cosine_cpp_header(sizes)}};
 }
 
-int run(const Folders& folders, bool check) {
+void print_tables(const tables::CosineSizes& sizes) {
+  for (const tables::CosineTable& table : tables::cosine_tables(sizes)) {
+    const double error = tables::table_error(table);
+    fmt::print(
+        "{:<9}  cos^{:<2}  {:>2}/{:<2} address/data bits  {:>6} bits  largest error {:5.2f}/255 ({:.5f})\n",
+        table.exact ? "exact" : "published", table.power, table.address_bits, table.data_bits, table.bits(),
+        255 * error, error);
+  }
+}
+
+// What a cos^2 table of each size would do: the spherical paper's figure 11 in figures.
+void print_errors(bool exact) {
+  constexpr int c_fewest = 4, c_most = 10;
+  fmt::print("cos^2, preset {}: largest error in 1/255\n{:>12}", exact ? "exact" : "published", "data bits");
+  for (int data = c_fewest; data <= c_most; ++data) fmt::print("{:>7}", data);
+  fmt::print("\n");
+  for (int address = c_fewest; address <= c_most; ++address) {
+    fmt::print("{:>2} {:<9}", address,
+               address == c_fewest       ? "address"
+               : address == c_fewest + 1 ? "bits"
+                                         : "");
+    for (int data = c_fewest; data <= c_most; ++data)
+      fmt::print("{:>7.2f}", 255 * tables::table_error(tables::cosine_table(exact, 2, address, data)));
+    fmt::print("\n");
+  }
+}
+
+int run(const Folders& folders, const TablesOptions& options) {
+  const Result<TablesSettings> settings = checked(options);
+  if (!settings) return report(settings.error());
+  if (options.errors) {
+    print_errors(settings->exact);
+    return static_cast<int>(ExitCode::equal);
+  }
   bool differs = false;
-  for (const GeneratedFile& file : generated_files()) {
+  for (const GeneratedFile& file : generated_files(settings->sizes)) {
     const std::filesystem::path path = folders.source / file.path;
     const Result<std::string> present = read_file(path);
     if (present && *present == file.text) {
       fmt::print("{}: as generated\n", file.path.string());
       continue;
     }
-    if (check) {
+    if (options.check) {
       std::size_t line = 1;
       if (present)
         for (std::size_t i = 0;
@@ -43,16 +124,41 @@ int run(const Folders& folders, bool check) {
     if (const Status status = write_file(path, file.text); !status) return report(status.error());
     fmt::print("{}: written\n", file.path.string());
   }
+  print_tables(settings->sizes);
   return static_cast<int>(differs ? ExitCode::differs : ExitCode::equal);
 }
 
 }  // namespace
 
 void add_tables(CLI::App& app, const Folders& folders, int& exit_code) {
-  CLI::App* command = app.add_subcommand("tables", "write the generated VHDL and C++ (formats) anew");
-  auto check = std::make_shared<bool>(false);
-  command->add_flag("--check", *check, "write nothing; exit 1 if a file is not as it would be written");
-  command->callback([=, &folders, &exit_code] { exit_code = run(folders, *check); });
+  CLI::App* command = app.add_subcommand(
+      "tables", "write the generated VHDL and C++ (formats, cosine tables) anew; print what the tables cost");
+  auto options = std::make_shared<TablesOptions>();
+  CLI::Option* check = command->add_flag("--check", options->check,
+                                         "write nothing; exit 1 if a file is not as it would be written");
+  command
+      ->add_option("--preset", options->preset, "whose cosine tables the sizes are for: exact or published")
+      ->capture_default_str();
+  const tables::CosineSizes sizes;
+  const auto add_bits = [&](const char* name, const char* what, std::optional<std::string>& text,
+                            int tables::CosineSize::*bits) {
+    return command->add_option(
+        name, text,
+        fmt::format("{}, {} to {} (default: {} in preset exact, {} in published)", what,
+                    tables::c_smallest_cosine_size.*bits, tables::c_largest_cosine_size.*bits,
+                    sizes.exact.front().*bits, sizes.published.front().*bits));
+  };
+  CLI::Option* address = add_bits("--address-bits", "a table has 2^this entries", options->address_bits,
+                                  &tables::CosineSize::address_bits);
+  CLI::Option* data =
+      add_bits("--data-bits", "bits of an entry", options->data_bits, &tables::CosineSize::data_bits);
+  command
+      ->add_flag("--errors", options->errors,
+                 "write nothing; print the largest error of cos^2 by address and data bits")
+      ->excludes(check)
+      ->excludes(address)
+      ->excludes(data);
+  command->callback([=, &folders, &exit_code] { exit_code = run(folders, *options); });
 }
 
 }  // namespace halfway::cli

@@ -63,7 +63,7 @@ int run(const Folders& folders, const WhyCommand& command) {
   if (!scene) return report(scene.error());
   Progress progress(scene->name);
   WhySettings settings;
-  settings.preset = draw->preset;
+  settings.plan = draw->plan;
   settings.size = draw->size;
   settings.setup = draw->setup;
   settings.threads = draw->threads;
@@ -81,6 +81,8 @@ int run(const Folders& folders, const WhyCommand& command) {
     fmt::print("\ntriangle {}, init vector {}\n", story.triangle, story.vector);
     fmt::print("  init vector (given to both)\n");
     for (const StageValue& v : story.init) fmt::print("    {:<20} {}\n", v.name, word(v.golden, v));
+    if (!story.record.empty()) fmt::print("  its line's record (given to both)\n");
+    for (const StageValue& v : story.record) fmt::print("    {:<20} {}\n", v.name, word(v.golden, v));
     for (const StageState& stage : story.stages) print_stage(stage);
   }
   if (!why->fault.empty()) fmt::print("\n{}\n", why->fault);

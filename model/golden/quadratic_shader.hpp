@@ -11,17 +11,10 @@
 #include "golden/quadratic_interpolator.hpp"
 #include "golden/saturate.hpp"
 #include "golden/triangle_walker.hpp"
+#include "golden/unwatched.hpp"
 #include "golden/z_interpolator.hpp"
 
 namespace halfway::golden {
-
-/// A watcher that sees no register: for speed.
-struct Unwatched {
-  template <class Shader>
-  void line(const Shader&) {}
-  template <class Shader>
-  void span(const Shader&, SpanXWord) {}
-};
 
 template <class Preset, int Channels>
 class QuadraticShader {
@@ -31,6 +24,10 @@ class QuadraticShader {
   static constexpr int c_init_bits = Preset::c_init_header_bits + Channels * Preset::c_init_channel_bits;
   static constexpr int c_probe_bits = Preset::c_probe_header_bits + Channels * Preset::c_probe_channel_bits;
   static constexpr std::size_t c_init_words = (c_init_bits + 31) / 32;
+  static constexpr int init_bits() { return c_init_bits; }
+  static constexpr int probe_bits() { return c_probe_bits; }
+  /// Vectors that make a triangle.
+  static constexpr std::size_t group(std::span<const std::uint32_t>) { return 1; }
   static constexpr std::size_t c_probe_words = (c_probe_bits + 31) / 32;
 
   /// Draws one init vector of c_init_words words: emit(Fragment) for each pixel; watch.line where the span

@@ -6,29 +6,56 @@
 #include <utility>
 #include <vector>
 
+#include "golden/spherical_layout.hpp"
+
 namespace halfway {
+
+enum class Shader { quadratic, spherical };
+inline const char* to_string(Shader shader) {
+  return shader == Shader::quadratic ? "quadratic" : "spherical";
+}
 
 enum class Preset { exact, published };
 inline const char* to_string(Preset preset) {
   return preset == Preset::exact ? "exact" : "published";
 }
 
-struct HardwareKey {
-  std::string entity = "quadratic_shader";  ///< top entity in rtl/shaders
-  Preset preset = Preset::exact;
-  unsigned channels = 3;  ///< 1 where every colour of the scene is grey
-  bool probe = false;     ///< brings the stages' registers out, for `halfway why` and the register tests
-
-  /// Generics of the top entity, as `-g` takes them, in a fixed order.
-  std::vector<std::pair<std::string, std::string>> generics() const {
-    return {{"g_exact", preset == Preset::exact ? "true" : "false"},
-            {"g_channels", std::to_string(channels)},
-            {"g_probe", probe ? "true" : "false"}};
-  }
-  /// Such as quadratic_shader-exact-c3; names the cached build.
-  std::string name() const {
-    return entity + '-' + to_string(preset) + "-c" + std::to_string(channels) + (probe ? "-probe" : "");
-  }
+/// Address and data bits of the cosine tables.
+struct TableSize {
+  int address_bits = 0, data_bits = 0;
+  friend bool operator==(TableSize, TableSize) = default;
 };
+
+/// What the spherical shader has for a scene's lights.
+struct SphericalUnits {
+  unsigned lights = 0;  ///< 0 to 16
+  bool diffuse = false, specular = false;
+  unsigned highlight_channels = 1;  ///< 1 where every highlight is white: one multiplier for all channels
+  unsigned powers = 0;              ///< bit i: there is a table of cosine to the power 2^i for highlights
+  TableSize tables;
+  /// Whether lines have records: some light has an effect.
+  bool records() const { return lights > 0 && (diffuse || specular); }
+};
+
+struct HardwareKey {
+  Shader shader = Shader::quadratic;
+  Preset preset = Preset::exact;
+  unsigned channels = 3;     ///< 1 where every colour of the scene is grey
+  bool probe = false;        ///< brings the stages' registers out, for `halfway why` and the register tests
+  SphericalUnits spherical;  ///< of the spherical shader
+
+  /// Top entity in rtl/shaders.
+  std::string entity() const;
+  /// Generics of the top entity, as `-g` takes them, in a fixed order.
+  std::vector<std::pair<std::string, std::string>> generics() const;
+  /// The widths of the top's ports init_data and probe, as VHDL expressions of its generics.
+  std::string vhdl_init_bits() const;
+  std::string vhdl_probe_bits() const;
+  /// Such as quadratic_shader-exact-c3; names the cached build.
+  std::string name() const;
+};
+
+/// The spherical shader's generics for its golden twin.
+golden::SphericalConfig golden_config(const HardwareKey& key);
 
 }  // namespace halfway

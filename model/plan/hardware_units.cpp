@@ -1,25 +1,101 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan/hardware_units.hpp"
 
+#include <bit>
+
 namespace halfway {
+namespace {
+
+// Entities below one, with all that lies below them.
+class Units {
+ public:
+  explicit Units(const HardwareKey& key) : key_(key), exact_(key.preset == Preset::exact) {}
+
+  std::map<std::string, int> take() && {
+    // What is not there is not named.
+    std::erase_if(counts_, [](const auto& unit) { return unit.second == 0; });
+    return std::move(counts_);
+  }
+
+  void add(const std::string& entity, int count = 1) { counts_[entity] += count; }
+  void add_stream_registers(int count) {
+    add("stream_register", count);
+    add("parameter_register", count);
+  }
+  void add_walker() {
+    add("triangle_walker");
+    add("edge_walker", exact_ ? 2 : 0);
+    add("line_interpolator", exact_ ? 0 : 2);
+    add("parameter_register", exact_ ? 1 : 2);  // the lower section, or the slopes
+  }
+  void add_z_interpolator() {
+    add("z_interpolator");
+    add("line_interpolator", 2);
+    add("parameter_register", exact_ ? 4 : 3);
+  }
+  void add_quadratic_interpolator() {
+    add("quadratic_interpolator");
+    add("line_interpolator", exact_ ? 6 : 5);
+    add("parameter_register", exact_ ? 7 : 4);
+  }
+  // channels 0: the light's horizon alone
+  void add_diffuse_slice(int channels) {
+    add("diffuse_slice");
+    add("line_interpolator");
+    add("angle_address");
+    add("parameter_register", channels > 0 ? 3 : 2);
+    if (channels == 0) return;
+    add("cosine_rom");
+    add("multiplier", channels);
+  }
+  void add_specular_slice() {
+    const int tables = std::popcount(key_.spherical.powers);
+    add("specular_slice");
+    add("line_interpolator");
+    add("angle_address");
+    add("parameter_register", tables > 1 ? 5 : 3);  // the power chooses between tables
+    add("cosine_rom", tables);
+    add("multiplier", static_cast<int>(key_.spherical.highlight_channels));
+  }
+  void add_quadratic_shader() {
+    add_stream_registers(2);
+    add("parameter_register", 3);  // what a fragment has beside its tag
+    add_walker();
+    add_z_interpolator();
+    for (unsigned c = 0; c < key_.channels; ++c) add_quadratic_interpolator();
+    add("saturate", static_cast<int>(key_.channels));
+  }
+  void add_spherical_shader() {
+    const golden::SphericalConfig config = golden_config(key_);
+    const bool diffuse_part = exact_ ? golden::SphericalLayout<golden::Exact>(config).has_diffuse_part()
+                                     : golden::SphericalLayout<golden::Published>(config).has_diffuse_part();
+    add_stream_registers(4);       // the buffer in front, the stages of sample, product and fragment
+    add("parameter_register", 8);  // depth in three stages, ambient in the four before the last, colour
+    add_walker();
+    add_z_interpolator();
+    for (int light = 0; light < config.lights; ++light) {
+      if (diffuse_part) add_diffuse_slice(config.diffuse ? config.channels : 0);
+      if (config.specular) add_specular_slice();
+    }
+    add("saturating_sum", config.channels);
+    add("saturate", config.channels);
+  }
+
+ private:
+  const HardwareKey& key_;
+  bool exact_;
+  std::map<std::string, int> counts_;
+};
+
+}  // namespace
 
 std::map<std::string, int> hardware_units(const HardwareKey& key) {
-  const int channels = static_cast<int>(key.channels);
-  const bool exact = key.preset == Preset::exact;
-  std::map<std::string, int> units;
-  units["stream_register"] = 2;
-  units["triangle_walker"] = 1;
-  units["z_interpolator"] = 1;
-  units["quadratic_interpolator"] = channels;
-  units["saturate"] = channels;
-  if (exact) units["edge_walker"] = 2;
-  // Edges of preset published; then depth: edge and line; then a channel: three or four along the edge, two
-  // along the line.
-  units["line_interpolator"] = (exact ? 0 : 2) + 2 + channels * (exact ? 6 : 5);
-  // Payloads of the two stream registers and three beside the second; the lower section or the two slopes;
-  // depth's constants; a channel's.
-  units["parameter_register"] = 5 + (exact ? 1 : 2) + (exact ? 4 : 3) + channels * (exact ? 7 : 4);
-  return units;
+  Units units(key);
+  if (key.shader == Shader::spherical)
+    units.add_spherical_shader();
+  else
+    units.add_quadratic_shader();
+  return std::move(units).take();
 }
 
 }  // namespace halfway

@@ -60,17 +60,32 @@ TEST(HardwareUnits, AreThoseOfTheNetlist) {
   const auto library =
       GhdlLibrary::open(*tool, *sources, "", std::filesystem::path(HALFWAY_SOURCE_DIR) / "build" / "cache");
   ASSERT_TRUE(library) << library.error().message;
-  for (const Preset preset : {Preset::exact, Preset::published})
+  std::vector<HardwareKey> keys;
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    const bool exact = preset == Preset::exact;
+    const TableSize tables = exact ? TableSize{9, 8} : TableSize{6, 6};
     for (const unsigned channels : {1U, 3U}) {
-      HardwareKey key;
-      key.preset = preset;
-      key.channels = channels;
-      const auto netlist = library->synthesize(key.entity, key.generics());
-      ASSERT_TRUE(netlist) << netlist.error().message;
-      std::map<std::string, int> found;
-      Netlist(*netlist, entities).count(key.entity, found);
-      EXPECT_EQ(found, hardware_units(key)) << key.name();
+      keys.push_back({.preset = preset, .channels = channels});
+      const auto spherical = [&](SphericalUnits units) {
+        units.tables = tables;
+        if (!exact && units.powers != 0) units.powers = 2;
+        keys.push_back(
+            {.shader = Shader::spherical, .preset = preset, .channels = channels, .spherical = units});
+      };
+      spherical({});
+      spherical({.lights = 1, .diffuse = true});
+      spherical({.lights = 2, .specular = true, .powers = 16});
+      spherical(
+          {.lights = 3, .diffuse = true, .specular = true, .highlight_channels = channels, .powers = 22});
     }
+  }
+  for (const HardwareKey& key : keys) {
+    const auto netlist = library->synthesize(key.entity(), key.generics());
+    ASSERT_TRUE(netlist) << netlist.error().message;
+    std::map<std::string, int> found;
+    Netlist(*netlist, entities).count(key.entity(), found);
+    EXPECT_EQ(found, hardware_units(key)) << key.name();
+  }
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 // The plan: which hardware a scene calls for. A pure function of the scene and the shader asked for.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
 
@@ -21,6 +23,15 @@ struct Plan {
   std::vector<PlannedEffect> effects;
 };
 
-Plan plan_quadratic(const Scene& scene, Preset preset);
+struct PlanRequest {
+  Shader shader = Shader::quadratic;
+  Preset preset = Preset::exact;
+  std::optional<TableSize> tables;  ///< of the spherical shader; none: the preset's
+};
+
+inline constexpr std::size_t c_most_lights = 16;  ///< of the spherical shader
+
+/// An error where the shader cannot draw the scene.
+Result<Plan> plan_scene(const Scene& scene, const PlanRequest& request);
 
 }  // namespace halfway

@@ -14,14 +14,13 @@ double bounded(double v, double limit) {
   return v > 0 ? std::min(v, limit) : 0.0;
 }
 
-/// Unit vector from one point to another, zero where they coincide.
+}  // namespace
+
 glm::dvec3 direction(glm::dvec3 from, glm::dvec3 to) {
   const glm::dvec3 v = to - from;
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   return largest > 0 && std::isfinite(largest) ? glm::normalize(v / largest) : glm::dvec3(0.0);
 }
-
-}  // namespace
 
 double highlight_power(double base, double exponent) {
   return base > 0 ? std::pow(std::min(base, 1.0), exponent) : 0.0;

@@ -39,6 +39,9 @@ double specular_factor(const Material& material, glm::dvec3 normal, glm::dvec3 t
 /// Smoothstep from 0 at cos_outer to 1 at cos_inner; a step where they are equal.
 double spot_factor(const SpotLight& light, double cos_to_axis);
 
+/// Unit vector from one point to another, zero where they coincide.
+glm::dvec3 direction(glm::dvec3 from, glm::dvec3 to);
+
 /// Radiance towards the eye: I_a k_a colour, and from each light I (k_d colour max(N.L, 0) + k_s
 /// specular_colour specular). Linear, not clamped to 1; finite and >= 0. `normal_world` is unit. A light at
 /// the very point has no direction and gives nothing; where the eye is at the point the normal stands for the

@@ -13,7 +13,7 @@
 namespace halfway {
 
 /// Stages whose registers a probe shows.
-enum class Stage { line, span };
+enum class Stage { line, span, sample, product };
 
 /// A stage's registers when it took a line or drew a pixel, laid out as the RTL's `probe` port.
 struct ProbeEvent {
@@ -25,7 +25,9 @@ struct ProbeEvent {
 class GoldenModel {
  public:
   virtual ~GoldenModel() = default;
-  /// Appends the fragments of whole init vectors.
+  /// How many vectors make a triangle, which begins with this one: itself, and its line records.
+  virtual std::size_t group(std::span<const std::uint32_t> init_words) const = 0;
+  /// Appends the fragments of whole triangles' vectors.
   virtual void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) = 0;
   /// The same, and the stages' registers.
   virtual void draw_probed(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,

@@ -11,8 +11,14 @@
 namespace halfway {
 namespace {
 
-constexpr std::uint32_t c_batch_triangles = 8192;
-constexpr std::uint32_t c_chunk_triangles = 256;
+constexpr std::uint32_t c_least_batch = 64, c_first_batch = 1024, c_largest_batch = 8192;  // triangles
+constexpr std::uint32_t c_most_chunk = 256;                                                // triangles
+constexpr std::size_t c_batch_bytes = std::size_t{64} << 20;  // about what a batch should hold
+
+std::size_t bytes(const Batch& batch) {
+  return batch.init_words.size() * sizeof(batch.init_words[0]) +
+         batch.golden.size() * sizeof(batch.golden[0]);
+}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -20,9 +26,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-SceneStream::SceneStream(const Scene& scene, const QuadraticSetup& setup, const HardwareKey& key,
-                         unsigned threads)
-    : scene_(scene), setup_(setup), key_(key), threads_(std::max(1U, threads)) {
+SceneStream::SceneStream(const Scene& scene, const Setup& setup, const HardwareKey& key, unsigned threads)
+    : scene_(scene),
+      setup_(setup),
+      key_(key),
+      threads_(std::max(1U, threads)),
+      batch_triangles_(c_first_batch) {
   prefetch();
 }
 
@@ -33,7 +42,7 @@ SceneStream::~SceneStream() {
 void SceneStream::prefetch() {
   const auto total = static_cast<std::uint32_t>(scene_.triangles.size());
   if (next_triangle_ >= total) return;
-  const std::uint32_t begin = next_triangle_, end = std::min(total, begin + c_batch_triangles);
+  const std::uint32_t begin = next_triangle_, end = std::min(total, begin + batch_triangles_);
   next_triangle_ = end;
   ahead_ = std::async(std::launch::async, [this, begin, end] { return make(begin, end); });
 }
@@ -41,6 +50,10 @@ void SceneStream::prefetch() {
 bool SceneStream::next(Batch& batch) {
   if (!ahead_.valid()) return false;
   Work work = ahead_.get();
+  if (bytes(work.batch) > c_batch_bytes)
+    batch_triangles_ = std::max(c_least_batch, batch_triangles_ / 2);
+  else if (bytes(work.batch) < c_batch_bytes / 4)
+    batch_triangles_ = std::min(c_largest_batch, batch_triangles_ * 2);
   prefetch();
   counts_ += work.counts;
   setup_seconds_ += work.setup_seconds;
@@ -50,16 +63,18 @@ bool SceneStream::next(Batch& batch) {
 }
 
 SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) const {
-  const std::size_t chunks = (end - begin + c_chunk_triangles - 1) / c_chunk_triangles;
+  // Small enough for all threads to have some.
+  const std::uint32_t chunk_triangles = std::clamp((end - begin) / (4 * threads_), 1U, c_most_chunk);
+  const std::size_t chunks = (end - begin + chunk_triangles - 1) / chunk_triangles;
   std::vector<Work> parts(chunks);
   std::atomic<std::size_t> next_chunk = 0;
   const auto work = [&] {
     const std::unique_ptr<GoldenModel> golden = make_golden_model(key_);
     for (std::size_t i = next_chunk++; i < chunks; i = next_chunk++) {
       Work& part = parts[i];
-      const auto first = static_cast<std::uint32_t>(begin + i * c_chunk_triangles);
+      const auto first = static_cast<std::uint32_t>(begin + i * chunk_triangles);
       const auto setup_start = std::chrono::steady_clock::now();
-      for (std::uint32_t t = first; t < std::min(end, first + c_chunk_triangles); ++t)
+      for (std::uint32_t t = first; t < std::min(end, first + chunk_triangles); ++t)
         setup_.append(t, part.batch.init_words, part.counts);
       part.setup_seconds = seconds_since(setup_start);
       const auto golden_start = std::chrono::steady_clock::now();

@@ -9,7 +9,7 @@
 
 #include "frame/fragment.hpp"
 #include "plan/hardware_key.hpp"
-#include "setup/quadratic_setup.hpp"
+#include "setup/setup.hpp"
 
 namespace halfway {
 
@@ -20,11 +20,12 @@ struct Batch {
 };
 
 /// Setup and golden model on `threads` threads, one batch ahead of who takes them. The stream does not depend
-/// on the number of threads. Memory is bounded by a batch, not by the mesh.
+/// on the number of threads. Memory is bounded by a batch, not by the mesh: batches of large triangles, or of
+/// triangles with many line records, hold fewer.
 class SceneStream {
  public:
   /// Scene and setup must outlive the stream.
-  SceneStream(const Scene& scene, const QuadraticSetup& setup, const HardwareKey& key, unsigned threads);
+  SceneStream(const Scene& scene, const Setup& setup, const HardwareKey& key, unsigned threads);
   ~SceneStream();
 
   /// The next batch; false after the last.
@@ -45,10 +46,10 @@ class SceneStream {
   void prefetch();
 
   const Scene& scene_;
-  const QuadraticSetup& setup_;
+  const Setup& setup_;
   HardwareKey key_;
   unsigned threads_;
-  std::uint32_t next_triangle_ = 0;
+  std::uint32_t next_triangle_ = 0, batch_triangles_;
   std::future<Work> ahead_;
   SetupCounts counts_;
   double setup_seconds_ = 0, golden_seconds_ = 0;

@@ -15,12 +15,14 @@
 #include "frame/image.hpp"
 #include "frame/init_file.hpp"
 #include "frame/trace.hpp"
+#include "plan/effects.hpp"
 #include "plan/hardware_units.hpp"
 #include "reference/renderer.hpp"
 #include "run/limits.hpp"
 #include "run/scene_stream.hpp"
 #include "run/trace_pair.hpp"
 #include "run/waveform.hpp"
+#include "setup/spherical_setup.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
@@ -84,17 +86,19 @@ class Simulation {
   Simulation(const Scene& scene, const SimulateSettings& settings)
       : scene_(scene),
         s_(settings),
-        files_(ResultFiles::of(settings.out, scene.name, settings.shader)),
+        files_(ResultFiles::of(settings.out, scene.name, to_string(settings.plan.shader))),
         golden_(settings.size, scene.background) {
     summary_.scene = scene.name;
-    summary_.shader = s_.shader;
+    summary_.shader = to_string(s_.plan.shader);
     summary_.size = s_.size;
     summary_.triangles = scene.triangles.size();
-    summary_.plan = plan_quadratic(scene, s_.preset);
   }
 
   Result<SceneSummary> run() {
     const Clock::time_point start = Clock::now();
+    auto plan = plan_scene(scene_, s_.plan);
+    if (!plan) return plan.error();
+    summary_.plan = std::move(*plan);
     if (Status status = make_folders(files_.folder); !status) return status.error();
     const auto lock = FolderLock::take(
         files_.folder, [this] { s_.on_progress("waiting for another run in its folder", -1.0); });
@@ -159,13 +163,18 @@ class Simulation {
           "{} triangles lie behind the eye or nearer than the near plane, which was fitted to {:.4g}; set "
           "near in [camera] to see nearer ones",
           n.projection.behind_near, depth_range(scene_.camera, bounding_sphere(scene_)).near));
-    if (n.unresolved != 0 && s_.setup.max_level > 0)
+    if (n.unresolved != 0 && s_.setup.quadratic.max_level > 0)
       note(fmt::format(
           "{} pieces may err by more than {} colour steps after {} levels of splitting; a finer mesh helps",
-          n.unresolved, s_.setup.threshold, s_.setup.max_level));
+          n.unresolved, s_.setup.quadratic.threshold, s_.setup.quadratic.max_level));
+    if (s_.plan.shader == Shader::spherical)
+      for (const Material& m : scene_.materials)
+        if (has_specular(m) && m.exponent > c_largest_exponent)
+          note(fmt::format("material '{}': its exponent {:g} was held at {:g}", m.name, m.exponent,
+                           c_largest_exponent));
     if (n.overexposed != 0)
-      note(
-          fmt::format("{} samples are over-exposed more than four times and were held there", n.overexposed));
+      note(fmt::format("{} samples or factors are over-exposed more than four times and were held there",
+                       n.overexposed));
   }
 
   ReferenceImage draw_reference() const {
@@ -175,7 +184,7 @@ class Simulation {
 
   // Setup, golden model and Verilator, batch by batch; init file and traces written on the way.
   Status stream() {
-    const QuadraticSetup setup(scene_, s_.size, summary_.plan.key, s_.setup);
+    const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, summary_.plan.key, s_.setup);
     std::optional<VerilatorSimulator> verilator;
     std::optional<TraceWriter> verilator_trace;
     RtlStream rtl(s_.size, scene_.background);
@@ -190,13 +199,13 @@ class Simulation {
       if (!trace) return trace.error();
       verilator_trace.emplace(std::move(*trace));
     }
-    auto init_file = InitFileWriter::open(files_.init(), key, setup.init_bits());
+    auto init_file = InitFileWriter::open(files_.init(), key, setup->init_bits());
     if (!init_file) return init_file.error();
     auto golden_trace = TraceWriter::open(files_.trace("golden"), key);
     if (!golden_trace) return golden_trace.error();
 
-    SceneStream stream(scene_, setup, summary_.plan.key, s_.threads);
-    const std::size_t words_per_vector = (setup.init_bits() + 31) / 32;
+    SceneStream stream(scene_, *setup, summary_.plan.key, s_.threads);
+    const std::size_t words_per_vector = (setup->init_bits() + 31) / 32;
     double verilator_seconds = 0.0;
     bool rtl_alive = verilator.has_value();
     std::vector<Fragment> drawn;
@@ -408,6 +417,7 @@ std::string to_json(const SceneSummary& s) {
         {"leaves", s.setup.leaves},
         {"unresolved", s.setup.unresolved},
         {"init_vectors", s.setup.vectors},
+        {"line_records", s.setup.records},
         {"shaded_points", s.setup.shaded},
         {"overexposed_samples", s.setup.overexposed}}},
       {"setup_seconds", s.setup_seconds},

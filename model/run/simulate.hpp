@@ -15,16 +15,15 @@
 #include "plan/plan.hpp"
 #include "run/result_files.hpp"
 #include "run/stream_comparator.hpp"
-#include "setup/quadratic_setup.hpp"
+#include "setup/setup.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
 namespace halfway {
 
 struct SimulateSettings {
-  std::string shader = "quadratic";
-  Preset preset = Preset::exact;
+  PlanRequest plan;
   FrameSize size;
-  QuadraticSetupOptions setup;
+  SetupOptions setup;
   unsigned threads = 1;
   bool ghdl = true, verilator = true;
   std::uint32_t stall_seed = 0;  ///< not 0: both streams stall at random

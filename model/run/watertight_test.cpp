@@ -47,7 +47,9 @@ bool faces_eye(const Scene& scene, std::uint32_t triangle) {
   return glm::dot(glm::cross(b - a, c - a), scene.camera.eye_world - a) > 0.0;
 }
 
-TEST(Watertight, TheRtlDrawsEveryPixelOfAClosedSolidOnce) {
+class Watertight : public testing::TestWithParam<Shader> {};
+
+TEST_P(Watertight, TheRtlDrawsEveryPixelOfAClosedSolidOnce) {
   std::mt19937 random(20);
   const SimulatorFolders folders{HALFWAY_SOURCE_DIR,
                                  std::filesystem::path(HALFWAY_SOURCE_DIR) / "build" / "cache"};
@@ -55,17 +57,18 @@ TEST(Watertight, TheRtlDrawsEveryPixelOfAClosedSolidOnce) {
   std::uint64_t split = 0, pixels = 0;
   for (int round = 0; round < 40; ++round) {
     const Scene scene = random_solid(random);
-    const HardwareKey key = plan_quadratic(scene, Preset::exact).key;
-    QuadraticSetupOptions options;
-    options.threshold = round % 2 == 0 ? 0.25 : 1e6;  // split nearly everywhere, or nowhere
-    const QuadraticSetup setup(scene, c_frame, key, options);
-    SceneStream stream(scene, setup, key, 2);
+    const HardwareKey key = plan_scene(scene, {.shader = GetParam()})->key;
+    SetupOptions options;
+    // Split nearly everywhere, or nowhere.
+    options.quadratic.threshold = options.spherical.threshold = round % 2 == 0 ? 0.25 : 1e6;
+    const auto setup = make_setup(scene, c_frame, key, options);
+    SceneStream stream(scene, *setup, key, 2);
     auto rtl = VerilatorSimulator::open(key, folders);
     ASSERT_TRUE(rtl) << rtl.error().message;
     std::vector<Fragment> drawn;
     for (Batch batch; stream.next(batch);)
-      ASSERT_TRUE(rtl->run(batch.init_words, batch.init_words.size() / ((setup.init_bits() + 31) / 32), drawn,
-                           1 << 20));
+      ASSERT_TRUE(rtl->run(batch.init_words, batch.init_words.size() / ((setup->init_bits() + 31) / 32),
+                           drawn, 1 << 20));
     ASSERT_TRUE(rtl->finish(drawn, 1 << 20));
     split += stream.counts().subdivided;
 
@@ -97,6 +100,9 @@ TEST(Watertight, TheRtlDrawsEveryPixelOfAClosedSolidOnce) {
   EXPECT_GT(split, 100U);
   EXPECT_GT(pixels, 100'000U);
 }
+
+INSTANTIATE_TEST_SUITE_P(Shaders, Watertight, testing::Values(Shader::quadratic, Shader::spherical),
+                         [](const auto& shader) { return std::string(to_string(shader.param)); });
 
 }  // namespace
 }  // namespace halfway

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <vector>
 
 #include "common/file.hpp"
@@ -43,29 +44,33 @@ Status run_until(VerilatorSimulator& simulator, const ResultFiles& files, const 
   return Ok{};
 }
 
-// The init vectors around fragment `index`: two before its own, and two after.
+// The vectors of the triangles around fragment `index`: two before its own, and two after.
 Result<InitStream> vectors_around(const HardwareKey& key, const ResultFiles& files, std::uint64_t index) {
   constexpr std::size_t c_around = 2;
   auto file = InitFileReader::open(files.init(), key.name());
   if (!file) return file.error();
   const std::unique_ptr<GoldenModel> golden = make_golden_model(key);
   InitStream kept{file->bits(), {}};
-  std::vector<std::uint32_t> words;
+  std::deque<std::size_t> before;  // words of each triangle kept so far
   std::uint64_t drawn = 0;
   for (std::size_t after = 0; after <= c_around;) {
-    words.clear();
-    const auto count = file->read(words, 1);
-    if (!count) return count.error();
-    if (*count == 0) break;
+    std::vector<std::uint32_t> words;
+    const auto begun = file->read(words, 1);
+    if (!begun) return begun.error();
+    if (*begun == 0) break;
+    if (const std::size_t records = golden->group(words) - 1; records != 0)
+      if (const auto more = file->read(words, records); !more) return more.error();
     std::vector<Fragment> fragments;
     golden->draw(words, fragments);
     drawn += fragments.size();
     kept.words.insert(kept.words.end(), words.begin(), words.end());
-    if (drawn > index)
+    before.push_back(words.size());
+    if (drawn > index) {
       ++after;
-    else if (kept.size() > c_around)
-      kept.words.erase(kept.words.begin(),
-                       kept.words.begin() + static_cast<std::ptrdiff_t>(kept.words_per_vector()));
+    } else if (before.size() > c_around) {
+      kept.words.erase(kept.words.begin(), kept.words.begin() + static_cast<std::ptrdiff_t>(before.front()));
+      before.pop_front();
+    }
   }
   return kept;
 }

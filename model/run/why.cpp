@@ -7,7 +7,7 @@
 #include <deque>
 #include <span>
 
-#include "golden/formats.hpp"
+#include "golden/spherical_layout.hpp"
 #include "golden/word.hpp"
 #include "plan/plan.hpp"
 #include "run/golden_run.hpp"
@@ -24,41 +24,113 @@ struct PlacedField {
   std::string name;
   golden::Field field;
   int block_low;
+  Stage stage = Stage::line;     // of the probe's fields: with which event it is valid
+  std::string_view entity = {};  // whose register it shows
 };
 
-std::vector<PlacedField> place(std::span<const golden::Field> header, int header_bits,
-                               std::span<const golden::Field> channel, int channel_bits, unsigned channels) {
+constexpr std::string_view c_stage_names[] = {"line", "span", "sample", "product"};
+
+// What a hardware key's flat vectors hold.
+struct Layouts {
+  std::vector<PlacedField> init, record, probe;
+  unsigned stages;  // of c_stage_names
+};
+
+std::string channel_name(unsigned channel, unsigned channels) {
   static constexpr const char* c_colours[] = {"red", "green", "blue"};
-  std::vector<PlacedField> fields;
-  for (const golden::Field& f : header) fields.push_back({std::string(f.name), f, 0});
-  for (unsigned c = 0; c < channels; ++c)
-    for (const golden::Field& f : channel)
-      fields.push_back({fmt::format("{} {}", channels == 1 ? "grey" : c_colours[c], f.name), f,
-                        header_bits + static_cast<int>(c) * channel_bits});
-  return fields;
+  return channels == 1 ? "grey" : c_colours[channel];
 }
 
-template <class P>
-std::vector<PlacedField> init_fields(unsigned channels) {
-  return place(P::c_init_header, P::c_init_header_bits, P::c_init_channel, P::c_init_channel_bits, channels);
-}
-template <class P>
-std::vector<PlacedField> probe_fields(unsigned channels) {
-  return place(P::c_probe_header, P::c_probe_header_bits, P::c_probe_channel, P::c_probe_channel_bits,
-               channels);
-}
-
-bool belongs(const PlacedField& f, std::string_view stage) {
-  return f.field.name.starts_with(stage) && f.field.name != "line_event" && f.field.name != "span_event";
-}
-
-// Which entity's register a probe field shows.
-std::string_view entity_of(std::string_view field) {
+std::string_view walk_entity(std::string_view field) {
   if (field == "line_start" || field == "line_stop" || field == "line_carry")
     return "edge_walker (in preset published: line_interpolator)";
-  if (field.ends_with("_y") || field.ends_with("_x")) return "triangle_walker";
-  if (field.ends_with("_z")) return "z_interpolator";
-  return "quadratic_interpolator";
+  return field.ends_with("_z") ? "z_interpolator" : "triangle_walker";
+}
+
+template <class P>
+void place_probe_header(Layouts& layouts) {
+  for (const golden::Field& f : P::c_probe_header)
+    if (!f.name.ends_with("_event"))
+      layouts.probe.push_back({std::string(f.name), f, 0,
+                               f.name.starts_with("line_") ? Stage::line : Stage::span, walk_entity(f.name)});
+}
+
+template <class P>
+Layouts quadratic_layouts(unsigned channels) {
+  Layouts layouts;
+  layouts.stages = 2;
+  for (const golden::Field& f : P::c_init_header) layouts.init.push_back({std::string(f.name), f, 0});
+  place_probe_header<P>(layouts);
+  for (unsigned c = 0; c < channels; ++c) {
+    const auto name = [&](const golden::Field& f) {
+      return fmt::format("{} {}", channel_name(c, channels), f.name);
+    };
+    for (const golden::Field& f : P::c_init_channel)
+      layouts.init.push_back(
+          {name(f), f, P::c_init_header_bits + static_cast<int>(c) * P::c_init_channel_bits});
+    for (const golden::Field& f : P::c_probe_channel)
+      layouts.probe.push_back(
+          {name(f), f, P::c_probe_header_bits + static_cast<int>(c) * P::c_probe_channel_bits,
+           f.name.starts_with("line_") ? Stage::line : Stage::span, "quadratic_interpolator"});
+  }
+  return layouts;
+}
+
+template <class P>
+Layouts spherical_layouts(const HardwareKey& key) {
+  const golden::SphericalConfig config = golden_config(key);
+  const golden::SphericalLayout<P> at(config);
+  Layouts layouts;
+  layouts.stages = 4;
+  for (const golden::Field& f : P::c_init_header) layouts.init.push_back({std::string(f.name), f, 0});
+  for (int c = 0; c < config.channels; ++c)
+    layouts.init.push_back({channel_name(static_cast<unsigned>(c), key.channels) + " ambient",
+                            P::ambient_channel_at::ambient, at.ambient_low(c)});
+  place_probe_header<P>(layouts);
+  // One slice's part of a record or of the probe: its header's fields, then a word a channel.
+  const auto place = [](std::vector<PlacedField>& fields, std::span<const golden::Field> header,
+                        int header_bits, std::span<const golden::Field> channel, int channel_bits,
+                        int channels, const std::string& slice, int low, std::string_view entity) {
+    const auto add = [&](const golden::Field& f, int block_low, const std::string& of) {
+      const Stage stage = f.name == "product"                        ? Stage::product
+                          : f.name == "sample" || f.name == "inside" ? Stage::sample
+                                                                     : Stage::span;
+      fields.push_back({fmt::format("{} {}{}", slice, of, f.name), f, block_low, stage,
+                        stage == Stage::span     ? "line_interpolator"
+                        : f.name == "inside"     ? "angle_address"
+                        : stage == Stage::sample ? "cosine_rom"
+                                                 : entity});
+    };
+    for (const golden::Field& f : header) add(f, low, "");
+    for (int c = 0; c < channels; ++c)
+      for (const golden::Field& f : channel)
+        add(f, low + header_bits + c * channel_bits,
+            channels == 1 ? "" : channel_name(static_cast<unsigned>(c), 3) + " ");
+  };
+  for (int l = 0; l < config.lights; ++l) {
+    const std::string light = fmt::format("light {}", l + 1);
+    if (at.has_diffuse_part()) {
+      place(layouts.record, P::c_diffuse_header, P::c_diffuse_header_bits, P::c_diffuse_channel,
+            P::c_diffuse_channel_bits, at.diffuse_channels(), light + " diffuse", at.diffuse_low(l), "");
+      place(layouts.probe, P::c_diffuse_probe_header, P::c_diffuse_probe_header_bits,
+            P::c_diffuse_probe_channel, P::c_diffuse_probe_channel_bits, at.diffuse_channels(),
+            light + " diffuse", at.diffuse_probe_low(l), "multiplier");
+    }
+    if (config.specular) {
+      place(layouts.record, P::c_specular_header, P::c_specular_header_bits, P::c_specular_channel,
+            P::c_specular_channel_bits, config.highlight_channels, light + " specular", at.specular_low(l),
+            "");
+      place(layouts.probe, P::c_specular_probe_header, P::c_specular_probe_header_bits,
+            P::c_specular_probe_channel, P::c_specular_probe_channel_bits, config.highlight_channels,
+            light + " specular", at.specular_probe_low(l), "multiplier");
+    }
+  }
+  return layouts;
+}
+
+template <class P>
+Layouts layouts_of(const HardwareKey& key) {
+  return key.shader == Shader::spherical ? spherical_layouts<P>(key) : quadratic_layouts<P>(key.channels);
 }
 
 std::string shown(std::uint64_t word, const PlacedField& f) {
@@ -95,28 +167,29 @@ class Explainer {
   Result<WhyReport> run(HardwareKey key) {
     report_.key = key;
     key.probe = true;
-    const bool exact = key.preset == Preset::exact;
-    init_fields_ =
-        exact ? init_fields<golden::Exact>(key.channels) : init_fields<golden::Published>(key.channels);
-    probe_fields_ =
-        exact ? probe_fields<golden::Exact>(key.channels) : probe_fields<golden::Published>(key.channels);
+    layouts_ =
+        key.preset == Preset::exact ? layouts_of<golden::Exact>(key) : layouts_of<golden::Published>(key);
+    expected_.resize(layouts_.stages);
     auto simulator =
         VerilatorSimulator::open(key, s_.folders, {.idle_limit = c_idle_limit, .record_probes = true});
     if (!simulator) return simulator.error();
-    const QuadraticSetup setup(scene_, s_.size, report_.key, s_.setup);
+    const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, report_.key, s_.setup);
     const std::unique_ptr<GoldenModel> golden = make_golden_model(report_.key);
-    const std::size_t words_per_vector = (setup.init_bits() + 31) / 32;
+    words_per_vector_ = (setup->init_bits() + 31) / 32;
 
-    SceneStream stream(scene_, setup, report_.key, s_.threads);
+    SceneStream stream(scene_, *setup, report_.key, s_.threads);
     bool alive = true;
     for (Batch batch; alive && stream.next(batch);) {
       s_.on_progress(static_cast<double>(batch.triangles_done) /
                      static_cast<double>(scene_.triangles.size()));
-      for (std::size_t at = 0; alive && at < batch.init_words.size(); at += words_per_vector, ++vector_) {
-        const auto words = std::span(batch.init_words).subspan(at, words_per_vector);
+      for (auto rest = std::span<const std::uint32_t>(batch.init_words); alive && !rest.empty();) {
+        const std::size_t vectors = golden->group(rest);
+        const auto words = rest.first(vectors * words_per_vector_);
+        rest = rest.subspan(words.size());
         draw_golden(*golden, words);
+        vector_ += vectors;
         const std::size_t limit = golden_fragments_.size() + c_surplus;
-        alive = take(simulator->run(words, 1, rtl_fragments_, limit), *simulator);
+        alive = take(simulator->run(words, vectors, rtl_fragments_, limit), *simulator);
       }
     }
     if (alive) take(simulator->finish(rtl_fragments_, golden_fragments_.size() + c_surplus), *simulator);
@@ -130,38 +203,42 @@ class Explainer {
 
   struct Expected {
     ProbeEvent event;
-    std::optional<std::pair<std::size_t, std::size_t>> story;  // story and stage to fill in
+    std::optional<std::size_t> story;  // to fill in
   };
   struct ExpectedFragment {
     Fragment fragment;
-    std::optional<std::pair<std::size_t, std::size_t>> story;
+    std::optional<std::size_t> story;
   };
 
-  // The golden side of one vector: what is expected of each stage, and the pixel's stories.
+  // The golden side of one triangle: what is expected of each stage, and the pixel's stories.
   void draw_golden(GoldenModel& golden, std::span<const std::uint32_t> words) {
     std::vector<Fragment> fragments;
     std::vector<ProbeEvent> events;
     golden.draw_probed(words, fragments, events);
     std::size_t drawn = 0;
-    std::deque<Expected>* const queues[] = {&lines_, &spans_};
+    std::optional<std::size_t> story;  // of the pixel whose stages come now
     for (ProbeEvent& event : events) {
+      const auto stage = static_cast<std::size_t>(event.stage);
       Expected expected{std::move(event), std::nullopt};
-      if (expected.event.stage == Stage::span) {
-        ExpectedFragment fragment{fragments[drawn++], std::nullopt};
-        if (expected.event.x == s_.x && expected.event.y == s_.y) {
-          const std::size_t story = begin_story(words, fragment.fragment);
-          // The line that this pixel is on is the last one expected.
-          lines_.back().story = {story, 0};
-          show(line_event_, story, 0);
-          expected.story = {story, 1};
-          show(expected.event, story, 1);
-          fragment.story = {story, 2};
-        }
-        golden_fragments_.push_back(fragment);
-      } else {
+      if (expected.event.stage == Stage::line) {
         line_event_ = expected.event;
+      } else {
+        if (expected.event.stage == Stage::span) {
+          story.reset();
+          ExpectedFragment fragment{fragments[drawn++], std::nullopt};
+          if (expected.event.x == s_.x && expected.event.y == s_.y) {
+            story = begin_story(words, fragment.fragment);
+            // The line that this pixel is on is the last one expected.
+            expected_[0].back().story = story;
+            show(line_event_, *story);
+            fragment.story = story;
+          }
+          golden_fragments_.push_back(fragment);
+        }
+        expected.story = story;
+        if (story) show(expected.event, *story);
       }
-      queues[expected.event.stage == Stage::span]->push_back(std::move(expected));
+      expected_[stage].push_back(std::move(expected));
     }
   }
 
@@ -169,26 +246,30 @@ class Explainer {
     PixelStory story;
     story.vector = vector_;
     story.triangle = fragment.triangle;
-    for (const PlacedField& f : init_fields_) story.init.push_back(value_of(f, words, words));
-    story.stages.resize(3);
-    story.stages[0].stage = "line";
-    story.stages[1].stage = "span";
-    story.stages[2].stage = "fragment";
+    for (const PlacedField& f : layouts_.init) story.init.push_back(value_of(f, words, words));
+    if (!layouts_.record.empty()) {
+      const std::size_t line = fragment.y - get_bits(words, golden::Exact::init_header_at::y);
+      const auto record = words.subspan((1 + line) * words_per_vector_, words_per_vector_);
+      for (const PlacedField& f : layouts_.record) story.record.push_back(value_of(f, record, record));
+    }
+    for (std::size_t i = 0; i < layouts_.stages; ++i)
+      story.stages.push_back({std::string(c_stage_names[i]), std::nullopt, {}});
+    story.stages.push_back({"fragment", std::nullopt, {}});
     const auto golden = fields(fragment);
     for (std::size_t i = 0; i < golden.size(); ++i)
-      story.stages[2].values.push_back(
+      story.stages.back().values.push_back(
           {std::string(c_fragment_fields[i]), golden[i], 0, c_fragment_bits[i], 0, false});
     report_.stories.push_back(std::move(story));
     return report_.stories.size() - 1;
   }
 
   // The golden values of a stage; the RTL's come when it does.
-  void show(const ProbeEvent& event, std::size_t story, std::size_t stage) {
-    const std::string_view prefix = stage == 0 ? "line_" : "span_";
+  void show(const ProbeEvent& event, std::size_t story) {
     const std::vector<std::uint32_t> none(event.words.size(), 0);
-    for (const PlacedField& f : probe_fields_)
-      if (belongs(f, prefix))
-        report_.stories[story].stages[stage].values.push_back(value_of(f, event.words, none));
+    for (const PlacedField& f : layouts_.probe)
+      if (f.stage == event.stage)
+        report_.stories[story].stages[static_cast<std::size_t>(event.stage)].values.push_back(
+            value_of(f, event.words, none));
   }
 
   // What the simulator has drawn since the last call, against what is expected. False once nothing more can
@@ -196,11 +277,10 @@ class Explainer {
   bool take(const Status& status, VerilatorSimulator& simulator) {
     for (const ProbeRecord& record : simulator.probes()) {
       last_cycle_ = record.cycle;
-      if ((record.words[0] & 1) != 0) check(record, "line", "line_", lines_, 0);
-      if ((record.words[0] & 2) != 0) {
-        check(record, "span", "span_", spans_, 1);
-        fragment_cycles_.push_back(record.cycle + 1);
-      }
+      // The probe's lowest bits are the stages' events. A later stage holds an earlier pixel.
+      for (std::size_t stage = layouts_.stages; stage-- > 0;)
+        if ((record.words[0] >> stage & 1) != 0) check(record, stage);
+      if ((record.words[0] >> (layouts_.stages - 1) & 1) != 0) fragment_cycles_.push_back(record.cycle + 1);
     }
     simulator.probes().clear();
     for (const Fragment& f : rtl_fragments_) check_fragment(f);
@@ -213,29 +293,31 @@ class Explainer {
     return false;
   }
 
-  void check(const ProbeRecord& record, std::string_view stage, std::string_view prefix,
-             std::deque<Expected>& queue, std::size_t index) {
+  void check(const ProbeRecord& record, std::size_t stage) {
+    const std::string name(c_stage_names[stage]);
+    std::deque<Expected>& queue = expected_[stage];
     if (queue.empty()) {
-      differ({std::string(stage), "triangle_walker", fmt::format("a {} too many", stage), record.cycle, 0, 0,
-              0, "nothing", "one"});
+      differ({name, "triangle_walker", fmt::format("a {} too many", name), record.cycle, 0, 0, 0, "nothing",
+              "one"});
       return;
     }
     const Expected expected = std::move(queue.front());
     queue.pop_front();
     if (expected.story) {
-      StageState& state = report_.stories[expected.story->first].stages[index];
+      StageState& state = report_.stories[*expected.story].stages[stage];
       state.cycle = record.cycle;
       std::size_t i = 0;
-      for (const PlacedField& f : probe_fields_)
-        if (belongs(f, prefix)) state.values[i++] = value_of(f, expected.event.words, record.words);
+      for (const PlacedField& f : layouts_.probe)
+        if (f.stage == expected.event.stage)
+          state.values[i++] = value_of(f, expected.event.words, record.words);
     }
-    for (const PlacedField& f : probe_fields_) {
-      if (!belongs(f, prefix)) continue;
+    for (const PlacedField& f : layouts_.probe) {
+      if (f.stage != expected.event.stage) continue;
       const std::uint64_t golden = golden::get_bits(expected.event.words, f.field, f.block_low);
       const std::uint64_t rtl = golden::get_bits(record.words, f.field, f.block_low);
       if (golden == rtl) continue;
-      differ({std::string(stage), std::string(entity_of(f.field.name)), f.name, record.cycle,
-              expected.event.triangle, expected.event.y, expected.event.x, shown(golden, f), shown(rtl, f)});
+      differ({name, std::string(f.entity), f.name, record.cycle, expected.event.triangle, expected.event.y,
+              expected.event.x, shown(golden, f), shown(rtl, f)});
       return;
     }
   }
@@ -248,13 +330,16 @@ class Explainer {
     golden_fragments_.pop_front();
     const auto a = fields(expected.fragment), b = fields(rtl);
     if (expected.story) {
-      StageState& state = report_.stories[expected.story->first].stages[2];
+      StageState& state = report_.stories[*expected.story].stages.back();
       state.cycle = cycle;
       for (std::size_t i = 0; i < b.size(); ++i) state.values[i].rtl = b[i];
     }
     for (std::size_t i = 0; i < a.size(); ++i)
       if (a[i] != b[i]) {
-        differ({"fragment", i >= 4 ? "saturate, or the register behind it" : "the register behind the shader",
+        differ({"fragment",
+                i < 4                                     ? "the register behind the shader"
+                : report_.key.shader == Shader::quadratic ? "saturate, or the register behind it"
+                                                          : "saturating_sum, or the register behind it",
                 std::string(c_fragment_fields[i]), cycle, expected.fragment.triangle, expected.fragment.y,
                 expected.fragment.x, std::to_string(a[i]), std::to_string(b[i])});
         return;
@@ -262,14 +347,13 @@ class Explainer {
   }
 
   void note_missing() {
-    const auto missing = [&](std::string_view stage, const std::deque<Expected>& queue) {
-      if (queue.empty()) return;
-      const ProbeEvent& e = queue.front().event;
-      differ({std::string(stage), "triangle_walker", fmt::format("a {} that never came", stage), UINT64_MAX,
-              e.triangle, e.y, e.x, "one", "nothing"});
-    };
-    missing("line", lines_);
-    missing("span", spans_);
+    for (std::size_t stage = 0; stage < expected_.size(); ++stage) {
+      if (expected_[stage].empty()) continue;
+      const ProbeEvent& e = expected_[stage].front().event;
+      const std::string name(c_stage_names[stage]);
+      differ({name, "triangle_walker", fmt::format("a {} that never came", name), UINT64_MAX, e.triangle, e.y,
+              e.x, "one", "nothing"});
+    }
     if (report_.first && report_.first->cycle == UINT64_MAX) report_.first->cycle = last_cycle_ + 1;
   }
 
@@ -281,8 +365,9 @@ class Explainer {
   const Scene& scene_;
   const WhySettings& s_;
   WhyReport report_;
-  std::vector<PlacedField> init_fields_, probe_fields_;
-  std::deque<Expected> lines_, spans_;
+  Layouts layouts_;
+  std::size_t words_per_vector_ = 0;
+  std::vector<std::deque<Expected>> expected_;  // by stage
   std::deque<ExpectedFragment> golden_fragments_;
   std::deque<std::uint64_t> fragment_cycles_;
   std::vector<Fragment> rtl_fragments_;
@@ -294,7 +379,9 @@ class Explainer {
 }  // namespace
 
 Result<WhyReport> explain_pixel(const Scene& scene, const WhySettings& settings) {
-  return Explainer(scene, settings).run(plan_quadratic(scene, settings.preset).key);
+  const auto plan = plan_scene(scene, settings.plan);
+  if (!plan) return plan.error();
+  return Explainer(scene, settings).run(plan->key);
 }
 
 }  // namespace halfway

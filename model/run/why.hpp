@@ -10,16 +10,17 @@
 
 #include "common/result.hpp"
 #include "plan/hardware_key.hpp"
+#include "plan/plan.hpp"
 #include "scene/scene.hpp"
-#include "setup/quadratic_setup.hpp"
+#include "setup/setup.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
 namespace halfway {
 
 struct WhySettings {
-  Preset preset = Preset::exact;
+  PlanRequest plan;
   FrameSize size;
-  QuadraticSetupOptions setup;
+  SetupOptions setup;
   unsigned threads = 1;
   std::uint32_t x = 0, y = 0;
   SimulatorFolders folders;
@@ -36,7 +37,7 @@ struct StageValue {
 
 /// What a stage held for the pixel.
 struct StageState {
-  std::string stage;                   ///< "line", "span", "fragment"
+  std::string stage;                   ///< "line", "span", spherical: "sample", "product"; "fragment"
   std::optional<std::uint64_t> cycle;  ///< of the RTL; nothing where the RTL never came here
   std::vector<StageValue> values;
 };
@@ -45,7 +46,8 @@ struct StageState {
 struct PixelStory {
   std::uint64_t vector;  ///< number of the init vector in the stream
   std::uint32_t triangle;
-  std::vector<StageValue> init;  ///< golden == rtl: both are given it
+  std::vector<StageValue> init;    ///< golden == rtl: both are given it
+  std::vector<StageValue> record;  ///< of the pixel's line, where lines have records
   std::vector<StageState> stages;
 };
 

@@ -72,13 +72,6 @@ double largest(const glm::dvec3& v) {
   return std::max({v.x, v.y, v.z});
 }
 
-// Unit vector from one point to another, zero where they coincide.
-glm::dvec3 direction(const glm::dvec3& from, const glm::dvec3& to) {
-  const glm::dvec3 v = to - from;
-  const double length = glm::length(v);
-  return length > 0.0 ? v / length : glm::dvec3(0.0);
-}
-
 // The three vertices' directions to a point.
 std::optional<Cone> cone_to(const SampledTriangle& t, const glm::dvec3& point_world) {
   std::array<glm::dvec3, 3> d;

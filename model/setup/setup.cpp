@@ -2,6 +2,7 @@
 #include "setup/setup.hpp"
 
 #include "setup/quadratic_setup.hpp"
+#include "setup/spherical_setup.hpp"
 
 namespace halfway {
 
@@ -20,6 +21,8 @@ SetupCounts& SetupCounts::operator+=(const SetupCounts& o) {
 
 std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
                                   const SetupOptions& options) {
+  if (key.shader == Shader::spherical)
+    return std::make_unique<SphericalSetup>(scene, frame, key, options.spherical);
   return std::make_unique<QuadraticSetup>(scene, frame, key, options.quadratic);
 }
 

@@ -33,6 +33,8 @@ enum class SpanEnds {
 
 struct SphericalSetupOptions {
   SpanEnds ends = SpanEnds::on_surface;  ///< of preset exact; published has slerped_along_edges always
+  /// Preset exact: colour steps of 1/255; past it on a span a triangle is cut into columns.
+  double threshold = 2.0;
 };
 
 struct SetupOptions {

@@ -143,4 +143,14 @@ std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> p, int unit_bits, FrameS
   return walks;
 }
 
+std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> points, int unit_bits, Columns columns,
+                             std::uint32_t height) {
+  for (ScreenPoint& p : points) p.x -= static_cast<std::int32_t>(columns.begin << unit_bits);
+  std::vector<Walk> walks =
+      plan_walks(points, unit_bits, FrameSize{static_cast<std::uint32_t>(columns.width()), height});
+  for (Walk& walk : walks)
+    for (EdgeSection* section : {&walk.start, &walk.upper, &walk.lower}) section->pixel += columns.begin;
+  return walks;
+}
+
 }  // namespace halfway

@@ -34,4 +34,14 @@ struct Walk {
 /// edge with two of the stop edge. Points either way round, in 1/2^unit_bits pixels.
 std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> points, int unit_bits, FrameSize frame);
 
+/// Columns [begin, end) of the frame.
+struct Columns {
+  std::int64_t begin, end;
+  std::int64_t width() const { return end - begin; }
+};
+
+/// The same of the part of the triangle that lies in some columns.
+std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> points, int unit_bits, Columns columns,
+                             std::uint32_t height);
+
 }  // namespace halfway

@@ -8,11 +8,12 @@
 --             the stop edge has an upper and a lower section. preset published: a horizontal-sided triangle, both
 --             edges stepped by a real slope, lines and spans inclusive at both ends.
 -- Contract    init is taken where init_valid and init_ready are '1', a fragment where fragment_valid and
---             fragment_ready are; x, y and triangle stand still while a fragment waits.
+--             fragment_ready are; x, y and triangle stand still while a fragment waits. The line stage goes on only
+--             where line_ready = '1': what the line needs beside the walker has come. line_held: it holds a line.
 -- Formats     formats_pkg: the header of init; x span_x, y pixel_y
 -- Latency     2 clocks from init taken to the triangle's first fragment
--- Throughput  1 fragment a clock within and between spans and triangles; a line without a pixel costs a clock only where
---             no span is being drawn meanwhile
+-- Throughput  with line_ready = '1' 1 fragment a clock, within and between spans and triangles; a line without a pixel
+--             costs a clock only where no span is being drawn meanwhile
 -- Error       none in preset exact: a pixel belongs to the triangle by its centre, top-left rule
 -- Source      quadratic paper, section 5 and figure 6 (X counter, Y counter)
 -- Golden twin model/golden/triangle_walker.hpp
@@ -32,6 +33,8 @@ entity triangle_walker is
     init_valid     : in  std_logic;
     init_ready     : out std_logic;
     init           : in  std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0); -- header of the init vector
+    line_ready     : in  std_logic;                                                   -- the line may go on
+    line_held      : out std_logic;                                                   -- a line waits for line_ready
     line_load      : out std_logic;                                                   -- take the init vector
     line_step      : out std_logic;                                                   -- go to the next line
     line_carry     : out std_logic;                                                   -- that step goes a pixel further
@@ -114,8 +117,8 @@ begin
   line_last    <= '1' when section_last = '1' and r.line.lower_lines = 0 else '0';
   to_lower     <= section_last and not line_last;
 
-  span_load  <= r.line.valid and not line_empty and span_free;
-  line_step  <= r.line.valid and (line_empty or span_free);
+  span_load  <= r.line.valid and line_ready and not line_empty and span_free;
+  line_step  <= r.line.valid and line_ready and (line_empty or span_free);
   init_ready <= not r.line.valid or (line_step and line_last);
   line_load  <= init_valid and init_ready;
 
@@ -310,6 +313,7 @@ begin
 
   end generate;
 
+  line_held  <= r.line.valid;
   line_y     <= std_logic_vector(r.line.y);
   line_start <= std_logic_vector(start);
   line_stop  <= std_logic_vector(stop);

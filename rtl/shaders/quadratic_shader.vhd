@@ -108,6 +108,8 @@ begin
       init_valid     => waiting,
       init_ready     => taken,
       init           => init(c_header_bits - 1 downto 0),
+      line_ready     => '1',
+      line_held      => open,
       line_load      => line_load,
       line_step      => line_step,
       line_carry     => line_carry,

@@ -19,6 +19,10 @@ namespace {
 constexpr const char* kTestbench = "frame_tb";
 constexpr const char* kTestbenchFile = "tb/frame_tb.vhd";
 constexpr std::string_view kTestbenchShader = "entity work.quadratic_shader";
+constexpr std::string_view kTestbenchGenerics =
+    "g_exact => g_exact, g_channels => g_channels, g_probe => g_probe";
+constexpr std::string_view kTestbenchInitBits = "work.formats_pkg.init_bits(g_exact, g_channels)";
+constexpr std::string_view kTestbenchProbeBits = "work.formats_pkg.probe_bits(g_exact, g_channels)";
 
 /// Removes the file at the end unless it was renamed.
 class ScratchFile {
@@ -85,12 +89,22 @@ Result<GhdlRunner> GhdlRunner::open(const HardwareKey& key, const SimulatorFolde
   if (!sources) return sources.error();
   auto testbench = read_vhdl_source(folders.source, kTestbenchFile);
   if (!testbench) return testbench.error();
-  // All shaders have the same ports: one testbench, into which the entity's name is put.
-  const std::size_t at = testbench->content.find(kTestbenchShader);
-  if (at == std::string::npos) {
-    return tool_failed(fmt::format("{}: does not name \"{}\"", kTestbenchFile, kTestbenchShader));
-  }
-  testbench->content.replace(at, kTestbenchShader.size(), "entity work." + key.entity);
+  // All shaders have the same ports: one testbench, into which the entity, its generics and the ports' widths
+  // are put.
+  const auto put = [&](std::string_view what, const std::string& with) -> Status {
+    const std::size_t at = testbench->content.find(what);
+    if (at == std::string::npos)
+      return tool_failed(fmt::format("{}: does not say \"{}\"", kTestbenchFile, what));
+    testbench->content.replace(at, what.size(), with);
+    return Ok{};
+  };
+  std::string generics;
+  for (const auto& [name, value] : key.generics())
+    generics += fmt::format("{0}{1} => {1}", generics.empty() ? "" : ", ", name);
+  for (const Status& status :
+       {put(kTestbenchShader, "entity work." + key.entity()), put(kTestbenchGenerics, generics),
+        put(kTestbenchInitBits, key.vhdl_init_bits()), put(kTestbenchProbeBits, key.vhdl_probe_bits())})
+    if (!status) return status.error();
   sources->push_back(std::move(*testbench));
   auto library = GhdlLibrary::open(*tool, *sources, kTestbench, folders.cache);
   if (!library) return library.error();

@@ -33,6 +33,7 @@ constexpr std::size_t words_of(std::size_t bits) {
 }
 constexpr std::size_t kInitWords = words_of(HALFWAY_INIT_BITS);
 constexpr std::size_t kProbeWords = words_of(HALFWAY_PROBE_BITS);
+constexpr std::uint32_t kProbeEvents = 0xf;  // its lowest bits: what the stages do in this cycle
 
 // Ports of up to 64 bits are plain integers, wider ones arrays of words.
 template <class Port>
@@ -202,7 +203,7 @@ class Model {
   }
 
   void record(std::uint64_t cycle) {
-    if (options_.on_probe == nullptr || (first_word(shader_->probe) & 3U) == 0) return;
+    if (options_.on_probe == nullptr || (first_word(shader_->probe) & kProbeEvents) == 0) return;
     std::uint32_t words[kProbeWords];
     read_port(shader_->probe, words);
     options_.on_probe(options_.probe_context, cycle, words);

@@ -35,7 +35,7 @@ Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& f
   if (!sources) return sources.error();
   const auto library = GhdlLibrary::open(*tool, *sources, "", folders.cache);
   if (!library) return library.error();
-  const auto netlist = library->synthesize(key.entity, key.generics());
+  const auto netlist = library->synthesize(key.entity(), key.generics());
   if (!netlist) return netlist.error();
   auto mended = mend_netlist(*netlist);
   if (!mended) return mended.error();
@@ -73,8 +73,8 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
   }
   auto netlist = netlist_of(key, folders);
   if (!netlist) return netlist.error();
-  const unsigned init_bits = port_bits(*netlist, key.entity, "init_data");
-  const unsigned probe_bits = port_bits(*netlist, key.entity, "probe");
+  const unsigned init_bits = port_bits(*netlist, key.entity(), "init_data");
+  const unsigned probe_bits = port_bits(*netlist, key.entity(), "probe");
   if (init_bits == 0 || probe_bits == 0) {
     return tool_failed(
         fmt::format("{}: the netlist has no module with the ports init_data and probe", key.name()));
@@ -83,7 +83,7 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
   const VerilatedBuild build{
       .name = key.name() + (options.wave_file.empty() ? "" : "-waves") + (options.plain_eval ? "-plain" : ""),
       .netlist = std::move(*netlist),
-      .top = key.entity,
+      .top = key.entity(),
       .harness = folder / "harness.cpp",
       .include_folder = folders.source,
       .harness_headers = {folder / "harness_api.h"},

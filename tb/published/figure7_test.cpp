@@ -30,7 +30,7 @@ using Words = std::vector<std::uint32_t>;
 constexpr std::uint32_t c_triangle = 7, c_x = 20, c_y = 10, c_lines = 4;
 constexpr std::size_t c_pixels = c_lines * (c_lines + 1) / 2;
 const HardwareKey c_key{
-    .entity = "quadratic_shader", .preset = Preset::published, .channels = 1, .probe = true};
+    .preset = Preset::published, .channels = 1, .probe = true};
 
 struct Figure {
   std::map<std::string, std::uint32_t> step;

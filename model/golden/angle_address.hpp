@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of rtl/arithmetic/angle_address.vhd.
+#pragma once
+
+#include <type_traits>
+
+#include "golden/word.hpp"
+
+namespace halfway::golden {
+
+/// An angle's place in a table of 2^address_bits entries; in_range: not past the bell's ends.
+struct AngleAddress {
+  std::uint32_t address;
+  bool in_range;
+};
+
+template <class Preset>
+constexpr AngleAddress angle_address(Word<Preset::c_angle_bits> angle, int address_bits) {
+  if constexpr (std::is_same_v<Preset, Exact>) {
+    constexpr int c_fraction = Preset::c_angle_fraction_bits;
+    const std::int64_t sign = angle.value() >> 63;
+    // Ones' complement: -v falls into the cell of the same entry as v.
+    const auto magnitude = static_cast<std::uint64_t>(angle.value() ^ sign);
+    return {static_cast<std::uint32_t>(low_bits(magnitude, c_fraction) >> (c_fraction - address_bits)),
+            magnitude >> c_fraction == 0};
+  } else {
+    return {static_cast<std::uint32_t>(angle.bits() >> (Preset::c_angle_bits - address_bits)), true};
+  }
+}
+
+}  // namespace halfway::golden

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of rtl/tables/cosine_rom.vhd: the table as it was generated.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <span>
+
+#include "golden/cosine_tables.hpp"
+
+namespace halfway::golden {
+
+class CosineRom {
+ public:
+  /// No table: every sample is zero.
+  CosineRom() = default;
+  /// One of c_cosine_tables.
+  CosineRom(bool exact, int power, int address_bits, int data_bits) {
+    const auto table = std::find_if(c_cosine_tables.begin(), c_cosine_tables.end(), [&](const auto& t) {
+      return t.exact == exact && t.power == power && t.address_bits == address_bits &&
+             t.data_bits == data_bits;
+    });
+    assert(table != c_cosine_tables.end() && "there is no such table: make tables");
+    entries_ = table->entries;
+  }
+
+  std::uint32_t sample(std::uint32_t address) const { return entries_.empty() ? 0 : entries_[address]; }
+
+ private:
+  std::span<const std::uint16_t> entries_;
+};
+
+}  // namespace halfway::golden

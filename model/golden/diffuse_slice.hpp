@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of rtl/illumination/diffuse_slice.vhd: what each stage gives for the pixel at which the angle stands.
+#pragma once
+
+#include <array>
+#include <type_traits>
+
+#include "golden/angle_address.hpp"
+#include "golden/cosine_rom.hpp"
+#include "golden/line_interpolator.hpp"
+#include "golden/multiplier.hpp"
+
+namespace halfway::golden {
+
+template <class Preset>
+class DiffuseSlice {
+ public:
+  using Angle = Word<Preset::c_angle_bits>;
+
+  DiffuseSlice() = default;
+  /// `channels` 0: no factor and no table, only the light's horizon.
+  DiffuseSlice(int channels, int address_bits, int data_bits)
+      : channels_(channels), address_bits_(address_bits) {
+    if (channels > 0) rom_ = CosineRom(std::is_same_v<Preset, Exact>, 1, address_bits, data_bits);
+  }
+
+  /// `low`: where the slice's part begins in the line record.
+  void span_load(std::span<const std::uint32_t> record, int low) {
+    using At = typename Preset::diffuse_header_at;
+    angle_.load(Angle::from_bits(get_bits(record, At::angle, low)));
+    slope_ = Angle::from_bits(get_bits(record, At::slope, low));
+    for (int c = 0; c < channels_; ++c)
+      factors_[static_cast<std::size_t>(c)] = static_cast<std::uint32_t>(
+          get_bits(record, Preset::diffuse_channel_at::factor,
+                   low + Preset::c_diffuse_header_bits + c * Preset::c_diffuse_channel_bits));
+  }
+  void span_step() { angle_.step(slope_); }
+
+  Angle angle() const { return angle_.value(); }
+  /// The pixel is not behind the light's horizon.
+  bool lit() const { return place().in_range; }
+  std::uint32_t sample() const { return rom_.sample(place().address); }
+  std::uint32_t product(int channel) const { return product(channel, gated()); }
+
+  /// What the multipliers take in place of the sample: zero past the bell's ends.
+  std::uint32_t gated() const {
+    const AngleAddress at = place();
+    return at.in_range ? rom_.sample(at.address) : 0;
+  }
+  std::uint32_t product(int channel, std::uint32_t gated) const {
+    return static_cast<std::uint32_t>(multiply(gated, factors_[static_cast<std::size_t>(channel)]));
+  }
+
+ private:
+  AngleAddress place() const { return angle_address<Preset>(angle(), address_bits_); }
+
+  int channels_ = 0, address_bits_ = 1;
+  CosineRom rom_;
+  LineInterpolator<Preset::c_angle_bits> angle_;
+  Angle slope_;
+  std::array<std::uint32_t, 3> factors_{};
+};
+
+}  // namespace halfway::golden

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a golden shader's watcher may be told; this one sees no register, for speed.
+#pragma once
+
+#include "golden/edge_walker.hpp"
+
+namespace halfway::golden {
+
+struct Unwatched {
+  template <class Shader>
+  void line(const Shader&) {}
+  template <class Shader>
+  void span(const Shader&, SpanXWord) {}
+  template <class Shader>
+  void sample(const Shader&, SpanXWord) {}
+  template <class Shader>
+  void product(const Shader&, SpanXWord) {}
+};
+
+}  // namespace halfway::golden

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "setup/arc.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace halfway {
+namespace {
+
+constexpr double c_pi = std::numbers::pi;
+// Sine below which two unit vectors are one direction, or opposed: a few roundings of their components.
+constexpr double c_no_plane = 1e-15;
+constexpr CosineArc c_dark{0.0, 0.0, 0.0};
+
+bool is_direction(glm::dvec3 v) {
+  return std::abs(glm::dot(v, v) - 1.0) < 2e-3;
+}
+
+/// The part of x across the unit vector u.
+glm::dvec3 across(glm::dvec3 x, glm::dvec3 u) {
+  return x - glm::dot(x, u) * u;
+}
+
+/// A unit vector across u, always the same one for the same u: from the axis that u is farthest from.
+glm::dvec3 any_across(glm::dvec3 u) {
+  const glm::dvec3 a{std::abs(u.x), std::abs(u.y), std::abs(u.z)};
+  const glm::dvec3 axis = a.x <= a.y && a.x <= a.z ? glm::dvec3(1, 0, 0)
+                          : a.y <= a.z             ? glm::dvec3(0, 1, 0)
+                                                   : glm::dvec3(0, 0, 1);
+  return glm::normalize(across(axis, u));
+}
+
+/// How to come from u1 to u2: u(t) = cos(t angle) u1 + sin(t angle) tangent.
+struct Turn {
+  double angle;
+  glm::dvec3 tangent;  ///< unit, across u1
+};
+
+Turn turn_between(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 middle) {
+  const double cosine = glm::dot(u1, u2);
+  // u2's part across u1, from the shorter of chord and sum: u2 - u1 (u1.u2) has no digits left near 0 and pi.
+  const glm::dvec3 part = across(cosine > 0.0 ? u2 - u1 : u2 + u1, u1);
+  const double sine = glm::length(part);
+  if (sine > c_no_plane) return {std::atan2(sine, cosine), part / sine};
+  if (cosine > 0.0) return {0.0, any_across(u1)};
+  if (is_direction(middle)) {
+    const glm::dvec3 through = across(middle, u1);
+    const double length = glm::length(through);
+    if (length > c_no_plane) return {c_pi, through / length};
+  }
+  return {c_pi, any_across(u1)};
+}
+
+/// The cosine between v and a direction that turns away from u1.
+CosineArc arc_seen_from(glm::dvec3 v, glm::dvec3 u1, const Turn& turn) {
+  const double cosine = glm::dot(u1, v);
+  if (turn.angle == 0.0) return {std::min(std::abs(cosine), 1.0), 0.0, cosine < 0.0 ? c_pi : 0.0};
+  const double sine = glm::dot(turn.tangent, v);
+  double phase = std::atan2(sine, cosine);
+  if (0.5 * turn.angle - phase > c_pi) phase += 2.0 * c_pi;
+  return {std::min(std::hypot(cosine, sine), 1.0), turn.angle, phase};
+}
+
+}  // namespace
+
+double CosineArc::at(double t) const {
+  return amplitude * std::cos(t * sweep - phase);
+}
+
+glm::dvec3 slerp(glm::dvec3 u1, glm::dvec3 u2, double t, glm::dvec3 middle) {
+  if (!is_direction(u1) || !is_direction(u2)) return glm::dvec3(0.0);
+  const Turn turn = turn_between(u1, u2, middle);
+  return std::cos(t * turn.angle) * u1 + std::sin(t * turn.angle) * turn.tangent;
+}
+
+CosineArc cosine_arc(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v, const ArcMiddle& middle) {
+  if (!is_direction(u1) || !is_direction(u2) || !is_direction(v)) return c_dark;
+  return arc_seen_from(v, u1, turn_between(u1, u2, middle.u));
+}
+
+CosineArc cosine_arc(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v1, glm::dvec3 v2, const ArcMiddle& middle) {
+  if (!is_direction(u1) || !is_direction(u2) || !is_direction(v1) || !is_direction(v2)) return c_dark;
+  // The rotation v1 -> v2 carries the frame (v1, ahead, axis) to (v2, ahead turned, axis): what has the same
+  // coordinates in the first as x in the last is x turned back. Nothing is divided by 1 + cos of the turn.
+  const Turn v = turn_between(v1, v2, middle.v);
+  const glm::dvec3 axis = glm::cross(v1, v.tangent);
+  const auto turned_back = [&](glm::dvec3 x, double angle) {
+    const double ahead = glm::dot(x, v.tangent), up = glm::dot(x, v1);
+    const double c = std::cos(angle), s = std::sin(angle);
+    return (c * up + s * ahead) * v1 + (c * ahead - s * up) * v.tangent + glm::dot(x, axis) * axis;
+  };
+  const glm::dvec3 u2_back = v.angle == 0.0 ? u2 : turned_back(u2, v.angle);
+  return arc_seen_from(v1, u1, turn_between(u1, u2_back, turned_back(middle.u, 0.5 * v.angle)));
+}
+
+}  // namespace halfway

@@ -1,0 +1,468 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "setup/spherical_setup.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
+#include <span>
+
+#include "golden/triangle_walker.hpp"
+#include "reference/shade.hpp"
+#include "setup/arc.hpp"
+#include "setup/half_triangle.hpp"
+
+namespace halfway {
+namespace {
+
+using golden::Exact, golden::Published;
+
+// Past either end of any bell, so that it gives nothing.
+constexpr double c_outside = 2.0;
+
+// The cosine of the angle between a span's ends below which its middle is asked for: an arc of nearly half a
+// turn does not know its plane.
+constexpr double c_nearly_opposed = -0.99;
+
+// Each line of a header's triangle as the hardware walks it: line(walker).
+template <class P, class Line>
+void walk_lines(std::span<const std::uint32_t> header, Line&& line) {
+  golden::TriangleWalker<P> walker;
+  walker.line_load(header);
+  for (;;) {
+    line(walker);
+    if (walker.line_last()) return;
+    walker.line_step();
+  }
+}
+
+bool nearly_opposed(glm::dvec3 a, glm::dvec3 b) {
+  return glm::dot(a, b) < c_nearly_opposed;
+}
+
+// Where the triangle's edges cross a line's pixel centres, left and right, and how far down the edge.
+struct Crossing {
+  double x;  // pixels
+  std::size_t top, bottom;
+  double t;
+};
+
+std::array<Crossing, 2> crossings(const ScreenTriangle& triangle, int subpixel_bits, std::uint32_t y) {
+  const double unit = 1 << subpixel_bits, centre = (y + 0.5) * unit;
+  std::array<Crossing, 2> side{};
+  bool any = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::size_t top = i, bottom = (i + 1) % 3;
+    if (triangle.vertex[bottom].y < triangle.vertex[top].y) std::swap(top, bottom);
+    const ScreenVertex &a = triangle.vertex[top], &b = triangle.vertex[bottom];
+    if (a.y == b.y || centre < a.y || centre > b.y) continue;
+    const double t = (centre - a.y) / (b.y - a.y);
+    const Crossing here{(a.x + t * (b.x - a.x)) / unit, top, bottom, t};
+    if (!any || here.x < side[0].x) side[0] = here;
+    if (!any || here.x > side[1].x) side[1] = here;
+    any = true;
+  }
+  return side;
+}
+
+}  // namespace
+
+SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                               SphericalSetupOptions options)
+    : scene_(&scene),
+      frame_(frame),
+      preset_(key.preset),
+      options_(options),
+      config_(golden_config(key)),
+      lights_(key.spherical.records() ? shining_lights(scene) : std::vector<LightRef>()),
+      init_bits_(static_cast<unsigned>(preset_ == Preset::exact
+                                           ? golden::SphericalLayout<Exact>(config_).init_bits()
+                                           : golden::SphericalLayout<Published>(config_).init_bits())),
+      projector_(scene, frame,
+                 preset_ == Preset::exact ? ProjectionOptions{.subpixel_bits = 4, .clip_to_frame = false}
+                                          : ProjectionOptions{.subpixel_bits = 0, .clip_to_frame = true}) {
+  for (const Material& m : scene.materials) {
+    const double exponent = std::min(m.exponent, c_largest_exponent);
+    bells_.push_back(preset_ == Preset::exact ? fitted_bell(exponent) : Bell{2, published_scale(exponent)});
+  }
+}
+
+PointVectors SphericalSetup::vectors_at(const Material& material, const SurfacePoint& point) const {
+  PointVectors out;
+  out.normal = point.normal_world;
+  glm::dvec3 to_eye = direction(point.position_world, scene_->camera.eye_world);
+  if (to_eye == glm::dvec3(0.0)) to_eye = point.normal_world;
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    const LightRef ref = lights_[i];
+    LightVectors& light = out.light[i];
+    light = {};
+    light.spot = 1.0;
+    switch (ref.kind) {
+      case LightKind::directional:
+        light.to_light = scene_->directional[ref.index].to_light_world;
+        break;
+      case LightKind::positional:
+        light.to_light = direction(point.position_world, scene_->positional[ref.index].position_world);
+        break;
+      case LightKind::spot: {
+        const SpotLight& spot = scene_->spots[ref.index];
+        light.to_light = direction(point.position_world, spot.position_world);
+        light.spot = spot_factor(spot, -glm::dot(light.to_light, spot.axis_world));
+        break;
+      }
+    }
+    if (!config_.specular || !has_specular(material)) continue;
+    if (material.brdf == Brdf::phong) {
+      light.u = 2.0 * glm::dot(out.normal, light.to_light) * out.normal - light.to_light;
+      light.v = to_eye;
+    } else {
+      const glm::dvec3 sum = light.to_light + to_eye;
+      const double length = glm::length(sum);
+      light.u = out.normal;
+      light.v = length > 0.0 ? sum / length : glm::dvec3(0.0);
+    }
+  }
+  return out;
+}
+
+PointVectors SphericalSetup::slerped(const PointVectors& a, const PointVectors& b, double t) const {
+  PointVectors out;
+  out.normal = slerp(a.normal, b.normal, t);
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    const LightVectors &la = a.light[i], &lb = b.light[i];
+    out.light[i] = {slerp(la.to_light, lb.to_light, t), slerp(la.u, lb.u, t), slerp(la.v, lb.v, t),
+                    la.spot + t * (lb.spot - la.spot)};
+  }
+  return out;
+}
+
+std::int64_t SphericalSetup::factor_word(double steps, SetupCounts& counts) const {
+  if (steps > c_largest_sample) ++counts.overexposed;
+  return fixed(std::clamp(steps, 0.0, c_largest_sample), Exact::c_factor_fraction_bits);
+}
+
+void SphericalSetup::put_ambient(InitVector& init, const Material& material, SetupCounts& counts) const {
+  const golden::SphericalLayout<Exact> exact(config_);
+  const golden::SphericalLayout<Published> published(config_);
+  for (int c = 0; c < config_.channels; ++c) {
+    // The half makes dropping the sum's fraction a rounding.
+    const double steps = 255.0 * scene_->ambient[c] * material.ambient * material.colour[c] + 0.5;
+    if (preset_ == Preset::exact)
+      init.put(Exact::ambient_channel_at::ambient, factor_word(steps, counts), exact.ambient_low(c));
+    else
+      init.put(Published::ambient_channel_at::ambient, factor_word(steps, counts), published.ambient_low(c));
+  }
+}
+
+template <class P, class Middle>
+void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index, const SpanVectors& span,
+                                Middle&& middle, SetupCounts& counts) const {
+  constexpr bool c_exact = std::is_same_v<P, Exact>;
+  constexpr double c_half_bell = 0.5 * std::numbers::pi;
+  // The published cosine table goes all the way round, so its angles count in half turns.
+  constexpr double c_diffuse_unit = c_exact ? c_half_bell : std::numbers::pi;
+  const golden::SphericalLayout<P> at(config_);
+  const Material& material = scene_->materials[material_index];
+  const Bell& bell = bells_[material_index];
+  // A table's largest entry is 2^D - 1, and stands for 1.
+  const double full = std::ldexp(1.0, config_.data_bits) / (std::ldexp(1.0, config_.data_bits) - 1.0);
+  const bool diffuse = has_diffuse(material), specular = config_.specular && has_specular(material);
+
+  // Angle and slope in the table's unit; a light without effect stays dark whatever its angle.
+  const auto put_angle = [&](const golden::Field& angle, const golden::Field& slope, const CosineArc& arc,
+                             double scale, int low) {
+    const double start = arc.amplitude > 0.0 ? scale * (span.first * arc.sweep - arc.phase) : c_outside;
+    const double step = arc.amplitude > 0.0 ? scale * span.step * arc.sweep : 0.0;
+    record.put(angle, wrapped_word(start, P::c_angle_fraction_bits, P::c_angle_bits), low);
+    record.put(slope, wrapped_word(step, P::c_angle_fraction_bits, P::c_angle_bits), low);
+  };
+  const auto arc_of = [&](glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v1, glm::dvec3 v2, auto&& middle_vectors) {
+    ArcMiddle hint;
+    if (nearly_opposed(u1, u2) || nearly_opposed(v1, v2)) hint = middle_vectors();
+    return cosine_arc(u1, u2, v1, v2, hint);
+  };
+
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    const LightVectors &a = span.begin.light[i], &b = span.end.light[i];
+    const int light = static_cast<int>(i);
+    const glm::dvec3 steps = 255.0 * full * 0.5 * (a.spot + b.spot) * intensity(*scene_, lights_[i]);
+    if (at.has_diffuse_part() && (diffuse || specular)) {
+      using At = typename P::diffuse_header_at;
+      const int low = at.diffuse_low(light);
+      const CosineArc arc = arc_of(span.begin.normal, span.end.normal, a.to_light, b.to_light, [&] {
+        const PointVectors m = middle();
+        return ArcMiddle{m.normal, m.light[i].to_light};
+      });
+      put_angle(At::angle, At::slope, arc, 1.0 / c_diffuse_unit, low);
+      for (int c = 0; c < at.diffuse_channels(); ++c)
+        record.put(P::diffuse_channel_at::factor,
+                   factor_word(steps[c] * material.diffuse * material.colour[c] * arc.amplitude, counts),
+                   low + P::c_diffuse_header_bits + c * P::c_diffuse_channel_bits);
+    }
+    if (specular) {
+      using At = typename P::specular_header_at;
+      const int low = at.specular_low(light);
+      const CosineArc arc = arc_of(a.u, b.u, a.v, b.v, [&] {
+        const PointVectors m = middle();
+        return ArcMiddle{m.light[i].u, m.light[i].v};
+      });
+      put_angle(At::angle, At::slope, arc, bell.scale / c_half_bell, low);
+      if constexpr (c_exact) record.put(At::power, std::countr_zero(static_cast<unsigned>(bell.power)), low);
+      const double peak = highlight_power(arc.amplitude, std::min(material.exponent, c_largest_exponent));
+      for (int c = 0; c < config_.highlight_channels; ++c)
+        record.put(P::specular_channel_at::factor,
+                   factor_word(steps[c] * material.specular * material.specular_colour[c] * peak, counts),
+                   low + P::c_specular_header_bits + c * P::c_specular_channel_bits);
+    }
+  }
+}
+
+double SphericalSetup::interpolation_error(std::uint32_t material_index, const SpanVectors& span, double t,
+                                           const SurfacePoint& there) const {
+  const Material& material = scene_->materials[material_index];
+  glm::dvec3 sum = scene_->ambient * (material.ambient * material.colour);
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    const LightVectors &a = span.begin.light[i], &b = span.end.light[i];
+    const double cosine = cosine_arc(span.begin.normal, span.end.normal, a.to_light, b.to_light).at(t);
+    if (!(cosine > 0.0)) continue;
+    const double highlight = has_specular(material)
+                                 ? highlight_power(cosine_arc(a.u, b.u, a.v, b.v).at(t), material.exponent)
+                                 : 0.0;
+    sum += 0.5 * (a.spot + b.spot) * intensity(*scene_, lights_[i]) *
+           (cosine * material.diffuse * material.colour +
+            highlight * material.specular * material.specular_colour);
+  }
+  const glm::dvec3 truth = radiance(*scene_, material, there.position_world, there.normal_world);
+  double largest = 0.0;
+  for (int c = 0; c < 3; ++c)
+    largest = std::max(largest, std::abs(std::min(sum[c], 1.0) - std::min(truth[c], 1.0)));
+  return 255.0 * largest;
+}
+
+// One triangle of preset exact on its way into columns.
+class SphericalSetup::ExactTriangle {
+ public:
+  ExactTriangle(const SphericalSetup& setup, const ScreenTriangle& triangle,
+                std::vector<std::uint32_t>& words, SetupCounts& counts)
+      : setup_(setup),
+        triangle_(triangle),
+        material_(setup.scene_->materials[triangle.material]),
+        words_(words),
+        counts_(counts),
+        subpixel_bits_(setup.projector_.options().subpixel_bits) {
+    for (std::size_t i = 0; i < 3; ++i) corners_[i] = {triangle.vertex[i].x, triangle.vertex[i].y};
+  }
+
+  void append() {
+    const auto [left, right] = std::minmax({corners_[0].x, corners_[1].x, corners_[2].x});
+    const std::int64_t unit = std::int64_t{1} << subpixel_bits_;
+    const Columns columns{std::max<std::int64_t>(0, floor_divide(left, unit).quotient),
+                          std::min<std::int64_t>(setup_.frame_.width, ceil_divide(right, unit) + 1)};
+    if (columns.width() <= 0) return;
+    std::vector<Walk> walks = walks_of(columns);
+    // A triangle that covers no pixel needs no vector.
+    if (walks.empty()) return;
+    std::array<std::int64_t, 3> depths;
+    for (std::size_t i = 0; i < 3; ++i)
+      depths[i] = fixed(depth_steps(triangle_.vertex[i].z), Exact::c_depth_sum_fraction_bits);
+    depth_.emplace(corners_, subpixel_bits_, depths);
+    if (setup_.options_.ends == SpanEnds::slerped_along_edges)
+      for (std::size_t i = 0; i < 3; ++i) {
+        glm::dvec3 barycentric(0.0);
+        barycentric[static_cast<int>(i)] = 1.0;
+        vertex_[i] = vectors(surface_point(triangle_, barycentric));
+      }
+    append(columns, std::move(walks));
+  }
+
+ private:
+  // Lines on which a piece is looked at, and pixels between two looks at a line, where no light changes
+  // abruptly; spots do, so they are looked at everywhere this closely.
+  static constexpr std::int64_t c_lines_looked_at = 16, c_pixels_between = 8;
+
+  std::vector<Walk> walks_of(Columns columns) const {
+    return plan_walks(corners_, subpixel_bits_, columns, setup_.frame_.height);
+  }
+
+  void append(Columns columns, std::vector<Walk> walks) {
+    if (walks.empty()) return;
+    if (columns.width() > 1 && !setup_.lights_.empty() && !interpolates_well(walks)) {
+      if (!split_) ++counts_.subdivided;
+      split_ = true;
+      const std::int64_t middle = columns.begin + columns.width() / 2;
+      for (const Columns part : {Columns{columns.begin, middle}, Columns{middle, columns.end}})
+        append(part, walks_of(part));
+      return;
+    }
+    ++counts_.leaves;
+    for (const Walk& walk : walks) {
+      ++counts_.vectors;
+      const std::vector<std::uint32_t> header = header_of(walk);
+      words_.insert(words_.end(), header.begin(), header.end());
+      if (setup_.lights_.empty()) continue;
+      walk_lines<Exact>(header, [&](const golden::TriangleWalker<Exact>& walker) {
+        ++counts_.records;
+        InitVector record(words_, setup_.init_bits_);
+        if (walker.line_empty()) return;
+        const Span at = span_of(walker);
+        setup_.put_record<Exact>(
+            record, triangle_.material, vectors_of(at),
+            [&] { return vectors(point(at.first + at.last + 1, at.y)); }, counts_);
+      });
+    }
+  }
+
+  std::vector<std::uint32_t> header_of(const Walk& walk) const {
+    std::vector<std::uint32_t> words;
+    InitVector header(words, setup_.init_bits_);
+    put_header(header, triangle_.source, walk,
+               depth_->words(difference_start(walk), half(Exact::c_depth_sum_fraction_bits)));
+    setup_.put_ambient(header, material_, counts_);
+    return words;
+  }
+
+  // First and last pixel, in the walker's order.
+  struct Span {
+    std::int64_t first, last;
+    std::uint32_t y;
+    std::int64_t steps() const { return first < last ? last - first : first - last; }
+    std::int64_t way() const { return first <= last ? 1 : -1; }
+  };
+  static Span span_of(const golden::TriangleWalker<Exact>& walker) {
+    const std::int64_t way = walker.backward() ? -1 : 1;
+    return {walker.start().value(), walker.stop().value() - way, walker.y()};
+  }
+
+  SurfacePoint point(std::int64_t half_x, std::uint32_t y) const {
+    return surface_point(triangle_, barycentric_screen(triangle_, half_x << subpixel_bits_,
+                                                       (2 * std::int64_t{y} + 1) << subpixel_bits_));
+  }
+  PointVectors vectors(const SurfacePoint& surface) const {
+    ++counts_.shaded;
+    return setup_.vectors_at(material_, surface);
+  }
+
+  SpanVectors vectors_of(const Span& at) const {
+    SpanVectors span;
+    if (setup_.options_.ends == SpanEnds::on_surface) {
+      span.begin = vectors(point(2 * at.first + 1, at.y));
+      span.end = at.steps() == 0 ? span.begin : vectors(point(2 * at.last + 1, at.y));
+      span.step = at.steps() == 0 ? 0.0 : 1.0 / static_cast<double>(at.steps());
+      return span;
+    }
+    auto [from, to] = crossings(triangle_, subpixel_bits_, at.y);
+    if (at.way() < 0) std::swap(from, to);
+    span.begin = setup_.slerped(vertex_[from.top], vertex_[from.bottom], from.t);
+    span.end = setup_.slerped(vertex_[to.top], vertex_[to.bottom], to.t);
+    const double length = to.x - from.x;
+    if (length == 0.0) return span;
+    span.step = static_cast<double>(at.way()) / length;
+    span.first = (static_cast<double>(at.first) + 0.5 - from.x) / length;
+    return span;
+  }
+
+  // Whether on each line that is looked at the error stays below the threshold.
+  bool interpolates_well(const std::vector<Walk>& walks) const {
+    const bool spots = std::ranges::any_of(
+        setup_.lights_, [](const LightRef& light) { return light.kind == LightKind::spot; });
+    for (const Walk& walk : walks) {
+      const std::int64_t lines = walk.upper_lines + walk.lower_lines;
+      const std::int64_t stride = spots ? 1 : (lines + c_lines_looked_at - 1) / c_lines_looked_at;
+      std::int64_t line = stride / 2;
+      bool well = true;
+      walk_lines<Exact>(header_of(walk), [&](const golden::TriangleWalker<Exact>& walker) {
+        if (well && line % stride == 0 && !walker.line_empty())
+          well = line_interpolates_well(span_of(walker), spots);
+        ++line;
+      });
+      if (!well) return false;
+    }
+    return true;
+  }
+  bool line_interpolates_well(const Span& at, bool spots) const {
+    if (at.steps() < 2) return true;
+    const SpanVectors span = vectors_of(at);
+    const std::int64_t looks =
+        std::min(at.steps() - 1, spots ? std::max<std::int64_t>(3, at.steps() / c_pixels_between) : 3);
+    for (std::int64_t look = 1; look <= looks; ++look) {
+      const std::int64_t i = look * at.steps() / (looks + 1);
+      ++counts_.shaded;
+      const double t = span.first + static_cast<double>(i) * span.step;
+      if (setup_.interpolation_error(triangle_.material, span, t,
+                                     point(2 * (at.first + i * at.way()) + 1, at.y)) >
+          setup_.options_.threshold)
+        return false;
+    }
+    return true;
+  }
+
+  const SphericalSetup& setup_;
+  const ScreenTriangle& triangle_;
+  const Material& material_;
+  std::vector<std::uint32_t>& words_;
+  SetupCounts& counts_;
+  int subpixel_bits_;
+  std::array<ScreenPoint, 3> corners_;
+  std::array<PointVectors, 3> vertex_;
+  std::optional<DepthFit> depth_;
+  bool split_ = false;
+};
+
+void SphericalSetup::append(std::uint32_t triangle, std::vector<std::uint32_t>& words,
+                            SetupCounts& counts) const {
+  std::vector<ScreenTriangle> on_screen;
+  projector_.project(triangle, on_screen, counts.projection);
+  for (const ScreenTriangle& t : on_screen) {
+    ++counts.triangles;
+    if (preset_ == Preset::exact)
+      ExactTriangle(*this, t, words, counts).append();
+    else
+      append_published(t, words, counts);
+  }
+}
+
+void SphericalSetup::append_published(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
+                                      SetupCounts& counts) const {
+  const Material& material = scene_->materials[triangle.material];
+  std::array<HalfVertex, 3> p;
+  std::array<PointVectors, 3> vertex;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ScreenVertex& v = triangle.vertex[i];
+    p[i] = {static_cast<long double>(v.x), static_cast<long double>(v.y), depth_steps(v.z)};
+    glm::dvec3 barycentric(0.0);
+    barycentric[static_cast<int>(i)] = 1.0;
+    vertex[i] = vectors_at(material, surface_point(triangle, barycentric));
+    ++counts.shaded;
+  }
+  ++counts.leaves;
+  for (const HalfTriangle& h : half_triangles(p)) {
+    ++counts.vectors;
+    const std::size_t header_at = words.size();
+    {
+      InitVector header(words, init_bits_);
+      put_header(header, triangle.source, h, p);
+      put_ambient(header, material, counts);
+    }
+    if (lights_.empty()) continue;
+    const std::vector<std::uint32_t> header(words.begin() + static_cast<std::ptrdiff_t>(header_at),
+                                            words.end());
+    walk_lines<Published>(header, [&](const golden::TriangleWalker<Published>& walker) {
+      ++counts.records;
+      InitVector record(words, init_bits_);
+      if (walker.line_empty()) return;
+      const auto on_edge = [&](const HalfEdge& edge) {
+        const auto t = static_cast<double>((walker.y() - p[edge.top].y) / (p[edge.bottom].y - p[edge.top].y));
+        return slerped(vertex[edge.top], vertex[edge.bottom], t);
+      };
+      SpanVectors span{on_edge(h.start), on_edge(h.stop), 0.0, 0.0};
+      const std::int64_t steps = walker.stop().value() - 1 - walker.start().value();
+      span.step = steps == 0 ? 0.0 : 1.0 / static_cast<double>(steps);
+      put_record<Published>(
+          record, triangle.material, span, [&] { return slerped(span.begin, span.end, 0.5); }, counts);
+    });
+  }
+}
+
+}  // namespace halfway

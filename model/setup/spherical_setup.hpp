@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Setup of the spherical shader: from the scene's triangles to headers and line records. For each line and
+// light the cosine between two directions that turn (spherical paper, equations 14 to 18) becomes an angle,
+// its step from pixel to pixel, and a factor.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "golden/spherical_layout.hpp"
+#include "plan/effects.hpp"
+#include "plan/plan.hpp"
+#include "setup/bell.hpp"
+#include "setup/init_vector.hpp"
+#include "setup/setup.hpp"
+
+namespace halfway {
+
+/// Larger exponents are held at it: the bell's angle would leave its format.
+inline constexpr double c_largest_exponent = 1e6;
+
+/// What the illumination model takes from a point of the surface, a light at a time. Zero vectors: no such
+/// direction there (the light at the very point, L = -V).
+struct LightVectors {
+  glm::dvec3 to_light;
+  glm::dvec3 u, v;  ///< the highlight is (u.v)^n: N and H, or in Phong's model R and V
+  double spot;      ///< 1 but for spot lights
+};
+struct PointVectors {
+  glm::dvec3 normal;
+  std::array<LightVectors, c_most_lights> light;  ///< as many as the key has
+};
+
+/// A span between two points whose vectors are known: its first pixel at t = first, each further one `step`
+/// on.
+struct SpanVectors {
+  PointVectors begin, end;
+  double first = 0.0, step = 0.0;
+};
+
+class SphericalSetup final : public Setup {
+ public:
+  SphericalSetup(const Scene& scene, FrameSize frame, const HardwareKey& key, SphericalSetupOptions options);
+
+  unsigned init_bits() const override { return init_bits_; }
+  void append(std::uint32_t triangle, std::vector<std::uint32_t>& words, SetupCounts& counts) const override;
+
+  PointVectors vectors_at(const Material& material, const SurfacePoint& point) const;
+
+ private:
+  class ExactTriangle;
+  void append_published(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
+                        SetupCounts& counts) const;
+  PointVectors slerped(const PointVectors& a, const PointVectors& b, double t) const;
+  void put_ambient(InitVector& init, const Material& material, SetupCounts& counts) const;
+  /// `middle` gives the vectors at the span's middle, asked for where the ends are nearly opposed.
+  template <class Preset, class Middle>
+  void put_record(InitVector& record, std::uint32_t material, const SpanVectors& span, Middle&& middle,
+                  SetupCounts& counts) const;
+  /// Largest difference of a channel, in colour steps, between the span's interpolation at t and the
+  /// illumination model there.
+  double interpolation_error(std::uint32_t material, const SpanVectors& span, double t,
+                             const SurfacePoint& there) const;
+  std::int64_t factor_word(double steps, SetupCounts& counts) const;
+
+  const Scene* scene_;
+  FrameSize frame_;
+  Preset preset_;
+  SphericalSetupOptions options_;
+  golden::SphericalConfig config_;
+  std::vector<LightRef> lights_;
+  std::vector<Bell> bells_;  ///< one a material
+  unsigned init_bits_;
+  Projector projector_;
+};
+
+}  // namespace halfway

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tables/cosine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+
+namespace halfway::tables {
+namespace {
+
+constexpr int c_exact_powers[] = {1, 2, 4, 8, 16};
+constexpr int c_published_powers[] = {1, 2};
+
+std::span<const int> powers(bool exact) {
+  if (exact) return c_exact_powers;
+  return c_published_powers;
+}
+
+// The cell [low, low + 1] that an entry stands for, counted from angle 0.
+int low_of_cell(const CosineTable& table, int entry) {
+  const int cells = 1 << table.address_bits;
+  return table.exact || entry < cells / 2 ? entry : entry - cells;
+}
+
+// The table's function, `position` cells from angle 0. Within 8 * power * epsilon: the angle and its cosine
+// are within 4 epsilon, a power multiplies that by itself at most and adds a rounding a squaring.
+long double bell(const CosineTable& table, long double position) {
+  // Cells in a quarter turn: powers of two, so the quotient is exact.
+  const int shift = table.exact ? 0 : table.power == 1 ? 2 : 1;
+  const long double cells = std::ldexp(1.0L, table.address_bits - shift);
+  const long double quarters = position / cells;
+  if (std::fabs(quarters) >= 1.0L) return 0.0L;
+  long double value = std::cos(std::numbers::pi_v<long double> / 2 * quarters);
+  for (int power = table.power; power > 1; power /= 2) value *= value;
+  return value;
+}
+
+long double largest_word(const CosineTable& table) {
+  return std::ldexp(1.0L, table.data_bits) - 1.0L;
+}
+
+std::uint32_t correctly_rounded(const CosineTable& table, int entry) {
+  const long double value = largest_word(table) * bell(table, low_of_cell(table, entry) + 0.5L);
+  const long double above_tie = value - std::floor(value) - 0.5L;
+  const long double doubt =
+      largest_word(table) * 9 * table.power * std::numeric_limits<long double>::epsilon();
+  if (std::fabs(above_tie) <= doubt)
+    throw std::logic_error(fmt::format(
+        "cosine table: entry {} of cos^{}, {}/{} bits, is too near a tie to be rounded in long double", entry,
+        table.power, table.address_bits, table.data_bits));
+  return static_cast<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
+}
+
+constexpr std::string_view preset_name(bool exact) {
+  return exact ? "exact" : "published";
+}
+
+std::string constant_name(const CosineTable& table) {
+  return fmt::format("c_{}_cosine_{}_{}_{}", preset_name(table.exact), table.power, table.address_bits,
+                     table.data_bits);
+}
+
+// The entries, separated by commas, on lines of at most `columns`.
+std::string wrapped(const CosineTable& table, std::string_view indent, std::size_t columns) {
+  std::string text, line(indent);
+  for (std::size_t i = 0; i < table.entries.size(); ++i) {
+    const bool last = i + 1 == table.entries.size();
+    const std::string word = fmt::format("{}{}", table.entries[i], last ? "" : ",");
+    if (line.size() > indent.size()) {
+      if (line.size() + 1 + word.size() > columns) {
+        text += line + "\n";
+        line = indent;
+      } else {
+        line += ' ';
+      }
+    }
+    line += word;
+  }
+  return text + line;
+}
+
+constexpr std::string_view c_notice = "Made by `make tables` from model/tables/cosine.cpp; edit that.";
+
+}  // namespace
+
+CosineTable cosine_table(bool exact, int power, int address_bits, int data_bits) {
+  const auto within = [](int bits, int smallest, int largest) { return bits >= smallest && bits <= largest; };
+  if (std::ranges::find(powers(exact), power) == powers(exact).end() ||
+      !within(address_bits, c_smallest_cosine_size.address_bits, c_largest_cosine_size.address_bits) ||
+      !within(data_bits, c_smallest_cosine_size.data_bits, c_largest_cosine_size.data_bits))
+    throw std::invalid_argument(fmt::format("cosine table: there is no {} cos^{} of {}/{} bits",
+                                            preset_name(exact), power, address_bits, data_bits));
+  CosineTable table{exact, power, address_bits, data_bits, {}};
+  const int entries = 1 << address_bits;
+  table.entries.reserve(entries);
+  for (int entry = 0; entry < entries; ++entry) table.entries.push_back(correctly_rounded(table, entry));
+  return table;
+}
+
+std::vector<CosineTable> cosine_tables(const CosineSizes& sizes) {
+  std::vector<CosineTable> tables;
+  for (const bool exact : {true, false}) {
+    std::vector<CosineSize> made;
+    for (const CosineSize& size : exact ? sizes.exact : sizes.published) {
+      if (std::ranges::find(made, size) != made.end()) continue;
+      made.push_back(size);
+      for (const int power : powers(exact))
+        tables.push_back(cosine_table(exact, power, size.address_bits, size.data_bits));
+    }
+  }
+  return tables;
+}
+
+double table_error(const CosineTable& table) {
+  // Peak and zero lie at ends of cells, so the function is monotonic over a cell and farthest from the entry
+  // at one of its ends. What lies beyond the zero is zero in table and function.
+  long double largest = 0;
+  for (int entry = 0; entry < static_cast<int>(table.entries.size()); ++entry) {
+    const long double value = table.entries[entry] / largest_word(table);
+    const int low = low_of_cell(table, entry);
+    for (const int end : {low, low + 1}) largest = std::max(largest, std::fabs(value - bell(table, end)));
+  }
+  return static_cast<double>(largest);
+}
+
+std::string cosine_vhdl_package(const CosineSizes& sizes) {
+  const std::vector<CosineTable> tables = cosine_tables(sizes);
+  std::string out = fmt::format(
+      "-- SPDX-License-Identifier: Apache-2.0\n-- {}\n"
+      "-- Powers of the cosine, correctly rounded, times 2^data_bits - 1. Preset exact: over half a bell, "
+      "from its\n"
+      "-- peak; preset published: over a full period, the address signed, and zero where the cosine is "
+      "negative.\n\n"
+      "package cosine_pkg is\n\n"
+      "  type cosine_table_t is array (natural range <>) of natural;\n\n"
+      "  function cosine_table (exact : boolean; power, address_bits, data_bits : positive) return "
+      "cosine_table_t;\n\n"
+      "  -- The size that is used where none is asked for.\n"
+      "  function cosine_address_bits (exact : boolean) return positive;\n\n"
+      "  function cosine_data_bits (exact : boolean) return positive;\n\n"
+      "end package;\n\npackage body cosine_pkg is\n\n",
+      c_notice);
+  auto to = std::back_inserter(out);
+  for (const CosineTable& table : tables)
+    fmt::format_to(to, "  constant {} : cosine_table_t(0 to {}) := (\n{});\n\n", constant_name(table),
+                   table.entries.size() - 1, wrapped(table, "    ", 118));
+  out +=
+      "  function cosine_table (exact : boolean; power, address_bits, data_bits : positive) return "
+      "cosine_table_t is\n"
+      "  begin\n";
+  for (const CosineTable& table : tables)
+    fmt::format_to(to,
+                   "    if {}exact and power = {} and address_bits = {} and data_bits = {} then\n"
+                   "      return {};\n    end if;\n",
+                   table.exact ? "" : "not ", table.power, table.address_bits, table.data_bits,
+                   constant_name(table));
+  out +=
+      "    report \"cosine_table: there is no table for exact \" & boolean'image(exact) & \", power \" & "
+      "integer'image(power) &\n"
+      "      \", address bits \" & integer'image(address_bits) & \", data bits \" & "
+      "integer'image(data_bits)\n"
+      "      severity failure;\n"
+      "    return (0 to 2 ** address_bits - 1 => 0);\n"
+      "  end function;\n\n";
+  const auto choose = [&](std::string_view name, int CosineSize::*bits) {
+    fmt::format_to(to,
+                   "  function {} (exact : boolean) return positive is\n  begin\n    if exact then\n"
+                   "      return {};\n    end if;\n    return {};\n  end function;\n\n",
+                   name, sizes.exact.front().*bits, sizes.published.front().*bits);
+  };
+  choose("cosine_address_bits", &CosineSize::address_bits);
+  choose("cosine_data_bits", &CosineSize::data_bits);
+  out += "end package body;\n";
+  return out;
+}
+
+std::string cosine_cpp_header(const CosineSizes& sizes) {
+  const std::vector<CosineTable> tables = cosine_tables(sizes);
+  std::string out = fmt::format(
+      "// SPDX-License-Identifier: Apache-2.0\n// {}\n"
+      "// Powers of the cosine, correctly rounded, times 2^data_bits - 1. Preset exact: over half a bell, "
+      "from its\n"
+      "// peak; preset published: over a full period, the address signed, and zero where the cosine is "
+      "negative.\n"
+      "#pragma once\n\n#include <array>\n#include <cstdint>\n#include <span>\n\n"
+      "namespace halfway::golden {{\n\n"
+      "struct CosineSize {{\n  int address_bits, data_bits;\n}};\n\n"
+      "struct CosineTable {{\n  bool exact;\n  int power, address_bits, data_bits;\n"
+      "  std::span<const std::uint16_t> entries;\n}};\n\n"
+      "// The size that is used where none is asked for.\n",
+      c_notice);
+  auto to = std::back_inserter(out);
+  for (const bool exact : {true, false}) {
+    const CosineSize& size = (exact ? sizes.exact : sizes.published).front();
+    fmt::format_to(to, "inline constexpr CosineSize c_{}_cosine_size{{{}, {}}};\n", preset_name(exact),
+                   size.address_bits, size.data_bits);
+  }
+  for (const CosineTable& table : tables)
+    fmt::format_to(to, "\ninline constexpr std::array<std::uint16_t, {}> {} = {{\n{}\n}};\n",
+                   table.entries.size(), constant_name(table), wrapped(table, "    ", 110));
+  fmt::format_to(to, "\ninline constexpr std::array<CosineTable, {}> c_cosine_tables = {{{{\n",
+                 tables.size());
+  for (const CosineTable& table : tables)
+    fmt::format_to(to, "    {{{}, {}, {}, {}, {}}},\n", table.exact, table.power, table.address_bits,
+                   table.data_bits, constant_name(table));
+  out += "}};\n\n}  // namespace halfway::golden\n";
+  return out;
+}
+
+}  // namespace halfway::tables

@@ -1,0 +1,55 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     An angle's address in a cosine table. Preset exact: the upper fraction bits of its magnitude, and whether it
+--             lies between the bell's ends, -1 <= angle < 1. The magnitude is the ones' complement, so that both sides of
+--             the bell's top meet the same entries at the same distance. Preset published: the upper bits of the word,
+--             which goes round where the table does.
+-- Formats     formats_pkg: angle
+-- Latency     0 (combinational)
+-- Error       none: an address is its cell of the angle, exactly
+-- Source      spherical paper, section 5: the upper bits of the line interpolator address the ROM; in_range is ours
+-- Golden twin model/golden/angle_address.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use work.formats_pkg.all;
+
+entity angle_address is
+  generic (
+    g_exact        : boolean := true;
+    g_address_bits : positive
+  );
+  port (
+    angle    : in  std_logic_vector(formats(g_exact).angle.bits - 1 downto 0);
+    address  : out std_logic_vector(g_address_bits - 1 downto 0);
+    in_range : out std_logic -- preset published: always '1'
+  );
+end entity;
+
+architecture rtl of angle_address is
+
+  constant c_sign     : natural := formats(g_exact).angle.bits - 1;
+  constant c_fraction : natural := formats(g_exact).angle.fraction;
+
+begin
+
+  folded : if g_exact generate
+
+    constant c_inside : std_logic_vector(c_sign downto c_fraction) := (others => '0');
+
+    signal magnitude : std_logic_vector(c_sign downto 0);
+
+    begin
+
+      magnitude <= not angle when angle(c_sign) = '1' else angle;
+      address   <= magnitude(c_fraction - 1 downto c_fraction - g_address_bits);
+      in_range  <= '1' when magnitude(c_sign downto c_fraction) = c_inside else '0';
+
+  else generate
+
+    address  <= angle(c_sign downto c_sign - g_address_bits + 1);
+    in_range <= '1';
+
+  end generate;
+
+end architecture;

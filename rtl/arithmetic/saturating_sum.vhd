@@ -1,0 +1,72 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     Sum of unsigned fixed-point terms to a whole number of fewer bits: the sum is as wide as all terms at their
+--             largest ask for, so it never wraps; its fraction is dropped, and above the largest result it gives the
+--             largest. The 0.5 that makes this rounding stands in one of the terms.
+-- Formats     terms: g_terms of g_term_bits each, g_fraction_bits of them fraction, the first lowest; result: unsigned,
+--             g_result_bits
+-- Latency     0 (combinational)
+-- Error       [0, 1) below the sum inside the range
+-- Source      spherical paper, figure 12 (the adders of red, green and blue)
+-- Golden twin model/golden/saturating_sum.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+
+entity saturating_sum is
+  generic (
+    g_terms         : positive;
+    g_term_bits     : positive;
+    g_fraction_bits : natural;
+    g_result_bits   : positive
+  );
+  port (
+    terms  : in  std_logic_vector(g_terms * g_term_bits - 1 downto 0);
+    result : out std_logic_vector(g_result_bits - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of saturating_sum is
+
+  -- Of g_terms times the largest term: 2**bits >= g_terms.
+  function carry_bits return natural is
+    variable bits : natural := 0;
+  begin
+    while 2 ** bits < g_terms loop
+      bits := bits + 1;
+    end loop;
+    return bits;
+  end function;
+
+  constant c_sum_bits : positive := g_term_bits + carry_bits;
+
+  signal sum   : unsigned(c_sum_bits - 1 downto 0);
+  signal value : std_logic_vector(c_sum_bits downto 0);
+
+begin
+
+  add : process (all)
+    variable v : unsigned(c_sum_bits - 1 downto 0);
+  begin
+    v := resize(unsigned(terms(g_term_bits - 1 downto 0)), c_sum_bits);
+    for i in 1 to g_terms - 1 loop
+      v := v + resize(unsigned(terms((i + 1) * g_term_bits - 1 downto i * g_term_bits)), c_sum_bits);
+    end loop;
+    sum <= v;
+  end process;
+
+  value <= '0' & std_logic_vector(sum);
+
+  to_result : entity work.saturate
+    generic map (
+      g_value_bits    => c_sum_bits + 1,
+      g_fraction_bits => g_fraction_bits,
+      g_result_bits   => g_result_bits
+      )
+    port map (
+      value  => value,
+      result => result
+      );
+
+end architecture;

@@ -1,0 +1,264 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     One light's highlight, a product a channel: factor * cos(angle) ** power, the angle going linearly along
+--             the span in units of half a bell.
+--               span stage     angle, by a line_interpolator
+--               sample stage   samples of all tables, read at once; in_range (not past the bell's ends, and lit), factors
+--                              and power beside them
+--               product stage  factor * the power's sample, zero where not in_range
+-- Contract    span_load takes the light's part of the line record; span_step hands the pixel, lit or not, to the sample
+--             stage and goes to the next one; sample_step hands the pixel from there to the product stage.
+--             Bit i of g_powers: the table of cosine to the power 2**i is there. With one table there is nothing to
+--             select, and the record's power is not read; else the sample of a power without a table is zero.
+-- Formats     formats_pkg: angle, power, factor; sample: unsigned, of 2**g_data_bits - 1; product: factor's bits and
+--             g_data_bits together
+-- Latency     1 clock from span_load to angle, 1 from span_step to sample, 1 from sample_step to products
+-- Throughput  1 pixel a clock
+-- Error       angle: see formats_pkg; sample: see cosine_rom
+-- Source      spherical paper, section 5 and figure 12 (specular part): cosine squared alone, and no end to the bells, in
+--             preset published; other powers and in_range are ours
+-- Golden twin model/golden/specular_slice.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.formats_pkg.all;
+
+entity specular_slice is
+  generic (
+    g_exact        : boolean              := true;
+    g_channels     : natural range 1 to 3 := 3; -- of the highlight
+    g_powers       : natural              := 2;
+    g_address_bits : positive;
+    g_data_bits    : positive
+  );
+  port (
+    clk         : in  std_logic;
+    part        : in  std_logic_vector(specular_bits(g_exact, g_channels) - 1 downto 0); -- of the line record
+    span_load   : in  std_logic;                                                         -- begin the line
+    span_step   : in  std_logic;                                                         -- go to the next pixel
+    sample_step : in  std_logic;
+    lit         : in  std_logic; -- at the span stage: not behind the light's horizon
+    angle       : out std_logic_vector(formats(g_exact).angle.bits - 1 downto 0);
+    in_range    : out std_logic;
+    sample      : out std_logic_vector(g_data_bits - 1 downto 0);
+    products    : out std_logic_vector(g_channels * (formats(g_exact).factor.bits + g_data_bits) - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of specular_slice is
+
+  constant c_largest_power : natural := 4; -- cosine to the power 16
+
+  function has_table (power : natural) return boolean is
+  begin
+    return (g_powers / 2 ** power) mod 2 = 1; -- elaboration only
+  end function;
+
+  function tables return natural is
+    variable count : natural := 0;
+  begin
+    for power in 0 to c_largest_power loop
+      if has_table(power) then
+        count := count + 1;
+      end if;
+    end loop;
+    return count;
+  end function;
+
+  -- Where there is one table.
+  function only_power return natural is
+    variable found : natural := 0;
+  begin
+    for power in 0 to c_largest_power loop
+      if has_table(power) then
+        found := power;
+      end if;
+    end loop;
+    return found;
+  end function;
+
+  constant c_part         : specular_header_t := specular_header(g_exact);
+  constant c_angle_bits   : positive          := formats(g_exact).angle.bits;
+  constant c_factors_low  : positive          := specular_channel_low(g_exact, 0);
+  constant c_factors_bits : positive          := part'length - c_factors_low;
+  constant c_channel_bits : positive          := specular_channel_low(g_exact, 1) - c_factors_low;
+  constant c_product_bits : positive          := formats(g_exact).factor.bits + g_data_bits;
+  constant c_factor       : slice_t           := specular_channel(g_exact).factor;
+
+  type samples_t is array (0 to c_largest_power) of std_logic_vector(sample'range);
+
+  signal slope      : std_logic_vector(c_angle_bits - 1 downto 0);
+  signal address    : std_logic_vector(g_address_bits - 1 downto 0);
+  signal near       : std_logic; -- not past the bell's ends
+  signal carried_in : std_logic_vector(c_factors_bits downto 0); -- in_range lowest
+  signal carried    : std_logic_vector(carried_in'range);
+  signal samples    : samples_t;
+  signal gated      : std_logic_vector(sample'range);
+
+begin
+
+  assert g_powers > 0 and g_powers < 2 ** (c_largest_power + 1)
+    report "specular_slice: g_powers is " & integer'image(g_powers) & ", not a set of the powers 2**0 to 2**"
+    & integer'image(c_largest_power)
+    severity failure;
+  assert g_exact or tables = 1
+    report "specular_slice: g_powers is " & integer'image(g_powers) & ", but preset published has no power to select by"
+    severity failure;
+
+  -- The init buffer holds the next line's record already, so the span keeps its own slope and factors.
+  slope_register : entity work.parameter_register
+    generic map (
+      g_bits => c_angle_bits
+      )
+    port map (
+      clk   => clk,
+      load  => span_load,
+      start => part(c_part.slope.high downto c_part.slope.low),
+      value => slope
+      );
+
+  factors_register : entity work.parameter_register
+    generic map (
+      g_bits => c_factors_bits
+      )
+    port map (
+      clk   => clk,
+      load  => span_load,
+      start => part(part'high downto c_factors_low),
+      value => carried_in(c_factors_bits downto 1)
+      );
+
+  along_line : entity work.line_interpolator
+    generic map (
+      g_bits => c_angle_bits
+      )
+    port map (
+      clk       => clk,
+      load      => span_load,
+      start     => part(c_part.angle.high downto c_part.angle.low),
+      step      => span_step,
+      increment => slope,
+      value     => angle
+      );
+
+  to_address : entity work.angle_address
+    generic map (
+      g_exact        => g_exact,
+      g_address_bits => g_address_bits
+      )
+    port map (
+      angle    => angle,
+      address  => address,
+      in_range => near
+      );
+
+  beside_sample : entity work.parameter_register
+    generic map (
+      g_bits => carried'length
+      )
+    port map (
+      clk   => clk,
+      load  => span_step,
+      start => carried_in,
+      value => carried
+      );
+
+  carried_in(0) <= near and lit;
+  in_range      <= carried(0);
+
+  roms : for power in samples_t'range generate
+
+    present : if has_table(power) generate
+
+      rom : entity work.cosine_rom
+        generic map (
+          g_exact        => g_exact,
+          g_power        => 2 ** power,
+          g_address_bits => g_address_bits,
+          g_data_bits    => g_data_bits
+          )
+        port map (
+          clk     => clk,
+          enable  => span_step,
+          address => address,
+          sample  => samples(power)
+          );
+
+    else generate
+
+      samples(power) <= (others => '0');
+
+    end generate;
+
+  end generate;
+
+  selected : if tables > 1 generate
+
+    signal span_power, power : std_logic_vector(c_part.power.high - c_part.power.low downto 0);
+
+    begin
+
+      span_power_register : entity work.parameter_register
+        generic map (
+          g_bits => power'length
+          )
+        port map (
+          clk   => clk,
+          load  => span_load,
+          start => part(c_part.power.high downto c_part.power.low),
+          value => span_power
+          );
+
+      power_register : entity work.parameter_register
+        generic map (
+          g_bits => power'length
+          )
+        port map (
+          clk   => clk,
+          load  => span_step,
+          start => span_power,
+          value => power
+          );
+
+      select_sample : process (all)
+      begin
+        sample <= (others => '0');
+        for i in samples_t'range loop
+          if unsigned(power) = i then
+            sample <= samples(i);
+          end if;
+        end loop;
+      end process;
+
+  else generate
+
+    sample <= samples(only_power);
+
+  end generate;
+
+  gated <= sample when in_range = '1' else (others => '0');
+
+  channels : for channel in 0 to g_channels - 1 generate
+
+    constant c_low : natural := 1 + channel * c_channel_bits;
+
+    begin
+
+      -- The sample first: numeric_std's product takes a sum a bit of its left side.
+      product : entity work.multiplier
+        generic map (
+          g_a_bits => g_data_bits,
+          g_b_bits => formats(g_exact).factor.bits
+          )
+        port map (
+          clk     => clk,
+          enable  => sample_step,
+          a       => gated,
+          b       => carried(c_low + c_factor.high downto c_low + c_factor.low),
+          product => products((channel + 1) * c_product_bits - 1 downto channel * c_product_bits)
+          );
+
+  end generate;
+
+end architecture;

@@ -1,0 +1,111 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Where a light's parts lie in a line record and in the probe of the spherical shader. A line record holds for every
+-- light its diffuse part, then its specular part; the probe the same behind its header.
+-- Golden twin model/golden/spherical_layout.hpp
+
+use work.formats_pkg.all;
+
+package spherical_pkg is
+
+  -- The light's diffuse angle is needed: for its cosine, or as the horizon that ends the highlight.
+  function has_diffuse_part (exact, diffuse, specular : boolean) return boolean;
+
+  -- Colours that a light's diffuse part has a factor for.
+  function diffuse_channels (channels : positive; diffuse : boolean) return natural;
+
+  -- Bits of one light's part; 0 where it is not there.
+  function diffuse_part_bits (exact : boolean; channels : positive; diffuse, specular : boolean) return natural;
+
+  function specular_part_bits (exact : boolean; specular : boolean; highlight_channels : positive) return natural;
+
+  function diffuse_part_probe_bits (exact : boolean; channels : positive; diffuse, specular : boolean) return natural;
+
+  function specular_part_probe_bits (exact : boolean; specular : boolean; highlight_channels : positive) return natural;
+
+  -- 0: no line records follow a triangle's header.
+  function record_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
+    highlight_channels : positive) return natural;
+
+  -- Of a vector: a triangle's header, or a line record.
+  function init_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
+    highlight_channels : positive) return positive;
+
+  function probe_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
+    highlight_channels : positive) return positive;
+
+end package;
+
+package body spherical_pkg is
+
+  function has_diffuse_part (exact, diffuse, specular : boolean) return boolean is
+  begin
+    return diffuse or (specular and exact);
+  end function;
+
+  function diffuse_channels (channels : positive; diffuse : boolean) return natural is
+  begin
+    if diffuse then
+      return channels;
+    end if;
+    return 0;
+  end function;
+
+  function diffuse_part_bits (exact : boolean; channels : positive; diffuse, specular : boolean) return natural is
+  begin
+    if has_diffuse_part(exact, diffuse, specular) then
+      return diffuse_bits(exact, diffuse_channels(channels, diffuse));
+    end if;
+    return 0;
+  end function;
+
+  function specular_part_bits (exact : boolean; specular : boolean; highlight_channels : positive) return natural is
+  begin
+    if specular then
+      return specular_bits(exact, highlight_channels);
+    end if;
+    return 0;
+  end function;
+
+  function diffuse_part_probe_bits (exact : boolean; channels : positive; diffuse, specular : boolean) return natural is
+  begin
+    if has_diffuse_part(exact, diffuse, specular) then
+      return diffuse_probe_bits(exact, diffuse_channels(channels, diffuse));
+    end if;
+    return 0;
+  end function;
+
+  function specular_part_probe_bits (exact : boolean; specular : boolean; highlight_channels : positive) return natural is
+  begin
+    if specular then
+      return specular_probe_bits(exact, highlight_channels);
+    end if;
+    return 0;
+  end function;
+
+  function record_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
+    highlight_channels : positive) return natural is
+  begin
+    return lights * (diffuse_part_bits(exact, channels, diffuse, specular)
+      + specular_part_bits(exact, specular, highlight_channels));
+  end function;
+
+  function init_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
+    highlight_channels : positive) return positive is
+    constant c_header : positive := init_channel_low(exact, 0) + ambient_bits(exact, channels);
+    constant c_record : natural  := record_bits(exact, channels, lights, diffuse, specular, highlight_channels);
+  begin
+    if c_record > c_header then
+      return c_record;
+    end if;
+    return c_header;
+  end function;
+
+  function probe_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
+    highlight_channels : positive) return positive is
+  begin
+    return probe_channel_low(exact, 0) + lights * (diffuse_part_probe_bits(exact, channels, diffuse, specular)
+      + specular_part_probe_bits(exact, specular, highlight_channels));
+  end function;
+
+end package body;

@@ -1,0 +1,69 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     A table of a power of the cosine, read a clock later. Preset exact: entry k stands for
+--             cos(pi/2 * (k + 1/2) / 2**address_bits) ** power, the half of the bell from its top on. Preset published:
+--             the address is signed and goes round: cos**2 over half bells, or cos over whole ones, negative ones zero.
+-- Formats     sample: unsigned, of 2**g_data_bits - 1; table: cosine_pkg
+-- Latency     1 clock from an address with enable to its sample
+-- Throughput  1 sample a clock
+-- Error       half a step of the sample, and the width of a cell of the angle: `halfway tables` states both
+-- Source      spherical paper, section 5 and figure 11
+-- Golden twin model/golden/cosine_rom.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.cosine_pkg.all;
+
+entity cosine_rom is
+  generic (
+    g_exact        : boolean  := true;
+    g_power        : positive := 2;
+    g_address_bits : positive;
+    g_data_bits    : positive
+  );
+  port (
+    clk     : in  std_logic;
+    enable  : in  std_logic;
+    address : in  std_logic_vector(g_address_bits - 1 downto 0);
+    sample  : out std_logic_vector(g_data_bits - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of cosine_rom is
+
+  type rom_t is array (0 to 2 ** g_address_bits - 1) of std_logic_vector(g_data_bits - 1 downto 0);
+
+  type reg_t is record
+    sample : std_logic_vector(g_data_bits - 1 downto 0);
+  end record;
+
+  function entries return rom_t is
+    constant c_table : cosine_table_t := cosine_table(g_exact, g_power, g_address_bits, g_data_bits);
+
+    variable rom : rom_t;
+  begin
+    for i in rom'range loop
+      rom(i) := std_logic_vector(to_unsigned(c_table(i), g_data_bits));
+    end loop;
+    return rom;
+  end function;
+
+  constant c_rom : rom_t := entries;
+
+  signal r : reg_t;
+
+begin
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      if enable = '1' then
+        r.sample <= c_rom(to_integer(unsigned(address)));
+      end if;
+    end if;
+  end process;
+
+  sample <= r.sample;
+
+end architecture;
