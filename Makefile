@@ -6,7 +6,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 
 # What a target hands to the program. Values travel through the environment and are quoted where they are
 # used: neither make nor a shell ever reads them as code.
-variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS TESTS JOBS
+variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
 
@@ -16,24 +16,27 @@ scene := $${SCENE:+-- "$$SCENE"}
 run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size)
 sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) \
   $(call option,OUT,--out)
+table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
+  $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim compare why tables check-tables test bench build program configure setup doctor format \
+.PHONY: help sim compare why figure17 tables check-tables test bench build program configure setup doctor format \
   check-format clean
 
 help: ## this list
 	@echo 'Halfway: shading hardware in VHDL, checked bit for bit against C++'
 	@echo
-	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1	\2/p' Makefile | expand -t 22
+	@sed -n 's/^\([a-z0-9-]*\):.*## \(.*\)/  make \1	\2/p' Makefile | expand -t 22
 	@echo
 	@echo 'Variables, e.g. make sim SCENE=../shared/meshes/cow.obj SIZE=800x600'
 	@echo '  SCENE      a built-in scene, a TOML file or a mesh file   (default: all built-in scenes)'
-	@echo '  SHADER     quadratic                                     (default: quadratic)'
+	@echo '  SHADER     quadratic or spherical                         (default: quadratic)'
 	@echo '  PRESET     exact or published                             (default: exact)'
 	@echo '  SIZE       WIDTHxHEIGHT in pixels                         (default: 640x480)'
 	@echo '  SIMULATOR  ghdl or verilator                              (default: both)'
 	@echo '  OUT        the folder for results                         (default: build/out)'
 	@echo '  THREADS    threads for triangle setup and golden model    (default: all cores)'
 	@echo '  PIXEL      x,y of the pixel that make why explains'
+	@echo '  ADDRESS_BITS, DATA_BITS   make tables: size of cosine tables  (default: 9, 8; published 6, 6)'
 	@echo '  TESTS      a regular expression: make test runs only the tests that match'
 	@echo '  JOBS       parallel compilations and tests                (default: all cores)'
 
@@ -46,11 +49,14 @@ compare: program ## the frames that make sim left, once more
 why: program ## one pixel stage by stage, golden beside RTL (SCENE, PIXEL)
 	@build/halfway why $(run_options) $(call option,PIXEL,--pixel) $(call option,OUT,--out) $(scene)
 
+figure17: setup ## figure 17 of the spherical paper, from its timing model's trace
+	@tb/timing/figure17.sh build/figure17
+
 tables: program ## write ROMs and formats anew
-	@build/halfway tables
+	@build/halfway tables $(table_options)
 
 check-tables: program ## fail if make tables would change anything
-	@build/halfway tables --check
+	@build/halfway tables --check $(table_options)
 
 test: build ## every test
 	@ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
