@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/spherical_renderer.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "frame/metrics.hpp"
+#include "reference/shade.hpp"
+#include "scene/builtin_meshes.hpp"
+#include "scene/load_scene.hpp"
+#include "setup/bell.hpp"
+#include "setup/project.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr FrameSize c_frame{70, 53};
+
+std::vector<SphericalMethod> all_methods() {
+  std::vector<SphericalMethod> methods;
+  for (VectorScheme vectors : {VectorScheme::one_fixed, VectorScheme::both_interpolated})
+    for (SpanEnds ends : {SpanEnds::on_surface, SpanEnds::slerped_along_edges})
+      for (HighlightCurve curve : {HighlightCurve::power, HighlightCurve::squared_cosine})
+        methods.push_back({vectors, ends, curve});
+  return methods;
+}
+
+/// One triangle that may leave the frame, its normals up to a right angle apart, a light of each kind.
+Scene one_triangle(std::mt19937& random, Brdf brdf) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto point = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
+  Scene scene;
+  scene.background = {0.2, 0.4, 0.6};
+  scene.materials.resize(2);
+  Material& material = scene.materials[1];
+  material.brdf = brdf;
+  material.colour = {1.0, 0.5, 0.2};
+  material.exponent = std::exp(2.0 * (unit(random) + 1.0));
+  material.specular = 0.7;
+  material.roughness = 0.5;
+  material.reflectance = 0.5;
+  scene.materials[0].exponent = 400.0;
+  scene.directional = {{glm::normalize(glm::dvec3(1, 2, 3)), {0.5, 0.6, 0.7}}};
+  scene.positional = {{{-2, 2, 3}, {0.3, 0.4, 0.5}}, {{1.5, 0.5, -0.5}, {0.6, 0.3, 0.1}}};
+  scene.spots = {{{0, 0, 4}, {0, 0, -1}, 0.99, 0.9, {0.4, 0.2, 0.5}}};
+  for (int k = 0; k < 3; ++k) {
+    scene.positions_world.push_back(2.2 * point());
+    scene.normals_world.push_back(glm::normalize(point() + glm::dvec3(0, 0, 1.2)));
+  }
+  scene.triangles = {{{0, 1, 2}, {0, 1, 2}, 1}, {{0, 2, 1}, {0, 2, 1}, 1}};  // one of them faces the eye
+  return scene;
+}
+
+// The method written down pixel by pixel, by the paper's own formulas; none of the scenes comes near their
+// faults.
+
+glm::dvec3 published_slerp(glm::dvec3 a, glm::dvec3 b, double t) {
+  if (glm::length(a - b) < 1e-9) return a;
+  const double gamma = std::acos(glm::dot(a, b));
+  return (std::sin((1.0 - t) * gamma) * a + std::sin(t * gamma) * b) / std::sin(gamma);
+}
+
+struct Vectors {
+  glm::dvec3 n, l, u, v, e;
+  double spot;
+};
+
+Vectors vectors_at(const Scene& scene, const SurfacePoint& p, std::size_t light) {
+  Vectors r;
+  r.n = p.normal_world;
+  r.e = glm::normalize(scene.camera.eye_world - p.position_world);
+  r.l = light == 0 ? scene.directional[0].to_light_world
+                   : glm::normalize((light == 3 ? scene.spots[0].position_world
+                                                : scene.positional[light - 1].position_world) -
+                                    p.position_world);
+  r.spot = light == 3 ? spot_factor(scene.spots[0], r.l.z) : 1.0;
+  if (scene.materials[1].brdf == Brdf::phong)
+    r.u = 2.0 * glm::dot(r.n, r.l) * r.n - r.l, r.v = r.e;
+  else
+    r.u = r.n, r.v = glm::normalize(r.l + r.e);
+  return r;
+}
+
+Vectors between(const Vectors& a, const Vectors& b, double t) {
+  return {published_slerp(a.n, b.n, t), published_slerp(a.l, b.l, t), published_slerp(a.u, b.u, t),
+          published_slerp(a.v, b.v, t), published_slerp(a.e, b.e, t), a.spot + t * (b.spot - a.spot)};
+}
+
+struct Cosine {
+  double value, amplitude;
+};
+
+Cosine cosine_between(VectorScheme scheme, glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v1, glm::dvec3 v2,
+                      double t) {
+  if (scheme == VectorScheme::both_interpolated)
+    return {glm::dot(published_slerp(u1, u2, t), published_slerp(v1, v2, t)), 1.0};
+  const glm::dvec3 c = glm::cross(v1, v2);
+  const double cosine = glm::dot(v1, v2);
+  const glm::dvec3 u2_back = cosine * u2 - glm::cross(c, u2) + glm::dot(c, u2) / (1.0 + cosine) * c;
+  // The amplitude is v1's length in the plane that u turns in.
+  const glm::dvec3 across = glm::cross(u1, u2_back);
+  const double length = glm::length(across);
+  const double value = glm::dot(published_slerp(u1, u2_back, t), v1);
+  return {value, length < 1e-9 ? std::abs(value)
+                               : std::sqrt(std::max(0.0, 1.0 - std::pow(glm::dot(across, v1) / length, 2)))};
+}
+
+glm::dvec3 expected(const Scene& scene, const SphericalMethod& method,
+                    const std::function<std::array<Vectors, 2>(std::size_t light)>& ends, double t) {
+  const Material& m = scene.materials[1];
+  const std::array<glm::dvec3, 4> intensity{scene.directional[0].intensity, scene.positional[0].intensity,
+                                            scene.positional[1].intensity, scene.spots[0].intensity};
+  glm::dvec3 sum = scene.ambient * m.ambient * m.colour;
+  for (std::size_t light = 0; light < 4; ++light) {
+    const auto [a, b] = ends(light);
+    const double n_dot_l = cosine_between(method.vectors, a.n, b.n, a.l, b.l, t).value;
+    if (n_dot_l <= 0.0) continue;
+    const Cosine c = cosine_between(method.vectors, a.u, b.u, a.v, b.v, t);
+    const Vectors here = between(a, b, t);
+    double highlight = std::pow(std::max(0.0, c.value), m.exponent);
+    if (m.brdf == Brdf::cook_torrance) {
+      highlight = specular_factor(m, here.n, here.l, here.e);
+    } else if (method.curve == HighlightCurve::squared_cosine) {
+      const double x = published_scale(m.exponent) * std::acos(std::clamp(c.value / c.amplitude, -1.0, 1.0));
+      highlight =
+          x < std::numbers::pi / 2 ? std::pow(c.amplitude, m.exponent) * std::cos(x) * std::cos(x) : 0.0;
+    }
+    sum += here.spot * intensity[light] *
+           (m.diffuse * n_dot_l * m.colour + m.specular * highlight * m.specular_colour);
+  }
+  return sum;
+}
+
+TEST(SphericalRenderer, DrawsWhatTheFormulasSay) {
+  std::mt19937 random(1);
+  std::uint64_t pixels = 0, lit = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Scene scene =
+        one_triangle(random, std::array{Brdf::blinn, Brdf::phong, Brdf::cook_torrance}[i % 3]);
+    const auto triangles = Projector(scene, c_frame, {}).project_all();
+    if (triangles.size() != 1) continue;
+    const ScreenTriangle& triangle = triangles[0];
+    for (const SphericalMethod& method : all_methods()) {
+      const ReferenceImage image = render_spherical(scene, triangles, {.frame = c_frame}, method);
+      for (std::uint32_t y = 0; y < c_frame.height; ++y) {
+        const auto line = image.mask.begin() + y * c_frame.width;
+        const auto first = std::find(line, line + c_frame.width, 1) - line;
+        const auto count = std::count(line, line + c_frame.width, 1);
+        if (count == 0) continue;
+        // Ends: the first and the last pixel, or where the edges are on this line.
+        double begin = static_cast<double>(first) + 0.5, end = begin + static_cast<double>(count - 1);
+        std::function<std::array<Vectors, 2>(std::size_t)> ends = [&](std::size_t light) {
+          const auto at = [&](std::int64_t x) {
+            return vectors_at(scene,
+                              surface_point(triangle, barycentric_screen(triangle, 32 * x + 16, 32 * y + 16)),
+                              light);
+          };
+          return std::array{at(first), at(first + count - 1)};
+        };
+        if (method.ends == SpanEnds::slerped_along_edges) {
+          struct Crossing {
+            double x, t;
+            int a, b;
+          };
+          std::vector<Crossing> crossings;
+          for (int k = 0; k < 3; ++k) {
+            const ScreenVertex &a = triangle.vertex[k], &b = triangle.vertex[(k + 1) % 3];
+            const double t = (16.0 * y + 8.0 - a.y) / (b.y - a.y);
+            if (a.y != b.y && t >= 0.0 && t <= 1.0)
+              crossings.push_back({(a.x + t * (b.x - a.x)) / 16.0, t, k, (k + 1) % 3});
+          }
+          const auto by_x = [](const Crossing& p, const Crossing& q) { return p.x < q.x; };
+          const Crossing left = *std::min_element(crossings.begin(), crossings.end(), by_x);
+          const Crossing right = *std::max_element(crossings.begin(), crossings.end(), by_x);
+          begin = left.x, end = right.x;
+          ends = [&, left, right](std::size_t light) {
+            const auto on_edge = [&](const Crossing& c) {
+              const auto vertex = [&](int k) {
+                return vectors_at(scene, surface_point(triangle, {k == 0, k == 1, k == 2}), light);
+              };
+              return between(vertex(c.a), vertex(c.b), c.t);
+            };
+            return std::array{on_edge(left), on_edge(right)};
+          };
+        }
+        for (auto x = first; x < first + count; ++x) {
+          ASSERT_EQ(line[x], 1);
+          const double t = end == begin ? 0.0 : (static_cast<double>(x) + 0.5 - begin) / (end - begin);
+          const glm::dvec3 colour = expected(scene, method, ends, t);
+          ++pixels;
+          lit += colour.x > 0.1;
+          for (int k = 0; k < 3; ++k)
+            ASSERT_NEAR(image.frame.rgb[3 * (y * c_frame.width + x) + k], 255.0 * std::min(1.0, colour[k]),
+                        0.5 + 1e-6)
+                << "triangle " << i << " pixel " << x << ',' << y << " scheme " << int(method.vectors)
+                << " ends " << int(method.ends) << " curve " << int(method.curve);
+        }
+      }
+    }
+  }
+  EXPECT_GT(pixels, 100'000u);
+  EXPECT_GT(lit, 50'000u);
+}
+
+Scene builtin(const std::string& name) {
+  return *load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
+}
+
+/// A sphere of 36 triangles with a sharp highlight, and a light a quarter of its radius away.
+Scene hard_scene() {
+  const Mesh mesh = make_uv_sphere(6, 4, 1.0);
+  Scene scene;
+  scene.name = "hard";
+  scene.positions_world = mesh.positions;
+  scene.normals_world = mesh.normals;
+  scene.triangles = mesh.triangles;
+  for (SceneTriangle& t : scene.triangles) t.material = 0;
+  scene.materials.resize(1);
+  scene.materials[0].colour = glm::dvec3(0.6);
+  scene.materials[0].exponent = 50.0;
+  scene.positional = {{{0.45, 0.6, 1.0}, glm::dvec3(1.0)}};
+  scene.camera.eye_world = {0.0, 0.0, 3.2};
+  return scene;
+}
+
+TEST(SphericalRenderer, CoverageIsTheReferences) {
+  for (const char* name : {"spheres", "matte"}) {
+    const Scene scene = builtin(name);
+    const auto triangles = Projector(scene, c_frame, {}).project_all();
+    const ReferenceImage reference = render_reference(scene, triangles, {.frame = c_frame});
+    for (const SphericalMethod& method : all_methods())
+      EXPECT_EQ(render_spherical(scene, triangles, {.frame = c_frame}, method).mask, reference.mask);
+  }
+}
+
+TEST(SphericalRenderer, TheNumberOfThreadsDoesNotMatter) {
+  const Scene scene = builtin("lights");
+  const auto triangles = Projector(scene, {90, 120}, {}).project_all();
+  for (const SphericalMethod& method : all_methods()) {
+    const ReferenceImage one = render_spherical(scene, triangles, {.frame = {90, 120}, .threads = 1}, method);
+    for (unsigned threads : {0u, 3u, 16u})
+      EXPECT_EQ(
+          render_spherical(scene, triangles, {.frame = {90, 120}, .threads = threads}, method).frame.rgb,
+          one.frame.rgb);
+  }
+}
+
+// Where edges start at the light itself there is no L to turn from; on the surface there is, pixel by pixel.
+TEST(SphericalRenderer, ALightAtAVertexLeavesItsEdgesDark) {
+  Scene scene = hard_scene();
+  scene.ambient = glm::dvec3(0.0);
+  const auto triangles = Projector(scene, c_frame, {}).project_all();
+  ASSERT_GT(triangles.size(), 10u);
+  for (const SphericalMethod& method : all_methods()) {
+    int lit = 0;
+    for (const ScreenTriangle& triangle : triangles) {
+      scene.positional[0].position_world = triangle.vertex[0].position_world;
+      for (std::uint8_t v :
+           render_spherical(scene, std::array{triangle}, {.frame = c_frame}, method).frame.rgb)
+        lit += v > 0;
+    }
+    EXPECT_EQ(lit > 0, method.ends == SpanEnds::on_surface) << lit;
+  }
+}
+
+struct Difference {
+  FrameDistance schemes;      ///< one fixed against both interpolated
+  FrameDistance fixed, both;  ///< against the reference
+};
+
+Difference measure(const Scene& scene, FrameSize size, SpanEnds ends) {
+  const auto triangles = Projector(scene, size, {}).project_all();
+  const RenderOptions options{.frame = size};
+  const ReferenceImage reference = render_reference(scene, triangles, options);
+  const ReferenceImage fixed = render_spherical(scene, triangles, options, {VectorScheme::one_fixed, ends});
+  const ReferenceImage both =
+      render_spherical(scene, triangles, options, {VectorScheme::both_interpolated, ends});
+  const Difference d{*frame_distance(fixed.frame, both.frame, reference.mask),
+                     *frame_distance(fixed.frame, reference.frame, reference.mask),
+                     *frame_distance(both.frame, reference.frame, reference.mask)};
+  const auto record = [&](const char* what, const FrameDistance& distance) {
+    testing::Test::RecordProperty(
+        fmt::format("{}_{}_{}", scene.name, ends == SpanEnds::on_surface ? "surface" : "slerp", what),
+        fmt::format("largest {} rms {:.4f} PSNR {:.2f} dB differing {} of {}", distance.max_lsb, distance.rms,
+                    distance.psnr_db, distance.differing, distance.pixels));
+  };
+  record("fixed_against_both", d.schemes);
+  record("fixed_against_reference", d.fixed);
+  record("both_against_reference", d.both);
+  return d;
+}
+
+// The paper: "visually indistinguishable". So they are, in its scenes and in ours: one step of 255 at most.
+// They need not be: where vectors turn far along a span, the one held fixed costs more than it saves.
+TEST(SphericalRenderer, FixedAgainstBoth) {
+  struct Case {
+    const char* scene;
+    SpanEnds ends;
+    unsigned schemes_max;
+    double schemes_rms;
+    unsigned fixed_max;
+    double fixed_rms, both_rms;
+  };
+  constexpr SpanEnds c_surface = SpanEnds::on_surface, c_slerp = SpanEnds::slerped_along_edges;
+  for (const Case& c : {Case{"spheres", c_surface, 1, 0.07, 2, 0.19, 0.18},
+                        {"spheres", c_slerp, 1, 0.08, 2, 0.34, 0.33},
+                        {"highlights", c_surface, 1, 0.17, 2, 0.38, 0.37},
+                        {"highlights", c_slerp, 1, 0.19, 4, 0.69, 0.67},
+                        {"lights", c_surface, 1, 0.24, 1, 0.25, 0.14},
+                        {"lights", c_slerp, 1, 0.28, 1, 0.34, 0.28},
+                        {"teapot", c_surface, 1, 0.04, 1, 0.09, 0.09},
+                        {"teapot", c_slerp, 1, 0.05, 8, 0.25, 0.25},
+                        {"hard", c_surface, 26, 6.0, 27, 5.8, 2.6},
+                        {"hard", c_slerp, 27, 6.1, 54, 7.7, 7.1}}) {
+    SCOPED_TRACE(fmt::format("{} {}", c.scene, c.ends == c_surface ? "on surface" : "slerped"));
+    const Scene scene = c.scene == std::string("hard") ? hard_scene() : builtin(c.scene);
+    const Difference d = measure(scene, {320, 240}, c.ends);
+    EXPECT_LE(d.schemes.max_lsb, c.schemes_max);
+    EXPECT_LT(d.schemes.rms, c.schemes_rms);
+    EXPECT_GT(d.schemes.rms, 0.8 * c.schemes_rms - 0.01);
+    EXPECT_LE(d.fixed.max_lsb, c.fixed_max);
+    EXPECT_LT(d.fixed.rms, c.fixed_rms);
+    EXPECT_LT(d.both.rms, c.both_rms);
+  }
+}
+
+// A directional light and its N.L: nothing but N turns, and the two are one.
+TEST(SphericalRenderer, SchemesAreOneWhereOneVectorStandsStill) {
+  for (const char* name : {"spheres", "teapot"}) {
+    Scene scene = builtin(name);
+    for (Material& m : scene.materials) m.specular = 0.0;
+    for (SpanEnds ends : {SpanEnds::on_surface, SpanEnds::slerped_along_edges}) {
+      const auto triangles = Projector(scene, {160, 120}, {}).project_all();
+      const RenderOptions options{.frame = {160, 120}};
+      const Frame fixed = render_spherical(scene, triangles, options, {VectorScheme::one_fixed, ends}).frame;
+      const Frame both =
+          render_spherical(scene, triangles, options, {VectorScheme::both_interpolated, ends}).frame;
+      const FrameDistance distance = *frame_distance(fixed, both);
+      EXPECT_LE(distance.differing, 3u) << name;  // a rounding that falls on the edge
+      EXPECT_LE(distance.max_lsb, 1u) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halfway

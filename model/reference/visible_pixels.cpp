@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/visible_pixels.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "setup/edge.hpp"
+#include "setup/project.hpp"
+
+namespace halfway {
+namespace {
+
+// Lines that one thread holds the visibility of: few enough for its cache at 4096 pixels a line.
+constexpr std::uint32_t c_band_lines = 16;
+constexpr std::uint32_t c_nothing = std::numeric_limits<std::uint32_t>::max();
+
+/// Bands of the frame that a triangle may touch; none where first > last.
+struct BandRange {
+  std::uint16_t first = 1, last = 0;
+};
+
+BandRange bands_touched(const ScreenTriangle& triangle, const RenderOptions& options) {
+  const auto [top, bottom] = std::minmax({triangle.vertex[0].y, triangle.vertex[1].y, triangle.vertex[2].y});
+  const std::int64_t first = std::max<std::int64_t>(first_line(top, options.subpixel_bits), 0);
+  const std::int64_t last =
+      std::min<std::int64_t>(first_line(bottom, options.subpixel_bits), options.frame.height) - 1;
+  if (first > last) return {};
+  return {static_cast<std::uint16_t>(first / c_band_lines), static_cast<std::uint16_t>(last / c_band_lines)};
+}
+
+/// Which triangle is seen at each pixel of a band, and how deep, where it is not c_nothing.
+struct Visibility {
+  std::vector<double> z;
+  std::vector<std::uint32_t> triangle;
+};
+
+void find_visible(std::span<const ScreenTriangle> triangles, std::span<const BandRange> ranges,
+                  std::uint32_t band, const RenderOptions& options, Visibility& visible) {
+  const std::uint32_t begin = band * c_band_lines;
+  const FrameSize band_size{options.frame.width, std::min(c_band_lines, options.frame.height - begin)};
+  std::fill(visible.triangle.begin(), visible.triangle.end(), c_nothing);
+  const std::int32_t shift = static_cast<std::int32_t>(begin) << options.subpixel_bits;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    if (band < ranges[i].first || band > ranges[i].last) continue;
+    const ScreenTriangle& t = triangles[i];
+    const auto in_band = [&](const ScreenVertex& v) { return ScreenPoint{v.x, v.y - shift}; };
+    const glm::dvec3 z{t.vertex[0].z, t.vertex[1].z, t.vertex[2].z};
+    for_each_span({in_band(t.vertex[0]), in_band(t.vertex[1]), in_band(t.vertex[2])}, options.subpixel_bits,
+                  band_size, [&](std::uint32_t line, std::uint32_t x_begin, std::uint32_t x_end) {
+                    for (std::uint32_t x = x_begin; x < x_end; ++x) {
+                      const double here =
+                          glm::dot(barycentric_at_centre(t, options.subpixel_bits, x, begin + line), z);
+                      const std::size_t pixel = std::size_t{line} * options.frame.width + x;
+                      if (visible.triangle[pixel] != c_nothing && !(here < visible.z[pixel])) continue;
+                      visible.z[pixel] = here;
+                      visible.triangle[pixel] = i;
+                    }
+                  });
+  }
+}
+
+}  // namespace
+
+glm::dvec3 barycentric_at_centre(const ScreenTriangle& triangle, int subpixel_bits, std::int64_t x,
+                                 std::int64_t y) {
+  return barycentric_screen(triangle, (2 * x + 1) << subpixel_bits, (2 * y + 1) << subpixel_bits);
+}
+
+ReferenceImage render_visible(const Scene& scene, std::span<const ScreenTriangle> triangles,
+                              const RenderOptions& options, const std::function<PixelShader()>& make_shader) {
+  ReferenceImage image{Frame(options.frame), std::vector<std::uint8_t>(Frame::pixels(options.frame))};
+  const std::uint32_t bands = (options.frame.height + c_band_lines - 1) / c_band_lines;
+  std::vector<BandRange> ranges(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) ranges[i] = bands_touched(triangles[i], options);
+
+  std::atomic<std::uint32_t> next_band{0};
+  const auto work = [&] {
+    const std::size_t pixels = std::size_t{c_band_lines} * options.frame.width;
+    Visibility visible{std::vector<double>(pixels), std::vector<std::uint32_t>(pixels)};
+    for (std::uint32_t band = next_band++; band < bands; band = next_band++) {
+      find_visible(triangles, ranges, band, options, visible);
+      const PixelShader shader = make_shader();
+      const std::uint32_t begin = band * c_band_lines;
+      const std::uint32_t end = std::min(begin + c_band_lines, options.frame.height);
+      for (std::uint32_t y = begin; y < end; ++y)
+        for (std::uint32_t x = 0; x < options.frame.width; ++x) {
+          const std::uint32_t index = visible.triangle[std::size_t{y - begin} * options.frame.width + x];
+          const glm::dvec3 colour = index == c_nothing ? scene.background : shader(index, x, y);
+          const std::size_t rgb = image.frame.offset(x, y);
+          for (int channel = 0; channel < 3; ++channel)
+            image.frame.rgb[rgb + channel] = to_byte(colour[channel]);
+          image.mask[rgb / 3] = index != c_nothing;
+        }
+    }
+  };
+  const unsigned wanted =
+      options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+  {
+    std::vector<std::jthread> helpers;
+    try {
+      for (unsigned i = 1; i < std::min<unsigned>(wanted, bands); ++i) helpers.emplace_back(work);
+    } catch (const std::system_error&) {
+      // Fewer threads than wanted draw the same picture.
+    }
+    work();
+  }
+  return image;
+}
+
+}  // namespace halfway

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frame behind every software picture: exact coverage, the nearest triangle at each pixel, many threads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "reference/renderer.hpp"
+#include "scene/scene.hpp"
+#include "setup/screen_triangle.hpp"
+
+namespace halfway {
+
+/// Weights of the triangle's vertices at the centre of a pixel.
+glm::dvec3 barycentric_at_centre(const ScreenTriangle& triangle, int subpixel_bits, std::int64_t x,
+                                 std::int64_t y);
+
+/// Radiance at pixel (x, y), where triangles[index] is the nearest.
+using PixelShader = std::function<glm::dvec3(std::uint32_t index, std::uint32_t x, std::uint32_t y)>;
+
+/// `make_shader` is called for each band of the frame, on any thread; its shader then gets the band's covered
+/// pixels, line by line from left to right, and may keep what it likes from one to the next.
+ReferenceImage render_visible(const Scene& scene, std::span<const ScreenTriangle> triangles,
+                              const RenderOptions& options, const std::function<PixelShader()>& make_shader);
+
+}  // namespace halfway
