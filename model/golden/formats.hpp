@@ -255,12 +255,12 @@ struct Exact {
   static constexpr int c_diffuse_probe_header_bits = 50;
   static constexpr std::array<Field, 3> c_diffuse_probe_header = {{
       {"angle", 0, 33, true, 22},
-      {"inside", 33, 1, false, 0},
+      {"in_range", 33, 1, false, 0},
       {"sample", 34, 16, false, 0},
   }};
   struct diffuse_probe_header_at {
     static constexpr const Field& angle = c_diffuse_probe_header[0];
-    static constexpr const Field& inside = c_diffuse_probe_header[1];
+    static constexpr const Field& in_range = c_diffuse_probe_header[1];
     static constexpr const Field& sample = c_diffuse_probe_header[2];
   };
 
@@ -275,12 +275,12 @@ struct Exact {
   static constexpr int c_specular_probe_header_bits = 50;
   static constexpr std::array<Field, 3> c_specular_probe_header = {{
       {"angle", 0, 33, true, 22},
-      {"inside", 33, 1, false, 0},
+      {"in_range", 33, 1, false, 0},
       {"sample", 34, 16, false, 0},
   }};
   struct specular_probe_header_at {
     static constexpr const Field& angle = c_specular_probe_header[0];
-    static constexpr const Field& inside = c_specular_probe_header[1];
+    static constexpr const Field& in_range = c_specular_probe_header[1];
     static constexpr const Field& sample = c_specular_probe_header[2];
   };
 
@@ -484,12 +484,12 @@ struct Published {
   static constexpr int c_diffuse_probe_header_bits = 29;
   static constexpr std::array<Field, 3> c_diffuse_probe_header = {{
       {"angle", 0, 12, true, 11},
-      {"inside", 12, 1, false, 0},
+      {"in_range", 12, 1, false, 0},
       {"sample", 13, 16, false, 0},
   }};
   struct diffuse_probe_header_at {
     static constexpr const Field& angle = c_diffuse_probe_header[0];
-    static constexpr const Field& inside = c_diffuse_probe_header[1];
+    static constexpr const Field& in_range = c_diffuse_probe_header[1];
     static constexpr const Field& sample = c_diffuse_probe_header[2];
   };
 
@@ -504,12 +504,12 @@ struct Published {
   static constexpr int c_specular_probe_header_bits = 29;
   static constexpr std::array<Field, 3> c_specular_probe_header = {{
       {"angle", 0, 12, true, 11},
-      {"inside", 12, 1, false, 0},
+      {"in_range", 12, 1, false, 0},
       {"sample", 13, 16, false, 0},
   }};
   struct specular_probe_header_at {
     static constexpr const Field& angle = c_specular_probe_header[0];
-    static constexpr const Field& inside = c_specular_probe_header[1];
+    static constexpr const Field& in_range = c_specular_probe_header[1];
     static constexpr const Field& sample = c_specular_probe_header[2];
   };
 

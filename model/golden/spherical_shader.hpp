@@ -27,8 +27,8 @@ class SphericalShader {
     assert(config.lights >= 0);
     const auto lights = static_cast<std::size_t>(config.lights);
     if (layout_.has_diffuse_part())
-      diffuse_.assign(lights, DiffuseSlice<Preset>(layout_.diffuse_channels(), config.address_bits,
-                                                   config.data_bits));
+      diffuse_.assign(
+          lights, DiffuseSlice<Preset>(layout_.diffuse_channels(), config.address_bits, config.data_bits));
     if (config.specular)
       specular_.assign(lights, SpecularSlice<Preset>(config.highlight_channels, config.powers,
                                                      config.address_bits, config.data_bits));
@@ -108,11 +108,11 @@ class SphericalShader {
     auto words = probe_words(Preset::probe_header_at::sample_event);
     for_each_slice(
         [&](const auto& slice, int low) {
-          set_bits(words, Preset::diffuse_probe_header_at::inside, slice.lit(), low);
+          set_bits(words, Preset::diffuse_probe_header_at::in_range, slice.lit(), low);
           set_bits(words, Preset::diffuse_probe_header_at::sample, slice.sample(), low);
         },
         [&](const auto& slice, bool lit, int low) {
-          set_bits(words, Preset::specular_probe_header_at::inside, slice.in_range(lit), low);
+          set_bits(words, Preset::specular_probe_header_at::in_range, slice.in_range(lit), low);
           set_bits(words, Preset::specular_probe_header_at::sample, slice.sample(), low);
         });
     return words;
@@ -122,15 +122,13 @@ class SphericalShader {
     for_each_slice(
         [&](const auto& slice, int low) {
           for (int c = 0; c < layout_.diffuse_channels(); ++c)
-            set_bits(
-                words, Preset::diffuse_probe_channel_at::product, slice.product(c),
-                low + Preset::c_diffuse_probe_header_bits + c * Preset::c_diffuse_probe_channel_bits);
+            set_bits(words, Preset::diffuse_probe_channel_at::product, slice.product(c),
+                     low + Preset::c_diffuse_probe_header_bits + c * Preset::c_diffuse_probe_channel_bits);
         },
         [&](const auto& slice, bool lit, int low) {
           for (int c = 0; c < config_.highlight_channels; ++c)
-            set_bits(
-                words, Preset::specular_probe_channel_at::product, slice.product(c, lit),
-                low + Preset::c_specular_probe_header_bits + c * Preset::c_specular_probe_channel_bits);
+            set_bits(words, Preset::specular_probe_channel_at::product, slice.product(c, lit),
+                     low + Preset::c_specular_probe_header_bits + c * Preset::c_specular_probe_channel_bits);
         });
     return words;
   }

@@ -92,12 +92,12 @@ Layouts spherical_layouts(const HardwareKey& key) {
                         int header_bits, std::span<const golden::Field> channel, int channel_bits,
                         int channels, const std::string& slice, int low, std::string_view entity) {
     const auto add = [&](const golden::Field& f, int block_low, const std::string& of) {
-      const Stage stage = f.name == "product"                        ? Stage::product
-                          : f.name == "sample" || f.name == "inside" ? Stage::sample
-                                                                     : Stage::span;
+      const Stage stage = f.name == "product"                          ? Stage::product
+                          : f.name == "sample" || f.name == "in_range" ? Stage::sample
+                                                                       : Stage::span;
       fields.push_back({fmt::format("{} {}{}", slice, of, f.name), f, block_low, stage,
                         stage == Stage::span     ? "line_interpolator"
-                        : f.name == "inside"     ? "angle_address"
+                        : f.name == "in_range"   ? "angle_address"
                         : stage == Stage::sample ? "cosine_rom"
                                                  : entity});
     };

@@ -29,8 +29,8 @@ int low_of_cell(const CosineTable& table, int entry) {
   return table.exact || entry < cells / 2 ? entry : entry - cells;
 }
 
-// The table's function, `position` cells from angle 0. Within 8 * power * epsilon: the angle and its cosine
-// are within 4 epsilon, a power multiplies that by itself at most and adds a rounding a squaring.
+// The table's function, `position` cells from angle 0. Off by at most 8 * power * epsilon: the cosine by 4
+// epsilon, its angle's rounding included; a squaring doubles that and rounds once.
 long double bell(const CosineTable& table, long double position) {
   // Cells in a quarter turn: powers of two, so the quotient is exact.
   const int shift = table.exact ? 0 : table.power == 1 ? 2 : 1;
@@ -148,7 +148,7 @@ std::string cosine_vhdl_package(const CosineSizes& sizes) {
       "end package;\n\npackage body cosine_pkg is\n\n",
       c_notice);
   auto to = std::back_inserter(out);
-  for (const CosineTable& table : tables)
+  for (const CosineTable& table : tables)  // 120 columns with the bracket that closes
     fmt::format_to(to, "  constant {} : cosine_table_t(0 to {}) := (\n{});\n\n", constant_name(table),
                    table.entries.size() - 1, wrapped(table, "    ", 118));
   out +=

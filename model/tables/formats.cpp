@@ -48,7 +48,7 @@ const Format& format_of(const PresetFormats& preset, std::string_view name) {
 std::vector<Layout> spherical_layouts(bool exact) {
   std::vector<Field> specular = {{"angle", "angle"}, {"slope", "angle"}};
   if (exact) specular.push_back({"power", "power"});
-  const std::vector<Field> probe = {{"angle", "angle"}, {"inside", "flag"}, {"sample", "sample_word"}};
+  const std::vector<Field> probe = {{"angle", "angle"}, {"in_range", "flag"}, {"sample", "sample_word"}};
   return {
       {"ambient", {}, {{"ambient", "factor"}}},
       {"diffuse", {{"angle", "angle"}, {"slope", "angle"}}, {{"factor", "factor"}}},

@@ -38,7 +38,7 @@ entity diffuse_slice is
     in_range    : out std_logic;
     sample      : out std_logic_vector(g_data_bits - 1 downto 0);
     products    : out std_logic_vector((g_channels + boolean'pos(g_channels = 0))
-                                       * (formats(g_exact).factor.bits + g_data_bits) - 1 downto 0)
+      * (formats(g_exact).factor.bits + g_data_bits) - 1 downto 0)
   );
 end entity;
 

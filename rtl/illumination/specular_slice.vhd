@@ -99,8 +99,7 @@ architecture rtl of specular_slice is
 begin
 
   assert g_powers > 0 and g_powers < 2 ** (c_largest_power + 1)
-    report "specular_slice: g_powers is " & integer'image(g_powers) & ", not a set of the powers 2**0 to 2**"
-    & integer'image(c_largest_power)
+    report "specular_slice: g_powers is " & integer'image(g_powers) & ", not a set of the powers 1, 2, 4, 8 and 16"
     severity failure;
   assert g_exact or tables = 1
     report "specular_slice: g_powers is " & integer'image(g_powers) & ", but preset published has no power to select by"
@@ -167,7 +166,7 @@ begin
   carried_in(0) <= near and lit;
   in_range      <= carried(0);
 
-  roms : for power in samples_t'range generate
+  roms : for power in 0 to c_largest_power generate
 
     present : if has_table(power) generate
 

@@ -43,7 +43,7 @@ entity spherical_shader is
     init_valid        : in  std_logic;
     init_ready        : out std_logic;
     init_data         : in  std_logic_vector(init_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
-                                                       g_highlight_channels) - 1 downto 0);
+      g_highlight_channels) - 1 downto 0);
     fragment_valid    : out std_logic;
     fragment_ready    : in  std_logic;
     fragment_triangle : out std_logic_vector(formats(g_exact).triangle.bits - 1 downto 0);
@@ -55,7 +55,7 @@ entity spherical_shader is
     fragment_blue     : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     busy              : out std_logic; -- something is on its way
     probe             : out std_logic_vector(probe_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
-                                                        g_highlight_channels) - 1 downto 0)
+      g_highlight_channels) - 1 downto 0)
   );
 end entity;
 
@@ -74,7 +74,7 @@ architecture rtl of spherical_shader is
   constant c_diffuse_probe    : natural := diffuse_part_probe_bits(g_exact, g_channels, g_diffuse, g_specular);
   constant c_specular_probe   : natural := specular_part_probe_bits(g_exact, g_specular, g_highlight_channels);
   constant c_records          : boolean := record_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
-                                                       g_highlight_channels) > 0;
+    g_highlight_channels) > 0;
 
   -- What a channel sums: ambient, then for each light its diffuse and its specular product.
   constant c_term_bits   : positive := c_formats.factor.bits + g_data_bits;
@@ -175,7 +175,7 @@ begin
       busy           => walking
       );
 
-  -- While the line stage holds a line, the buffer's vector is that line's record; else it is a header.
+    -- While the line stage holds a line, the buffer's vector is that line's record; else it is a header.
   with_records : if c_records generate
 
     header_valid <= waiting and not line_held;
@@ -217,7 +217,7 @@ begin
       value => line_ambient
       );
 
-  -- The line stage may hold the next triangle already.
+    -- The line stage may hold the next triangle already.
   span_ambient_register : entity work.parameter_register
     generic map (
       g_bits => ambient_t'length
@@ -366,7 +366,7 @@ begin
           probed_diffuse : if g_probe generate
 
             probe(c_probe_low + c_fields.angle.high downto c_probe_low + c_fields.angle.low) <= angle;
-            probe(c_probe_low + c_fields.inside.low)                                         <= in_range;
+            probe(c_probe_low + c_fields.in_range.low)                                         <= in_range;
             probe(c_probe_low + c_fields.sample.high downto c_probe_low + c_fields.sample.low) <=
               std_logic_vector(resize(unsigned(sample), c_formats.sample_word.bits));
 
@@ -438,7 +438,7 @@ begin
           probed_specular : if g_probe generate
 
             probe(c_specular_low + c_fields.angle.high downto c_specular_low + c_fields.angle.low) <= angle;
-            probe(c_specular_low + c_fields.inside.low)                                            <= in_range;
+            probe(c_specular_low + c_fields.in_range.low)                                            <= in_range;
             probe(c_specular_low + c_fields.sample.high downto c_specular_low + c_fields.sample.low) <=
               std_logic_vector(resize(unsigned(sample), c_formats.sample_word.bits));
 

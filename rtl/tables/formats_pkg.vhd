@@ -460,19 +460,19 @@ package formats_pkg is
 
   type diffuse_probe_header_t is record
     angle : slice_t;
-    inside : slice_t;
+    in_range : slice_t;
     sample : slice_t;
   end record;
 
   constant c_exact_diffuse_probe_header : diffuse_probe_header_t := (
     angle => (32, 0),
-    inside => (33, 33),
+    in_range => (33, 33),
     sample => (49, 34)
   );
 
   constant c_published_diffuse_probe_header : diffuse_probe_header_t := (
     angle => (11, 0),
-    inside => (12, 12),
+    in_range => (12, 12),
     sample => (28, 13)
   );
 
@@ -504,19 +504,19 @@ package formats_pkg is
 
   type specular_probe_header_t is record
     angle : slice_t;
-    inside : slice_t;
+    in_range : slice_t;
     sample : slice_t;
   end record;
 
   constant c_exact_specular_probe_header : specular_probe_header_t := (
     angle => (32, 0),
-    inside => (33, 33),
+    in_range => (33, 33),
     sample => (49, 34)
   );
 
   constant c_published_specular_probe_header : specular_probe_header_t := (
     angle => (11, 0),
-    inside => (12, 12),
+    in_range => (12, 12),
     sample => (28, 13)
   );
 
