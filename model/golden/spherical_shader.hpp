@@ -152,6 +152,19 @@ class SphericalShader {
     }
   }
 
+  struct Light {
+    DiffuseSlice<Preset> diffuse;
+    SpecularSlice<Preset> specular;
+    void span_step() {
+      diffuse.span_step();
+      specular.span_step();
+    }
+  };
+  Light light_at(std::size_t light) const {
+    return {diffuse_.empty() ? DiffuseSlice<Preset>() : diffuse_[light],
+            specular_.empty() ? SpecularSlice<Preset>() : specular_[light]};
+  }
+
   void span_load(std::span<const std::uint32_t> record) {
     depth_.span_load();
     for (int l = 0; l < config_.lights; ++l) {
@@ -171,9 +184,11 @@ class SphericalShader {
       const auto count = static_cast<std::size_t>(walker_.backward() ? from - to : to - from);
       Fragment* out = emit.room(count);
       if (config_.channels == 1)
-        draw_run<1>(fragment, from, count, out);
+        draw_run<1, false>(fragment, from, count, out);
+      else if (config_.highlight_channels == 1)
+        draw_run<3, false>(fragment, from, count, out);
       else
-        draw_run<3>(fragment, from, count, out);
+        draw_run<3, true>(fragment, from, count, out);
     } else {
       const SpanXWord stop = walker_.stop();
       const SpanXWord step = SpanXWord::from_bits(walker_.backward() ? ~std::uint64_t{0} : 1);
@@ -193,32 +208,39 @@ class SphericalShader {
     }
   }
 
-  // One light after the other over the whole span: the compiler keeps a slice's registers in its own only
-  // where it sees all of them.
-  template <int Channels>
+  // The compiler keeps a slice's registers in its own only where it sees all of them: with one light the
+  // whole pixel at once, with more one light after the other over the whole span.
+  template <int Channels, bool Coloured>
   void draw_run(Fragment fragment, std::int64_t from, std::size_t count, Fragment* out) {
-    sums_.resize(count * Channels);
     const auto start = ambient_sums<Channels>();
-    for (std::size_t i = 0; i < sums_.size(); i += Channels) std::copy_n(start.data(), Channels, &sums_[i]);
-    for (std::size_t light = 0; light < static_cast<std::size_t>(config_.lights); ++light) {
-      DiffuseSlice<Preset> diffuse = diffuse_.empty() ? DiffuseSlice<Preset>() : diffuse_[light];
-      SpecularSlice<Preset> specular = specular_.empty() ? SpecularSlice<Preset>() : specular_[light];
-      for (std::size_t i = 0; i < sums_.size(); i += Channels) {
-        add_light<Channels>(diffuse, specular, &sums_[i]);
-        diffuse.span_step();
-        specular.span_step();
-      }
-      if (!diffuse_.empty()) diffuse_[light] = diffuse;
-      if (!specular_.empty()) specular_[light] = specular;
-    }
     ZInterpolator<Preset> depth = depth_;
     const std::int64_t step = walker_.backward() ? -1 : 1;
-    for (std::size_t i = 0; i < count; ++i, from += step) {
-      set_pixel<Channels>(fragment, static_cast<std::uint64_t>(from), depth, &sums_[i * Channels]);
+    const auto put_pixel = [&](const SaturatingSum* sums) {
+      set_pixel<Channels>(fragment, static_cast<std::uint64_t>(from), depth, sums);
       *out++ = fragment;
       depth.span_step();
+      from += step;
+    };
+    if (config_.lights == 1) {
+      Light light = light_at(0);
+      for (std::size_t i = 0; i < count; ++i) {
+        auto sums = start;
+        add_light<Channels, Coloured>(light.diffuse, light.specular, sums.data());
+        put_pixel(sums.data());
+        light.span_step();
+      }
+    } else {
+      sums_.resize(count * Channels);
+      for (std::size_t i = 0; i < sums_.size(); i += Channels) std::copy_n(start.data(), Channels, &sums_[i]);
+      for (std::size_t l = 0; l < static_cast<std::size_t>(config_.lights); ++l) {
+        Light light = light_at(l);
+        for (std::size_t i = 0; i < sums_.size(); i += Channels) {
+          add_light<Channels, Coloured>(light.diffuse, light.specular, &sums_[i]);
+          light.span_step();
+        }
+      }
+      for (std::size_t i = 0; i < sums_.size(); i += Channels) put_pixel(&sums_[i]);
     }
-    depth_ = depth;
   }
 
   /// What the adders have before any light.
@@ -231,22 +253,23 @@ class SphericalShader {
   template <int Channels>
   std::array<SaturatingSum, Channels> pixel_sums() const {
     auto sums = ambient_sums<Channels>();
-    for (std::size_t light = 0; light < static_cast<std::size_t>(config_.lights); ++light)
-      add_light<Channels>(diffuse_.empty() ? DiffuseSlice<Preset>() : diffuse_[light],
-                          specular_.empty() ? SpecularSlice<Preset>() : specular_[light], sums.data());
+    for (std::size_t l = 0; l < static_cast<std::size_t>(config_.lights); ++l) {
+      const Light light = light_at(l);
+      if (config_.highlight_channels == Channels)
+        add_light<Channels, true>(light.diffuse, light.specular, sums.data());
+      else
+        add_light<Channels, false>(light.diffuse, light.specular, sums.data());
+    }
     return sums;
   }
-  template <int Channels>
-  void add_light(const DiffuseSlice<Preset>& diffuse, const SpecularSlice<Preset>& specular,
-                 SaturatingSum* sums) const {
-    if (config_.diffuse) {
-      const std::uint32_t gated = diffuse.gated();
-      for (int c = 0; c < Channels; ++c) sums[c].add(diffuse.product(c, gated));
-    }
-    if (config_.specular) {
-      const std::uint32_t gated = specular.gated(!layout_.has_diffuse_part() || diffuse.lit());
-      const bool coloured = config_.highlight_channels == Channels;
-      for (int c = 0; c < Channels; ++c) sums[c].add(specular.product(coloured ? c : 0, gated));
+  // A slice that is not there has no table, and so no sample; its horizon is nowhere.
+  template <int Channels, bool Coloured>
+  static void add_light(const DiffuseSlice<Preset>& diffuse, const SpecularSlice<Preset>& specular,
+                        SaturatingSum* sums) {
+    const std::uint32_t cosine = diffuse.gated(), highlight = specular.gated(diffuse.lit());
+    for (int c = 0; c < Channels; ++c) {
+      sums[c].add(diffuse.product(c, cosine));
+      sums[c].add(specular.product(Coloured ? c : 0, highlight));
     }
   }
 

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+// The spherical shader's colours against illumination in double precision; its ways of drawing against each
+// other; angles about the bell's ends; sums that would wrap.
+#include "golden/spherical_shader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace halfway::golden {
+namespace {
+
+constexpr int c_x = 100, c_y = 7;
+
+/// One light's part in one channel of one line, as numbers.
+struct Term {
+  double angle, slope;  ///< in units of the angle word
+  int power;
+  double factor;  ///< in colour steps
+};
+
+double unit(int fraction_bits) {
+  return std::ldexp(1.0, fraction_bits);
+}
+
+template <class Preset>
+class Drawing {
+ public:
+  static constexpr bool c_exact = std::is_same_v<Preset, Exact>;
+  using At = typename Preset::init_header_at;
+
+  Drawing(const SphericalConfig& config, int lines, int width, bool backward)
+      : layout(config),
+        shader(config),
+        vectors(shader.init_words() * static_cast<std::size_t>(layout.record_bits() == 0 ? 1 : 1 + lines)) {
+    const int last = width - (c_exact ? 0 : 1);  // published: spans are inclusive at both ends
+    const int stop = c_x + (backward ? -width : last);
+    const int shift = c_exact ? 0 : Preset::c_edge_x_fraction_bits;
+    put(At::triangle, 5);
+    put(At::y, c_y);
+    put(At::upper_lines, static_cast<std::uint64_t>(lines));
+    put(At::start_x, static_cast<std::uint64_t>(c_x) << shift);
+    put(At::upper_x, static_cast<std::uint64_t>(stop) << shift);
+    if constexpr (c_exact) put(At::backward, backward);
+  }
+
+  void put(const Field& field, std::uint64_t value) { set_bits(std::span(vectors), field, value); }
+  std::span<std::uint32_t> record(int line) {
+    return std::span(vectors).subspan(shader.init_words() * static_cast<std::size_t>(1 + line));
+  }
+  /// The word that stands for `value`, and what it stands for.
+  static double put_rounded(std::span<std::uint32_t> words, const Field& field, double value, int low) {
+    const double scale = unit(field.fraction_bits);
+    const auto word = std::llround(value * scale);
+    set_bits(words, field, static_cast<std::uint64_t>(word), low);
+    return static_cast<double>(word) / scale;
+  }
+
+  std::vector<Fragment> draw_one_by_one() {
+    std::vector<Fragment> fragments;
+    shader.draw(vectors, [&](const Fragment& f) { fragments.push_back(f); });
+    return fragments;
+  }
+  std::vector<Fragment> draw_spans() {
+    struct Room {
+      std::vector<Fragment>& fragments;
+      Fragment* room(std::size_t count) {
+        fragments.resize(fragments.size() + count);
+        return fragments.data() + fragments.size() - count;
+      }
+    };
+    std::vector<Fragment> fragments;
+    shader.draw(vectors, Room{fragments});
+    return fragments;
+  }
+
+  SphericalLayout<Preset> layout;
+  SphericalShader<Preset> shader;
+  std::vector<std::uint32_t> vectors;
+};
+
+/// The bell as the hardware's formats mean it, before any table.
+template <class Preset>
+double bell(const Term& term, double angle, bool diffuse) {
+  if constexpr (std::is_same_v<Preset, Exact>) {
+    return std::abs(angle) >= 1 ? 0 : std::pow(std::cos(std::numbers::pi / 2 * angle), term.power);
+  } else {
+    return diffuse ? std::max(0.0, std::cos(std::numbers::pi * angle))
+                   : std::pow(std::cos(std::numbers::pi / 2 * angle), 2);
+  }
+}
+
+template <class Preset>
+void expect_illumination(const SphericalConfig& config, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  constexpr int c_lines = 6, c_width = 90;
+  const bool backward = std::is_same_v<Preset, Exact> && seed % 2 == 1;
+  Drawing<Preset> d(config, c_lines, c_width, backward);
+  std::vector<double> ambient;
+  for (int c = 0; c < config.channels; ++c)
+    ambient.push_back(Drawing<Preset>::put_rounded(d.vectors, Preset::ambient_channel_at::ambient,
+                                                   uniform(0.5, 40), d.layout.ambient_low(c)));
+  // Expected: each pixel's sum, and how far tables and samples may be off.
+  struct Expected {
+    double sum = 0, error = 0;
+  };
+  std::vector<Expected> expected;
+  for (int line = 0; line < c_lines; ++line) {
+    const std::size_t first = expected.size();
+    for (int x = 0; x < c_width; ++x)
+      for (const double a : ambient) expected.push_back({a, 0});
+    const double whole = unit(config.data_bits) - 1, cell = 1 / unit(config.address_bits);
+    for (int light = 0; light < config.lights; ++light) {
+      std::vector<Term> terms;
+      const auto angle = [&](int low) {
+        using Header = typename Preset::diffuse_header_at;
+        Term term{Drawing<Preset>::put_rounded(d.record(line), Header::angle, uniform(-1.3, 1.3), low),
+                  Drawing<Preset>::put_rounded(d.record(line), Header::slope, uniform(-0.02, 0.02), low), 1,
+                  0};
+        // What the word holds, in preset published too.
+        const auto word = Word<Preset::c_angle_bits>::from_bits(get_bits(d.record(line), Header::angle, low));
+        term.angle = static_cast<double>(word.value()) / unit(Header::angle.fraction_bits);
+        return term;
+      };
+      const auto at = [](const Term& term, int x) {
+        const double v = term.angle + term.slope * x;
+        return std::is_same_v<Preset, Exact> ? v : v - 2 * std::floor((v + 1) / 2);
+      };
+      const auto add = [&](const Term& term, int channel, bool diffuse, const Term* horizon) {
+        for (int x = 0; x < c_width; ++x) {
+          Expected& e = expected[first + static_cast<std::size_t>(x * config.channels + channel)];
+          const bool behind = horizon != nullptr && std::abs(at(*horizon, x)) >= 1;
+          const double v = at(term, x);
+          e.sum += behind ? 0 : term.factor * bell<Preset>(term, v, diffuse) * whole / unit(config.data_bits);
+          // Half a cell where the bell is steepest, and half a step of the entry.
+          const double width = std::is_same_v<Preset, Exact> ? cell : 2 * cell * (diffuse ? 2 : 1);
+          e.error += term.factor * (std::numbers::pi / 2 * std::sqrt(term.power) * width / 2 + 0.5 / whole);
+        }
+      };
+      Term diffuse{};
+      if (d.layout.has_diffuse_part()) diffuse = angle(d.layout.diffuse_low(light));
+      for (int c = 0; c < d.layout.diffuse_channels(); ++c) {
+        diffuse.factor = Drawing<Preset>::put_rounded(
+            d.record(line), Preset::diffuse_channel_at::factor, uniform(0, 90),
+            d.layout.diffuse_low(light) + Preset::c_diffuse_header_bits + c * Preset::c_diffuse_channel_bits);
+        add(diffuse, c, true, nullptr);
+      }
+      if (!config.specular) continue;
+      const int low = d.layout.specular_low(light);
+      Term specular = angle(low);
+      specular.power = 2;
+      if constexpr (std::is_same_v<Preset, Exact>) {
+        auto power = random() % 5;
+        while ((config.powers >> power & 1) == 0) power = (power + 1) % 5;
+        set_bits(d.record(line), Preset::specular_header_at::power, power, low);
+        specular.power = 1 << power;
+      }
+      for (int c = 0; c < config.highlight_channels; ++c) {
+        specular.factor = Drawing<Preset>::put_rounded(
+            d.record(line), Preset::specular_channel_at::factor, uniform(0, 150),
+            low + Preset::c_specular_header_bits + c * Preset::c_specular_channel_bits);
+        for (int channel = 0; channel < config.channels; ++channel)
+          if (channel == c || config.highlight_channels != config.channels)
+            add(specular, channel, false, std::is_same_v<Preset, Exact> ? &diffuse : nullptr);
+      }
+    }
+  }
+  const auto fragments = d.draw_one_by_one();
+  ASSERT_EQ(fragments.size(), static_cast<std::size_t>(c_lines * c_width));
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
+    const Fragment& f = fragments[i];
+    const int x = static_cast<int>(i) % c_width;
+    EXPECT_EQ(f.x, c_x + (backward ? -x : x));
+    EXPECT_EQ(f.y, c_y + static_cast<int>(i) / c_width);
+    EXPECT_EQ(f.triangle, 5U);
+    const std::uint8_t colours[] = {f.red, f.green, f.blue};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto channels = static_cast<std::size_t>(config.channels);
+      const Expected& e = expected[i * channels + (channels == 1 ? 0 : c)];
+      const double low = std::clamp(std::floor(e.sum - e.error), 0.0, 255.0);
+      const double high = std::clamp(std::floor(e.sum + e.error), 0.0, 255.0);
+      EXPECT_GE(colours[c], low) << "pixel " << i << " channel " << c << " of sum " << e.sum;
+      EXPECT_LE(colours[c], high) << "pixel " << i << " channel " << c << " of sum " << e.sum;
+    }
+  }
+  EXPECT_EQ(d.draw_spans(), fragments);
+}
+
+TEST(SphericalShader, IlluminatesAsTheFormulasSay) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto [a, d] = c_exact_cosine_size;
+    expect_illumination<Exact>({3, 1, true, true, 1, 2, a, d}, seed);
+    expect_illumination<Exact>({3, 2, true, true, 3, 31, a, d}, seed);
+    expect_illumination<Exact>({1, 3, true, true, 1, 20, a, d}, seed);
+    expect_illumination<Exact>({3, 1, false, true, 3, 16, a, d}, seed);
+    expect_illumination<Exact>({3, 1, true, false, 1, 0, a, d}, seed);
+    expect_illumination<Exact>({3, 0, true, true, 1, 2, a, d}, seed);
+    const auto [pa, pd] = c_published_cosine_size;
+    expect_illumination<Published>({3, 1, true, true, 3, 2, pa, pd}, seed);
+    expect_illumination<Published>({1, 2, true, true, 1, 2, 4, 4}, seed);
+    expect_illumination<Published>({3, 1, false, true, 1, 2, pa, pd}, seed);
+  }
+}
+
+// Of two highlights at their tops, one is behind the light's horizon.
+TEST(SphericalShader, EndsAHighlightAtTheHorizon) {
+  const auto [a, b] = c_exact_cosine_size;
+  Drawing<Exact> d({1, 1, false, true, 1, 2, a, b}, 2, 1, false);
+  const std::int64_t one = std::int64_t{1} << Exact::c_angle_fraction_bits;
+  for (const auto& [line, angle] : {std::pair{0, one - 1}, std::pair{1, one}}) {
+    set_bits(d.record(line), Exact::diffuse_header_at::angle, static_cast<std::uint64_t>(angle),
+             d.layout.diffuse_low(0));
+    set_bits(d.record(line), Exact::specular_channel_at::factor, 100 << Exact::c_factor_fraction_bits,
+             d.layout.specular_low(0) + Exact::c_specular_header_bits);
+  }
+  const auto fragments = d.draw_one_by_one();
+  ASSERT_EQ(fragments.size(), 2U);
+  EXPECT_EQ(fragments[0].red, 99);  // 100 times 255 / 256, the fraction dropped
+  EXPECT_EQ(fragments[1].red, 0);
+}
+
+TEST(SphericalShader, PowerWithoutATableIsDark) {
+  const auto [a, b] = c_exact_cosine_size;
+  for (const auto& [powers, power, bright] :
+       {std::tuple{6u, 1u, true}, std::tuple{6u, 3u, false}, std::tuple{6u, 7u, false},
+        std::tuple{4u, 0u, true} /* nothing to select */}) {
+    Drawing<Exact> d({1, 1, false, true, 1, powers, a, b}, 1, 1, false);
+    set_bits(d.record(0), Exact::specular_header_at::power, power, d.layout.specular_low(0));
+    set_bits(d.record(0), Exact::specular_channel_at::factor, 100 << Exact::c_factor_fraction_bits,
+             d.layout.specular_low(0) + Exact::c_specular_header_bits);
+    EXPECT_EQ(d.draw_one_by_one().at(0).red, bright ? 99 : 0) << powers << ' ' << power;
+  }
+}
+
+TEST(SphericalShader, GroupHoldsARecordForEveryLine) {
+  const auto [a, b] = c_exact_cosine_size;
+  Drawing<Exact> d({3, 1, true, true, 1, 2, a, b}, 3, 1, false);
+  EXPECT_EQ(d.shader.group(d.vectors), 4U);
+  d.put(Exact::init_header_at::lower_lines, 9);
+  EXPECT_EQ(d.shader.group(d.vectors), 13U);
+  d.put(Exact::init_header_at::upper_lines, 0);  // the counter goes all the way round
+  EXPECT_EQ(d.shader.group(d.vectors), 1U + 8192 + 9);
+  for (const SphericalConfig& config :
+       {SphericalConfig{3, 0, true, true, 1, 2, a, b}, SphericalConfig{3, 2, false, false, 1, 2, a, b}}) {
+    Drawing<Exact> without(config, 3, 4, false);
+    EXPECT_EQ(without.layout.record_bits(), 0);
+    EXPECT_EQ(without.shader.group(without.vectors), 1U);
+    EXPECT_EQ(without.draw_one_by_one().size(), 12U);
+  }
+}
+
+// A line without a pixel has its record, which is passed over; each pixel is watched stage by stage.
+TEST(SphericalShader, PassesOverTheRecordsOfEmptyLines) {
+  const auto [a, b] = c_exact_cosine_size;
+  Drawing<Exact> d({1, 1, true, false, 1, 2, a, b}, 3, 2, false);
+  using At = Exact::init_header_at;
+  // 2 pixels, none, and again 2, beside them: the lower section begins with the second line.
+  d.put(At::upper_lines, 1);
+  d.put(At::lower_lines, 2);
+  d.put(At::lower_x, c_x);
+  d.put(At::lower_quotient, 2);
+  for (int line = 0; line < 3; ++line)
+    set_bits(d.record(line), Exact::diffuse_channel_at::factor,
+             static_cast<std::uint64_t>(10 + line) << Exact::c_factor_fraction_bits,
+             Exact::c_diffuse_header_bits);
+  struct Watch {
+    std::string& seen;
+    void line(const SphericalShader<Exact>&) { seen += 'l'; }
+    void span(const SphericalShader<Exact>&, SpanXWord) { seen += 's'; }
+    void sample(const SphericalShader<Exact>&, SpanXWord) { seen += 'a'; }
+    void product(const SphericalShader<Exact>&, SpanXWord) { seen += 'p'; }
+  };
+  std::string seen;
+  std::vector<Fragment> fragments;
+  d.shader.draw(
+      d.vectors, [&](const Fragment& f) { fragments.push_back(f); }, Watch{seen});
+  EXPECT_EQ(seen, "lsapsaplsapsap");
+  ASSERT_EQ(fragments.size(), 4U);
+  EXPECT_EQ(fragments[0].red, 9);  // 255 / 256 of the factor
+  EXPECT_EQ(fragments[3].red, 11);
+  EXPECT_EQ(fragments[3].y, c_y + 2);
+}
+
+TEST(AngleAddress, IsTheCellOfTheMagnitude) {
+  std::mt19937_64 random(1);
+  constexpr int c_fraction = Exact::c_angle_fraction_bits;
+  const std::int64_t one = std::int64_t{1} << c_fraction;
+  using Angle = Word<Exact::c_angle_bits>;
+  const auto at = [](std::int64_t v, int bits) {
+    return angle_address<Exact>(Angle::from_bits(static_cast<std::uint64_t>(v)), bits);
+  };
+  for (const int bits : {3, 9, 12}) {
+    for (int i = 0; i < 2000; ++i) {
+      const auto v = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(one));
+      EXPECT_EQ(at(v, bits).address, static_cast<std::uint32_t>((v << bits) / one));
+      // The other side of the top meets the same cell, and ends a unit in the last place later.
+      EXPECT_EQ(at(-v - 1, bits).address, at(v, bits).address);
+    }
+    EXPECT_TRUE(at(one - 1, bits).in_range);
+    EXPECT_FALSE(at(one, bits).in_range);
+    EXPECT_TRUE(at(-one, bits).in_range);
+    EXPECT_FALSE(at(-one - 1, bits).in_range);
+    EXPECT_FALSE(at(5 * one, bits).in_range);
+    EXPECT_FALSE(at(-1024 * one, bits).in_range);
+  }
+}
+
+// A word's upper bits: its cell of a table whose address is signed and goes round.
+TEST(AngleAddress, GoesRoundInPresetPublished) {
+  using Angle = Word<Published::c_angle_bits>;
+  for (int v = -2048; v < 2048; ++v) {
+    const auto at = angle_address<Published>(Angle::from_bits(static_cast<std::uint64_t>(v)), 6);
+    EXPECT_EQ(at.address, static_cast<std::uint32_t>(static_cast<int>(std::floor(v / 64.0)) & 63));
+    EXPECT_TRUE(at.in_range);
+  }
+}
+
+TEST(SaturatingSum, NeitherWrapsNorPassesTheLargest) {
+  SaturatingSum sum;
+  for (int i = 0; i < 255; ++i) sum.add(1 << 16);
+  sum.add((1 << 16) - 1);
+  EXPECT_EQ(sum.result(16, 8), 255U);
+  EXPECT_EQ(sum.result(17, 8), 127U);
+  sum.add(1);
+  EXPECT_EQ(sum.result(16, 8), 255U);
+  for (int i = 0; i < 100; ++i) sum.add(~std::uint32_t{0});  // past 2^32
+  EXPECT_EQ(sum.result(16, 8), 255U);
+  EXPECT_EQ(sum.result(32, 8), 100U);
+}
+
+}  // namespace
+}  // namespace halfway::golden
