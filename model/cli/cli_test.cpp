@@ -261,50 +261,91 @@ TEST_F(CliTest, WhyAgreesOnRightHardware) {
 
 // Wrong hardware: a copy of the sources with one thing changed.
 struct Fault {
-  const char *name, *file, *from, *to, *stage;
+  const char *name, *shader, *file, *from, *to, *stage;
 };
 
 void PrintTo(const Fault& fault, std::ostream* out) {
   *out << fault.name;
 }
 
-class WrongRtl : public CliTest, public ::testing::WithParamInterface<Fault> {};
+class WrongRtl : public CliTest, public ::testing::WithParamInterface<Fault> {
+ protected:
+  std::filesystem::path copy() const { return folder_->path() / "source"; }
+  /// The sources with the first `from` after `after` changed in a file of rtl/.
+  void change(const std::string& file, const std::string& after, const std::string& from,
+              const std::string& to) const {
+    const std::filesystem::path source = HALFWAY_SOURCE_DIR;
+    ASSERT_TRUE(make_folders(copy() / "model"));
+    for (const char* part : {"rtl", "tb", "sim", "model/golden"})
+      std::filesystem::copy(source / part, copy() / part, std::filesystem::copy_options::recursive);
+    const auto text = read_file(copy() / "rtl" / file);
+    ASSERT_TRUE(text);
+    const std::size_t at = text->find(from, text->find(after));
+    ASSERT_NE(at, std::string::npos) << "mend this test's list: '" << from << "' is not in " << file;
+    std::string changed = *text;
+    changed.replace(at, from.size(), to);
+    ASSERT_TRUE(write_file(copy() / "rtl" / file, changed));
+  }
+  Outcome sim(const std::string& shader, const std::string& simulator) const {
+    return run({"--source", copy(), "sim", "spheres", "--shader", shader, "--size", "96x72", "--simulator",
+                simulator, "--out", out()});
+  }
+};
 
 TEST_P(WrongRtl, IsCaughtAndLocated) {
   const Fault& fault = GetParam();
-  const std::filesystem::path source = HALFWAY_SOURCE_DIR, copy = folder_->path() / "source";
-  ASSERT_TRUE(make_folders(copy));
-  for (const char* part : {"rtl", "tb", "sim"})
-    std::filesystem::copy(source / part, copy / part, std::filesystem::copy_options::recursive);
-  const auto text = read_file(copy / "rtl" / fault.file);
-  ASSERT_TRUE(text);
-  const std::size_t at = text->find(fault.from);
-  ASSERT_NE(at, std::string::npos) << "mend this test's list: '" << fault.from << "' is not in "
-                                   << fault.file;
-  std::string changed = *text;
-  changed.replace(at, std::string(fault.from).size(), fault.to);
-  ASSERT_TRUE(write_file(copy / "rtl" / fault.file, changed));
-
-  const Outcome sim =
-      run({"--source", copy, "sim", "spheres", "--size", "96x72", "--simulator", "ghdl", "--out", out()});
-  EXPECT_EQ(sim.exit_code, 1) << sim.output;
-  EXPECT_THAT(sim.output, HasSubstr("ghdl differs from the golden model"));
-  const Outcome why = run({"--source", copy, "why", "spheres", "--pixel", "20,20", "--size", "96x72"});
+  ASSERT_NO_FATAL_FAILURE(change(fault.file, "", fault.from, fault.to));
+  const Outcome drawn = sim(fault.shader, "ghdl");
+  EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
+  EXPECT_THAT(drawn.output, HasSubstr("ghdl differs from the golden model"));
+  const Outcome why = run({"--source", copy(), "why", "spheres", "--shader", fault.shader, "--pixel", "20,20",
+                           "--size", "96x72"});
   EXPECT_EQ(why.exit_code, 1) << why.output;
   EXPECT_THAT(why.output, AllOf(HasSubstr("first difference in the frame: "), HasSubstr(fault.stage)));
 }
 
+using WrongTable = WrongRtl;
+
+// A bit of a table that the scene's hardware has, and one of a table that it has not.
+TEST_F(WrongTable, AFlippedBitOfARomIsCaught) {
+  ASSERT_NO_FATAL_FAILURE(change("tables/cosine_pkg.vhd", "c_exact_cosine_16_9_8", "245, 244,", "245, 116,"));
+  const Outcome used = sim("spherical", "verilator");
+  EXPECT_EQ(used.exit_code, 1) << used.output;
+  EXPECT_THAT(used.output, AllOf(HasSubstr("verilator differs from the golden model"),
+                                 ContainsRegex("rtl/tables/cosine_pkg.vhd:[0-9]+: not what the generator")));
+  const Outcome why = run(
+      {"--source", copy(), "why", "spheres", "--shader", "spherical", "--pixel", "20,20", "--size", "96x72"});
+  EXPECT_THAT(why.output, HasSubstr("first difference in the frame: sample stage (cosine_rom)"))
+      << why.output;
+}
+TEST_F(WrongTable, AFlippedBitOfAnUnusedRomIsCaught) {
+  ASSERT_NO_FATAL_FAILURE(change("tables/cosine_pkg.vhd", "c_exact_cosine_2_9_8", "250, ", "251, "));
+  const Outcome unused = sim("spherical", "verilator");
+  EXPECT_EQ(unused.exit_code, 1) << unused.output;
+  EXPECT_THAT(unused.output,
+              AllOf(HasSubstr(" 0 mismatches"),
+                    ContainsRegex("rtl/tables/cosine_pkg.vhd:[0-9]+: not what the generator")));
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Mutants, WrongRtl,
-    ::testing::Values(Fault{"line_interpolator_sign", "interpolation/line_interpolator.vhd",
+    ::testing::Values(Fault{"line_interpolator_sign", "quadratic", "interpolation/line_interpolator.vhd",
                             "r.value + signed(increment)", "r.value - signed(increment)", "line stage"},
-                      Fault{"edge_without_carry", "raster/edge_walker.vhd", "v.x := r.x + r.quotient + 1;",
-                            "v.x := r.x + r.quotient;", "edge_walker"},
-                      Fault{"saturate_off_by_a_bit", "arithmetic/saturate.vhd",
+                      Fault{"edge_without_carry", "quadratic", "raster/edge_walker.vhd",
+                            "v.x := r.x + r.quotient + 1;", "v.x := r.x + r.quotient;", "edge_walker"},
+                      Fault{"saturate_off_by_a_bit", "quadratic", "arithmetic/saturate.vhd",
                             "value(c_result_high downto g_fraction_bits)",
                             "value(c_result_high + 1 downto g_fraction_bits + 1)", "fragment stage"},
-                      Fault{"span_one_pixel_long", "raster/triangle_walker.vhd",
-                            "v.span.valid := not span_last;", "v.span.valid := '1';", "triangle_walker"}),
+                      Fault{"span_one_pixel_long", "quadratic", "raster/triangle_walker.vhd",
+                            "v.span.valid := not span_last;", "v.span.valid := '1';", "triangle_walker"},
+                      Fault{"angle_not_folded", "spherical", "arithmetic/angle_address.vhd",
+                            "not angle when angle(c_sign) = '1' else angle", "angle", "sample stage"},
+                      Fault{"product_of_the_wrong_operand", "spherical", "arithmetic/multiplier.vhd",
+                            "unsigned(a) * unsigned(b)", "unsigned(a) * unsigned(not b)",
+                            "product stage (multiplier)"},
+                      Fault{"sum_without_its_first_term", "spherical", "arithmetic/saturating_sum.vhd",
+                            "for i in 1 to g_terms - 1 loop", "for i in 2 to g_terms - 1 loop",
+                            "fragment stage (saturating_sum"}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "cli/options.hpp"
 #include "run/simulate.hpp"
 #include "scene/load_scene.hpp"
+#include "tables/generated_files.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -140,7 +141,14 @@ int run(const Folders& folders, const SimOptions& options) {
                                    : draw_scene(scenes[n], n, folders, settings, board));
     });
 
+  // Frames are equal wherever no fragment needs what was changed: a wrong entry of a table, say, at an angle
+  // that no scene has.
   bool equal = true;
+  for (const std::string& message : tables::stale_files(folders.source, tables::compiled_sizes())) {
+    board.clear();
+    fmt::print(stderr, "{}\n", message);
+    equal = false;
+  }
   for (std::size_t n = 0; n < scenes.size(); ++n) {
     const Outcome outcome = outcomes[n].get_future().get();
     board.clear();

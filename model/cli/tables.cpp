@@ -2,15 +2,13 @@
 // `halfway tables`: writes what is generated, or checks that it is as it would be written.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <optional>
 
 #include "cli/options.hpp"
 #include "common/file.hpp"
-#include "tables/cosine.hpp"
-#include "tables/formats.hpp"
+#include "tables/generated_files.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -55,19 +53,6 @@ Result<TablesSettings> checked(const TablesOptions& o) {
   return s;
 }
 
-struct GeneratedFile {
-  std::filesystem::path path;  ///< from the checkout's root
-  std::string text;
-};
-
-std::vector<GeneratedFile> generated_files(const tables::CosineSizes& sizes) {
-  const auto presets = tables::preset_formats();
-  return {{"rtl/tables/formats_pkg.vhd", tables::vhdl_package(presets)},
-          {"model/golden/formats.hpp", tables::cpp_header(presets)},
-          {"rtl/tables/cosine_pkg.vhd", tables::cosine_vhdl_package(sizes)},
-          {"model/golden/cosine_tables.hpp", tables::cosine_cpp_header(sizes)}};
-}
-
 void print_tables(const tables::CosineSizes& sizes) {
   for (const tables::CosineTable& table : tables::cosine_tables(sizes)) {
     const double error = tables::table_error(table);
@@ -103,26 +88,19 @@ int run(const Folders& folders, const TablesOptions& options) {
     return static_cast<int>(ExitCode::equal);
   }
   bool differs = false;
-  for (const GeneratedFile& file : generated_files(settings->sizes)) {
-    const std::filesystem::path path = folders.source / file.path;
-    const Result<std::string> present = read_file(path);
-    if (present && *present == file.text) {
-      fmt::print("{}: as generated\n", file.path.string());
-      continue;
-    }
-    if (options.check) {
-      std::size_t line = 1;
-      if (present)
-        for (std::size_t i = 0;
-             i < std::min(present->size(), file.text.size()) && (*present)[i] == file.text[i]; ++i)
-          line += file.text[i] == '\n';
-      fmt::print(stderr, "{}:{}: not what the generator writes; edit model/tables, then run `make tables`\n",
-                 file.path.string(), line);
+  if (options.check)
+    for (const std::string& message : tables::stale_files(folders.source, settings->sizes)) {
+      fmt::print(stderr, "{}\n", message);
       differs = true;
-      continue;
     }
-    if (const Status status = write_file(path, file.text); !status) return report(status.error());
-    fmt::print("{}: written\n", file.path.string());
+  for (const tables::GeneratedFile& file : tables::generated_files(settings->sizes)) {
+    if (tables::first_different_line(folders.source, file) == 0) {
+      fmt::print("{}: as generated\n", file.path.string());
+    } else if (!options.check) {
+      if (const Status status = write_file(folders.source / file.path, file.text); !status)
+        return report(status.error());
+      fmt::print("{}: written\n", file.path.string());
+    }
   }
   print_tables(settings->sizes);
   return static_cast<int>(differs ? ExitCode::differs : ExitCode::equal);

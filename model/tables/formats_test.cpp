@@ -52,11 +52,27 @@ void expect_layout(const PresetFormats& preset, const std::vector<Field>& fields
 template <class Preset>
 void expect_preset(const PresetFormats& preset) {
   EXPECT_EQ(preset.name, Preset::c_name);
-  ASSERT_EQ(preset.layouts.size(), 2u);
-  expect_layout(preset, preset.layouts[0].header, Preset::c_init_header, Preset::c_init_header_bits);
-  expect_layout(preset, preset.layouts[0].channel, Preset::c_init_channel, Preset::c_init_channel_bits);
-  expect_layout(preset, preset.layouts[1].header, Preset::c_probe_header, Preset::c_probe_header_bits);
-  expect_layout(preset, preset.layouts[1].channel, Preset::c_probe_channel, Preset::c_probe_channel_bits);
+  ASSERT_EQ(preset.layouts.size(), 7u);
+  const auto header = [&](std::size_t layout, const auto& compiled, int bits) {
+    expect_layout(preset, preset.layouts[layout].header, compiled, bits);
+  };
+  const auto channel = [&](std::size_t layout, const auto& compiled, int bits) {
+    expect_layout(preset, preset.layouts[layout].channel, compiled, bits);
+  };
+  header(0, Preset::c_init_header, Preset::c_init_header_bits);
+  channel(0, Preset::c_init_channel, Preset::c_init_channel_bits);
+  header(1, Preset::c_probe_header, Preset::c_probe_header_bits);
+  channel(1, Preset::c_probe_channel, Preset::c_probe_channel_bits);
+  EXPECT_TRUE(preset.layouts[2].header.empty() && Preset::c_ambient_header_bits == 0);
+  channel(2, Preset::c_ambient_channel, Preset::c_ambient_channel_bits);
+  header(3, Preset::c_diffuse_header, Preset::c_diffuse_header_bits);
+  channel(3, Preset::c_diffuse_channel, Preset::c_diffuse_channel_bits);
+  header(4, Preset::c_specular_header, Preset::c_specular_header_bits);
+  channel(4, Preset::c_specular_channel, Preset::c_specular_channel_bits);
+  header(5, Preset::c_diffuse_probe_header, Preset::c_diffuse_probe_header_bits);
+  channel(5, Preset::c_diffuse_probe_channel, Preset::c_diffuse_probe_channel_bits);
+  header(6, Preset::c_specular_probe_header, Preset::c_specular_probe_header_bits);
+  channel(6, Preset::c_specular_probe_channel, Preset::c_specular_probe_channel_bits);
 }
 
 TEST(Formats, TheCompiledLayoutsHaveNeitherGapsNorOverlaps) {
@@ -93,6 +109,13 @@ TEST(Formats, ErrorBoundsFollowFromTheFractionBits) {
   EXPECT_LT(2046 + 0.5 + 0.15,
             std::ldexp(1.0, Exact::c_intensity_bits - 1 - Exact::c_intensity_fraction_bits));
   EXPECT_LT(1023 + 0.15, std::ldexp(1.0, Exact::c_intensity_bits - 1 - Exact::c_intensity_fraction_bits));
+  // Angles: start and slope rounded once each, 4095 steps; half a bell is 2^9 cells of exact's tables.
+  const double half_angle_ulp = std::ldexp(1.0, -Exact::c_angle_fraction_bits - 1);
+  EXPECT_LE((1 + 4095) * half_angle_ulp, std::ldexp(1.0, -11));
+  EXPECT_LE((1 + 4095) * half_angle_ulp, 0.25 * std::ldexp(1.0, -9));
+  // Exponent 10^6 by cos^16: the scale is 250, and an arc's angles are within three half bells of it,
+  // unscaled.
+  EXPECT_LT(3.0 * 251, std::ldexp(1.0, Exact::c_angle_bits - 1 - Exact::c_angle_fraction_bits));
   // Guard band: differences below 2^13 pixels of 16 subpixels.
   EXPECT_LE(8191 * 16, (1 << Exact::c_edge_error_bits) - 1);
 }
