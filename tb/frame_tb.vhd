@@ -26,7 +26,7 @@ entity frame_tb is
 
     g_init_file     : string   := "init.txt";
     g_trace_file    : string   := "trace.txt";
-    g_probe_file    : string   := "";            -- where g_probe: lines of cycle and hexadecimal probe
+    g_probe_file    : string   := "";            -- where g_probe: lines of cycle and probe, a character a bit
     g_max_fragments : natural  := natural'high;  -- more than these is a failure
     g_idle_limit    : positive := 100_000;       -- cycles in which nothing moves: a hang
     g_stall_seed    : natural  := 0              -- 0: full speed
@@ -302,7 +302,7 @@ begin
         end if;
         write(text_out, cycle);
         write(text_out, ' ');
-        hwrite(text_out, probe);
+        write(text_out, to_string(probe)); -- bit by bit: some may not have a value yet
         writeline(probe_file, text_out);
       end if;
 

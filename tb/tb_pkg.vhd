@@ -1,10 +1,11 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- What the testbenches share: files of vectors (tb/vectors/vector_file.hpp gives the format), the comparison that ends
--- a run with vector number, got and expected, random stalls.
+-- a run with vector number, got and expected, random stalls, a shader's probe.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use std.textio.all;
+use work.formats_pkg.all;
 
 package tb_pkg is
 
@@ -36,11 +37,19 @@ package tb_pkg is
 
   function to_flag (value : boolean) return std_logic;
 
+  function preset_name (exact : boolean) return string;
+
   -- xorshift32 (Marsaglia 2003, shifts 13, 17, 5)
   function next_random (state : unsigned(31 downto 0)) return unsigned;
 
   -- True for one value of `random` in 2**exponent.
   function chance (random : unsigned(7 downto 0); exponent : natural range 0 to 8) return boolean;
+
+  -- Sets in `mask` the bits of a field whose block begins at `low`; of all fields of the line stage, or of the span
+  -- stage, that the header of a shader's probe has, their event included.
+  procedure add_field (variable mask : inout std_logic_vector; field : in slice_t; low : in natural := 0);
+  procedure add_line_fields (variable mask : inout std_logic_vector; exact : in boolean);
+  procedure add_span_fields (variable mask : inout std_logic_vector; exact : in boolean);
 
 end package;
 
@@ -196,6 +205,14 @@ package body tb_pkg is
     return '0';
   end function;
 
+  function preset_name (exact : boolean) return string is
+  begin
+    if exact then
+      return "exact";
+    end if;
+    return "published";
+  end function;
+
   function next_random (state : unsigned(31 downto 0)) return unsigned is
     variable x : unsigned(31 downto 0) := state;
   begin
@@ -209,5 +226,32 @@ package body tb_pkg is
   begin
     return to_integer(random) mod 2 ** exponent = 0;
   end function;
+
+  procedure add_field (variable mask : inout std_logic_vector; field : in slice_t; low : in natural := 0) is
+  begin
+    for i in field.low to field.high loop
+      mask(low + i) := '1';
+    end loop;
+  end procedure;
+
+  procedure add_line_fields (variable mask : inout std_logic_vector; exact : in boolean) is
+    constant c_header : probe_header_t := probe_header(exact);
+  begin
+    add_field(mask, c_header.line_event);
+    add_field(mask, c_header.line_y);
+    add_field(mask, c_header.line_start);
+    add_field(mask, c_header.line_stop);
+    add_field(mask, c_header.line_carry);
+    add_field(mask, c_header.line_z);
+  end procedure;
+
+  procedure add_span_fields (variable mask : inout std_logic_vector; exact : in boolean) is
+    constant c_header : probe_header_t := probe_header(exact);
+  begin
+    add_field(mask, c_header.span_event);
+    add_field(mask, c_header.span_y);
+    add_field(mask, c_header.span_x);
+    add_field(mask, c_header.span_z);
+  end procedure;
 
 end package body;

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     An angle's address in a cosine table. Preset exact: the upper fraction bits of its magnitude, and whether it
---             lies between the bell's ends, -1 <= angle < 1. The magnitude is the ones' complement, so that both sides of
---             the bell's top meet the same entries at the same distance. Preset published: the upper bits of the word,
---             which goes round where the table does.
+-- Purpose     An angle's address in a cosine table. Preset exact: the upper fraction bits of its magnitude, and
+--             whether it lies between the bell's ends, -1 <= angle < 1. The magnitude is the ones' complement, so
+--             that both sides of the bell's top meet the same entries at the same distance. Preset published: the
+--             upper bits of the word, which goes round where the table does.
 -- Formats     formats_pkg: angle
 -- Latency     0 (combinational)
 -- Error       none: an address is its cell of the angle, exactly

@@ -1,13 +1,14 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     One light's diffuse term, a product a channel: factor * cos(angle), the angle going linearly along the span.
+-- Purpose     One light's diffuse term, a product a channel: factor * cos(angle), the angle going linearly along the
+--             span.
 --               span stage     angle, by a line_interpolator; lit where it is not behind the light's horizon
 --               sample stage   the cosine_rom's sample, in_range and factors beside it
 --               product stage  factor * sample, zero where not in_range
---             g_channels = 0: no factor and no table, only the horizon, which ends the light's highlight too; sample and
---             products, as many bits as one, are zero.
--- Contract    span_load takes the light's part of the line record; span_step hands the pixel to the sample stage and goes
---             to the next one; sample_step hands the pixel from there to the product stage.
+--             g_channels = 0: no factor and no table, only the horizon, which ends the light's highlight too; sample
+--             and products, as many bits as one, are zero.
+-- Contract    span_load takes the light's part of the line record; span_step hands the pixel to the sample stage and
+--             goes to the next one; sample_step hands the pixel from there to the product stage.
 -- Formats     formats_pkg: angle in units of half a bell (preset published: of a whole one), factor; sample: unsigned,
 --             of 2**g_data_bits - 1; product: factor's bits and g_data_bits together
 -- Latency     1 clock from span_load to angle and lit, 1 from span_step to sample, 1 from sample_step to products

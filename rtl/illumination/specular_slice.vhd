@@ -3,8 +3,8 @@
 -- Purpose     One light's highlight, a product a channel: factor * cos(angle) ** power, the angle going linearly along
 --             the span in units of half a bell.
 --               span stage     angle, by a line_interpolator
---               sample stage   samples of all tables, read at once; in_range (not past the bell's ends, and lit), factors
---                              and power beside them
+--               sample stage   samples of all tables, read at once; in_range (not past the bell's ends, and lit),
+--                              factors and power beside them
 --               product stage  factor * the power's sample, zero where not in_range
 -- Contract    span_load takes the light's part of the line record; span_step hands the pixel, lit or not, to the sample
 --             stage and goes to the next one; sample_step hands the pixel from there to the product stage.
@@ -15,8 +15,8 @@
 -- Latency     1 clock from span_load to angle, 1 from span_step to sample, 1 from sample_step to products
 -- Throughput  1 pixel a clock
 -- Error       angle: see formats_pkg; sample: see cosine_rom
--- Source      spherical paper, section 5 and figure 12 (specular part): cosine squared alone, and no end to the bells, in
---             preset published; other powers and in_range are ours
+-- Source      spherical paper, section 5 and figure 12 (specular part): cosine squared alone, and no end to the
+--             bells, in preset published; other powers and in_range are ours
 -- Golden twin model/golden/specular_slice.hpp
 
 library ieee;

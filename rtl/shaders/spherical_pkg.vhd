@@ -17,11 +17,11 @@ package spherical_pkg is
   -- Bits of one light's part; 0 where it is not there.
   function diffuse_part_bits (exact : boolean; channels : positive; diffuse, specular : boolean) return natural;
 
-  function specular_part_bits (exact : boolean; specular : boolean; highlight_channels : positive) return natural;
+  function specular_part_bits (exact, specular : boolean; highlight_channels : positive) return natural;
 
   function diffuse_part_probe_bits (exact : boolean; channels : positive; diffuse, specular : boolean) return natural;
 
-  function specular_part_probe_bits (exact : boolean; specular : boolean; highlight_channels : positive) return natural;
+  function specular_part_probe_bits (exact, specular : boolean; highlight_channels : positive) return natural;
 
   -- 0: no line records follow a triangle's header.
   function record_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
@@ -59,7 +59,7 @@ package body spherical_pkg is
     return 0;
   end function;
 
-  function specular_part_bits (exact : boolean; specular : boolean; highlight_channels : positive) return natural is
+  function specular_part_bits (exact, specular : boolean; highlight_channels : positive) return natural is
   begin
     if specular then
       return specular_bits(exact, highlight_channels);
@@ -75,7 +75,7 @@ package body spherical_pkg is
     return 0;
   end function;
 
-  function specular_part_probe_bits (exact : boolean; specular : boolean; highlight_channels : positive) return natural is
+  function specular_part_probe_bits (exact, specular : boolean; highlight_channels : positive) return natural is
   begin
     if specular then
       return specular_probe_bits(exact, highlight_channels);

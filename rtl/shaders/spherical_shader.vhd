@@ -1,19 +1,20 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The spherical shader: a header a triangle and a record for each of its lines in, a fragment for each pixel
---             that the triangle covers out.
+-- Purpose     The spherical shader: a header a triangle and a record for each of its lines in, a fragment for each
+--             pixel that the triangle covers out.
 --             stream_register -> triangle_walker -> z_interpolator, a diffuse_slice and a specular_slice a light
 --             -> a saturating_sum a channel -> stream_register
 --             What no effect asks for is not there: no diffuse_slice where neither diffuse light nor (preset exact) the
 --             horizon of a highlight needs one, no line records where a light has no part in them.
 -- Contract    Both streams are valid/ready; a fragment stands still while it waits. A triangle's header (walk, depth,
---             ambient) is followed by a record for every line of its walk, those without a pixel included; spherical_pkg
---             says where the lights' parts lie. One channel (g_channels = 1) is given out as red, green and blue.
+--             ambient) is followed by a record for every line of its walk, those without a pixel included;
+--             spherical_pkg says where the lights' parts lie. One channel (g_channels = 1) is given out as red, green
+--             and blue.
 -- Formats     formats_pkg: init (header), ambient, diffuse, specular, depth, colour
 -- Latency     6 clocks from a header taken to the triangle's first fragment (its first line covering a pixel)
 -- Throughput  1 fragment a clock, with no bubble between spans and lines; between triangles one clock is lost where the
---             last span has a single pixel, none without line records. Lines that cover no pixel cost a clock each where
---             no span is being drawn meanwhile.
+--             last span has a single pixel, none without line records. Lines that cover no pixel cost a clock each
+--             where no span is being drawn meanwhile.
 -- Error       the sum of the terms is exact, and rounded once; their factors and samples: see formats_pkg, cosine_rom
 -- Source      spherical paper, section 5 and figure 12
 -- Golden twin model/golden/spherical_shader.hpp
@@ -128,8 +129,8 @@ begin
     & ", not 1 (grey) or g_channels, " & integer'image(g_channels)
     severity failure;
   assert c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction = c_formats.depth.bits
-    report "spherical_shader: depth_sum has " & integer'image(c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction)
-    & " whole bits, depth " & integer'image(c_formats.depth.bits)
+    report "spherical_shader: depth_sum has "
+    & integer'image(c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction) & " whole bits, depth " & integer'image(c_formats.depth.bits)
     severity failure;
 
   init_buffer : entity work.stream_register
@@ -332,7 +333,8 @@ begin
         signal angle    : std_logic_vector(c_formats.angle.bits - 1 downto 0);
         signal in_range : std_logic;
         signal sample   : std_logic_vector(g_data_bits - 1 downto 0);
-        signal products : std_logic_vector((c_diffuse_channels + boolean'pos(not g_diffuse)) * c_term_bits - 1 downto 0);
+        signal products : std_logic_vector((c_diffuse_channels + boolean'pos(not g_diffuse)) * c_term_bits - 1
+          downto 0);
 
         begin
 

@@ -20,16 +20,36 @@ namespace halfway {
 namespace {
 
 struct Mutant {
-  const char* file;       ///< in rtl/; its entity's testbench has to find the fault
+  const char* file;       ///< in rtl/
   std::string_view from;  ///< occurs once
   std::string_view to;
+  const char* tested = file;  ///< in rtl/: the entity whose testbench has to find the fault
 };
 
 constexpr Mutant c_mutants[] = {
+    // An entry of a table with one bit the other way; one more than it says; a sample that does not stand
+    // still.
+    {"tables/cosine_pkg.vhd", "15, 14, 12, 9, 6, 3, 1, 0, 0,", "15, 14, 12, 9, 6, 3, 1, 0, 1,",
+     "tables/cosine_rom.vhd"},
+    {"tables/cosine_rom.vhd", "to_unsigned(c_table(i), g_data_bits)",
+     "to_unsigned(c_table(i) + boolean'pos(i = 511 and g_power = 16), g_data_bits)"},
+    {"tables/cosine_rom.vhd", "if enable = '1' then", "if enable = '1' or address(0) = '1' then"},
     // The top bit does not saturate; negative values give white.
     {"arithmetic/saturate.vhd", "value(c_sign - 1 downto c_result_high + 1) & '0'",
      "value(c_sign - 2 downto c_result_high + 1) & \"00\""},
     {"arithmetic/saturate.vhd", "result <= (others => '0')", "result <= (others => '1')"},
+    // Signed operands; a product that does not stand still.
+    {"arithmetic/multiplier.vhd", "unsigned(a) * unsigned(b)", "unsigned(signed(a) * signed(b))"},
+    {"arithmetic/multiplier.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
+    // The bell is not folded; it has a second one beside it; preset published takes the lower bits.
+    {"arithmetic/angle_address.vhd", "magnitude <= not angle when", "magnitude <= angle when"},
+    {"arithmetic/angle_address.vhd", "magnitude(c_sign downto c_fraction) = c_inside",
+     "magnitude(c_sign downto c_fraction + 1) = c_inside(c_sign downto c_fraction + 1)"},
+    {"arithmetic/angle_address.vhd", "angle(c_sign downto c_sign - g_address_bits + 1)",
+     "angle(g_address_bits - 1 downto 0)"},
+    // A sum that wraps; the last term forgotten.
+    {"arithmetic/saturating_sum.vhd", "positive := g_term_bits + carry_bits", "positive := g_term_bits + 1"},
+    {"arithmetic/saturating_sum.vhd", "for i in 1 to g_terms - 1 loop", "for i in 1 to g_terms - 2 loop"},
     // Loads without being told to.
     {"stream/parameter_register.vhd", "if load = '1' then", "if load = '1' or start(0) = '1' then"},
     // Overwrites a word that waits; survives reset.
@@ -53,10 +73,36 @@ constexpr Mutant c_mutants[] = {
     {"raster/triangle_walker.vhd", "not r.span.valid or (fragment_ready and span_last)", "not r.span.valid"},
     {"raster/triangle_walker.vhd", "(fragment_ready and span_last)", "span_last"},
     {"raster/triangle_walker.vhd", "line_load or (line_step and to_lower)", "line_load"},
+    // A line, or a span, that does not wait for what it needs.
+    {"raster/triangle_walker.vhd", "r.line.valid and line_ready and (", "r.line.valid and ("},
+    {"raster/triangle_walker.vhd", "r.line.valid and line_ready and not", "r.line.valid and not"},
+    // The next line's slope; the next pixel's horizon; light behind the horizon.
+    {"illumination/diffuse_slice.vhd", "increment => slope",
+     "increment => part(c_part.slope.high downto c_part.slope.low)"},
+    {"illumination/diffuse_slice.vhd", "sample when in_range = '1'", "sample when lit = '1'"},
+    {"illumination/diffuse_slice.vhd", "a       => gated", "a       => sample"},
+    // A highlight behind the horizon; the next line's power; a power without a table; the span's factors a
+    // stage early.
+    {"illumination/specular_slice.vhd", "near and lit", "near"},
+    {"illumination/specular_slice.vhd", "start => span_power",
+     "start => part(c_part.power.high downto c_part.power.low)"},
+    {"illumination/specular_slice.vhd", "sample <= (others => '0');", "sample <= samples(1);"},
+    {"illumination/specular_slice.vhd", "b       => carried(", "b       => carried_in("},
     // Not busy while only the buffer in front holds a triangle; the colour of a fragment that waits moves on.
     {"shaders/quadratic_shader.vhd", "waiting or walking or out_valid", "walking or out_valid"},
     {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => colours",
      "load  => drawn,\n      start => colours"},
+    // A record taken as a header; an empty line's record taken for the next line's; the ambient light of the
+    // triangle behind; not busy while only the sample
+    // stage holds a pixel; a sample that moves on without its pixel; white highlights all red.
+    {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
+    {"shaders/spherical_shader.vhd", "line_step or not line_held", "line_load or span_load"},
+    {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
+     "load  => line_load,\n      start => line_ambient"},
+    {"shaders/spherical_shader.vhd", "walking or sample_valid or product_valid", "walking or product_valid"},
+    {"shaders/spherical_shader.vhd", "sample_valid and sample_ready", "sample_valid"},
+    {"shaders/spherical_shader.vhd", "channel * boolean'pos(g_highlight_channels > 1)",
+     "channel * boolean'pos(g_highlight_channels > 3)"},
 };
 
 struct Folders {
@@ -77,7 +123,7 @@ Result<ProcessEnd> ghdl(std::vector<std::string> arguments, const std::filesyste
       kInstallGhdl);
 }
 
-// `mutant` null: the RTL as it is.
+// The testbench of the entity in `file`. `mutant` null: the RTL as it is.
 Result<Outcome> run(const Folders& folders, const char* file, const Mutant* mutant) {
   auto folder = TemporaryFolder::make(folders.scratch);
   if (!folder) return folder.error();
@@ -85,7 +131,7 @@ Result<Outcome> run(const Folders& folders, const char* file, const Mutant* muta
   if (!sources) return sources.error();
   const std::string entity = entity_of(file), top = entity + "_tb";
   for (const std::string& name :
-       {std::string("tb/tb_pkg.vhd"),
+       {std::string("tb/tb_pkg.vhd"), std::string("tb/shaders/shader_checker.vhd"),
         "tb/" + (std::filesystem::path(file).parent_path() / (top + ".vhd")).string()}) {
     auto source = read_vhdl_source(folders.source, name);
     if (!source) return source.error();
@@ -93,7 +139,7 @@ Result<Outcome> run(const Folders& folders, const char* file, const Mutant* muta
   }
   std::vector<std::string> names = {"-i", "--std=08"};
   for (VhdlSource& source : *sources) {
-    if (mutant != nullptr && source.name == std::string("rtl/") + file) {
+    if (mutant != nullptr && source.name == std::string("rtl/") + mutant->file) {
       const std::size_t at = source.content.find(mutant->from);
       if (at == std::string::npos || source.content.find(mutant->from, at + 1) != std::string::npos)
         return bad_input(
@@ -142,7 +188,7 @@ int main(int argc, char** argv) {
   const auto work = [&] {
     for (std::size_t job; (job = next++) <= std::size(c_mutants);) {
       const Mutant* mutant = job == 0 ? nullptr : &c_mutants[job - 1];
-      const char* file = mutant == nullptr ? c_mutants[0].file : mutant->file;
+      const char* file = mutant == nullptr ? c_mutants[0].tested : mutant->tested;
       const auto outcome = run(folders, file, mutant);
       const std::lock_guard lock(mutex);
       if (!outcome) {

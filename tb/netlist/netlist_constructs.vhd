@@ -8,7 +8,7 @@ use ieee.numeric_std.all;
 
 package netlist_constructs_pkg is
   constant c_lane     : positive := 80;
-  constant c_lanes    : positive := 36;
+  constant c_lanes    : positive := 40;
   constant c_stimulus : positive := 160;
 
   subtype lane_t is std_logic_vector(c_lane - 1 downto 0);
@@ -26,10 +26,13 @@ package netlist_constructs_pkg is
 
   type rom_t is array (0 to 63) of std_logic_vector(8 downto 0);
   type wide_rom_t is array (0 to 15) of std_logic_vector(71 downto 0);
+  type table_t is array (natural range <>) of natural;
 
   function formats (exact : boolean) return formats_t;
   function squares return rom_t;
   function wide_table return wide_rom_t;
+  -- 2**address_bits numbers, as many as are asked for.
+  function cubes (address_bits : positive) return table_t;
   -- Signed to unsigned of fewer bits, at the nearest end where it does not fit.
   function saturate (value : signed; bits : positive) return std_logic_vector;
   function lane (value : std_logic_vector) return lane_t;  -- zeros above
@@ -61,6 +64,15 @@ package body netlist_constructs_pkg is
     for i in table'range loop
       table(i) := std_logic_vector(to_unsigned(i * 65_521, 24)) & std_logic_vector(to_signed(-i * 99_991, 24))
         & std_logic_vector(to_unsigned(i * 7919, 24));
+    end loop;
+    return table;
+  end function;
+
+  function cubes (address_bits : positive) return table_t is
+    variable table : table_t(0 to 2 ** address_bits - 1);
+  begin
+    for i in table'range loop
+      table(i) := (i * i * i + 5) mod 8191;
     end loop;
     return table;
   end function;
@@ -152,6 +164,72 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.netlist_constructs_pkg.all;
 
+-- A table of numbers turned into words, read into a register, and a register of a product: each one clocked process.
+entity netlist_rom is
+  generic (
+    g_address_bits : positive;
+    g_data_bits    : positive
+  );
+  port (
+    clk     : in  std_logic;
+    enable  : in  std_logic;
+    address : in  std_logic_vector(g_address_bits - 1 downto 0);
+    factor  : in  std_logic_vector(17 downto 0);
+    sample  : out std_logic_vector(g_data_bits - 1 downto 0);
+    product : out std_logic_vector(g_data_bits + 17 downto 0)
+  );
+end entity;
+
+architecture rtl of netlist_rom is
+  type rom_t is array (0 to 2 ** g_address_bits - 1) of std_logic_vector(g_data_bits - 1 downto 0);
+
+  function entries return rom_t is
+    constant c_table : table_t := cubes(g_address_bits);
+
+    variable rom : rom_t;
+  begin
+    for i in rom'range loop
+      rom(i) := std_logic_vector(to_unsigned(c_table(i), g_data_bits));
+    end loop;
+    return rom;
+  end function;
+
+  constant c_rom : rom_t := entries;
+
+  type reg_t is record
+    sample  : std_logic_vector(g_data_bits - 1 downto 0);
+    product : unsigned(g_data_bits + 17 downto 0);
+  end record;
+
+  signal r : reg_t;
+begin
+  samples : process (clk)
+  begin
+    if rising_edge(clk) then
+      if enable = '1' then
+        r.sample <= c_rom(to_integer(unsigned(address)));
+      end if;
+    end if;
+  end process;
+
+  products : process (clk)
+  begin
+    if rising_edge(clk) then
+      if enable = '1' then
+        r.product <= unsigned(r.sample) * unsigned(factor);
+      end if;
+    end if;
+  end process;
+
+  sample  <= r.sample;
+  product <= std_logic_vector(r.product);
+end architecture;
+
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.netlist_constructs_pkg.all;
+
 entity netlist_constructs is
   generic (
     g_exact : boolean  := true;
@@ -189,6 +267,8 @@ architecture rtl of netlist_constructs is
     flag    : std_logic;
   end record;
   type bytes_t is array (0 to 3) of std_logic_vector(7 downto 0);
+  type terms_t is array (0 to 1) of std_logic_vector(5 * 13 - 1 downto 0);
+  type sums_t is array (0 to 1) of unsigned(15 downto 0);
 
   signal r, r_next : reg_t;
   signal lanes     : lanes_t;
@@ -206,6 +286,13 @@ architecture rtl of netlist_constructs is
   signal step      : std_logic;
   signal mux       : std_logic_vector(71 downto 0);
   signal by_case   : std_logic_vector(39 downto 0);
+  signal read      : std_logic;
+  signal sample    : std_logic_vector(12 downto 0);
+  signal product   : std_logic_vector(30 downto 0);
+  signal terms     : terms_t;
+  signal sums      : sums_t;
+  signal magnitude : std_logic_vector(32 downto 0);
+  signal chosen    : std_logic_vector(7 downto 0);
 begin
   control <= stimulus(15 downto 0);
   a       <= stimulus(87 downto 16);
@@ -399,6 +486,60 @@ begin
   else generate
     lanes(35) <= lane(std_logic_vector(resize(unsigned(control), 40) + 12345));
   end generate;
+
+  -- A table and a multiplier behind registers with an enable.
+  read <= control(15) or reset;
+
+  numbers : entity work.netlist_rom
+    generic map (
+      g_address_bits => 9,
+      g_data_bits    => 13
+      )
+    port map (
+      clk     => clk,
+      enable  => read,
+      address => a(8 downto 0),
+      factor  => b(17 downto 0),
+      sample  => sample,
+      product => product
+      );
+  lanes(36) <= lane(product & sample);
+
+  -- Slices of an array's elements written by generates, padded by an aggregate; sums of all by a loop.
+  two_sums : for i in terms'range generate
+    terms(i)(12 downto 0) <= a(i * 9 + 7 downto i * 9) & (4 downto 0 => '0');
+
+    others_of_it : for k in 1 to 4 generate
+      terms(i)(k * 13 + 12 downto k * 13) <= b(i * boolean'pos(g_exact) * 7 + k * 11 + 12 downto i
+        * boolean'pos(g_exact) * 7 + k * 11);
+    end generate;
+
+    add : process (all)
+      variable v : unsigned(15 downto 0);
+    begin
+      v := resize(unsigned(terms(i)(12 downto 0)), 16);
+      for k in 1 to 4 loop
+        v := v + resize(unsigned(terms(i)((k + 1) * 13 - 1 downto k * 13)), 16);
+      end loop;
+      sums(i) <= v;
+    end process;
+  end generate;
+  lanes(37) <= lane(std_logic_vector(sums(1)) & std_logic_vector(sums(0)));
+
+  -- Ones' complement by the sign; all of a slice zero; the one of several by its number, none where there is none.
+  magnitude <= not a(32 downto 0) when a(32) = '1' else a(32 downto 0);
+  lanes(38) <= lane(magnitude(21 downto 13)) xor bit_lane(magnitude(32 downto 22) = (32 downto 22 => '0'));
+
+  select_byte : process (all)
+  begin
+    chosen <= (others => '0');
+    for i in bytes'range loop
+      if unsigned(control(2 downto 0)) = i then
+        chosen <= bytes(i);
+      end if;
+    end loop;
+  end process;
+  lanes(39) <= lane(chosen);
 
   outputs : for i in lanes'range generate
     response((i + 1) * c_lane - 1 downto i * c_lane) <= lanes(i);

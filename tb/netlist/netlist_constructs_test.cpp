@@ -19,7 +19,7 @@
 namespace halfway {
 namespace {
 
-constexpr unsigned kStimulusBits = 160, kLaneBits = 80, kLanes = 36;
+constexpr unsigned kStimulusBits = 160, kLaneBits = 80, kLanes = 40;
 constexpr unsigned kResponseBits = kLaneBits * kLanes;
 constexpr std::size_t kVectors = 4000;
 

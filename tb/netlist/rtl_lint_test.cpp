@@ -55,15 +55,19 @@ constexpr std::string_view kElaborationOnly = "-- elaboration only";
 
 std::vector<std::string> faults_in(const std::string& name, std::string_view text) {
   // Reserved in Verilog or SystemVerilog, free in VHDL: GHDL prints them as they are.
-  constexpr std::array<std::string_view, 62> verilog_words = {
-      "always",   "and2",     "assume",    "automatic", "bind",     "bins",   "bit_",     "bufif0",
-      "byte",     "casex",    "casez",     "cell",      "chandle",  "class",  "clocking", "cmos",
-      "config",   "const",    "cover",     "deassign",  "defparam", "design", "disable",  "dist",
-      "do",       "edge",     "endcase",   "enum",      "event",    "expect", "export",   "extends",
-      "extern",   "final",    "forever",   "fork",      "genvar",   "global", "include",  "initial",
-      "inside",   "instance", "interface", "join",      "large",    "let",    "liblist",  "local",
-      "logic",    "longint",  "matches",   "medium",    "modport",  "module", "negedge",  "posedge",
-      "priority", "pulldown", "strong",    "tri",       "unique",   "weak"};
+  constexpr std::array<std::string_view, 96> verilog_words = {
+      "always",   "and2",    "assume",   "automatic", "bind",    "bins",      "bit_",     "bufif0",
+      "byte",     "casex",   "casez",    "cell",      "chandle", "checker",   "class",    "clocking",
+      "cmos",     "config",  "const",    "cover",     "cross",   "deassign",  "defparam", "design",
+      "disable",  "dist",    "do",       "edge",      "endcase", "enum",      "event",    "expect",
+      "export",   "extends", "extern",   "final",     "force",   "forever",   "fork",     "genvar",
+      "global",   "include", "initial",  "input",     "inside",  "instance",  "int",      "interface",
+      "join",     "large",   "let",      "liblist",   "local",   "logic",     "longint",  "matches",
+      "medium",   "modport", "module",   "negedge",   "output",  "parameter", "posedge",  "primitive",
+      "priority", "program", "pulldown", "rand",      "real",    "ref",       "reg",      "release",
+      "repeat",   "small",   "soft",     "solve",     "specify", "static",    "string",   "strong",
+      "struct",   "super",   "table",    "task",      "this",    "tran",      "tri",      "union",
+      "unique",   "var",     "virtual",  "void",      "weak",    "wildcard",  "wire",     "within"};
   std::vector<std::string> faults;
   std::size_t number = 0;
   while (!text.empty()) {
@@ -126,7 +130,8 @@ TEST(RtlLint, SeesEachFault) {
                                         "  tri, a : in std_logic;",
                                         "  x <= a sra 2;",
                                         "  x <= a rem 3; -- 7/8",
-                                        "  do : entity work.thing"};
+                                        "  do : entity work.thing",
+                                        "  table : if g_exact generate"};
   for (const std::string& line : bad) EXPECT_EQ(faults_in("x.vhd", line).size(), 1U) << line;
   const std::vector<std::string> good = {"  x <= a; -- a/b, abs, mod",
                                          "  if a /= b then",

@@ -29,8 +29,7 @@ using Words = std::vector<std::uint32_t>;
 
 constexpr std::uint32_t c_triangle = 7, c_x = 20, c_y = 10, c_lines = 4;
 constexpr std::size_t c_pixels = c_lines * (c_lines + 1) / 2;
-const HardwareKey c_key{
-    .preset = Preset::published, .channels = 1, .probe = true};
+const HardwareKey c_key{.preset = Preset::published, .channels = 1, .probe = true};
 
 struct Figure {
   std::map<std::string, std::uint32_t> step;
@@ -253,16 +252,13 @@ TEST(figure7, ghdl) {
   Trace trace;
   std::ifstream in(probe_file);
   std::uint64_t clock = 0;
-  for (std::string digits; in >> clock >> digits;) {
+  for (std::string bits; in >> clock >> bits;) {
     Words words(Shader::c_probe_words), unknown(Shader::c_probe_words);
-    ASSERT_EQ(digits.size(), (Shader::c_probe_bits + 3) / 4U);
-    for (std::size_t i = 0; i < digits.size(); ++i) {
-      // GHDL writes a digit with a bit that is neither 0 nor 1 as X: before the first span, the span's
-      // registers.
-      const std::size_t digit = std::string_view("0123456789ABCDEFX").find(digits[digits.size() - 1 - i]);
-      ASSERT_NE(digit, std::string_view::npos) << digits;
-      (digit == 16 ? unknown : words)[i / 8] |= static_cast<std::uint32_t>(digit == 16 ? 15 : digit)
-                                                << (4 * (i % 8));
+    ASSERT_EQ(bits.size(), Shader::c_probe_bits);
+    for (std::size_t i = 0; i < bits.size(); ++i) {
+      const char bit = bits[bits.size() - 1 - i];
+      // Neither 0 nor 1 before the first span: the span's registers.
+      if (bit != '0') (bit == '1' ? words : unknown)[i / 32] |= std::uint32_t{1} << (i % 32);
     }
     trace.add(words, unknown, clock);
   }

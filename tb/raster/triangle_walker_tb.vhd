@@ -2,7 +2,7 @@
 -- Both presets, on triangles without an empty line, and on a mix with empty lines and garbage: every line, strobe and
 -- pixel against the golden twin, in order. At full speed every init vector is taken and every fragment given out in the
 -- very clock that the entity's header promises; without empty lines that is a fragment a clock from the first to the
--- last. Then with both sides stalling at random, and with resets in the middle.
+-- last. Then with both sides, and what a line waits for, stalling at random, and with resets in the middle.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -28,6 +28,8 @@ architecture sim of triangle_walker_run is
   signal init_valid     : std_logic := '0';
   signal init_ready     : std_logic;
   signal init           : std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0) := (others => '0');
+  signal line_ready     : std_logic := '1';
+  signal line_held      : std_logic;
   signal line_load      : std_logic;
   signal line_step      : std_logic;
   signal line_carry     : std_logic;
@@ -51,6 +53,8 @@ begin
       init_valid     => init_valid,
       init_ready     => init_ready,
       init           => init,
+      line_ready     => line_ready,
+      line_held      => line_held,
       line_load      => line_load,
       line_step      => line_step,
       line_carry     => line_carry,
@@ -79,10 +83,11 @@ begin
         severity failure;
     end procedure;
 
-    -- One pass over a set. Where it stalls, init is offered in one clock of 2**init_pause, and fragments are taken in
-    -- one of 2**fragment_pause. reset_at is the clock of a reset that ends the pass; 0: none.
-    procedure pass (set : string; seed, init_pause, fragment_pause, reset_at : natural) is
-      constant c_full : boolean := init_pause = 0 and fragment_pause = 0;
+    -- One pass over a set. Where it stalls, init is offered in one clock of 2**init_pause, lines may go on in one of
+    -- 2**line_pause, and fragments are taken in one of 2**fragment_pause. reset_at is the clock of a reset that ends
+    -- the pass; 0: none.
+    procedure pass (set : string; seed, init_pause, line_pause, fragment_pause, reset_at : natural) is
+      constant c_full : boolean := init_pause = 0 and line_pause = 0 and fragment_pause = 0;
 
       variable random     : unsigned(31 downto 0) := to_unsigned(seed, 32);
       variable init_now   : std_logic_vector(init'range);
@@ -115,6 +120,7 @@ begin
         else
           init <= (others => '1');
         end if;
+        line_ready     <= to_flag(chance(random(11 downto 4), line_pause));
         fragment_ready <= to_flag(chance(random(30 downto 23), fragment_pause));
         ticks := ticks + 1;
         reset <= to_flag(ticks = reset_at);
@@ -127,6 +133,7 @@ begin
 
         -- The contract, whatever is drawn.
         check_flag("busy", busy, to_flag(in_line) or fragment_valid, clock);
+        check_flag("line_held", line_held, to_flag(in_line), clock);
         check_flag("line_load", line_load, init_valid and init_ready, clock);
         check_flag("span_step", span_step, fragment_valid and fragment_ready, clock);
         if waiting then
@@ -157,6 +164,7 @@ begin
 
         if line_step = '1' then
           check_flag("line_step without a triangle", to_flag(in_line), '1', clock);
+          check_flag("line_ready of a line that goes on", line_ready, '1', clock);
           lines.expect_vector("line");
           lines.check_word("line_y", line_y);
           lines.check_word("line_start", line_start);
@@ -187,7 +195,7 @@ begin
           idle := 0;
         end if;
 
-        exit when not to_come and not in_line and fragment_valid = '0';
+        exit when not to_come and not in_line and line_step = '0' and fragment_valid = '0';
         assert idle < c_idle_limit
           report g_stem & set & ": nothing moved for " & to_string(c_idle_limit) & " clocks after "
           & to_string(taken) & " init vectors and " & to_string(given) & " fragments"
@@ -224,16 +232,18 @@ begin
   begin
     wait until rising_edge(clk);
     wait until rising_edge(clk);
-    pass("dense", 1, 0, 0, 0);
-    pass("mixed", 1, 0, 0, 0);
-    pass("dense", 11, 1, 1, 0);
-    pass("mixed", 12, 1, 1, 0);
-    pass("mixed", 13, 6, 0, 0);
-    pass("dense", 14, 0, 2, 0);
+    pass("dense", 1, 0, 0, 0, 0);
+    pass("mixed", 1, 0, 0, 0, 0);
+    pass("dense", 11, 1, 0, 1, 0);
+    pass("mixed", 12, 1, 0, 1, 0);
+    pass("mixed", 13, 6, 0, 0, 0);
+    pass("dense", 14, 0, 0, 2, 0);
+    pass("dense", 15, 0, 2, 0, 0);
+    pass("mixed", 16, 1, 1, 1, 0);
     for i in c_resets'range loop
-      pass("mixed", 20 + i, 0, i mod 2, c_resets(i));
+      pass("mixed", 20 + i, 0, i / 2 mod 2, i mod 2, c_resets(i));
     end loop;
-    pass("mixed", 1, 0, 0, 0);
+    pass("mixed", 1, 0, 0, 0, 0);
     finished <= true;
     wait;
   end process;

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "golden/angle_address.hpp"
+#include "golden/multiplier.hpp"
 #include "golden/saturate.hpp"
+#include "golden/saturating_sum.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
 #include "vectors/vector_file.hpp"
@@ -7,8 +12,10 @@
 namespace halfway::vectors {
 namespace {
 
+using golden::Exact, golden::Published;
+
 template <int W, int FractionBits, int ResultBits>
-Status write_one(const std::filesystem::path& folder) {
+Status write_saturate(const std::filesystem::path& folder) {
   VectorFile file;
   const auto add = [&](std::uint64_t bits) {
     const auto value = golden::Word<W>::from_bits(bits);
@@ -37,19 +44,149 @@ Status write_one(const std::filesystem::path& folder) {
                               std::to_string(ResultBits) + ".txt"));
 }
 
+// A line: checked, enable, a, b; product, before the edge. At full speed all products, or random ones; then
+// random ones with pauses.
+Status write_multiplier_of(const std::filesystem::path& folder, int a_bits, int b_bits) {
+  Random random(static_cast<std::uint64_t>(a_bits + b_bits));
+  VectorFile file;
+  std::uint64_t product = 0;
+  bool first = true;
+  const auto add = [&](bool enable, std::uint64_t a, std::uint64_t b) {
+    file.flag(!first)
+        .flag(enable)
+        .word(a, a_bits)
+        .word(b, b_bits)
+        .word(product, a_bits + b_bits)
+        .end_vector();
+    first = false;
+    if (enable) product = golden::multiply(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+  };
+  if (a_bits + b_bits <= 16) {
+    for (std::uint64_t a = 0; a < std::uint64_t{1} << a_bits; ++a)
+      for (std::uint64_t b = 0; b < std::uint64_t{1} << b_bits; ++b) add(true, a, b);
+  } else {
+    for (int i = 0; i < 3000; ++i) add(true, random.word(a_bits), random.word(b_bits));
+  }
+  for (int i = 0; i < 1000; ++i) add(random.one_in(2), random.word(a_bits), random.word(b_bits));
+  return file.write(folder / fmt::format("{}_{}.txt", a_bits, b_bits));
+}
+
+// A line: angle; address, in_range.
+template <class Preset>
+Status write_angle_address(const std::filesystem::path& folder, int address_bits) {
+  constexpr int c_bits = Preset::c_angle_bits, c_fraction = Preset::c_angle_fraction_bits;
+  VectorFile file;
+  const auto add = [&](std::uint64_t bits) {
+    const auto angle = golden::Word<c_bits>::from_bits(bits);
+    const auto [address, in_range] = golden::angle_address<Preset>(angle, address_bits);
+    file.word(angle).word(address, address_bits).flag(in_range).end_vector();
+  };
+  if constexpr (c_bits <= 16) {
+    for (std::uint64_t bits = 0; bits < std::uint64_t{1} << c_bits; ++bits) add(bits);
+  } else {
+    Random random(static_cast<std::uint64_t>(address_bits));
+    // Both ends of every cell within three half bells of the top, and something between; every power of two
+    // with its neighbours.
+    const std::uint64_t cell = std::uint64_t{1} << (c_fraction - address_bits);
+    for (int k = -(3 << address_bits); k < 3 << address_bits; ++k) {
+      const std::uint64_t low = static_cast<std::uint64_t>(k) * cell;
+      add(low);
+      add(low + cell - 1);
+      add(low + random.bits(c_fraction - address_bits));
+    }
+    for (int bit = 0; bit < c_bits; ++bit) {
+      for (const std::uint64_t offset : {~std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{1}}) {
+        add((std::uint64_t{1} << bit) + offset);
+        add(offset - (std::uint64_t{1} << bit));
+      }
+    }
+    for (int i = 0; i < 4000; ++i) add(random.word(c_bits));
+  }
+  return file.write(folder / fmt::format("{}_{}.txt", Preset::c_name, address_bits));
+}
+
+// A line: the terms, the last first as one flat word; result.
+Status write_sum_of(const std::filesystem::path& folder, int terms, int term_bits, int fraction_bits,
+                    int result_bits) {
+  Random random(static_cast<std::uint64_t>(terms * term_bits));
+  VectorFile file;
+  std::vector<std::uint32_t> values(static_cast<std::size_t>(terms));
+  const auto add = [&] {
+    golden::SaturatingSum sum;
+    std::vector<std::uint32_t> flat(static_cast<std::size_t>(terms * term_bits + 31) / 32);
+    for (int i = 0; i < terms; ++i) {
+      const std::uint32_t value = values[static_cast<std::size_t>(i)];
+      sum.add(value);
+      golden::set_bits(flat, {"term", i * term_bits, term_bits, false, 0}, value);
+    }
+    file.words_of(flat, terms * term_bits);
+    file.word(sum.result(fraction_bits, result_bits), result_bits).end_vector();
+  };
+  if (terms * term_bits <= 16) {
+    for (std::uint64_t all = 0; all < std::uint64_t{1} << terms * term_bits; ++all) {
+      for (int i = 0; i < terms; ++i)
+        values[static_cast<std::size_t>(i)] =
+            static_cast<std::uint32_t>(golden::low_bits(all >> i * term_bits, term_bits));
+      add();
+    }
+  } else {
+    const std::uint64_t one = std::uint64_t{1} << fraction_bits, full = one << result_bits;
+    for (int i = 0; i < 3000; ++i) {
+      // Any words, all at their largest, or about as many whole steps together as the result holds.
+      const auto kind = random.between(0, 9);
+      for (std::uint32_t& value : values) {
+        const std::uint64_t word =
+            kind == 0   ? ~std::uint64_t{0}
+            : kind < 3  ? random.word(term_bits)
+            : kind == 3 ? full / values.size() + static_cast<std::uint64_t>(random.between(-2, 2))
+                        : random.bits(64) % (2 * full / values.size());
+        value = static_cast<std::uint32_t>(golden::low_bits(word, term_bits));
+      }
+      add();
+    }
+  }
+  return file.write(folder / fmt::format("{}_{}_{}_{}.txt", terms, term_bits, fraction_bits, result_bits));
+}
+
 }  // namespace
 
 Status write_saturate(const std::filesystem::path& folder) {
-  using golden::Exact, golden::Published;
-  if (auto s = write_one<16, 4, 8>(folder); !s) return s;
-  if (auto s = write_one<12, 2, 8>(folder); !s) return s;  // no bit to spare
-  if (auto s = write_one<11, 0, 8>(folder); !s) return s;
+  if (auto s = write_saturate<16, 4, 8>(folder); !s) return s;
+  if (auto s = write_saturate<12, 2, 8>(folder); !s) return s;  // no bit to spare
+  if (auto s = write_saturate<11, 0, 8>(folder); !s) return s;
   if (auto s =
-          write_one<Exact::c_intensity_bits, Exact::c_intensity_fraction_bits, Exact::c_colour_bits>(folder);
+          write_saturate<Exact::c_intensity_bits, Exact::c_intensity_fraction_bits, Exact::c_colour_bits>(
+              folder);
       !s)
     return s;
-  return write_one<Published::c_intensity_bits, Published::c_intensity_fraction_bits,
-                   Published::c_colour_bits>(folder);
+  return write_saturate<Published::c_intensity_bits, Published::c_intensity_fraction_bits,
+                        Published::c_colour_bits>(folder);
+}
+
+Status write_multiplier(const std::filesystem::path& folder) {
+  for (const auto& [a, b] : {std::pair{1, 1}, std::pair{8, 8}, std::pair{4, 9}, std::pair{8, 18},
+                             std::pair{18, 12}, std::pair{32, 32}})
+    if (auto s = write_multiplier_of(folder, a, b); !s) return s;
+  return Ok{};
+}
+
+Status write_angle_address(const std::filesystem::path& folder) {
+  for (const int address_bits : {3, 9, 12})
+    if (auto s = write_angle_address<Exact>(folder, address_bits); !s) return s;
+  for (const int address_bits : {4, 6, 12})
+    if (auto s = write_angle_address<Published>(folder, address_bits); !s) return s;
+  return Ok{};
+}
+
+Status write_saturating_sum(const std::filesystem::path& folder) {
+  struct Sizes {
+    int terms, term_bits, fraction_bits, result_bits;
+  };
+  for (const Sizes& s : {Sizes{1, 16, 4, 8}, Sizes{2, 8, 2, 6}, Sizes{2, 6, 0, 6}, Sizes{3, 5, 1, 4},
+                         Sizes{5, 3, 0, 4}, Sizes{3, 24, 14, 8}, Sizes{33, 26, 16, 8}})
+    if (auto written = write_sum_of(folder, s.terms, s.term_bits, s.fraction_bits, s.result_bits); !written)
+      return written;
+  return Ok{};
 }
 
 }  // namespace halfway::vectors

@@ -8,7 +8,11 @@
 
 namespace halfway::vectors {
 
+Status write_cosine_rom(const std::filesystem::path& folder);
 Status write_saturate(const std::filesystem::path& folder);
+Status write_multiplier(const std::filesystem::path& folder);
+Status write_angle_address(const std::filesystem::path& folder);
+Status write_saturating_sum(const std::filesystem::path& folder);
 Status write_parameter_register(const std::filesystem::path& folder);
 Status write_stream_register(const std::filesystem::path& folder);
 Status write_line_interpolator(const std::filesystem::path& folder);
@@ -16,6 +20,9 @@ Status write_z_interpolator(const std::filesystem::path& folder);
 Status write_quadratic_interpolator(const std::filesystem::path& folder);
 Status write_edge_walker(const std::filesystem::path& folder);
 Status write_triangle_walker(const std::filesystem::path& folder);
+Status write_diffuse_slice(const std::filesystem::path& folder);
+Status write_specular_slice(const std::filesystem::path& folder);
 Status write_quadratic_shader(const std::filesystem::path& folder);
+Status write_spherical_shader(const std::filesystem::path& folder);
 
 }  // namespace halfway::vectors

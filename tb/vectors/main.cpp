@@ -13,7 +13,11 @@ int main(int argc, char** argv) {
   using namespace halfway;
   using namespace halfway::vectors;
   constexpr std::array entities = {
+      std::pair{"cosine_rom", &write_cosine_rom},
       std::pair{"saturate", &write_saturate},
+      std::pair{"multiplier", &write_multiplier},
+      std::pair{"angle_address", &write_angle_address},
+      std::pair{"saturating_sum", &write_saturating_sum},
       std::pair{"parameter_register", &write_parameter_register},
       std::pair{"stream_register", &write_stream_register},
       std::pair{"line_interpolator", &write_line_interpolator},
@@ -21,7 +25,10 @@ int main(int argc, char** argv) {
       std::pair{"quadratic_interpolator", &write_quadratic_interpolator},
       std::pair{"edge_walker", &write_edge_walker},
       std::pair{"triangle_walker", &write_triangle_walker},
+      std::pair{"diffuse_slice", &write_diffuse_slice},
+      std::pair{"specular_slice", &write_specular_slice},
       std::pair{"quadratic_shader", &write_quadratic_shader},
+      std::pair{"spherical_shader", &write_spherical_shader},
   };
   bool found = false;
   for (const auto& [name, write] : entities) {

@@ -67,7 +67,7 @@ Status write_walker(const std::filesystem::path& folder) {
       for (const WalkedLine& line : walk_lines<Preset>(init)) {
         line_file.word(line.y, Preset::c_pixel_y_bits).word(line.start).word(line.stop);
         line_file.flag(line.pixels() == 0).flag(line.last).flag(line.carry).end_vector();
-        const std::int64_t first = clock.take_line(line.pixels());
+        const std::int64_t first = clock.take_line(line.pixels()) + 1;
         for (std::int64_t i = 0; i < line.pixels(); ++i) {
           const std::int64_t x = line.start.value() + (line.backward ? -i : i);
           fragments.word(line.triangle, Preset::c_triangle_bits).word(line.y, Preset::c_pixel_y_bits);

@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+// For each shader and set of triangles: init: the vector, and the clock in which it is taken at full speed;
+// fragments: triangle, y, x, z, red, green, blue, and the clock in which it is given out at full speed;
+// probes: their words in the order of the events.
+#include <fmt/format.h>
+
+#include <array>
+
 #include "golden/quadratic_shader.hpp"
+#include "golden/spherical_shader.hpp"
 #include "vectors/entities.hpp"
+#include "vectors/light_parts.hpp"
 #include "vectors/random.hpp"
 #include "vectors/triangles.hpp"
 #include "vectors/vector_file.hpp"
@@ -9,6 +18,20 @@ namespace halfway::vectors {
 namespace {
 
 using golden::Exact, golden::Published, golden::SpanXWord;
+
+constexpr std::pair<Mix, const char*> c_sets[] = {{Mix::dense, "dense"}, {Mix::mixed, "mixed"}};
+
+void add_clock(VectorFile& file, std::int64_t clock) {
+  file.word(static_cast<std::uint64_t>(clock), 32).end_vector();
+}
+
+template <class Preset>
+void add_fragment(VectorFile& file, const Fragment& f, std::int64_t clock) {
+  file.word(f.triangle, Preset::c_triangle_bits).word(f.y, Preset::c_pixel_y_bits);
+  file.word(f.x, Preset::c_pixel_x_bits).word(f.z, Preset::c_depth_bits);
+  for (const std::uint8_t colour : {f.red, f.green, f.blue}) file.word(colour, Preset::c_colour_bits);
+  add_clock(file, clock);
+}
 
 // Colours that cross the range slowly; one channel in six is left as it is, random words.
 template <class Preset>
@@ -26,16 +49,14 @@ void put_colours(InitVector& init, Random& random, int channels) {
   }
 }
 
-// init: the vector, and the clock in which it is taken at full speed; fragments: triangle, y, x, z, red,
-// green, blue, and the clock in which it is given out at full speed; probes: their words in the order of the
-// events.
 template <class Preset, int Channels>
-Status write_shader(const std::filesystem::path& folder) {
+Status write_quadratic(const std::filesystem::path& folder) {
   using Shader = golden::QuadraticShader<Preset, Channels>;
   Random random(Shader::c_init_bits);
-  for (const auto& [mix, name] : {std::pair{Mix::dense, "dense"}, std::pair{Mix::mixed, "mixed"}}) {
+  for (const auto& [mix, name] : c_sets) {
     VectorFile inits, fragments, line_probes, span_probes;
-    struct Watch {
+    struct Watch : golden::Unwatched {
+      Watch(VectorFile& l, VectorFile& s) : lines(l), spans(s) {}
       VectorFile &lines, &spans;
       void line(const Shader& s) { lines.words_of(s.line_probe(), Shader::c_probe_bits).end_vector(); }
       void span(const Shader& s, SpanXWord x) {
@@ -48,26 +69,19 @@ Status write_shader(const std::filesystem::path& folder) {
     for (InitVector init :
          random_triangles<Preset>(random, mix, Shader::c_init_bits, mix == Mix::dense ? 700 : 1000)) {
       put_colours<Preset>(init, random, Channels);
-      inits.words_of(init, Shader::c_init_bits).word(static_cast<std::uint64_t>(taken), 32).end_vector();
+      add_clock(inits.words_of(init, Shader::c_init_bits), taken);
       // The buffer in front takes the next vector in the clock in which the walker, a clock behind, takes
       // this one.
       taken = clock.take_init() + 1;
       std::vector<std::int64_t> clocks;
       for (const WalkedLine& line : walk_lines<Preset>(init)) {
-        const std::int64_t first = clock.take_line(line.pixels());
+        // A clock in the buffer in front, one to the span stage, and one in the register behind.
+        const std::int64_t first = clock.take_line(line.pixels()) + 3;
         for (std::int64_t i = 0; i < line.pixels(); ++i) clocks.push_back(first + i);
       }
       auto at = clocks.begin();
       twin.draw(
-          init,
-          [&](const Fragment& f) {
-            fragments.word(f.triangle, Preset::c_triangle_bits).word(f.y, Preset::c_pixel_y_bits);
-            fragments.word(f.x, Preset::c_pixel_x_bits).word(f.z, Preset::c_depth_bits);
-            for (const std::uint8_t colour : {f.red, f.green, f.blue})
-              fragments.word(colour, Preset::c_colour_bits);
-            // A clock in the buffer in front, and one in the register behind.
-            fragments.word(static_cast<std::uint64_t>(*at++ + 2), 32).end_vector();
-          },
+          init, [&](const Fragment& f) { add_fragment<Preset>(fragments, f, *at++); },
           Watch{line_probes, span_probes});
     }
     const std::string stem = std::string(Preset::c_name) + std::to_string(Channels) + '_' + name;
@@ -79,13 +93,136 @@ Status write_shader(const std::filesystem::path& folder) {
   return Ok{};
 }
 
+// A configuration of the spherical shader; tb/shaders/spherical_shader_tb.vhd has the same.
+struct Spherical {
+  const char* name;
+  golden::SphericalConfig config;
+  bool probe;
+  std::int64_t pixels;
+};
+
+constexpr Spherical c_exact_shaders[] = {
+    {"white_highlights", {3, 1, true, true, 1, 2, 9, 8}, true, 700},
+    {"two_lights", {3, 2, true, true, 3, 22, 9, 8}, true, 700},
+    {"grey", {1, 1, true, true, 1, 16, 9, 8}, false, 700},
+    {"no_light", {3, 0, true, true, 1, 2, 9, 8}, true, 300},
+    {"highlights", {3, 1, false, true, 3, 9, 9, 8}, true, 700},
+    {"matte", {3, 1, true, false, 1, 2, 9, 8}, true, 500},
+    {"sixteen_lights", {3, 16, true, true, 1, 3, 9, 8}, false, 150},
+    {"no_effect", {3, 2, false, false, 1, 2, 9, 8}, false, 200},
+};
+constexpr Spherical c_published_shaders[] = {
+    {"published", {3, 1, true, true, 3, 2, 6, 6}, true, 700},
+    {"published_4_4", {3, 2, true, true, 1, 2, 4, 4}, false, 500},
+    {"published_highlights", {1, 1, false, true, 1, 2, 6, 6}, true, 500},
+};
+
+template <class Preset>
+InitVector random_record(const golden::SphericalConfig& config, Random& random) {
+  const golden::SphericalLayout<Preset> layout(config);
+  const int terms = 1 + 2 * config.lights;
+  InitVector record = random_vector(random, layout.init_bits());
+  for (int light = 0; light < config.lights; ++light) {
+    if (layout.has_diffuse_part())
+      put_diffuse_part<Preset>(record, random, layout.diffuse_channels(), terms, layout.diffuse_low(light));
+    if (config.specular)
+      put_specular_part<Preset>(record, random, config.highlight_channels, terms, layout.specular_low(light));
+  }
+  return record;
+}
+
+template <class Preset>
+Status write_spherical(const std::filesystem::path& folder, const Spherical& spherical) {
+  using Shader = golden::SphericalShader<Preset>;
+  struct Watch {
+    std::array<VectorFile, 4>& probes;
+    void add(int event, const Shader& s, const std::vector<std::uint32_t>& words) {
+      probes[static_cast<std::size_t>(event)].words_of(words, s.probe_bits()).end_vector();
+    }
+    void line(const Shader& s) { add(0, s, s.line_probe()); }
+    void span(const Shader& s, SpanXWord x) { add(1, s, s.span_probe(x)); }
+    void sample(const Shader& s, SpanXWord) { add(2, s, s.sample_probe()); }
+    void product(const Shader& s, SpanXWord) { add(3, s, s.product_probe()); }
+  };
+  const golden::SphericalLayout<Preset> layout(spherical.config);
+  Random random(static_cast<std::uint64_t>(layout.probe_bits()));
+  for (const auto& [mix, name] : c_sets) {
+    VectorFile inits, fragments;
+    std::array<VectorFile, 4> probes;
+    Shader twin(spherical.config);
+    WalkerClock clock(layout.record_bits() != 0);
+    std::int64_t taken = 0;
+    const auto add_init = [&](const InitVector& vector) {
+      add_clock(inits.words_of(vector, layout.init_bits()), taken);
+    };
+    std::int64_t given = 0, last_pixels = 0;
+    for (InitVector group : random_triangles<Preset>(random, mix, layout.init_bits(), spherical.pixels)) {
+      for (int c = 0; c < spherical.config.channels; ++c)
+        put_colour(group, Preset::ambient_channel_at::ambient, random, 5, layout.ambient_low(c));
+      const auto lines = walk_lines<Preset>(group);
+      add_init(group);
+      // As in write_quadratic; a line's record leaves the buffer with its line.
+      taken = clock.take_init() + 1;
+      std::vector<std::int64_t> clocks;
+      for (const WalkedLine& line : lines) {
+        const std::int64_t line_taken = clock.take_line(line.pixels());
+        if (layout.record_bits() != 0) {
+          const InitVector record = random_record<Preset>(spherical.config, random);
+          add_init(record);
+          group.insert(group.end(), record.begin(), record.end());
+          taken = line_taken + 1;
+        }
+        // Two clocks more than in the quadratic shader: samples and products.
+        const std::int64_t first = line_taken + 5;
+        for (std::int64_t i = 0; i < line.pixels(); ++i) clocks.push_back(first + i);
+      }
+      if (twin.group(group) * twin.init_words() != group.size())
+        return tool_failed(fmt::format("{}: a group of {} vectors, expected {}", spherical.name,
+                                       twin.group(group), group.size() / twin.init_words()));
+      // What the header of spherical_shader.vhd promises.
+      for (std::size_t i = 0; mix == Mix::dense && i < clocks.size(); ++i) {
+        const bool may_lose = i == 0 && layout.record_bits() != 0 && last_pixels == 1;
+        const std::int64_t lost = given == 0 ? 0 : clocks[i] - given - 1;
+        if (lost != (may_lose ? 1 : 0))
+          return tool_failed(
+              fmt::format("{}: {} clocks lost before clock {}", spherical.name, lost, clocks[i]));
+        given = clocks[i];
+      }
+      last_pixels = lines.back().pixels();
+      auto at = clocks.begin();
+      const auto emit = [&](const Fragment& f) { add_fragment<Preset>(fragments, f, *at++); };
+      if (spherical.probe)
+        twin.draw(group, emit, Watch{probes});
+      else
+        twin.draw(group, emit);
+    }
+    const std::string stem = std::string(spherical.name) + '_' + name;
+    if (auto s = inits.write(folder / (stem + "_init.txt")); !s) return s;
+    if (auto s = fragments.write(folder / (stem + "_fragments.txt")); !s) return s;
+    if (!spherical.probe) continue;
+    constexpr const char* c_events[] = {"line", "span", "sample", "product"};
+    for (std::size_t event = 0; event < probes.size(); ++event)
+      if (auto s = probes[event].write(folder / fmt::format("{}_{}_probes.txt", stem, c_events[event])); !s)
+        return s;
+  }
+  return Ok{};
+}
+
 }  // namespace
 
 Status write_quadratic_shader(const std::filesystem::path& folder) {
-  if (auto s = write_shader<Exact, 3>(folder); !s) return s;
-  if (auto s = write_shader<Exact, 1>(folder); !s) return s;
-  if (auto s = write_shader<Published, 3>(folder); !s) return s;
-  return write_shader<Published, 1>(folder);
+  if (auto s = write_quadratic<Exact, 3>(folder); !s) return s;
+  if (auto s = write_quadratic<Exact, 1>(folder); !s) return s;
+  if (auto s = write_quadratic<Published, 3>(folder); !s) return s;
+  return write_quadratic<Published, 1>(folder);
+}
+
+Status write_spherical_shader(const std::filesystem::path& folder) {
+  for (const Spherical& spherical : c_exact_shaders)
+    if (auto s = write_spherical<Exact>(folder, spherical); !s) return s;
+  for (const Spherical& spherical : c_published_shaders)
+    if (auto s = write_spherical<Published>(folder, spherical); !s) return s;
+  return Ok{};
 }
 
 }  // namespace halfway::vectors

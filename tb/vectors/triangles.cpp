@@ -10,11 +10,7 @@ using golden::Exact, golden::Published;
 
 template <class Preset>
 InitVector random_words(Random& random, int init_bits) {
-  InitVector init(static_cast<std::size_t>(init_bits + 31) / 32);
-  random.fill(init);
-  // Bits above the vector do not exist.
-  if (init_bits % 32 != 0)
-    init.back() = static_cast<std::uint32_t>(golden::low_bits(init.back(), init_bits % 32));
+  InitVector init = random_vector(random, init_bits);
   for (const golden::Field& field : Preset::c_init_header) set_bits(init, field, random.word(field.bits));
   return init;
 }
@@ -35,6 +31,13 @@ void put_garbage_lines(InitVector& init, Random& random) {
 }
 
 }  // namespace
+
+InitVector random_vector(Random& random, int bits) {
+  InitVector vector(static_cast<std::size_t>(bits + 31) / 32);
+  random.fill(vector);
+  if (bits % 32 != 0) vector.back() = static_cast<std::uint32_t>(golden::low_bits(vector.back(), bits % 32));
+  return vector;
+}
 
 std::vector<Walk> random_walks(Random& random) {
   constexpr FrameSize c_frames[] = {{64, 48}, {64, 48}, {64, 48}, {9, 700}, {4096, 4096}};

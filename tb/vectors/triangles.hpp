@@ -15,6 +15,9 @@ namespace halfway::vectors {
 
 using InitVector = std::vector<std::uint32_t>;
 
+/// `bits` random bits; those above are zero.
+InitVector random_vector(Random& random, int bits);
+
 /// Walks of one random triangle: ordinary, sliver, about a pixel, flat-sided, subdivided or cut by the frame.
 std::vector<Walk> random_walks(Random& random);
 
@@ -49,23 +52,26 @@ std::vector<WalkedLine> walk_lines(const InitVector& init) {
 /// rtl/raster/triangle_walker.vhd promises: the line stage stands a line ahead of the span stage.
 class WalkerClock {
  public:
+  /// `records`: the buffer in front holds a record a line, so the next header comes only after the last line.
+  explicit WalkerClock(bool records = false) : header_delay_(records ? 1 : 0), line_free_(-header_delay_) {}
+
   /// The clock in which the next init vector is taken.
   std::int64_t take_init() {
-    const std::int64_t taken = line_free_;
+    const std::int64_t taken = line_free_ + header_delay_;
     line_there_ = taken + 1;
     return taken;
   }
-  /// The clock in which the line's first pixel stands at the output; it leaves in that clock, the others
-  /// follow.
+  /// The clock in which the line, and its record, is taken. Its first pixel stands at the output a clock
+  /// later and leaves in that clock, the others follow.
   std::int64_t take_line(std::int64_t pixels) {
     line_free_ = pixels == 0 ? line_there_ : std::max(line_there_, span_free_);
     line_there_ = line_free_ + 1;
     if (pixels != 0) span_free_ = line_free_ + pixels;
-    return line_free_ + 1;
+    return line_free_;
   }
 
  private:
-  std::int64_t line_free_ = 0, line_there_ = 0, span_free_ = 0;
+  std::int64_t header_delay_, line_free_, line_there_ = 0, span_free_ = 0;
 };
 
 /// What a set of triangles is for.

@@ -1,0 +1,273 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- Drives a shader and checks it, every fragment and every event of its probe, against the golden twin, in order, on two
+-- sets: triangles without an empty line ("dense"), and a mix with empty lines and garbage ("mixed"). At full speed
+-- every init vector is taken and every fragment given out in the very clock that the entity's header promises. Then
+-- with both sides stalling at random, and with resets in the middle.
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.formats_pkg.all;
+use work.tb_pkg.all;
+
+entity shader_checker is
+  generic (
+    g_exact      : boolean;
+    g_init_bits  : positive;
+    g_probe_bits : positive;
+    g_probe      : boolean;
+    -- Of the probe, the fields that an event is about: c_events times g_probe_bits, the event of the probe's lowest bit
+    -- lowest. An event without a field must not come.
+    g_fields     : std_logic_vector;
+    g_latency    : positive; -- clocks from a triangle's first init vector taken to its first fragment
+    g_gapless    : boolean;  -- no clock is lost between triangles without an empty line
+    g_stem       : string    -- of the files' names
+  );
+  port (
+    clk               : buffer std_logic := '0';
+    reset             : out    std_logic := '1';
+    init_valid        : buffer std_logic := '0';
+    init_ready        : in     std_logic;
+    init_data         : out    std_logic_vector(g_init_bits - 1 downto 0) := (others => '0');
+    fragment_valid    : in     std_logic;
+    fragment_ready    : buffer std_logic := '0';
+    fragment_triangle : in     std_logic_vector(formats(g_exact).triangle.bits - 1 downto 0);
+    fragment_y        : in     std_logic_vector(formats(g_exact).pixel_y.bits - 1 downto 0);
+    fragment_x        : in     std_logic_vector(formats(g_exact).pixel_x.bits - 1 downto 0);
+    fragment_z        : in     std_logic_vector(formats(g_exact).depth.bits - 1 downto 0);
+    fragment_red      : in     std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
+    fragment_green    : in     std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
+    fragment_blue     : in     std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
+    busy              : in     std_logic;
+    probe             : in     std_logic_vector(g_probe_bits - 1 downto 0);
+    finished          : buffer boolean := false
+  );
+end entity;
+
+architecture sim of shader_checker is
+  constant c_idle_limit : positive := 10_000; -- clocks in which nothing moves: a hang
+
+  subtype probe_t is std_logic_vector(g_probe_bits - 1 downto 0);
+  type    masks_t is array (0 to 3) of probe_t;
+
+  function masks return masks_t is
+    constant c_fields : std_logic_vector(g_fields'length - 1 downto 0) := g_fields;
+
+    variable result : masks_t;
+  begin
+    for event in masks_t'range loop
+      result(event) := c_fields((event + 1) * g_probe_bits - 1 downto event * g_probe_bits);
+    end loop;
+    return result;
+  end function;
+
+  constant c_masks : masks_t := masks;
+
+  signal payload : std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length + fragment_z'length
+    + 3 * fragment_red'length - 1 downto 0);
+begin
+  payload <= fragment_triangle & fragment_y & fragment_x & fragment_z & fragment_red & fragment_green & fragment_blue;
+
+  clk <= not clk after c_half_period when not finished;
+
+  run : process is
+    variable inits, fragments                                       : vectors_t;
+    variable line_probes, span_probes, sample_probes, product_probes : vectors_t;
+
+    procedure check_flag (name : string; got, expected : std_logic; clock : integer) is
+    begin
+      assert got = expected
+        report g_stem & ": clock " & to_string(clock) & ": " & name & " is " & to_string(got) & ", expected "
+        & to_string(expected)
+        severity failure;
+    end procedure;
+
+    impure function has_event (event : natural) return boolean is
+    begin
+      return g_probe and c_masks(event) /= (probe_t'range => '0');
+    end function;
+
+    procedure open_event (event : natural; variable probes : inout vectors_t; name : string) is
+    begin
+      if has_event(event) then
+        probes.open_file(name & "_probes.txt");
+      end if;
+    end procedure;
+
+    procedure check_event (event : natural; variable probes : inout vectors_t; name : string; clock : integer) is
+    begin
+      if not has_event(event) or probe(event) /= '1' then
+        check_flag(name & "_event of the probe", probe(event), '0', clock);
+      else
+        probes.expect_vector(name & " event");
+        probes.check_word("probe", probe, c_masks(event));
+      end if;
+    end procedure;
+
+    procedure close_event (event : natural; variable probes : inout vectors_t; name : string; complete : boolean) is
+    begin
+      if has_event(event) then
+        if complete and probes.next_vector then
+          probes.fail("this " & name & " event did not come");
+        end if;
+        probes.close_file;
+      end if;
+    end procedure;
+
+    -- One pass over a set. Where it stalls, init is offered in one clock of 2**init_pause, and fragments are taken in
+    -- one of 2**fragment_pause. reset_at is the clock of a reset that ends the pass; 0: none.
+    procedure pass (set : string; seed, init_pause, fragment_pause, reset_at : natural) is
+      constant c_full : boolean := init_pause = 0 and fragment_pause = 0;
+
+      variable random     : unsigned(31 downto 0) := to_unsigned(seed, 32);
+      variable init_now   : std_logic_vector(init_data'range);
+      variable held       : std_logic_vector(payload'range);
+      variable to_come    : boolean;          -- an init vector not yet taken
+      variable offered    : boolean := false;
+      variable waiting    : boolean := false; -- the last clock's fragment was not taken
+      variable just_taken : boolean := false; -- an init vector, in the last clock
+      variable clock      : integer := -1;    -- 0: the first init vector is taken
+      variable ticks      : natural := 0;
+      variable idle       : natural := 0;
+      variable taken      : natural := 0;
+      variable given      : natural := 0;
+      variable init_clock : natural;
+    begin
+      inits.open_file(g_stem & set & "_init.txt");
+      fragments.open_file(g_stem & set & "_fragments.txt");
+      open_event(0, line_probes, g_stem & set & "_line");
+      open_event(1, span_probes, g_stem & set & "_span");
+      open_event(2, sample_probes, g_stem & set & "_sample");
+      open_event(3, product_probes, g_stem & set & "_product");
+      to_come := inits.next_vector;
+      inits.read_word(init_now);
+      init_clock := inits.read_number;
+
+      loop
+        random  := next_random(random);
+        offered := to_come and (offered or chance(random(19 downto 12), init_pause));
+        init_valid <= to_flag(offered);
+        if offered then
+          init_data <= init_now;
+        else
+          init_data <= (others => '1');
+        end if;
+        fragment_ready <= to_flag(chance(random(30 downto 23), fragment_pause));
+        ticks := ticks + 1;
+        reset <= to_flag(ticks = reset_at);
+        wait until rising_edge(clk);
+        exit when ticks = reset_at;
+        if clock >= 0 or (init_valid = '1' and init_ready = '1') then
+          clock := clock + 1;
+        end if;
+        idle := idle + 1;
+
+        if just_taken then
+          check_flag("busy with a vector just taken", busy, '1', clock);
+        end if;
+        if waiting then
+          check_flag("fragment_valid of a fragment not taken", fragment_valid, '1', clock);
+        end if;
+        if fragment_valid = '1' then
+          check_flag("busy with a fragment to give", busy, '1', clock);
+          if not waiting then
+            fragments.expect_vector("fragment " & to_string(given));
+            given := given + 1;
+            fragments.check_word("triangle", fragment_triangle);
+            fragments.check_word("y", fragment_y);
+            fragments.check_word("x", fragment_x);
+            fragments.check_word("z", fragment_z);
+            fragments.check_word("red", fragment_red);
+            fragments.check_word("green", fragment_green);
+            fragments.check_word("blue", fragment_blue);
+            if c_full then
+              fragments.check_word("clock", std_logic_vector(to_unsigned(clock, 32)));
+              if set = "dense" and (given = 1 or g_gapless) and clock /= given - 1 + g_latency then
+                fragments.fail("comes in clock " & to_string(clock) & ", expected " & to_string(given - 1 + g_latency));
+              end if;
+            end if;
+          else
+            assert payload = held
+              report g_stem & ": fragment " & to_string(given - 1) & " changes while it waits, from " & to_hstring(held)
+              & " to " & to_hstring(payload)
+              severity failure;
+          end if;
+          held := payload;
+          idle := 0;
+        end if;
+        waiting := fragment_valid = '1' and fragment_ready = '0';
+
+        if g_probe then
+          check_event(0, line_probes, "line", clock);
+          check_event(1, span_probes, "span", clock);
+          check_event(2, sample_probes, "sample", clock);
+          check_event(3, product_probes, "product", clock);
+          if probe(0) = '1' then
+            idle := 0;
+          end if;
+        else
+          assert probe = (probe'range => '0')
+            report g_stem & ": probe is " & to_hstring(probe) & " though there is none" severity failure;
+        end if;
+
+        just_taken := init_valid = '1' and init_ready = '1';
+        if just_taken then
+          if c_full and clock /= init_clock then
+            inits.fail("is taken in clock " & to_string(clock) & ", expected " & to_string(init_clock));
+          end if;
+          offered := false;
+          taken   := taken + 1;
+          to_come := inits.next_vector;
+          if to_come then
+            inits.read_word(init_now);
+            init_clock := inits.read_number;
+          end if;
+          idle := 0;
+        elsif not to_come then
+          exit when busy = '0' and fragment_valid = '0';
+        end if;
+
+        assert idle < c_idle_limit
+          report g_stem & set & ": nothing moved for " & to_string(c_idle_limit) & " clocks after "
+          & to_string(taken) & " init vectors and " & to_string(given) & " fragments"
+          severity failure;
+      end loop;
+
+      if ticks /= reset_at and fragments.next_vector then
+        fragments.fail("this fragment was not given out");
+      end if;
+      inits.close_file;
+      fragments.close_file;
+      close_event(0, line_probes, "line", ticks /= reset_at);
+      close_event(1, span_probes, "span", ticks /= reset_at);
+      close_event(2, sample_probes, "sample", ticks /= reset_at);
+      close_event(3, product_probes, "product", ticks /= reset_at);
+
+      -- Idle, after a reset as after the last triangle.
+      init_valid     <= '0';
+      reset          <= '0';
+      fragment_ready <= '1';
+      for i in 1 to 3 loop
+        wait until rising_edge(clk);
+        check_flag("init_ready when idle", init_ready, '1', clock);
+        check_flag("fragment_valid when idle", fragment_valid, '0', clock);
+        check_flag("busy when idle", busy, '0', clock);
+      end loop;
+    end procedure;
+
+    constant c_resets : integer_vector := (2, 3, 4, 5, 6, 7, 8, 9, 23, 311);
+  begin
+    wait until rising_edge(clk);
+    wait until rising_edge(clk);
+    pass("dense", 1, 0, 0, 0);
+    pass("mixed", 1, 0, 0, 0);
+    pass("mixed", 12, 1, 1, 0);
+    pass("mixed", 13, 4, 0, 0);
+    pass("dense", 14, 0, 1, 0);
+    for i in c_resets'range loop
+      pass("mixed", 20 + i, 0, i mod 2, c_resets(i));
+    end loop;
+    pass("mixed", 1, 0, 0, 0);
+    finished <= true;
+    wait;
+  end process;
+end architecture;

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random words for a light's parts of a line record.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "golden/formats.hpp"
+#include "vectors/random.hpp"
+#include "vectors/triangles.hpp"
+
+namespace halfway::vectors {
+
+/// Colour steps of which a few add up to white, `terms` of them in a pixel; some are any word.
+inline void put_colour(InitVector& vector, const golden::Field& field, Random& random, int terms, int low) {
+  const std::int64_t most = (std::int64_t{300} << field.fraction_bits) / terms;
+  const auto word =
+      random.one_in(8) ? random.word(field.bits) : static_cast<std::uint64_t>(random.between(0, most));
+  set_bits(vector, field, word, low);
+}
+
+/// An angle about the bell's ends that moves a little a pixel; some are any words, of any slope.
+template <class At>
+void put_angle(InitVector& vector, Random& random, int low) {
+  if (random.one_in(8)) {
+    set_bits(vector, At::angle, random.word(At::angle.bits), low);
+    set_bits(vector, At::slope, random.word(At::slope.bits), low);
+    return;
+  }
+  const std::int64_t one = std::int64_t{1} << At::angle.fraction_bits;
+  const auto angle = random.between(-one * 5 / 4, one * 5 / 4), slope = random.between(-one / 12, one / 12);
+  set_bits(vector, At::angle, static_cast<std::uint64_t>(angle), low);
+  set_bits(vector, At::slope, static_cast<std::uint64_t>(slope), low);
+}
+
+/// A light's diffuse part at bit `low`; `terms` as in put_colour.
+template <class Preset>
+void put_diffuse_part(InitVector& vector, Random& random, int channels, int terms, int low) {
+  put_angle<typename Preset::diffuse_header_at>(vector, random, low);
+  for (int c = 0; c < channels; ++c)
+    put_colour(vector, Preset::diffuse_channel_at::factor, random, terms,
+               low + Preset::c_diffuse_header_bits + c * Preset::c_diffuse_channel_bits);
+}
+
+/// A light's specular part; in one of six any power, a table or not.
+template <class Preset>
+void put_specular_part(InitVector& vector, Random& random, int channels, int terms, int low) {
+  put_angle<typename Preset::specular_header_at>(vector, random, low);
+  if constexpr (std::is_same_v<Preset, golden::Exact>) {
+    const auto power = random.one_in(6) ? random.bits(Preset::c_power_bits)
+                                        : static_cast<std::uint64_t>(random.between(0, 4));
+    set_bits(vector, Preset::specular_header_at::power, power, low);
+  }
+  for (int c = 0; c < channels; ++c)
+    put_colour(vector, Preset::specular_channel_at::factor, random, terms,
+               low + Preset::c_specular_header_bits + c * Preset::c_specular_channel_bits);
+}
+
+}  // namespace halfway::vectors
