@@ -42,9 +42,9 @@ const Format& format_of(const PresetFormats& preset, std::string_view name) {
   return *it;
 }
 
-// What the spherical shader has beside the walk: with the header of `init` a word a channel; then for each line
-// and light a diffuse and a specular part. Angles are in units of half a bell: 1 is where the bell has come down
-// to zero.
+// What the spherical shader has beside the walk: with the header of `init` a word a channel; then for each
+// line and light a diffuse and a specular part. Angles are in units of half a bell: 1 is where the bell has
+// come down to zero.
 std::vector<Layout> spherical_layouts(bool exact) {
   std::vector<Field> specular = {{"angle", "angle"}, {"slope", "angle"}};
   if (exact) specular.push_back({"power", "power"});
@@ -222,7 +222,8 @@ std::vector<PresetFormats> preset_formats() {
              "second differences, each word rounded to 2^-29, k = 4095 lines + 8190 steps: off by at most "
              "(1 + k + k^2/2) 2^-29 = 0.15 of a colour step; samples up to 1023 stay within +-2046"},
             {"angle", true, 10, 22,
-             "half bells; start and slope each rounded to 2^-23, at most 4095 steps: off by at most 2^-11, a quarter "
+             "half bells; start and slope each rounded to 2^-23, at most 4095 steps: off by at most 2^-11, a "
+             "quarter "
              "of a 2^-9 cell; exponents up to 10^6 stay within +-1024"},
             {"power", false, 3, 0, "which table: cosine to the power 2^word"}}),
        joined(exact_layouts(), spherical_layouts(true))},
@@ -232,7 +233,8 @@ std::vector<PresetFormats> preset_formats() {
                {"edge_x", true, 13, 18, "32 bits, as the quadratic paper's other registers"},
                {"intensity", true, 11, 20, "32 bits, 20 of them fraction: the quadratic paper's figure 7"},
                {"angle", true, 0, 11,
-                "12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the "
+                "12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at "
+                "the "
                 "bell's ends"},
                {"power", false, 0, 0, "cosine squared alone"}}),
        joined(published_layouts(), spherical_layouts(false))},
