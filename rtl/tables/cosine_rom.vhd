@@ -32,7 +32,8 @@ end entity;
 
 architecture rtl of cosine_rom is
 
-  type rom_t is array (0 to 2 ** g_address_bits - 1) of std_logic_vector(g_data_bits - 1 downto 0);
+  -- Downwards: GHDL's netlist reads an upward array by subtracting the address from its last.
+  type rom_t is array (2 ** g_address_bits - 1 downto 0) of std_logic_vector(g_data_bits - 1 downto 0);
 
   type reg_t is record
     sample : std_logic_vector(g_data_bits - 1 downto 0);
