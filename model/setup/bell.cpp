@@ -43,7 +43,8 @@ double steepness(int power) {
 // entries, and the angle word's drift.
 constexpr double c_angle_error = 0x1p-10 + 0x1p-11;
 
-// cos^n sampled evenly from 0 to where it is below 4e-6.
+// cos^n sampled evenly from 0 to where it is below 4e-6. For n >= 2 no second derivative here or of a bell
+// fitted to it exceeds 1.1 n: between samples the error is 7e-6 larger at most, and beyond them 4e-6.
 struct SampledLobe {
   double step;
   std::vector<double> value;  // from x = step on
@@ -114,12 +115,14 @@ double published_scale(double exponent) {
   // 0.41 t^2 at q.
   const double target = 1.0 / (held(exponent) + 1.0);
   double low = std::sqrt(target), high = c_half_pi * low;
-  for (;;) {
-    const double t = std::midpoint(low, high), sine = c_half_pi * std::sin(t);
-    if (t <= low || t >= high) return c_half_pi / (2 * t);
+  double t = std::midpoint(low, high);
+  while (low < t && t < high) {
+    const double sine = c_half_pi * std::sin(t);
     const double integral = (sine * sine - t * t) / (c_half_pi * c_half_pi - t * t);
     (integral < target ? low : high) = t;
+    t = std::midpoint(low, high);
   }
+  return c_half_pi / (2 * t);
 }
 
 double fit_error(double exponent, const Bell& bell) {

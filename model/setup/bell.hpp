@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bell that stands for a highlight's cos^n, so that few tables of cosines serve every exponent n.
+// The bell that stands for a highlight's cos^n, so that few tables of cosines serve every exponent n >= 1.
+// Here a smaller one is taken as 1, one above 10^15 as 10^15.
 #pragma once
 
 namespace halfway {
@@ -8,8 +9,8 @@ namespace halfway {
 /// words carry the scale, the factor the gain.
 struct Bell {
   int power;
-  double scale;
-  double gain = 1.0;
+  double scale;       ///< > 0
+  double gain = 1.0;  ///< >= 0
 };
 
 /// Preset exact: the bell for max(0, cos x)^n, x in [0, pi], n = exponent. Its power is 1, 2, 4, 8 or 16; at
@@ -29,7 +30,5 @@ double published_scale(double exponent);
 /// A bound on the largest |max(0, cos x)^n - bell(x)| over x in [0, pi], at most 2e-6 above it. Every cell of
 /// x is bounded, none sampled.
 double fit_error(double exponent, const Bell& bell);
-
-// Exponents below 1 are taken as 1, above 10^15 as 10^15.
 
 }  // namespace halfway
