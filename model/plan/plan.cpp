@@ -92,11 +92,7 @@ Result<Plan> plan_spherical(const Scene& scene, const PlanRequest& request) {
   units.tables = *tables;
 
   const std::vector<LightRef> lights = shining_lights(scene);
-  if (lights.size() > c_most_lights)
-    return bad_input(fmt::format(
-        "{}: {} lights; the spherical shader takes up to {}: leave some out, or take the quadratic shader",
-        scene.name, lights.size(), c_most_lights));
-
+  const bool lit = !lights.empty();
   std::string diffuse, specular;
   std::vector<std::string> bells;
   const std::vector<bool> worn = worn_materials(scene);
@@ -106,7 +102,7 @@ Result<Plan> plan_spherical(const Scene& scene, const PlanRequest& request) {
     if (diffuse.empty() && has_diffuse(m))
       diffuse = fmt::format("material '{}' has k_d {:g}", m.name, m.diffuse);
     if (!has_specular(m)) continue;
-    if (m.brdf == Brdf::cook_torrance)
+    if (lit && m.brdf == Brdf::cook_torrance)
       return bad_input(fmt::format(
           "{}: material '{}' is cook_torrance, and the spherical shader's highlights are powers of a cosine; "
           "make it blinn or phong, or take the quadratic shader",
@@ -116,7 +112,10 @@ Result<Plan> plan_spherical(const Scene& scene, const PlanRequest& request) {
     units.powers |=
         request.preset == Preset::exact ? static_cast<unsigned>(fitted_bell(m.exponent).power) : 2U;
   }
-  const bool lit = !lights.empty();
+  if ((!diffuse.empty() || !specular.empty()) && lights.size() > c_most_lights)
+    return bad_input(fmt::format(
+        "{}: {} lights; the spherical shader takes up to {}: leave some out, or take the quadratic shader",
+        scene.name, lights.size(), c_most_lights));
   units.diffuse = lit && !diffuse.empty();
   units.specular = lit && !specular.empty();
   units.lights = units.diffuse || units.specular ? static_cast<unsigned>(lights.size()) : 0;
@@ -127,7 +126,10 @@ Result<Plan> plan_spherical(const Scene& scene, const PlanRequest& request) {
     if ((units.powers & power) != 0) bells.push_back(fmt::format("cos^{}", power));
 
   const std::string dark = "no light shines";
-  plan.effects.push_back({"lights", lit, lit ? fmt::format("{}: a slice pair each", lights.size()) : dark});
+  plan.effects.push_back({"lights", units.records(),
+                          !lit               ? dark
+                          : !units.records() ? "no material reflects them"
+                                             : fmt::format("{}, each with slices of its own", units.lights)});
   plan.effects.push_back({"diffuse", units.diffuse,
                           !lit              ? dark
                           : diffuse.empty() ? "every k_d is 0"

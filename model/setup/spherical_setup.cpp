@@ -26,6 +26,8 @@ constexpr double c_outside = 2.0;
 // turn does not know its plane.
 constexpr double c_nearly_opposed = -0.99;
 
+constexpr double c_half_bell = 0.5 * std::numbers::pi;
+
 // Each line of a header's triangle as the hardware walks it: line(walker).
 template <class P, class Line>
 void walk_lines(std::span<const std::uint32_t> header, Line&& line) {
@@ -40,6 +42,10 @@ void walk_lines(std::span<const std::uint32_t> header, Line&& line) {
 
 bool nearly_opposed(glm::dvec3 a, glm::dvec3 b) {
   return glm::dot(a, b) < c_nearly_opposed;
+}
+
+bool is_there(glm::dvec3 direction) {
+  return direction != glm::dvec3(0.0);
 }
 
 // Where the triangle's edges cross a line's pixel centres, left and right, and how far down the edge.
@@ -77,6 +83,7 @@ SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const Hardwa
       options_(options),
       config_(golden_config(key)),
       lights_(key.spherical.records() ? shining_lights(scene) : std::vector<LightRef>()),
+      has_spots_(std::ranges::any_of(lights_, [](LightRef light) { return light.kind == LightKind::spot; })),
       init_bits_(static_cast<unsigned>(preset_ == Preset::exact
                                            ? golden::SphericalLayout<Exact>(config_).init_bits()
                                            : golden::SphericalLayout<Published>(config_).init_bits())),
@@ -113,7 +120,7 @@ PointVectors SphericalSetup::vectors_at(const Material& material, const SurfaceP
         break;
       }
     }
-    if (!config_.specular || !has_specular(material)) continue;
+    if (!config_.specular || !has_specular(material) || !is_there(light.to_light)) continue;
     if (material.brdf == Brdf::phong) {
       light.u = 2.0 * glm::dot(out.normal, light.to_light) * out.normal - light.to_light;
       light.v = to_eye;
@@ -139,8 +146,10 @@ PointVectors SphericalSetup::slerped(const PointVectors& a, const PointVectors& 
 }
 
 std::int64_t SphericalSetup::factor_word(double steps, SetupCounts& counts) const {
+  // What is no number (a light without measure on what reflects none of it) is nothing.
+  if (!(steps > 0.0)) return 0;
   if (steps > c_largest_sample) ++counts.overexposed;
-  return fixed(std::clamp(steps, 0.0, c_largest_sample), Exact::c_factor_fraction_bits);
+  return fixed(std::min(steps, c_largest_sample), Exact::c_factor_fraction_bits);
 }
 
 void SphericalSetup::put_ambient(InitVector& init, const Material& material, SetupCounts& counts) const {
@@ -156,11 +165,42 @@ void SphericalSetup::put_ambient(InitVector& init, const Material& material, Set
   }
 }
 
-template <class P, class Middle>
-void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index, const SpanVectors& span,
-                                Middle&& middle, SetupCounts& counts) const {
+template <class Middle>
+SpanArcs SphericalSetup::arcs_of(const Material& material, const SpanVectors& span, Middle&& middle) const {
+  SpanArcs out;
+  out.first = span.first;
+  out.step = span.step;
+  const bool specular = config_.specular && has_specular(material);
+  std::optional<PointVectors> known_middle;
+  const auto at_middle = [&]() -> const PointVectors& {
+    if (!known_middle) known_middle = middle();
+    return *known_middle;
+  };
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    const LightVectors &a = span.begin.light[i], &b = span.end.light[i];
+    LightArcs& arcs = out.light[i];
+    ArcMiddle hint;
+    if (nearly_opposed(span.begin.normal, span.end.normal) || nearly_opposed(a.to_light, b.to_light))
+      hint = {at_middle().normal, at_middle().light[i].to_light};
+    arcs.diffuse = cosine_arc(span.begin.normal, span.end.normal, a.to_light, b.to_light, hint);
+    arcs.specular = {};
+    if (specular) {
+      hint = {};
+      if (nearly_opposed(a.u, b.u) || nearly_opposed(a.v, b.v))
+        hint = {at_middle().light[i].u, at_middle().light[i].v};
+      arcs.specular = cosine_arc(a.u, b.u, a.v, b.v, hint);
+    }
+    arcs.spot = 0.5 * (a.spot + b.spot);
+    arcs.exact_at_ends =
+        a.spot == b.spot && is_there(a.to_light) == is_there(b.to_light) && is_there(a.v) == is_there(b.v);
+  }
+  return out;
+}
+
+template <class P>
+void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index, const SpanArcs& span,
+                                SetupCounts& counts) const {
   constexpr bool c_exact = std::is_same_v<P, Exact>;
-  constexpr double c_half_bell = 0.5 * std::numbers::pi;
   // The published cosine table goes all the way round, so its angles count in half turns.
   constexpr double c_diffuse_unit = c_exact ? c_half_bell : std::numbers::pi;
   const golden::SphericalLayout<P> at(config_);
@@ -178,39 +218,28 @@ void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index
     record.put(angle, wrapped_word(start, P::c_angle_fraction_bits, P::c_angle_bits), low);
     record.put(slope, wrapped_word(step, P::c_angle_fraction_bits, P::c_angle_bits), low);
   };
-  const auto arc_of = [&](glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v1, glm::dvec3 v2, auto&& middle_vectors) {
-    ArcMiddle hint;
-    if (nearly_opposed(u1, u2) || nearly_opposed(v1, v2)) hint = middle_vectors();
-    return cosine_arc(u1, u2, v1, v2, hint);
-  };
 
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    const LightVectors &a = span.begin.light[i], &b = span.end.light[i];
+    const LightArcs& arcs = span.light[i];
     const int light = static_cast<int>(i);
-    const glm::dvec3 steps = 255.0 * full * 0.5 * (a.spot + b.spot) * intensity(*scene_, lights_[i]);
+    const glm::dvec3 steps = 255.0 * full * arcs.spot * intensity(*scene_, lights_[i]);
     if (at.has_diffuse_part() && (diffuse || specular)) {
       using At = typename P::diffuse_header_at;
       const int low = at.diffuse_low(light);
-      const CosineArc arc = arc_of(span.begin.normal, span.end.normal, a.to_light, b.to_light, [&] {
-        const PointVectors m = middle();
-        return ArcMiddle{m.normal, m.light[i].to_light};
-      });
-      put_angle(At::angle, At::slope, arc, 1.0 / c_diffuse_unit, low);
+      put_angle(At::angle, At::slope, arcs.diffuse, 1.0 / c_diffuse_unit, low);
       for (int c = 0; c < at.diffuse_channels(); ++c)
-        record.put(P::diffuse_channel_at::factor,
-                   factor_word(steps[c] * material.diffuse * material.colour[c] * arc.amplitude, counts),
-                   low + P::c_diffuse_header_bits + c * P::c_diffuse_channel_bits);
+        record.put(
+            P::diffuse_channel_at::factor,
+            factor_word(steps[c] * material.diffuse * material.colour[c] * arcs.diffuse.amplitude, counts),
+            low + P::c_diffuse_header_bits + c * P::c_diffuse_channel_bits);
     }
     if (specular) {
       using At = typename P::specular_header_at;
       const int low = at.specular_low(light);
-      const CosineArc arc = arc_of(a.u, b.u, a.v, b.v, [&] {
-        const PointVectors m = middle();
-        return ArcMiddle{m.light[i].u, m.light[i].v};
-      });
-      put_angle(At::angle, At::slope, arc, bell.scale / c_half_bell, low);
+      put_angle(At::angle, At::slope, arcs.specular, bell.scale / c_half_bell, low);
       if constexpr (c_exact) record.put(At::power, std::countr_zero(static_cast<unsigned>(bell.power)), low);
-      const double peak = highlight_power(arc.amplitude, std::min(material.exponent, c_largest_exponent));
+      const double peak = bell.gain * highlight_power(arcs.specular.amplitude,
+                                                      std::min(material.exponent, c_largest_exponent));
       for (int c = 0; c < config_.highlight_channels; ++c)
         record.put(P::specular_channel_at::factor,
                    factor_word(steps[c] * material.specular * material.specular_colour[c] * peak, counts),
@@ -219,18 +248,16 @@ void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index
   }
 }
 
-double SphericalSetup::interpolation_error(std::uint32_t material_index, const SpanVectors& span, double t,
+double SphericalSetup::interpolation_error(const Material& material, const SpanArcs& span, double t,
                                            const SurfacePoint& there) const {
-  const Material& material = scene_->materials[material_index];
   glm::dvec3 sum = scene_->ambient * (material.ambient * material.colour);
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    const LightVectors &a = span.begin.light[i], &b = span.end.light[i];
-    const double cosine = cosine_arc(span.begin.normal, span.end.normal, a.to_light, b.to_light).at(t);
+    const LightArcs& arcs = span.light[i];
+    const double cosine = arcs.diffuse.at(t);
     if (!(cosine > 0.0)) continue;
-    const double highlight = has_specular(material)
-                                 ? highlight_power(cosine_arc(a.u, b.u, a.v, b.v).at(t), material.exponent)
-                                 : 0.0;
-    sum += 0.5 * (a.spot + b.spot) * intensity(*scene_, lights_[i]) *
+    const double highlight =
+        has_specular(material) ? highlight_power(arcs.specular.at(t), material.exponent) : 0.0;
+    sum += arcs.spot * intensity(*scene_, lights_[i]) *
            (cosine * material.diffuse * material.colour +
             highlight * material.specular * material.specular_colour);
   }
@@ -269,18 +296,17 @@ class SphericalSetup::ExactTriangle {
       depths[i] = fixed(depth_steps(triangle_.vertex[i].z), Exact::c_depth_sum_fraction_bits);
     depth_.emplace(corners_, subpixel_bits_, depths);
     if (setup_.options_.ends == SpanEnds::slerped_along_edges)
-      for (std::size_t i = 0; i < 3; ++i) {
-        glm::dvec3 barycentric(0.0);
-        barycentric[static_cast<int>(i)] = 1.0;
-        vertex_[i] = vectors(surface_point(triangle_, barycentric));
-      }
+      for (std::size_t i = 0; i < 3; ++i) vertex_[i] = vectors(surface_point(triangle_, corner(i)));
     append(columns, std::move(walks));
   }
 
  private:
-  // Lines on which a piece is looked at, and pixels between two looks at a line, where no light changes
-  // abruptly; spots do, so they are looked at everywhere this closely.
-  static constexpr std::int64_t c_lines_looked_at = 16, c_pixels_between = 8;
+  // A line is looked at at this many places, or more: often enough that no highlight is stepped over, which
+  // is a half bell to either side of its peak.
+  static constexpr std::int64_t c_least_looks = 3;
+  static constexpr double c_looks_a_half_bell = 2.0;
+  // Spots begin and end where they like: at places no farther apart than this.
+  static constexpr std::int64_t c_pixels_between = 8;
 
   std::vector<Walk> walks_of(Columns columns) const {
     return plan_walks(corners_, subpixel_bits_, columns, setup_.frame_.height);
@@ -288,7 +314,9 @@ class SphericalSetup::ExactTriangle {
 
   void append(Columns columns, std::vector<Walk> walks) {
     if (walks.empty()) return;
-    if (columns.width() > 1 && !setup_.lights_.empty() && !interpolates_well(walks)) {
+    // Along edges that stay what they are nothing is won by cutting.
+    const bool may_cut = setup_.options_.ends == SpanEnds::on_surface && !setup_.lights_.empty();
+    if (may_cut && columns.width() > 1 && !interpolates_well(walks)) {
       if (!split_) ++counts_.subdivided;
       split_ = true;
       const std::int64_t middle = columns.begin + columns.width() / 2;
@@ -299,7 +327,7 @@ class SphericalSetup::ExactTriangle {
     ++counts_.leaves;
     for (const Walk& walk : walks) {
       ++counts_.vectors;
-      const std::vector<std::uint32_t> header = header_of(walk);
+      const std::vector<std::uint32_t> header = header_of(walk, counts_);
       words_.insert(words_.end(), header.begin(), header.end());
       if (setup_.lights_.empty()) continue;
       walk_lines<Exact>(header, [&](const golden::TriangleWalker<Exact>& walker) {
@@ -307,19 +335,17 @@ class SphericalSetup::ExactTriangle {
         InitVector record(words_, setup_.init_bits_);
         if (walker.line_empty()) return;
         const Span at = span_of(walker);
-        setup_.put_record<Exact>(
-            record, triangle_.material, vectors_of(at),
-            [&] { return vectors(point(at.first + at.last + 1, at.y)); }, counts_);
+        setup_.put_record<Exact>(record, triangle_.material, arcs_of(at), counts_);
       });
     }
   }
 
-  std::vector<std::uint32_t> header_of(const Walk& walk) const {
+  std::vector<std::uint32_t> header_of(const Walk& walk, SetupCounts& counts) const {
     std::vector<std::uint32_t> words;
     InitVector header(words, setup_.init_bits_);
     put_header(header, triangle_.source, walk,
                depth_->words(difference_start(walk), half(Exact::c_depth_sum_fraction_bits)));
-    setup_.put_ambient(header, material_, counts_);
+    setup_.put_ambient(header, material_, counts);
     return words;
   }
 
@@ -344,6 +370,10 @@ class SphericalSetup::ExactTriangle {
     return setup_.vectors_at(material_, surface);
   }
 
+  SpanArcs arcs_of(const Span& at) const {
+    return setup_.arcs_of(material_, vectors_of(at),
+                          [&] { return vectors(point(at.first + at.last + 1, at.y)); });
+  }
   SpanVectors vectors_of(const Span& at) const {
     SpanVectors span;
     if (setup_.options_.ends == SpanEnds::on_surface) {
@@ -363,39 +393,70 @@ class SphericalSetup::ExactTriangle {
     return span;
   }
 
-  // Whether on each line that is looked at the error stays below the threshold.
+  // Whether on each line the error stays below the threshold where it is looked at.
   bool interpolates_well(const std::vector<Walk>& walks) const {
-    const bool spots = std::ranges::any_of(
-        setup_.lights_, [](const LightRef& light) { return light.kind == LightKind::spot; });
+    SetupCounts not_drawn;
     for (const Walk& walk : walks) {
-      const std::int64_t lines = walk.upper_lines + walk.lower_lines;
-      const std::int64_t stride = spots ? 1 : (lines + c_lines_looked_at - 1) / c_lines_looked_at;
-      std::int64_t line = stride / 2;
       bool well = true;
-      walk_lines<Exact>(header_of(walk), [&](const golden::TriangleWalker<Exact>& walker) {
-        if (well && line % stride == 0 && !walker.line_empty())
-          well = line_interpolates_well(span_of(walker), spots);
-        ++line;
+      walk_lines<Exact>(header_of(walk, not_drawn), [&](const golden::TriangleWalker<Exact>& walker) {
+        well = well && (walker.line_empty() || line_interpolates_well(span_of(walker)));
       });
       if (!well) return false;
     }
     return true;
   }
-  bool line_interpolates_well(const Span& at, bool spots) const {
-    if (at.steps() < 2) return true;
-    const SpanVectors span = vectors_of(at);
-    const std::int64_t looks =
-        std::min(at.steps() - 1, spots ? std::max<std::int64_t>(3, at.steps() / c_pixels_between) : 3);
-    for (std::int64_t look = 1; look <= looks; ++look) {
-      const std::int64_t i = look * at.steps() / (looks + 1);
+  bool line_interpolates_well(const Span& at) const {
+    if (at.steps() == 0) return true;
+    const SpanArcs arcs = arcs_of(at);
+    return std::ranges::all_of(places_to_look_at(arcs, at.steps()), [&](std::int64_t i) {
       ++counts_.shaded;
-      const double t = span.first + static_cast<double>(i) * span.step;
-      if (setup_.interpolation_error(triangle_.material, span, t,
-                                     point(2 * (at.first + i * at.way()) + 1, at.y)) >
-          setup_.options_.threshold)
-        return false;
+      const double t = arcs.first + static_cast<double>(i) * arcs.step;
+      return setup_.interpolation_error(material_, arcs, t, point(2 * (at.first + i * at.way()) + 1, at.y)) <=
+             setup_.options_.threshold;
+    });
+  }
+  // Pixels of a span, counted from its first.
+  std::vector<std::int64_t> places_to_look_at(const SpanArcs& arcs, std::int64_t steps) const {
+    std::vector<std::int64_t> places;
+    const auto add_between = [&](double t, auto&& add) {
+      if (t > 0.0 && t < 1.0) add(t * static_cast<double>(steps));
+    };
+    bool exact_at_ends = true;
+    double half_bells = 0.0;
+    for (std::size_t i = 0; i < setup_.lights_.size(); ++i) {
+      const LightArcs& light = arcs.light[i];
+      exact_at_ends = exact_at_ends && light.exact_at_ends;
+      half_bells = std::max({half_bells, light.diffuse.sweep / c_half_bell,
+                             setup_.bells_[triangle_.material].scale * light.specular.sweep / c_half_bell});
+      // A highlight's peak and where it is steepest: there a shift shows.
+      if (is_seen(light.specular.amplitude))
+        for (const double x : {-steepest_, 0.0, steepest_})
+          add_between((light.specular.phase + x) / light.specular.sweep,
+                      [&](double place) { places.push_back(std::llround(place)); });
+      // The light's horizon, where the highlight ends however bright it is.
+      for (const double x : {-c_half_bell, c_half_bell}) {
+        const double t = (light.diffuse.phase + x) / light.diffuse.sweep;
+        if (is_seen(light.specular.at(t)))
+          add_between(t, [&](double place) {
+            places.push_back(static_cast<std::int64_t>(place));
+            places.push_back(std::min(steps, static_cast<std::int64_t>(place) + 1));
+          });
+      }
     }
-    return true;
+    if (!exact_at_ends) places.insert(places.end(), {0, steps});
+    auto looks = std::max(c_least_looks, static_cast<std::int64_t>(c_looks_a_half_bell * half_bells) + 1);
+    if (setup_.has_spots_) looks = std::max(looks, steps / c_pixels_between);
+    looks = std::min(looks, steps - 1);
+    for (std::int64_t look = 1; look <= looks; ++look) places.push_back(look * steps / (looks + 1));
+    return places;
+  }
+  // Whether a highlight there is bright enough to matter.
+  bool is_seen(double cosine) const { return highlight_power(cosine, material_.exponent) > 1.0 / 255.0; }
+
+  static glm::dvec3 corner(std::size_t i) {
+    glm::dvec3 barycentric(0.0);
+    barycentric[static_cast<int>(i)] = 1.0;
+    return barycentric;
   }
 
   const SphericalSetup& setup_;
@@ -407,6 +468,7 @@ class SphericalSetup::ExactTriangle {
   std::array<ScreenPoint, 3> corners_;
   std::array<PointVectors, 3> vertex_;
   std::optional<DepthFit> depth_;
+  double steepest_ = std::atan(1.0 / std::sqrt(material_.exponent));
   bool split_ = false;
 };
 
@@ -458,9 +520,14 @@ void SphericalSetup::append_published(const ScreenTriangle& triangle, std::vecto
       };
       SpanVectors span{on_edge(h.start), on_edge(h.stop), 0.0, 0.0};
       const std::int64_t steps = walker.stop().value() - 1 - walker.start().value();
-      span.step = steps == 0 ? 0.0 : 1.0 / static_cast<double>(steps);
-      put_record<Published>(
-          record, triangle.material, span, [&] { return slerped(span.begin, span.end, 0.5); }, counts);
+      // On one pixel nothing turns: a plane between ends that are one point would be rounding's.
+      if (steps == 0)
+        span.end = span.begin;
+      else
+        span.step = 1.0 / static_cast<double>(steps);
+      put_record<Published>(record, triangle.material,
+                            arcs_of(material, span, [&] { return slerped(span.begin, span.end, 0.5); }),
+                            counts);
     });
   }
 }

@@ -11,6 +11,7 @@
 #include "golden/spherical_layout.hpp"
 #include "plan/effects.hpp"
 #include "plan/plan.hpp"
+#include "setup/arc.hpp"
 #include "setup/bell.hpp"
 #include "setup/init_vector.hpp"
 #include "setup/setup.hpp"
@@ -39,6 +40,18 @@ struct SpanVectors {
   double first = 0.0, step = 0.0;
 };
 
+/// What the hardware has of a light along a span.
+struct LightArcs {
+  CosineArc diffuse;   ///< N.L
+  CosineArc specular;  ///< u.v
+  double spot;         ///< the ends' mean: a factor stands still along a span
+  bool exact_at_ends;  ///< of a span that begins at t = 0 and ends at t = 1
+};
+struct SpanArcs {
+  std::array<LightArcs, c_most_lights> light;  ///< as many as the key has
+  double first, step;                          ///< as SpanVectors
+};
+
 class SphericalSetup final : public Setup {
  public:
   SphericalSetup(const Scene& scene, FrameSize frame, const HardwareKey& key, SphericalSetupOptions options);
@@ -55,12 +68,14 @@ class SphericalSetup final : public Setup {
   PointVectors slerped(const PointVectors& a, const PointVectors& b, double t) const;
   void put_ambient(InitVector& init, const Material& material, SetupCounts& counts) const;
   /// `middle` gives the vectors at the span's middle, asked for where the ends are nearly opposed.
-  template <class Preset, class Middle>
-  void put_record(InitVector& record, std::uint32_t material, const SpanVectors& span, Middle&& middle,
+  template <class Middle>
+  SpanArcs arcs_of(const Material& material, const SpanVectors& span, Middle&& middle) const;
+  template <class Preset>
+  void put_record(InitVector& record, std::uint32_t material, const SpanArcs& span,
                   SetupCounts& counts) const;
   /// Largest difference of a channel, in colour steps, between the span's interpolation at t and the
   /// illumination model there.
-  double interpolation_error(std::uint32_t material, const SpanVectors& span, double t,
+  double interpolation_error(const Material& material, const SpanArcs& span, double t,
                              const SurfacePoint& there) const;
   std::int64_t factor_word(double steps, SetupCounts& counts) const;
 
@@ -70,6 +85,7 @@ class SphericalSetup final : public Setup {
   SphericalSetupOptions options_;
   golden::SphericalConfig config_;
   std::vector<LightRef> lights_;
+  bool has_spots_;
   std::vector<Bell> bells_;  ///< one a material
   unsigned init_bits_;
   Projector projector_;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the golden triangle walker makes of plan_walks' words against for_each_span, line by line and pixel by
-// pixel.
+// pixel; of a frame, and of columns of it.
 #include "setup/walk.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <ostream>
@@ -114,6 +115,45 @@ TEST(Walk, EveryTriangleOfALatticeAroundATinyFrame) {
       }
   EXPECT_EQ(seen.walks[0] + seen.walks[1] + seen.walks[2] + seen.walks[3],
             c_points * (c_points - 1) * (c_points - 2) / 6);
+}
+
+// Columns side by side draw what the whole frame does: each covered pixel in exactly one of them.
+TEST(Walk, EachCoveredPixelIsDrawnByItsColumns) {
+  std::uint64_t pieces_drawn = 0, pieces_empty = 0;
+  for (const FrameSize frame : c_frames)
+    for (const TriangleKind kind : c_triangle_kinds) {
+      RandomTriangles random(100 + static_cast<unsigned>(kind));
+      const int width = static_cast<int>(frame.width);
+      for (int i = 0; i < (frame.height > 1000 ? 6 : 40); ++i) {
+        const Points p = random.next(kind, 4, frame);
+        SCOPED_TRACE(::testing::Message()
+                     << '(' << p[0].x << ',' << p[0].y << ") (" << p[1].x << ',' << p[1].y << ") (" << p[2].x
+                     << ',' << p[2].y << ") frame " << frame.width << 'x' << frame.height);
+        // Any cuts, two of them next to each other.
+        std::vector<std::int64_t> cuts = {0, width};
+        for (int n = random.within(1, 8); n > 0; --n) cuts.push_back(random.within(0, width));
+        cuts.push_back(std::min<std::int64_t>(width, cuts.back() + 1));
+        std::ranges::sort(cuts);
+        const std::vector<Span> whole = expected_spans(p, 4, frame);
+        for (std::size_t cut = 0; cut + 1 < cuts.size(); ++cut) {
+          const Columns columns{cuts[cut], cuts[cut + 1]};
+          if (columns.width() == 0) continue;
+          std::vector<Span> expected, drawn;
+          for (Span span : whole) {
+            span.begin = std::max(span.begin, columns.begin);
+            span.end = std::min(span.end, columns.end);
+            if (span.begin < span.end) expected.push_back(span);
+          }
+          const std::vector<Walk> walks = plan_walks(p, 4, columns, frame.height);
+          EXPECT_LE(walks.size(), 3u);
+          for (const Walk& walk : walks) append_walk(walk, drawn);
+          ASSERT_EQ(drawn, expected) << "columns [" << columns.begin << ", " << columns.end << ')';
+          ++(drawn.empty() ? pieces_empty : pieces_drawn);
+        }
+      }
+    }
+  EXPECT_GT(pieces_drawn, 3000u);
+  EXPECT_GT(pieces_empty, 1000u);
 }
 
 TEST(Walk, OrderOfThePointsDoesNotMatter) {

@@ -1,0 +1,852 @@
+// SPDX-License-Identifier: Apache-2.0
+// The golden model fed by the setup, against two references: the papers' formulas in long double, span by
+// span, within bounds that count every rounding on the way; and the illumination model, pixel by pixel.
+#include "setup/spherical_setup.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <iostream>
+#include <map>
+#include <numbers>
+#include <tuple>
+#include <vector>
+
+#include "frame/assemble.hpp"
+#include "golden/diffuse_slice.hpp"
+#include "golden/specular_slice.hpp"
+#include "golden/triangle_walker.hpp"
+#include "reference/renderer.hpp"
+#include "scene/builtin_meshes.hpp"
+#include "setup/random_scenes.hpp"
+#include "setup/random_triangles.hpp"
+#include "setup/spherical_drawing.hpp"
+#include "tables/cosine.hpp"
+
+namespace halfway {
+namespace {
+
+using golden::Exact, golden::Published;
+using Real = long double;
+using Vector = glm::vec<3, Real>;
+constexpr Real c_pi = std::numbers::pi_v<Real>;
+// ---- The papers' formulas
+
+Vector slerp_of(Vector a, Vector b, Real t) {
+  const Real angle = 2 * std::atan2(glm::length(b - a), glm::length(b + a));
+  if (angle < 1e-9L) return glm::normalize(a + t * (b - a));
+  return (std::sin((1 - t) * angle) * a + std::sin(t * angle) * b) / std::sin(angle);
+}
+
+// A turn below which doubles do not know its plane.
+constexpr Real c_no_turn = 1e-9L;
+
+struct Arc {
+  Real amplitude, sweep, phase;
+};
+
+// v held at v1, u2 turned back by v's rotation.
+Arc arc_between(Vector u1, Vector u2, Vector v1, Vector v2) {
+  const Vector c = glm::cross(v1, v2);
+  const Real cos_v = glm::dot(v1, v2);
+  const Vector back = u2 * cos_v - glm::cross(c, u2) + c * (glm::dot(c, u2) / (1 + cos_v));
+  const Real sweep = 2 * std::atan2(glm::length(back - u1), glm::length(back + u1));
+  const Real begin = glm::dot(u1, v1), end = glm::dot(u2, v2);
+  if (sweep < c_no_turn) return {std::fabs(begin), 0, begin < 0 ? c_pi : 0};
+  const Real b = (end - begin * std::cos(sweep)) / std::sin(sweep);
+  Real phase = std::atan2(b, begin);
+  // The turn on which the middle is within half a turn of the peak.
+  phase += 2 * c_pi * std::round((sweep / 2 - phase) / (2 * c_pi));
+  return {std::hypot(begin, b), sweep, phase};
+}
+
+struct LightThere {
+  Vector l, u, v;
+  Real spot;
+};
+struct There {
+  Vector normal;
+  std::vector<LightThere> light;
+  Real doubt = 0;  ///< of the directions as doubles have them, radians
+};
+
+There vectors_there(const Scene& scene, const SurfacePoint& point) {
+  const Vector p(point.position_world), n(point.normal_world);
+  const Vector to_eye = glm::normalize(Vector(scene.camera.eye_world) - p);
+  There out;
+  out.normal = n;
+  const auto add = [&](Vector l, Real spot) {
+    const Vector sum = l + to_eye;
+    // A few roundings; and H is the worse known the shorter L + V.
+    out.doubt = std::max(out.doubt, 4e-15L / std::min<Real>(1, glm::length(sum)));
+    if (scene.materials[0].brdf == Brdf::phong)
+      out.light.push_back({l, 2 * glm::dot(n, l) * n - l, to_eye, spot});
+    else
+      out.light.push_back({l, n, glm::normalize(sum), spot});
+  };
+  for (const LightRef ref : shining_lights(scene)) switch (ref.kind) {
+      case LightKind::directional:
+        add(Vector(scene.directional[ref.index].to_light_world), 1);
+        break;
+      case LightKind::positional:
+        add(glm::normalize(Vector(scene.positional[ref.index].position_world) - p), 1);
+        break;
+      case LightKind::spot: {
+        const SpotLight& s = scene.spots[ref.index];
+        const Vector l = glm::normalize(Vector(s.position_world) - p);
+        const Real across = Real{s.cos_inner} - s.cos_outer;
+        const Real t = std::clamp<Real>((-glm::dot(l, Vector(s.axis_world)) - s.cos_outer) / across, 0, 1);
+        add(l, t * t * (3 - 2 * t));
+      }
+    }
+  return out;
+}
+
+There slerped(const There& a, const There& b, Real t) {
+  There out;
+  out.normal = slerp_of(a.normal, b.normal, t);
+  out.doubt = std::max(a.doubt, b.doubt);
+  for (std::size_t i = 0; i < a.light.size(); ++i) {
+    const LightThere &p = a.light[i], &q = b.light[i];
+    out.light.push_back({slerp_of(p.l, q.l, t), slerp_of(p.u, q.u, t), slerp_of(p.v, q.v, t),
+                         p.spot + t * (q.spot - p.spot)});
+  }
+  return out;
+}
+
+// A span's ends, its first pixel at t = first, each further one `step` on.
+struct SpanThere {
+  There begin, end;
+  Real first = 0, step = 0;
+  Real doubt = 0;  ///< of t
+};
+
+// Doubt past which an arc's amplitude and angle are not known, but their cosine is.
+constexpr Real c_unknown = 1e-6L;
+
+struct LightOnSpan {
+  Arc diffuse, specular;
+  Real spot;
+  Real doubt;                          ///< of u.v and N.L
+  Real doubt_diffuse, doubt_specular;  ///< of the arcs' angles and amplitudes
+};
+
+LightOnSpan on_span(const SpanThere& span, std::size_t light) {
+  const LightThere &a = span.begin.light[light], &b = span.end.light[light];
+  LightOnSpan out{arc_between(span.begin.normal, span.end.normal, a.l, b.l),
+                  arc_between(a.u, b.u, a.v, b.v),
+                  (a.spot + b.spot) / 2,
+                  0,
+                  0,
+                  0};
+  const Real directions = std::max(span.begin.doubt, span.end.doubt);
+  const auto doubt = [&](const Arc& arc) {
+    if (span.step == 0) return 4 * directions;  // one pixel: nothing turns
+    if (arc.sweep == 0) return c_unknown;
+    return 4 * directions / std::sin(arc.sweep) + span.doubt * arc.sweep;
+  };
+  out.doubt = 4 * directions + c_no_turn + span.doubt * std::max(out.diffuse.sweep, out.specular.sweep);
+  out.doubt_diffuse = doubt(out.diffuse);
+  out.doubt_specular = doubt(out.specular);
+  return out;
+}
+
+// Steps of 1/255 that a light adds to a channel, and by how much the golden model may be off.
+struct Term {
+  Real value, bound;
+};
+enum class Horizon { before, beyond, either };  ///< either: so near that rounding decides
+
+template <class P>
+class Specification {
+ public:
+  static constexpr bool c_exact = std::is_same_v<P, Exact>;
+
+  Specification(const Scene& scene, const HardwareKey& key)
+      : scene_(scene),
+        lights_(shining_lights(scene)),
+        material_(scene.materials[0]),
+        exponent_(material_.exponent),
+        tables_(key.spherical.tables),
+        bell_(c_exact ? fitted_bell(material_.exponent) : Bell{2, published_scale(material_.exponent)}),
+        cosine_error_(error_of(1)),
+        bell_error_(error_of(bell_.power)),
+        fit_error_(fit_error(material_.exponent, bell_)) {
+    const Real m = bell_.power;
+    bell_slope_ = c_pi / 2 * std::sqrt(m) * std::pow(1 - 1 / m, (m - 1) / 2);
+  }
+
+  Term ambient(int c) const {
+    const Real steps = Real{255} * scene_.ambient[c] * material_.ambient * material_.colour[c] + 0.5L;
+    return {std::min<Real>(steps, 1023), c_factor_rounding};
+  }
+  Term diffuse(const SpanThere& span, const LightOnSpan& on, std::size_t light, int c, int steps) const {
+    const Real brightest = strength(on, light, c) * material_.diffuse * material_.colour[c];
+    const Real factor = held(brightest * on.diffuse.amplitude), cosine = std::cos(x(on.diffuse, span, steps));
+    const bool known = on.doubt_diffuse < c_unknown;
+    return {factor * std::max<Real>(0, cosine),
+            c_factor_rounding +
+                (known ? factor : brightest) * (cosine_error_ + drift(steps) * c_diffuse_unit) +
+                brightest * (known ? on.doubt_diffuse : on.doubt) + lost(known, brightest)};
+  }
+  Term specular(const SpanThere& span, const LightOnSpan& on, std::size_t light, int c, int steps) const {
+    const Real brightest = strength(on, light, c) * material_.specular * material_.specular_colour[c];
+    const Real factor =
+        held(brightest * bell_.gain * std::pow(std::min<Real>(1, on.specular.amplitude), exponent_));
+    const Real y = bell_.scale * x(on.specular, span, steps);
+    const Real bell = c_exact && std::fabs(y) >= c_pi / 2 ? 0 : std::pow(std::fabs(std::cos(y)), bell_.power);
+    Term term{factor * bell, c_factor_rounding + factor * (bell_error_ + drift(steps) * bell_slope_)};
+    // An unknown arc's amplitude and bell are any that together are near cos^n, as near as the fit.
+    if (on.doubt_specular < c_unknown)
+      term.bound += brightest * (exponent_ + bell_.scale * bell_slope_) * on.doubt_specular;
+    else if (c_exact)
+      term.bound +=
+          brightest * (2 * fit_error_ + exponent_ * on.doubt + bell_error_ + drift(steps) * bell_slope_);
+    else
+      term.bound += 2 * brightest;
+    term.bound += lost(on.doubt_specular < c_unknown, brightest);
+    return term;
+  }
+  Horizon horizon(const SpanThere& span, const LightOnSpan& on, int steps) const {
+    if (!c_exact) return Horizon::before;
+    const bool known = on.doubt_diffuse < c_unknown;
+    const Real cosine = on.diffuse.amplitude * std::cos(x(on.diffuse, span, steps));
+    const Real angle = (drift(steps) + std::ldexp(1.0L, -P::c_angle_fraction_bits)) * c_diffuse_unit;
+    const Real doubt = known ? on.diffuse.amplitude * (angle + on.doubt_diffuse) : angle + on.doubt;
+    if (std::fabs(cosine) <= doubt) return Horizon::either;
+    return cosine > 0 ? Horizon::before : Horizon::beyond;
+  }
+  /// Of an angle word from its formula: start and slope are rounded, the slope once a pixel.
+  static Real drift(int steps) { return std::ldexp(Real(1 + steps), -P::c_angle_fraction_bits - 1); }
+
+ private:
+  static constexpr Real c_factor_rounding = 0x1p-9L;
+  static constexpr Real c_diffuse_unit = c_exact ? c_pi / 2 : c_pi;
+
+  double error_of(int power) const {
+    return tables::table_error(tables::cosine_table(c_exact, power, tables_.address_bits, tables_.data_bits));
+  }
+  static Real x(const Arc& arc, const SpanThere& span, int steps) {
+    return (span.first + steps * span.step) * arc.sweep - arc.phase;
+  }
+  Real strength(const LightOnSpan& on, std::size_t light, int c) const {
+    return 255 * on.spot * intensity(scene_, lights_[light])[c];
+  }
+  // Factors are held at 1023, where the table's largest entry stands for 1.
+  Real held(Real steps) const {
+    const Real entries = std::ldexp(1.0L, tables_.data_bits);
+    return std::min(steps, 1023 * (entries - 1) / entries);
+  }
+
+  // Held, an amplitude that is not known says nothing.
+  static Real lost(bool known, Real brightest) { return !known && brightest > 1019 ? brightest : 0; }
+
+  const Scene& scene_;
+  std::vector<LightRef> lights_;
+  const Material& material_;
+  Real exponent_;
+  TableSize tables_;
+  Bell bell_;
+  Real cosine_error_, bell_error_, fit_error_, bell_slope_ = 0;
+};
+
+// ---- Spans and their ends, apart from the setup's
+
+glm::dvec3 corner(std::size_t i) {
+  return {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
+}
+SurfacePoint pixel_point(const ScreenTriangle& t, std::int64_t x, std::int64_t y) {
+  return surface_point(
+      t, barycentric_screen(t, (2 * x + 1) << c_exact_subpixel_bits, (2 * y + 1) << c_exact_subpixel_bits));
+}
+
+// First and last pixel as they are drawn.
+struct Span {
+  std::int64_t first, last, y;
+  bool upper_half = false;  ///< preset published
+  int steps() const { return static_cast<int>(std::abs(last - first)); }
+  int way() const { return first <= last ? 1 : -1; }
+};
+
+class Ends {
+ public:
+  Ends(const Scene& scene, const ScreenTriangle& triangle) : scene_(scene), t_(triangle) {
+    for (std::size_t i = 0; i < 3; ++i) vertex_[i] = vectors_there(scene, surface_point(triangle, corner(i)));
+    std::ranges::sort(down_, [&](std::size_t a, std::size_t b) { return t_.vertex[a].y < t_.vertex[b].y; });
+  }
+  SpanThere on_surface(const Span& s) const {
+    SpanThere span{vectors_there(scene_, pixel_point(t_, s.first, s.y)),
+                   vectors_there(scene_, pixel_point(t_, s.last, s.y))};
+    if (s.steps() > 0) span.step = Real{1} / s.steps();
+    return span;
+  }
+  SpanThere along_edges(const Span& s) const {
+    struct Crossing {
+      Real x;
+      There there;
+    };
+    std::vector<Crossing> crossing;
+    const Real unit = 1 << c_exact_subpixel_bits, centre = (s.y + 0.5L) * unit;
+    for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {0, 2}}) {
+      const std::size_t top = down_[i], bottom = down_[j];
+      const ScreenVertex &a = t_.vertex[top], &b = t_.vertex[bottom];
+      if (a.y == b.y || centre < a.y || centre > b.y) continue;
+      const Real t = (centre - a.y) / (b.y - a.y);
+      crossing.push_back({(a.x + t * (b.x - a.x)) / unit, slerped(vertex_[top], vertex_[bottom], t)});
+    }
+    auto [from, to] = std::ranges::minmax_element(crossing, {}, &Crossing::x);
+    if (s.way() < 0) std::swap(from, to);
+    const Real length = to->x - from->x;
+    return {from->there, to->there, (s.first + 0.5L - from->x) / length, s.way() / length,
+            4e-12L / std::fabs(length)};
+  }
+  // Lines are y of whole pixels; the span's ends lie on the edges.
+  SpanThere published(const Span& s) const {
+    const auto at = [&](std::size_t top, std::size_t bottom) {
+      const Real t = Real(s.y - t_.vertex[top].y) / (t_.vertex[bottom].y - t_.vertex[top].y);
+      return slerped(vertex_[top], vertex_[bottom], t);
+    };
+    There of_long = at(down_[0], down_[2]),
+          of_short = s.upper_half ? at(down_[0], down_[1]) : at(down_[1], down_[2]);
+    const ScreenVertex &a = t_.vertex[down_[0]], &b = t_.vertex[down_[1]], &c = t_.vertex[down_[2]];
+    const bool middle_is_right =
+        std::int64_t{b.x - a.x} * (c.y - a.y) > std::int64_t{c.x - a.x} * (b.y - a.y);
+    SpanThere span{of_long, of_short};
+    if (!middle_is_right) std::swap(span.begin, span.end);
+    if (s.steps() == 0)
+      span.end = span.begin;
+    else
+      span.step = Real{1} / s.steps();
+    return span;
+  }
+  /// Whether lines from y on are those above the middle vertex.
+  bool upper_half(std::int64_t y) const {
+    return y == t_.vertex[down_[0]].y && t_.vertex[down_[0]].y != t_.vertex[down_[1]].y;
+  }
+
+ private:
+  const Scene& scene_;
+  const ScreenTriangle& t_;
+  std::array<There, 3> vertex_;
+  std::array<std::size_t, 3> down_ = {0, 1, 2};
+};
+
+// ---- The comparison
+
+// Largest error, as a part of its bound.
+struct Figures {
+  std::uint64_t fragments = 0, terms = 0, behind_horizon = 0, either = 0, unknown_arcs = 0, outside_bell = 0;
+  Real diffuse = 0, specular = 0, fragment = 0;
+  std::uint64_t cut = 0, overexposed = 0;
+};
+std::ostream& operator<<(std::ostream& out, const Figures& f) {
+  return out << f.fragments << " fragments, " << f.terms << " terms; largest part of the bound: diffuse "
+             << f.diffuse << ", specular " << f.specular << ", fragment " << f.fragment << "; "
+             << f.behind_horizon << " behind a light's horizon, " << f.either << " at it; " << f.outside_bell
+             << " past a bell's ends; " << f.unknown_arcs << " arcs lost in rounding; " << f.cut
+             << " triangles cut; " << f.overexposed << " over-exposed";
+}
+
+// Every fragment of the triangles that come to the screen in one piece.
+template <class P>
+void expect_specification(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                          SphericalSetupOptions options, Figures& figures) {
+  constexpr bool c_exact = std::is_same_v<P, Exact>;
+  const SphericalSetup setup(scene, frame, key, options);
+  const Specification<P> specification(scene, key);
+  const golden::SphericalConfig config = golden_config(key);
+  const golden::SphericalLayout<P> layout(config);
+  const std::size_t vector_words = (setup.init_bits() + 31) / 32;
+  const auto model = make_golden_model(key);
+  const Projector projector(
+      scene, frame, {.subpixel_bits = c_exact ? c_exact_subpixel_bits : 0, .clip_to_frame = !c_exact});
+  const Real one = std::ldexp(Real{1}, P::c_factor_fraction_bits + config.data_bits);
+  const auto lights = static_cast<std::size_t>(config.lights);
+  using golden::DiffuseSlice, golden::SpecularSlice;
+  std::vector<DiffuseSlice<P>> diffuse;
+  std::vector<SpecularSlice<P>> specular;
+  if (layout.has_diffuse_part())
+    diffuse.assign(lights, DiffuseSlice<P>(layout.diffuse_channels(), config.address_bits, config.data_bits));
+  if (config.specular)
+    specular.assign(lights, SpecularSlice<P>(config.highlight_channels, config.powers, config.address_bits,
+                                             config.data_bits));
+
+  for (std::uint32_t source = 0; source < scene.triangles.size(); ++source) {
+    std::vector<ScreenTriangle> on_screen;
+    projector.project(source, on_screen);
+    if (on_screen.size() != 1) continue;
+    const Ends ends(scene, on_screen[0]);
+    std::vector<std::uint32_t> words;
+    SetupCounts counts;
+    setup.append(source, words, counts);
+    figures.cut += counts.subdivided;
+    figures.overexposed += counts.overexposed;
+    std::vector<Fragment> fragments;
+    model->draw(words, fragments);
+    auto fragment = fragments.begin();
+
+    std::span<const std::uint32_t> rest = words;
+    while (!rest.empty()) {
+      const std::size_t vectors = model->group(rest);
+      golden::TriangleWalker<P> walker;
+      walker.line_load(rest);
+      const bool upper_half = !c_exact && ends.upper_half(walker.y());
+      for (std::size_t line = 1;; ++line) {
+        const auto record = rest.subspan(line * vector_words, vector_words);
+        if (!walker.line_empty()) {
+          const int way = walker.backward() ? -1 : 1;
+          const Span span{walker.start().value(), walker.stop().value() - way, walker.y(), upper_half};
+          const SpanThere there = !c_exact                               ? ends.published(span)
+                                  : options.ends == SpanEnds::on_surface ? ends.on_surface(span)
+                                                                         : ends.along_edges(span);
+          std::vector<LightOnSpan> on;
+          for (std::size_t l = 0; l < lights; ++l) {
+            on.push_back(on_span(there, l));
+            figures.unknown_arcs += on[l].doubt_diffuse >= c_unknown;
+            figures.unknown_arcs += on[l].doubt_specular >= c_unknown;
+            const int i = static_cast<int>(l);
+            if (!diffuse.empty()) diffuse[l].span_load(record, layout.diffuse_low(i));
+            if (!specular.empty()) specular[l].span_load(record, layout.specular_low(i));
+          }
+          for (int steps = 0; steps <= span.steps(); ++steps, ++fragment) {
+            ASSERT_NE(fragment, fragments.end());
+            ASSERT_EQ(fragment->x, span.first + way * steps);
+            ASSERT_EQ(fragment->y, span.y);
+            ASSERT_EQ(fragment->triangle, source);
+            ++figures.fragments;
+            for (int c = 0; c < config.channels; ++c) {
+              const Term ambient = specification.ambient(c);
+              Real low = ambient.value - ambient.bound, high = ambient.value + ambient.bound;
+              for (std::size_t l = 0; l < lights; ++l) {
+                const auto where = [&] {
+                  return testing::Message()
+                         << "triangle " << source << ", pixel " << fragment->x << ',' << span.y << ", step "
+                         << steps << " of " << span.steps() << ", channel " << c << ", light " << l;
+                };
+                const auto check = [&](const Term& term, Real value, Real& worst) {
+                  ++figures.terms;
+                  worst = std::max(worst, std::fabs(value - term.value) / term.bound);
+                  EXPECT_LE(std::fabs(value - term.value), term.bound)
+                      << where() << ": " << value << ", formula " << term.value;
+                };
+                if (config.diffuse) {
+                  const Term term = specification.diffuse(there, on[l], l, c, steps);
+                  check(term, diffuse[l].product(c) / one, figures.diffuse);
+                  low += term.value - term.bound;
+                  high += term.value + term.bound;
+                }
+                if (!config.specular) continue;
+                const Term term = specification.specular(there, on[l], l, c, steps);
+                const Horizon horizon = specification.horizon(there, on[l], steps);
+                const bool lit = !c_exact || diffuse[l].lit();
+                const int channel = config.highlight_channels == 1 ? 0 : c;
+                if (horizon == Horizon::beyond) {
+                  ++figures.behind_horizon;
+                  ASSERT_FALSE(lit) << where() << ": lit behind the horizon";
+                  continue;
+                }
+                figures.either += horizon == Horizon::either;
+                ASSERT_TRUE(lit || horizon == Horizon::either) << where() << ": dark before the horizon";
+                figures.outside_bell += term.value == 0;
+                if (lit) check(term, specular[l].product(channel, lit) / one, figures.specular);
+                low += horizon == Horizon::either ? 0 : term.value - term.bound;
+                high += term.value + term.bound;
+              }
+              const int value = c == 0 ? fragment->red : c == 1 ? fragment->green : fragment->blue;
+              ASSERT_GE(value, std::min<Real>(255, std::floor(low)));
+              ASSERT_LE(value, std::min<Real>(255, std::floor(high)));
+              if (value < 255)
+                figures.fragment = std::max(
+                    figures.fragment, std::fabs(value + 0.5L - (low + high) / 2) / (0.5L + (high - low) / 2));
+              if (testing::Test::HasFailure()) return;
+            }
+            for (std::size_t l = 0; l < lights; ++l) {
+              if (!diffuse.empty()) diffuse[l].span_step();
+              if (!specular.empty()) specular[l].span_step();
+            }
+          }
+        }
+        if (walker.line_last()) break;
+        walker.line_step();
+      }
+      rest = rest.subspan(vectors * vector_words);
+    }
+    ASSERT_EQ(fragment, fragments.end());
+  }
+}
+
+Scene random_scene(RandomScenes& random) {
+  Scene scene;
+  const bool grey = random.one_in(3), white = grey || random.one_in(2);
+  scene.materials = {random.material(grey, white)};
+  scene.ambient = random.within(0.0, 0.5) * random.colour(grey);
+  random.add_triangles(scene, 4, random.log_within(0.1, 1.5),
+                       random.one_in(8) ? 0.0 : random.log_within(0.01, 0.7));
+  random.add_lights(scene, random.whole(1, 3), RandomScenes::any, 1.2, grey || white);
+  if (random.one_in(6))
+    for (DirectionalLight& light : scene.directional) light.intensity *= 40.0;  // over-exposed
+  return scene;
+}
+
+constexpr SphericalSetupOptions c_never_cut = {.threshold = 1e9}, c_cut = {};
+
+TEST(SphericalSetup, ExactIsThePapersFormulasWithinEveryRounding) {
+  RandomScenes random(1);
+  Figures figures;
+  for (int i = 0; i < 160; ++i) {
+    const Scene scene = random_scene(random);
+    SCOPED_TRACE(testing::Message() << "scene " << i << ", exponent " << scene.materials[0].exponent);
+    expect_specification<Exact>(scene, {random.one_in(2) ? 240U : 70U, 160}, spherical_key(scene),
+                                random.one_in(2) ? c_never_cut : c_cut, figures);
+    if (HasFailure()) return;
+  }
+  std::cout << figures << '\n';
+  EXPECT_GT(figures.fragments, 200'000u);
+  EXPECT_GT(figures.cut, 50u);
+  EXPECT_GT(figures.overexposed, 50u);
+  EXPECT_GT(figures.behind_horizon, 10'000u);
+  EXPECT_GT(figures.outside_bell, 10'000u);
+  EXPECT_LT(1000 * figures.either, figures.terms);
+  // The bounds are not idle.
+  EXPECT_GT(figures.diffuse, 0.9);
+  EXPECT_GT(figures.specular, 0.9);
+  EXPECT_GT(figures.fragment, 0.9);
+}
+
+TEST(SphericalSetup, VectorsSlerpedAlongTheEdgesAreTheFormulasToo) {
+  RandomScenes random(2);
+  Figures figures;
+  for (int i = 0; i < 80; ++i) {
+    const Scene scene = random_scene(random);
+    SCOPED_TRACE(testing::Message() << "scene " << i << ", exponent " << scene.materials[0].exponent);
+    expect_specification<Exact>(scene, {200, 150}, spherical_key(scene),
+                                {.ends = SpanEnds::slerped_along_edges}, figures);
+    if (HasFailure()) return;
+  }
+  std::cout << figures << '\n';
+  EXPECT_GT(figures.fragments, 50'000u);
+  EXPECT_EQ(figures.cut, 0u) << "cutting does not change what lies along the edges";
+}
+
+TEST(SphericalSetup, PublishedIsThePapersFormulasModuloItsRegisters) {
+  RandomScenes random(3);
+  Figures figures;
+  for (int i = 0; i < 120; ++i) {
+    const Scene scene = random_scene(random);
+    SCOPED_TRACE(testing::Message() << "scene " << i << ", exponent " << scene.materials[0].exponent);
+    expect_specification<Published>(scene, {random.one_in(2) ? 120U : 300U, 160},
+                                    spherical_key(scene, Preset::published), {}, figures);
+    if (HasFailure()) return;
+  }
+  std::cout << figures << '\n';
+  EXPECT_GT(figures.fragments, 100'000u);
+  EXPECT_GT(figures.diffuse, 0.9);
+  EXPECT_GT(figures.specular, 0.9);
+}
+
+// ---- Against the illumination model
+
+std::vector<ScreenTriangle> projected(const Scene& scene, FrameSize frame) {
+  return Projector(scene, frame, {.subpixel_bits = c_exact_subpixel_bits}).project_all();
+}
+
+struct Accuracy {
+  std::uint64_t pixels = 0, past = 0;
+  double largest = 0.0, largest_past = 0.0, squares = 0.0;
+  SetupCounts counts;
+  double psnr() const { return 10.0 * std::log10(255.0 * 255.0 * static_cast<double>(pixels) / squares); }
+};
+
+void measure(const Scene& scene, FrameSize size, const SphericalSetupOptions& options, Accuracy& out) {
+  const HardwareKey key = spherical_key(scene);
+  const Drawn drawn = draw(scene, size, key, options);
+  FrameAssembler assembler(size, scene.background);
+  ASSERT_TRUE(assembler.add(drawn.fragments));
+  const Frame& frame = assembler.frame();
+  const auto triangles = projected(scene, size);
+  const ReferenceImage truth = render_reference(
+      scene, triangles, {.frame = size, .subpixel_bits = c_exact_subpixel_bits, .threads = 2});
+  const double promised = promised_steps(scene, key, options.threshold) + 0.5;  // the reference's rounding
+  for (std::size_t pixel = 0; pixel < truth.mask.size(); ++pixel) {
+    if (truth.mask[pixel] == 0) continue;
+    double error = 0.0;
+    for (std::size_t c = 3 * pixel; c < 3 * pixel + 3; ++c)
+      error = std::max(error, std::abs(double(frame.rgb[c]) - truth.frame.rgb[c]));
+    ++out.pixels;
+    out.squares += error * error;
+    out.largest = std::max(out.largest, error);
+    if (error > promised) ++out.past, out.largest_past = std::max(out.largest_past, error - promised);
+  }
+  out.counts += drawn.counts;
+}
+
+Scene lit_mesh(RandomScenes& random, int kind, RandomScenes::Lights lights) {
+  Scene scene;
+  scene.materials = {random.material(false, random.one_in(2))};
+  scene.camera.eye_world = {0.0, 0.0, 4.0};
+  double radius = 1.1;
+  if (kind == 0) {
+    random.add_triangles(scene, 4, 1.5, 0.6);
+  } else if (kind == 1) {
+    RandomScenes::set_mesh(scene, make_uv_sphere(12, 8, 1.0));
+  } else {
+    RandomScenes::set_mesh(scene, make_teapot(2));
+    scene.camera.eye_world = {1.6, 5.0, 9.4};
+    scene.camera.target_world = {0.2, 1.4, 0.0};
+    radius = 3.0;
+  }
+  random.add_lights(scene, random.whole(1, 3), lights, radius, random.one_in(2));
+  return scene;
+}
+
+// Where a line was not looked at, and at a light's horizon, where a highlight of a small exponent ends at
+// once, a pixel may be off by more: how often, and by how much, is printed.
+TEST(SphericalSetup, ExactIsWithinItsPromiseOfTheIlluminationModelAlmostEverywhere) {
+  RandomScenes random(4);
+  for (const auto& [name, lights] : {std::pair{"directional", RandomScenes::directional},
+                                     {"positional", RandomScenes::positional},
+                                     {"spots", RandomScenes::spots}}) {
+    Accuracy whole, cut;
+    for (int i = 0; i < 36; ++i) {
+      const Scene scene = lit_mesh(random, i % 3, lights);
+      measure(scene, {240, 180}, c_never_cut, whole);
+      measure(scene, {240, 180}, c_cut, cut);
+    }
+    std::cout << name << ", never cut: PSNR " << whole.psnr() << " dB, largest error " << whole.largest
+              << ", " << whole.counts.vectors << " vectors, " << whole.counts.records << " records, "
+              << whole.counts.shaded << " shaded\n"
+              << name << ", cut: PSNR " << cut.psnr() << " dB, largest error " << cut.largest << ", "
+              << cut.past << " of " << cut.pixels << " pixels past the promise, by up to " << cut.largest_past
+              << "; " << cut.counts.subdivided << " of " << cut.counts.triangles << " triangles cut, "
+              << cut.counts.leaves << " columns, " << cut.counts.vectors << " vectors, " << cut.counts.records
+              << " records, " << cut.counts.shaded << " shaded\n";
+    EXPECT_GT(cut.pixels, 300'000u);
+    EXPECT_LT(10'000 * cut.past, cut.pixels);
+    EXPECT_GT(cut.psnr(), whole.psnr() + 5.0);
+    EXPECT_GT(whole.largest, 30.0) << "these scenes need no cut";
+  }
+}
+
+// ---- What else holds
+
+using Pixels = std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>>;  // triangle, y, x
+
+Pixels covered(const Scene& scene, FrameSize frame) {
+  Pixels pixels;
+  for (const ScreenTriangle& t : projected(scene, frame))
+    for_each_span({ScreenPoint{t.vertex[0].x, t.vertex[0].y}, ScreenPoint{t.vertex[1].x, t.vertex[1].y},
+                   ScreenPoint{t.vertex[2].x, t.vertex[2].y}},
+                  c_exact_subpixel_bits, frame, [&](std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
+                    for (std::uint32_t x = begin; x < end; ++x) pixels.emplace_back(t.source, y, x);
+                  });
+  std::ranges::sort(pixels);
+  return pixels;
+}
+
+Pixels drawn_pixels(const Drawn& drawn) {
+  Pixels pixels;
+  for (const Fragment& f : drawn.fragments) pixels.emplace_back(f.triangle, f.y, f.x);
+  std::ranges::sort(pixels);
+  return pixels;
+}
+
+TEST(SphericalSetup, EachTriangleDrawsItsPixelsOnceHoweverItIsCut) {
+  RandomScenes random(5);
+  std::uint64_t cut = 0, pixels = 0;
+  for (int i = 0; i < 18; ++i) {
+    Scene scene = lit_mesh(random, i % 3, RandomScenes::any);
+    if (i % 4 == 0) scene.camera.eye_world *= 0.4;  // reaches past the frame
+    for (const FrameSize frame : {FrameSize{160, 120}, FrameSize{37, 91}, FrameSize{1, 1}})
+      for (const double threshold : {1e9, 2.0, 0.01}) {
+        const Drawn drawn = draw(scene, frame, spherical_key(scene), {.threshold = threshold});
+        ASSERT_TRUE(drawn_pixels(drawn) == covered(scene, frame))
+            << "scene " << i << ", threshold " << threshold;
+        cut += drawn.counts.subdivided;
+        pixels += drawn.fragments.size();
+      }
+  }
+  EXPECT_GT(cut, 500u);
+  EXPECT_GT(pixels, 100'000u);
+}
+
+// Slivers, triangles of a line, triangles over the whole guard band, normals as they come.
+TEST(SphericalSetup, AnyTriangleDrawsItsPixelsOnce) {
+  RandomScenes random(12);
+  RandomTriangles triangles(12);
+  std::uint64_t pixels = 0;
+  for (const FrameSize frame : {FrameSize{64, 48}, FrameSize{7, 200}, FrameSize{400, 9}})
+    for (const TriangleKind kind : c_triangle_kinds) {
+      Scene scene;
+      scene.materials = {random.material(true, true)};
+      scene.camera.near = 1.0;
+      scene.camera.far = 1000.0;
+      const double depth = 4.0, focal = 0.5 * frame.height / std::tan(0.5 * 0.7);
+      scene.camera.eye_world = {0.0, 0.0, depth};
+      scene.camera.vertical_fov_degrees = 0.7 * 180.0 / std::numbers::pi;
+      random.add_lights(scene, 2, RandomScenes::any, 0.5, true);
+      for (std::uint32_t i = 0; i < 20; ++i) {
+        Points p = triangles.next(kind, c_exact_subpixel_bits, frame);
+        // Clockwise on the screen, y down, is what the eye sees.
+        if ((std::int64_t{p[1].x} - p[0].x) * (std::int64_t{p[2].y} - p[0].y) >
+            (std::int64_t{p[2].x} - p[0].x) * (std::int64_t{p[1].y} - p[0].y))
+          std::swap(p[1], p[2]);
+        for (const ScreenPoint& q : p) {
+          scene.positions_world.emplace_back((q.x / 16.0 - 0.5 * frame.width) * depth / focal,
+                                             (0.5 * frame.height - q.y / 16.0) * depth / focal, 0.0);
+          scene.normals_world.push_back(random.unit());
+        }
+        scene.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, {3 * i, 3 * i + 1, 3 * i + 2}, 0});
+      }
+      const HardwareKey key = spherical_key(scene);
+      for (const SpanEnds ends : {SpanEnds::on_surface, SpanEnds::slerped_along_edges}) {
+        const Drawn drawn = draw(scene, frame, key, {.ends = ends});
+        ASSERT_TRUE(drawn_pixels(drawn) == covered(scene, frame)) << "kind " << static_cast<int>(kind);
+        pixels += drawn.fragments.size();
+      }
+      for (const Fragment& f : draw(scene, frame, spherical_key(scene, Preset::published)).fragments)
+        ASSERT_TRUE(f.x < frame.width && f.y < frame.height);
+    }
+  EXPECT_GT(pixels, 100'000u);
+}
+
+TEST(SphericalSetup, DepthIsThePlanesHoweverTheTriangleIsCut) {
+  RandomScenes random(6);
+  const Scene scene = lit_mesh(random, 1, RandomScenes::positional);
+  const FrameSize frame{320, 240};
+  std::map<std::uint32_t, ScreenTriangle> by_source;
+  for (const ScreenTriangle& t : projected(scene, frame)) by_source.emplace(t.source, t);
+  for (const double threshold : {1e9, 0.05}) {
+    const Drawn drawn = draw(scene, frame, spherical_key(scene), {.threshold = threshold});
+    EXPECT_EQ(drawn.counts.subdivided > 30, threshold < 1.0);
+    for (const Fragment& f : drawn.fragments)
+      ASSERT_NEAR(f.z, pixel_point(by_source.at(f.triangle), f.x, f.y).z * double((1 << 24) - 1), 0.5 + 0.01);
+  }
+}
+
+TEST(SphericalSetup, OneChannelIsAnyOfThreeWhereTheSceneIsGrey) {
+  RandomScenes random(7);
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (int i = 0; i < 6; ++i) {
+      Scene scene;
+      scene.materials = {random.material(true, true)};
+      random.add_triangles(scene, 20, 1.0, 0.5);
+      random.add_lights(scene, 3, RandomScenes::any, 1.1, true);
+      const HardwareKey one = spherical_key(scene, preset);
+      ASSERT_EQ(one.channels, 1U);
+      HardwareKey three = one, coloured = one;
+      three.channels = coloured.channels = coloured.spherical.highlight_channels = 3;
+      const FrameSize frame{120, 90};
+      const Drawn drawn = draw(scene, frame, one);
+      ASSERT_GT(drawn.fragments.size(), 1000u);
+      EXPECT_TRUE(drawn.fragments == draw(scene, frame, three).fragments);
+      EXPECT_TRUE(drawn.fragments == draw(scene, frame, coloured).fragments);
+    }
+}
+
+// A scene without some effect, on hardware that has it: the same picture.
+TEST(SphericalSetup, HardwareThatASceneDoesNotCallForAddsNothing) {
+  RandomScenes random(8);
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (const bool diffuse : {true, false}) {
+      Scene scene;
+      scene.materials = {random.material(false, false)};
+      (diffuse ? scene.materials[0].specular : scene.materials[0].diffuse) = 0.0;
+      random.add_triangles(scene, 20, 1.0, 0.5);
+      random.add_lights(scene, 2, RandomScenes::any, 1.1, false);
+      const HardwareKey key = spherical_key(scene, preset);
+      ASSERT_EQ(key.spherical.diffuse, diffuse);
+      ASSERT_EQ(key.spherical.specular, !diffuse);
+      HardwareKey more = key;
+      more.spherical.diffuse = more.spherical.specular = true;
+      more.spherical.highlight_channels = 3;
+      more.spherical.powers = preset == Preset::exact ? 31 : 2;
+      const FrameSize frame{120, 90};
+      const Drawn drawn = draw(scene, frame, key);
+      ASSERT_GT(drawn.fragments.size(), 1000u);
+      EXPECT_TRUE(drawn.fragments == draw(scene, frame, more).fragments);
+    }
+}
+
+// Materials of several exponents and none, on the hardware of all of them.
+TEST(SphericalSetup, MaterialsDoNotMix) {
+  RandomScenes random(9);
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    Scene scene;
+    random.add_triangles(scene, 10, 1.5, 0.5);
+    random.add_lights(scene, 2, RandomScenes::any, 1.1, false);
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+      scene.materials.push_back(random.material(false, false));
+      scene.materials[i].exponent = std::pow(3.0, static_cast<double>(i));
+      scene.triangles[i].material = static_cast<std::uint32_t>(i);
+    }
+    scene.materials[1].specular = scene.materials[2].diffuse = 0.0;
+    scene.materials[3].diffuse = scene.materials[3].specular = 0.0;
+    const FrameSize frame{120, 90};
+    std::map<std::uint32_t, std::vector<Fragment>> together;
+    for (const Fragment& f : draw(scene, frame, spherical_key(scene, preset)).fragments)
+      together[f.triangle].push_back(f);
+    std::size_t seen = 0;
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+      Scene alone = scene;
+      for (SceneTriangle& t : alone.triangles) t.material = i;  // so that this material alone is worn
+      std::vector<Fragment> fragments = draw(alone, frame, spherical_key(alone, preset)).fragments;
+      std::erase_if(fragments, [&](const Fragment& f) { return f.triangle != i; });
+      EXPECT_TRUE(fragments == together[i]) << "material " << i;
+      seen += fragments.size();
+    }
+    EXPECT_GT(seen, 2000u);
+  }
+}
+
+TEST(SphericalSetup, CountsSayWhatWasDone) {
+  RandomScenes random(10);
+  const Scene scene = lit_mesh(random, 1, RandomScenes::positional);
+  const FrameSize frame{160, 120};
+  const HardwareKey key = spherical_key(scene);
+  const SetupCounts whole = draw(scene, frame, key, c_never_cut).counts,
+                    cut = draw(scene, frame, key, c_cut).counts;
+  EXPECT_EQ(whole.subdivided, 0u);
+  EXPECT_EQ(whole.leaves, whole.vectors) << "no walk of this scene crosses the frame's side";
+  EXPECT_GT(whole.records, 5 * whole.vectors);
+  EXPECT_GT(cut.subdivided, 0u);
+  EXPECT_EQ(cut.triangles, whole.triangles);
+  EXPECT_GE(cut.leaves, whole.leaves + cut.subdivided);
+  EXPECT_GT(cut.records, whole.records);
+  EXPECT_GT(cut.shaded, whole.shaded);
+  EXPECT_EQ(whole.overexposed, 0u);
+  // A channel of the ambient light too bright: once a vector, however often it was looked at.
+  Scene bright = scene;
+  bright.ambient = {1e3, 0.0, 0.0};
+  bright.materials[0].ambient = 1.0;
+  bright.materials[0].colour = {0.5, 0.5, 0.5};
+  const SetupCounts counts = draw(bright, frame, spherical_key(bright), c_cut).counts;
+  EXPECT_EQ(counts.overexposed, counts.vectors);
+}
+
+TEST(SphericalSetup, WithoutLightsThereAreNoRecords) {
+  RandomScenes random(11);
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    Scene scene = lit_mesh(random, 1, RandomScenes::any);
+    scene.directional.clear();
+    scene.positional.clear();
+    scene.spots = {{.intensity = glm::dvec3(0.0)}};
+    scene.ambient = {0.3, 0.2, 0.1};
+    scene.materials[0].ambient = 0.9;
+    scene.materials[0].colour = {1.0, 0.5, 0.25};
+    const Drawn drawn = draw(scene, {160, 120}, spherical_key(scene, preset));
+    EXPECT_EQ(drawn.counts.records, 0u);
+    EXPECT_EQ(drawn.counts.subdivided, 0u);
+    ASSERT_GT(drawn.fragments.size(), 1000u);
+    for (const Fragment& f : drawn.fragments) {
+      ASSERT_EQ(f.red, to_byte(0.27));
+      ASSERT_EQ(f.green, to_byte(0.09));
+      ASSERT_EQ(f.blue, to_byte(0.0225));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halfway
