@@ -19,7 +19,7 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim compare why figure17 tables check-tables test bench build program configure setup doctor format \
+.PHONY: help sim compare why figure17 tables check-tables test bench build program generator configure setup doctor format \
   check-format clean
 
 help: ## this list
@@ -52,11 +52,11 @@ why: program ## one pixel stage by stage, golden beside RTL (SCENE, PIXEL)
 figure17: setup ## figure 17 of the spherical paper, from its timing model's trace
 	@tb/timing/figure17.sh build/figure17
 
-tables: program ## write ROMs and formats anew
-	@build/halfway tables $(table_options)
+tables: generator ## write ROMs and formats anew
+	@build/halfway_generator tables $(table_options)
 
-check-tables: program ## fail if make tables would change anything
-	@build/halfway tables --check $(table_options)
+check-tables: generator ## fail if make tables would change anything
+	@build/halfway_generator tables --check $(table_options)
 
 test: build ## every test
 	@ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
@@ -69,6 +69,9 @@ build: program ## program and tests
 
 program: configure
 	@cmake --build build -j "$(jobs)" --target halfway
+
+generator: configure
+	@cmake --build build -j "$(jobs)" --target halfway_generator
 
 # Again when set-up found a change on the machine; from scratch when the checkout has moved.
 configure: setup

@@ -1,9 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
-#include <cstdio>
-#include <exception>
-
 #include "cli/options.hpp"
 
 int main(int argc, char** argv) {
@@ -26,18 +21,5 @@ int main(int argc, char** argv) {
   cli::add_render(app, folders, exit_code);
   cli::add_init(app, folders, exit_code);
   cli::add_tables(app, folders, exit_code);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // help and version, on stdout
-    fmt::print(stderr, "halfway: {}; see halfway --help\n", error.what());
-    return static_cast<int>(ExitCode::bad_input);
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "halfway: out of memory; a smaller frame or mesh, or fewer threads, may fit\n");
-    return static_cast<int>(ExitCode::tool_failed);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "halfway: {}; this should not happen, please report it\n", error.what());
-    return static_cast<int>(ExitCode::tool_failed);
-  }
-  return exit_code;
+  return cli::run_program(app, argc, argv, exit_code);
 }

@@ -119,11 +119,6 @@ std::string result_name(const std::string& scene) {
   return path.has_extension() ? path.stem().string() : path.filename().string();
 }
 
-int report(const Error& error) {
-  fmt::print(stderr, "{}\n", error.message);
-  return static_cast<int>(error.code);
-}
-
 Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {

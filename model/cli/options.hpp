@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the commands share: where things lie, what to draw, how to say it.
+// What the commands share: what to draw, how to say how far it is.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,19 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "cli/program.hpp"
 #include "common/result.hpp"
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
 
 namespace halfway::cli {
-
-/// Of the checkout that the program was built from.
-struct Folders {
-  std::filesystem::path source;
-  std::filesystem::path rtl() const { return source / "rtl"; }
-  std::filesystem::path scenes() const { return source / "sim" / "scenes"; }
-  std::filesystem::path cache() const { return source / "build" / "cache"; }
-};
 
 /// Options of every command that draws.
 struct DrawOptions {
@@ -54,9 +47,6 @@ Result<std::vector<std::string>> builtin_scenes(const Folders& folders);
 /// The folder's name under which the results of a scene lie, however it was named: without folder and ending.
 std::string result_name(const std::string& scene);
 
-/// Prints the error on stderr and gives its exit code.
-int report(const Error& error);
-
 /// A line on a terminal that is written over; silent elsewhere.
 class Progress {
  public:
@@ -82,6 +72,5 @@ void add_render(CLI::App& app, const Folders& folders, int& exit_code);
 void add_init(CLI::App& app, const Folders& folders, int& exit_code);
 void add_compare(CLI::App& app, const Folders& folders, int& exit_code);
 void add_why(CLI::App& app, const Folders& folders, int& exit_code);
-void add_tables(CLI::App& app, const Folders& folders, int& exit_code);
 
 }  // namespace halfway::cli

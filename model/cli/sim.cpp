@@ -12,6 +12,7 @@
 #include "cli/options.hpp"
 #include "run/simulate.hpp"
 #include "scene/load_scene.hpp"
+#include "tables/compiled_sizes.hpp"
 #include "tables/generated_files.hpp"
 
 namespace halfway::cli {

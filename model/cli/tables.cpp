@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "cli/options.hpp"
+#include "cli/program.hpp"
 #include "common/file.hpp"
 #include "tables/generated_files.hpp"
 

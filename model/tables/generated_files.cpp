@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "common/file.hpp"
-#include "golden/cosine_tables.hpp"
 #include "tables/formats.hpp"
 
 namespace halfway::tables {
@@ -17,17 +16,6 @@ std::vector<GeneratedFile> generated_files(const CosineSizes& sizes) {
           {"model/golden/formats.hpp", cpp_header(presets)},
           {"rtl/tables/cosine_pkg.vhd", cosine_vhdl_package(sizes)},
           {"model/golden/cosine_tables.hpp", cosine_cpp_header(sizes)}};
-}
-
-CosineSizes compiled_sizes() {
-  CosineSizes sizes{{}, {}};
-  for (const golden::CosineTable& table : golden::c_cosine_tables) {
-    auto& list = table.exact ? sizes.exact : sizes.published;
-    if (const CosineSize size{table.address_bits, table.data_bits};
-        std::ranges::find(list, size) == list.end())
-      list.push_back(size);
-  }
-  return sizes;
 }
 
 std::size_t first_different_line(const std::filesystem::path& checkout, const GeneratedFile& file) {

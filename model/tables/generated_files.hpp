@@ -17,9 +17,6 @@ struct GeneratedFile {
 
 std::vector<GeneratedFile> generated_files(const CosineSizes& sizes);
 
-/// The sizes that this program was built with.
-CosineSizes compiled_sizes();
-
 /// The first line in which the checkout's file is not the generated one; 0 where there is none.
 std::size_t first_different_line(const std::filesystem::path& checkout, const GeneratedFile& file);
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every program of this project shares: where its checkout lies, and how it ends.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "common/result.hpp"
+
+namespace halfway::cli {
+
+/// Of the checkout that the program was built from.
+struct Folders {
+  std::filesystem::path source;
+  std::filesystem::path rtl() const { return source / "rtl"; }
+  std::filesystem::path scenes() const { return source / "sim" / "scenes"; }
+  std::filesystem::path cache() const { return source / "build" / "cache"; }
+};
+
+/// Prints the error on stderr and gives its exit code.
+int report(const Error& error);
+
+/// Parses, and so runs, what was asked for: the program's exit code. The command's callback sets `exit_code`.
+int run_program(CLI::App& app, int argc, char** argv, const int& exit_code);
+
+/// The command `tables`.
+void add_tables(CLI::App& app, const Folders& folders, int& exit_code);
+
+}  // namespace halfway::cli
