@@ -184,6 +184,39 @@ TEST_F(CliTest, SummaryHoldsWhatTheRunWas) {
   EXPECT_EQ(run({"compare", mesh, "--out", out()}).exit_code, 0);
 }
 
+// Both kinds of hardware leave their results side by side, with the same fragments and frames.
+TEST_F(CliTest, AllEffectsHaveAFolderOfTheirOwn) {
+  const auto mesh = write("one.obj", c_triangle);
+  for (const std::string shader : {"quadratic", "spherical"}) {
+    const auto sim = [&](std::vector<std::string> more) {
+      std::vector<std::string> arguments = {"sim",    mesh,    "--out",    out(),
+                                            "--size", "40x30", "--shader", shader};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      const Outcome outcome = run(arguments);
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    };
+    sim({});
+    sim({"--all-effects"});
+    const auto lean = out() / "one" / shader, all = out() / "one" / (shader + "-all-effects");
+    for (const char* file : {"golden.png", "ghdl.png", "verilator.png", "reference.png", "diff.png"}) {
+      const auto a = read_file(lean / file), b = read_file(all / file);
+      ASSERT_TRUE(a && b) << file;
+      EXPECT_EQ(*a, *b) << shader << " " << file;
+    }
+    const auto lean_text = read_file(lean / "summary.json"), all_text = read_file(all / "summary.json");
+    ASSERT_TRUE(lean_text && all_text);
+    const auto lean_json = nlohmann::json::parse(*lean_text), all_json = nlohmann::json::parse(*all_text);
+    EXPECT_EQ(lean_json["hardware"]["all_effects"], false);
+    EXPECT_EQ(all_json["hardware"]["all_effects"], true);
+    EXPECT_NE(lean_json["hardware"]["key"], all_json["hardware"]["key"]);
+    EXPECT_EQ(lean_json["fragments"], all_json["fragments"]);
+    EXPECT_EQ(run({"compare", mesh, "--out", out(), "--shader", shader, "--all-effects"}).exit_code, 0);
+    std::filesystem::remove_all(all);
+    EXPECT_EQ(run({"compare", mesh, "--out", out(), "--shader", shader, "--all-effects"}).exit_code, 2);
+    EXPECT_EQ(run({"compare", mesh, "--out", out(), "--shader", shader}).exit_code, 0);
+  }
+}
+
 TEST_F(CliTest, CompareSeesAChangedTraceAndRefusesADamagedOne) {
   const auto mesh = write("one.obj", c_triangle);
   ASSERT_EQ(run({"sim", mesh, "--out", out(), "--size", "20x15", "--simulator", "verilator"}).exit_code, 0);

@@ -17,6 +17,7 @@ namespace {
 
 struct CompareCommand {
   std::string shader = "quadratic";
+  bool all_effects = false;
   std::string out = "build/out";
   std::vector<std::string> scenes;
 };
@@ -46,7 +47,8 @@ int run(const Folders& folders, const CompareCommand& command) {
   }
   bool equal = true;
   for (const std::string& scene : scenes) {
-    const ResultFiles files = ResultFiles::of(command.out, result_name(scene), command.shader);
+    const ResultFiles files =
+        ResultFiles::of(command.out, result_name(scene), command.shader, command.all_effects);
     std::error_code error;
     if (!std::filesystem::exists(files.trace("golden"), error))
       return report(bad_input(
@@ -85,6 +87,7 @@ void add_compare(CLI::App& app, const Folders& folders, int& exit_code) {
   auto command = std::make_shared<CompareCommand>();
   sub->add_option("scene", command->scenes, "as for sim; none: all built-in scenes");
   sub->add_option("--shader", command->shader, "quadratic")->capture_default_str();
+  sub->add_flag("--all-effects", command->all_effects, "what sim --all-effects left");
   sub->add_option("--out", command->out, "folder of results")->capture_default_str();
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }

@@ -46,6 +46,14 @@ void DrawOptions::add_to(CLI::App& command) {
       "spherical: address bits of the cosine tables; with --data-bits, a size that `make tables`\n"
       "has made (default: the preset's)");
   command.add_option("--data-bits", data_bits, "spherical: data bits of the cosine tables");
+  command.add_flag(
+      "--all-effects", all_effects,
+      "elaborate every effect that the shader has, not only those that the scene calls for, with\n"
+      "coefficients of zero; the frame stays the same");
+  command.add_option(
+      "--lights", lights,
+      "spherical, with --all-effects: for how many lights, up to 16 (default: the scene's, and at\n"
+      "least one)");
   command.add_option(
       "--span-ends", span_ends,
       "spherical, preset exact: vectors at a span's ends from the surface, or by slerp along the\n"
@@ -66,6 +74,11 @@ Result<DrawSettings> checked(const DrawOptions& o) {
   if ((o.address_bits == 0) != (o.data_bits == 0))
     return bad_input("--address-bits and --data-bits go together; give both");
   if (o.address_bits != 0) s.plan.tables = TableSize{o.address_bits, o.data_bits};
+  s.plan.all_effects = o.all_effects;
+  if (o.lights != 0) {
+    if (!o.all_effects) return bad_input("--lights goes with --all-effects; give both");
+    s.plan.lights = o.lights;
+  }
   if (o.span_ends == "slerp")
     s.setup.spherical.ends = SpanEnds::slerped_along_edges;
   else if (!o.span_ends.empty() && o.span_ends != "surface")
@@ -100,6 +113,21 @@ Result<DrawSettings> checked(const DrawOptions& o) {
   if (o.out.empty()) return bad_input("--out: the folder has no name");
   s.out = o.out;
   return s;
+}
+
+Result<Simulators> checked_simulators(const std::vector<std::string>& names) {
+  Simulators chosen;
+  if (names.empty()) return chosen;
+  chosen.ghdl = chosen.verilator = false;
+  for (const std::string& name : names) {
+    if (name == "ghdl")
+      chosen.ghdl = true;
+    else if (name == "verilator")
+      chosen.verilator = true;
+    else
+      return bad_input(fmt::format("--simulator: '{}' is not a simulator; take ghdl or verilator", name));
+  }
+  return chosen;
 }
 
 Result<std::vector<std::string>> builtin_scenes(const Folders& folders) {

@@ -18,7 +18,9 @@ namespace halfway::cli {
 struct DrawOptions {
   std::string shader = "quadratic";
   int address_bits = 0, data_bits = 0;  ///< of the spherical shader's tables; 0: the preset's
-  std::string span_ends;                ///< empty: surface in preset exact, slerp in published
+  bool all_effects = false;
+  unsigned lights = 0;    ///< with all effects; 0: the scene's, and at least one
+  std::string span_ends;  ///< empty: surface in preset exact, slerp in published
   std::string preset = "exact";
   std::string size = "640x480";
   std::string out = "build/out";
@@ -40,6 +42,12 @@ struct DrawSettings {
 };
 
 Result<DrawSettings> checked(const DrawOptions& options);
+
+struct Simulators {
+  bool ghdl = true, verilator = true;
+};
+/// By their names; none given: both.
+Result<Simulators> checked_simulators(const std::vector<std::string>& names);
 
 /// The built-in scenes' names, in alphabetical order.
 Result<std::vector<std::string>> builtin_scenes(const Folders& folders);

@@ -99,18 +99,10 @@ int run(const Folders& folders, const SimOptions& options) {
   settings.out = draw->out;
   settings.stall_seed = options.stall_seed;
   settings.folders = {folders.source, folders.cache()};
-  if (!options.simulators.empty()) {
-    settings.ghdl = settings.verilator = false;
-    for (const std::string& name : options.simulators) {
-      if (name == "ghdl")
-        settings.ghdl = true;
-      else if (name == "verilator")
-        settings.verilator = true;
-      else
-        return report(
-            bad_input(fmt::format("--simulator: '{}' is not a simulator; take ghdl or verilator", name)));
-    }
-  }
+  const auto simulators = checked_simulators(options.simulators);
+  if (!simulators) return report(simulators.error());
+  settings.ghdl = simulators->ghdl;
+  settings.verilator = simulators->verilator;
   std::vector<std::string> scenes = options.scenes;
   if (scenes.empty()) {
     auto builtin = builtin_scenes(folders);

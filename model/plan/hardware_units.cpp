@@ -33,6 +33,8 @@ class Units {
     add("line_interpolator", 2);
     add("parameter_register", exact_ ? 4 : 3);
   }
+  // The spherical shader's: in the stages of line, span, sample and product.
+  void add_ambient() { add("parameter_register", 4); }
   void add_quadratic_interpolator() {
     add("quadratic_interpolator");
     add("line_interpolator", exact_ ? 6 : 5);
@@ -70,7 +72,8 @@ class Units {
     const bool diffuse_part = exact_ ? golden::SphericalLayout<golden::Exact>(config).has_diffuse_part()
                                      : golden::SphericalLayout<golden::Published>(config).has_diffuse_part();
     add_stream_registers(4);       // the buffer in front, the stages of sample, product and fragment
-    add("parameter_register", 8);  // depth in three stages, ambient in the four before the last, colour
+    add("parameter_register", 4);  // depth in three stages, colour
+    add_ambient();
     add_walker();
     add_z_interpolator();
     for (int light = 0; light < config.lights; ++light) {
@@ -95,6 +98,25 @@ std::map<std::string, int> hardware_units(const HardwareKey& key) {
     units.add_spherical_shader();
   else
     units.add_quadratic_shader();
+  return std::move(units).take();
+}
+
+std::map<std::string, int> units_added(const HardwareKey& from, const HardwareKey& to) {
+  std::map<std::string, int> units = hardware_units(to);
+  for (const auto& [unit, count] : hardware_units(from)) units[unit] -= count;
+  std::erase_if(units, [](const auto& unit) { return unit.second <= 0; });
+  return units;
+}
+
+std::map<std::string, int> depth_units(const HardwareKey& key) {
+  Units units(key);
+  units.add_z_interpolator();
+  return std::move(units).take();
+}
+
+std::map<std::string, int> ambient_units(const HardwareKey& key) {
+  Units units(key);
+  units.add_ambient();
   return std::move(units).take();
 }
 

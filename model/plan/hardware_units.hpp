@@ -12,4 +12,11 @@ namespace halfway {
 /// Entities by name, the top left out. Checked against the netlist by hardware_units_test.cpp.
 std::map<std::string, int> hardware_units(const HardwareKey& key);
 
+/// What is in `to` and not in `from`.
+std::map<std::string, int> units_added(const HardwareKey& from, const HardwareKey& to);
+
+/// Of these, what every key has: the depth's, and what the spherical shader has for ambient light.
+std::map<std::string, int> depth_units(const HardwareKey& key);
+std::map<std::string, int> ambient_units(const HardwareKey& key);
+
 }  // namespace halfway

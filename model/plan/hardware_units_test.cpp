@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
 
-#include "common/file.hpp"
+#include "plan/plan.hpp"
+#include "scene/load_scene.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
 namespace halfway {
@@ -50,16 +52,35 @@ class Netlist {
   std::map<std::string, std::vector<std::string>> instances_;
 };
 
-TEST(HardwareUnits, AreThoseOfTheNetlist) {
-  const auto tool = GhdlTool::find();
-  ASSERT_TRUE(tool) << tool.error().message;
-  const auto sources = read_rtl_sources(HALFWAY_SOURCE_DIR);
-  ASSERT_TRUE(sources) << sources.error().message;
-  std::set<std::string> entities;
-  for (const VhdlSource& source : *sources) entities.insert(std::filesystem::path(source.name).stem());
-  const auto library =
-      GhdlLibrary::open(*tool, *sources, "", std::filesystem::path(HALFWAY_SOURCE_DIR) / "build" / "cache");
-  ASSERT_TRUE(library) << library.error().message;
+class HardwareUnits : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto tool = GhdlTool::find();
+    ASSERT_TRUE(tool) << tool.error().message;
+    const auto sources = read_rtl_sources(HALFWAY_SOURCE_DIR);
+    ASSERT_TRUE(sources) << sources.error().message;
+    for (const VhdlSource& source : *sources) entities_.insert(std::filesystem::path(source.name).stem());
+    auto library =
+        GhdlLibrary::open(*tool, *sources, "", std::filesystem::path(HALFWAY_SOURCE_DIR) / "build" / "cache");
+    ASSERT_TRUE(library) << library.error().message;
+    library_.emplace(std::move(*library));
+  }
+  std::string netlist(const HardwareKey& key) const {
+    const auto text = library_->synthesize(key.entity(), key.generics());
+    EXPECT_TRUE(text) << text.error().message;
+    return text ? *text : "";
+  }
+  std::map<std::string, int> found(const HardwareKey& key) const {
+    std::map<std::string, int> units;
+    Netlist(netlist(key), entities_).count(key.entity(), units);
+    return units;
+  }
+
+  std::set<std::string> entities_;
+  std::optional<GhdlLibrary> library_;
+};
+
+TEST_F(HardwareUnits, AreThoseOfTheNetlist) {
   std::vector<HardwareKey> keys;
   for (const Preset preset : {Preset::exact, Preset::published}) {
     const bool exact = preset == Preset::exact;
@@ -79,12 +100,60 @@ TEST(HardwareUnits, AreThoseOfTheNetlist) {
           {.lights = 3, .diffuse = true, .specular = true, .highlight_channels = channels, .powers = 22});
     }
   }
-  for (const HardwareKey& key : keys) {
-    const auto netlist = library->synthesize(key.entity(), key.generics());
-    ASSERT_TRUE(netlist) << netlist.error().message;
-    std::map<std::string, int> found;
-    Netlist(*netlist, entities).count(key.entity(), found);
-    EXPECT_EQ(found, hardware_units(key)) << key.name();
+  for (const HardwareKey& key : keys) EXPECT_EQ(found(key), hardware_units(key)) << key.name();
+}
+
+Plan plan_of(const std::string& name, Shader shader, Preset preset) {
+  const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
+  EXPECT_TRUE(scene) << scene.error().message;
+  const auto plan = plan_scene(*scene, {.shader = shader, .preset = preset});
+  EXPECT_TRUE(plan) << plan.error().message;
+  return *plan;
+}
+
+TEST_F(HardwareUnits, WhatAPlanSaysOfAnEffectIsInTheNetlistOrIsNot) {
+  for (const char* scene : {"matte", "spheres", "teapot"})
+    for (const Shader shader : {Shader::quadratic, Shader::spherical})
+      for (const Preset preset : {Preset::exact, Preset::published}) {
+        const Plan plan = plan_of(scene, shader, preset);
+        const auto here = found(plan.key);
+        for (const PlannedEffect& e : plan.effects) {
+          SCOPED_TRACE(plan.key.name() + ": " + to_string(e.effect));
+          for (const auto& [unit, count] : e.units)
+            EXPECT_TRUE(!e.elaborated || (here.contains(unit) && here.at(unit) >= count)) << unit;
+          if (!e.other) continue;
+          auto difference = found(e.elaborated ? plan.key : *e.other);
+          for (const auto& [unit, count] : found(e.elaborated ? *e.other : plan.key))
+            difference[unit] -= count;
+          std::erase_if(difference, [](const auto& unit) { return unit.second == 0; });
+          EXPECT_EQ(difference, e.units);
+        }
+      }
+}
+
+// No module, no instance, no ROM's word of what is not called for.
+TEST_F(HardwareUnits, OfAnEffectNotCalledForAreNowhere) {
+  const auto expect_none = [&](const HardwareKey& key, const std::vector<std::string>& entities) {
+    const std::string text = netlist(key);
+    for (const std::string& entity : entities) {
+      EXPECT_EQ(text.find(entity), std::string::npos) << key.name() << " has a " << entity;
+      EXPECT_FALSE(hardware_units(key).contains(entity)) << key.name();
+    }
+  };
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    const Plan matte = plan_of("matte", Shader::spherical, preset);
+    expect_none(matte.key, {"specular", "quadratic"});
+    EXPECT_EQ(hardware_units(matte.key).at("multiplier"), 1);
+    EXPECT_NE(netlist(matte.everything).find("specular_slice"), std::string::npos);
+    // Neither light nor reflection: nothing that illuminates.
+    HardwareKey dark = matte.key;
+    dark.spherical.lights = 0;
+    dark.spherical.diffuse = false;
+    expect_none(dark, {"specular", "diffuse", "cosine", "angle_address", "multiplier"});
+    expect_none(plan_of("matte", Shader::quadratic, preset).key,
+                {"specular", "diffuse", "cosine", "multiplier"});
+    EXPECT_EQ(hardware_units(plan_of("matte", Shader::quadratic, preset).key).at("quadratic_interpolator"),
+              1);
   }
 }
 

@@ -1,32 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan: which hardware a scene calls for. A pure function of the scene and the shader asked for.
+// The plan: which hardware a scene calls for, and why. A pure function of the scene and the shader asked for.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/result.hpp"
+#include "plan/effects.hpp"
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
 
 namespace halfway {
 
+/// Where a shader leaves an effect to.
+enum class DoneBy { hardware, host, nobody };
+
 struct PlannedEffect {
-  std::string name;
-  bool called_for;
-  std::string why;
+  Effect effect;
+  bool called_for;  ///< by the scene
+  std::string why;  ///< or why not
+  DoneBy by;
+  std::string how;  ///< in this shader; may be empty
+  /// Whether the hardware has it: what is called for, and with all effects the rest too.
+  bool elaborated = false;
+  /// The same hardware with this effect alone put in, or left out; none where it cannot be.
+  std::optional<HardwareKey> other;
+  /// Entities that are there for it; where it is not elaborated, those that it would take.
+  std::map<std::string, int> units;
 };
 
 struct Plan {
-  HardwareKey key;
-  std::vector<PlannedEffect> effects;
+  HardwareKey key;                     ///< what is elaborated: one of these two
+  HardwareKey called_for;              ///< what the scene calls for
+  HardwareKey everything;              ///< every effect that the shader has
+  std::vector<PlannedEffect> effects;  ///< every effect there is, in their order
 };
 
 struct PlanRequest {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
   std::optional<TableSize> tables;  ///< of the spherical shader; none: the preset's
+  /// Elaborate Plan::everything; what the scene has not, setup gives coefficients of zero.
+  bool all_effects = false;
+  /// Lights that Plan::everything has in the spherical shader; none: those of the scene, and at least one.
+  std::optional<unsigned> lights;
 };
 
 inline constexpr std::size_t c_most_lights = 16;  ///< of the spherical shader

@@ -2,11 +2,13 @@
 // What a scene calls for and why, and that keys of different hardware are told apart.
 #include "plan/plan.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -14,11 +16,12 @@
 
 #include "golden/cosine_tables.hpp"
 #include "plan/effects.hpp"
+#include "plan/hardware_units.hpp"
 
 namespace halfway {
 namespace {
 
-using ::testing::AllOf, ::testing::HasSubstr, ::testing::IsEmpty;
+using ::testing::AllOf, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not;
 
 // Everything grey, one triangle, no light yet. Exponent 2: the bell is cos^2 itself.
 Scene grey_scene() {
@@ -52,15 +55,12 @@ Plan spherical(const Scene& scene, Preset preset = Preset::exact) {
   return planned(scene, {.shader = Shader::spherical, .preset = preset});
 }
 
-const PlannedEffect& effect(const Plan& plan, std::string_view name) {
-  for (const PlannedEffect& e : plan.effects)
-    if (e.name == name) return e;
-  ADD_FAILURE() << "no effect '" << name << "'";
+const PlannedEffect& effect(const Plan& plan, Effect which) {
+  const auto it = std::ranges::find(plan.effects, which, &PlannedEffect::effect);
+  if (it != plan.effects.end()) return *it;
+  ADD_FAILURE() << "no effect '" << to_string(which) << "'";
   static const PlannedEffect none{};
   return none;
-}
-bool has_effect(const Plan& plan, std::string_view name) {
-  return std::ranges::find(plan.effects, name, &PlannedEffect::name) != plan.effects.end();
 }
 
 TEST(Plan, OneChannelWhereEverythingSeenIsGrey) {
@@ -68,7 +68,7 @@ TEST(Plan, OneChannelWhereEverythingSeenIsGrey) {
     for (const Preset preset : {Preset::exact, Preset::published}) {
       const PlanRequest request{.shader = shader, .preset = preset};
       const auto channels = [&](const Scene& scene) { return planned(scene, request).key.channels; };
-      const auto why = [&](const Scene& scene) { return effect(planned(scene, request), "colour channels"); };
+      const auto why = [&](const Scene& scene) { return effect(planned(scene, request), Effect::colour); };
       const Scene grey = lit_scene();
       EXPECT_EQ(channels(grey), 1U);
       EXPECT_FALSE(why(grey).called_for);
@@ -110,26 +110,83 @@ TEST(Plan, OneChannelWhereEverythingSeenIsGrey) {
     }
 }
 
-TEST(Plan, EdgesAndDepthFollowThePreset) {
+TEST(Plan, NamesEveryEffectOnceWithItsReason) {
   for (const Shader shader : {Shader::quadratic, Shader::spherical})
-    for (const Preset preset : {Preset::exact, Preset::published}) {
-      const Plan plan = planned(lit_scene(), {.shader = shader, .preset = preset});
-      EXPECT_EQ(plan.key.shader, shader);
-      EXPECT_EQ(plan.key.preset, preset);
-      EXPECT_TRUE(effect(plan, "depth").called_for);
-      EXPECT_EQ(effect(plan, "exact edges").called_for, preset == Preset::exact);
-      EXPECT_FALSE(plan.key.probe);
-      for (const PlannedEffect& e : plan.effects) EXPECT_FALSE(e.why.empty()) << e.name;
-    }
+    for (const Preset preset : {Preset::exact, Preset::published})
+      for (const bool all_effects : {false, true})
+        for (const Scene& scene : {grey_scene(), lit_scene()}) {
+          const Plan plan = planned(scene, {.shader = shader, .preset = preset, .all_effects = all_effects});
+          EXPECT_EQ(plan.key.shader, shader);
+          EXPECT_EQ(plan.key.preset, preset);
+          EXPECT_FALSE(plan.key.probe);
+          EXPECT_TRUE(effect(plan, Effect::depth).called_for);
+          ASSERT_EQ(plan.effects.size(), c_effects);
+          std::set<std::string> names;
+          for (std::size_t i = 0; i < c_effects; ++i) {
+            const PlannedEffect& e = plan.effects[i];
+            EXPECT_EQ(e.effect, static_cast<Effect>(i));
+            EXPECT_TRUE(names.insert(to_string(e.effect)).second) << to_string(e.effect);
+            EXPECT_THAT(e.why, Not(IsEmpty())) << to_string(e.effect);
+            if (e.by == DoneBy::hardware) {
+              EXPECT_TRUE(e.elaborated || !e.called_for) << to_string(e.effect);
+              EXPECT_TRUE(!e.units.empty() || !e.elaborated) << to_string(e.effect);
+            } else {
+              EXPECT_THAT(e.how, Not(IsEmpty())) << to_string(e.effect);
+              EXPECT_FALSE(e.elaborated || e.other) << to_string(e.effect);
+              EXPECT_THAT(e.units, IsEmpty()) << to_string(e.effect);
+            }
+          }
+          EXPECT_EQ(effect(plan, Effect::shadow).how, "not by this shader");
+        }
 }
 
-TEST(Plan, QuadraticHasNoLights) {
+TEST(Plan, ShadowsAreCalledForWhereThereIsLightToKeepOut) {
+  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+    const auto shadow = [&](const Scene& scene) {
+      return effect(planned(scene, {.shader = shader}), Effect::shadow);
+    };
+    Scene scene = lit_scene();
+    EXPECT_FALSE(shadow(scene).called_for);
+    EXPECT_EQ(shadow(scene).why, "the scene does without");
+    scene.shadows = true;
+    EXPECT_TRUE(shadow(scene).called_for);
+    EXPECT_EQ(shadow(scene).by, DoneBy::nobody);
+    scene.directional.clear();
+    EXPECT_FALSE(shadow(scene).called_for);
+    EXPECT_EQ(shadow(scene).why, "no light shines");
+  }
+}
+
+// What a scene calls for does not depend on who draws it.
+TEST(Plan, QuadraticLeavesLightsToTheHost) {
   Scene scene = lit_scene();
   scene.positional.resize(40);
   wear(scene, {.brdf = Brdf::cook_torrance});
   const Plan plan = planned(scene, {});
   EXPECT_EQ(plan.key.spherical.lights, 0U);
-  EXPECT_FALSE(has_effect(plan, "lights"));
+  for (const Effect e : {Effect::diffuse, Effect::specular, Effect::directional, Effect::positional}) {
+    EXPECT_TRUE(effect(plan, e).called_for) << to_string(e);
+    EXPECT_EQ(effect(plan, e).by, DoneBy::host) << to_string(e);
+  }
+  EXPECT_EQ(effect(plan, Effect::positional).why, "40 of 41 lights");
+  EXPECT_EQ(effect(plan, Effect::spot).why, "the scene has no spot light");
+}
+
+TEST(Plan, AmbientLightNeedsALightAndAMaterial) {
+  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+    const auto ambient = [&](const Scene& scene) {
+      return effect(planned(scene, {.shader = shader}), Effect::ambient);
+    };
+    Scene scene = grey_scene();
+    EXPECT_TRUE(ambient(scene).called_for);
+    EXPECT_EQ(ambient(scene).why, "material 'plain' has k_a 0.1");
+    EXPECT_EQ(ambient(scene).elaborated, shader == Shader::spherical);
+    scene.materials[0].ambient = 0.0;
+    EXPECT_EQ(ambient(scene).why, "every k_a is 0");
+    scene.ambient = glm::dvec3(0.0);
+    EXPECT_FALSE(ambient(scene).called_for);
+    EXPECT_EQ(ambient(scene).why, "the ambient light is 0");
+  }
 }
 
 TEST(Plan, LightsFromNoneToOneTooMany) {
@@ -159,15 +216,18 @@ TEST(Plan, LightsFromNoneToOneTooMany) {
       EXPECT_EQ(units.records(), lights > 0);
       EXPECT_EQ(units.diffuse, lights > 0);
       EXPECT_EQ(units.specular, lights > 0);
-      EXPECT_EQ(effect(*plan, "lights").called_for, lights > 0);
-      EXPECT_THAT(effect(*plan, "lights").why,
-                  HasSubstr(lights == 0 ? "no light shines" : std::to_string(lights)));
-      EXPECT_EQ(has_effect(*plan, "cosine tables"), lights > 0);
-      if (lights == 0)
-        for (const char* name : {"diffuse", "specular"}) {
-          EXPECT_FALSE(effect(*plan, name).called_for);
-          EXPECT_EQ(effect(*plan, name).why, "no light shines");
-        }
+      EXPECT_EQ(units.powers, lights > 0 ? 2U : 0U);
+      unsigned kind = 0;
+      for (const Effect e : {Effect::directional, Effect::positional, Effect::spot}) {
+        const unsigned count = (lights + 2 - kind++) / 3;
+        EXPECT_EQ(effect(*plan, e).called_for, count > 0);
+        EXPECT_EQ(effect(*plan, e).why, count > 0 ? fmt::format("{} of {} lights", count, lights)
+                                                  : fmt::format("the scene has no {} light", to_string(e)));
+      }
+      for (const Effect e : {Effect::diffuse, Effect::specular, Effect::normalization, Effect::subdivision}) {
+        EXPECT_EQ(effect(*plan, e).called_for, lights > 0) << to_string(e);
+        EXPECT_EQ(effect(*plan, e).why == "no light shines", lights == 0) << to_string(e);
+      }
     }
 }
 
@@ -185,6 +245,7 @@ TEST(Plan, DarkLightsAreLeftOut) {
   scene.directional[1].intensity = scene.positional[0].intensity = scene.spots[7].intensity = dark;
   EXPECT_THAT(shining_lights(scene), IsEmpty());
   EXPECT_FALSE(spherical(scene).key.spherical.records());
+  EXPECT_EQ(effect(spherical(scene), Effect::spot).why, "their intensity is 0");
 }
 
 TEST(Plan, EffectsThatNoMaterialShowsAreLeftOut) {
@@ -211,21 +272,22 @@ TEST(Plan, EffectsThatNoMaterialShowsAreLeftOut) {
     EXPECT_EQ(units.diffuse, c.diffuse);
     EXPECT_EQ(units.specular, c.specular);
     EXPECT_EQ(units.lights, c.diffuse || c.specular ? 1U : 0U);
-    EXPECT_EQ(effect(plan, "lights").called_for, units.records());
-    EXPECT_EQ(effect(plan, "diffuse").called_for, c.diffuse);
-    EXPECT_THAT(effect(plan, "diffuse").why, HasSubstr(c.why_diffuse));
-    EXPECT_EQ(effect(plan, "specular").called_for, c.specular);
-    EXPECT_THAT(effect(plan, "specular").why, HasSubstr(c.why_specular));
-    EXPECT_EQ(has_effect(plan, "cosine powers"), c.specular);
-    EXPECT_EQ(has_effect(plan, "highlight colour"), c.specular);
+    EXPECT_EQ(effect(plan, Effect::directional).called_for, units.records());
+    EXPECT_EQ(effect(plan, Effect::diffuse).called_for, c.diffuse);
+    EXPECT_THAT(effect(plan, Effect::diffuse).why, HasSubstr(c.why_diffuse));
+    EXPECT_EQ(effect(plan, Effect::specular).called_for, c.specular);
+    EXPECT_THAT(effect(plan, Effect::specular).why, HasSubstr(c.why_specular));
+    for (const Effect e : {Effect::exponents, Effect::highlight_colour})
+      EXPECT_EQ(effect(plan, e).why == "there is no highlight", !c.specular) << to_string(e);
     EXPECT_EQ(units.powers != 0, c.specular);
+    EXPECT_EQ(reflected_lights(scene).size(), units.lights);
   }
   // Lights without measure, and nothing to reflect them.
   Scene scene = lit_scene();
   scene.materials[0].diffuse = scene.materials[0].specular = 0.0;
   scene.directional.resize(100);
   EXPECT_EQ(spherical(scene).key.spherical.lights, 0U);
-  EXPECT_EQ(effect(spherical(scene), "lights").why, "no material reflects them");
+  EXPECT_EQ(effect(spherical(scene), Effect::directional).why, "no material reflects them");
 }
 
 TEST(Plan, CookTorranceIsRefusedWhereItsHighlightWouldShow) {
@@ -247,16 +309,16 @@ TEST(Plan, CookTorranceIsRefusedWhereItsHighlightWouldShow) {
 TEST(Plan, WhiteHighlightsTakeOneMultiplier) {
   const auto highlight_channels = [](const Scene& scene) {
     const Plan plan = spherical(scene);
-    EXPECT_EQ(effect(plan, "highlight colour").called_for, plan.key.spherical.highlight_channels != 1);
+    EXPECT_EQ(effect(plan, Effect::highlight_colour).called_for, plan.key.spherical.highlight_channels != 1);
     return plan.key.spherical.highlight_channels;
   };
-  const auto why = [](const Scene& scene) { return effect(spherical(scene), "highlight colour").why; };
+  const auto why = [](const Scene& scene) { return effect(spherical(scene), Effect::highlight_colour).why; };
   Scene scene = lit_scene();
   EXPECT_EQ(highlight_channels(scene), 1U);
   wear(scene, {.name = "red", .colour = {0.8, 0.1, 0.1}});
   EXPECT_EQ(spherical(scene).key.channels, 3U);
   EXPECT_EQ(highlight_channels(scene), 1U);
-  EXPECT_THAT(why(scene), HasSubstr("one multiplier"));
+  EXPECT_EQ(why(scene), "every highlight is white");
 
   Scene gold = scene;
   gold.materials[1].specular_colour = {1.0, 0.8, 0.3};
@@ -287,13 +349,20 @@ TEST(Plan, PowersAreThoseOfTheExponentsInUse) {
     for (unsigned power = 1; power <= 16; power *= 2)
       if ((plan.key.spherical.powers & power) != 0)
         tables += (tables.empty() ? "cos^" : ", cos^") + std::to_string(power);
-    EXPECT_EQ(effect(plan, "cosine powers").why, tables + " for the exponents in use");
+    const PlannedEffect& e = effect(plan, Effect::exponents);
+    if (preset == Preset::exact) {
+      EXPECT_TRUE(e.why.ends_with(": " + tables)) << e.why;
+      EXPECT_EQ(e.called_for, tables.find(',') != std::string::npos);
+    } else {
+      EXPECT_EQ(e.by, DoneBy::host);
+    }
     return plan.key.spherical.powers;
   };
   for (const unsigned power : {1U, 2U, 4U, 8U, 16U}) EXPECT_EQ(powers({double(power)}), power);
   EXPECT_EQ(powers({1.0, 16.0}), 17U);
   EXPECT_EQ(powers({2.0, 4.0, 8.0, 2.0}), 14U);
   for (const double large : {100.0, 1e6, 1e9, 1e300}) EXPECT_EQ(powers({large}), 16U);
+  EXPECT_EQ(powers({100.0, 1e6}), 16U);  // two exponents, one table
   EXPECT_EQ(powers({1.0, 300.0}, Preset::published), 2U);
 }
 
@@ -303,9 +372,7 @@ TEST(Plan, TablesAreThePresetsOrThoseThatAreThere) {
     const golden::CosineSize usual = exact ? golden::c_exact_cosine_size : golden::c_published_cosine_size;
     const Plan plan = spherical(lit_scene(), preset);
     EXPECT_EQ(plan.key.spherical.tables, (TableSize{usual.address_bits, usual.data_bits}));
-    EXPECT_THAT(effect(plan, "cosine tables").why,
-                AllOf(HasSubstr(std::to_string(usual.address_bits) + " address bits"),
-                      HasSubstr(std::to_string(usual.data_bits) + " data bits")));
+    EXPECT_THAT(plan.key.name(), HasSubstr(fmt::format("-rom{}x{}", usual.address_bits, usual.data_bits)));
     for (const golden::CosineTable& table : golden::c_cosine_tables) {
       const TableSize size{table.address_bits, table.data_bits};
       const auto other =
@@ -332,6 +399,85 @@ TEST(Plan, TablesAreThePresetsOrThoseThatAreThere) {
   const auto quadratic = plan_scene(lit_scene(), {.tables = TableSize{9, 8}});
   ASSERT_FALSE(quadratic);
   EXPECT_THAT(quadratic.error().message, HasSubstr("only the spherical shader"));
+}
+
+// An effect's counterpart differs in what the effect alone needs, either way.
+TEST(Plan, OtherKeysDifferInOneEffect) {
+  Scene scene = lit_scene();
+  scene.positional.resize(2);
+  wear(scene,
+       {.name = "gold", .colour = {0.8, 0.6, 0.2}, .specular_colour = {1.0, 0.8, 0.3}, .exponent = 16.0});
+  const Plan rich = spherical(scene), poor = spherical(grey_scene());
+  const auto other = [](const Plan& plan, Effect e) { return effect(plan, e).other->name(); };
+  EXPECT_EQ(rich.key.name(), "spherical_shader-exact-c3-l3-d-s3-cos2.16-rom9x8");
+  EXPECT_EQ(other(rich, Effect::diffuse), "spherical_shader-exact-c3-l3-s3-cos2.16-rom9x8");
+  EXPECT_EQ(other(rich, Effect::specular), "spherical_shader-exact-c3-l3-d-rom9x8");
+  EXPECT_EQ(other(rich, Effect::highlight_colour), "spherical_shader-exact-c3-l3-d-s1-cos2.16-rom9x8");
+  EXPECT_EQ(other(rich, Effect::exponents), "spherical_shader-exact-c3-l3-d-s3-cos16-rom9x8");
+  EXPECT_EQ(other(rich, Effect::directional), "spherical_shader-exact-c3-l2-d-s3-cos2.16-rom9x8");
+  EXPECT_EQ(other(rich, Effect::positional), "spherical_shader-exact-c3-l1-d-s3-cos2.16-rom9x8");
+  EXPECT_EQ(other(rich, Effect::spot), "spherical_shader-exact-c3-l4-d-s3-cos2.16-rom9x8");
+  EXPECT_EQ(other(rich, Effect::colour), "spherical_shader-exact-c1-l3-d-s1-cos2.16-rom9x8");
+  EXPECT_EQ(poor.key.name(), "spherical_shader-exact-c1-l0");
+  EXPECT_EQ(other(poor, Effect::diffuse), "spherical_shader-exact-c1-l1-d-rom9x8");
+  EXPECT_EQ(other(poor, Effect::specular), "spherical_shader-exact-c1-l1-s1-cos2-rom9x8");
+  EXPECT_EQ(other(poor, Effect::spot), "spherical_shader-exact-c1-l1-d-rom9x8");
+  EXPECT_EQ(other(poor, Effect::colour), "spherical_shader-exact-c3-l0");
+  // Taking the only light takes its effects along.
+  EXPECT_EQ(other(spherical(lit_scene()), Effect::directional), "spherical_shader-exact-c1-l0");
+  using Units = std::map<std::string, int>;
+  EXPECT_EQ(effect(rich, Effect::highlight_colour).units, (Units{{"multiplier", 6}}));
+  EXPECT_EQ(effect(rich, Effect::exponents).units, (Units{{"cosine_rom", 3}, {"parameter_register", 6}}));
+  EXPECT_EQ(effect(planned(lit_scene(), {}), Effect::colour).units.at("quadratic_interpolator"), 2);
+  for (const Plan& plan : {rich, poor})
+    for (const PlannedEffect& e : plan.effects)
+      if (e.other) {
+        EXPECT_EQ(e.units, e.elaborated ? units_added(*e.other, plan.key) : units_added(plan.key, *e.other));
+        EXPECT_THAT(e.units, Not(IsEmpty())) << to_string(e.effect);
+        const SphericalUnits& other_units = e.other->spherical;
+        EXPECT_EQ(other_units.powers != 0, other_units.specular) << to_string(e.effect);
+        EXPECT_EQ(other_units.lights != 0, other_units.records()) << to_string(e.effect);
+      }
+}
+
+TEST(Plan, AllEffectsAreAllThatTheShaderHas) {
+  using Lights = std::optional<unsigned>;
+  const auto key = [](const Scene& scene, Preset preset, Lights lights = {}) {
+    const Plan plan = planned(
+        scene, {.shader = Shader::spherical, .preset = preset, .all_effects = true, .lights = lights});
+    EXPECT_EQ(plan.key.name(), plan.everything.name());
+    EXPECT_EQ(plan.called_for.name(), spherical(scene, preset).key.name());
+    return plan.key.name();
+  };
+  Scene three = lit_scene();
+  three.spots.resize(2);
+  const std::string all = "-d-s3-cos1.2.4.8.16-rom9x8";
+  EXPECT_EQ(key(grey_scene(), Preset::exact), "spherical_shader-exact-c3-l1" + all);
+  EXPECT_EQ(key(three, Preset::exact), "spherical_shader-exact-c3-l3" + all);
+  EXPECT_EQ(key(three, Preset::exact, 16), "spherical_shader-exact-c3-l16" + all);
+  EXPECT_EQ(key(three, Preset::published), "spherical_shader-published-c3-l3-d-s3-cos2-rom6x6");
+  // Lights that nothing reflects count no more than elsewhere.
+  Scene dull = grey_scene();
+  dull.materials[0].diffuse = dull.materials[0].specular = 0.0;
+  dull.directional.resize(100);
+  EXPECT_EQ(key(dull, Preset::exact), "spherical_shader-exact-c3-l1" + all);
+  for (const Lights lights : {0U, 2U, 17U}) {
+    const auto plan = plan_scene(three, {.shader = Shader::spherical, .all_effects = true, .lights = lights});
+    ASSERT_FALSE(plan) << *lights;
+    EXPECT_EQ(plan.error().message, fmt::format("--lights: {} is not 3 to 16", *lights));
+  }
+  EXPECT_EQ(planned(grey_scene(), {.all_effects = true}).key.name(), "quadratic_shader-exact-c3");
+  EXPECT_EQ(planned(grey_scene(), {}).everything.name(), "quadratic_shader-exact-c3");
+  EXPECT_FALSE(plan_scene(grey_scene(), {.all_effects = true, .lights = 2}));
+  // With all effects, what is not called for is there; one more light may not be.
+  const Plan most = planned(grey_scene(), {.shader = Shader::spherical, .all_effects = true, .lights = 16});
+  for (const Effect e :
+       {Effect::diffuse, Effect::specular, Effect::highlight_colour, Effect::exponents, Effect::colour}) {
+    EXPECT_FALSE(effect(most, e).called_for) << to_string(e);
+    EXPECT_TRUE(effect(most, e).elaborated) << to_string(e);
+  }
+  EXPECT_EQ(effect(most, Effect::exponents).why, "there is no highlight");
+  EXPECT_FALSE(effect(most, Effect::spot).other);
 }
 
 // All the hardware there is, up to what a plan may ask for.

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 
+#include "reference/ray_cast.hpp"
 #include "reference/shade.hpp"
 #include "reference/visible_pixels.hpp"
 #include "setup/project.hpp"
@@ -12,12 +14,17 @@ namespace halfway {
 
 ReferenceImage render_reference(const Scene& scene, std::span<const ScreenTriangle> triangles,
                                 const RenderOptions& options) {
+  const auto shadow_rays = scene.shadows ? std::make_unique<ShadowRays>(scene) : nullptr;
   return render_visible(scene, triangles, options, [&] {
     return [&](std::uint32_t index, std::uint32_t x, std::uint32_t y) {
       const ScreenTriangle& triangle = triangles[index];
       const SurfacePoint point =
           surface_point(triangle, barycentric_at_centre(triangle, options.subpixel_bits, x, y));
-      return radiance(scene, scene.materials[triangle.material], point.position_world, point.normal_world);
+      const auto reaches = [&](LightRef light) {
+        return shadow_rays->reaches(light, point.position_world, triangle.source);
+      };
+      return radiance(scene, scene.materials[triangle.material], point.position_world, point.normal_world,
+                      shadow_rays ? LightFilter(reaches) : LightFilter());
     };
   });
 }

@@ -25,11 +25,13 @@ struct RenderOptions {
 };
 
 /// Normal and position are interpolated perspective-correctly at the pixel's centre and shaded there.
-/// Of two triangles at the same depth the first in the span keeps the pixel.
+/// Of two triangles at the same depth the first in the span keeps the pixel. With Scene::shadows a light
+/// counts only where its shadow ray reaches (ray_cast.hpp).
 ReferenceImage render_reference(const Scene& scene, std::span<const ScreenTriangle> triangles,
                                 const RenderOptions& options);
 
-/// Shades at the vertices, unclamped, and interpolates linearly on the screen; the same coverage.
+/// Shades at the vertices, unclamped, and interpolates linearly on the screen; the same coverage. It knows no
+/// shadows.
 ReferenceImage render_gouraud(const Scene& scene, std::span<const ScreenTriangle> triangles,
                               const RenderOptions& options);
 

@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "reference/shade.hpp"
+#include "setup/light_ray.hpp"
 #include "setup/project.hpp"
+#include "setup/random_solids.hpp"
 
 namespace halfway {
 namespace {
@@ -101,8 +103,52 @@ TEST(Renderer, ShadesTheNearestTriangleAtEachCentre) {
   EXPECT_GT(covered, 1000);
 }
 
+// Pixel by pixel, by a search of all triangles.
+TEST(Renderer, InASceneWithShadowsALightGivesNothingWhereItDoesNotReach) {
+  RandomSolids random(5);
+  int shadowed = 0, lit = 0;
+  for (int round = 0; round < 6; ++round) {
+    Scene scene = random.scene(4);
+    const auto triangles = Projector(scene, c_frame, {}).project_all();
+    const auto seen = visible_by_search(triangles, c_frame);
+    const ReferenceImage image = render_reference(scene, triangles, {.frame = c_frame});
+    const auto corners = all_corners(scene);
+    scene.shadows = false;
+    const ReferenceImage without = render_reference(scene, triangles, {.frame = c_frame});
+    for (std::uint32_t y = 0; y < c_frame.height; ++y)
+      for (std::uint32_t x = 0; x < c_frame.width; ++x) {
+        const std::size_t pixel = std::size_t{y} * c_frame.width + x;
+        ASSERT_EQ(image.mask[pixel], seen[pixel] != 0xffffffffu);
+        if (!image.mask[pixel]) continue;
+        const ScreenTriangle& t = triangles[seen[pixel]];
+        const SurfacePoint point = surface_point(t, barycentric_screen(t, 32 * x + 16, 32 * y + 16));
+        bool in_doubt = false;
+        const auto reaches = [&](LightRef light) {
+          const LightPoint from = light_point(scene, light);
+          const Crossings on_the_way = crossings(corners, point.position_world, from);
+          // The point's own triangle is always crossed at 0.
+          in_doubt |= std::abs(glm::dot(from.way_from(point.position_world), point.normal_world)) < 1e-6;
+          const bool is_lit = !is_averted(corners[t.source], from) && on_the_way.enters == 0;
+          ++(is_lit ? lit : shadowed);
+          return is_lit;
+        };
+        const Material& material = scene.materials[t.material];
+        const glm::dvec3 expected =
+            radiance(scene, material, point.position_world, point.normal_world, reaches);
+        const glm::dvec3 all = radiance(scene, material, point.position_world, point.normal_world);
+        for (int k = 0; k < 3 && !in_doubt; ++k) {
+          ASSERT_EQ(image.frame.rgb[3 * pixel + k], to_byte(expected[k])) << x << ',' << y;
+          ASSERT_EQ(without.frame.rgb[3 * pixel + k], to_byte(all[k])) << x << ',' << y;
+        }
+      }
+  }
+  EXPECT_GT(shadowed, 500);
+  EXPECT_GT(lit, 2000);
+}
+
 TEST(Renderer, TheNumberOfThreadsDoesNotMatter) {
-  const Scene scene = tangle(2, 300);
+  Scene scene = tangle(2, 300);
+  scene.shadows = true;
   const auto triangles = Projector(scene, {90, 200}, {}).project_all();
   for (const auto render : {render_reference, render_gouraud}) {
     const ReferenceImage one = render(scene, triangles, {.frame = {90, 200}, .threads = 1});

@@ -76,7 +76,7 @@ double spot_factor(const SpotLight& light, double cos_to_axis) {
 }
 
 glm::dvec3 radiance(const Scene& scene, const Material& material, glm::dvec3 position_world,
-                    glm::dvec3 normal_world) {
+                    glm::dvec3 normal_world, const LightFilter& reaches) {
   const glm::dvec3 to_eye = [&] {
     const glm::dvec3 v = direction(position_world, scene.camera.eye_world);
     return v == glm::dvec3(0.0) ? normal_world : v;
@@ -85,19 +85,25 @@ glm::dvec3 radiance(const Scene& scene, const Material& material, glm::dvec3 pos
   const glm::dvec3 specular_colour = material.specular * material.specular_colour;
 
   glm::dvec3 sum = scene.ambient * (material.ambient * material.colour);
-  const auto add = [&](glm::dvec3 intensity, glm::dvec3 to_light) {
+  const auto add = [&](LightRef light, glm::dvec3 intensity, glm::dvec3 to_light) {
     const double n_dot_l = glm::dot(normal_world, to_light);
-    if (!(n_dot_l > 0)) return;
+    if (!(n_dot_l > 0) || (reaches && !reaches(light))) return;
     sum += intensity * (n_dot_l * diffuse_colour +
                         specular_factor(material, normal_world, to_light, to_eye) * specular_colour);
   };
-  for (const DirectionalLight& light : scene.directional) add(light.intensity, light.to_light_world);
-  for (const PositionalLight& light : scene.positional)
-    add(light.intensity, direction(position_world, light.position_world));
-  for (const SpotLight& light : scene.spots) {
+  for (std::size_t i = 0; i < scene.directional.size(); ++i) {
+    const DirectionalLight& light = scene.directional[i];
+    add({LightKind::directional, i}, light.intensity, light.to_light_world);
+  }
+  for (std::size_t i = 0; i < scene.positional.size(); ++i) {
+    const PositionalLight& light = scene.positional[i];
+    add({LightKind::positional, i}, light.intensity, direction(position_world, light.position_world));
+  }
+  for (std::size_t i = 0; i < scene.spots.size(); ++i) {
+    const SpotLight& light = scene.spots[i];
     const glm::dvec3 to_light = direction(position_world, light.position_world);
     const double factor = spot_factor(light, -glm::dot(to_light, light.axis_world));
-    if (factor > 0) add(factor * light.intensity, to_light);
+    if (factor > 0) add({LightKind::spot, i}, factor * light.intensity, to_light);
   }
   for (int i = 0; i < 3; ++i) sum[i] = bounded(sum[i], c_largest_radiance);
   return sum;

@@ -2,8 +2,10 @@
 // The illumination model at one point of a surface, in double: what every shader here approximates.
 #pragma once
 
+#include <functional>
 #include <glm/vec3.hpp>
 
+#include "plan/effects.hpp"
 #include "scene/scene.hpp"
 
 namespace halfway {
@@ -39,14 +41,17 @@ double specular_factor(const Material& material, glm::dvec3 normal, glm::dvec3 t
 /// Smoothstep from 0 at cos_outer to 1 at cos_inner; a step where they are equal.
 double spot_factor(const SpotLight& light, double cos_to_axis);
 
+/// Whether a light reaches the point in question; without a function every one does.
+using LightFilter = std::function<bool(LightRef)>;
+
 /// Unit vector from one point to another, zero where they coincide.
 glm::dvec3 direction(glm::dvec3 from, glm::dvec3 to);
 
 /// Radiance towards the eye: I_a k_a colour, and from each light I (k_d colour max(N.L, 0) + k_s
 /// specular_colour specular). Linear, not clamped to 1; finite and >= 0. `normal_world` is unit. A light at
 /// the very point has no direction and gives nothing; where the eye is at the point the normal stands for the
-/// direction to it.
+/// direction to it. A light for which `reaches` is false gives nothing.
 glm::dvec3 radiance(const Scene& scene, const Material& material, glm::dvec3 position_world,
-                    glm::dvec3 normal_world);
+                    glm::dvec3 normal_world, const LightFilter& reaches = {});
 
 }  // namespace halfway

@@ -229,6 +229,31 @@ TEST(Shade, RadianceSumsTheTermsOfEachLight) {
   EXPECT_EQ(radiance(scene, material, {}, -c_up), ambient);
 }
 
+TEST(Shade, ALightThatDoesNotReachGivesNothing) {
+  Scene scene;
+  scene.ambient = {0.5, 0.25, 0.125};
+  // Each light a colour of its own; the second of each kind has the weight of the next digit.
+  scene.directional = {{c_up, {1, 0, 0}}, {c_up, {8, 0, 0}}};
+  scene.positional = {{{0, 0, 1}, {0, 1, 0}}, {{0, 0, 2}, {0, 8, 0}}};
+  scene.spots = {{{0, 0, 3}, -c_up, 0.9, 0.8, {0, 0, 1}}, {{0, 0, 4}, -c_up, 0.9, 0.8, {0, 0, 8}}};
+  Material material;
+  material.ambient = material.diffuse = 1.0;
+  material.specular = 0.0;
+  const auto seen = [&](const LightFilter& reaches) { return radiance(scene, material, {}, c_up, reaches); };
+  EXPECT_EQ(seen({}), scene.ambient + glm::dvec3(9.0));
+  EXPECT_EQ(seen([](LightRef) { return true; }), scene.ambient + glm::dvec3(9.0));
+  EXPECT_EQ(seen([](LightRef) { return false; }), scene.ambient);
+  int kind = 0;
+  for (const LightKind kept : {LightKind::directional, LightKind::positional, LightKind::spot}) {
+    for (std::size_t index : {0, 1}) {
+      glm::dvec3 expected = scene.ambient;
+      expected[kind] += index == 0 ? 1.0 : 8.0;
+      EXPECT_EQ(seen([&](LightRef light) { return light == LightRef{kept, index}; }), expected);
+    }
+    ++kind;
+  }
+}
+
 TEST(Shade, RadianceIsFiniteWhateverTheScene) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);

@@ -7,13 +7,14 @@
 
 namespace halfway {
 
-/// The files that a run leaves in <out>/<scene>/<shader>/.
+/// The files that a run leaves in <out>/<scene>/<shader>/; with all effects in <shader>-all-effects/, so that
+/// both can be compared.
 struct ResultFiles {
   std::filesystem::path folder;
 
-  static ResultFiles of(const std::filesystem::path& out, const std::string& scene,
-                        const std::string& shader) {
-    return {out / scene / shader};
+  static ResultFiles of(const std::filesystem::path& out, const std::string& scene, const std::string& shader,
+                        bool all_effects) {
+    return {out / scene / (all_effects ? shader + "-all-effects" : shader)};
   }
   std::filesystem::path init() const { return folder / "init.txt"; }
   std::filesystem::path trace(const std::string& who) const { return folder / (who + ".trace"); }

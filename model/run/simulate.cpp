@@ -86,10 +86,12 @@ class Simulation {
   Simulation(const Scene& scene, const SimulateSettings& settings)
       : scene_(scene),
         s_(settings),
-        files_(ResultFiles::of(settings.out, scene.name, to_string(settings.plan.shader))),
+        files_(ResultFiles::of(settings.out, scene.name, to_string(settings.plan.shader),
+                               settings.plan.all_effects)),
         golden_(settings.size, scene.background) {
     summary_.scene = scene.name;
     summary_.shader = to_string(s_.plan.shader);
+    summary_.all_effects = s_.plan.all_effects;
     summary_.size = s_.size;
     summary_.triangles = scene.triangles.size();
   }
@@ -399,7 +401,7 @@ std::string to_json(const SceneSummary& s) {
       {"height", s.size.height},
       {"triangles", s.triangles},
       {"fragments", s.fragments},
-      {"hardware", {{"key", s.plan.key.name()}, {"units", units}}},
+      {"hardware", {{"key", s.plan.key.name()}, {"all_effects", s.all_effects}, {"units", units}}},
       {"runs", runs},
       // JSON has no infinity: null where golden and reference are the same.
       {"accuracy",
@@ -430,6 +432,7 @@ std::string to_line(const SceneSummary& s) {
   std::string line =
       fmt::format("{:<12} {:<10} {:<9} {:>4}x{:<4} {:>8} triangles {:>9} fragments", s.scene, s.shader,
                   to_string(s.plan.key.preset), s.size.width, s.size.height, s.triangles, s.fragments);
+  if (s.all_effects) line += ", all effects";
   for (const SimulatorRun& run : s.runs)
     fmt::format_to(
         std::back_inserter(line), " | {}: {} cycles, {:.3f} a fragment, {} mismatches, {:.2f} s",

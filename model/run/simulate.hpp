@@ -46,6 +46,7 @@ struct SimulatorRun {
 
 struct SceneSummary {
   std::string scene, shader;
+  bool all_effects = false;  ///< elaborated, whatever the scene calls for
   Plan plan;
   FrameSize size;
   SetupCounts setup;
@@ -58,7 +59,7 @@ struct SceneSummary {
   bool equal() const;
 };
 
-/// Results lie in ResultFiles::of(out, scene, shader). Hardware that differs is no error: see
+/// Results lie in ResultFiles::of(out, scene, shader, all_effects). Hardware that differs is no error: see
 /// SceneSummary::equal.
 Result<SceneSummary> simulate(const Scene& scene, const SimulateSettings& settings);
 

@@ -243,4 +243,46 @@ Mesh make_teapot(std::uint32_t divisions) {
   return builder.take();
 }
 
+Mesh make_box(const glm::dvec3& size, std::uint32_t divisions) {
+  Mesh mesh;
+  // Steps from the lowest corner along x, y and z: faces that meet share the vertices of their edge.
+  using Lattice = std::array<std::uint32_t, 3>;
+  std::map<Lattice, std::uint32_t> known;
+  const auto vertex = [&](const Lattice& at) {
+    const auto [entry, is_new] = known.try_emplace(at, static_cast<std::uint32_t>(mesh.positions.size()));
+    if (is_new) {
+      glm::dvec3 position;
+      for (int axis = 0; axis < 3; ++axis)
+        position[axis] = 0.5 * size[axis] * ((2.0 * at[axis] - divisions) / divisions);
+      mesh.positions.push_back(position);
+    }
+    return entry->second;
+  };
+  for (std::uint32_t face = 0; face < 6; ++face) {
+    const std::uint32_t normal_axis = face / 2;
+    const bool is_upper = face % 2 == 1;
+    // Right-handed about the outward normal.
+    const std::uint32_t u_axis = (normal_axis + (is_upper ? 1 : 2)) % 3;
+    const std::uint32_t v_axis = (normal_axis + (is_upper ? 2 : 1)) % 3;
+    glm::dvec3 normal(0.0);
+    normal[static_cast<int>(normal_axis)] = is_upper ? 1.0 : -1.0;
+    mesh.normals.push_back(normal);
+    const auto at = [&](std::uint32_t u, std::uint32_t v) {
+      Lattice lattice;
+      lattice[normal_axis] = is_upper ? divisions : 0;
+      lattice[u_axis] = u;
+      lattice[v_axis] = v;
+      return vertex(lattice);
+    };
+    for (std::uint32_t u = 0; u < divisions; ++u) {
+      for (std::uint32_t v = 0; v < divisions; ++v) {
+        const std::uint32_t a = at(u, v), b = at(u + 1, v), c = at(u + 1, v + 1), d = at(u, v + 1);
+        mesh.triangles.push_back({{a, b, c}, {face, face, face}, 0});
+        mesh.triangles.push_back({{a, c, d}, {face, face, face}, 0});
+      }
+    }
+  }
+  return mesh;
+}
+
 }  // namespace halfway

@@ -31,4 +31,13 @@ constexpr std::uint64_t teapot_triangles(std::uint64_t divisions) {
 /// (One division would press handle and spout flat.)
 Mesh make_teapot(std::uint32_t divisions);
 
+/// 12 d^2.
+constexpr std::uint64_t box_triangles(std::uint64_t divisions) {
+  return 12 * divisions * divisions;
+}
+
+/// A box around the origin, closed, flat on each face, with `divisions` >= 1 squares along every edge.
+/// `size` > 0: its lengths along x, y and z.
+Mesh make_box(const glm::dvec3& size, std::uint32_t divisions);
+
 }  // namespace halfway

@@ -199,5 +199,44 @@ TEST(Teapot, PolesLookUpAndDown) {
   EXPECT_EQ(poles, 2 * 4 * 4);
 }
 
+TEST(Box, IsClosedAndFlatOnItsFaces) {
+  const glm::dvec3 size(1.0, 2.0, 0.3);
+  for (const std::uint32_t divisions : {1u, 2u, 7u}) {
+    const Mesh mesh = make_box(size, divisions);
+    EXPECT_EQ(mesh.triangles.size(), box_triangles(divisions));
+    EXPECT_TRUE(open_edges(mesh).empty());
+    expect_no_position_twice(mesh);
+    expect_unit_normals_on_the_outside(mesh);
+    // A lattice's vertices on the surface of a cube of d + 1 a side.
+    const std::size_t n = divisions + 1;
+    EXPECT_EQ(mesh.positions.size(), n * n * n - (n - 2) * (n - 2) * (n - 2));
+    double area = 0.0;
+    for (const SceneTriangle& triangle : mesh.triangles) {
+      const glm::dvec3 normal = mesh.normals[triangle.normal[0]];
+      EXPECT_NEAR(glm::length(glm::cross(glm::normalize(cross_of(mesh, triangle)), normal)), 0.0, 1e-12);
+      for (const std::uint32_t p : triangle.position)
+        EXPECT_EQ(glm::dot(mesh.positions[p], normal), 0.5 * glm::dot(size, glm::abs(normal)));
+      area += 0.5 * glm::length(cross_of(mesh, triangle));
+    }
+    EXPECT_NEAR(area, 2.0 * (1.0 * 2.0 + 2.0 * 0.3 + 0.3 * 1.0), 1e-12);
+  }
+}
+
+TEST(OpenEdges, AreThoseWithoutANeighbourAgainstThem) {
+  EXPECT_EQ(halfway::open_edges(make_uv_sphere(12, 8, 1.0).triangles), 0u);
+  EXPECT_EQ(halfway::open_edges(make_box({1, 2, 3}, 3).triangles), 0u);
+  EXPECT_EQ(halfway::open_edges(make_teapot(5).triangles), 16u * 5u);
+  Mesh box = make_box({1, 2, 3}, 1);
+  std::swap(box.triangles[4].position[0], box.triangles[4].position[1]);  // its neighbours walk along with it
+  EXPECT_EQ(halfway::open_edges(box.triangles), 3u * 2u);
+  box.triangles.erase(box.triangles.begin() + 4);
+  EXPECT_EQ(halfway::open_edges(box.triangles), 3u);
+  box.triangles.push_back(box.triangles[0]);  // three at an edge
+  EXPECT_EQ(halfway::open_edges(box.triangles), 6u);
+  box.triangles = {{{7, 7, 2}, {0, 0, 0}, 0}};
+  EXPECT_EQ(halfway::open_edges(box.triangles), 0u);
+  EXPECT_EQ(halfway::open_edges({}), 0u);
+}
+
 }  // namespace
 }  // namespace halfway

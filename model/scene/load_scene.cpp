@@ -12,6 +12,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -148,11 +149,17 @@ class Table {
     return result / length;
   }
 
-  /// Radiance or reflectance: three numbers, or one for grey.
-  glm::dvec3 colour(std::string_view key, const glm::dvec3& otherwise) const {
+  /// Three numbers, or one that stands for all three.
+  glm::dvec3 one_or_three(std::string_view key, const glm::dvec3& otherwise,
+                          const Limits& limits = c_any) const {
     if (!has(key)) return otherwise;
-    if (table_.get(key)->is_number()) return glm::dvec3(number(key, 0.0, c_not_negative));
-    return vector(key, c_not_negative);
+    if (table_.get(key)->is_number()) return glm::dvec3(number(key, 0.0, limits));
+    return vector(key, limits);
+  }
+
+  /// Radiance or reflectance; one number is grey.
+  glm::dvec3 colour(std::string_view key, const glm::dvec3& otherwise) const {
+    return one_or_three(key, otherwise, c_not_negative);
   }
 
   const toml::table& table() const { return table_; }
@@ -210,12 +217,13 @@ class SceneReader {
       throw BadScene(bad_input(
           fmt::format("{}:{}: bad TOML: {}", file_, error.source().begin.line, error.description())));
     }
-    const Table root(
-        root_table, file_, "the scene",
-        {"camera", "ambient", "background", "directional", "positional", "spot", "material", "mesh"});
+    const Table root(root_table, file_, "the scene",
+                     {"camera", "ambient", "background", "shadows", "directional", "positional", "spot",
+                      "material", "mesh"});
     scene_.name = path_.stem().string();
     scene_.ambient = root.colour("ambient", scene_.ambient);
     scene_.background = root.colour("background", scene_.background);
+    scene_.shadows = root.flag("shadows", scene_.shadows);
     const std::optional<Fit> fit = read_camera(root);
     each(root, "directional", [this](const toml::table& table) { read_directional(table); });
     each(root, "positional", [this](const toml::table& table) { read_positional(table); });
@@ -387,17 +395,23 @@ class SceneReader {
       const std::uint32_t divisions = table->count("divisions", 8, 2);
       check_triangles(*table, teapot_triangles(divisions));
       loaded.mesh = make_teapot(divisions);
+    } else if (kind == "box") {
+      open("kind", "size", "divisions");
+      const glm::dvec3 size = table->one_or_three("size", glm::dvec3(1.0), c_positive);
+      const std::uint32_t divisions = table->count("divisions", 1, 1);
+      check_triangles(*table, box_triangles(divisions));
+      loaded.mesh = make_box(size, divisions);
     } else {
       const Table any(node, file_, "mesh", all_mesh_keys());
       if (kind_node == nullptr) any.fail("mesh has neither 'kind' nor 'file'; give it one");
-      any.fail("kind", "must be \"sphere\" or \"teapot\"; a mesh file goes under 'file'");
+      any.fail("kind", "must be \"sphere\", \"teapot\" or \"box\"; a mesh file goes under 'file'");
     }
     check_triangles(*table, loaded.mesh.triangles.size());
     place(*table, loaded);
   }
 
   static std::vector<std::string_view> all_mesh_keys() {
-    return {"kind",     "file",      "slices", "stacks", "radius",       "divisions",
+    return {"kind",     "file",      "slices", "stacks", "radius",       "divisions", "size",
             "material", "translate", "rotate", "scale",  "crease_angle", "normals"};
   }
 
@@ -449,21 +463,22 @@ class SceneReader {
                                  ? (path_.parent_path() / table.text("file")).string()
                                  : fmt::format("{}:{}", file_, table.table().source().begin.line);
     if (!mesh.materials.empty()) first_material = static_cast<std::uint32_t>(scene_.materials.size());
+    const std::size_t first_triangle = scene_.triangles.size();
     const Status added = add_mesh(scene_, mesh, what, first_material, crease,
                                   normals == "computed" || table.has("crease_angle"));
     if (!added) throw BadScene(added.error());
+    if (!scene_.shadows) return;
+    if (const std::size_t open = open_edges(std::span(scene_.triangles).subspan(first_triangle)); open > 0) {
+      scene_.notes.push_back(
+          fmt::format("{}: the mesh is open at {} edges; each of its triangles casts a shadow only where it "
+                      "faces away from the light",
+                      what, open));
+    }
   }
 
   glm::dmat4 read_transform(const Table& table) const {
-    glm::dvec3 scale(1.0);
-    if (table.has("scale")) {
-      if (table.table().get("scale")->is_number()) {
-        scale = glm::dvec3(table.number("scale", 1.0, c_any));
-      } else {
-        scale = table.vector("scale");
-      }
-      if (scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0) table.fail("scale", "must not be zero");
-    }
+    const glm::dvec3 scale = table.one_or_three("scale", glm::dvec3(1.0));
+    if (scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0) table.fail("scale", "must not be zero");
     glm::dmat4 matrix = glm::translate(glm::dmat4(1.0), table.vector("translate", glm::dvec3(0.0)));
     if (table.has("rotate")) {
       const toml::table* node = table.required("rotate").as_table();

@@ -69,7 +69,8 @@ TEST_F(LoadScene, BuiltInScenesLoadAndLieWithinTheFrame) {
                                                        {"highlights", 3 * 168},
                                                        {"teapot", 4032},
                                                        {"lights", 2 * 690},
-                                                       {"matte", 690 + 1560}};
+                                                       {"matte", 690 + 1560},
+                                                       {"shadows", 12 * 16 + 12 + 396}};
   for (const auto& [name, triangles] : cases) {
     const Result<Scene> scene = load_scene(name, c_scenes);
     ASSERT_TRUE(scene) << scene.error().message;
@@ -105,11 +106,18 @@ TEST_F(LoadScene, BuiltInScenesShowWhatTheyAreFor) {
   EXPECT_EQ(highlights->materials[0].exponent, 5.0);
   EXPECT_EQ(highlights->materials[1].exponent, 10.0);
   EXPECT_EQ(highlights->materials[2].exponent, 20.0);
+  const Result<Scene> shadows = load_scene("shadows", c_scenes);
+  ASSERT_TRUE(shadows);
+  EXPECT_TRUE(shadows->shadows);
+  EXPECT_EQ(shadows->directional.size(), 1u);
+  EXPECT_EQ(shadows->positional.size(), 1u);
+  EXPECT_FALSE(lights->shadows);
 }
 
 TEST_F(LoadScene, ReadsEveryKey) {
   const Result<Scene> scene = load(R"(ambient = [0.1, 0.2, 0.3]
 background = 0.5
+shadows = true
 [camera]
 eye = [1, 2, 9]
 target = [0, 1, 0]
@@ -180,6 +188,38 @@ material = "m"
   EXPECT_NEAR(glm::length(scene->normals_world.at(0) - glm::dvec3(-1.0, 0.0, 0.0)), 0.0, 1e-14);
 }
 
+TEST_F(LoadScene, ABoxHasSizeAndDivisions) {
+  const auto box = [&](const std::string& keys) {
+    const Result<Scene> scene = load("[[mesh]]\nkind = \"box\"\n" + keys);
+    EXPECT_TRUE(scene) << scene.error().message;
+    glm::dvec3 high(0.0);
+    for (const glm::dvec3& p : scene->positions_world) high = glm::max(high, p);
+    return std::pair(high, scene->triangles.size());
+  };
+  EXPECT_EQ(box(""), std::pair(glm::dvec3(0.5), std::size_t{12}));
+  EXPECT_EQ(box("size = 3\n"), std::pair(glm::dvec3(1.5), std::size_t{12}));
+  EXPECT_EQ(box("size = [1, 2.0, 3]\ndivisions = 5\n"),
+            std::pair(glm::dvec3(0.5, 1.0, 1.5), std::size_t{300}));
+}
+
+TEST_F(LoadScene, ShadowsOfAnOpenMeshAreNoted) {
+  write("quad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
+  const std::string scene =
+      "[[directional]]\nto_light = [0, 0, 1]\n[[mesh]]\nkind = \"box\"\n[[mesh]]\nfile = \"quad.obj\"\n"
+      "[[mesh]]\nkind = \"teapot\"\ndivisions = 2\n";
+  const Result<Scene> with = load("shadows = true\n" + scene);
+  ASSERT_TRUE(with) << with.error().message;
+  ASSERT_EQ(with->notes.size(), 2u);
+  EXPECT_EQ(with->notes[0],
+            (folder_ / "quad.obj").string() +
+                ": the mesh is open at 4 edges; each of its triangles casts a shadow only where "
+                "it faces away from the light");
+  EXPECT_EQ(with->notes[1].find((folder_ / "s.toml").string() + ":8: the mesh is open at 32 edges; "), 0u);
+  const Result<Scene> without = load(scene);
+  ASSERT_TRUE(without);
+  EXPECT_TRUE(without->notes.empty());
+}
+
 TEST_F(LoadScene, MirroringKeepsTheOutsideOut) {
   const Result<Scene> scene = load("[[mesh]]\nkind = \"sphere\"\nscale = [-1, 2, 1]\n");
   ASSERT_TRUE(scene) << scene.error().message;
@@ -240,6 +280,8 @@ TEST_F(LoadScene, EveryFaultNamesFileAndLine) {
       {"ambient = -0.1\n" + mesh, "s.toml:1: ambient of the scene is -0.1, but must be at least 0"},
       {"background = [0, -1, 0]\n" + mesh, "s.toml:1: background of the scene is -1, but must be at least 0"},
       {"background = 1e300\n" + mesh, "s.toml:1: background of the scene is 1e+300, but must be "},
+      {"shadows = 1\n" + mesh, "s.toml:1: shadows of the scene must be true or false"},
+      {"\nshadows = \"yes\"\n" + mesh, "s.toml:2: shadows of the scene must be true or false"},
       {"[camera]\nfov = 30\n" + mesh, "s.toml:1: camera has no 'eye'"},
       {"[camera]\neye = [0, 0, -inf]\n" + mesh, "s.toml:2: eye of camera is not finite"},
       {"[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n" + mesh, "s.toml:2: eye of camera is the target"},
@@ -311,7 +353,16 @@ TEST_F(LoadScene, EveryFaultNamesFileAndLine) {
       {"[[mesh]]\nkind = \"teapot\"\ndivisions = 9999999\n", "s.toml:1: the scene has "},
       {"[[mesh]]\nkind = \"teapot\"\nslices = 3\n",
        "s.toml:3: unknown key 'slices' in mesh; it may have: kind, divisions, "},
-      {"[[mesh]]\nkind = \"cube\"\n", "s.toml:2: kind of mesh must be \"sphere\" or \"teapot\""},
+      {"[[mesh]]\nkind = \"box\"\nsize = [1, 0, 1]\n",
+       "s.toml:3: size of mesh is 0, but must be greater than 0"},
+      {"[[mesh]]\nkind = \"box\"\nsize = -1\n", "s.toml:3: size of mesh is -1, but must be greater than 0"},
+      {"[[mesh]]\nkind = \"box\"\ndivisions = 0\n",
+       "s.toml:3: divisions of mesh is 0, but must be from 1 to"},
+      {"[[mesh]]\nkind = \"box\"\ndivisions = 1000\n", "s.toml:1: the scene has 12000000 triangles up to"},
+      {"[[mesh]]\nkind = \"box\"\nradius = 3\n",
+       "s.toml:3: unknown key 'radius' in mesh; it may have: kind, size, divisions, "},
+      {mesh + "size = 3\n", "s.toml:3: unknown key 'size' in mesh; it may have: kind, slices, "},
+      {"[[mesh]]\nkind = \"cube\"\n", "s.toml:2: kind of mesh must be \"sphere\", \"teapot\" or \"box\""},
       {"[[mesh]]\nscale = 1\n", "s.toml:1: mesh has neither 'kind' nor 'file'"},
       {"[[mesh]]\nkind = \"sphere\"\nfile = \"a.obj\"\n", "s.toml:2: kind of mesh cannot be given with file"},
       {"[[mesh]]\nfile = \"gone.obj\"\n", "s.toml:2: file of mesh cannot be used: gone.obj: no such file"},
@@ -358,9 +409,9 @@ TEST_F(LoadScene, FaultyFilesAreErrors) {
   EXPECT_EQ(message_of(write("deep.toml", "a = " + std::string(100000, '[')))
                 .find(folder + "/deep.toml:1: bad TOML"),
             0u);
-  EXPECT_EQ(
-      message_of("nope"),
-      "nope: neither a built-in scene nor a file; built in are: highlights, lights, matte, spheres, teapot");
+  EXPECT_EQ(message_of("nope"),
+            "nope: neither a built-in scene nor a file; built in are: highlights, lights, matte, shadows, "
+            "spheres, teapot");
   EXPECT_NE(message_of(""), "loaded");
   EXPECT_NE(message_of(".."), "loaded");
   EXPECT_NE(message_of(std::string("teapot\0x", 8)), "loaded");

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -212,6 +213,32 @@ std::size_t fill_normals(Mesh& mesh, double crease_degrees, bool replace_all) {
     normal = shared;
   }
   return filled;
+}
+
+std::size_t open_edges(std::span<const SceneTriangle> triangles) {
+  struct Use {
+    std::uint32_t low, high;
+    int way;
+  };
+  std::vector<Use> uses;
+  uses.reserve(3 * triangles.size());
+  for (const SceneTriangle& triangle : triangles) {
+    for (int side = 0; side < 3; ++side) {
+      const std::uint32_t from = triangle.position[side], to = triangle.position[(side + 1) % 3];
+      if (from != to) uses.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
+    }
+  }
+  const auto edge = [](const Use& use) { return std::pair(use.low, use.high); };
+  std::sort(uses.begin(), uses.end(), [&](const Use& a, const Use& b) { return edge(a) < edge(b); });
+  std::size_t open = 0;
+  for (std::size_t begin = 0; begin < uses.size();) {
+    std::size_t end = begin;
+    int net = 0;
+    for (; end < uses.size() && edge(uses[end]) == edge(uses[begin]); ++end) net += uses[end].way;
+    open += static_cast<std::size_t>(std::abs(net));
+    begin = end;
+  }
+  return open;
 }
 
 }  // namespace halfway

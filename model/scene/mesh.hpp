@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -36,5 +37,9 @@ std::size_t drop_zero_area(Mesh& mesh);
 /// smooth into one another over an edge where their normals differ by no more than the crease angle; from 180
 /// degrees on, all faces of a vertex do. Needs joined positions and no zero area.
 std::size_t fill_normals(Mesh& mesh, double crease_degrees, bool replace_all);
+
+/// Edges, by position indices, that are not walked as often one way as the other, each as often as it lacks a
+/// neighbour: 0 for a closed mesh.
+std::size_t open_edges(std::span<const SceneTriangle> triangles);
 
 }  // namespace halfway

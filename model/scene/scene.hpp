@@ -68,6 +68,7 @@ struct Scene {
   Camera camera;
   glm::dvec3 ambient{0.2};     ///< I_a
   glm::dvec3 background{0.0};  ///< pixels that no triangle covers
+  bool shadows = false;        ///< do surfaces keep light from one another?
   std::vector<DirectionalLight> directional;
   std::vector<PositionalLight> positional;
   std::vector<SpotLight> spots;

@@ -71,12 +71,7 @@ Projector::Projector(const Scene& scene, FrameSize frame, ProjectionOptions opti
   const bool to_frame = options.clip_to_frame;
   const double left = to_frame ? 0.0 : c_guard_begin, right = to_frame ? width : c_guard_end;
   const double top = to_frame ? 0.0 : c_guard_begin, bottom = to_frame ? height : c_guard_end;
-  planes_ = {{{0, 0, 1, -depth_range_.near},
-              {0, 0, -1, depth_range_.far},
-              {1, 0, -left, 0},
-              {-1, 0, right, 0},
-              {0, 1, -top, 0},
-              {0, -1, bottom, 0}}};
+  planes_ = {{{1, 0, -left, 0}, {-1, 0, right, 0}, {0, 1, -top, 0}, {0, -1, bottom, 0}}};
 
   // A vertex that names a pixel must name one of the frame; a point of the plane may lie on the frame's far
   // side.
@@ -127,9 +122,8 @@ double Projector::depth(double w) const {
   return std::clamp(far / w * ((w - near) / (far - near)), 0.0, 1.0);
 }
 
-ScreenVertex Projector::snap(const ClipVertex& v) const {
-  const double w =
-      std::max(v.w, depth_range_.near);  // an intersection may fall a rounding short of the near plane
+ScreenVertex Projector::snap(const ClipVertex& v, double near) const {
+  const double w = std::max(v.w, near);  // an intersection may fall a rounding short of the near plane
   const double scale = 1 << options_.subpixel_bits;
   const double to_pixel = options_.subpixel_bits == 0 ? 0.5 : 0.0;
   const auto round_into = [&](double pixels, std::int32_t least, std::int32_t greatest) {
@@ -145,49 +139,37 @@ ScreenVertex Projector::snap(const ClipVertex& v) const {
           v.normal_world};
 }
 
-void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out,
-                        ProjectionCounts& counts) const {
-  const SceneTriangle& source = scene_->triangles[triangle];
-  std::vector<ClipVertex> polygon, scratch;
-  polygon.reserve(9);  // each of the six planes adds a corner at most
-  for (int i = 0; i < 3; ++i) {
-    const ClipVertex v =
-        transform(scene_->positions_world[source.position[i]], scene_->normals_world[source.normal[i]]);
-    if (!usable_ || !representable(v.x) || !representable(v.y) || !representable(v.w)) {
-      ++counts.unrepresentable;
-      return;
-    }
-    polygon.push_back(v);
-  }
-  // Its sign, that of the volume eye and triangle span, tells front from back before any division.
-  const auto& a = polygon[0];
-  const auto& b = polygon[1];
-  const auto& c = polygon[2];
-  const bool faces_away =
-      a.x * (b.y * c.w - b.w * c.y) + a.y * (b.w * c.x - b.x * c.w) + a.w * (b.x * c.y - b.y * c.x) > 0;
+bool Projector::is_representable(const ClipVertex& v) const {
+  return usable_ && representable(v.x) && representable(v.y) && representable(v.w);
+}
 
-  const std::array<double, 3> magnitude{a.magnitude(), b.magnitude(), c.magnitude()};
+std::vector<ScreenVertex> Projector::clip_and_snap(std::vector<ClipVertex>& polygon, const DepthRange& slice,
+                                                   ProjectionCounts& counts) const {
+  std::vector<ClipVertex> scratch;
+  const std::array<double, 3> magnitude{polygon[0].magnitude(), polygon[1].magnitude(),
+                                        polygon[2].magnitude()};
   const double middle_magnitude = std::max(std::min(magnitude[0], magnitude[1]),
                                            std::min(std::max(magnitude[0], magnitude[1]), magnitude[2]));
-  bool was_cut = clip(polygon, scratch, planes_[0]);
+  bool was_cut = clip(polygon, scratch, {0, 0, 1, -slice.near});
   if (polygon.empty()) {
     ++counts.behind_near;
-    return;
+    return {};
   }
-  for (std::size_t i = 1; i < planes_.size() && !polygon.empty(); ++i)
+  was_cut |= clip(polygon, scratch, {0, 0, -1, slice.far});
+  for (std::size_t i = 0; i < planes_.size() && !polygon.empty(); ++i)
     was_cut |= clip(polygon, scratch, planes_[i]);
   if (polygon.empty()) {
     ++counts.outside;
-    return;
+    return {};
   }
-  if (was_cut && middle_magnitude > c_largest_to_cut * depth_range_.near) {
+  if (was_cut && middle_magnitude > c_largest_to_cut * slice.near) {
     ++counts.unrepresentable;
-    return;
+    return {};
   }
 
   std::vector<ScreenVertex> corner;
   corner.reserve(polygon.size());
-  for (const ClipVertex& v : polygon) corner.push_back(snap(v));
+  for (const ClipVertex& v : polygon) corner.push_back(snap(v, slice.near));
   const auto [left, right] = std::minmax_element(corner.begin(), corner.end(),
                                                  [](const auto& p, const auto& q) { return p.x < q.x; });
   const auto [top, bottom] = std::minmax_element(corner.begin(), corner.end(),
@@ -196,9 +178,32 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
   if (right->x < 0 || bottom->y < 0 || left->x > std::int64_t{frame_.width} * unit ||
       top->y > std::int64_t{frame_.height} * unit) {
     ++counts.outside;
+    return {};
+  }
+  return corner;
+}
+
+void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out,
+                        ProjectionCounts& counts) const {
+  const SceneTriangle& source = scene_->triangles[triangle];
+  std::vector<ClipVertex> polygon;
+  polygon.reserve(9);  // each of the six planes adds a corner at most
+  for (int i = 0; i < 3; ++i) {
+    polygon.push_back(
+        transform(scene_->positions_world[source.position[i]], scene_->normals_world[source.normal[i]]));
+    if (is_representable(polygon.back())) continue;
+    ++counts.unrepresentable;
     return;
   }
+  // Its sign, that of the volume eye and triangle span, tells front from back before any division.
+  const auto& a = polygon[0];
+  const auto& b = polygon[1];
+  const auto& c = polygon[2];
+  const bool faces_away =
+      a.x * (b.y * c.w - b.w * c.y) + a.y * (b.w * c.x - b.x * c.w) + a.w * (b.x * c.y - b.y * c.x) > 0;
 
+  const std::vector<ScreenVertex> corner = clip_and_snap(polygon, depth_range_, counts);
+  if (corner.empty()) return;
   // The snapped area decides alone which way a triangle faces: what turned over in snapping is covered by its
   // neighbours, which moved with it.
   bool any = false;
@@ -212,6 +217,36 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
     ++counts.visible;
   else
     ++(faces_away ? counts.back_facing : counts.degenerate);
+}
+
+void Projector::project_two_sided(const std::array<glm::dvec3, 3>& corners_world, std::uint32_t source,
+                                  DepthSlice slice, std::vector<TwoSidedTriangle>& out,
+                                  ProjectionCounts& counts) const {
+  std::vector<ClipVertex> polygon;
+  polygon.reserve(9);
+  for (const glm::dvec3& corner_world : corners_world) {
+    polygon.push_back(transform(corner_world, glm::dvec3(0.0)));
+    if (is_representable(polygon.back())) continue;
+    ++counts.unrepresentable;
+    return;
+  }
+  const double near = depth_range_.near;
+  const bool is_visible = slice == DepthSlice::visible;
+  std::vector<ScreenVertex> corner =
+      clip_and_snap(polygon, is_visible ? depth_range_ : DepthRange{c_least_near * near, near}, counts);
+  if (corner.empty()) return;
+  if (!is_visible)  // where the near plane cut it, it may be a rounding behind
+    for (ScreenVertex& v : corner) v.z = 0.0;
+  bool any = false;
+  for (std::size_t i = 1; i + 1 < corner.size(); ++i) {
+    const ScreenTriangle front{source, 0, {corner[0], corner[i + 1], corner[i]}};
+    const ScreenTriangle back{source, 0, {corner[0], corner[i], corner[i + 1]}};
+    if (front.twice_area() == 0) continue;
+    const bool faces_eye = front.twice_area() > 0;
+    out.push_back({faces_eye ? front : back, faces_eye});
+    any = true;
+  }
+  ++(any ? counts.visible : counts.degenerate);
 }
 
 void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out) const {

@@ -32,6 +32,13 @@ struct ProjectionOptions {
   bool clip_to_frame = false;
 };
 
+/// Slices of the space before the eye.
+enum class DepthSlice {
+  visible,      ///< between the near and the far plane
+  before_near,  ///< down to c_least_near of the near distance; drawn at depth 0
+};
+inline constexpr double c_least_near = 1.0 / 1024.0;
+
 /// How many triangles of the scene came to the screen, and why the others did not.
 struct ProjectionCounts {
   std::uint64_t visible = 0;      ///< scene triangles with at least one screen triangle
@@ -57,6 +64,13 @@ class Projector {
   void project(std::uint32_t triangle, std::vector<ScreenTriangle>& out, ProjectionCounts& counts) const;
   void project(std::uint32_t triangle, std::vector<ScreenTriangle>& out) const;
 
+  /// Appends what lies in the slice of a triangle that need not be the scene's, whichever way it faces:
+  /// pieces numbered `source`, of material 0, without normals. What it shares with others comes out with the
+  /// same coordinates and depths.
+  void project_two_sided(const std::array<glm::dvec3, 3>& corners_world, std::uint32_t source,
+                         DepthSlice slice, std::vector<TwoSidedTriangle>& out,
+                         ProjectionCounts& counts) const;
+
   /// All triangles in the scene's order.
   std::vector<ScreenTriangle> project_all(ProjectionCounts* counts = nullptr) const;
 
@@ -80,7 +94,12 @@ class Projector {
   static ClipVertex intersect(const ClipVertex& a, const ClipVertex& b, const Plane& plane);
   /// False if all of it is inside.
   static bool clip(std::vector<ClipVertex>& polygon, std::vector<ClipVertex>& scratch, const Plane& plane);
-  ScreenVertex snap(const ClipVertex& v) const;
+  bool is_representable(const ClipVertex& v) const;
+  /// The polygon's corners on the screen, in its order: none where it is beside the frame or the slice, which
+  /// is then counted.
+  std::vector<ScreenVertex> clip_and_snap(std::vector<ClipVertex>& polygon, const DepthRange& slice,
+                                          ProjectionCounts& counts) const;
+  ScreenVertex snap(const ClipVertex& v, double near) const;
   double depth(double w) const;
 
   const Scene* scene_;
@@ -91,7 +110,7 @@ class Projector {
   DepthRange depth_range_;
   double focal_pixels_;
   bool usable_;                                ///< camera and options make sense
-  std::array<Plane, 6> planes_;                ///< near, far, left, right, top, bottom
+  std::array<Plane, 4> planes_;                ///< left, right, top, bottom
   std::array<std::int32_t, 4> snapped_range_;  ///< least and greatest x, least and greatest y, in subpixels
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@
 #include <map>
 #include <random>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -297,6 +299,125 @@ TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
   // The scenes must be such that the test means something.
   EXPECT_GT(clipped_at_guard, 100);
   EXPECT_GT(clipped_at_near, 100);
+}
+
+TEST(Project, TwoSidedIsTheSameWithTheBacks) {
+  const FrameSize frame{160, 120};
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    const Scene scene = sphere_scene(3, seed);
+    const Projector projector(scene, frame, {});
+    int fronts = 0, backs = 0;
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+      std::vector<ScreenTriangle> seen;
+      projector.project(i, seen);
+      const auto& [a, b, c] = scene.triangles[i].position;
+      const auto& p = scene.positions_world;
+      for (const bool is_turned : {false, true}) {
+        std::vector<TwoSidedTriangle> both;
+        ProjectionCounts counts;
+        projector.project_two_sided({p[a], p[is_turned ? c : b], p[is_turned ? b : c]}, i,
+                                    DepthSlice::visible, both, counts);
+        ASSERT_LE(both.size(), 1u);
+        ASSERT_EQ(counts.visible + counts.degenerate, 1u);
+        ASSERT_EQ(counts.visible, both.size());
+        if (both.empty()) {
+          ASSERT_TRUE(seen.empty());
+          continue;
+        }
+        ASSERT_GT(both[0].triangle.twice_area(), 0);
+        ASSERT_EQ(both[0].triangle.source, i);
+        ASSERT_EQ(both[0].faces_eye, seen.empty() == is_turned);
+        ++(both[0].faces_eye ? fronts : backs);
+        if (seen.empty()) continue;
+        for (const ScreenVertex& v : both[0].triangle.vertex) {
+          const auto same = std::find_if(seen[0].vertex.begin(), seen[0].vertex.end(),
+                                         [&](const auto& s) { return s.position_world == v.position_world; });
+          ASSERT_NE(same, seen[0].vertex.end());
+          ASSERT_EQ(std::tuple(same->x, same->y, same->z, same->inverse_w),
+                    std::tuple(v.x, v.y, v.z, v.inverse_w));
+        }
+      }
+    }
+    EXPECT_EQ(fronts, backs);
+    EXPECT_GT(fronts, 400);
+  }
+}
+
+// Ground that reaches from behind the eye to beyond the far plane: what the near plane cuts off and the rest
+// meet without a gap, and cover all that a ray from the eye meets before the far plane.
+TEST(Project, TheSliceBeforeTheNearPlaneContinuesTheVisibleOne) {
+  std::mt19937 random(31);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  int in_both_slices = 0;
+  for (unsigned round = 0; round < 40; ++round) {
+    Scene scene = ground_scene(round, 5, 40.0);
+    Camera& camera = scene.camera;
+    camera.eye_world = {3.0 * unit(random), round % 2 ? 1.0 : -1.0, 3.0 * unit(random)};
+    camera.target_world = camera.eye_world + glm::dvec3(unit(random), round % 2 ? -0.7 : 0.7, -1.0);
+    camera.up_world = {0.6 * unit(random), 1.0, 0.0};
+    camera.vertical_fov_degrees = 75.0;
+    camera.near = 2.0;
+    camera.far = 12.0;
+    const FrameSize frame{120, 90};
+    const ViewBasis basis = view_basis(camera);
+    const double focal = 0.5 * frame.height / std::tan(glm::radians(37.5));
+    const Projector projector(scene, frame, {});
+    // A sliver that snapping turned over takes away what its neighbours cover twice.
+    std::array<std::vector<ScreenTriangle>, 2> slices, turned_over;
+    ProjectionCounts counts;
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
+      for (const DepthSlice slice : {DepthSlice::visible, DepthSlice::before_near}) {
+        std::vector<TwoSidedTriangle> pieces;
+        const auto& [a, b, c] = scene.triangles[i].position;
+        const auto& p = scene.positions_world;
+        projector.project_two_sided({p[a], p[b], p[c]}, i, slice, pieces, counts);
+        for (const TwoSidedTriangle& piece : pieces) {
+          auto& pieces_of = piece.faces_eye == (camera.eye_world.y > 0.0) ? slices : turned_over;
+          pieces_of[slice == DepthSlice::before_near].push_back(piece.triangle);
+        }
+      }
+    ASSERT_EQ(counts.unrepresentable, 0u);
+    for (const ScreenTriangle& t : slices[1])
+      for (const ScreenVertex& v : t.vertex) ASSERT_EQ(v.z, 0.0);
+    for (const auto& triangles : slices) expect_sound(triangles, frame, {});
+    if (HasFatalFailure()) return;
+    std::vector<int> visible = coverage(slices[0], frame, 4), before = coverage(slices[1], frame, 4);
+    const std::vector<int> visible_over = coverage(turned_over[0], frame, 4),
+                           before_over = coverage(turned_over[1], frame, 4);
+    for (std::size_t pixel = 0; pixel < visible.size(); ++pixel) {
+      visible[pixel] -= visible_over[pixel];
+      before[pixel] -= before_over[pixel];
+    }
+    // -1: no ground; 0: before the near plane; 1: visible; 2: too far.
+    const auto slice_at = [&](double x, double y) {
+      const glm::dvec3 ray = (x - 0.5 * frame.width) / focal * basis.right_world -
+                             (y - 0.5 * frame.height) / focal * basis.up_world - basis.backward_world;
+      const double distance = -camera.eye_world.y / ray.y;
+      return !(distance > 0.0) ? -1 : distance < camera.near ? 0 : distance < camera.far ? 1 : 2;
+    };
+    for (std::uint32_t y = 0; y < frame.height; ++y)
+      for (std::uint32_t x = 0; x < frame.width; ++x) {
+        const std::size_t pixel = std::size_t{y} * frame.width + x;
+        const double cx = x + 0.5, cy = y + 0.5, d = 1.0 / 16.0;
+        const int here = slice_at(cx, cy);
+        bool near_border = false, near_far_border = false;
+        for (double dx : {-d, d})
+          for (double dy : {-d, d}) {
+            const int beside = slice_at(cx + dx, cy + dy);
+            near_border |= beside != here;
+            near_far_border |= beside != here && std::max(beside, here) != 1;
+          }
+        const bool covered = here == 0 || here == 1;
+        if (!near_far_border) {
+          ASSERT_EQ(visible[pixel] + before[pixel], covered) << round << " pixel " << x << ',' << y;
+        }
+        if (!near_border) {
+          ASSERT_EQ(before[pixel], here == 0) << round << " pixel " << x << ',' << y;
+        }
+        in_both_slices += near_border && covered;
+      }
+  }
+  EXPECT_GT(in_both_slices, 200);
 }
 
 // Two triangles at one edge, taken in opposite directions, in any position: the points cut on the edge are

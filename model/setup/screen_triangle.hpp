@@ -31,4 +31,10 @@ struct ScreenTriangle {
   }
 };
 
+/// A triangle that is seen from either side.
+struct TwoSidedTriangle {
+  ScreenTriangle triangle;  ///< ordered as if front-facing
+  bool faces_eye;           ///< counter-clockwise as it was given
+};
+
 }  // namespace halfway

@@ -33,7 +33,11 @@ enum class SpanEnds {
 
 struct SphericalSetupOptions {
   SpanEnds ends = SpanEnds::on_surface;  ///< of preset exact; published has slerped_along_edges always
-  /// Preset exact: colour steps of 1/255; past it on a span a triangle is cut into columns.
+  /// Preset exact, ends on the surface: colour steps of 1/255; where a span's interpolation is farther off
+  /// the illumination model, a triangle is cut into columns. Fitted bells, tables and roundings add to it.
+  /// Every line is looked at, but only at a few places that its angles suggest: of 124 million pixels of
+  /// random scenes, lights of all kinds close to the surface, exponents 1 to 10^5, 73 were farther off than
+  /// all that, by up to 7 steps.
   double threshold = 2.0;
 };
 

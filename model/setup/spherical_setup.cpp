@@ -26,6 +26,7 @@ constexpr double c_outside = 2.0;
 // turn does not know its plane.
 constexpr double c_nearly_opposed = -0.99;
 
+// Of a cosine, from its peak down to zero.
 constexpr double c_half_bell = 0.5 * std::numbers::pi;
 
 // Each line of a header's triangle as the hardware walks it: line(walker).
@@ -82,8 +83,9 @@ SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const Hardwa
       preset_(key.preset),
       options_(options),
       config_(golden_config(key)),
-      lights_(key.spherical.records() ? shining_lights(scene) : std::vector<LightRef>()),
+      lights_(reflected_lights(scene)),
       has_spots_(std::ranges::any_of(lights_, [](LightRef light) { return light.kind == LightKind::spot; })),
+      has_records_(key.spherical.records()),
       init_bits_(static_cast<unsigned>(preset_ == Preset::exact
                                            ? golden::SphericalLayout<Exact>(config_).init_bits()
                                            : golden::SphericalLayout<Published>(config_).init_bits())),
@@ -329,11 +331,11 @@ class SphericalSetup::ExactTriangle {
       ++counts_.vectors;
       const std::vector<std::uint32_t> header = header_of(walk, counts_);
       words_.insert(words_.end(), header.begin(), header.end());
-      if (setup_.lights_.empty()) continue;
+      if (!setup_.has_records_) continue;
       walk_lines<Exact>(header, [&](const golden::TriangleWalker<Exact>& walker) {
         ++counts_.records;
         InitVector record(words_, setup_.init_bits_);
-        if (walker.line_empty()) return;
+        if (walker.line_empty() || setup_.lights_.empty()) return;
         const Span at = span_of(walker);
         setup_.put_record<Exact>(record, triangle_.material, arcs_of(at), counts_);
       });
@@ -382,8 +384,8 @@ class SphericalSetup::ExactTriangle {
       span.step = at.steps() == 0 ? 0.0 : 1.0 / static_cast<double>(at.steps());
       return span;
     }
-    auto [from, to] = crossings(triangle_, subpixel_bits_, at.y);
-    if (at.way() < 0) std::swap(from, to);
+    // From left to right; a span that is drawn the other way steps back.
+    const auto [from, to] = crossings(triangle_, subpixel_bits_, at.y);
     span.begin = setup_.slerped(vertex_[from.top], vertex_[from.bottom], from.t);
     span.end = setup_.slerped(vertex_[to.top], vertex_[to.bottom], to.t);
     const double length = to.x - from.x;
@@ -507,13 +509,13 @@ void SphericalSetup::append_published(const ScreenTriangle& triangle, std::vecto
       put_header(header, triangle.source, h, p);
       put_ambient(header, material, counts);
     }
-    if (lights_.empty()) continue;
+    if (!has_records_) continue;
     const std::vector<std::uint32_t> header(words.begin() + static_cast<std::ptrdiff_t>(header_at),
                                             words.end());
     walk_lines<Published>(header, [&](const golden::TriangleWalker<Published>& walker) {
       ++counts.records;
       InitVector record(words, init_bits_);
-      if (walker.line_empty()) return;
+      if (walker.line_empty() || lights_.empty()) return;
       const auto on_edge = [&](const HalfEdge& edge) {
         const auto t = static_cast<double>((walker.y() - p[edge.top].y) / (p[edge.bottom].y - p[edge.top].y));
         return slerped(vertex[edge.top], vertex[edge.bottom], t);

@@ -30,7 +30,7 @@ struct LightVectors {
 };
 struct PointVectors {
   glm::dvec3 normal;
-  std::array<LightVectors, c_most_lights> light;  ///< as many as the key has
+  std::array<LightVectors, c_most_lights> light;  ///< as many as are reflected
 };
 
 /// A span between two points whose vectors are known: its first pixel at t = first, each further one `step`
@@ -48,7 +48,7 @@ struct LightArcs {
   bool exact_at_ends;  ///< of a span that begins at t = 0 and ends at t = 1
 };
 struct SpanArcs {
-  std::array<LightArcs, c_most_lights> light;  ///< as many as the key has
+  std::array<LightArcs, c_most_lights> light;  ///< as many as are reflected
   double first, step;                          ///< as SpanVectors
 };
 
@@ -84,9 +84,10 @@ class SphericalSetup final : public Setup {
   Preset preset_;
   SphericalSetupOptions options_;
   golden::SphericalConfig config_;
-  std::vector<LightRef> lights_;
+  std::vector<LightRef> lights_;  ///< no more than the key has; any further light of the key stays dark
   bool has_spots_;
   std::vector<Bell> bells_;  ///< one a material
+  bool has_records_;         ///< with all effects also where there is no light
   unsigned init_bits_;
   Projector projector_;
 };

@@ -482,6 +482,8 @@ Scene random_scene(RandomScenes& random) {
   Scene scene;
   const bool grey = random.one_in(3), white = grey || random.one_in(2);
   scene.materials = {random.material(grey, white)};
+  if (random.one_in(8)) scene.materials[0].diffuse = 0.0;
+  if (random.one_in(8)) scene.materials[0].specular = 0.0;
   scene.ambient = random.within(0.0, 0.5) * random.colour(grey);
   random.add_triangles(scene, 4, random.log_within(0.1, 1.5),
                        random.one_in(8) ? 0.0 : random.log_within(0.01, 0.7));
@@ -500,7 +502,8 @@ TEST(SphericalSetup, ExactIsThePapersFormulasWithinEveryRounding) {
     const Scene scene = random_scene(random);
     SCOPED_TRACE(testing::Message() << "scene " << i << ", exponent " << scene.materials[0].exponent);
     expect_specification<Exact>(scene, {random.one_in(2) ? 240U : 70U, 160}, spherical_key(scene),
-                                random.one_in(2) ? c_never_cut : c_cut, figures);
+                                random.one_in(2) ? c_never_cut : SphericalSetupOptions{.threshold = 0.5},
+                                figures);
     if (HasFailure()) return;
   }
   std::cout << figures << '\n';
@@ -585,7 +588,7 @@ void measure(const Scene& scene, FrameSize size, const SphericalSetupOptions& op
 
 Scene lit_mesh(RandomScenes& random, int kind, RandomScenes::Lights lights) {
   Scene scene;
-  scene.materials = {random.material(false, random.one_in(2))};
+  scene.materials = {random.material(false, random.one_in(2), random.one_in(3) ? 1e5 : 1e3)};
   scene.camera.eye_world = {0.0, 0.0, 4.0};
   double radius = 1.1;
   if (kind == 0) {
@@ -602,9 +605,9 @@ Scene lit_mesh(RandomScenes& random, int kind, RandomScenes::Lights lights) {
   return scene;
 }
 
-// Where a line was not looked at, and at a light's horizon, where a highlight of a small exponent ends at
-// once, a pixel may be off by more: how often, and by how much, is printed.
-TEST(SphericalSetup, ExactIsWithinItsPromiseOfTheIlluminationModelAlmostEverywhere) {
+// Lines are looked at at a few places: between them nothing is promised, so what is past the promise there is
+// counted.
+TEST(SphericalSetup, ExactIsWithinItsPromiseOfTheIlluminationModel) {
   RandomScenes random(4);
   for (const auto& [name, lights] : {std::pair{"directional", RandomScenes::directional},
                                      {"positional", RandomScenes::positional},
@@ -624,7 +627,7 @@ TEST(SphericalSetup, ExactIsWithinItsPromiseOfTheIlluminationModelAlmostEverywhe
               << cut.counts.leaves << " columns, " << cut.counts.vectors << " vectors, " << cut.counts.records
               << " records, " << cut.counts.shaded << " shaded\n";
     EXPECT_GT(cut.pixels, 300'000u);
-    EXPECT_LT(10'000 * cut.past, cut.pixels);
+    EXPECT_LE(cut.past, 3u);
     EXPECT_GT(cut.psnr(), whole.psnr() + 5.0);
     EXPECT_GT(whole.largest, 30.0) << "these scenes need no cut";
   }

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway plan`, and --all-effects of the commands that draw, as a user meets them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class PlanCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+  }
+
+  struct Outcome {
+    int exit_code;
+    std::string output;  // both streams
+  };
+  Outcome run(std::vector<std::string> arguments, const std::string& path = "") const {
+    arguments.insert(arguments.begin(), HALFWAY_PROGRAM);
+    Command command{.arguments = std::move(arguments), .working_folder = folder_->path()};
+    if (!path.empty()) command.environment = {{"PATH", path}};
+    command.timeout = std::chrono::minutes(5);
+    const auto end = run_process(command, "");
+    if (!end) return {-1, end.error().message};
+    return {end->signal != 0 || end->timed_out ? -2 : end->exit_status, end->output};
+  }
+
+  /// PATH with a stand-in for Yosys: as many LUTs as the netlist has kilobytes.
+  std::string path_with_yosys() const {
+    const auto bin = folder_->path() / "bin";
+    EXPECT_TRUE(make_folders(bin));
+    EXPECT_TRUE(write_file(bin / "yosys",
+                           "#!/bin/sh\n[ $# = 1 ] && { echo stand-in; exit; }\n"
+                           "echo \"{\\\"design\\\": {\\\"num_cells_by_type\\\": {\\\"\\$lut\\\": "
+                           "$(($(wc -c <netlist.v) / 1024)), \\\"\\$_DFF_P_\\\": 5}}}\" >cells.json\n"));
+    std::filesystem::permissions(bin / "yosys", std::filesystem::perms::all);
+    return bin.string() + ":" + std::getenv("PATH");
+  }
+
+  std::optional<TemporaryFolder> folder_;
+};
+
+TEST_F(PlanCommand, ListsEveryEffectAndWhatIsLeftOut) {
+  const Outcome matte = run({"plan", "matte", "--shader", "spherical"});
+  EXPECT_EQ(matte.exit_code, 0) << matte.output;
+  EXPECT_THAT(matte.output,
+              AllOf(HasSubstr("as called for  spherical_shader-exact-c1-l1-d-rom9x8\n"),
+                    HasSubstr("all effects    spherical_shader-exact-c3-l1-d-s3-cos1.2.4.8.16-rom9x8\n"),
+                    ContainsRegex("\nspecular +no +hardware +every k_s is 0\n +left out: .*1 specular_slice"),
+                    ContainsRegex("\nhighlight colour +no +hardware +there is no highlight\n"),
+                    ContainsRegex("\npositional +no +hardware +the scene has no positional light\n"),
+                    ContainsRegex("\nshadow +no +- +the scene does without; not by this shader\n"),
+                    ContainsRegex("\nperspective correction +yes +host .*; at both ends of a span\n"),
+                    ContainsRegex("\n  specular_slice +0 +1 +100 %\n"), Not(HasSubstr("measured"))));
+  EXPECT_THAT(run({"plan", "lights"}).output,
+              AllOf(ContainsRegex("\ncolour channels +yes +hardware +directional light 1 is coloured"),
+                    ContainsRegex("\nperspective correction +yes +host .*; at each sample\n")));
+  // Elaborated all the same.
+  const Outcome all = run({"plan", "matte", "--shader", "spherical", "--all-effects", "--lights", "4"});
+  EXPECT_THAT(all.output,
+              AllOf(HasSubstr("all effects    spherical_shader-exact-c3-l4-d-s3-cos1.2.4.8.16-rom9x8\n"),
+                    ContainsRegex("\nspecular +no +hardware +every k_s is 0; a slice a light\n"
+                                  " +there all the same: .*4 specular_slice")));
+}
+
+TEST_F(PlanCommand, Table5OfTheLights) {
+  const Outcome asked = run({"plan", "lights", "--objects", "3", "--rate", "30", "--size", "1000x1000"});
+  EXPECT_EQ(asked.exit_code, 0) << asked.output;
+  EXPECT_THAT(asked.output,
+              AllOf(HasSubstr("R = 5 directional lights, P = 5 positional ones"),
+                    ContainsRegex("13 O dt +1950 ns\n"), ContainsRegex("30 M 13 O dt +59 \\(58.50\\)\n"),
+                    ContainsRegex("p \\(2 R \\+ 2 P \\+ 1\\) +1239 \\(21 a pipeline\\)\n"),
+                    ContainsRegex("a pixel due in 33 ns +60 pipelines, 1260 processors\n"),
+                    ContainsRegex("\\(14 R \\+ 4\\) O dt +11100 ns\n"),
+                    ContainsRegex("\\(14 R \\+ 26 P \\+ 6\\) O dt +30900 ns\n")));
+  // One of the two is enough.
+  EXPECT_THAT(run({"plan", "lights", "--rate", "60"}).output, HasSubstr("60 frames a second, O = 1"));
+  EXPECT_THAT(run({"plan", "lights"}).output, Not(HasSubstr("table 5")));
+}
+
+TEST_F(PlanCommand, BadUsageExitsTwo) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"plan", "matte", "--lights", "3"}, "--lights goes with --all-effects"},
+      {{"plan", "matte", "--all-effects", "--lights", "3"},
+       "only the spherical shader has hardware for lights"},
+      {{"plan", "lights", "--shader", "spherical", "--all-effects", "--lights", "9"}, "9 is not 10 to 16"},
+      {{"sim", "lights", "--shader", "spherical", "--all-effects", "--lights", "17"}, "17 is not 10 to 16"},
+      {{"plan", "matte", "--rate", "1001"}, "--rate"},
+      {{"plan", "matte", "--objects", "-1"}, "--objects"},
+      {{"plan", "matte", "--measure", "--simulator", "modelsim"}, "is not a simulator"},
+      {{"sim", "matte", "--simulator", "modelsim"}, "is not a simulator"},
+  };
+  for (const auto& [arguments, expected] : cases) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(expected));
+  }
+}
+
+TEST_F(PlanCommand, AMissingToolExitsThree) {
+  const std::string nowhere = (folder_->path() / "empty").string();
+  EXPECT_EQ(run({"plan", "matte"}, nowhere).exit_code, 0) << "without --measure no tool is needed";
+  const Outcome outcome = run({"plan", "matte", "--measure"}, nowhere);
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("apt-get install yosys"));
+}
+
+TEST_F(PlanCommand, MeasuresCellsCyclesAndSeconds) {
+  const Outcome outcome =
+      run({"plan", "matte", "--shader", "spherical", "--measure", "--size", "64x48"}, path_with_yosys());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(
+      outcome.output,
+      AllOf(ContainsRegex("1 specular_slice: [1-9][0-9]* LUTs, 0 flip-flops\n"),
+            ContainsRegex("LUTs of 4 inputs[^\n]* [1-9][0-9]* +[1-9][0-9]* +[1-9][0-9]? %\n"),
+            ContainsRegex("\nflip-flops +5 +5 +0 %\n"), ContainsRegex("\ncycles +[1-9][0-9]* +[1-9]"),
+            ContainsRegex("\nprocessor seconds in GHDL +[0-9]"),
+            ContainsRegex("\nprocessor seconds in Verilator +[0-9]"), HasSubstr("are equal bit for bit")));
+  // Each simulator counts the cycles alone as well.
+  for (const std::string simulator : {"ghdl", "verilator"}) {
+    const Outcome one = run(
+        {"plan", "matte", "--shader", "spherical", "--measure", "--size", "64x48", "--simulator", simulator},
+        path_with_yosys());
+    EXPECT_EQ(one.exit_code, 0) << one.output;
+    const auto row = [](const std::string& text, const std::string& name) {
+      const std::size_t at = text.find("\n" + name + " ");
+      return at == std::string::npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+    };
+    EXPECT_EQ(row(one.output, "cycles"), row(outcome.output, "cycles")) << simulator;
+    EXPECT_EQ(row(one.output, "the two frames"), row(outcome.output, "the two frames")) << simulator;
+    EXPECT_EQ(row(one.output, "processor seconds in GHDL").empty(), simulator != "ghdl");
+    EXPECT_EQ(row(one.output, "processor seconds in Verilator").empty(), simulator != "verilator");
+  }
+}
+
+// RTL whose fault only hardware with all effects has: factors of zero that are not.
+TEST_F(PlanCommand, MeasuringTellsFramesThatDiffer) {
+  const std::filesystem::path source = HALFWAY_SOURCE_DIR, copy = folder_->path() / "source";
+  for (const char* part : {"rtl", "tb", "sim", "model/golden"}) {
+    ASSERT_TRUE(make_folders((copy / part).parent_path()));
+    std::filesystem::copy(source / part, copy / part, std::filesystem::copy_options::recursive);
+  }
+  const auto slice = copy / "rtl" / "illumination" / "specular_slice.vhd";
+  const auto text = read_file(slice);
+  ASSERT_TRUE(text);
+  const std::string from = "start => part(part'high downto c_factors_low)";
+  const std::size_t at = text->find(from);
+  ASSERT_NE(at, std::string::npos) << "mend this test";
+  std::string changed = *text;
+  changed.replace(at, from.size(), "start => not part(part'high downto c_factors_low)");
+  ASSERT_TRUE(write_file(slice, changed));
+  const Outcome outcome = run({"--source", copy, "plan", "matte", "--shader", "spherical", "--measure",
+                               "--size", "64x48", "--simulator", "verilator"},
+                              path_with_yosys());
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("the two frames DIFFER"), Not(HasSubstr("seconds in GHDL"))));
+}
+
+TEST_F(PlanCommand, AllEffectsDrawTheSamePicture) {
+  for (const std::string shader : {"quadratic", "spherical"}) {
+    std::vector<std::string> pictures;
+    for (const bool all : {false, true}) {
+      std::vector<std::string> arguments = {"render", "matte",  "--method", "golden", "--shader",
+                                            shader,   "--size", "100x75",   "--file", "frame.png"};
+      if (all) arguments.emplace_back("--all-effects");
+      const Outcome outcome = run(arguments);
+      ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+      const auto picture = read_file(folder_->path() / "frame.png");
+      ASSERT_TRUE(picture);
+      pictures.push_back(*picture);
+    }
+    EXPECT_EQ(pictures[0], pictures[1]) << shader;
+  }
+  const Outcome init = run({"init", "matte", "--shader", "spherical", "--all-effects", "--size", "40x30"});
+  EXPECT_THAT(init.output, HasSubstr("spherical_shader-exact-c3-l1-d-s3-cos1.2.4.8.16-rom9x8"));
+}
+
+}  // namespace
+}  // namespace halfway

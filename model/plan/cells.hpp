@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// How large a shader's netlist is, by Yosys.
+#pragma once
+
+#include <cstdint>
+
+#include "common/result.hpp"
+#include "plan/hardware_key.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+
+namespace halfway {
+
+inline constexpr const char* kInstallYosys = "apt-get install yosys";
+
+/// Of no FPGA family: functions of up to four inputs, and flip-flops. Tables and multipliers are made of
+/// these too.
+struct Cells {
+  std::uint64_t luts = 0, flip_flops = 0;
+  friend bool operator==(Cells, Cells) = default;
+};
+
+class CellCounter {
+ public:
+  /// Where there is no Yosys, an error with the command that installs it.
+  static Result<CellCounter> open(const SimulatorFolders& folders);
+
+  /// Synthesizes the flattened netlist, or takes its figures from the cache. Threads may call it at once.
+  Result<Cells> count(const HardwareKey& key) const;
+
+ private:
+  CellCounter(std::string version, GhdlLibrary library, std::filesystem::path cache)
+      : version_(std::move(version)), library_(std::move(library)), cache_(std::move(cache)) {}
+  std::string version_;
+  GhdlLibrary library_;
+  std::filesystem::path cache_;
+};
+
+}  // namespace halfway

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/cells.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CellsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    folders_ = {HALFWAY_SOURCE_DIR, folder_->path() / "cache"};
+  }
+  void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
+
+  /// A program that stands for Yosys, before the others in PATH.
+  void put_yosys(const std::string& script) {
+    ASSERT_TRUE(make_folders(folder_->path() / "bin"));
+    ASSERT_TRUE(write_file(folder_->path() / "bin" / "yosys", "#!/bin/sh\n" + script));
+    std::filesystem::permissions(folder_->path() / "bin" / "yosys", std::filesystem::perms::all);
+    ::setenv("PATH", ((folder_->path() / "bin").string() + ":" + path_).c_str(), 1);
+  }
+  Result<Cells> count(const HardwareKey& key) const {
+    const auto counter = CellCounter::open(folders_);
+    if (!counter) return counter.error();
+    return counter->count(key);
+  }
+  std::size_t cached() const {
+    std::error_code error;
+    std::size_t count = 0;
+    for ([[maybe_unused]] const auto& entry :
+         std::filesystem::directory_iterator(folders_.cache / "yosys", error))
+      ++count;
+    return count;
+  }
+
+  const std::string path_ = std::getenv("PATH");
+  const HardwareKey grey_{.channels = 1}, coloured_{.channels = 3};
+  std::optional<TemporaryFolder> folder_;
+  SimulatorFolders folders_;
+};
+
+TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
+  if (find_program("yosys").empty()) GTEST_SKIP() << "no yosys: " << kInstallYosys;
+  const auto grey = count(grey_), coloured = count(coloured_);
+  ASSERT_TRUE(grey) << grey.error().message;
+  ASSERT_TRUE(coloured) << coloured.error().message;
+  // Six line interpolators of 40 bits and six words that stand still make a channel.
+  const std::uint64_t flip_flops = coloured->flip_flops - grey->flip_flops;
+  EXPECT_GT(flip_flops, 2 * 6 * 40U);
+  EXPECT_LT(flip_flops, 2 * 30 * 40U);
+  EXPECT_GT(coloured->luts, grey->luts + 2 * 6 * 40U);  // an adder takes one a bit or more
+  EXPECT_EQ(cached(), 2U);
+
+  // The second time from the cache: Yosys itself is asked for its version only.
+  const auto version = run_process({.arguments = {"yosys", "-V"}}, kInstallYosys);
+  ASSERT_TRUE(version);
+  put_yosys("[ $# = 1 ] && printf '" + version->output + "' || exit 9\n");
+  const auto again = count(grey_);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(*again, *grey);
+  EXPECT_FALSE(count({.preset = Preset::published}));
+}
+
+TEST_F(CellsTest, AMissingYosysIsToldWithTheCommandThatBringsIt) {
+  ::setenv("PATH", (folder_->path() / "empty").c_str(), 1);
+  const auto none = count(grey_);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ExitCode::tool_failed);
+  EXPECT_THAT(none.error().message, HasSubstr("apt-get install yosys"));
+}
+
+// Another netlist is another count, though the key is the same.
+TEST_F(CellsTest, ChangedRtlIsCountedAnew) {
+  put_yosys("[ $# = 1 ] || echo '{\"design\": {\"num_cells_by_type\": {\"$lut\": 1}}}' >cells.json\n");
+  ASSERT_TRUE(count(grey_));
+  ASSERT_TRUE(count(grey_));
+  EXPECT_EQ(cached(), 1U);
+  const std::filesystem::path copy = folder_->path() / "source";
+  ASSERT_TRUE(make_folders(copy));
+  std::filesystem::copy(folders_.source / "rtl", copy / "rtl", std::filesystem::copy_options::recursive);
+  folders_.source = copy;
+  ASSERT_TRUE(count(grey_));
+  EXPECT_EQ(cached(), 1U);
+  const auto adder = copy / "rtl" / "interpolation" / "line_interpolator.vhd";
+  const auto text = read_file(adder);
+  ASSERT_TRUE(text);
+  const std::string from = "r.value + signed(increment)";
+  const std::size_t at = text->find(from);
+  ASSERT_NE(at, std::string::npos) << "mend this test";
+  std::string changed = *text;
+  ASSERT_TRUE(write_file(adder, changed.replace(at, from.size(), "r.value - signed(increment)")));
+  ASSERT_TRUE(count(grey_));
+  EXPECT_EQ(cached(), 2U);
+}
+
+// What Yosys might leave, and what then is said; nothing of it stays in the cache.
+TEST_F(CellsTest, WhatIsNoCountOfLutsAndFlipFlopsIsRefused) {
+  const auto stat = [](const std::string& cells) {
+    return "[ $# = 1 ] || cat >cells.json <<'EOF'\n{\"design\": {\"num_cells_by_type\": {" + cells +
+           "}}}\nEOF\n";
+  };
+  put_yosys(stat("\"$lut\": 12, \"$_DFF_P_\": 3, \"$_SDFFCE_PP0P_\": 4"));
+  const auto whole = count(coloured_);
+  ASSERT_TRUE(whole) << whole.error().message;
+  EXPECT_EQ(*whole, (Cells{12, 7}));
+  const std::size_t before = cached();
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {stat("\"$lut\": 12, \"$_DLATCH_P_\": 1"), "$_DLATCH_P_"},
+      {"[ $# = 1 ] || echo nonsense >cells.json", "not what Yosys's stat writes"},
+      {"[ $# = 1 ] || echo '{}' >cells.json", "not what Yosys's stat writes"},
+      {"exit 0", "cells.json"},
+      {"[ $# = 1 ] || { echo 'ERROR: no such cell'; exit 1; }", "ERROR: no such cell"},
+      {"exit 1", "looking for yosys"},
+  };
+  for (const auto& [script, message] : cases) {
+    put_yosys(script + "\n");
+    const auto refused = count(grey_);
+    ASSERT_FALSE(refused) << script;
+    EXPECT_EQ(refused.error().code, ExitCode::tool_failed);
+    EXPECT_THAT(refused.error().message, HasSubstr(message));
+    EXPECT_EQ(cached(), before) << script;
+  }
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/hardware_units.hpp"
+#include "plan/shader_plans.hpp"
+
+namespace halfway {
+namespace {
+
+// The radiance is the host's, so nearly everything is.
+PlannedEffect effect_of(const SceneCalls& calls, Effect effect, const HardwareKey& key) {
+  switch (effect) {
+    case Effect::ambient:
+    case Effect::diffuse:
+    case Effect::specular:
+    case Effect::highlight_colour:
+    case Effect::exponents:
+    case Effect::directional:
+    case Effect::positional:
+    case Effect::spot:
+    case Effect::normalization:
+    case Effect::perspective:
+      return planned(calls, effect, DoneBy::host, "at each sample");
+    case Effect::subdivision:
+      return planned(calls, effect, DoneBy::host, "triangles split in four past a threshold");
+    case Effect::shadow:
+      break;
+    case Effect::colour: {
+      PlannedEffect out = planned(calls, effect, DoneBy::hardware, "an interpolator a channel");
+      out.elaborated = key.channels == 3;
+      HardwareKey other = key;
+      other.channels = out.elaborated ? 1 : 3;
+      set_other(out, key, other);
+      return out;
+    }
+    case Effect::depth: {
+      PlannedEffect out = planned(calls, effect, DoneBy::hardware, "");
+      out.elaborated = true;
+      out.units = depth_units(key);
+      return out;
+    }
+  }
+  return planned(calls, effect, DoneBy::nobody, "not by this shader");
+}
+
+}  // namespace
+
+Result<Plan> plan_quadratic(const Scene&, const SceneCalls& calls, const PlanRequest& request) {
+  if (request.tables)
+    return bad_input("--address-bits, --data-bits: only the spherical shader has cosine tables");
+  if (request.lights) return bad_input("--lights: only the spherical shader has hardware for lights");
+  Plan plan;
+  plan.called_for.preset = request.preset;
+  plan.everything = plan.called_for;
+  plan.called_for.channels = calls[Effect::colour].called_for ? 3 : 1;
+  plan.everything.channels = 3;
+  plan.key = request.all_effects ? plan.everything : plan.called_for;
+  for (std::size_t i = 0; i < c_effects; ++i)
+    plan.effects.push_back(effect_of(calls, static_cast<Effect>(i), plan.key));
+  return plan;
+}
+
+}  // namespace halfway

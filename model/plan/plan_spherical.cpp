@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "golden/cosine_tables.hpp"
+#include "plan/hardware_units.hpp"
+#include "plan/shader_plans.hpp"
+#include "setup/bell.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr unsigned c_squared = 2;  // of SphericalUnits::powers: the table of cosine squared alone
+constexpr unsigned c_every_power = 31;
+
+std::vector<TableSize> generated_sizes(bool exact) {
+  std::vector<TableSize> sizes;
+  for (const golden::CosineTable& table : golden::c_cosine_tables)
+    if (const TableSize size{table.address_bits, table.data_bits};
+        table.exact == exact && std::ranges::find(sizes, size) == sizes.end())
+      sizes.push_back(size);
+  return sizes;
+}
+
+Result<TableSize> table_size(const PlanRequest& request) {
+  const bool exact = request.preset == Preset::exact;
+  const golden::CosineSize usual = exact ? golden::c_exact_cosine_size : golden::c_published_cosine_size;
+  if (!request.tables) return TableSize{usual.address_bits, usual.data_bits};
+  const std::vector<TableSize> sizes = generated_sizes(exact);
+  if (std::ranges::find(sizes, *request.tables) != sizes.end()) return *request.tables;
+  std::vector<std::string> there;
+  for (const TableSize& size : sizes)
+    there.push_back(fmt::format("{}/{}", size.address_bits, size.data_bits));
+  return bad_input(
+      fmt::format("no cosine tables of {} address and {} data bits in preset {}: there are {}; make them "
+                  "with `make tables "
+                  "PRESET={} ADDRESS_BITS={} DATA_BITS={}`, and draw again",
+                  request.tables->address_bits, request.tables->data_bits, to_string(request.preset),
+                  fmt::join(there, ", "), to_string(request.preset), request.tables->address_bits,
+                  request.tables->data_bits));
+}
+
+// The powers that fit the exponents in use; bad input where a highlight is no power of a cosine.
+Result<unsigned> powers_of(const Scene& scene, Preset preset) {
+  unsigned powers = 0;
+  const std::vector<bool> worn = worn_materials(scene);
+  for (std::size_t i = 0; i < worn.size(); ++i) {
+    const Material& m = scene.materials[i];
+    if (!worn[i] || !has_specular(m)) continue;
+    if (m.brdf == Brdf::cook_torrance)
+      return bad_input(fmt::format(
+          "{}: material '{}' is cook_torrance, and the spherical shader's highlights are powers of a cosine; "
+          "make it blinn or phong, or take the quadratic shader",
+          scene.name, m.name));
+    // Each power is a power of two: itself the mask's bit.
+    powers |= preset == Preset::exact ? static_cast<unsigned>(fitted_bell(m.exponent).power) : c_squared;
+  }
+  return powers;
+}
+
+std::string names(unsigned powers) {
+  std::vector<std::string> list;
+  for (unsigned power = 1; power <= 16; power *= 2)
+    if ((powers & power) != 0) list.push_back(fmt::format("cos^{}", power));
+  return fmt::format("{}", fmt::join(list, ", "));
+}
+
+// Hardware without an effect has nothing of what only that effect uses.
+HardwareKey without_idle_units(HardwareKey key) {
+  SphericalUnits& s = key.spherical;
+  if (!s.records()) {
+    s.lights = 0;
+    s.diffuse = s.specular = false;
+  }
+  if (!s.specular) s.powers = 0;
+  s.highlight_channels = s.specular ? std::min(s.highlight_channels, key.channels) : 1;
+  return key;
+}
+
+HardwareKey everything(HardwareKey key, unsigned lights) {
+  SphericalUnits& s = key.spherical;
+  key.channels = s.highlight_channels = 3;
+  s.lights = lights;
+  s.diffuse = s.specular = true;
+  s.powers = key.preset == Preset::exact ? c_every_power : c_squared;
+  return key;
+}
+
+class Planner {
+ public:
+  Planner(const SceneCalls& calls, const Plan& plan)
+      : calls_(calls), key_(plan.key), called_for_(plan.called_for.spherical) {}
+
+  PlannedEffect effect_of(Effect effect) const {
+    const SphericalUnits& s = key_.spherical;
+    const bool exact = key_.preset == Preset::exact;
+    HardwareKey other = key_;
+    SphericalUnits& o = other.spherical;
+    switch (effect) {
+      case Effect::ambient:
+        return there_anyway(effect, "its word rounds the colours too", ambient_units(key_));
+      case Effect::depth:
+        return there_anyway(effect, "", depth_units(key_));
+      case Effect::diffuse:
+        o.diffuse = !s.diffuse;
+        o.lights = std::max(s.lights, 1U);
+        return in_hardware(effect, "a slice a light", s.diffuse, other);
+      case Effect::specular:
+        o.specular = !s.specular;
+        o.lights = std::max(s.lights, 1U);
+        if (o.specular) o.powers = c_squared;
+        return in_hardware(effect, "a slice a light", s.specular, other);
+      case Effect::highlight_colour:
+        if (!s.specular) return in_hardware(effect, "");
+        o.highlight_channels = s.highlight_channels == 1 ? 3 : 1;
+        other.channels = std::max(key_.channels, o.highlight_channels);
+        return in_hardware(effect, "a multiplier a channel", s.highlight_channels == 3, other);
+      case Effect::exponents: {
+        if (!exact)
+          return planned(calls_, effect, DoneBy::host, "one table, cos^2; the exponent scales its angle");
+        if (!s.specular) return in_hardware(effect, "");
+        const bool several = std::popcount(s.powers) > 1;
+        o.powers = several ? std::bit_floor(s.powers) : c_every_power;
+        PlannedEffect out = in_hardware(effect, "a table each, and a choice", several, other);
+        // One table may serve several exponents.
+        out.called_for = std::popcount(called_for_.powers) > 1;
+        if (called_for_.specular) out.why += ": " + names(called_for_.powers);
+        return out;
+      }
+      case Effect::directional:
+        return lights_of(effect, LightKind::directional, "vectors to it by the host");
+      case Effect::positional:
+        return lights_of(effect, LightKind::positional, "vectors to it by the host");
+      case Effect::spot:
+        return lights_of(effect, LightKind::spot, "vectors to it and its cone by the host");
+      case Effect::normalization:
+        return planned(calls_, effect, DoneBy::host,
+                       exact ? "at both ends of a span" : "at the vertices; angles need no more");
+      case Effect::colour:
+        other.channels = key_.channels == 1 ? 3 : 1;
+        return in_hardware(effect, "multipliers and a sum a channel", key_.channels == 3, other);
+      case Effect::subdivision:
+        if (!exact) break;
+        return planned(calls_, effect, DoneBy::host, "triangles cut into columns past a threshold");
+      case Effect::perspective:
+        return planned(
+            calls_, effect, DoneBy::host,
+            exact ? "at both ends of a span" : "at the vertices alone: between them, as published, none");
+      case Effect::shadow:
+        break;
+    }
+    return planned(calls_, effect, DoneBy::nobody,
+                   effect == Effect::shadow ? "not by this shader" : "not by preset published");
+  }
+
+ private:
+  PlannedEffect in_hardware(Effect effect, std::string how) const {
+    return planned(calls_, effect, DoneBy::hardware, std::move(how));
+  }
+  PlannedEffect in_hardware(Effect effect, std::string how, bool elaborated, const HardwareKey& other) const {
+    PlannedEffect out = in_hardware(effect, std::move(how));
+    out.elaborated = elaborated;
+    set_other(out, key_, without_idle_units(other));
+    return out;
+  }
+  PlannedEffect there_anyway(Effect effect, std::string how, std::map<std::string, int> units) const {
+    PlannedEffect out = in_hardware(effect, std::move(how));
+    out.elaborated = true;
+    out.units = std::move(units);
+    return out;
+  }
+  // A light's slices do not know its kind.
+  PlannedEffect lights_of(Effect effect, LightKind kind, std::string how) const {
+    const auto count = static_cast<unsigned>(calls_.count(kind));
+    HardwareKey other = key_;
+    SphericalUnits& o = other.spherical;
+    if (count == 0) {
+      if (o.lights == c_most_lights) return in_hardware(effect, std::move(how));
+      if (!o.records()) o.diffuse = true;
+      ++o.lights;
+    } else {
+      o.lights -= count;
+    }
+    return in_hardware(effect, std::move(how), count > 0, other);
+  }
+
+  const SceneCalls& calls_;
+  const HardwareKey& key_;
+  const SphericalUnits& called_for_;
+};
+
+}  // namespace
+
+Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const PlanRequest& request) {
+  const auto tables = table_size(request);
+  if (!tables) return tables.error();
+  if (calls.lights.size() > c_most_lights)
+    return bad_input(fmt::format(
+        "{}: {} lights; the spherical shader takes up to {}: leave some out, or take the quadratic shader",
+        scene.name, calls.lights.size(), c_most_lights));
+  const auto lights = static_cast<unsigned>(calls.lights.size());
+
+  Plan plan;
+  HardwareKey& key = plan.called_for;
+  key.shader = Shader::spherical;
+  key.preset = request.preset;
+  key.channels = calls[Effect::colour].called_for ? 3 : 1;
+  SphericalUnits& units = key.spherical;
+  units.tables = *tables;
+  units.lights = lights;
+  units.diffuse = calls[Effect::diffuse].called_for;
+  units.specular = calls[Effect::specular].called_for;
+  units.highlight_channels = calls[Effect::highlight_colour].called_for ? key.channels : 1;
+  if (units.specular) {
+    const auto powers = powers_of(scene, request.preset);
+    if (!powers) return powers.error();
+    units.powers = *powers;
+  }
+
+  const unsigned most = request.lights.value_or(std::max(lights, 1U));
+  if (most < std::max(lights, 1U) || most > c_most_lights)
+    return bad_input(fmt::format("--lights: {} is not {} to {}", most, std::max(lights, 1U), c_most_lights));
+  plan.everything = everything(key, most);
+  plan.key = request.all_effects ? plan.everything : plan.called_for;
+  const Planner planner(calls, plan);
+  for (std::size_t i = 0; i < c_effects; ++i)
+    plan.effects.push_back(planner.effect_of(static_cast<Effect>(i)));
+  return plan;
+}
+
+}  // namespace halfway

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// One function a shader: which hardware a scene's calls are to it, and what it leaves to the host.
+#pragma once
+
+#include "plan/plan.hpp"
+
+namespace halfway {
+
+Result<Plan> plan_quadratic(const Scene& scene, const SceneCalls& calls, const PlanRequest& request);
+Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const PlanRequest& request);
+
+/// What the scene says of the effect, and who does it; nothing elaborated yet.
+PlannedEffect planned(const SceneCalls& calls, Effect effect, DoneBy by, std::string how);
+
+/// Makes `other` the key's counterpart, and `units` where they differ.
+void set_other(PlannedEffect& effect, const HardwareKey& key, const HardwareKey& other);
+
+}  // namespace halfway
