@@ -1,6 +1,7 @@
 tables/formats_pkg.vhd
 tables/cosine_pkg.vhd
 tables/cosine_rom.vhd
+shaders/processors_pkg.vhd
 arithmetic/saturate.vhd
 arithmetic/multiplier.vhd
 arithmetic/angle_address.vhd

@@ -54,6 +54,18 @@ struct Exact {
   // u36.0: a factor times a table's entry, for the probe
   static constexpr int c_product_word_bits = 36;
   static constexpr int c_product_word_fraction_bits = 0;
+  // u3.0: of a vector or token of the shading processors
+  static constexpr int c_command_bits = 3;
+  static constexpr int c_command_fraction_bits = 0;
+  // u5.0: a light's number from 1; 0 is the ambient light
+  static constexpr int c_light_bits = 5;
+  static constexpr int c_light_fraction_bits = 0;
+  // s9.0: shadow volumes opened less those closed, up to 511 either way
+  static constexpr int c_shadow_count_bits = 10;
+  static constexpr int c_shadow_count_fraction_bits = 0;
+  // u12.6: one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-12
+  static constexpr int c_spot_slope_bits = 18;
+  static constexpr int c_spot_slope_fraction_bits = 6;
   // u18.0: below the edge's height in subpixels: 8192 pixels of 16, doubled at no level of subdivision
   static constexpr int c_edge_error_bits = 18;
   static constexpr int c_edge_error_fraction_bits = 0;
@@ -69,6 +81,51 @@ struct Exact {
   // u3.0: which table: cosine to the power 2^word
   static constexpr int c_power_bits = 3;
   static constexpr int c_power_fraction_bits = 0;
+  // s1.42: first differences, each rounded to 2^-43, at most 4095 lines and 8190 steps: off by at most 12286 2^-43 = 0.4 of a step of vector
+  static constexpr int c_plane_sum_bits = 44;
+  static constexpr int c_plane_sum_fraction_bits = 42;
+  // s1.28: interpolated N/w, view ray and 1/w, the largest scaled to 1/2 to 1
+  static constexpr int c_vector_bits = 30;
+  static constexpr int c_vector_fraction_bits = 28;
+  // s1.22: components of unit vectors; an exponent m multiplies the error of a cosine by m
+  static constexpr int c_direction_bits = 24;
+  static constexpr int c_direction_fraction_bits = 22;
+  // s2.28: from a surface point to a light, before it is normalized
+  static constexpr int c_offset_bits = 31;
+  static constexpr int c_offset_fraction_bits = 28;
+  // s1.26: a light's direction, or its place with 2^light_shift taken off
+  static constexpr int c_light_place_bits = 28;
+  static constexpr int c_light_place_fraction_bits = 26;
+  // u5.0: how much farther a light may be than the nearest surface: 2^31
+  static constexpr int c_light_shift_bits = 5;
+  static constexpr int c_light_shift_fraction_bits = 0;
+  // u2.28: of a vector's length, 1/4 to 3
+  static constexpr int c_square_bits = 30;
+  static constexpr int c_square_fraction_bits = 28;
+  // u0.12: table of 1/sqrt(x), 512 entries: within 2^-9.8 of it
+  static constexpr int c_root_entry_bits = 12;
+  static constexpr int c_root_entry_fraction_bits = 12;
+  // u1.23: after a Newton step: within 2^-19 of 1/sqrt(x)
+  static constexpr int c_root_bits = 24;
+  static constexpr int c_root_fraction_bits = 23;
+  // u13.8: up to 8191; off by 2^-9: 0.0008 of a highlight's peak at most
+  static constexpr int c_exponent_bits = 21;
+  static constexpr int c_exponent_fraction_bits = 8;
+  // u1.16: a power of a cosine, or of a spot's edge
+  static constexpr int c_weight_bits = 17;
+  static constexpr int c_weight_fraction_bits = 16;
+  // u4.16: k of a material, up to 15
+  static constexpr int c_coefficient_bits = 20;
+  static constexpr int c_coefficient_fraction_bits = 16;
+  // u14.4: colour steps, 64 times white
+  static constexpr int c_light_intensity_bits = 18;
+  static constexpr int c_light_intensity_fraction_bits = 4;
+  // u14.8: k I in colour steps; held at 64 times white
+  static constexpr int c_reflected_bits = 22;
+  static constexpr int c_reflected_fraction_bits = 8;
+  // u10.12: sum of the terms in colour steps; held at four times white
+  static constexpr int c_radiance_bits = 22;
+  static constexpr int c_radiance_fraction_bits = 12;
 
   static constexpr int c_init_header_bits = 480;
   static constexpr std::array<Field, 27> c_init_header = {{
@@ -291,6 +348,100 @@ struct Exact {
   struct specular_probe_channel_at {
     static constexpr const Field& product = c_specular_probe_channel[0];
   };
+
+  static constexpr int c_request_header_bits = 10;
+  static constexpr std::array<Field, 4> c_request_header = {{
+      {"command", 0, 3, false, 0},
+      {"light", 3, 5, false, 0},
+      {"opens", 8, 1, false, 0},
+      {"normalize", 9, 1, false, 0},
+  }};
+  struct request_header_at {
+    static constexpr const Field& command = c_request_header[0];
+    static constexpr const Field& light = c_request_header[1];
+    static constexpr const Field& opens = c_request_header[2];
+    static constexpr const Field& normalize = c_request_header[3];
+  };
+
+  static constexpr int c_request_channel_bits = 0;
+
+  static constexpr int c_plane_header_bits = 176;
+  static constexpr std::array<Field, 4> c_plane_header = {{
+      {"value", 0, 44, true, 42},
+      {"dx", 44, 44, true, 42},
+      {"de0", 88, 44, true, 42},
+      {"de1", 132, 44, true, 42},
+  }};
+  struct plane_header_at {
+    static constexpr const Field& value = c_plane_header[0];
+    static constexpr const Field& dx = c_plane_header[1];
+    static constexpr const Field& de0 = c_plane_header[2];
+    static constexpr const Field& de1 = c_plane_header[3];
+  };
+
+  static constexpr int c_plane_channel_bits = 0;
+
+  static constexpr int c_pixel_header_bits = 90;
+  static constexpr std::array<Field, 8> c_pixel_header = {{
+      {"command", 0, 3, false, 0},
+      {"light", 3, 5, false, 0},
+      {"opens", 8, 1, false, 0},
+      {"normalize", 9, 1, false, 0},
+      {"triangle", 10, 32, false, 0},
+      {"y", 42, 12, false, 0},
+      {"x", 54, 12, false, 0},
+      {"z", 66, 24, false, 0},
+  }};
+  struct pixel_header_at {
+    static constexpr const Field& command = c_pixel_header[0];
+    static constexpr const Field& light = c_pixel_header[1];
+    static constexpr const Field& opens = c_pixel_header[2];
+    static constexpr const Field& normalize = c_pixel_header[3];
+    static constexpr const Field& triangle = c_pixel_header[4];
+    static constexpr const Field& y = c_pixel_header[5];
+    static constexpr const Field& x = c_pixel_header[6];
+    static constexpr const Field& z = c_pixel_header[7];
+  };
+
+  static constexpr int c_pixel_channel_bits = 0;
+
+  static constexpr int c_light_axes_header_bits = 59;
+  static constexpr std::array<Field, 6> c_light_axes_header = {{
+      {"positional", 0, 1, false, 0},
+      {"spot", 1, 1, false, 0},
+      {"shift", 2, 5, false, 0},
+      {"outer", 7, 24, true, 22},
+      {"slope", 31, 18, false, 6},
+      {"around_eye", 49, 10, true, 0},
+  }};
+  struct light_axes_header_at {
+    static constexpr const Field& positional = c_light_axes_header[0];
+    static constexpr const Field& spot = c_light_axes_header[1];
+    static constexpr const Field& shift = c_light_axes_header[2];
+    static constexpr const Field& outer = c_light_axes_header[3];
+    static constexpr const Field& slope = c_light_axes_header[4];
+    static constexpr const Field& around_eye = c_light_axes_header[5];
+  };
+
+  static constexpr int c_light_axes_channel_bits = 52;
+  static constexpr std::array<Field, 2> c_light_axes_channel = {{
+      {"place", 0, 28, true, 26},
+      {"axis", 28, 24, true, 22},
+  }};
+  struct light_axes_channel_at {
+    static constexpr const Field& place = c_light_axes_channel[0];
+    static constexpr const Field& axis = c_light_axes_channel[1];
+  };
+
+  static constexpr int c_light_colour_header_bits = 0;
+
+  static constexpr int c_light_colour_channel_bits = 18;
+  static constexpr std::array<Field, 1> c_light_colour_channel = {{
+      {"intensity", 0, 18, false, 4},
+  }};
+  struct light_colour_channel_at {
+    static constexpr const Field& intensity = c_light_colour_channel[0];
+  };
 };
 
 struct Published {
@@ -331,6 +482,18 @@ struct Published {
   // u36.0: a factor times a table's entry, for the probe
   static constexpr int c_product_word_bits = 36;
   static constexpr int c_product_word_fraction_bits = 0;
+  // u3.0: of a vector or token of the shading processors
+  static constexpr int c_command_bits = 3;
+  static constexpr int c_command_fraction_bits = 0;
+  // u5.0: a light's number from 1; 0 is the ambient light
+  static constexpr int c_light_bits = 5;
+  static constexpr int c_light_fraction_bits = 0;
+  // s9.0: shadow volumes opened less those closed, up to 511 either way
+  static constexpr int c_shadow_count_bits = 10;
+  static constexpr int c_shadow_count_fraction_bits = 0;
+  // u12.6: one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-12
+  static constexpr int c_spot_slope_bits = 18;
+  static constexpr int c_spot_slope_fraction_bits = 6;
   // u0.0: edges are stepped by a real slope
   static constexpr int c_edge_error_bits = 0;
   static constexpr int c_edge_error_fraction_bits = 0;
@@ -346,6 +509,51 @@ struct Published {
   // u0.0: cosine squared alone
   static constexpr int c_power_bits = 0;
   static constexpr int c_power_fraction_bits = 0;
+  // s1.26: first differences: off by at most 12286 2^-27 = 1.5 steps of vector
+  static constexpr int c_plane_sum_bits = 28;
+  static constexpr int c_plane_sum_fraction_bits = 26;
+  // s1.14: 16 bits: the processors paper names no width; interpolated N and P
+  static constexpr int c_vector_bits = 16;
+  static constexpr int c_vector_fraction_bits = 14;
+  // s1.14: 16 bits, so that an N that is not normalized passes as it is
+  static constexpr int c_direction_bits = 16;
+  static constexpr int c_direction_fraction_bits = 14;
+  // s2.14: from a surface point to a light, before it is normalized
+  static constexpr int c_offset_bits = 17;
+  static constexpr int c_offset_fraction_bits = 14;
+  // s1.14: as vector
+  static constexpr int c_light_place_bits = 16;
+  static constexpr int c_light_place_fraction_bits = 14;
+  // u0.0: places share one scale
+  static constexpr int c_light_shift_bits = 0;
+  static constexpr int c_light_shift_fraction_bits = 0;
+  // u2.14: of a vector's length, 1/4 to 3
+  static constexpr int c_square_bits = 16;
+  static constexpr int c_square_fraction_bits = 14;
+  // u0.9: table of 1/sqrt(x), 64 entries: within 2^-6.4 of it
+  static constexpr int c_root_entry_bits = 9;
+  static constexpr int c_root_entry_fraction_bits = 9;
+  // u0.9: the table's entry
+  static constexpr int c_root_bits = 9;
+  static constexpr int c_root_fraction_bits = 9;
+  // u10.0: integers up to 1023
+  static constexpr int c_exponent_bits = 10;
+  static constexpr int c_exponent_fraction_bits = 0;
+  // u1.8: a power of a cosine, or of a spot's edge
+  static constexpr int c_weight_bits = 9;
+  static constexpr int c_weight_fraction_bits = 8;
+  // u1.7: an integer, in 1/128
+  static constexpr int c_coefficient_bits = 8;
+  static constexpr int c_coefficient_fraction_bits = 7;
+  // u8.0: an integer, in colour steps
+  static constexpr int c_light_intensity_bits = 8;
+  static constexpr int c_light_intensity_fraction_bits = 0;
+  // u8.0: k I, an integer
+  static constexpr int c_reflected_bits = 8;
+  static constexpr int c_reflected_fraction_bits = 0;
+  // u8.0: an integer; held at white
+  static constexpr int c_radiance_bits = 8;
+  static constexpr int c_radiance_fraction_bits = 0;
 
   static constexpr int c_init_header_bits = 305;
   static constexpr std::array<Field, 10> c_init_header = {{
@@ -519,6 +727,100 @@ struct Published {
   }};
   struct specular_probe_channel_at {
     static constexpr const Field& product = c_specular_probe_channel[0];
+  };
+
+  static constexpr int c_request_header_bits = 10;
+  static constexpr std::array<Field, 4> c_request_header = {{
+      {"command", 0, 3, false, 0},
+      {"light", 3, 5, false, 0},
+      {"opens", 8, 1, false, 0},
+      {"normalize", 9, 1, false, 0},
+  }};
+  struct request_header_at {
+    static constexpr const Field& command = c_request_header[0];
+    static constexpr const Field& light = c_request_header[1];
+    static constexpr const Field& opens = c_request_header[2];
+    static constexpr const Field& normalize = c_request_header[3];
+  };
+
+  static constexpr int c_request_channel_bits = 0;
+
+  static constexpr int c_plane_header_bits = 112;
+  static constexpr std::array<Field, 4> c_plane_header = {{
+      {"value", 0, 28, true, 26},
+      {"dx", 28, 28, true, 26},
+      {"de0", 56, 28, true, 26},
+      {"de1", 84, 28, true, 26},
+  }};
+  struct plane_header_at {
+    static constexpr const Field& value = c_plane_header[0];
+    static constexpr const Field& dx = c_plane_header[1];
+    static constexpr const Field& de0 = c_plane_header[2];
+    static constexpr const Field& de1 = c_plane_header[3];
+  };
+
+  static constexpr int c_plane_channel_bits = 0;
+
+  static constexpr int c_pixel_header_bits = 90;
+  static constexpr std::array<Field, 8> c_pixel_header = {{
+      {"command", 0, 3, false, 0},
+      {"light", 3, 5, false, 0},
+      {"opens", 8, 1, false, 0},
+      {"normalize", 9, 1, false, 0},
+      {"triangle", 10, 32, false, 0},
+      {"y", 42, 12, false, 0},
+      {"x", 54, 12, false, 0},
+      {"z", 66, 24, false, 0},
+  }};
+  struct pixel_header_at {
+    static constexpr const Field& command = c_pixel_header[0];
+    static constexpr const Field& light = c_pixel_header[1];
+    static constexpr const Field& opens = c_pixel_header[2];
+    static constexpr const Field& normalize = c_pixel_header[3];
+    static constexpr const Field& triangle = c_pixel_header[4];
+    static constexpr const Field& y = c_pixel_header[5];
+    static constexpr const Field& x = c_pixel_header[6];
+    static constexpr const Field& z = c_pixel_header[7];
+  };
+
+  static constexpr int c_pixel_channel_bits = 0;
+
+  static constexpr int c_light_axes_header_bits = 46;
+  static constexpr std::array<Field, 5> c_light_axes_header = {{
+      {"positional", 0, 1, false, 0},
+      {"spot", 1, 1, false, 0},
+      {"outer", 2, 16, true, 14},
+      {"slope", 18, 18, false, 6},
+      {"around_eye", 36, 10, true, 0},
+  }};
+  struct light_axes_header_at {
+    static constexpr const Field& positional = c_light_axes_header[0];
+    static constexpr const Field& spot = c_light_axes_header[1];
+    static constexpr const Field& outer = c_light_axes_header[2];
+    static constexpr const Field& slope = c_light_axes_header[3];
+    static constexpr const Field& around_eye = c_light_axes_header[4];
+  };
+
+  static constexpr int c_light_axes_channel_bits = 48;
+  static constexpr std::array<Field, 3> c_light_axes_channel = {{
+      {"place", 0, 16, true, 14},
+      {"axis", 16, 16, true, 14},
+      {"half", 32, 16, true, 14},
+  }};
+  struct light_axes_channel_at {
+    static constexpr const Field& place = c_light_axes_channel[0];
+    static constexpr const Field& axis = c_light_axes_channel[1];
+    static constexpr const Field& half = c_light_axes_channel[2];
+  };
+
+  static constexpr int c_light_colour_header_bits = 0;
+
+  static constexpr int c_light_colour_channel_bits = 8;
+  static constexpr std::array<Field, 1> c_light_colour_channel = {{
+      {"intensity", 0, 8, false, 0},
+  }};
+  struct light_colour_channel_at {
+    static constexpr const Field& intensity = c_light_colour_channel[0];
   };
 };
 

@@ -14,6 +14,11 @@ const char* boolean(bool value) {
 std::string width(const HardwareKey& key, const char* function) {
   if (key.shader == Shader::quadratic)
     return fmt::format("work.formats_pkg.{}(g_exact, g_channels)", function);
+  if (key.shader == Shader::processors)
+    return fmt::format(
+        "work.processors_pkg.{}(work.processors_pkg.config(g_exact, g_channels, g_directional, g_positional, "
+        "g_spots, g_diffuse, g_specular, g_normalize, g_shadows))",
+        function);
   return fmt::format(
       "work.spherical_pkg.{}(g_exact, g_channels, g_lights, g_diffuse, g_specular, g_highlight_channels)",
       function);
@@ -36,6 +41,16 @@ std::vector<std::pair<std::string, std::string>> HardwareKey::generics() const {
     list.emplace_back("g_powers", std::to_string(spherical.powers));
     list.emplace_back("g_address_bits", std::to_string(spherical.tables.address_bits));
     list.emplace_back("g_data_bits", std::to_string(spherical.tables.data_bits));
+  }
+  if (shader == Shader::processors) {
+    list.emplace_back("g_directional", std::to_string(processors.directional));
+    list.emplace_back("g_positional", std::to_string(processors.positional));
+    list.emplace_back("g_spots", std::to_string(processors.spots));
+    list.emplace_back("g_diffuse", boolean(processors.diffuse));
+    list.emplace_back("g_specular", boolean(processors.specular));
+    list.emplace_back("g_normalize", boolean(processors.normalize));
+    list.emplace_back("g_shadows", boolean(processors.shadows));
+    list.emplace_back("g_unrolled", boolean(processors.form == ProcessorForm::unrolled));
   }
   list.emplace_back("g_probe", boolean(probe));
   return list;
@@ -64,6 +79,15 @@ std::string HardwareKey::name() const {
     if (spherical.records())
       text += fmt::format("-rom{}x{}", spherical.tables.address_bits, spherical.tables.data_bits);
   }
+  if (shader == Shader::processors) {
+    const ProcessorUnits& p = processors;
+    text += fmt::format("-l{}.{}.{}", p.directional, p.positional, p.spots);
+    if (p.diffuse) text += "-d";
+    if (p.specular) text += "-s";
+    if (p.normalize) text += "-n";
+    if (p.shadows) text += "-shadows";
+    text += fmt::format("-{}", to_string(p.form));
+  }
   return text + (probe ? "-probe" : "");
 }
 
@@ -77,6 +101,18 @@ golden::SphericalConfig golden_config(const HardwareKey& key) {
           .powers = s.powers,
           .address_bits = s.tables.address_bits,
           .data_bits = s.tables.data_bits};
+}
+
+golden::ProcessorsConfig processors_config(const HardwareKey& key) {
+  const ProcessorUnits& p = key.processors;
+  return {.channels = static_cast<int>(key.channels),
+          .directional = static_cast<int>(p.directional),
+          .positional = static_cast<int>(p.positional),
+          .spots = static_cast<int>(p.spots),
+          .diffuse = p.diffuse,
+          .specular = p.specular,
+          .normalize = p.normalize,
+          .shadows = p.shadows};
 }
 
 }  // namespace halfway

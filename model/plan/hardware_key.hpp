@@ -6,13 +6,22 @@
 #include <utility>
 #include <vector>
 
+#include "golden/processors_layout.hpp"
 #include "golden/spherical_layout.hpp"
 
 namespace halfway {
 
-enum class Shader { quadratic, spherical };
+enum class Shader { quadratic, spherical, processors };
 inline const char* to_string(Shader shader) {
-  return shader == Shader::quadratic ? "quadratic" : "spherical";
+  switch (shader) {
+    case Shader::quadratic:
+      return "quadratic";
+    case Shader::spherical:
+      return "spherical";
+    case Shader::processors:
+      break;
+  }
+  return "processors";
 }
 
 enum class Preset { exact, published };
@@ -37,12 +46,32 @@ struct SphericalUnits {
   bool records() const { return lights > 0 && (diffuse || specular); }
 };
 
+/// The two forms of a shading processor: the same fragments, at other costs.
+enum class ProcessorForm {
+  folded,    ///< as published: one datapath, several cycles a token
+  unrolled,  ///< a token a clock
+};
+inline const char* to_string(ProcessorForm form) {
+  return form == ProcessorForm::folded ? "folded" : "unrolled";
+}
+
+/// What the pipeline of shading processors has for a scene's lights.
+struct ProcessorUnits {
+  unsigned directional = 0, positional = 0, spots = 0;  ///< 16 in all at most
+  bool diffuse = false, specular = false;               ///< false where there is no light
+  bool normalize = false;                               ///< the ambient processor can normalize N
+  bool shadows = false;                                 ///< object stage and shadow counters
+  ProcessorForm form = ProcessorForm::unrolled;
+  unsigned lights() const { return directional + positional + spots; }
+};
+
 struct HardwareKey {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
-  unsigned channels = 3;     ///< 1 where every colour of the scene is grey
-  bool probe = false;        ///< brings the stages' registers out, for `halfway why` and the register tests
-  SphericalUnits spherical;  ///< of the spherical shader
+  unsigned channels = 3;      ///< 1 where every colour of the scene is grey
+  bool probe = false;         ///< brings the stages' registers out, for `halfway why` and the register tests
+  SphericalUnits spherical;   ///< of the spherical shader
+  ProcessorUnits processors;  ///< of the shading processors
 
   /// Top entity in rtl/shaders.
   std::string entity() const;
@@ -57,5 +86,7 @@ struct HardwareKey {
 
 /// The spherical shader's generics for its golden twin.
 golden::SphericalConfig golden_config(const HardwareKey& key);
+/// The processors shader's.
+golden::ProcessorsConfig processors_config(const HardwareKey& key);
 
 }  // namespace halfway

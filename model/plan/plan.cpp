@@ -22,6 +22,7 @@ Result<Plan> plan_scene(const Scene& scene, const PlanRequest& request) {
     case Shader::quadratic:
       return plan_quadratic(scene, calls, request);
     case Shader::spherical:
+    case Shader::processors:
       break;
   }
   return plan_spherical(scene, calls, request);

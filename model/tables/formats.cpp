@@ -27,6 +27,11 @@ std::vector<Format> common_formats() {
       {"factor", false, 10, 8, "colour steps up to 1023; off by at most 2^-9 of a step"},
       {"sample_word", false, 16, 0, "a cosine table's entry, of whatever size, for the probe"},
       {"product_word", false, 36, 0, "a factor times a table's entry, for the probe"},
+      {"command", false, 3, 0, "of a vector or token of the shading processors"},
+      {"light", false, 5, 0, "a light's number from 1; 0 is the ambient light"},
+      {"shadow_count", true, 9, 0, "shadow volumes opened less those closed, up to 511 either way"},
+      {"spot_slope", false, 12, 6,
+       "one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-12"},
   };
 }
 
@@ -55,6 +60,34 @@ std::vector<Layout> spherical_layouts(bool exact) {
       {"specular", specular, {{"factor", "factor"}}},
       {"diffuse_probe", probe, {{"product", "product_word"}}},
       {"specular_probe", probe, {{"product", "product_word"}}},
+  };
+}
+
+// What the shading processors have beside the walk; processors_pkg says where the blocks lie.
+std::vector<Layout> processors_layouts(bool exact) {
+  std::vector<Field> axis = {{"place", "light_place"}, {"axis", "direction"}};
+  if (!exact) axis.push_back({"half", "direction"});
+  std::vector<Field> light = {{"positional", "flag"}, {"spot", "flag"}};
+  if (exact) light.push_back({"shift", "light_shift"});
+  light.insert(light.end(),
+               {{"outer", "direction"}, {"slope", "spot_slope"}, {"around_eye", "shadow_count"}});
+  return {
+      {"request", {{"command", "command"}, {"light", "light"}, {"opens", "flag"}, {"normalize", "flag"}}, {}},
+      {"plane",
+       {{"value", "plane_sum"}, {"dx", "plane_sum"}, {"de0", "plane_sum"}, {"de1", "plane_sum"}},
+       {}},
+      {"pixel",
+       {{"command", "command"},
+        {"light", "light"},
+        {"opens", "flag"},
+        {"normalize", "flag"},
+        {"triangle", "triangle"},
+        {"y", "pixel_y"},
+        {"x", "pixel_x"},
+        {"z", "depth"}},
+       {}},
+      {"light_axes", light, axis},
+      {"light_colour", {}, {{"intensity", "light_intensity"}}},
   };
 }
 
@@ -225,19 +258,53 @@ std::vector<PresetFormats> preset_formats() {
              "half bells; start and slope each rounded to 2^-23, at most 4095 steps: off by at most 2^-11, a "
              "quarter "
              "of a 2^-9 cell; exponents up to 10^6 stay within +-1024"},
-            {"power", false, 3, 0, "which table: cosine to the power 2^word"}}),
-       joined(exact_layouts(), spherical_layouts(true))},
+            {"power", false, 3, 0, "which table: cosine to the power 2^word"},
+            {"plane_sum", true, 1, 42,
+             "first differences, each rounded to 2^-43, at most 4095 lines and 8190 steps: off by at most "
+             "12286 2^-43 = 0.4 of a step of vector"},
+            {"vector", true, 1, 28, "interpolated N/w, view ray and 1/w, the largest scaled to 1/2 to 1"},
+            {"direction", true, 1, 22,
+             "components of unit vectors; an exponent m multiplies the error of a cosine by m"},
+            {"offset", true, 2, 28, "from a surface point to a light, before it is normalized"},
+            {"light_place", true, 1, 26, "a light's direction, or its place with 2^light_shift taken off"},
+            {"light_shift", false, 5, 0, "how much farther a light may be than the nearest surface: 2^31"},
+            {"square", false, 2, 28, "of a vector's length, 1/4 to 3"},
+            {"root_entry", false, 0, 12, "table of 1/sqrt(x), 512 entries: within 2^-9.8 of it"},
+            {"root", false, 1, 23, "after a Newton step: within 2^-19 of 1/sqrt(x)"},
+            {"exponent", false, 13, 8, "up to 8191; off by 2^-9: 0.0008 of a highlight's peak at most"},
+            {"weight", false, 1, 16, "a power of a cosine, or of a spot's edge"},
+            {"coefficient", false, 4, 16, "k of a material, up to 15"},
+            {"light_intensity", false, 14, 4, "colour steps, 64 times white"},
+            {"reflected", false, 14, 8, "k I in colour steps; held at 64 times white"},
+            {"radiance", false, 10, 12, "sum of the terms in colour steps; held at four times white"}}),
+       joined(joined(exact_layouts(), spherical_layouts(true)), processors_layouts(true))},
       {"published",
-       joined(common_formats(),
-              {{"edge_error", false, 0, 0, "edges are stepped by a real slope"},
-               {"edge_x", true, 13, 18, "32 bits, as the quadratic paper's other registers"},
-               {"intensity", true, 11, 20, "32 bits, 20 of them fraction: the quadratic paper's figure 7"},
-               {"angle", true, 0, 11,
-                "12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at "
-                "the "
-                "bell's ends"},
-               {"power", false, 0, 0, "cosine squared alone"}}),
-       joined(published_layouts(), spherical_layouts(false))},
+       joined(
+           common_formats(),
+           {{"edge_error", false, 0, 0, "edges are stepped by a real slope"},
+            {"edge_x", true, 13, 18, "32 bits, as the quadratic paper's other registers"},
+            {"intensity", true, 11, 20, "32 bits, 20 of them fraction: the quadratic paper's figure 7"},
+            {"angle", true, 0, 11,
+             "12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at "
+             "the "
+             "bell's ends"},
+            {"power", false, 0, 0, "cosine squared alone"},
+            {"plane_sum", true, 1, 26, "first differences: off by at most 12286 2^-27 = 1.5 steps of vector"},
+            {"vector", true, 1, 14, "16 bits: the processors paper names no width; interpolated N and P"},
+            {"direction", true, 1, 14, "16 bits, so that an N that is not normalized passes as it is"},
+            {"offset", true, 2, 14, "from a surface point to a light, before it is normalized"},
+            {"light_place", true, 1, 14, "as vector"},
+            {"light_shift", false, 0, 0, "places share one scale"},
+            {"square", false, 2, 14, "of a vector's length, 1/4 to 3"},
+            {"root_entry", false, 0, 9, "table of 1/sqrt(x), 64 entries: within 2^-6.4 of it"},
+            {"root", false, 0, 9, "the table's entry"},
+            {"exponent", false, 10, 0, "integers up to 1023"},
+            {"weight", false, 1, 8, "a power of a cosine, or of a spot's edge"},
+            {"coefficient", false, 1, 7, "an integer, in 1/128"},
+            {"light_intensity", false, 8, 0, "an integer, in colour steps"},
+            {"reflected", false, 8, 0, "k I, an integer"},
+            {"radiance", false, 8, 0, "an integer; held at white"}}),
+       joined(joined(published_layouts(), spherical_layouts(false)), processors_layouts(false))},
   };
 }
 
@@ -300,7 +367,7 @@ std::string vhdl_package(const std::vector<PresetFormats>& presets) {
   for (const Layout& layout : presets[0].layouts) {
     const std::string name(layout.name);
     if (!layout.header.empty()) choose(name + "_header", name + "_header_t", name + "_header");
-    choose(name + "_channel", name + "_channel_t", name + "_channel");
+    if (!layout.channel.empty()) choose(name + "_channel", name + "_channel_t", name + "_channel");
     fmt::format_to(
         to,
         "  function {0}_channel_low (exact : boolean; channel : natural) return natural is\n  begin\n"

@@ -31,11 +31,30 @@ package formats_pkg is
     factor : format_t;
     sample_word : format_t;
     product_word : format_t;
+    command : format_t;
+    light : format_t;
+    shadow_count : format_t;
+    spot_slope : format_t;
     edge_error : format_t;
     edge_x : format_t;
     intensity : format_t;
     angle : format_t;
     power : format_t;
+    plane_sum : format_t;
+    vector : format_t;
+    direction : format_t;
+    offset : format_t;
+    light_place : format_t;
+    light_shift : format_t;
+    square : format_t;
+    root_entry : format_t;
+    root : format_t;
+    exponent : format_t;
+    weight : format_t;
+    coefficient : format_t;
+    light_intensity : format_t;
+    reflected : format_t;
+    radiance : format_t;
   end record;
 
   constant c_exact_formats : formats_t := (
@@ -63,6 +82,14 @@ package formats_pkg is
     sample_word => (16, 0),
     -- u36.0: a factor times a table's entry, for the probe
     product_word => (36, 0),
+    -- u3.0: of a vector or token of the shading processors
+    command => (3, 0),
+    -- u5.0: a light's number from 1; 0 is the ambient light
+    light => (5, 0),
+    -- s9.0: shadow volumes opened less those closed, up to 511 either way
+    shadow_count => (10, 0),
+    -- u12.6: one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-12
+    spot_slope => (18, 6),
     -- u18.0: below the edge's height in subpixels: 8192 pixels of 16, doubled at no level of subdivision
     edge_error => (18, 0),
     -- s13.0: an edge is a whole pixel and a remainder
@@ -72,7 +99,37 @@ package formats_pkg is
     -- s10.22: half bells; start and slope each rounded to 2^-23, at most 4095 steps: off by at most 2^-11, a quarter of a 2^-9 cell; exponents up to 10^6 stay within +-1024
     angle => (33, 22),
     -- u3.0: which table: cosine to the power 2^word
-    power => (3, 0)
+    power => (3, 0),
+    -- s1.42: first differences, each rounded to 2^-43, at most 4095 lines and 8190 steps: off by at most 12286 2^-43 = 0.4 of a step of vector
+    plane_sum => (44, 42),
+    -- s1.28: interpolated N/w, view ray and 1/w, the largest scaled to 1/2 to 1
+    vector => (30, 28),
+    -- s1.22: components of unit vectors; an exponent m multiplies the error of a cosine by m
+    direction => (24, 22),
+    -- s2.28: from a surface point to a light, before it is normalized
+    offset => (31, 28),
+    -- s1.26: a light's direction, or its place with 2^light_shift taken off
+    light_place => (28, 26),
+    -- u5.0: how much farther a light may be than the nearest surface: 2^31
+    light_shift => (5, 0),
+    -- u2.28: of a vector's length, 1/4 to 3
+    square => (30, 28),
+    -- u0.12: table of 1/sqrt(x), 512 entries: within 2^-9.8 of it
+    root_entry => (12, 12),
+    -- u1.23: after a Newton step: within 2^-19 of 1/sqrt(x)
+    root => (24, 23),
+    -- u13.8: up to 8191; off by 2^-9: 0.0008 of a highlight's peak at most
+    exponent => (21, 8),
+    -- u1.16: a power of a cosine, or of a spot's edge
+    weight => (17, 16),
+    -- u4.16: k of a material, up to 15
+    coefficient => (20, 16),
+    -- u14.4: colour steps, 64 times white
+    light_intensity => (18, 4),
+    -- u14.8: k I in colour steps; held at 64 times white
+    reflected => (22, 8),
+    -- u10.12: sum of the terms in colour steps; held at four times white
+    radiance => (22, 12)
   );
 
   constant c_published_formats : formats_t := (
@@ -100,6 +157,14 @@ package formats_pkg is
     sample_word => (16, 0),
     -- u36.0: a factor times a table's entry, for the probe
     product_word => (36, 0),
+    -- u3.0: of a vector or token of the shading processors
+    command => (3, 0),
+    -- u5.0: a light's number from 1; 0 is the ambient light
+    light => (5, 0),
+    -- s9.0: shadow volumes opened less those closed, up to 511 either way
+    shadow_count => (10, 0),
+    -- u12.6: one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-12
+    spot_slope => (18, 6),
     -- u0.0: edges are stepped by a real slope
     edge_error => (0, 0),
     -- s13.18: 32 bits, as the quadratic paper's other registers
@@ -109,7 +174,37 @@ package formats_pkg is
     -- s0.11: 12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the bell's ends
     angle => (12, 11),
     -- u0.0: cosine squared alone
-    power => (0, 0)
+    power => (0, 0),
+    -- s1.26: first differences: off by at most 12286 2^-27 = 1.5 steps of vector
+    plane_sum => (28, 26),
+    -- s1.14: 16 bits: the processors paper names no width; interpolated N and P
+    vector => (16, 14),
+    -- s1.14: 16 bits, so that an N that is not normalized passes as it is
+    direction => (16, 14),
+    -- s2.14: from a surface point to a light, before it is normalized
+    offset => (17, 14),
+    -- s1.14: as vector
+    light_place => (16, 14),
+    -- u0.0: places share one scale
+    light_shift => (0, 0),
+    -- u2.14: of a vector's length, 1/4 to 3
+    square => (16, 14),
+    -- u0.9: table of 1/sqrt(x), 64 entries: within 2^-6.4 of it
+    root_entry => (9, 9),
+    -- u0.9: the table's entry
+    root => (9, 9),
+    -- u10.0: integers up to 1023
+    exponent => (10, 0),
+    -- u1.8: a power of a cosine, or of a spot's edge
+    weight => (9, 8),
+    -- u1.7: an integer, in 1/128
+    coefficient => (8, 7),
+    -- u8.0: an integer, in colour steps
+    light_intensity => (8, 0),
+    -- u8.0: k I, an integer
+    reflected => (8, 0),
+    -- u8.0: an integer; held at white
+    radiance => (8, 0)
   );
 
   function formats (exact : boolean) return formats_t;
@@ -546,6 +641,200 @@ package formats_pkg is
 
   function specular_probe_bits (exact : boolean; channels : natural) return natural;
 
+  type request_header_t is record
+    command : slice_t;
+    light : slice_t;
+    opens : slice_t;
+    normalize : slice_t;
+  end record;
+
+  constant c_exact_request_header : request_header_t := (
+    command => (2, 0),
+    light => (7, 3),
+    opens => (8, 8),
+    normalize => (9, 9)
+  );
+
+  constant c_published_request_header : request_header_t := (
+    command => (2, 0),
+    light => (7, 3),
+    opens => (8, 8),
+    normalize => (9, 9)
+  );
+
+  function request_header (exact : boolean) return request_header_t;
+
+  constant c_exact_request_header_bits : natural := 10;
+  constant c_published_request_header_bits : natural := 10;
+
+  constant c_exact_request_channel_bits : natural := 0;
+  constant c_published_request_channel_bits : natural := 0;
+
+  function request_channel_low (exact : boolean; channel : natural) return natural;
+
+  function request_bits (exact : boolean; channels : natural) return natural;
+
+  type plane_header_t is record
+    value : slice_t;
+    dx : slice_t;
+    de0 : slice_t;
+    de1 : slice_t;
+  end record;
+
+  constant c_exact_plane_header : plane_header_t := (
+    value => (43, 0),
+    dx => (87, 44),
+    de0 => (131, 88),
+    de1 => (175, 132)
+  );
+
+  constant c_published_plane_header : plane_header_t := (
+    value => (27, 0),
+    dx => (55, 28),
+    de0 => (83, 56),
+    de1 => (111, 84)
+  );
+
+  function plane_header (exact : boolean) return plane_header_t;
+
+  constant c_exact_plane_header_bits : natural := 176;
+  constant c_published_plane_header_bits : natural := 112;
+
+  constant c_exact_plane_channel_bits : natural := 0;
+  constant c_published_plane_channel_bits : natural := 0;
+
+  function plane_channel_low (exact : boolean; channel : natural) return natural;
+
+  function plane_bits (exact : boolean; channels : natural) return natural;
+
+  type pixel_header_t is record
+    command : slice_t;
+    light : slice_t;
+    opens : slice_t;
+    normalize : slice_t;
+    triangle : slice_t;
+    y : slice_t;
+    x : slice_t;
+    z : slice_t;
+  end record;
+
+  constant c_exact_pixel_header : pixel_header_t := (
+    command => (2, 0),
+    light => (7, 3),
+    opens => (8, 8),
+    normalize => (9, 9),
+    triangle => (41, 10),
+    y => (53, 42),
+    x => (65, 54),
+    z => (89, 66)
+  );
+
+  constant c_published_pixel_header : pixel_header_t := (
+    command => (2, 0),
+    light => (7, 3),
+    opens => (8, 8),
+    normalize => (9, 9),
+    triangle => (41, 10),
+    y => (53, 42),
+    x => (65, 54),
+    z => (89, 66)
+  );
+
+  function pixel_header (exact : boolean) return pixel_header_t;
+
+  constant c_exact_pixel_header_bits : natural := 90;
+  constant c_published_pixel_header_bits : natural := 90;
+
+  constant c_exact_pixel_channel_bits : natural := 0;
+  constant c_published_pixel_channel_bits : natural := 0;
+
+  function pixel_channel_low (exact : boolean; channel : natural) return natural;
+
+  function pixel_bits (exact : boolean; channels : natural) return natural;
+
+  type light_axes_header_t is record
+    positional : slice_t;
+    spot : slice_t;
+    shift : slice_t;
+    outer : slice_t;
+    slope : slice_t;
+    around_eye : slice_t;
+  end record;
+
+  constant c_exact_light_axes_header : light_axes_header_t := (
+    positional => (0, 0),
+    spot => (1, 1),
+    shift => (6, 2),
+    outer => (30, 7),
+    slope => (48, 31),
+    around_eye => (58, 49)
+  );
+
+  constant c_published_light_axes_header : light_axes_header_t := (
+    positional => (0, 0),
+    spot => (1, 1),
+    shift => (-1, 0),
+    outer => (17, 2),
+    slope => (35, 18),
+    around_eye => (45, 36)
+  );
+
+  function light_axes_header (exact : boolean) return light_axes_header_t;
+
+  constant c_exact_light_axes_header_bits : natural := 59;
+  constant c_published_light_axes_header_bits : natural := 46;
+
+  type light_axes_channel_t is record
+    place : slice_t;
+    axis : slice_t;
+    half : slice_t;
+  end record;
+
+  constant c_exact_light_axes_channel : light_axes_channel_t := (
+    place => (27, 0),
+    axis => (51, 28),
+    half => (-1, 0)
+  );
+
+  constant c_published_light_axes_channel : light_axes_channel_t := (
+    place => (15, 0),
+    axis => (31, 16),
+    half => (47, 32)
+  );
+
+  function light_axes_channel (exact : boolean) return light_axes_channel_t;
+
+  constant c_exact_light_axes_channel_bits : natural := 52;
+  constant c_published_light_axes_channel_bits : natural := 48;
+
+  function light_axes_channel_low (exact : boolean; channel : natural) return natural;
+
+  function light_axes_bits (exact : boolean; channels : natural) return natural;
+
+  constant c_exact_light_colour_header_bits : natural := 0;
+  constant c_published_light_colour_header_bits : natural := 0;
+
+  type light_colour_channel_t is record
+    intensity : slice_t;
+  end record;
+
+  constant c_exact_light_colour_channel : light_colour_channel_t := (
+    intensity => (17, 0)
+  );
+
+  constant c_published_light_colour_channel : light_colour_channel_t := (
+    intensity => (7, 0)
+  );
+
+  function light_colour_channel (exact : boolean) return light_colour_channel_t;
+
+  constant c_exact_light_colour_channel_bits : natural := 18;
+  constant c_published_light_colour_channel_bits : natural := 8;
+
+  function light_colour_channel_low (exact : boolean; channel : natural) return natural;
+
+  function light_colour_bits (exact : boolean; channels : natural) return natural;
+
 end package;
 
 package body formats_pkg is
@@ -751,6 +1040,119 @@ package body formats_pkg is
   function specular_probe_bits (exact : boolean; channels : natural) return natural is
   begin
     return specular_probe_channel_low(exact, channels);
+  end function;
+
+  function request_header (exact : boolean) return request_header_t is
+  begin
+    if exact then
+      return c_exact_request_header;
+    end if;
+    return c_published_request_header;
+  end function;
+
+  function request_channel_low (exact : boolean; channel : natural) return natural is
+  begin
+    if exact then
+      return c_exact_request_header_bits + channel * c_exact_request_channel_bits;
+    end if;
+    return c_published_request_header_bits + channel * c_published_request_channel_bits;
+  end function;
+
+  function request_bits (exact : boolean; channels : natural) return natural is
+  begin
+    return request_channel_low(exact, channels);
+  end function;
+
+  function plane_header (exact : boolean) return plane_header_t is
+  begin
+    if exact then
+      return c_exact_plane_header;
+    end if;
+    return c_published_plane_header;
+  end function;
+
+  function plane_channel_low (exact : boolean; channel : natural) return natural is
+  begin
+    if exact then
+      return c_exact_plane_header_bits + channel * c_exact_plane_channel_bits;
+    end if;
+    return c_published_plane_header_bits + channel * c_published_plane_channel_bits;
+  end function;
+
+  function plane_bits (exact : boolean; channels : natural) return natural is
+  begin
+    return plane_channel_low(exact, channels);
+  end function;
+
+  function pixel_header (exact : boolean) return pixel_header_t is
+  begin
+    if exact then
+      return c_exact_pixel_header;
+    end if;
+    return c_published_pixel_header;
+  end function;
+
+  function pixel_channel_low (exact : boolean; channel : natural) return natural is
+  begin
+    if exact then
+      return c_exact_pixel_header_bits + channel * c_exact_pixel_channel_bits;
+    end if;
+    return c_published_pixel_header_bits + channel * c_published_pixel_channel_bits;
+  end function;
+
+  function pixel_bits (exact : boolean; channels : natural) return natural is
+  begin
+    return pixel_channel_low(exact, channels);
+  end function;
+
+  function light_axes_header (exact : boolean) return light_axes_header_t is
+  begin
+    if exact then
+      return c_exact_light_axes_header;
+    end if;
+    return c_published_light_axes_header;
+  end function;
+
+  function light_axes_channel (exact : boolean) return light_axes_channel_t is
+  begin
+    if exact then
+      return c_exact_light_axes_channel;
+    end if;
+    return c_published_light_axes_channel;
+  end function;
+
+  function light_axes_channel_low (exact : boolean; channel : natural) return natural is
+  begin
+    if exact then
+      return c_exact_light_axes_header_bits + channel * c_exact_light_axes_channel_bits;
+    end if;
+    return c_published_light_axes_header_bits + channel * c_published_light_axes_channel_bits;
+  end function;
+
+  function light_axes_bits (exact : boolean; channels : natural) return natural is
+  begin
+    return light_axes_channel_low(exact, channels);
+  end function;
+
+  function light_colour_channel (exact : boolean) return light_colour_channel_t is
+  begin
+    if exact then
+      return c_exact_light_colour_channel;
+    end if;
+    return c_published_light_colour_channel;
+  end function;
+
+  function light_colour_channel_low (exact : boolean; channel : natural) return natural is
+  begin
+    if exact then
+      return c_exact_light_colour_header_bits + channel * c_exact_light_colour_channel_bits;
+    end if;
+    return c_published_light_colour_header_bits + channel * c_published_light_colour_channel_bits;
+  end function;
+
+  function light_colour_bits (exact : boolean; channels : natural) return natural is
+  begin
+    return light_colour_channel_low(exact, channels);
   end function;
 
 end package body;

@@ -1,0 +1,268 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- What of the shading processors is there, and where the blocks lie in their flat vectors.
+--
+-- A vector of the host is a request (command, light, flags), then
+--   draw, depth, shadow   the walk (header of init); for draw besides: planes of N, P (or the view ray) and 1/w, and the
+--                         material
+--   define, redefine      the light: axes, colour
+--   new_frame, delete     nothing
+-- A token from processor to processor is a pixel header, N, P, 1/w, the view vector, the material, and the colour so
+-- far; one that loads carries the light behind command and flags, where the host's vector has it.
+-- Golden twin model/golden/processors_layout.hpp
+
+use work.formats_pkg.all;
+
+package processors_pkg is
+
+  -- Of the host, and of tokens. In tokens the three that carry an object to shade say where it lies: a further object
+  -- of the same pixel, or the first one of another pixel, or of another line.
+  constant c_new_pixel    : natural := 0;
+  constant c_new_object   : natural := 1;
+  constant c_new_scanline : natural := 2;
+  constant c_new_frame    : natural := 3;
+  constant c_define       : natural := 4;
+  constant c_redefine     : natural := 5;
+  constant c_delete       : natural := 6;
+  constant c_shadow       : natural := 7;
+
+  -- Of the host: a triangle to be shaded, and one of which the object stage only keeps the depths.
+  constant c_draw  : natural := 0;
+  constant c_depth : natural := 1;
+
+  -- Kinds of processors.
+  constant c_ambient  : natural := 0;
+  constant c_diffuse  : natural := 1;
+  constant c_specular : natural := 2;
+
+  -- X, y and z of a vector.
+  constant c_axes : positive := 3;
+
+  type config_t is record
+    exact       : boolean;
+    channels    : positive;
+    directional : natural; -- lights of each kind: 1 to directional, then positional ones, then spots
+    positional  : natural;
+    spots       : natural;
+    diffuse     : boolean; -- each light has a processor for it
+    specular    : boolean;
+    normalize   : boolean; -- the ambient processor can normalize N
+    shadows     : boolean;
+  end record;
+
+  function config (exact : boolean; channels : positive; directional, positional, spots : natural;
+    diffuse, specular, normalize, shadows : boolean) return config_t;
+
+  function lights (c : config_t) return natural;
+
+  -- Processors in the pipeline: ambient, and for each light a diffuse and a specular one.
+  function processors (c : config_t) return positive;
+
+  -- P is interpolated: the surface point (preset published), or the view ray through the pixel (exact).
+  function has_place (c : config_t) return boolean;
+
+  -- 1/w is: with it the view ray becomes a point.
+  function has_distance (c : config_t) return boolean;
+
+  -- The ambient processor makes the unit vector to the eye.
+  function has_view (c : config_t) return boolean;
+
+  -- Planes in a vector that draws.
+  function planes (c : config_t) return positive;
+
+  -- Lowest bits of the blocks of a host's vector.
+  function walk_low (c : config_t) return natural;
+
+  function plane_low (c : config_t; plane : natural) return natural;
+
+  function init_material_low (c : config_t) return natural;
+
+  -- Behind the request, in the host's vector and in a token.
+  function light_axes_low (c : config_t) return natural;
+
+  function light_colour_low (c : config_t) return natural;
+
+  function init_bits (c : config_t) return positive;
+
+  -- Within a material.
+  function exponent_low (c : config_t) return natural;
+
+  function ambient_low (c : config_t; channel : natural) return natural;
+
+  function diffuse_low (c : config_t; channel : natural) return natural;
+
+  function specular_low (c : config_t; channel : natural) return natural;
+
+  function material_bits (c : config_t) return positive;
+
+  -- Lowest bits of the blocks of a token. N is a vector up to the ambient processor, a direction (its sign extended)
+  -- behind it.
+  function normal_low (c : config_t; axis : natural) return natural;
+
+  function place_low (c : config_t; axis : natural) return natural;
+
+  function distance_low (c : config_t) return natural;
+
+  function view_low (c : config_t; axis : natural) return natural;
+
+  function material_low (c : config_t) return natural;
+
+  function radiance_low (c : config_t; channel : natural) return natural;
+
+  function token_bits (c : config_t) return positive;
+
+end package;
+
+package body processors_pkg is
+
+  function config (exact : boolean; channels : positive; directional, positional, spots : natural;
+    diffuse, specular, normalize, shadows : boolean) return config_t is
+  begin
+    return (exact, channels, directional, positional, spots, diffuse, specular, normalize, shadows);
+  end function;
+
+  function lights (c : config_t) return natural is
+  begin
+    return c.directional + c.positional + c.spots;
+  end function;
+
+  function processors (c : config_t) return positive is
+  begin
+    return 1 + lights(c) * (boolean'pos(c.diffuse) + boolean'pos(c.specular));
+  end function;
+
+  function has_place (c : config_t) return boolean is
+  begin
+    return c.positional + c.spots > 0 or has_view(c);
+  end function;
+
+  function has_distance (c : config_t) return boolean is
+  begin
+    return c.exact and c.positional + c.spots > 0;
+  end function;
+
+  function has_view (c : config_t) return boolean is
+  begin
+    return c.exact and c.specular and lights(c) > 0;
+  end function;
+
+  function planes (c : config_t) return positive is
+  begin
+    return c_axes * (1 + boolean'pos(has_place(c))) + boolean'pos(has_distance(c));
+  end function;
+
+  function walk_low (c : config_t) return natural is
+  begin
+    return request_channel_low(c.exact, 0);
+  end function;
+
+  -- The walk is that of preset exact in either.
+  function plane_low (c : config_t; plane : natural) return natural is
+  begin
+    return walk_low(c) + init_channel_low(true, 0) + plane * plane_channel_low(c.exact, 0);
+  end function;
+
+  function init_material_low (c : config_t) return natural is
+  begin
+    return plane_low(c, planes(c));
+  end function;
+
+  function light_axes_low (c : config_t) return natural is
+  begin
+    return request_channel_low(c.exact, 0);
+  end function;
+
+  function light_colour_low (c : config_t) return natural is
+  begin
+    return light_axes_low(c) + light_axes_bits(c.exact, c_axes);
+  end function;
+
+  function light_end (c : config_t) return natural is
+  begin
+    return light_colour_low(c) + light_colour_bits(c.exact, c.channels);
+  end function;
+
+  function init_bits (c : config_t) return positive is
+    constant c_draw_bits : positive := init_material_low(c) + material_bits(c);
+  begin
+    if light_end(c) > c_draw_bits then
+      return light_end(c);
+    end if;
+    return c_draw_bits;
+  end function;
+
+  function exponent_low (c : config_t) return natural is
+  begin
+    return 0;
+  end function;
+
+  function ambient_low (c : config_t; channel : natural) return natural is
+    variable low : natural;
+  begin
+    low := channel * formats(c.exact).coefficient.bits;
+    if c.specular then
+      low := low + formats(c.exact).exponent.bits;
+    end if;
+    return low;
+  end function;
+
+  function diffuse_low (c : config_t; channel : natural) return natural is
+  begin
+    return ambient_low(c, c.channels + channel);
+  end function;
+
+  function specular_low (c : config_t; channel : natural) return natural is
+  begin
+    return diffuse_low(c, c.channels * boolean'pos(c.diffuse) + channel);
+  end function;
+
+  function material_bits (c : config_t) return positive is
+  begin
+    return specular_low(c, c.channels * boolean'pos(c.specular));
+  end function;
+
+  function normal_low (c : config_t; axis : natural) return natural is
+  begin
+    return pixel_channel_low(c.exact, 0) + axis * formats(c.exact).vector.bits;
+  end function;
+
+  function place_low (c : config_t; axis : natural) return natural is
+  begin
+    return normal_low(c, c_axes + axis);
+  end function;
+
+  function distance_low (c : config_t) return natural is
+  begin
+    return place_low(c, c_axes * boolean'pos(has_place(c)));
+  end function;
+
+  function view_low (c : config_t; axis : natural) return natural is
+    variable low : natural;
+  begin
+    low := distance_low(c) + axis * formats(c.exact).direction.bits;
+    if has_distance(c) then
+      low := low + formats(c.exact).vector.bits;
+    end if;
+    return low;
+  end function;
+
+  function material_low (c : config_t) return natural is
+  begin
+    return view_low(c, c_axes * boolean'pos(has_view(c)));
+  end function;
+
+  function radiance_low (c : config_t; channel : natural) return natural is
+  begin
+    return material_low(c) + material_bits(c) + channel * formats(c.exact).radiance.bits;
+  end function;
+
+  function token_bits (c : config_t) return positive is
+    constant c_pixel_bits : positive := radiance_low(c, c.channels);
+  begin
+    if light_end(c) > c_pixel_bits then
+      return light_end(c);
+    end if;
+    return c_pixel_bits;
+  end function;
+
+end package body;
