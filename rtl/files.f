@@ -15,6 +15,7 @@ raster/edge_walker.vhd
 raster/triangle_walker.vhd
 illumination/diffuse_slice.vhd
 illumination/specular_slice.vhd
+illumination/shadow_counter.vhd
 shaders/quadratic_shader.vhd
 shaders/spherical_pkg.vhd
 shaders/spherical_shader.vhd
