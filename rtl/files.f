@@ -26,6 +26,8 @@ illumination/diffuse_slice.vhd
 illumination/specular_slice.vhd
 illumination/shadow_counter.vhd
 illumination/spot_cone.vhd
+illumination/terms_pkg.vhd
+illumination/shading_processor.vhd
 shaders/quadratic_shader.vhd
 shaders/spherical_pkg.vhd
 shaders/spherical_shader.vhd
