@@ -30,6 +30,7 @@ illumination/terms_pkg.vhd
 arithmetic/unit_vector.vhd
 illumination/shading_processor.vhd
 illumination/unrolled_shading_processor.vhd
+shaders/shading_pipeline.vhd
 shaders/quadratic_shader.vhd
 shaders/spherical_pkg.vhd
 shaders/spherical_shader.vhd
