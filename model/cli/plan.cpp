@@ -49,8 +49,11 @@ std::string cells_text(const PlannedEffect& effect, const HardwareKey& key, cons
   const auto difference = [&](std::uint64_t a, std::uint64_t b) {
     return (effect.elaborated ? 1 : -1) * (static_cast<std::int64_t>(a) - static_cast<std::int64_t>(b));
   };
-  return fmt::format(": {} LUTs, {} flip-flops", difference(here.luts, there.luts),
-                     difference(here.flip_flops, there.flip_flops));
+  std::string text = fmt::format(": {} LUTs, {} flip-flops", difference(here.luts, there.luts),
+                                 difference(here.flip_flops, there.flip_flops));
+  if (const auto bits = difference(here.memory_bits, there.memory_bits); bits != 0)
+    text += fmt::format(", {} bits of memory", bits);
+  return text;
 }
 
 void print_effects(const Plan& plan, const CellsByKey& cells) {
@@ -137,6 +140,7 @@ void print_measured(const Plan& plan, const CellsByKey& cells, const SimulationC
   const Cells few = cells.at(plan.called_for.name()), all = cells.at(plan.everything.name());
   print_counts("LUTs of 4 inputs (Yosys, flattened)", few.luts, all.luts);
   print_counts("flip-flops", few.flip_flops, all.flip_flops);
+  if (all.memory_bits != 0) print_counts("bits of memory", few.memory_bits, all.memory_bits);
   print_counts("cycles", called_for.cycles, everything.cycles);
   print_seconds("GHDL", called_for.ghdl_seconds, everything.ghdl_seconds);
   print_seconds("Verilator", called_for.verilator_seconds, everything.verilator_seconds);
