@@ -482,7 +482,7 @@ TEST_F(CliTest, WhyAgreesOnRightHardware) {
 TEST_F(CliTest, WhyAlignsItsColumns) {
   for (const std::string shader : {"quadratic", "spherical"}) {
     const Outcome outcome =
-        run({"why", "lights", "--shader", shader, "--pixel", "48,36", "--size", "96x72", "--threads", "2"});
+        run({"why", "lights", "--shader", shader, "--pixel", "24,36", "--size", "96x72", "--threads", "2"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     std::set<std::size_t> golden, rtl, given;
     std::istringstream lines(outcome.output);
@@ -604,7 +604,7 @@ INSTANTIATE_TEST_SUITE_P(
                             "not angle when angle(c_sign) = '1' else angle", "angle", "sample stage"},
                       Fault{"product_of_the_wrong_operand", "spherical", "arithmetic/multiplier.vhd",
                             "unsigned(a) * unsigned(b)", "unsigned(a) * unsigned(not b)",
-                            "product stage (multiplier, or specular_slice around it)"},
+                            "product stage (multiplier, or diffuse_slice around it)"},
                       Fault{"factors_of_the_slice_inverted", "spherical", "illumination/specular_slice.vhd",
                             "start => part(part'high downto c_factors_low)",
                             "start => not part(part'high downto c_factors_low)",

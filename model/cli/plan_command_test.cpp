@@ -93,7 +93,7 @@ TEST_F(PlanCommand, Table5OfTheLights) {
 
 TEST_F(PlanCommand, BadUsageExitsTwo) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {{"plan", "matte", "--lights", "3"}, "--lights goes with --all-effects"},
+      {{"plan", "matte", "--shader", "spherical", "--lights", "3"}, "--lights goes with --all-effects"},
       {{"plan", "matte", "--all-effects", "--lights", "3"},
        "--lights belongs to the spherical shader, and says nothing for the quadratic shader"},
       {{"plan", "matte", "--shader", "spherical", "--all-effects", "--lights", "0"}, "0 is not 1 to 16"},
