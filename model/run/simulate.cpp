@@ -25,6 +25,7 @@
 #include "setup/spherical_setup.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
+#include "tables/cosine.hpp"
 
 namespace halfway {
 namespace {
@@ -102,8 +103,7 @@ class Simulation {
     if (!plan) return plan.error();
     summary_.plan = std::move(*plan);
     if (Status status = make_folders(files_.folder); !status) return status.error();
-    const auto lock = FolderLock::take(
-        files_.folder, [this] { s_.on_progress("waiting for another run in its folder", -1.0); });
+    const auto lock = FolderLock::take(files_.folder, [this] { s_.on_wait(files_.folder); });
     if (!lock) return lock.error();
     if (Status status = forget_old_results(); !status) return status.error();
     std::future<ReferenceImage> reference =
@@ -380,14 +380,34 @@ Result<SceneSummary> simulate(const Scene& scene, const SimulateSettings& settin
   return Simulation(scene, settings).run();
 }
 
+namespace {
+
+template <class Number>
+nlohmann::ordered_json number_or_null(std::optional<Number> number) {
+  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
+}
+
+// " tables 4/4", where the hardware has tables of another size than the project's own.
+std::string unusual_tables(const HardwareKey& key) {
+  const tables::CosineSizes sizes;
+  const tables::CosineSize usual = (key.preset == Preset::exact ? sizes.exact : sizes.published).front();
+  const TableSize size = key.spherical.tables;
+  if (key.shader != Shader::spherical || !key.spherical.records() ||
+      size == TableSize{usual.address_bits, usual.data_bits})
+    return {};
+  return fmt::format(", tables {}/{}", size.address_bits, size.data_bits);
+}
+
+}  // namespace
+
 std::string to_json(const SceneSummary& s) {
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();
   for (const SimulatorRun& run : s.runs) {
     nlohmann::ordered_json entry = {{"simulator", run.simulator},
-                                    {"cycles", run.cycles},
+                                    {"cycles", number_or_null(run.cycles)},
                                     {"fragments", run.fragments},
                                     {"mismatches", run.mismatches},
-                                    {"seconds", run.seconds}};
+                                    {"seconds", number_or_null(run.seconds)}};
     if (!run.fault.empty()) entry["fault"] = run.fault;
     runs.push_back(std::move(entry));
   }
@@ -433,12 +453,17 @@ std::string to_line(const SceneSummary& s) {
       fmt::format("{:<12} {:<10} {:<9} {:>4}x{:<4} {:>8} triangles {:>9} fragments", s.scene, s.shader,
                   to_string(s.plan.key.preset), s.size.width, s.size.height, s.triangles, s.fragments);
   if (s.all_effects) line += ", all effects";
-  for (const SimulatorRun& run : s.runs)
-    fmt::format_to(
-        std::back_inserter(line), " | {}: {} cycles, {:.3f} a fragment, {} mismatches, {:.2f} s",
-        run.simulator, run.cycles,
-        run.fragments == 0 ? 0.0 : static_cast<double>(run.cycles) / static_cast<double>(run.fragments),
-        run.mismatches, run.seconds);
+  line += unusual_tables(s.plan.key);
+  for (const SimulatorRun& run : s.runs) {
+    const auto to = std::back_inserter(line);
+    fmt::format_to(to, " | {}: ", run.simulator);
+    if (run.cycles)
+      fmt::format_to(
+          to, "{} cycles, {:.3f} a fragment, ", *run.cycles,
+          run.fragments == 0 ? 0.0 : static_cast<double>(*run.cycles) / static_cast<double>(run.fragments));
+    fmt::format_to(to, "{} mismatches", run.mismatches);
+    if (run.seconds) fmt::format_to(to, ", {:.2f} s", *run.seconds);
+  }
   if (std::isfinite(s.accuracy.psnr_db))
     fmt::format_to(std::back_inserter(line), " | reference: PSNR {:.2f} dB, largest error {}/255",
                    s.accuracy.psnr_db, s.accuracy.max_lsb);
