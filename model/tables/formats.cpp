@@ -24,9 +24,7 @@ std::vector<Format> common_formats() {
       {"depth_sum", true, 24, 15,
        "first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: "
        "off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step"},
-      {"factor", false, 10, 8, "colour steps up to 1023; off by at most 2^-9 of a step"},
       {"sample_word", false, 16, 0, "a cosine table's entry, of whatever size, for the probe"},
-      {"product_word", false, 36, 0, "a factor times a table's entry, for the probe"},
   };
 }
 
@@ -225,7 +223,11 @@ std::vector<PresetFormats> preset_formats() {
              "half bells; start and slope each rounded to 2^-23, at most 4095 steps: off by at most 2^-11, a "
              "quarter "
              "of a 2^-9 cell; exponents up to 10^6 stay within +-1024"},
-            {"power", false, 3, 0, "which table: cosine to the power 2^word"}}),
+            {"power", false, 3, 0, "which table: cosine to the power 2^word"},
+            {"factor", false, 16, 8,
+             "off by at most 2^-9 of a step; the largest times the least entry of up to 8 bits is white, so "
+             "what is brighter needs no more"},
+            {"product_word", false, 40, 0, "a factor times a table's entry, for the probe"}}),
        joined(exact_layouts(), spherical_layouts(true))},
       {"published",
        joined(common_formats(),
@@ -236,7 +238,9 @@ std::vector<PresetFormats> preset_formats() {
                 "12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at "
                 "the "
                 "bell's ends"},
-               {"power", false, 0, 0, "cosine squared alone"}}),
+               {"power", false, 0, 0, "cosine squared alone"},
+               {"factor", false, 10, 8, "colour steps up to 1023; off by at most 2^-9 of a step"},
+               {"product_word", false, 36, 0, "a factor times a table's entry, for the probe"}}),
        joined(published_layouts(), spherical_layouts(false))},
   };
 }

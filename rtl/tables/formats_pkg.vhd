@@ -28,14 +28,14 @@ package formats_pkg is
     colour : format_t;
     depth : format_t;
     depth_sum : format_t;
-    factor : format_t;
     sample_word : format_t;
-    product_word : format_t;
     edge_error : format_t;
     edge_x : format_t;
     intensity : format_t;
     angle : format_t;
     power : format_t;
+    factor : format_t;
+    product_word : format_t;
   end record;
 
   constant c_exact_formats : formats_t := (
@@ -57,12 +57,8 @@ package formats_pkg is
     depth => (24, 0),
     -- s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
     depth_sum => (40, 15),
-    -- u10.8: colour steps up to 1023; off by at most 2^-9 of a step
-    factor => (18, 8),
     -- u16.0: a cosine table's entry, of whatever size, for the probe
     sample_word => (16, 0),
-    -- u36.0: a factor times a table's entry, for the probe
-    product_word => (36, 0),
     -- u18.0: below the edge's height in subpixels: 8192 pixels of 16, doubled at no level of subdivision
     edge_error => (18, 0),
     -- s13.0: an edge is a whole pixel and a remainder
@@ -72,7 +68,11 @@ package formats_pkg is
     -- s10.22: half bells; start and slope each rounded to 2^-23, at most 4095 steps: off by at most 2^-11, a quarter of a 2^-9 cell; exponents up to 10^6 stay within +-1024
     angle => (33, 22),
     -- u3.0: which table: cosine to the power 2^word
-    power => (3, 0)
+    power => (3, 0),
+    -- u16.8: off by at most 2^-9 of a step; the largest times the least entry of up to 8 bits is white, so what is brighter needs no more
+    factor => (24, 8),
+    -- u40.0: a factor times a table's entry, for the probe
+    product_word => (40, 0)
   );
 
   constant c_published_formats : formats_t := (
@@ -94,12 +94,8 @@ package formats_pkg is
     depth => (24, 0),
     -- s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
     depth_sum => (40, 15),
-    -- u10.8: colour steps up to 1023; off by at most 2^-9 of a step
-    factor => (18, 8),
     -- u16.0: a cosine table's entry, of whatever size, for the probe
     sample_word => (16, 0),
-    -- u36.0: a factor times a table's entry, for the probe
-    product_word => (36, 0),
     -- u0.0: edges are stepped by a real slope
     edge_error => (0, 0),
     -- s13.18: 32 bits, as the quadratic paper's other registers
@@ -109,7 +105,11 @@ package formats_pkg is
     -- s0.11: 12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the bell's ends
     angle => (12, 11),
     -- u0.0: cosine squared alone
-    power => (0, 0)
+    power => (0, 0),
+    -- u10.8: colour steps up to 1023; off by at most 2^-9 of a step
+    factor => (18, 8),
+    -- u36.0: a factor times a table's entry, for the probe
+    product_word => (36, 0)
   );
 
   function formats (exact : boolean) return formats_t;
@@ -357,7 +357,7 @@ package formats_pkg is
   end record;
 
   constant c_exact_ambient_channel : ambient_channel_t := (
-    ambient => (17, 0)
+    ambient => (23, 0)
   );
 
   constant c_published_ambient_channel : ambient_channel_t := (
@@ -366,7 +366,7 @@ package formats_pkg is
 
   function ambient_channel (exact : boolean) return ambient_channel_t;
 
-  constant c_exact_ambient_channel_bits : natural := 18;
+  constant c_exact_ambient_channel_bits : natural := 24;
   constant c_published_ambient_channel_bits : natural := 18;
 
   function ambient_channel_low (exact : boolean; channel : natural) return natural;
@@ -398,7 +398,7 @@ package formats_pkg is
   end record;
 
   constant c_exact_diffuse_channel : diffuse_channel_t := (
-    factor => (17, 0)
+    factor => (23, 0)
   );
 
   constant c_published_diffuse_channel : diffuse_channel_t := (
@@ -407,7 +407,7 @@ package formats_pkg is
 
   function diffuse_channel (exact : boolean) return diffuse_channel_t;
 
-  constant c_exact_diffuse_channel_bits : natural := 18;
+  constant c_exact_diffuse_channel_bits : natural := 24;
   constant c_published_diffuse_channel_bits : natural := 18;
 
   function diffuse_channel_low (exact : boolean; channel : natural) return natural;
@@ -442,7 +442,7 @@ package formats_pkg is
   end record;
 
   constant c_exact_specular_channel : specular_channel_t := (
-    factor => (17, 0)
+    factor => (23, 0)
   );
 
   constant c_published_specular_channel : specular_channel_t := (
@@ -451,7 +451,7 @@ package formats_pkg is
 
   function specular_channel (exact : boolean) return specular_channel_t;
 
-  constant c_exact_specular_channel_bits : natural := 18;
+  constant c_exact_specular_channel_bits : natural := 24;
   constant c_published_specular_channel_bits : natural := 18;
 
   function specular_channel_low (exact : boolean; channel : natural) return natural;
@@ -486,7 +486,7 @@ package formats_pkg is
   end record;
 
   constant c_exact_diffuse_probe_channel : diffuse_probe_channel_t := (
-    product => (35, 0)
+    product => (39, 0)
   );
 
   constant c_published_diffuse_probe_channel : diffuse_probe_channel_t := (
@@ -495,7 +495,7 @@ package formats_pkg is
 
   function diffuse_probe_channel (exact : boolean) return diffuse_probe_channel_t;
 
-  constant c_exact_diffuse_probe_channel_bits : natural := 36;
+  constant c_exact_diffuse_probe_channel_bits : natural := 40;
   constant c_published_diffuse_probe_channel_bits : natural := 36;
 
   function diffuse_probe_channel_low (exact : boolean; channel : natural) return natural;
@@ -530,7 +530,7 @@ package formats_pkg is
   end record;
 
   constant c_exact_specular_probe_channel : specular_probe_channel_t := (
-    product => (35, 0)
+    product => (39, 0)
   );
 
   constant c_published_specular_probe_channel : specular_probe_channel_t := (
@@ -539,7 +539,7 @@ package formats_pkg is
 
   function specular_probe_channel (exact : boolean) return specular_probe_channel_t;
 
-  constant c_exact_specular_probe_channel_bits : natural := 36;
+  constant c_exact_specular_probe_channel_bits : natural := 40;
   constant c_published_specular_probe_channel_bits : natural := 36;
 
   function specular_probe_channel_low (exact : boolean; channel : natural) return natural;
