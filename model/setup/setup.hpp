@@ -28,7 +28,9 @@ struct QuadraticSetupOptions {
 /// Where the spherical shader takes the vectors at the two ends of a span from.
 enum class SpanEnds {
   on_surface,           ///< the surface behind the end pixels' centres, perspective-correct
-  slerped_along_edges,  ///< as published: spherical interpolation along the triangle's edges
+  /// As published: spherical interpolation along the triangle's edges. Never cut into columns, whatever the
+  /// threshold: far off where a light is close to the surface, or a spot's edge crosses it.
+  slerped_along_edges,
 };
 
 struct SphericalSetupOptions {

@@ -307,10 +307,10 @@ class SphericalSetup::ExactTriangle {
 
  private:
   // Of a span with so few steps every pixel is looked at.
-  static constexpr std::int64_t c_short_span = 12;
+  static constexpr std::int64_t c_short_span = 16;
   // A longer one is looked at at this many places, or more: often enough that no highlight is stepped over,
   // which is a half bell to either side of its peak.
-  static constexpr std::int64_t c_least_looks = 3;
+  static constexpr std::int64_t c_least_looks = 7;
   static constexpr double c_looks_a_half_bell = 2.0;
   // In a part of a spot's light, from its edge to where it is full or nearest its axis: every pixel, or so
   // many.
