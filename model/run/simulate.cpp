@@ -198,11 +198,14 @@ class Simulation {
       if (m.exponent > c_largest_exponent)
         note(fmt::format("material '{}': its exponent {:g} was held at {:g}", m.name, m.exponent,
                          c_largest_exponent));
-      if (exact && m.exponent < 2.0)
-        note(
-            fmt::format("material '{}': the bell for exponents below 2, here {:g}, is off by up to {:.1f} "
-                        "colour steps for a light of full brightness",
-                        m.name, m.exponent, 255.0 * fit_error(m.exponent, fitted_bell(m.exponent))));
+      // At 1 the bell is the cosine itself.
+      const double steps =
+          exact && m.exponent < 2.0 ? 255.0 * fit_error(m.exponent, fitted_bell(m.exponent)) : 0.0;
+      if (steps > 1.0)
+        note(fmt::format(
+            "material '{}': no bell fits exponents between 1 and 2 well; that of {:g} is off by up "
+            "to {:.1f} colour steps where a highlight's peak is white",
+            m.name, m.exponent, steps));
     }
     if (exact && brightest > c_bright)
       note(

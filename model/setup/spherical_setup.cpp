@@ -312,8 +312,7 @@ class SphericalSetup::ExactTriangle {
   // which is a half bell to either side of its peak.
   static constexpr std::int64_t c_least_looks = 7;
   static constexpr double c_looks_a_half_bell = 2.0;
-  // In a part of a spot's light, from its edge to where it is full or nearest its axis: every pixel, or so
-  // many.
+  // In a part of a spot's light, its edge or where it is full: every pixel, or so many.
   static constexpr std::int64_t c_spot_looks = 16;
 
   std::vector<Walk> walks_of(Columns columns) const {
@@ -537,9 +536,7 @@ class SphericalSetup::ExactTriangle {
                  along_ahead = glm::dot(ahead, spot.axis_world);
     const double d00 = glm::dot(from_light, from_light), d01 = glm::dot(from_light, ahead),
                  d11 = glm::dot(ahead, ahead);
-    // Nearest the axis; no number, and left out, where it is so everywhere.
-    std::vector<double> turns = {0.0, 1.0,
-                                 (along_ahead * d00 - along * d01) / (along * d11 - along_ahead * d01)};
+    std::vector<double> turns = {0.0, 1.0};
     // (along + s along_ahead)^2 = cos^2 |from_light + s ahead|^2
     for (const double cosine : {spot.cos_outer, spot.cos_inner})
       for (const double s :
