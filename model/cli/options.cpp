@@ -119,7 +119,8 @@ void DrawOptions::add_to(CLI::App& command) {
   command.add_option(
       "--span-ends", span_ends,
       "spherical, preset exact: vectors at a span's ends from the surface, or by slerp along the\n"
-      "edges, as published (default: surface)");
+      "edges, as published: never cut into columns, however large the error, so bad where a light is\n"
+      "close (default: surface)");
   command.add_option("--threads", threads, "threads for setup and golden model (0: all cores)")
       ->capture_default_str();
 }

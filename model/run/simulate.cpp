@@ -32,6 +32,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Times white, past which a light's brightness is worth a note.
+constexpr double c_bright = 2.0;
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -170,13 +173,51 @@ class Simulation {
           "{} pieces may err by more than {} colour steps after {} levels of splitting; a finer mesh helps",
           n.unresolved, s_.setup.quadratic.threshold, s_.setup.quadratic.max_level));
     if (s_.plan.shader == Shader::spherical)
-      for (const Material& m : scene_.materials)
-        if (has_specular(m) && m.exponent > c_largest_exponent)
-          note(fmt::format("material '{}': its exponent {:g} was held at {:g}", m.name, m.exponent,
-                           c_largest_exponent));
-    if (n.overexposed != 0)
-      note(fmt::format("{} samples or factors are over-exposed more than four times and were held there",
-                       n.overexposed));
+      note_of_bells(note);
+    else if (n.overexposed != 0)
+      note(
+          fmt::format("{} samples are over-exposed more than four times and were held there", n.overexposed));
+  }
+
+  template <class Note>
+  void note_of_bells(Note&& note) const {
+    const HardwareKey& key = summary_.plan.key;
+    const bool exact = key.preset == Preset::exact;
+    const std::vector<bool> worn = worn_materials(scene_);
+    double brightest = 0.0;
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+      const Material& m = scene_.materials[i];
+      if (!worn[i]) continue;
+      for (const LightRef light : reflected_lights(scene_)) {
+        const glm::dvec3 in = intensity(scene_, light);
+        for (int c = 0; c < 3; ++c)
+          brightest = std::max(brightest,
+                               in[c] * std::max(m.diffuse * m.colour[c], m.specular * m.specular_colour[c]));
+      }
+      if (!has_specular(m)) continue;
+      if (m.exponent > c_largest_exponent)
+        note(fmt::format("material '{}': its exponent {:g} was held at {:g}", m.name, m.exponent,
+                         c_largest_exponent));
+      // At 1 the bell is the cosine itself.
+      const double steps =
+          exact && m.exponent < 2.0 ? 255.0 * fit_error(m.exponent, fitted_bell(m.exponent)) : 0.0;
+      if (steps > 1.0)
+        note(fmt::format(
+            "material '{}': no bell fits exponents between 1 and 2 well; that of {:g} is off by up "
+            "to {:.1f} colour steps where a highlight's peak is white",
+            m.name, m.exponent, steps));
+    }
+    if (exact && brightest > c_bright)
+      note(
+          fmt::format("a light is reflected {:.3g} times as bright as white: where it has faded below white, "
+                      "the errors of bells and tables are as many times larger",
+                      brightest));
+    const std::uint64_t held = summary_.setup.overexposed;
+    if (held == 0 || (exact && key.spherical.tables.data_bits <= c_white_data_bits)) return;
+    note(fmt::format(
+        "{} factors are over-exposed more than {:.0f} times and were held there: all that they "
+        "light comes out too dark, not only what is beyond white",
+        held, (exact ? c_largest_factor<golden::Exact> : c_largest_factor<golden::Published>) / 255.0));
   }
 
   ReferenceImage draw_reference() const {
