@@ -108,7 +108,7 @@ Drawing draw(const Scene& scene, const HardwareKey& key, bool with_rtl = false) 
     rtl.emplace(std::move(*opened));
   }
   const std::size_t words_per_vector = (setup->init_bits() + 31) / 32;
-  SceneStream stream(scene, *setup, key, 1);
+  SceneStream stream(*setup, key, 1);
   for (Batch batch; stream.next(batch);) {
     out.golden.insert(out.golden.end(), batch.golden.begin(), batch.golden.end());
     if (rtl)
