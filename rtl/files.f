@@ -9,6 +9,7 @@ arithmetic/saturating_sum.vhd
 stream/parameter_register.vhd
 stream/stream_register.vhd
 interpolation/line_interpolator.vhd
+interpolation/plane_interpolator.vhd
 interpolation/z_interpolator.vhd
 interpolation/quadratic_interpolator.vhd
 raster/edge_walker.vhd

@@ -16,6 +16,7 @@ Status write_saturating_sum(const std::filesystem::path& folder);
 Status write_parameter_register(const std::filesystem::path& folder);
 Status write_stream_register(const std::filesystem::path& folder);
 Status write_line_interpolator(const std::filesystem::path& folder);
+Status write_plane_interpolator(const std::filesystem::path& folder);
 Status write_z_interpolator(const std::filesystem::path& folder);
 Status write_quadratic_interpolator(const std::filesystem::path& folder);
 Status write_edge_walker(const std::filesystem::path& folder);

@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
       std::pair{"parameter_register", &write_parameter_register},
       std::pair{"stream_register", &write_stream_register},
       std::pair{"line_interpolator", &write_line_interpolator},
+      std::pair{"plane_interpolator", &write_plane_interpolator},
       std::pair{"z_interpolator", &write_z_interpolator},
       std::pair{"quadratic_interpolator", &write_quadratic_interpolator},
       std::pair{"edge_walker", &write_edge_walker},
