@@ -14,6 +14,7 @@ interpolation/z_interpolator.vhd
 interpolation/quadratic_interpolator.vhd
 raster/edge_walker.vhd
 raster/triangle_walker.vhd
+raster/object_stage.vhd
 illumination/diffuse_slice.vhd
 illumination/specular_slice.vhd
 shaders/quadratic_shader.vhd

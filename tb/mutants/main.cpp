@@ -78,6 +78,21 @@ constexpr Mutant c_mutants[] = {
     // A line, or a span, that does not wait for what it needs.
     {"raster/triangle_walker.vhd", "r.line.valid and line_ready and (", "r.line.valid and ("},
     {"raster/triangle_walker.vhd", "r.line.valid and line_ready and not", "r.line.valid and not"},
+    // Of equal depths the last; a polygon on the surface is before it; a pixel shaded twice; a column that
+    // the
+    // token before has just changed; its change that does not go on with it; columns that a clear leaves; a
+    // token overwritten while it waits.
+    {"raster/object_stage.vhd", "keeps <= nearer or", "keeps <= nearer or not (kept(0) xor token(0)) or"},
+    {"raster/object_stage.vhd", "passes <= nearer and present", "passes <= present"},
+    {"raster/object_stage.vhd", "z < kept_z", "z <= kept_z"},
+    {"raster/object_stage.vhd", "      changed <= c_nothing;", "      changed <= kept;"},
+    {"raster/object_stage.vhd", "if changes = '1' and in_column = column then",
+     "if changes = '1' and z < 0 then"},
+    {"raster/object_stage.vhd", "if changes = '1' and in_column = column then",
+     "if r.valid = '1' and in_column = column then"},
+    {"raster/object_stage.vhd", "and column > r.last then", "and column > r.last and column(0) = '1' then"},
+    {"raster/object_stage.vhd", "not r.valid or not passes or out_ready",
+     "not r.valid or out_ready or not passes or r.forwarded"},
     // The next line's slope; the next pixel's horizon; light behind the horizon.
     {"illumination/diffuse_slice.vhd", "increment => slope",
      "increment => part(c_part.slope.high downto c_part.slope.low)"},
