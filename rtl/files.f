@@ -17,6 +17,7 @@ raster/triangle_walker.vhd
 raster/object_stage.vhd
 illumination/diffuse_slice.vhd
 illumination/specular_slice.vhd
+illumination/shadow_counter.vhd
 shaders/quadratic_shader.vhd
 shaders/spherical_pkg.vhd
 shaders/spherical_shader.vhd

@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
       std::pair{"triangle_walker", &write_triangle_walker},
       std::pair{"diffuse_slice", &write_diffuse_slice},
       std::pair{"specular_slice", &write_specular_slice},
+      std::pair{"shadow_counter", &write_shadow_counter},
       std::pair{"quadratic_shader", &write_quadratic_shader},
       std::pair{"spherical_shader", &write_spherical_shader},
   };
