@@ -9,12 +9,15 @@ arithmetic/saturating_sum.vhd
 stream/parameter_register.vhd
 stream/stream_register.vhd
 interpolation/line_interpolator.vhd
+interpolation/plane_interpolator.vhd
 interpolation/z_interpolator.vhd
 interpolation/quadratic_interpolator.vhd
 raster/edge_walker.vhd
 raster/triangle_walker.vhd
+raster/object_stage.vhd
 illumination/diffuse_slice.vhd
 illumination/specular_slice.vhd
+illumination/shadow_counter.vhd
 shaders/quadratic_shader.vhd
 shaders/spherical_pkg.vhd
 shaders/spherical_shader.vhd

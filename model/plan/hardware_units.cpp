@@ -32,6 +32,7 @@ class Units {
   }
   void add_z_interpolator() {
     add("z_interpolator");
+    add("plane_interpolator");
     add("line_interpolator", 2);
     add("parameter_register", exact_ ? 4 : 3);
   }
