@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/golden_run.hpp"
 
+#include "golden/processors_shader.hpp"
 #include "golden/quadratic_shader.hpp"
 #include "golden/spherical_shader.hpp"
 
@@ -24,6 +25,9 @@ struct Watch {
   }
   void product(const auto& shader, golden::SpanXWord x) {
     add(shader, Stage::product, x, shader.product_probe());
+  }
+  void processor(const auto& shader, golden::SpanXWord x, int number) {
+    add(shader, processor_stage(number), x, shader.processor_probe(number));
   }
 
  private:
@@ -54,6 +58,12 @@ class Model final : public GoldenModel {
           words, [&](const Fragment& f) { fragments.push_back(f); }, Watch{events});
     });
   }
+  bool fault() const override {
+    if constexpr (requires { shader_.fault(); })
+      return shader_.fault();
+    else
+      return false;
+  }
   unsigned init_bits() const override { return static_cast<unsigned>(shader_.init_bits()); }
   unsigned probe_bits() const override { return static_cast<unsigned>(shader_.probe_bits()); }
 
@@ -75,6 +85,8 @@ template <class Preset>
 std::unique_ptr<GoldenModel> make(const HardwareKey& key) {
   if (key.shader == Shader::spherical)
     return std::make_unique<Model<golden::SphericalShader<Preset>>>(golden_config(key));
+  if (key.shader == Shader::processors)
+    return std::make_unique<Model<golden::ProcessorsShader<Preset>>>(processors_config(key));
   if (key.channels == 1) return std::make_unique<Model<golden::QuadraticShader<Preset, 1>>>();
   return std::make_unique<Model<golden::QuadraticShader<Preset, 3>>>();
 }
