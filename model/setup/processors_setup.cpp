@@ -122,7 +122,7 @@ class Overlap {
   void add(const Walk& line) {
     // Backward spans: [stop + 1, start + 1).
     const std::int64_t shift = line.backward ? 1 : 0;
-    const auto [begin, end] = std::minmax(line.start.pixel + shift, line.upper.pixel + shift);
+    const auto [begin, end] = std::minmax({line.start.pixel + shift, line.upper.pixel + shift});
     ++change_[static_cast<std::size_t>(begin)];
     --change_[static_cast<std::size_t>(end)];
     any_ = true;
