@@ -25,6 +25,7 @@ Status write_triangle_walker(const std::filesystem::path& folder);
 Status write_diffuse_slice(const std::filesystem::path& folder);
 Status write_specular_slice(const std::filesystem::path& folder);
 Status write_shadow_counter(const std::filesystem::path& folder);
+Status write_processors_shader(const std::filesystem::path& folder);
 Status write_quadratic_shader(const std::filesystem::path& folder);
 Status write_spherical_shader(const std::filesystem::path& folder);
 
