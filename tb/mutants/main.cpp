@@ -149,6 +149,7 @@ Result<Outcome> run(const Folders& folders, const char* file, const Mutant* muta
   const std::string entity = entity_of(file), top = entity + "_tb";
   for (const std::string& name :
        {std::string("tb/tb_pkg.vhd"), std::string("tb/shaders/shader_checker.vhd"),
+        std::string("tb/illumination/processor_checker.vhd"),
         "tb/" + (std::filesystem::path(file).parent_path() / (top + ".vhd")).string()}) {
     auto source = read_vhdl_source(folders.source, name);
     if (!source) return source.error();

@@ -25,7 +25,9 @@ Status write_triangle_walker(const std::filesystem::path& folder);
 Status write_diffuse_slice(const std::filesystem::path& folder);
 Status write_specular_slice(const std::filesystem::path& folder);
 Status write_shadow_counter(const std::filesystem::path& folder);
+Status write_shading_processor(const std::filesystem::path& folder);
 Status write_quadratic_shader(const std::filesystem::path& folder);
 Status write_spherical_shader(const std::filesystem::path& folder);
+Status write_processors_shader(const std::filesystem::path& folder);
 
 }  // namespace halfway::vectors

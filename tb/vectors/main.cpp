@@ -30,8 +30,11 @@ int main(int argc, char** argv) {
       std::pair{"diffuse_slice", &write_diffuse_slice},
       std::pair{"specular_slice", &write_specular_slice},
       std::pair{"shadow_counter", &write_shadow_counter},
+      std::pair{"shading_processor", &write_shading_processor},
+      std::pair{"unrolled_shading_processor", &write_shading_processor},
       std::pair{"quadratic_shader", &write_quadratic_shader},
       std::pair{"spherical_shader", &write_spherical_shader},
+      std::pair{"processors_shader", &write_processors_shader},
   };
   bool found = false;
   for (const auto& [name, write] : entities) {
