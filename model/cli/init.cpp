@@ -33,6 +33,7 @@ int run(const Folders& folders, const InitCommand& command) {
   SceneStream stream(*setup, key, draw->threads);
   for (Batch batch; stream.next(batch);) {
     progress.show(batch.done);
+    if (const Status status = check_shadow_counts(*scene, stream); !status) return report(status.error());
     file->write(batch.init_words);
   }
   progress.clear();

@@ -39,6 +39,7 @@ Result<Frame> golden_frame(const Scene& scene, const DrawSettings& draw) {
   Progress progress(scene.name);
   for (Batch batch; stream.next(batch);) {
     progress.show(batch.done);
+    if (const Status status = check_shadow_counts(scene, stream); !status) return status.error();
     if (const Status status = assembler.add(batch.golden); !status) return status.error();
   }
   return assembler.frame();

@@ -231,6 +231,7 @@ class Simulation {
     };
     for (Batch batch; stream.next(batch);) {
       s_.on_progress("setup, golden model, Verilator", batch.done);
+      if (Status status = check_shadow_counts(scene_, stream); !status) return status;
       init_file->write(batch.init_words);
       golden_trace->write(batch.golden);
       if (Status status = golden_.add(batch.golden); !status)
@@ -256,11 +257,6 @@ class Simulation {
           fmt::format("{}: {} triangles project to no finite point; bring the scene nearer to the origin, or "
                       "the camera away from them",
                       scene_.name, lost));
-    if (const std::uint64_t deepest = summary_.setup.deepest_shadow; deepest > c_most_shadows)
-      return bad_input(fmt::format(
-          "{}: {} shadow volumes of one light begin or end before one another at a pixel, and the "
-          "processors count up to {}; leave out casters that lie in others' shadow, or the shadows",
-          scene_.name, deepest, c_most_shadows));
     summary_.setup_seconds = stream.setup_seconds();
     summary_.golden_seconds = stream.golden_seconds();
     summary_.fragments = golden_.fragments();
