@@ -29,7 +29,7 @@ std::optional<FrameSize> parse_size(std::string_view text) {
 }  // namespace
 
 void DrawOptions::add_to(CLI::App& command) {
-  command.add_option("--shader", shader, "quadratic or spherical")->capture_default_str();
+  command.add_option("--shader", shader, "quadratic, spherical or processors")->capture_default_str();
   command.add_option("--preset", preset, "exact, or published: the paper's word lengths and edges")
       ->capture_default_str();
   command.add_option("--size", size, "WIDTHxHEIGHT in pixels, each 1 to 4096")->capture_default_str();
@@ -52,8 +52,11 @@ void DrawOptions::add_to(CLI::App& command) {
       "coefficients of zero; the frame stays the same");
   command.add_option(
       "--lights", lights,
-      "spherical, with --all-effects: for how many lights, up to 16 (default: the scene's, and at\n"
-      "least one)");
+      "spherical and processors, with --all-effects: for how many lights, up to 16 (default: the\n"
+      "scene's, and at least one)");
+  command.add_option("--form", form,
+                     "processors: unrolled, an object a clock, or folded, as published: one datapath a\n"
+                     "processor, several clocks an object (default: unrolled)");
   command.add_option(
       "--span-ends", span_ends,
       "spherical, preset exact: vectors at a span's ends from the surface, or by slerp along the\n"
@@ -64,10 +67,11 @@ void DrawOptions::add_to(CLI::App& command) {
 
 Result<DrawSettings> checked(const DrawOptions& o) {
   DrawSettings s;
-  if (o.shader != "quadratic" && o.shader != "spherical")
-    return bad_input(
-        fmt::format("--shader: '{}' is not a shader of this program; take quadratic or spherical", o.shader));
-  s.plan.shader = o.shader == "quadratic" ? Shader::quadratic : Shader::spherical;
+  const auto shader = std::ranges::find(c_shaders, o.shader, [](Shader it) { return to_string(it); });
+  if (shader == c_shaders.end())
+    return bad_input(fmt::format(
+        "--shader: '{}' is not a shader of this program; take quadratic, spherical or processors", o.shader));
+  s.plan.shader = *shader;
   if (o.preset != "exact" && o.preset != "published")
     return bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset));
   s.plan.preset = o.preset == "exact" ? Preset::exact : Preset::published;
@@ -75,6 +79,12 @@ Result<DrawSettings> checked(const DrawOptions& o) {
     return bad_input("--address-bits and --data-bits go together; give both");
   if (o.address_bits != 0) s.plan.tables = TableSize{o.address_bits, o.data_bits};
   s.plan.all_effects = o.all_effects;
+  if (o.form == "folded")
+    s.plan.form = ProcessorForm::folded;
+  else if (o.form == "unrolled")
+    s.plan.form = ProcessorForm::unrolled;
+  else if (!o.form.empty())
+    return bad_input(fmt::format("--form: '{}' is not a form; take folded or unrolled", o.form));
   if (o.lights != 0) {
     if (!o.all_effects) return bad_input("--lights goes with --all-effects; give both");
     s.plan.lights = o.lights;

@@ -22,6 +22,7 @@ struct DrawOptions {
   unsigned lights = 0;    ///< with all effects; 0: the scene's, and at least one
   std::string span_ends;  ///< empty: surface in preset exact, slerp in published
   std::string preset = "exact";
+  std::string form;  ///< of the shading processors; empty: unrolled
   std::string size = "640x480";
   std::string out = "build/out";
   std::string highlight_test;  ///< empty: conservative in preset exact, centroid in published

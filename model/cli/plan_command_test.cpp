@@ -95,9 +95,12 @@ TEST_F(PlanCommand, BadUsageExitsTwo) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"plan", "matte", "--lights", "3"}, "--lights goes with --all-effects"},
       {{"plan", "matte", "--all-effects", "--lights", "3"},
-       "only the spherical shader has hardware for lights"},
+       "the quadratic shader has no hardware for lights"},
       {{"plan", "lights", "--shader", "spherical", "--all-effects", "--lights", "9"}, "9 is not 10 to 16"},
       {{"sim", "lights", "--shader", "spherical", "--all-effects", "--lights", "17"}, "17 is not 10 to 16"},
+      {{"plan", "lights", "--shader", "processors", "--all-effects", "--lights", "9"}, "9 is not 10 to 16"},
+      {{"plan", "matte", "--form", "folded"}, "only the shading processors have two forms"},
+      {{"plan", "matte", "--shader", "processors", "--form", "flat"}, "take folded or unrolled"},
       {{"plan", "matte", "--rate", "1001"}, "--rate"},
       {{"plan", "matte", "--objects", "-1"}, "--objects"},
       {{"plan", "matte", "--measure", "--simulator", "modelsim"}, "is not a simulator"},

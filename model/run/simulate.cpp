@@ -148,11 +148,12 @@ class Simulation {
     return Ok{};
   }
 
+  void note(std::string text) { summary_.notes.push_back(scene_.name + ": " + std::move(text)); }
+
   // A frame that proves little, or is worse than asked for, is not passed over in silence.
   void note_what_is_unusual() {
-    const auto note = [this](std::string text) {
-      summary_.notes.push_back(scene_.name + ": " + std::move(text));
-    };
+    if (scene_.shadows && s_.plan.shader != Shader::processors && !reflected_lights(scene_).empty())
+      note("its shadows are drawn by the shader processors alone; the frame has none, the reference has");
     const SetupCounts& n = summary_.setup;
     if (summary_.fragments == 0)
       note(fmt::format(
@@ -201,12 +202,13 @@ class Simulation {
       if (!trace) return trace.error();
       verilator_trace.emplace(std::move(*trace));
     }
+    for (const std::string& held : setup->notes()) note(held);
     auto init_file = InitFileWriter::open(files_.init(), key, setup->init_bits());
     if (!init_file) return init_file.error();
     auto golden_trace = TraceWriter::open(files_.trace("golden"), key);
     if (!golden_trace) return golden_trace.error();
 
-    SceneStream stream(scene_, *setup, summary_.plan.key, s_.threads);
+    SceneStream stream(*setup, summary_.plan.key, s_.threads);
     const std::size_t words_per_vector = (setup->init_bits() + 31) / 32;
     double verilator_seconds = 0.0;
     bool rtl_alive = verilator.has_value();
@@ -228,8 +230,7 @@ class Simulation {
                                       std::min(rtl.count(), golden_.fragments()));
     };
     for (Batch batch; stream.next(batch);) {
-      s_.on_progress("setup, golden model, Verilator", static_cast<double>(batch.triangles_done) /
-                                                           static_cast<double>(scene_.triangles.size()));
+      s_.on_progress("setup, golden model, Verilator", batch.done);
       init_file->write(batch.init_words);
       golden_trace->write(batch.golden);
       if (Status status = golden_.add(batch.golden); !status)
@@ -255,6 +256,11 @@ class Simulation {
           fmt::format("{}: {} triangles project to no finite point; bring the scene nearer to the origin, or "
                       "the camera away from them",
                       scene_.name, lost));
+    if (const std::uint64_t deepest = summary_.setup.deepest_shadow; deepest > c_most_shadows)
+      return bad_input(fmt::format(
+          "{}: {} shadow volumes of one light begin or end before one another at a pixel, and the "
+          "processors count up to {}; leave out casters that lie in others' shadow, or the shadows",
+          scene_.name, deepest, c_most_shadows));
     summary_.setup_seconds = stream.setup_seconds();
     summary_.golden_seconds = stream.golden_seconds();
     summary_.fragments = golden_.fragments();
@@ -420,6 +426,7 @@ std::string to_json(const SceneSummary& s) {
         {"unresolved", s.setup.unresolved},
         {"init_vectors", s.setup.vectors},
         {"line_records", s.setup.records},
+        {"shadow_vectors", s.setup.shadows},
         {"shaded_points", s.setup.shaded},
         {"overexposed_samples", s.setup.overexposed}}},
       {"setup_seconds", s.setup_seconds},

@@ -256,11 +256,10 @@ class Explainer {
     const std::unique_ptr<GoldenModel> golden = make_golden_model(report_.key);
     words_per_vector_ = (setup->init_bits() + 31) / 32;
 
-    SceneStream stream(scene_, *setup, report_.key, s_.threads);
+    SceneStream stream(*setup, report_.key, s_.threads);
     bool alive = true;
     for (Batch batch; alive && stream.next(batch);) {
-      s_.on_progress(static_cast<double>(batch.triangles_done) /
-                     static_cast<double>(scene_.triangles.size()));
+      s_.on_progress(batch.done);
       for (auto rest = std::span<const std::uint32_t>(batch.init_words); alive && !rest.empty();) {
         const std::size_t vectors = golden->group(rest);
         const auto words = rest.first(vectors * words_per_vector_);
