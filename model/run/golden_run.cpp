@@ -18,6 +18,7 @@ struct Room {
 
 struct Watch {
   std::vector<ProbeEvent>& events;
+  const std::vector<Fragment>& fragments;
   void line(const auto& shader) { add(shader, Stage::line, shader.walker().start(), shader.line_probe()); }
   void span(const auto& shader, golden::SpanXWord x) { add(shader, Stage::span, x, shader.span_probe(x)); }
   void sample(const auto& shader, golden::SpanXWord x) {
@@ -36,7 +37,8 @@ struct Watch {
                       shader.walker().triangle(),
                       shader.walker().y(),
                       static_cast<std::uint32_t>(golden::low_bits(x.bits(), golden::Exact::c_pixel_x_bits)),
-                      {words.begin(), words.end()}});
+                      {words.begin(), words.end()},
+                      fragments.size()});
   }
 };
 
@@ -55,7 +57,7 @@ class Model final : public GoldenModel {
                    std::vector<ProbeEvent>& events) override {
     each_triangle(init_words, [&](auto words) {
       shader_.draw(
-          words, [&](const Fragment& f) { fragments.push_back(f); }, Watch{events});
+          words, [&](const Fragment& f) { fragments.push_back(f); }, Watch{events, fragments});
     });
   }
   bool fault() const override {

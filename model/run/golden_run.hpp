@@ -23,6 +23,7 @@ struct ProbeEvent {
   Stage stage;
   std::uint32_t triangle, y, x;  ///< x: the pixel; the line's first for Stage::line
   std::vector<std::uint32_t> words;
+  std::size_t fragment;  ///< how many fragments were drawn before
 };
 
 class GoldenModel {
