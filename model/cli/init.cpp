@@ -30,12 +30,14 @@ int run(const Folders& folders, const InitCommand& command) {
   auto file = InitFileWriter::open(command.file, key.name(), setup->init_bits());
   if (!file) return report(file.error());
   Progress progress(scene->name);
-  SceneStream stream(*scene, *setup, key, draw->threads);
+  SceneStream stream(*setup, key, draw->threads);
   for (Batch batch; stream.next(batch);) {
-    progress.show(static_cast<double>(batch.triangles_done) / static_cast<double>(scene->triangles.size()));
+    progress.show(batch.done);
+    if (const Status status = check_shadow_counts(*scene, stream); !status) return report(status.error());
     file->write(batch.init_words);
   }
   progress.clear();
+  for (const std::string& note : setup->notes()) fmt::print(stderr, "{}: {}\n", scene->name, note);
   if (const Status status = file->commit(); !status) return report(status.error());
   const SetupCounts& n = stream.counts();
   fmt::print("{}: {} init vectors and {} line records, of {} bits, for {}\n", command.file, n.vectors,

@@ -57,7 +57,8 @@ Status check_hardware(const DrawOptions& o, Shader shader, Preset preset) {
       {"--span-ends", o.span_ends.has_value(), {{Shader::spherical, Preset::exact}}},
       {"--address-bits", o.address_bits.has_value(), {{Shader::spherical}}},
       {"--data-bits", o.data_bits.has_value(), {{Shader::spherical}}},
-      {"--lights", o.lights.has_value(), {{Shader::spherical}}}};
+      {"--lights", o.lights.has_value(), {{Shader::spherical}, {Shader::processors}}},
+      {"--form", o.form.has_value(), {{Shader::processors}}}};
   for (const Option& option : options) {
     if (!option.given || std::ranges::any_of(option.belongs_to, [&](const Hardware& hardware) {
           return hardware.shader == shader && hardware.preset.value_or(preset) == preset;
@@ -114,8 +115,11 @@ void DrawOptions::add_to(CLI::App& command) {
       "coefficients of zero; the frame stays the same");
   command.add_option(
       "--lights", lights,
-      "spherical, with --all-effects: for how many lights, up to 16 (default: the scene's, and at\n"
-      "least one)");
+      "spherical and processors, with --all-effects: for how many lights, up to 16 (default: the\n"
+      "scene's, and at least one)");
+  command.add_option("--form", form,
+                     "processors: unrolled, an object a clock, or folded, as published: one datapath a\n"
+                     "processor, several clocks an object (default: unrolled)");
   command.add_option(
       "--span-ends", span_ends,
       "spherical, preset exact: vectors at a span's ends from the surface, or by slerp along the\n"
@@ -126,7 +130,7 @@ void DrawOptions::add_to(CLI::App& command) {
 }
 
 Result<Shader> checked_shader(const std::string& name) {
-  for (const Shader shader : {Shader::quadratic, Shader::spherical})
+  for (const Shader shader : c_shaders)
     if (name == to_string(shader)) return shader;
   return bad_input(
       fmt::format("--shader: '{}' is not a shader of this program; take {}", name, c_shader_names));
@@ -144,6 +148,10 @@ Result<DrawSettings> checked(const DrawOptions& o) {
   if (const Status status = check_table_size(o); !status) return status.error();
   if (o.address_bits) s.plan.tables = TableSize{*o.address_bits, *o.data_bits};
   s.plan.all_effects = o.all_effects;
+  if (o.form == "folded")
+    s.plan.form = ProcessorForm::folded;
+  else if (o.form && o.form != "unrolled")
+    return bad_input(fmt::format("--form: '{}' is not a form; take folded or unrolled", *o.form));
   if (o.lights && !o.all_effects) return bad_input("--lights goes with --all-effects; give both");
   s.plan.lights = o.lights;
   if (o.span_ends == "slerp")

@@ -23,6 +23,7 @@ struct DrawOptions {
   std::optional<unsigned> lights;  ///< with all effects
   std::optional<std::string> span_ends;
   std::string preset = "exact";
+  std::optional<std::string> form;  ///< of the shading processors; none: unrolled
   std::string size = "640x480";
   std::string out = "build/out";
   std::optional<std::string> highlight_test;
@@ -44,8 +45,8 @@ struct DrawSettings {
 
 Result<DrawSettings> checked(const DrawOptions& options);
 
-/// "quadratic or spherical", for help texts.
-inline constexpr const char* c_shader_names = "quadratic or spherical";
+/// For help texts.
+inline constexpr const char* c_shader_names = "quadratic, spherical or processors";
 /// By its name.
 Result<Shader> checked_shader(const std::string& name);
 

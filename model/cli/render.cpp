@@ -34,11 +34,12 @@ Result<Frame> golden_frame(const Scene& scene, const DrawSettings& draw) {
   const auto plan = plan_scene(scene, draw.plan);
   if (!plan) return plan.error();
   const std::unique_ptr<Setup> setup = make_setup(scene, draw.size, plan->key, draw.setup);
-  SceneStream stream(scene, *setup, plan->key, draw.threads);
+  SceneStream stream(*setup, plan->key, draw.threads);
   FrameAssembler assembler(draw.size, scene.background);
   Progress progress(scene.name);
   for (Batch batch; stream.next(batch);) {
-    progress.show(static_cast<double>(batch.triangles_done) / static_cast<double>(scene.triangles.size()));
+    progress.show(batch.done);
+    if (const Status status = check_shadow_counts(scene, stream); !status) return status.error();
     if (const Status status = assembler.add(batch.golden); !status) return status.error();
   }
   return assembler.frame();

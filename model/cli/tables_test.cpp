@@ -51,8 +51,9 @@ class TablesCommand : public ::testing::Test {
   std::optional<TemporaryFolder> folder_;
 };
 
-constexpr const char* c_files[] = {"rtl/tables/formats_pkg.vhd", "model/golden/formats.hpp",
-                                   "rtl/tables/cosine_pkg.vhd", "model/golden/cosine_tables.hpp"};
+constexpr const char* c_files[] = {"rtl/tables/formats_pkg.vhd",  "model/golden/formats.hpp",
+                                   "rtl/tables/cosine_pkg.vhd",   "model/golden/cosine_tables.hpp",
+                                   "rtl/tables/function_pkg.vhd", "model/golden/function_tables.hpp"};
 
 TEST_F(TablesCommand, WritesWhatIsCommittedAndThenFindsItAsGenerated) {
   const Outcome lacking = run({"--check"});

@@ -442,6 +442,24 @@ struct Exact {
   struct light_colour_channel_at {
     static constexpr const Field& intensity = c_light_colour_channel[0];
   };
+
+  static constexpr int c_processor_probe_header_bits = 4;
+  static constexpr std::array<Field, 2> c_processor_probe_header = {{
+      {"event", 0, 1, false, 0},
+      {"command", 1, 3, false, 0},
+  }};
+  struct processor_probe_header_at {
+    static constexpr const Field& event = c_processor_probe_header[0];
+    static constexpr const Field& command = c_processor_probe_header[1];
+  };
+
+  static constexpr int c_processor_probe_channel_bits = 22;
+  static constexpr std::array<Field, 1> c_processor_probe_channel = {{
+      {"radiance", 0, 22, false, 12},
+  }};
+  struct processor_probe_channel_at {
+    static constexpr const Field& radiance = c_processor_probe_channel[0];
+  };
 };
 
 struct Published {
@@ -821,6 +839,24 @@ struct Published {
   }};
   struct light_colour_channel_at {
     static constexpr const Field& intensity = c_light_colour_channel[0];
+  };
+
+  static constexpr int c_processor_probe_header_bits = 4;
+  static constexpr std::array<Field, 2> c_processor_probe_header = {{
+      {"event", 0, 1, false, 0},
+      {"command", 1, 3, false, 0},
+  }};
+  struct processor_probe_header_at {
+    static constexpr const Field& event = c_processor_probe_header[0];
+    static constexpr const Field& command = c_processor_probe_header[1];
+  };
+
+  static constexpr int c_processor_probe_channel_bits = 8;
+  static constexpr std::array<Field, 1> c_processor_probe_channel = {{
+      {"radiance", 0, 8, false, 0},
+  }};
+  struct processor_probe_channel_at {
+    static constexpr const Field& radiance = c_processor_probe_channel[0];
   };
 };
 

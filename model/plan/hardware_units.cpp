@@ -9,7 +9,9 @@ namespace {
 // Entities below one, with all that lies below them.
 class Units {
  public:
-  explicit Units(const HardwareKey& key) : key_(key), exact_(key.preset == Preset::exact) {}
+  // The walk of the shading processors is exact in either preset.
+  explicit Units(const HardwareKey& key)
+      : key_(key), exact_(key.preset == Preset::exact || key.shader == Shader::processors) {}
 
   std::map<std::string, int> take() && {
     // What is not there is not named.
@@ -30,6 +32,7 @@ class Units {
   }
   void add_z_interpolator() {
     add("z_interpolator");
+    add("plane_interpolator");
     add("line_interpolator", 2);
     add("parameter_register", exact_ ? 4 : 3);
   }
@@ -83,8 +86,32 @@ class Units {
     add("saturating_sum", config.channels);
     add("saturate", config.channels);
   }
+  void add_power_units() {
+    const ProcessorUnits& p = key_.processors;
+    if (p.specular) add("power", static_cast<int>(p.lights()));
+  }
+  void add_ambient_processor() { add(processor()); }
+  void add_processors_shader() {
+    const golden::ProcessorsConfig config = processors_config(key_);
+    const int planes = key_.preset == Preset::exact
+                           ? golden::ProcessorsLayout<golden::Exact>(config).planes()
+                           : golden::ProcessorsLayout<golden::Published>(config).planes();
+    add_stream_registers(1);
+    add_walker();
+    add_z_interpolator();
+    add("plane_interpolator", planes);
+    add("object_stage", config.shadows ? 1 : 0);
+    add("shading_pipeline");
+    add(processor(), config.processors());
+    add("shadow_counter", config.shadows ? config.processors() - 1 : 0);
+    add_power_units();
+    add("saturate", config.channels);
+  }
 
  private:
+  std::string processor() const {
+    return key_.processors.form == ProcessorForm::folded ? "shading_processor" : "unrolled_shading_processor";
+  }
   const HardwareKey& key_;
   bool exact_;
   std::map<std::string, int> counts_;
@@ -96,6 +123,8 @@ std::map<std::string, int> hardware_units(const HardwareKey& key) {
   Units units(key);
   if (key.shader == Shader::spherical)
     units.add_spherical_shader();
+  else if (key.shader == Shader::processors)
+    units.add_processors_shader();
   else
     units.add_quadratic_shader();
   return std::move(units).take();
@@ -116,7 +145,16 @@ std::map<std::string, int> depth_units(const HardwareKey& key) {
 
 std::map<std::string, int> ambient_units(const HardwareKey& key) {
   Units units(key);
-  units.add_ambient();
+  if (key.shader == Shader::processors)
+    units.add_ambient_processor();
+  else
+    units.add_ambient();
+  return std::move(units).take();
+}
+
+std::map<std::string, int> power_units(const HardwareKey& key) {
+  Units units(key);
+  units.add_power_units();
   return std::move(units).take();
 }
 

@@ -151,11 +151,12 @@ class Simulation {
     return Ok{};
   }
 
+  void note(std::string text) { summary_.notes.push_back(scene_.name + ": " + std::move(text)); }
+
   // A frame that proves little, or is worse than asked for, is not passed over in silence.
   void note_what_is_unusual() {
-    const auto note = [this](std::string text) {
-      summary_.notes.push_back(scene_.name + ": " + std::move(text));
-    };
+    if (scene_.shadows && s_.plan.shader != Shader::processors && !reflected_lights(scene_).empty())
+      note("its shadows are drawn by the shader processors alone; the frame has none, the reference has");
     const SetupCounts& n = summary_.setup;
     if (summary_.fragments == 0)
       note(fmt::format(
@@ -173,14 +174,13 @@ class Simulation {
           "{} pieces may err by more than {} colour steps after {} levels of splitting; a finer mesh helps",
           n.unresolved, s_.setup.quadratic.threshold, s_.setup.quadratic.max_level));
     if (s_.plan.shader == Shader::spherical)
-      note_of_bells(note);
+      note_of_bells();
     else if (n.overexposed != 0)
       note(
           fmt::format("{} samples are over-exposed more than four times and were held there", n.overexposed));
   }
 
-  template <class Note>
-  void note_of_bells(Note&& note) const {
+  void note_of_bells() {
     const HardwareKey& key = summary_.plan.key;
     const bool exact = key.preset == Preset::exact;
     const std::vector<bool> worn = worn_materials(scene_);
@@ -242,12 +242,13 @@ class Simulation {
       if (!trace) return trace.error();
       verilator_trace.emplace(std::move(*trace));
     }
+    for (const std::string& held : setup->notes()) note(held);
     auto init_file = InitFileWriter::open(files_.init(), key, setup->init_bits());
     if (!init_file) return init_file.error();
     auto golden_trace = TraceWriter::open(files_.trace("golden"), key);
     if (!golden_trace) return golden_trace.error();
 
-    SceneStream stream(scene_, *setup, summary_.plan.key, s_.threads);
+    SceneStream stream(*setup, summary_.plan.key, s_.threads);
     const std::size_t words_per_vector = (setup->init_bits() + 31) / 32;
     double verilator_seconds = 0.0;
     bool rtl_alive = verilator.has_value();
@@ -269,8 +270,8 @@ class Simulation {
                                       std::min(rtl.count(), golden_.fragments()));
     };
     for (Batch batch; stream.next(batch);) {
-      s_.on_progress("setup, golden model, Verilator", static_cast<double>(batch.triangles_done) /
-                                                           static_cast<double>(scene_.triangles.size()));
+      s_.on_progress("setup, golden model, Verilator", batch.done);
+      if (Status status = check_shadow_counts(scene_, stream); !status) return status;
       init_file->write(batch.init_words);
       golden_trace->write(batch.golden);
       if (Status status = golden_.add(batch.golden); !status)
@@ -481,6 +482,7 @@ std::string to_json(const SceneSummary& s) {
         {"unresolved", s.setup.unresolved},
         {"init_vectors", s.setup.vectors},
         {"line_records", s.setup.records},
+        {"shadow_vectors", s.setup.shadows},
         {"shaded_points", s.setup.shaded},
         {"overexposed_samples", s.setup.overexposed}}},
       {"setup_seconds", s.setup_seconds},

@@ -296,10 +296,7 @@ class SphericalSetup::ExactTriangle {
     std::vector<Walk> walks = walks_of(columns);
     // A triangle that covers no pixel needs no vector.
     if (walks.empty()) return;
-    std::array<std::int64_t, 3> depths;
-    for (std::size_t i = 0; i < 3; ++i)
-      depths[i] = fixed(depth_steps(triangle_.vertex[i].z), Exact::c_depth_sum_fraction_bits);
-    depth_.emplace(corners_, subpixel_bits_, depths);
+    depth_.emplace(corners_, subpixel_bits_, fixed_depths(triangle_));
     if (setup_.options_.ends == SpanEnds::slerped_along_edges)
       for (std::size_t i = 0; i < 3; ++i) vertex_[i] = vectors(surface_point(triangle_, corner(i)));
     append(columns, std::move(walks));

@@ -66,6 +66,7 @@ class SphericalSetup final : public Setup {
   SphericalSetup(const Scene& scene, FrameSize frame, const HardwareKey& key, SphericalSetupOptions options);
 
   unsigned init_bits() const override { return init_bits_; }
+  std::uint32_t units() const override { return static_cast<std::uint32_t>(scene_->triangles.size()); }
   void append(std::uint32_t triangle, std::vector<std::uint32_t>& words, SetupCounts& counts) const override;
 
   PointVectors vectors_at(const Material& material, const SurfacePoint& point) const;

@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "tables/wrapped_numbers.hpp"
+
 namespace halfway::tables {
 namespace {
 
@@ -65,25 +67,6 @@ constexpr std::string_view preset_name(bool exact) {
 std::string constant_name(const CosineTable& table) {
   return fmt::format("c_{}_cosine_{}_{}_{}", preset_name(table.exact), table.power, table.address_bits,
                      table.data_bits);
-}
-
-// The entries, separated by commas, on lines of at most `columns`.
-std::string wrapped(const CosineTable& table, std::string_view indent, std::size_t columns) {
-  std::string text, line(indent);
-  for (std::size_t i = 0; i < table.entries.size(); ++i) {
-    const bool last = i + 1 == table.entries.size();
-    const std::string word = fmt::format("{}{}", table.entries[i], last ? "" : ",");
-    if (line.size() > indent.size()) {
-      if (line.size() + 1 + word.size() > columns) {
-        text += line + "\n";
-        line = indent;
-      } else {
-        line += ' ';
-      }
-    }
-    line += word;
-  }
-  return text + line;
 }
 
 constexpr std::string_view c_notice = "Made by `make tables` from model/tables/cosine.cpp; edit that.";
@@ -150,7 +133,7 @@ std::string cosine_vhdl_package(const CosineSizes& sizes) {
   auto to = std::back_inserter(out);
   for (const CosineTable& table : tables)  // 120 columns with the bracket that closes
     fmt::format_to(to, "  constant {} : cosine_table_t(0 to {}) := (\n{});\n\n", constant_name(table),
-                   table.entries.size() - 1, wrapped(table, "    ", 118));
+                   table.entries.size() - 1, wrapped_numbers(table.entries, "    ", 118));
   out +=
       "  function cosine_table (exact : boolean; power, address_bits, data_bits : positive) return "
       "cosine_table_t is\n"
@@ -204,7 +187,7 @@ std::string cosine_cpp_header(const CosineSizes& sizes) {
   }
   for (const CosineTable& table : tables)
     fmt::format_to(to, "\ninline constexpr std::array<std::uint16_t, {}> {} = {{\n{}\n}};\n",
-                   table.entries.size(), constant_name(table), wrapped(table, "    ", 110));
+                   table.entries.size(), constant_name(table), wrapped_numbers(table.entries, "    ", 110));
   fmt::format_to(to, "\ninline constexpr std::array<CosineTable, {}> c_cosine_tables = {{{{\n",
                  tables.size());
   for (const CosineTable& table : tables)

@@ -7,6 +7,7 @@
 
 #include "common/file.hpp"
 #include "tables/formats.hpp"
+#include "tables/functions.hpp"
 
 namespace halfway::tables {
 
@@ -15,7 +16,9 @@ std::vector<GeneratedFile> generated_files(const CosineSizes& sizes) {
   return {{"rtl/tables/formats_pkg.vhd", vhdl_package(presets)},
           {"model/golden/formats.hpp", cpp_header(presets)},
           {"rtl/tables/cosine_pkg.vhd", cosine_vhdl_package(sizes)},
-          {"model/golden/cosine_tables.hpp", cosine_cpp_header(sizes)}};
+          {"model/golden/cosine_tables.hpp", cosine_cpp_header(sizes)},
+          {"rtl/tables/function_pkg.vhd", function_vhdl_package()},
+          {"model/golden/function_tables.hpp", function_cpp_header()}};
 }
 
 std::size_t first_different_line(const std::filesystem::path& checkout, const GeneratedFile& file) {

@@ -835,6 +835,47 @@ package formats_pkg is
 
   function light_colour_bits (exact : boolean; channels : natural) return natural;
 
+  type processor_probe_header_t is record
+    event : slice_t;
+    command : slice_t;
+  end record;
+
+  constant c_exact_processor_probe_header : processor_probe_header_t := (
+    event => (0, 0),
+    command => (3, 1)
+  );
+
+  constant c_published_processor_probe_header : processor_probe_header_t := (
+    event => (0, 0),
+    command => (3, 1)
+  );
+
+  function processor_probe_header (exact : boolean) return processor_probe_header_t;
+
+  constant c_exact_processor_probe_header_bits : natural := 4;
+  constant c_published_processor_probe_header_bits : natural := 4;
+
+  type processor_probe_channel_t is record
+    radiance : slice_t;
+  end record;
+
+  constant c_exact_processor_probe_channel : processor_probe_channel_t := (
+    radiance => (21, 0)
+  );
+
+  constant c_published_processor_probe_channel : processor_probe_channel_t := (
+    radiance => (7, 0)
+  );
+
+  function processor_probe_channel (exact : boolean) return processor_probe_channel_t;
+
+  constant c_exact_processor_probe_channel_bits : natural := 22;
+  constant c_published_processor_probe_channel_bits : natural := 8;
+
+  function processor_probe_channel_low (exact : boolean; channel : natural) return natural;
+
+  function processor_probe_bits (exact : boolean; channels : natural) return natural;
+
 end package;
 
 package body formats_pkg is
@@ -1153,6 +1194,35 @@ package body formats_pkg is
   function light_colour_bits (exact : boolean; channels : natural) return natural is
   begin
     return light_colour_channel_low(exact, channels);
+  end function;
+
+  function processor_probe_header (exact : boolean) return processor_probe_header_t is
+  begin
+    if exact then
+      return c_exact_processor_probe_header;
+    end if;
+    return c_published_processor_probe_header;
+  end function;
+
+  function processor_probe_channel (exact : boolean) return processor_probe_channel_t is
+  begin
+    if exact then
+      return c_exact_processor_probe_channel;
+    end if;
+    return c_published_processor_probe_channel;
+  end function;
+
+  function processor_probe_channel_low (exact : boolean; channel : natural) return natural is
+  begin
+    if exact then
+      return c_exact_processor_probe_header_bits + channel * c_exact_processor_probe_channel_bits;
+    end if;
+    return c_published_processor_probe_header_bits + channel * c_published_processor_probe_channel_bits;
+  end function;
+
+  function processor_probe_bits (exact : boolean; channels : natural) return natural is
+  begin
+    return processor_probe_channel_low(exact, channels);
   end function;
 
 end package body;

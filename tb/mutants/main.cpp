@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_mutants SOURCE VECTORS SCRATCH: puts one small fault after the other into a copy of the RTL and
-// runs the entity's testbench on it; each must be found. SOURCE is the project's root, VECTORS what
-// halfway_vectors wrote.
+// halfway_mutants SOURCE VECTORS SCRATCH [PART]: puts one small fault after the other into a copy of the RTL
+// and runs the entity's testbench on it; each must be found. SOURCE is the project's root, VECTORS what
+// halfway_vectors wrote; with PART only the faults in files whose names hold it.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -59,9 +59,11 @@ constexpr Mutant c_mutants[] = {
     {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
     {"interpolation/line_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '0' then"},
     // Carry turned round; the span takes the next triangle's step.
-    {"interpolation/z_interpolator.vhd", "de <= de1 when line_carry = '1' else de0",
+    {"interpolation/plane_interpolator.vhd", "de <= de1 when line_carry = '1' else de0",
      "de <= de0 when line_carry = '1' else de1"},
-    {"interpolation/z_interpolator.vhd", "increment => span_dx", "increment => dx"},
+    {"interpolation/plane_interpolator.vhd", "increment => span_dx", "increment => dx"},
+    // Depth that never takes the carry.
+    {"interpolation/z_interpolator.vhd", "line_carry => line_carry", "line_carry => line_load"},
     // Carry ignored in one register; the span takes the next triangle's step.
     {"interpolation/quadratic_interpolator.vhd", "de0_step   <= de0e1 when", "de0_step   <= de0e0 when"},
     {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
@@ -76,6 +78,21 @@ constexpr Mutant c_mutants[] = {
     // A line, or a span, that does not wait for what it needs.
     {"raster/triangle_walker.vhd", "r.line.valid and line_ready and (", "r.line.valid and ("},
     {"raster/triangle_walker.vhd", "r.line.valid and line_ready and not", "r.line.valid and not"},
+    // Of equal depths the last; a polygon on the surface is before it; a pixel shaded twice; a column that
+    // the
+    // token before has just changed; its change that does not go on with it; columns that a clear leaves; a
+    // token overwritten while it waits.
+    {"raster/object_stage.vhd", "keeps <= nearer or", "keeps <= nearer or not (kept(0) xor token(0)) or"},
+    {"raster/object_stage.vhd", "passes <= nearer and present", "passes <= present"},
+    {"raster/object_stage.vhd", "z < kept_z", "z <= kept_z"},
+    {"raster/object_stage.vhd", "      changed <= c_nothing;", "      changed <= kept;"},
+    {"raster/object_stage.vhd", "if changes = '1' and in_column = column then",
+     "if changes = '1' and z < 0 then"},
+    {"raster/object_stage.vhd", "if changes = '1' and in_column = column then",
+     "if r.valid = '1' and in_column = column then"},
+    {"raster/object_stage.vhd", "and column > r.last then", "and column > r.last and column(0) = '1' then"},
+    {"raster/object_stage.vhd", "not r.valid or not passes or out_ready",
+     "not r.valid or out_ready or not passes or r.forwarded"},
     // The next line's slope; the next pixel's horizon; light behind the horizon.
     {"illumination/diffuse_slice.vhd", "increment => slope",
      "increment => part(c_part.slope.high downto c_part.slope.low)"},
@@ -132,6 +149,7 @@ Result<Outcome> run(const Folders& folders, const char* file, const Mutant* muta
   const std::string entity = entity_of(file), top = entity + "_tb";
   for (const std::string& name :
        {std::string("tb/tb_pkg.vhd"), std::string("tb/shaders/shader_checker.vhd"),
+        std::string("tb/illumination/processor_checker.vhd"),
         "tb/" + (std::filesystem::path(file).parent_path() / (top + ".vhd")).string()}) {
     auto source = read_vhdl_source(folders.source, name);
     if (!source) return source.error();
@@ -175,20 +193,28 @@ Result<Outcome> run(const Folders& folders, const char* file, const Mutant* muta
 
 int main(int argc, char** argv) {
   using namespace halfway;
-  if (argc != 4) {
-    fmt::print(stderr, "usage: halfway_mutants SOURCE VECTORS SCRATCH\n");
+  if (argc != 4 && argc != 5) {
+    fmt::print(stderr, "usage: halfway_mutants SOURCE VECTORS SCRATCH [PART]\n");
     return static_cast<int>(ExitCode::bad_input);
   }
   const Folders folders{std::filesystem::absolute(argv[1]), std::filesystem::absolute(argv[2]),
                         std::filesystem::absolute(argv[3])};
+  std::vector<const Mutant*> mutants;
+  for (const Mutant& mutant : c_mutants)
+    if (argc == 4 || std::string_view(mutant.file).find(argv[4]) != std::string_view::npos)
+      mutants.push_back(&mutant);
+  if (mutants.empty()) {
+    fmt::print(stderr, "{}: no fault is in a file of this name\n", argv[4]);
+    return static_cast<int>(ExitCode::bad_input);
+  }
   // The first job has no fault in it, and must pass.
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
   int missed = 0, broken = 0;
   const auto work = [&] {
-    for (std::size_t job; (job = next++) <= std::size(c_mutants);) {
-      const Mutant* mutant = job == 0 ? nullptr : &c_mutants[job - 1];
-      const char* file = mutant == nullptr ? c_mutants[0].tested : mutant->tested;
+    for (std::size_t job; (job = next++) <= mutants.size();) {
+      const Mutant* mutant = job == 0 ? nullptr : mutants[job - 1];
+      const char* file = mutant == nullptr ? mutants[0]->tested : mutant->tested;
       const auto outcome = run(folders, file, mutant);
       const std::lock_guard lock(mutex);
       if (!outcome) {
@@ -209,7 +235,7 @@ int main(int argc, char** argv) {
     std::vector<std::jthread> workers;
     for (int i = 0; i < 2; ++i) workers.emplace_back(work);
   }
-  fmt::print("{} of {} mutants not found, {} could not be run\n", missed, std::size(c_mutants), broken);
+  fmt::print("{} of {} mutants not found, {} could not be run\n", missed, mutants.size(), broken);
   return static_cast<int>(broken > 0   ? ExitCode::tool_failed
                           : missed > 0 ? ExitCode::differs
                                        : ExitCode::equal);

@@ -21,14 +21,20 @@ int main(int argc, char** argv) {
       std::pair{"parameter_register", &write_parameter_register},
       std::pair{"stream_register", &write_stream_register},
       std::pair{"line_interpolator", &write_line_interpolator},
+      std::pair{"plane_interpolator", &write_plane_interpolator},
       std::pair{"z_interpolator", &write_z_interpolator},
       std::pair{"quadratic_interpolator", &write_quadratic_interpolator},
       std::pair{"edge_walker", &write_edge_walker},
+      std::pair{"object_stage", &write_object_stage},
       std::pair{"triangle_walker", &write_triangle_walker},
       std::pair{"diffuse_slice", &write_diffuse_slice},
       std::pair{"specular_slice", &write_specular_slice},
+      std::pair{"shadow_counter", &write_shadow_counter},
+      std::pair{"shading_processor", &write_shading_processor},
+      std::pair{"unrolled_shading_processor", &write_shading_processor},
       std::pair{"quadratic_shader", &write_quadratic_shader},
       std::pair{"spherical_shader", &write_spherical_shader},
+      std::pair{"processors_shader", &write_processors_shader},
   };
   bool found = false;
   for (const auto& [name, write] : entities) {

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of rtl/shaders/shading_pipeline.vhd: the ambient processor, then those of light 1, of light 2 and so
+// on; tokens run through all of them in order.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "golden/shading_processor.hpp"
+
+namespace halfway::golden {
+
+template <class Preset>
+class ShadingPipeline {
+ public:
+  using Token = ShadingToken<Preset>;
+
+  explicit ShadingPipeline(const ProcessorsConfig& config) {
+    processors_.reserve(static_cast<std::size_t>(config.processors()));
+    processors_.emplace_back(config, Term::ambient, 0);
+    for (int light = 1; light <= config.lights(); ++light) {
+      if (config.diffuse) processors_.emplace_back(config, Term::diffuse, light);
+      if (config.specular) processors_.emplace_back(config, Term::specular, light);
+    }
+  }
+
+  /// Makes of `token` what comes out behind the last processor: true where it does, an object. Loads and
+  /// shadow polygons do not. watch(index, token) sees the token behind each processor.
+  template <class Watch>
+  bool process(Token& token, Watch&& watch) {
+    for (std::size_t i = 0; i < processors_.size(); ++i) {
+      processors_[i].process(token);
+      watch(i, token);
+    }
+    return token.is_object();
+  }
+  bool process(Token& token) {
+    return process(token, [](std::size_t, const Token&) {});
+  }
+
+  bool fault() const {
+    return std::any_of(processors_.begin(), processors_.end(), [](const auto& p) { return p.fault(); });
+  }
+
+ private:
+  std::vector<ShadingProcessor<Preset>> processors_;
+};
+
+}  // namespace halfway::golden

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the shading processors hand on, field by field; flat words only at the borders.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "golden/processors_layout.hpp"
+#include "golden/vector_shift.hpp"
+#include "golden/word.hpp"
+
+namespace halfway::golden {
+
+/// Unsigned words of one format: red, green, blue, or the first alone.
+using Channels = std::array<std::uint32_t, 3>;
+
+/// What a processor's registers hold of its light, in view space; the formats are those of light_axes and
+/// light_colour.
+struct ShadingLight {
+  bool positional = false, spot = false;
+  int shift = 0;  ///< of the places of surfaces, exact
+  std::int64_t outer = 0;
+  std::uint32_t slope = 0;
+  int around_eye = 0;  ///< shadow volumes that hold the eye
+  Axes place{};        ///< or direction to the light
+  Axes axis{};
+  Axes half{};  ///< published
+  Channels intensity{};
+};
+
+/// Processors_pkg has the layout. Of the flat words of a token that loads only the light counts; of a shadow
+/// polygon's only the pixel.
+template <class Preset>
+struct ShadingToken {
+  Command command = Command::new_pixel;
+  std::uint32_t light_number = 0;  ///< of the light that is loaded or that casts the shadow
+  bool opens = false, normalize = false;
+  std::uint32_t triangle = 0, y = 0, x = 0, z = 0;
+  Axes normal{};  ///< a vector up to the ambient processor, a direction behind it
+  Axes place{};   ///< P, or the view ray
+  std::int64_t distance = 0;
+  Axes view{};
+  std::uint32_t exponent = 0;
+  Channels ambient{}, diffuse{}, specular{};  ///< k of the material
+  Channels radiance{};                        ///< I so far
+  ShadingLight light{};
+
+  bool is_object() const {
+    return command == Command::new_pixel || command == Command::new_object ||
+           command == Command::new_scanline;
+  }
+  bool is_define() const { return command == Command::define || command == Command::redefine; }
+
+  static ShadingToken decode(const ProcessorsConfig& config, std::span<const std::uint32_t> words) {
+    const ProcessorsLayout<Preset> layout(config);
+    ShadingToken token;
+    const auto word = [&](const Field& field) { return static_cast<std::uint32_t>(get_bits(words, field)); };
+    token.command = static_cast<Command>(word(At::command));
+    token.light_number = word(At::light);
+    token.opens = word(At::opens) != 0;
+    token.normalize = word(At::normalize) != 0;
+    if (token.is_define()) token.light = decode_light(config, words);
+    if (!token.is_object() && token.command != Command::shadow) return token;
+    token.triangle = word(At::triangle);
+    token.y = word(At::y);
+    token.x = word(At::x);
+    token.z = word(At::z);
+    if (!token.is_object()) return token;
+    token.for_each_word(config, layout,
+                        [&](auto& value, int low, int bits) { get_word(words, value, low, bits); });
+    return token;
+  }
+
+  /// Writes this token's fields and leaves all other bits as they are.
+  void encode(const ProcessorsConfig& config, std::span<std::uint32_t> words) const {
+    const ProcessorsLayout<Preset> layout(config);
+    set_bits(words, At::command, static_cast<std::uint32_t>(command));
+    set_bits(words, At::light, light_number);
+    set_bits(words, At::opens, opens);
+    set_bits(words, At::normalize, normalize);
+    if (is_define()) encode_light(config, light, words);
+    if (!is_object() && command != Command::shadow) return;
+    set_bits(words, At::triangle, triangle);
+    set_bits(words, At::y, y);
+    set_bits(words, At::x, x);
+    set_bits(words, At::z, z);
+    if (!is_object()) return;
+    for_each_word(config, layout, [&](const auto& value, int low, int bits) {
+      set_bits(words, word_at(low, bits), static_cast<std::uint64_t>(value));
+    });
+  }
+
+  /// The light of a vector of the host, or of a token, that defines it.
+  static ShadingLight decode_light(const ProcessorsConfig& config, std::span<const std::uint32_t> words) {
+    ShadingLight light;
+    for_each_light_word(config, light,
+                        [&](auto& value, int low, int bits) { get_word(words, value, low, bits); });
+    return light;
+  }
+  static void encode_light(const ProcessorsConfig& config, const ShadingLight& light,
+                           std::span<std::uint32_t> words) {
+    for_each_light_word(config, light, [&](const auto& value, int low, int bits) {
+      set_bits(words, word_at(low, bits), static_cast<std::uint64_t>(value));
+    });
+  }
+
+ private:
+  using At = typename Preset::pixel_header_at;
+  static constexpr bool c_exact = ProcessorsLayout<Preset>::c_exact;
+
+  static constexpr Field word_at(int low, int bits) { return {"", low, bits, false, 0}; }
+
+  template <class T>
+  static void get_word(std::span<const std::uint32_t> words, T& value, int low, int bits) {
+    const std::uint64_t raw = get_bits(words, word_at(low, bits));
+    if constexpr (std::is_signed_v<T>)
+      value = static_cast<T>(static_cast<std::int64_t>(raw << (64 - bits)) >> (64 - bits));
+    else
+      value = static_cast<T>(raw);
+  }
+
+  // use(word, lowest bit, bits) for every word of an object behind its header.
+  template <class Use>
+  void for_each_word(const ProcessorsConfig& config, const ProcessorsLayout<Preset>& layout, Use&& use) {
+    visit(*this, config, layout, use);
+  }
+  template <class Use>
+  void for_each_word(const ProcessorsConfig& config, const ProcessorsLayout<Preset>& layout,
+                     Use&& use) const {
+    visit(*this, config, layout, use);
+  }
+  template <class Self, class Use>
+  static void visit(Self& self, const ProcessorsConfig& config, const ProcessorsLayout<Preset>& layout,
+                    Use&& use) {
+    for (int i = 0; i < c_axes; ++i) {
+      const auto axis = static_cast<std::size_t>(i);
+      use(self.normal[axis], layout.normal_low(i), Preset::c_vector_bits);
+      if (layout.has_place()) use(self.place[axis], layout.place_low(i), Preset::c_vector_bits);
+      if (layout.has_view()) use(self.view[axis], layout.view_low(i), Preset::c_direction_bits);
+    }
+    if (layout.has_distance()) use(self.distance, layout.distance_low(), Preset::c_vector_bits);
+    const int material = layout.material_low();
+    if (config.specular) use(self.exponent, material + layout.exponent_low(), Preset::c_exponent_bits);
+    for (int i = 0; i < config.channels; ++i) {
+      const auto channel = static_cast<std::size_t>(i);
+      use(self.ambient[channel], material + layout.ambient_low(i), Preset::c_coefficient_bits);
+      if (config.diffuse)
+        use(self.diffuse[channel], material + layout.diffuse_low(i), Preset::c_coefficient_bits);
+      if (config.specular)
+        use(self.specular[channel], material + layout.specular_low(i), Preset::c_coefficient_bits);
+      use(self.radiance[channel], layout.radiance_low(i), Preset::c_radiance_bits);
+    }
+  }
+
+  template <class Light, class Use>
+  static void for_each_light_word(const ProcessorsConfig& config, Light& light, Use&& use) {
+    using Layout = ProcessorsLayout<Preset>;
+    using Header = typename Preset::light_axes_header_at;
+    using Axis = typename Preset::light_axes_channel_at;
+    const auto at = [&](auto& value, const Field& field, int low) {
+      use(value, low + field.low, field.bits);
+    };
+    constexpr int c_low = Layout::light_axes_low();
+    at(light.positional, Header::positional, c_low);
+    at(light.spot, Header::spot, c_low);
+    if constexpr (c_exact) at(light.shift, Header::shift, c_low);
+    at(light.outer, Header::outer, c_low);
+    at(light.slope, Header::slope, c_low);
+    at(light.around_eye, Header::around_eye, c_low);
+    for (int i = 0; i < c_axes; ++i) {
+      const auto axis = static_cast<std::size_t>(i);
+      at(light.place[axis], Axis::place, Layout::light_axis_low(i));
+      at(light.axis[axis], Axis::axis, Layout::light_axis_low(i));
+      if constexpr (!c_exact) at(light.half[axis], Axis::half, Layout::light_axis_low(i));
+    }
+    for (int i = 0; i < config.channels; ++i)
+      at(light.intensity[static_cast<std::size_t>(i)], Preset::light_colour_channel_at::intensity,
+         Layout::light_colour_low(i));
+  }
+};
+
+}  // namespace halfway::golden

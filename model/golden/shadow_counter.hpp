@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of rtl/illumination/shadow_counter.vhd: one light's shadow volumes around the surfaces of a line.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "golden/formats.hpp"
+
+namespace halfway::golden {
+
+class ShadowCounter {
+ public:
+  ShadowCounter() : counts_(std::size_t{1} << Exact::c_pixel_x_bits) {}
+
+  void clear() {
+    if (!counted_) return;
+    counts_.assign(counts_.size(), 0);
+    counted_ = false;
+  }
+  /// A shadow polygon at column x, the entry of a volume or its exit. A count past its format is held.
+  void count(std::uint32_t x, bool opens) {
+    std::int16_t& held = counts_[x];
+    counted_ = true;
+    if (held == (opens ? c_most : c_least))
+      fault_ = true;
+    else
+      held = static_cast<std::int16_t>(held + (opens ? 1 : -1));
+  }
+  /// The count at column x, which starts anew.
+  int take(std::uint32_t x) {
+    const int held = counts_[x];
+    counts_[x] = 0;
+    return held;
+  }
+  /// A count has left its format.
+  bool fault() const { return fault_; }
+
+ private:
+  static constexpr int c_most = (1 << (Exact::c_shadow_count_bits - 1)) - 1, c_least = -c_most - 1;
+
+  std::vector<std::int16_t> counts_;
+  bool counted_ = false;  ///< since the last clear: else there is nothing to clear
+  bool fault_ = false;
+};
+
+}  // namespace halfway::golden

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of rtl/illumination/spot_cone.vhd.
+#pragma once
+
+#include <algorithm>
+
+#include "golden/formats.hpp"
+#include "golden/vector_multiply.hpp"
+
+namespace halfway::golden {
+
+template <class Preset>
+class SpotCone {
+ public:
+  /// Of a sum of products of directions.
+  static constexpr int c_sum_fraction = 2 * Preset::c_direction_fraction_bits;
+  /// Of what the cosine is above the outer edge's: with the largest slope a step is one of t.
+  static constexpr int c_over_fraction = 28;
+
+  /// The light's share in format weight, by the cosine of the angle between the way from the light to the
+  /// point and the cone's axis: 0 from the outer edge on, 1 up to the inner one, t^2 (3 - 2 t) between, t
+  /// linear in the cosine. axis_sum: the exact dot product of the direction *to* the light and the axis.
+  /// outer: the outer edge's cosine as a direction; slope: 1 / (inner cosine - outer), in format spot_slope.
+  static constexpr std::uint32_t factor(std::int64_t axis_sum, std::int64_t outer, std::uint32_t slope) {
+    const std::int64_t over = -axis_sum - (outer << Preset::c_direction_fraction_bits);
+    if (over <= 0) return 0;
+    const auto over_cut = static_cast<std::uint64_t>(over) >> (c_sum_fraction - c_over_fraction);
+    constexpr std::uint64_t c_one = std::uint64_t{1} << Preset::c_weight_fraction_bits;
+    const std::uint64_t t =
+        std::min((over_cut * slope) >>
+                     (c_over_fraction + Preset::c_spot_slope_fraction_bits - Preset::c_weight_fraction_bits),
+                 c_one);
+    return static_cast<std::uint32_t>(round_half_up(static_cast<std::int64_t>(t * t * (3 * c_one - 2 * t)),
+                                                    2 * Preset::c_weight_fraction_bits));
+  }
+};
+
+}  // namespace halfway::golden

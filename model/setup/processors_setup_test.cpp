@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shading processors' setup through their golden model: frames against the reference, triangle by
+// triangle and line by line, scenes that leave the formats, and lights where directions end.
+#include "setup/processors_setup.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "frame/assemble.hpp"
+#include "frame/metrics.hpp"
+#include "golden/processors_layout.hpp"
+#include "golden/word.hpp"
+#include "plan/plan.hpp"
+#include "reference/renderer.hpp"
+#include "run/golden_run.hpp"
+#include "scene/builtin_meshes.hpp"
+#include "scene/load_scene.hpp"
+#include "setup/random_scenes.hpp"
+#include "setup/random_solids.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::HasSubstr, ::testing::IsEmpty, ::testing::UnorderedElementsAre;
+
+constexpr FrameSize c_frame{96, 72};
+
+HardwareKey key_of(const Scene& scene, Preset preset = Preset::exact) {
+  const auto plan = plan_scene(scene, {.shader = Shader::processors, .preset = preset});
+  if (!plan) throw std::runtime_error(plan.error().message);
+  return plan->key;
+}
+HardwareKey with_shadows(HardwareKey key) {
+  key.processors.shadows = true;
+  return key;
+}
+
+struct Drawn {
+  std::vector<std::uint32_t> words;
+  std::vector<Fragment> fragments;
+  SetupCounts counts;
+  Frame frame;
+  bool fault = false;
+};
+
+Drawn draw(const Scene& scene, const HardwareKey& key, FrameSize size = c_frame) {
+  const auto setup = make_setup(scene, size, key, {});
+  Drawn out;
+  setup->append_prologue(out.words, out.counts);
+  for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, out.words, out.counts);
+  const auto golden = make_golden_model(key);
+  EXPECT_EQ(golden->init_bits(), setup->init_bits());
+  golden->draw(out.words, out.fragments);
+  out.fault = golden->fault();
+  FrameAssembler assembler(size, scene.background);
+  const Status status = assembler.add(out.fragments);
+  EXPECT_TRUE(status) << status.error().message;
+  out.frame = assembler.frame();
+  return out;
+}
+
+ReferenceImage reference_of(const Scene& scene, FrameSize size = c_frame) {
+  return render_reference(scene, Projector(scene, size, {}).project_all(), {.frame = size, .threads = 1});
+}
+
+FrameDistance distance(const Scene& scene, const Frame& frame, FrameSize size = c_frame) {
+  const ReferenceImage reference = reference_of(scene, size);
+  return *frame_distance(frame, reference.frame, reference.mask);
+}
+
+Scene builtin(const std::string& name) {
+  const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
+  if (!scene) throw std::runtime_error(scene.error().message);
+  return *scene;
+}
+
+// Lights of the kind asked for, over triangles or a mesh.
+Scene random_scene(RandomScenes& random, RandomScenes::Lights kind) {
+  Scene scene;
+  scene.name = "random";
+  scene.ambient = random.colour(false);
+  scene.materials = {random.material(false, false)};
+  scene.materials[0].brdf = Brdf::blinn;
+  if (random.one_in(2)) {
+    RandomScenes::set_mesh(scene, make_uv_sphere(9, 7, 1.0));
+    scene.camera.eye_world = {0.0, 0.3, 3.4};
+  } else {
+    random.add_triangles(scene, 12, 0.8, 0.6);
+  }
+  random.add_lights(scene, random.whole(1, 3), kind, 1.0, false);
+  return scene;
+}
+
+TEST(ProcessorsSetup, ExactDrawsTheReference) {
+  RandomScenes random(1);
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto kind : {RandomScenes::directional, RandomScenes::positional, RandomScenes::spots})
+    for (int i = 0; i < 40; ++i) {
+      SCOPED_TRACE(fmt::format("kind {}, scene {}", static_cast<int>(kind), i));
+      const Scene scene = random_scene(random, kind);
+      const FrameDistance d = distance(scene, draw(scene, key_of(scene)).frame);
+      EXPECT_LE(d.max_lsb, 1U);
+      least = std::min(least, d.psnr_db);
+    }
+  EXPECT_GT(least, 50.0);
+  fmt::print("least PSNR {:.2f} dB\n", least);
+}
+
+TEST(ProcessorsSetup, ScaleDoesNotMatter) {
+  RandomScenes random(2);
+  for (const double scale : {1e-9, 1e-3, 1e3, 1e9})
+    for (int i = 0; i < 10; ++i) {
+      Scene scene = random_scene(random, RandomScenes::any);
+      for (glm::dvec3& p : scene.positions_world) p *= scale;
+      for (PositionalLight& l : scene.positional) l.position_world *= scale;
+      for (SpotLight& l : scene.spots) l.position_world *= scale;
+      scene.camera.eye_world *= scale;
+      EXPECT_LE(distance(scene, draw(scene, key_of(scene)).frame).max_lsb, 1U) << scale;
+    }
+}
+
+TEST(ProcessorsSetup, ExactDrawsTheBuiltInScenes) {
+  for (const char* name : {"highlights", "lights", "matte", "spheres", "teapot"}) {
+    const Scene scene = builtin(name);
+    const FrameDistance d = distance(scene, draw(scene, key_of(scene), {320, 240}).frame, {320, 240});
+    EXPECT_LE(d.max_lsb, 1U) << name;
+    EXPECT_GT(d.psnr_db, 60.0) << name;
+  }
+}
+
+// Near and far planes cut triangles; the eye stands among them.
+TEST(ProcessorsSetup, TrianglesThroughTheNearPlane) {
+  RandomScenes random(4);
+  int cut = 0;
+  for (int i = 0; i < 60; ++i) {
+    Scene scene = random_scene(random, RandomScenes::any);
+    scene.camera.eye_world = random.within(0.3, 1.2) * random.unit();
+    scene.camera.target_world = random.cube();
+    scene.camera.near = random.log_within(1e-3, 0.5);
+    scene.camera.far = 10.0;
+    const Drawn drawn = draw(scene, key_of(scene));
+    cut += drawn.counts.triangles > drawn.counts.projection.visible;
+    const FrameDistance d = distance(scene, drawn.frame);
+    EXPECT_LE(d.max_lsb, 2U) << "scene " << i << " near " << scene.camera.near;
+  }
+  EXPECT_GT(cut, 10);
+}
+
+Scene ball() {
+  Scene scene;
+  scene.name = "ball";
+  scene.materials = {{.name = "clay", .colour = {0.9, 0.5, 0.4}, .specular = 0.5, .exponent = 30.0}};
+  RandomScenes::set_mesh(scene, make_uv_sphere(16, 12, 1.0));
+  scene.camera.eye_world = {0.0, 0.0, 3.4};
+  return scene;
+}
+
+TEST(ProcessorsSetup, LightsWhereDirectionsEnd) {
+  const auto error = [](const Scene& scene) {
+    return distance(scene, draw(scene, key_of(scene)).frame).max_lsb;
+  };
+  // At the eye.
+  Scene scene = ball();
+  scene.positional = {{scene.camera.eye_world, glm::dvec3(0.8)}};
+  EXPECT_LE(error(scene), 1U);
+  // Beyond any number of the format: as at infinity.
+  for (const double far : {1e6, 1e12, 1e30, 1e300}) {
+    scene.positional = {{far * glm::dvec3(0.3, 0.5, 0.8), glm::dvec3(0.8)}};
+    EXPECT_LE(error(scene), 1U) << far;
+  }
+  // On the surface, and right above it.
+  for (const double above : {0.0, 1e-9, 1e-6, 1e-3}) {
+    scene.positional = {{(1.0 + above) * scene.positions_world[40], glm::dvec3(0.8)}};
+    EXPECT_LE(error(scene), above < 1e-3 ? 8U : 2U) << above;
+  }
+  // Behind the eye, and behind the ball.
+  for (const double z : {100.0, 5.0, -3.0}) {
+    scene.positional = {{{0.1, 0.2, z}, glm::dvec3(0.8)}};
+    EXPECT_LE(error(scene), 1U) << z;
+  }
+  // A spot without a soft edge, and one that is all soft edge.
+  scene.positional.clear();
+  scene.spots = {{.position_world = {0.0, 0.0, 3.0}, .cos_inner = 0.99, .cos_outer = 0.99}};
+  EXPECT_LE(distance(scene, draw(scene, key_of(scene)).frame).percentile99, 1U);
+  scene.spots[0].cos_inner = 1.0;
+  scene.spots[0].cos_outer = 0.0;
+  EXPECT_LE(error(scene), 2U);
+}
+
+// Whatever it is, it is drawn: each pixel that it covers, in colours of the format.
+TEST(ProcessorsSetup, DegenerateNormalsAndSliversAreDrawn) {
+  RandomScenes random(6);
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (int i = 0; i < 30; ++i) {
+      Scene scene = random_scene(random, RandomScenes::any);
+      for (std::size_t n = 0; n < scene.normals_world.size(); n += 3)
+        scene.normals_world[n] = i % 2 == 0 ? glm::dvec3(0.0) : -scene.normals_world[n];
+      for (std::size_t p = 0; p + 1 < scene.positions_world.size(); p += 5)
+        scene.positions_world[p + 1] = scene.positions_world[p] + 1e-4 * random.cube();
+      const ReferenceImage reference = reference_of(scene);
+      const HardwareKey key = key_of(scene, preset);
+      for (const Drawn& drawn : {draw(scene, key), draw(scene, with_shadows(key))}) {
+        std::vector<std::uint8_t> mask(reference.mask.size(), 0);
+        for (const Fragment& f : drawn.fragments) mask[std::size_t{f.y} * c_frame.width + f.x] = 1;
+        EXPECT_EQ(mask, reference.mask);
+        EXPECT_FALSE(drawn.fault);
+      }
+    }
+}
+
+// A flat triangle whose normals are zero has its own.
+TEST(ProcessorsSetup, OneZeroNormalIsTheTrianglesOwn) {
+  Scene scene = ball();
+  scene.directional = {{glm::normalize(glm::dvec3(0.2, 0.3, 1.0)), glm::dvec3(1.0)}};
+  scene.normals_world = {glm::dvec3(0.0)};
+  for (SceneTriangle& t : scene.triangles) t.normal = {0, 0, 0};
+  EXPECT_FALSE(key_of(scene).processors.normalize);
+  const FrameDistance d = distance(scene, draw(scene, key_of(scene)).frame);
+  EXPECT_LE(d.max_lsb, 1U);
+}
+
+std::vector<std::string> notes(const Scene& scene, Preset preset) {
+  return make_setup(scene, c_frame, key_of(scene, preset), {})->notes();
+}
+
+TEST(ProcessorsSetup, WhatIsHeldIsNoted) {
+  Scene scene = ball();
+  scene.directional = {{.intensity = glm::dvec3(64.0)}};
+  scene.ambient = glm::dvec3(64.0);
+  scene.materials[0].ambient = scene.materials[0].diffuse = 1.0;
+  scene.materials[0].exponent = 8000.0;
+  scene.materials.push_back({.name = "unworn", .diffuse = 1e6});
+  EXPECT_THAT(notes(scene, Preset::exact), IsEmpty());
+  // Colour steps, k and exponents as published.
+  EXPECT_THAT(notes(scene, Preset::published),
+              UnorderedElementsAre(HasSubstr("ambient light is 64 times white and was held at 1"),
+                                   HasSubstr("directional light 1 is 64 times white and was held at 1"),
+                                   HasSubstr("'clay': its exponent 8000 was held at 1023"),
+                                   HasSubstr("its k_a times the ambient light is 57.6 times white"),
+                                   HasSubstr("its k_d times the directional light 1 is 57.6 times white"),
+                                   HasSubstr("its k_s times the directional light 1 is 32 times white")));
+  scene = ball();
+  scene.materials[0].diffuse = 20.0;
+  scene.positional = {{{0.0, 0.0, 1e30}, glm::dvec3(100.0)}};
+  scene.materials[0].exponent = 1e5;
+  EXPECT_THAT(notes(scene, Preset::exact),
+              UnorderedElementsAre(HasSubstr("positional light 1 is 100 times white and was held at 64.25"),
+                                   HasSubstr("'clay': its k_d of 18 was held at 16"),
+                                   HasSubstr("its exponent 100000 was held at 8192"),
+                                   HasSubstr("its k_d times the positional light 1 is 1800 times white"),
+                                   HasSubstr("so far away that it was drawn as a directional one")));
+  // The colours that come of it are the largest.
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (const Fragment& f : draw(scene, key_of(scene, preset)).fragments)
+      if (f.x == c_frame.width / 2 && f.y == c_frame.height / 2) {
+        EXPECT_EQ(f.red, 255);
+      }
+}
+
+// With hardware for shadows the stream goes by lines; each pixel is shaded as it is without.
+TEST(ProcessorsSetup, LinesDrawWhatTrianglesDraw) {
+  RandomScenes random(3);
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (int i = 0; i < 30; ++i) {
+      const Scene scene = random_scene(random, RandomScenes::any);
+      const HardwareKey key = key_of(scene, preset);
+      const Drawn triangles = draw(scene, key), lines = draw(scene, with_shadows(key));
+      ASSERT_EQ(triangles.frame.rgb, lines.frame.rgb) << to_string(preset) << ", scene " << i;
+      EXPECT_FALSE(lines.fault);
+      // Each pixel once.
+      EXPECT_LE(lines.fragments.size(), triangles.fragments.size());
+    }
+}
+
+// Pixels that the frame and the reference, its shadows cast by rays, colour differently.
+struct Agreement {
+  std::uint64_t pixels = 0, differ = 0, faults = 0;
+};
+
+void compare_shadows(Scene scene, Preset preset, FrameSize size, Agreement& sum) {
+  for (Material& m : scene.materials) m.specular = 0.0;
+  const Drawn drawn = draw(scene, key_of(scene, preset), size);
+  const ReferenceImage reference = reference_of(scene, size);
+  sum.faults += drawn.fault;
+  for (std::size_t i = 0; i < reference.mask.size(); ++i) {
+    if (reference.mask[i] == 0) continue;
+    ++sum.pixels;
+    int most = 0;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
+      most = std::max(most, std::abs(int{reference.frame.rgb[c]} - int{drawn.frame.rgb[c]}));
+    sum.differ += most > 1;
+  }
+}
+
+/// A floor on which solids stand.
+Scene on_a_floor(RandomSolids& random, int solids) {
+  Scene scene = random.scene(solids);
+  Mesh floor = make_box({30.0, 0.5, 30.0}, 2);
+  for (glm::dvec3& p : floor.positions) p.y -= 1.5;
+  add_mesh(scene, floor);
+  scene.directional[0].to_light_world.y = std::abs(scene.directional[0].to_light_world.y) + 0.1;
+  scene.directional[0].to_light_world = glm::normalize(scene.directional[0].to_light_world);
+  scene.camera.up_world = {0.1, 1.0, 0.1};
+  return scene;
+}
+
+void expect_rays(const Agreement& sum, std::uint64_t least_pixels) {
+  EXPECT_GT(sum.pixels, least_pixels);
+  EXPECT_LT(sum.differ * 1'000, sum.pixels) << sum.differ << " of " << sum.pixels;
+  EXPECT_EQ(sum.faults, 0U);
+}
+
+TEST(ProcessorsSetup, ShadowsAreThoseOfRays) {
+  RandomSolids random(5);
+  Agreement sum;
+  for (int i = 0; i < 60; ++i) compare_shadows(random.scene(1 + i % 5), Preset::exact, {160, 120}, sum);
+  for (int i = 0; i < 20; ++i) compare_shadows(on_a_floor(random, 4), Preset::exact, {160, 120}, sum);
+  expect_rays(sum, 300'000);
+  sum = {};
+  compare_shadows(builtin("shadows"), Preset::exact, {640, 480}, sum);
+  fmt::print("{} of {} pixels of the built-in scene differ\n", sum.differ, sum.pixels);
+  expect_rays(sum, 120'000);
+}
+
+TEST(ProcessorsSetup, ShadowsSeenFromWithinThem) {
+  RandomSolids random(8);
+  Agreement sum;
+  for (int i = 0; i < 30; ++i) {
+    Scene scene = on_a_floor(random, 4);
+    const LightPoint light = light_point(scene, {i % 2 ? LightKind::directional : LightKind::positional, 0});
+    const glm::dvec3 caster = scene.positions_world[i % 4 < 2 ? 0 : 5];
+    scene.camera.eye_world = caster - random.within(0.2, 1.0) * glm::normalize(light.way_from(caster)) +
+                             random.within(1e-4, 0.3) * random.unit();
+    scene.camera.eye_world.y = std::max(scene.camera.eye_world.y, -1.2);
+    scene.camera.target_world = random.cube(1.0);
+    compare_shadows(scene, Preset::exact, {160, 120}, sum);
+  }
+  expect_rays(sum, 200'000);
+}
+
+TEST(ProcessorsSetup, ShadowsWhereTheNearPlaneCutsOrMeshesAreOpen) {
+  RandomSolids random(9);
+  Agreement sum;
+  for (int i = 0; i < 30; ++i) {
+    Scene scene = on_a_floor(random, 4);
+    if (i % 2 == 0) {
+      scene.camera.eye_world = 3.0 * random.unit();
+      scene.camera.eye_world.y = std::abs(scene.camera.eye_world.y) - 1.0;
+      scene.camera.near = random.within(1.0, 3.0);
+    } else {
+      for (int k = 0; k < 20; ++k) scene.triangles.erase(scene.triangles.begin() + random.whole(0, 30));
+    }
+    compare_shadows(scene, Preset::exact, {160, 120}, sum);
+  }
+  expect_rays(sum, 200'000);
+}
+
+// In preset published N turns otherwise between vertices, but shadows fall on the same pixels: where it is
+// dark without a light that would shine.
+TEST(ProcessorsSetup, ShadowsOfBothPresetsFallOnTheSamePixels) {
+  RandomSolids random(10);
+  std::uint64_t dark = 0, apart = 0;
+  for (int i = 0; i < 10; ++i) {
+    Scene scene = on_a_floor(random, 3);
+    scene.positional.clear();
+    scene.spots.clear();
+    scene.materials[0].specular = 0.0;
+    const auto darkened = [&](Preset preset) {
+      Scene lit = scene;
+      lit.shadows = false;
+      const Frame shaded = draw(scene, key_of(scene, preset)).frame,
+                  all = draw(lit, key_of(lit, preset)).frame;
+      std::vector<int> by;
+      for (std::size_t c = 0; c < all.rgb.size(); c += 3) by.push_back(all.rgb[c] - shaded.rgb[c]);
+      return by;
+    };
+    const std::vector<int> exact = darkened(Preset::exact), published = darkened(Preset::published);
+    for (std::size_t p = 0; p < exact.size(); ++p) {
+      dark += exact[p] > 8;
+      apart += (exact[p] > 8 && published[p] == 0) || (published[p] > 8 && exact[p] == 0);
+    }
+  }
+  fmt::print("{} pixels in shadow, {} in one preset alone\n", dark, apart);
+  EXPECT_GT(dark, 800U);
+  EXPECT_LT(apart * 100, dark);
+}
+
+// Boxes in a row before one another, the light behind them all: each opens a volume.
+TEST(ProcessorsSetup, DeepShadowsAreCounted) {
+  Scene scene;
+  scene.name = "row";
+  scene.shadows = true;
+  scene.materials = {{.name = "wood"}};
+  for (int i = 0; i < 12; ++i) {
+    Mesh box = make_box({0.5, 0.5, 0.05}, 1);
+    for (glm::dvec3& p : box.positions) p += glm::dvec3(1.0 + 0.001 * i, 0.2, -0.2 * i);
+    add_mesh(scene, box);
+  }
+  add_mesh(scene, make_box({40.0, 40.0, 0.1}, 1));
+  for (std::size_t i = scene.positions_world.size() - 8; i < scene.positions_world.size(); ++i)
+    scene.positions_world[i].z -= 8.0;
+  scene.directional = {{.to_light_world = glm::normalize(glm::dvec3(1.0, 0.1, 0.1))}};
+  scene.camera = {.eye_world = {-3.0, 0.2, 3.0}, .target_world = {0.0, 0.0, -6.0}};
+  const Drawn drawn = draw(scene, key_of(scene));
+  EXPECT_GT(drawn.counts.deepest_shadow, 3U);
+  EXPECT_LE(drawn.counts.deepest_shadow, 13U);
+  EXPECT_GT(drawn.counts.shadows, 100U);
+  EXPECT_FALSE(drawn.fault);
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tables/functions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+#include "tables/wrapped_numbers.hpp"
+
+namespace halfway::tables {
+namespace {
+
+constexpr std::string_view name_of(Function function) {
+  return function == Function::reciprocal_root ? "reciprocal_root"
+         : function == Function::logarithm     ? "logarithm"
+                                               : "decay";
+}
+
+// The function `position` cells from the first one's beginning; positions and arguments are exact.
+long double value_of(const FunctionTable& table, long double position) {
+  const long double cells = std::ldexp(1.0L, table.address_bits);
+  switch (table.function) {
+    case Function::reciprocal_root:
+      // As many cells from 1 to 2 as from 2 to 4.
+      return 1.0L / std::sqrt(position < cells / 2 ? 1.0L + position / (cells / 2) : 4.0L * position / cells);
+    case Function::logarithm:
+      return std::log2(1.0L + position / cells);
+    case Function::decay:
+      return std::exp2(-position / cells);
+  }
+  return 0.0L;
+}
+
+std::uint32_t correctly_rounded(const FunctionTable& table, int index) {
+  const long double offset = table.slope_bits > 0 ? 0.0L : 0.5L;
+  const long double value = std::ldexp(value_of(table, index + offset), table.fraction_bits);
+  const long double above_tie = value - std::floor(value) - 0.5L;
+  // The functions are within a few epsilon of themselves, and at most 1.
+  const long double doubt = std::ldexp(8 * std::numeric_limits<long double>::epsilon(), table.fraction_bits);
+  if (std::fabs(above_tie) <= doubt)
+    throw std::logic_error(fmt::format("{}: value {} is too near a tie to be rounded in long double",
+                                       name_of(table.function), index));
+  const auto rounded = static_cast<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
+  // The value behind the last cell serves a difference alone.
+  if (index == 1 << table.address_bits) return rounded;
+  return std::min(rounded, (std::uint32_t{1} << table.value_bits) - 1);
+}
+
+FunctionTable made(FunctionTable table) {
+  const int count = (1 << table.address_bits) + (table.slope_bits > 0 ? 1 : 0);
+  for (int i = 0; i < count; ++i) table.values.push_back(correctly_rounded(table, i));
+  return table;
+}
+
+constexpr std::string_view preset_name(bool exact) {
+  return exact ? "exact" : "published";
+}
+
+std::string constant_name(const FunctionTable& table) {
+  return fmt::format("c_{}_{}", preset_name(table.exact), name_of(table.function));
+}
+
+constexpr std::string_view c_notice = "Made by `make tables` from model/tables/functions.cpp; edit that.";
+
+constexpr Function c_functions[] = {Function::reciprocal_root, Function::logarithm, Function::decay};
+
+}  // namespace
+
+std::vector<FunctionTable> function_tables() {
+  return {made({true, Function::reciprocal_root, 9, 12, 12, 0, {}}),
+          made({true, Function::logarithm, 9, 24, 24, 16, {}}),
+          made({true, Function::decay, 6, 19, 18, 12, {}}),
+          made({false, Function::reciprocal_root, 6, 9, 9, 0, {}}),
+          made({false, Function::logarithm, 6, 10, 10, 0, {}}),
+          made({false, Function::decay, 6, 8, 8, 0, {}})};
+}
+
+std::string function_vhdl_package() {
+  const std::vector<FunctionTable> tables = function_tables();
+  std::string out = fmt::format(
+      "-- SPDX-License-Identifier: Apache-2.0\n-- {}\n"
+      "-- Functions over cells, correctly rounded. With slope bits a value is the function at its cell's "
+      "beginning, and one\n"
+      "-- stands behind the last cell; without, at its cell's middle.\n\n"
+      "package function_pkg is\n\n",
+      c_notice);
+  auto to = std::back_inserter(out);
+  for (const Function function : c_functions)
+    fmt::format_to(to, "  constant c_{} : natural := {};\n", name_of(function), static_cast<int>(function));
+  out +=
+      "\n  type function_format_t is record\n    address_bits  : positive;\n    value_bits    : positive;\n"
+      "    fraction_bits : positive;\n    slope_bits    : natural; -- of the difference of neighbours\n"
+      "  end record;\n\n"
+      "  type function_table_t is array (natural range <>) of natural;\n\n"
+      "  function function_format (exact : boolean; which : natural) return function_format_t;\n\n"
+      "  function function_table (exact : boolean; which : natural) return function_table_t;\n\n"
+      "end package;\n\npackage body function_pkg is\n\n";
+  for (const FunctionTable& table : tables)
+    fmt::format_to(to, "  constant {} : function_table_t(0 to {}) := (\n{});\n\n", constant_name(table),
+                   table.values.size() - 1, wrapped_numbers(table.values, "    ", 118));
+  const auto choose = [&](std::string_view name, std::string_view type, const auto& text_of) {
+    fmt::format_to(to, "  function {} (exact : boolean; which : natural) return {} is\n  begin\n", name,
+                   type);
+    for (const FunctionTable& table : tables)
+      fmt::format_to(to, "    if {}exact and which = c_{} then\n      return {};\n    end if;\n",
+                     table.exact ? "" : "not ", name_of(table.function), text_of(table));
+    fmt::format_to(to,
+                   "    report \"{0}: there is no function \" & integer'image(which) severity failure;\n"
+                   "    return {1};\n  end function;\n\n",
+                   name, text_of(tables.front()));
+  };
+  choose("function_format", "function_format_t", [](const FunctionTable& table) {
+    return fmt::format("({}, {}, {}, {})", table.address_bits, table.value_bits, table.fraction_bits,
+                       table.slope_bits);
+  });
+  choose("function_table", "function_table_t", constant_name);
+  out += "end package body;\n";
+  return out;
+}
+
+std::string function_cpp_header() {
+  const std::vector<FunctionTable> tables = function_tables();
+  std::string out = fmt::format(
+      "// SPDX-License-Identifier: Apache-2.0\n// {}\n"
+      "// Functions over cells, correctly rounded. With slope bits a value is the function at its cell's "
+      "beginning, and\n"
+      "// one stands behind the last cell; without, at its cell's middle.\n"
+      "#pragma once\n\n#include <array>\n#include <cstdint>\n#include <span>\n\n"
+      "namespace halfway::golden {{\n\n"
+      "enum class Function {{ ",
+      c_notice);
+  auto to = std::back_inserter(out);
+  for (const Function function : c_functions)
+    fmt::format_to(to, "{}{}", name_of(function), function == c_functions[2] ? " };\n\n" : ", ");
+  out +=
+      "struct FunctionTable {\n  int address_bits, value_bits, fraction_bits;\n"
+      "  int slope_bits;  // of the difference of neighbours\n"
+      "  std::span<const std::uint32_t> values;\n};\n";
+  for (const FunctionTable& table : tables)
+    fmt::format_to(to, "\ninline constexpr std::array<std::uint32_t, {}> {}_values = {{\n{}\n}};\n",
+                   table.values.size(), constant_name(table), wrapped_numbers(table.values, "    ", 110));
+  // By preset, then by function.
+  for (const bool exact : {true, false}) {
+    fmt::format_to(to, "\ninline constexpr std::array<FunctionTable, {}> c_{}_functions = {{{{\n",
+                   std::size(c_functions), preset_name(exact));
+    for (const FunctionTable& table : tables)
+      if (table.exact == exact)
+        fmt::format_to(to, "    {{{}, {}, {}, {}, {}_values}},\n", table.address_bits, table.value_bits,
+                       table.fraction_bits, table.slope_bits, constant_name(table));
+    out += "}};\n";
+  }
+  out += "\n}  // namespace halfway::golden\n";
+  return out;
+}
+
+}  // namespace halfway::tables

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tables of the functions that the shading processors compute; the source of rtl/tables/function_pkg.vhd and
+// of model/golden/function_tables.hpp.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace halfway::tables {
+
+enum class Function {
+  reciprocal_root,  ///< 1/sqrt(x), 1 <= x < 4: the first half of the entries up to x = 2, the second from
+                    ///< there
+  logarithm,        ///< log2(x), 1 <= x <= 2
+  decay             ///< 2^-x, 0 <= x <= 1
+};
+
+/// The function over 2^address_bits cells, times 2^fraction_bits, correctly rounded; held where it does not
+/// fit value_bits. With slope_bits it is interpolated: value i is the function where cell i begins, and there
+/// is one more for the last cell's end. Without, a value is the function at its cell's middle.
+struct FunctionTable {
+  bool exact;
+  Function function;
+  int address_bits, value_bits, fraction_bits;
+  int slope_bits;  ///< of the difference of neighbours; 0: none
+  std::vector<std::uint32_t> values;
+};
+
+/// The three of preset exact, then of published.
+std::vector<FunctionTable> function_tables();
+
+std::string function_vhdl_package();
+std::string function_cpp_header();
+
+}  // namespace halfway::tables

@@ -1,0 +1,51 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     Dot product of two vectors of three.
+-- Formats     a, b: components of g_bits, signed, x lowest; sum: signed, twice as many bits and one
+-- Latency     1 clock with enable (shading_pkg)
+-- Throughput  1 vector a clock
+-- Error       none
+-- Source      processors paper, figures 1 and 2
+-- Golden twin model/golden/dot_product.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.processors_pkg.all;
+use work.shading_pkg.all;
+
+entity dot_product is
+  generic (
+    g_bits : positive
+  );
+  port (
+    clk    : in  std_logic;
+    enable : in  std_logic;
+    a      : in  std_logic_vector(c_axes * g_bits - 1 downto 0);
+    b      : in  std_logic_vector(c_axes * g_bits - 1 downto 0);
+    sum    : out std_logic_vector(2 * g_bits downto 0)
+  );
+end entity;
+
+architecture rtl of dot_product is
+
+  type reg_t is record
+    sum : signed(2 * g_bits downto 0);
+  end record;
+
+  signal r : reg_t;
+
+begin
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      if enable = '1' then
+        r.sum <= sum_of_products(a, b);
+      end if;
+    end if;
+  end process;
+
+  sum <= std_logic_vector(r.sum);
+
+end architecture;

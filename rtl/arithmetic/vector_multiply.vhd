@@ -1,0 +1,57 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     Each component of a vector of three times one of another: a vector by a scalar, a colour by a colour.
+-- Formats     a: components of g_a_bits, b: of g_b_bits, products: of as many as both together; signed, x lowest
+-- Latency     1 clock with enable (shading_pkg)
+-- Throughput  1 vector a clock
+-- Error       none
+-- Source      processors paper, figures 1 and 2
+-- Golden twin model/golden/vector_multiply.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.processors_pkg.all;
+use work.shading_pkg.all;
+
+entity vector_multiply is
+  generic (
+    g_a_bits : positive;
+    g_b_bits : positive
+  );
+  port (
+    clk      : in  std_logic;
+    enable   : in  std_logic;
+    a        : in  std_logic_vector(c_axes * g_a_bits - 1 downto 0);
+    b        : in  std_logic_vector(c_axes * g_b_bits - 1 downto 0);
+    products : out std_logic_vector(c_axes * (g_a_bits + g_b_bits) - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of vector_multiply is
+
+  constant c_bits : positive := g_a_bits + g_b_bits;
+
+  type reg_t is record
+    products : std_logic_vector(c_axes * c_bits - 1 downto 0);
+  end record;
+
+  signal r : reg_t;
+
+begin
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      if enable = '1' then
+        for axis in 0 to c_axes - 1 loop
+          r.products((axis + 1) * c_bits - 1 downto axis * c_bits) <=
+            std_logic_vector(product(axis_of(a, axis), axis_of(b, axis)));
+        end loop;
+      end if;
+    end if;
+  end process;
+
+  products <= r.products;
+
+end architecture;

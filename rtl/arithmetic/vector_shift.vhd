@@ -1,0 +1,100 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     Shifts the three components of a vector left alike as far as none loses its sign, so that the largest
+--             lies from 1/2 to 1: what a normalization is spared of lengths other than that. A zero vector stays one.
+-- Formats     components: of g_vector_bits each, signed, of any scale, x lowest; shifted: of g_result_bits, signed, all
+--             bits but the sign fraction
+-- Latency     1 clock with enable (shading_pkg)
+-- Throughput  1 vector a clock
+-- Error       (-1, 0] of the result's last bit: what does not fit is dropped
+-- Source      ours: the processors paper names no word lengths
+-- Golden twin model/golden/vector_shift.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use work.processors_pkg.all;
+
+entity vector_shift is
+  generic (
+    g_vector_bits : positive;
+    g_result_bits : positive
+  );
+  port (
+    clk        : in  std_logic;
+    enable     : in  std_logic;
+    components : in  std_logic_vector(c_axes * g_vector_bits - 1 downto 0);
+    shifted    : out std_logic_vector(c_axes * g_result_bits - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of vector_shift is
+
+  -- Stages that shift by 2**0, 2**1 and so on, as many as reach a word's length.
+  function stages return positive is
+    variable count : positive := 1;
+  begin
+    while 2 ** count < g_vector_bits loop
+      count := count + 1;
+    end loop;
+    return count;
+  end function;
+
+  constant c_high  : natural                           := g_vector_bits - 1;
+  constant c_zeros : std_logic_vector(c_high downto 0) := (others => '0');
+
+  subtype word_t is std_logic_vector(c_high downto 0);
+  type words_t is array (0 to c_axes - 1) of word_t;
+  subtype result_t is std_logic_vector(c_axes * g_result_bits - 1 downto 0);
+
+  function shift_all (flat : std_logic_vector(c_axes * g_vector_bits - 1 downto 0)) return result_t is
+    variable words  : words_t;
+    variable signs  : word_t;
+    variable moving : word_t := c_zeros;
+    variable result : result_t := (others => '0');
+  begin
+    -- A bit set: there some component differs from its sign. The lowest ends the search.
+    for axis in words'range loop
+      words(axis) := flat((axis + 1) * g_vector_bits - 1 downto axis * g_vector_bits);
+      signs       := (others => words(axis)(c_high));
+      moving      := moving or (words(axis) xor signs);
+    end loop;
+    moving := moving(c_high - 1 downto 0) & '1';
+    for stage in stages - 1 downto 0 loop
+      if moving(c_high downto c_high - 2 ** stage + 1) = c_zeros(2 ** stage - 1 downto 0) then
+        moving := moving(c_high - 2 ** stage downto 0) & c_zeros(2 ** stage - 1 downto 0);
+        for axis in words'range loop
+          words(axis) := words(axis)(c_high - 2 ** stage downto 0) & c_zeros(2 ** stage - 1 downto 0);
+        end loop;
+      end if;
+    end loop;
+    for axis in words'range loop
+      if g_vector_bits >= g_result_bits then
+        result((axis + 1) * g_result_bits - 1 downto axis * g_result_bits) :=
+          words(axis)(c_high downto g_vector_bits - g_result_bits);
+      else
+        result((axis + 1) * g_result_bits - 1 downto (axis + 1) * g_result_bits - g_vector_bits) := words(axis);
+      end if;
+    end loop;
+    return result;
+  end function;
+
+  type reg_t is record
+    shifted : result_t;
+  end record;
+
+  signal r : reg_t;
+
+begin
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      if enable = '1' then
+        r.shifted <= shift_all(components);
+      end if;
+    end if;
+  end process;
+
+  shifted <= r.shifted;
+
+end architecture;

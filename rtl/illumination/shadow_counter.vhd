@@ -1,0 +1,164 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     One light's shadow volumes around the surfaces of a line: a count for each column, one more where a
+--             shadow polygon opens a volume, one less where it closes it. An object takes its column's count, which
+--             then starts anew at 0.
+-- Contract    At a rising edge with step and ready, column x is counted (counts, with opens), taken (takes), or all
+--             columns are cleared (clear); at most one of the three. count is then what column x held before, until the
+--             next step. Any columns may follow each other. After reset and a clear ready is '0' until all columns are
+--             0: a clock for each column up to the last counted one, after reset for all. A count that would leave its
+--             format is held, and fault stays '1' from then on.
+-- Formats     formats_pkg: x: pixel_x, count: shadow_count; the same in both presets
+-- Latency     1 clock from step to count, 2 to fault
+-- Throughput  1 column a clock
+-- Source      processors paper, section 3.3 (a single counter: there a stage holds a pixel at a time)
+-- Golden twin model/golden/shadow_counter.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.formats_pkg.all;
+
+entity shadow_counter is
+  port (
+    clk    : in  std_logic;
+    reset  : in  std_logic;
+    ready  : out std_logic;
+    step   : in  std_logic;
+    clear  : in  std_logic;
+    counts : in  std_logic;
+    opens  : in  std_logic;
+    takes  : in  std_logic;
+    x      : in  std_logic_vector(formats(true).pixel_x.bits - 1 downto 0);
+    count  : out std_logic_vector(formats(true).shadow_count.bits - 1 downto 0);
+    fault  : out std_logic
+  );
+end entity;
+
+architecture rtl of shadow_counter is
+
+  subtype column_t is unsigned(x'range);
+  subtype count_t is std_logic_vector(count'range);
+
+  constant c_least : count_t := '1' & (count'high - 1 downto 0 => '0');
+  constant c_most  : count_t := not c_least;
+
+  type reg_t is record
+    clearing  : std_logic;
+    last      : column_t; -- counted last of all, or where clearing stands
+    counts    : std_logic;
+    opens     : std_logic;
+    takes     : std_logic;
+    column    : column_t;
+    forwarded : std_logic; -- the column before was this one: its count is not in the memory yet
+    forward   : count_t;
+    fault     : std_logic;
+  end record;
+
+  signal r, r_next : reg_t;
+
+  signal moved    : std_logic;
+  signal memory_q : count_t; -- read
+  signal held     : count_t;
+  signal changed  : count_t;
+  signal leaves   : std_logic; -- its format
+  signal writes   : std_logic;
+  signal write_at : column_t;
+  signal written  : count_t;
+
+begin
+
+  ready <= not r.clearing;
+  moved <= step and not r.clearing;
+
+  held  <= r.forward when r.forwarded = '1' else memory_q;
+  count <= held;
+  fault <= r.fault;
+
+  change : process (all)
+  begin
+    leaves <= '0';
+    if r.takes = '1' then
+      changed <= (others => '0');
+    elsif r.opens = '1' then
+      changed <= std_logic_vector(unsigned(held) + 1);
+      if held = c_most then
+        changed <= held;
+        leaves  <= r.counts;
+      end if;
+    else
+      changed <= std_logic_vector(unsigned(held) - 1);
+      if held = c_least then
+        changed <= held;
+        leaves  <= r.counts;
+      end if;
+    end if;
+  end process;
+
+  -- While the column stands still it is written again, the same.
+  writes   <= r.clearing or r.counts or r.takes;
+  write_at <= r.last when r.clearing = '1' else r.column;
+  written  <= (others => '0') when r.clearing = '1' else changed;
+
+  combinational : process (all)
+    variable v : reg_t;
+  begin
+    v := r;
+    if leaves = '1' then
+      v.fault := '1';
+    end if;
+    if r.clearing = '1' then
+      if r.last = 0 then
+        v.clearing := '0';
+      else
+        v.last := r.last - 1;
+      end if;
+    elsif step = '1' then
+      v.clearing  := clear;
+      v.counts    := counts;
+      v.opens     := opens;
+      v.takes     := takes;
+      v.column    := unsigned(x);
+      v.forwarded := '0';
+      if writes = '1' and r.column = unsigned(x) then
+        v.forwarded := '1';
+      end if;
+      v.forward := changed;
+      if counts = '1' and unsigned(x) > r.last then
+        v.last := unsigned(x);
+      end if;
+    end if;
+    if reset = '1' then
+      v.clearing := '1';
+      v.last     := (others => '1');
+      v.counts   := '0';
+      v.takes    := '0';
+      v.fault    := '0';
+    end if;
+    r_next <= v;
+  end process;
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      r <= r_next;
+    end if;
+  end process;
+
+  -- A variable: GHDL would keep a signal's history for every bit.
+  memory : process (clk)
+    type memory_t is array (2 ** x'length - 1 downto 0) of count_t;
+
+    variable counted : memory_t;
+  begin
+    if rising_edge(clk) then
+      if moved = '1' then
+        memory_q <= counted(to_integer(unsigned(x)));
+      end if;
+      if writes = '1' then
+        counted(to_integer(write_at)) := written;
+      end if;
+    end if;
+  end process;
+
+end architecture;

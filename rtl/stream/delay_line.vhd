@@ -1,0 +1,116 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     A word again g_depth clocks later: what goes beside a pipeline. A circular buffer of g_depth - 1 words and
+--             a register, so that a clock writes one word, however deep the line is.
+-- Contract    until g_depth words were taken `delayed` is anything; reset need not hold while enable is '1'
+-- Formats     g_bits of anything
+-- Latency     g_depth clocks with enable
+-- Throughput  1 word a clock
+-- Golden twin model/golden/delay_line.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+
+entity delay_line is
+  generic (
+    g_bits  : positive;
+    g_depth : positive
+  );
+  port (
+    clk     : in  std_logic;
+    reset   : in  std_logic;
+    enable  : in  std_logic;
+    word    : in  std_logic_vector(g_bits - 1 downto 0);
+    delayed : out std_logic_vector(g_bits - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of delay_line is
+
+  subtype word_t is std_logic_vector(g_bits - 1 downto 0);
+
+  signal held : word_t;
+
+begin
+
+  places : if g_depth = 1 generate
+
+    registers : process (clk)
+    begin
+      if rising_edge(clk) then
+        if enable = '1' then
+          held <= word;
+        end if;
+      end if;
+    end process;
+
+  elsif g_depth = 2 generate
+
+    signal before : word_t;
+
+    begin
+
+      registers : process (clk)
+      begin
+        if rising_edge(clk) then
+          if enable = '1' then
+            before <= word;
+            held   <= before;
+          end if;
+        end if;
+      end process;
+
+  else generate
+
+    constant c_places : positive := g_depth - 1;
+
+    function index_bits return positive is
+      variable bits : positive := 1;
+    begin
+      while 2 ** bits < c_places loop
+        bits := bits + 1;
+      end loop;
+      return bits;
+    end function;
+
+    subtype index_t is unsigned(index_bits - 1 downto 0);
+
+    -- A power of two of them: an index never leaves the array.
+    type memory_t is array (2 ** index_bits - 1 downto 0) of word_t;
+
+    signal index : index_t;
+
+    begin
+
+      count : process (clk)
+      begin
+        if rising_edge(clk) then
+          if reset = '1' then
+            index <= (others => '0');
+          elsif enable = '1' then
+            index <= index + 1;
+            if index = c_places - 1 then
+              index <= (others => '0');
+            end if;
+          end if;
+        end if;
+      end process;
+
+      -- A variable: GHDL need not keep a driver for each bit of it.
+      buffered : process (clk)
+        variable memory : memory_t;
+      begin
+        if rising_edge(clk) then
+          if enable = '1' then
+            held                       <= memory(to_integer(index));
+            memory(to_integer(index)) := word;
+          end if;
+        end if;
+      end process;
+
+  end generate;
+
+  delayed <= held;
+
+end architecture;

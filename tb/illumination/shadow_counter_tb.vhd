@@ -1,0 +1,89 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- Clock by clock against the golden twin: every column after reset, runs on few columns at full speed and with pauses,
+-- counts past both ends of their format, clears, and resets in between.
+library ieee;
+use ieee.std_logic_1164.all;
+use work.formats_pkg.all;
+use work.tb_pkg.all;
+
+entity shadow_counter_tb is
+  generic (
+    g_folder : string := "shadow_counter"
+  );
+end entity;
+
+architecture sim of shadow_counter_tb is
+  signal finished : boolean   := false;
+  signal clk      : std_logic := '0';
+  signal reset    : std_logic := '1';
+  signal ready    : std_logic;
+  signal step     : std_logic := '0';
+  signal clear    : std_logic := '0';
+  signal counts   : std_logic := '0';
+  signal opens    : std_logic := '0';
+  signal takes    : std_logic := '0';
+  signal x        : std_logic_vector(formats(true).pixel_x.bits - 1 downto 0) := (others => '0');
+  signal count    : std_logic_vector(formats(true).shadow_count.bits - 1 downto 0);
+  signal fault    : std_logic;
+begin
+  dut : entity work.shadow_counter
+    port map (
+      clk    => clk,
+      reset  => reset,
+      ready  => ready,
+      step   => step,
+      clear  => clear,
+      counts => counts,
+      opens  => opens,
+      takes  => takes,
+      x      => x,
+      count  => count,
+      fault  => fault);
+
+  clk <= not clk after c_half_period when not finished;
+
+  run : process is
+    variable vectors                                                       : vectors_t;
+    variable reset_now, step_now, clear_now, counts_now, opens_now, takes_now : std_logic;
+    variable counted, reset_before                                         : std_logic;
+    variable x_now                                                         : std_logic_vector(x'range);
+    variable waits                                                         : natural;
+  begin
+    vectors.open_file(g_folder & "/columns.txt");
+    reset_before := '1';
+    while vectors.next_vector loop
+      vectors.read_flag(reset_now);
+      vectors.read_flag(step_now);
+      vectors.read_flag(clear_now);
+      vectors.read_flag(counts_now);
+      vectors.read_flag(opens_now);
+      vectors.read_flag(takes_now);
+      vectors.read_word(x_now);
+      reset  <= reset_now;
+      step   <= step_now;
+      clear  <= clear_now;
+      counts <= counts_now;
+      opens  <= opens_now;
+      takes  <= takes_now;
+      x      <= x_now;
+      waits := vectors.read_number;
+      wait until rising_edge(clk);
+      for i in 1 to waits loop
+        if ready /= '0' then
+          vectors.fail("ready after " & to_string(i - 1) & " clocks, not after " & to_string(waits));
+        end if;
+        wait until rising_edge(clk);
+      end loop;
+      if reset_now = '0' and ready /= '1' then
+        vectors.fail("not ready after " & to_string(waits) & " clocks");
+      end if;
+      vectors.read_flag(counted);
+      vectors.check_word_if(counted, "count", count);
+      vectors.check_flag_if(not reset_before, "fault", fault);
+      reset_before := reset_now and reset_before;
+    end loop;
+    finished <= true;
+    report "shadow_counter_tb: passed" severity note;
+    wait;
+  end process;
+end architecture;

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "golden/shading_pipeline.hpp"
+#include "vectors/entities.hpp"
+#include "vectors/random.hpp"
+#include "vectors/vector_file.hpp"
+
+namespace halfway::vectors {
+namespace {
+
+using golden::Axes, golden::Command, golden::Exact, golden::ProcessorsConfig, golden::Published, golden::Term;
+
+/// Tokens such as a scene's: directions all near one, which changes now and then, so that cosines lie between
+/// their ends; and any words among them.
+template <class Preset>
+class TokenMaker {
+ public:
+  using Token = golden::ShadingToken<Preset>;
+
+  TokenMaker(const ProcessorsConfig& config, std::uint64_t seed) : config_(config), random_(seed) { turn(); }
+
+  /// Of its lights `light` comes up most often.
+  Token token(int light) {
+    if (random_.one_in(40)) turn();
+    const auto number = static_cast<std::uint32_t>(random_.one_in(4) ? random_.between(0, config_.lights())
+                                                                     : std::int64_t{light});
+    const int choice = static_cast<int>(random_.between(0, 31));
+    if (choice == 0) return load(Command::remove, number);
+    if (choice <= 2) return load(Command::redefine, number);
+    if (choice <= 4) return load(Command::define, number);
+    if (choice == 5 && random_.one_in(3)) return load(Command::new_frame, number);
+    if (config_.shadows && choice <= 14) return shadow(number);
+    return object();
+  }
+  Token load(Command command, std::uint32_t light) {
+    Token token;
+    token.command = command;
+    token.light_number = light;
+    auto& to = token.light;
+    to.positional = !random_.one_in(4);
+    to.spot = !random_.one_in(4);
+    to.shift = Exact::c_light_shift_bits > 0 && random_.one_in(4) ? static_cast<int>(random_.bits(5)) : 0;
+    if constexpr (Preset::c_light_shift_bits == 0) to.shift = 0;
+    to.outer = static_cast<std::int64_t>(one_direction() * 0.1 * static_cast<double>(random_.between(-3, 9)));
+    to.slope = static_cast<std::uint32_t>(random_.one_in(4) ? random_.word(Preset::c_spot_slope_bits)
+                                                            : random_.between(64, 640));
+    to.around_eye = random_.one_in(4) ? 1 : 0;
+    to.place = near(Preset::c_light_place_fraction_bits, Preset::c_light_place_bits, 0.9);
+    to.axis = near(Preset::c_direction_fraction_bits, Preset::c_direction_bits, 1);
+    for (std::int64_t& axis : to.axis) axis = -axis - (axis == least(Preset::c_direction_bits) ? 1 : 0);
+    to.half = near(Preset::c_direction_fraction_bits, Preset::c_direction_bits, 1);
+    for (std::uint32_t& intensity : to.intensity)
+      intensity = static_cast<std::uint32_t>(random_.word(Preset::c_light_intensity_bits));
+    return token;
+  }
+  Token shadow(std::uint32_t light) {
+    Token token = at_pixel();
+    token.command = Command::shadow;
+    token.light_number = light;
+    token.opens = random_.one_in(2);
+    return token;
+  }
+  Token object() {
+    Token token = at_pixel();
+    token.command = static_cast<Command>(random_.between(0, 2));
+    token.normalize = !random_.one_in(3);
+    token.normal = near(Preset::c_vector_fraction_bits, Preset::c_vector_bits, 1);
+    token.place = near(Preset::c_vector_fraction_bits, Preset::c_vector_bits, random_.one_in(2) ? -0.6 : 0.3);
+    token.distance = static_cast<std::int64_t>(random_.bits(Preset::c_vector_fraction_bits));
+    token.view = near(Preset::c_direction_fraction_bits, Preset::c_direction_bits, 1);
+    if (random_.one_in(2))
+      token.exponent = static_cast<std::uint32_t>(random_.word(Preset::c_exponent_bits));
+    else
+      token.exponent =
+          static_cast<std::uint32_t>(random_.between(1, 100) << Preset::c_exponent_fraction_bits);
+    for (golden::Channels* k : {&token.ambient, &token.diffuse, &token.specular})
+      for (std::uint32_t& channel : *k)
+        channel = static_cast<std::uint32_t>(
+            random_.word(Preset::c_coefficient_bits - (random_.one_in(3) ? 0 : 3)));
+    for (std::uint32_t& channel : token.radiance)
+      channel = static_cast<std::uint32_t>(random_.word(Preset::c_radiance_bits));
+    return token;
+  }
+  /// Behind the ambient processor N is a direction; some tokens come with any words there, as out of none.
+  Token behind_ambient(Token token) {
+    if (token.is_object() && !random_.one_in(10))
+      token.normal = near(Preset::c_direction_fraction_bits, Preset::c_direction_bits, 1);
+    return token;
+  }
+  std::vector<std::uint32_t> words(const Token& token, int bits) {
+    std::vector<std::uint32_t> flat(static_cast<std::size_t>(bits + 31) / 32);
+    random_.fill(flat);
+    token.encode(config_, flat);
+    return flat;
+  }
+  Random& random() { return random_; }
+
+ private:
+  static constexpr std::int64_t least(int bits) { return -(std::int64_t{1} << (bits - 1)); }
+  static constexpr double one_direction() {
+    return static_cast<double>(std::int64_t{1} << Preset::c_direction_fraction_bits);
+  }
+
+  double unit() { return static_cast<double>(random_.between(-1000, 1000)) / 1000; }
+  void turn() {
+    double length = 0;
+    do {
+      for (double& axis : base_) axis = unit();
+      length = std::sqrt(base_[0] * base_[0] + base_[1] * base_[1] + base_[2] * base_[2]);
+    } while (length < 0.1);
+    for (double& axis : base_) axis /= length;
+  }
+  /// A vector of about `length` near the base, or any words at all.
+  Axes near(int fraction_bits, int bits, double length) {
+    Axes words;
+    const double spread = random_.one_in(3) ? 0.02 : 0.4;
+    const double scale =
+        random_.one_in(4) ? std::ldexp(length, -static_cast<int>(random_.between(0, 9))) : length;
+    const bool any = random_.one_in(12);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const double component = std::ldexp((base_[i] + spread * unit()) * scale, fraction_bits);
+      const std::uint64_t word =
+          any ? random_.word(bits) : static_cast<std::uint64_t>(static_cast<std::int64_t>(component));
+      words[i] = static_cast<std::int64_t>(word << (64 - bits)) >> (64 - bits);
+    }
+    return words;
+  }
+  Token at_pixel() {
+    Token token;
+    token.triangle = static_cast<std::uint32_t>(random_.bits(32));
+    token.y = static_cast<std::uint32_t>(random_.bits(Preset::c_pixel_y_bits));
+    token.x = static_cast<std::uint32_t>(random_.one_in(10) ? random_.bits(Preset::c_pixel_x_bits)
+                                                            : random_.between(40, 42));
+    token.z = static_cast<std::uint32_t>(random_.bits(Preset::c_depth_bits));
+    token.light_number = static_cast<std::uint32_t>(random_.bits(Preset::c_light_bits));
+    return token;
+  }
+
+  ProcessorsConfig config_;
+  Random random_;
+  std::array<double, 3> base_{};
+};
+
+std::string name_of(const ProcessorsConfig& c) {
+  return fmt::format("{}{}{}{}{:d}{:d}{:d}{:d}", c.channels, c.directional, c.positional, c.spots, c.diffuse,
+                     c.specular, c.normalize, c.shadows);
+}
+
+// A line: token; the token that comes out, fault once it has.
+template <class Preset>
+Status write_processor(const std::filesystem::path& folder, const ProcessorsConfig& config, Term term,
+                       int light, int tokens, bool faults) {
+  const int bits = golden::ProcessorsLayout<Preset>(config).token_bits();
+  TokenMaker<Preset> maker(config, static_cast<std::uint64_t>(bits * 8 + static_cast<int>(term) * 3 + light));
+  golden::ShadingProcessor<Preset> twin(config, term, light);
+  VectorFile file;
+  while (file.size() < static_cast<std::size_t>(tokens)) {
+    const auto done = static_cast<int>(file.size());
+    // At first no light is valid; then it is defined, and comes back after it was deleted.
+    const bool defines = done == 20 || (done > 20 && done % 25 == 0);
+    auto token =
+        defines ? maker.load(Command::define, static_cast<std::uint32_t>(light)) : maker.token(light);
+    if (term != Term::ambient) token = maker.behind_ambient(token);
+    auto words = maker.words(token, bits);
+    auto next = twin;
+    const auto before = words;
+    next.process(words);
+    // Faults come in the last part, if at all.
+    if (next.fault() && !(faults && done > tokens * 3 / 4)) continue;
+    twin = std::move(next);
+    file.words_of(before, bits).words_of(words, bits).flag(twin.fault()).end_vector();
+  }
+  return file.write(
+      folder / fmt::format("{}_{}_{}{}.txt", Preset::c_name, name_of(config), static_cast<int>(term), light));
+}
+
+struct ProcessorCase {
+  ProcessorsConfig config;
+  std::vector<int> lights;
+};
+
+// tb/illumination/shading_processor_tb.vhd has the same list: everything that there can be, versions I and II
+// without what else belongs to ours, and single effects.
+const std::vector<ProcessorCase>& processor_cases() {
+  static const std::vector<ProcessorCase> cases = {
+      {{3, 1, 1, 1, true, true, true, true}, {1, 2, 3}}, {{3, 1, 0, 0, true, true, false, false}, {1}},
+      {{3, 0, 1, 0, true, true, true, false}, {1}},      {{1, 1, 0, 0, true, false, false, false}, {1}},
+      {{1, 0, 1, 1, false, true, false, false}, {1, 2}},
+  };
+  return cases;
+}
+
+template <class Preset>
+Status write_processors(const std::filesystem::path& folder, int tokens) {
+  for (const auto& [config, lights] : processor_cases()) {
+    if (auto s = write_processor<Preset>(folder, config, Term::ambient, 0, tokens, false); !s) return s;
+    for (const int light : lights) {
+      const bool faults = light == 1;
+      if (config.diffuse)
+        if (auto s = write_processor<Preset>(folder, config, Term::diffuse, light, tokens, faults); !s)
+          return s;
+      if (config.specular)
+        if (auto s = write_processor<Preset>(folder, config, Term::specular, light, tokens, false); !s)
+          return s;
+    }
+  }
+  return Ok{};
+}
+
+}  // namespace
+
+// A line: reset, step, clear, counts, opens, takes, x, clocks until ready; then before the edge: counted,
+// count (meant where counted), fault.
+Status write_shadow_counter(const std::filesystem::path& folder) {
+  constexpr int c_columns = 1 << Exact::c_pixel_x_bits;
+  Random random(9);
+  VectorFile file;
+  golden::ShadowCounter twin;
+  std::uint32_t last = 0;   // counted since the last clear
+  std::uint32_t waits = 0;  // until ready
+  bool counted = false;     // the last step was one of a column
+  int held = 0;             // what that column held
+  bool fault = false;       // as seen two clocks after the step
+  const auto line = [&](bool reset, bool step, bool clear, bool counts, bool opens, bool takes,
+                        std::uint32_t x) {
+    const bool stepped = step && !reset;
+    file.flag(reset).flag(step).flag(clear).flag(counts).flag(opens).flag(takes);
+    file.word(x, Exact::c_pixel_x_bits).word(reset ? 0 : waits, 32);
+    if (waits > 0 && !reset) fault = twin.fault();
+    file.flag(counted).word(static_cast<std::uint64_t>(held), Exact::c_shadow_count_bits).flag(fault);
+    file.end_vector();
+    if (!reset) waits = 0;
+    fault = twin.fault();
+    if (stepped) {
+      counted = counts || takes;
+      if (clear) {
+        twin.clear();
+        waits = last + 1;
+        last = 0;
+      } else if (takes) {
+        held = twin.take(x);
+      } else if (counts) {
+        // The twin shows a count only to the object that takes it.
+        held = twin.take(x);
+        for (int i = 0; i < (held < 0 ? -held : held); ++i) twin.count(x, held > 0);
+        twin.count(x, opens);
+        last = x > last ? x : last;
+      }
+    }
+    if (reset) {
+      twin = golden::ShadowCounter();
+      waits = c_columns;
+      last = 0;
+      counted = fault = false;
+    }
+  };
+  line(true, false, false, false, false, false, 0);
+  line(true, false, false, false, false, false, 0);
+  for (std::uint32_t x = 0; x < c_columns; ++x) line(false, true, false, false, false, true, x);
+  for (int i = 0; i < 12000; ++i) {
+    const int part = i / 1500;
+    if (i % 6000 == 5999) {
+      line(true, random.one_in(2), false, true, true, false, 0);
+      continue;
+    }
+    // Few columns, so that they come again at once; two that count past either end.
+    const auto x = static_cast<std::uint32_t>(random.one_in(8) ? random.between(0, c_columns - 1)
+                                                               : random.between(100, 100 + part % 3));
+    const bool step = part % 2 == 0 || !random.one_in(3);
+    const bool far = part % 4 >= 2;
+    const bool opens = far ? (x % 2 == 0) == (random.between(0, 15) != 0) : random.one_in(2);
+    const bool clear = !far && random.one_in(400);
+    const bool takes = !clear && random.one_in(far ? 3000 : 4);
+    line(false, step, clear, !clear && !takes && !random.one_in(10), opens, takes, x);
+  }
+  for (int i = 0; i < 3; ++i) line(false, false, false, false, false, false, 0);
+  return file.write(folder / "columns.txt");
+}
+
+Status write_shading_processor(const std::filesystem::path& folder) {
+  constexpr int c_tokens = 400;
+  if (auto s = write_processors<Exact>(folder, c_tokens); !s) return s;
+  return write_processors<Published>(folder, c_tokens);
+}
+
+}  // namespace halfway::vectors
