@@ -85,6 +85,7 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) cons
       part.setup_seconds = seconds_since(setup_start);
       const auto golden_start = std::chrono::steady_clock::now();
       golden->draw(std::span(part.batch.init_words).subspan(drawn), part.batch.golden);
+      part.batch.fault = golden->fault();
       part.golden_seconds = seconds_since(golden_start);
     }
   };
@@ -102,6 +103,7 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) cons
     part.batch = {};
     all.counts += part.counts;
     all.setup_seconds += part.setup_seconds;
+    all.batch.fault |= part.batch.fault;
     all.golden_seconds += part.golden_seconds;
   }
   all.batch.done = static_cast<double>(end) / setup_.units();

@@ -231,6 +231,9 @@ class Simulation {
     };
     for (Batch batch; stream.next(batch);) {
       s_.on_progress("setup, golden model, Verilator", batch.done);
+      if (batch.fault)
+        return Error{ExitCode::differs, fmt::format("{} in the golden model: a shadow counter left its range",
+                                                    summary_.plan.key.name())};
       init_file->write(batch.init_words);
       golden_trace->write(batch.golden);
       if (Status status = golden_.add(batch.golden); !status)

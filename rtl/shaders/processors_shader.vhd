@@ -534,12 +534,12 @@ begin
       begin
         v := '0';
         for processor in 0 to c_last - 1 loop
-          v := v or taps(processor * c_block_bits + c_block.event.low);
+          v := v or taps(processor * c_block_bits + c_block.leaves.low);
         end loop;
         probe(c_probe.sample_event.low) <= v;
       end process;
 
-      probe(c_probe.product_event.low)                             <= taps(c_last * c_block_bits + c_block.event.low);
+      probe(c_probe.product_event.low)                             <= taps(c_last * c_block_bits + c_block.leaves.low);
       probe(c_probe.line_event.low)                                <= span_load;
       probe(c_probe.span_event.low)                                <= span_step;
       probe(c_probe.line_y.high downto c_probe.line_y.low)         <= line_y;
