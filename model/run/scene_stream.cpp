@@ -100,10 +100,10 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) cons
     all.batch.init_words.insert(all.batch.init_words.end(), part.batch.init_words.begin(),
                                 part.batch.init_words.end());
     all.batch.golden.insert(all.batch.golden.end(), part.batch.golden.begin(), part.batch.golden.end());
+    all.batch.fault |= part.batch.fault;
     part.batch = {};
     all.counts += part.counts;
     all.setup_seconds += part.setup_seconds;
-    all.batch.fault |= part.batch.fault;
     all.golden_seconds += part.golden_seconds;
   }
   all.batch.done = static_cast<double>(end) / setup_.units();
