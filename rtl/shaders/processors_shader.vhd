@@ -417,7 +417,8 @@ begin
       g_specular    => g_specular,
       g_normalize   => g_normalize,
       g_shadows     => g_shadows,
-      g_unrolled    => g_unrolled
+      g_unrolled    => g_unrolled,
+      g_probe       => g_probe
       )
     port map (
       clk       => clk,
