@@ -17,7 +17,7 @@ struct Batch {
   std::vector<std::uint32_t> init_words;
   std::vector<Fragment> golden;
   bool fault = false;  ///< the golden model's: a shadow counter left its range
-  double done = 0.0;  ///< part of the stream, this batch included: 0 to 1
+  double done = 0.0;   ///< part of the stream, this batch included: 0 to 1
 };
 
 /// Setup and golden model on `threads` threads, one batch ahead of who takes them. The stream does not depend

@@ -258,7 +258,7 @@ begin
           value      => value
           );
 
-      -- The host has added half a step of what this drops.
+        -- The host has added half a step of what this drops.
       vectors((plane + 1) * c_vector_bits - 1 downto plane * c_vector_bits) <=
         value(c_sum_bits - 1 downto c_sum_bits - c_vector_bits);
 
@@ -286,7 +286,7 @@ begin
       value => line_material
       );
 
-  -- The line stage may hold the next triangle already.
+    -- The line stage may hold the next triangle already.
   span_request_register : entity work.parameter_register
     generic map (
       g_bits => request_t'length

@@ -90,7 +90,7 @@ begin
         busy      => busy,
         fault     => fault);
   else generate
-      dut : entity work.unrolled_shading_processor
+    dut : entity work.unrolled_shading_processor
       generic map (
         g_exact       => g_exact,
         g_channels    => g_channels,

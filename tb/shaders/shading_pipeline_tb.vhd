@@ -184,22 +184,22 @@ begin
   forms : for form in 0 to 1 generate
     presets : for preset in 0 to 1 generate
       constant c_first : natural := 8 * form + 4 * preset;
-    begin
-      all_effects : entity work.shading_pipeline_run
-        generic map (form = 1, preset = 0, 3, 1, 1, 1, true, true, true, true, g_folder)
-        port map (finished => finished(c_first));
+      begin
+        all_effects : entity work.shading_pipeline_run
+          generic map (form = 1, preset = 0, 3, 1, 1, 1, true, true, true, true, g_folder)
+          port map (finished => finished(c_first));
 
-      version_1 : entity work.shading_pipeline_run
-        generic map (form = 1, preset = 0, 3, 2, 0, 0, true, true, false, false, g_folder)
-        port map (finished => finished(c_first + 1));
+        version_1 : entity work.shading_pipeline_run
+          generic map (form = 1, preset = 0, 3, 2, 0, 0, true, true, false, false, g_folder)
+          port map (finished => finished(c_first + 1));
 
-      specular_alone : entity work.shading_pipeline_run
-        generic map (form = 1, preset = 0, 1, 0, 1, 1, false, true, true, false, g_folder)
-        port map (finished => finished(c_first + 2));
+        specular_alone : entity work.shading_pipeline_run
+          generic map (form = 1, preset = 0, 1, 0, 1, 1, false, true, true, false, g_folder)
+          port map (finished => finished(c_first + 2));
 
-      ambient_alone : entity work.shading_pipeline_run
-        generic map (form = 1, preset = 0, 3, 0, 0, 0, false, false, true, false, g_folder)
-        port map (finished => finished(c_first + 3));
+        ambient_alone : entity work.shading_pipeline_run
+          generic map (form = 1, preset = 0, 3, 0, 0, 0, false, false, true, false, g_folder)
+          port map (finished => finished(c_first + 3));
     end generate;
   end generate;
 
