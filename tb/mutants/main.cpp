@@ -105,6 +105,43 @@ constexpr Mutant c_mutants[] = {
      "start => part(c_part.power.high downto c_part.power.low)"},
     {"illumination/specular_slice.vhd", "sample <= (others => '0');", "sample <= samples(1);"},
     {"illumination/specular_slice.vhd", "b       => carried(", "b       => carried_in("},
+    // A column that comes again at once is read from memory; a count wraps; a clear ends too early; an object
+    // leaves
+    // its count.
+    {"illumination/shadow_counter.vhd", "v.forwarded := '1'", "v.forwarded := '0'"},
+    {"illumination/shadow_counter.vhd", "if held = c_most then", "if held = c_least then"},
+    {"illumination/shadow_counter.vhd", "v.last := unsigned(x)", "v.last := r.last"},
+    {"illumination/shadow_counter.vhd", "if r.takes = '1' then", "if r.takes = '1' and r.opens = '1' then"},
+    // Redefines what is not there; lit where volumes are missing; a highlight below the horizon; a spot's
+    // light
+    // everywhere; the far light's shift forgotten.
+    {"illumination/shading_processor.vhd", "(command = c_redefine and r.valid = '1')",
+     "command = c_redefine"},
+    {"illumination/shading_processor.vhd", "'1' when around = 0", "'1' when around <= 0"},
+    {"illumination/shading_processor.vhd", "r.cycle = c_at.horizon and positive_dot = '0'",
+     "r.cycle = c_at.horizon and positive_dot = 'Z'"},
+    {"illumination/shading_processor.vhd", "r.cycle = c_at.weigh_in - 1 and spotted = '0'",
+     "r.cycle = c_at.weigh_in - 1"},
+    {"illumination/terms_pkg.vhd", "near     := arithmetic_shift(near, shift)", "near     := near",
+     "illumination/shading_processor.vhd"},
+    // A clock more than the paper's; the vector product a clock early.
+    {"illumination/shading_processor.vhd", "s.weigh_in := s.angle + 1", "s.weigh_in := s.angle + 2",
+     "illumination/table4.vhd"},
+    {"illumination/shading_processor.vhd", "s.round_1  := s.scale_1 + c_mul_clocks",
+     "s.round_1  := s.scale_1"},
+    // A light that changes under the tokens before; the first token's shadow for the next; a stage that does
+    // not
+    // stand still.
+    {"illumination/unrolled_shading_processor.vhd", "not (in_valid and changes and (or r.filled))", "'1'"},
+    {"illumination/unrolled_shading_processor.vhd", "g_depth => c_at.term - 1\n", "g_depth => c_at.term\n"},
+    {"illumination/unrolled_shading_processor.vhd", "out_ready or not r.filled(c_at.leave)", "out_ready"},
+    {"arithmetic/unit_vector.vhd", "c_dot_product_latency + reciprocal_root_latency(g_exact)",
+     "reciprocal_root_latency(g_exact)", "illumination/unrolled_shading_processor.vhd"},
+    // What loads leaves; a light's processors changed about; a fault unseen.
+    {"shaders/shading_pipeline.vhd", "valid(c_processors) and object", "valid(c_processors)"},
+    {"shaders/shading_pipeline.vhd", "(processor - 1) / c_terms + 1",
+     "(processor - 1) / c_terms + 2 - c_terms"},
+    {"shaders/shading_pipeline.vhd", "or faults", "faults(0)"},
     // Not busy while only the buffer in front holds a triangle; the colour of a fragment that waits moves on.
     {"shaders/quadratic_shader.vhd", "waiting or walking or out_valid", "walking or out_valid"},
     {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => colours",
