@@ -101,5 +101,21 @@ TEST(SceneStream, MoreShadowVolumesThanAreCountedAreRefused) {
   }
 }
 
+// The eye behind all the sheets: none of their volumes begins before a pixel.
+TEST(SceneStream, VolumesAroundTheEyeCount) {
+  Scene scene = sheets(40);
+  scene.camera = {.eye_world = {0.95, 0.18, -3.0},
+                  .target_world = {0.95, 0.18, -8.0},
+                  .vertical_fov_degrees = 0.5,
+                  .far = 9.0};
+  const HardwareKey key = key_of(scene, Shader::processors);
+  const auto setup = make_setup(scene, {40, 30}, key, {});
+  SceneStream stream(*setup, key, 1);
+  for (Batch batch; stream.next(batch);) {
+  }
+  EXPECT_EQ(stream.counts().deepest_shadow, 40U);
+  EXPECT_FALSE(stream.fault());
+}
+
 }  // namespace
 }  // namespace halfway
