@@ -18,10 +18,12 @@ stream/parameter_register.vhd
 stream/stream_register.vhd
 stream/delay_line.vhd
 interpolation/line_interpolator.vhd
+interpolation/plane_interpolator.vhd
 interpolation/z_interpolator.vhd
 interpolation/quadratic_interpolator.vhd
 raster/edge_walker.vhd
 raster/triangle_walker.vhd
+raster/object_stage.vhd
 illumination/diffuse_slice.vhd
 illumination/specular_slice.vhd
 illumination/shadow_counter.vhd
@@ -34,3 +36,4 @@ shaders/shading_pipeline.vhd
 shaders/quadratic_shader.vhd
 shaders/spherical_pkg.vhd
 shaders/spherical_shader.vhd
+shaders/processors_shader.vhd

@@ -60,7 +60,7 @@ entity quadratic_shader is
     fragment_y, fragment_x : out std_logic_vector(11 downto 0);
     fragment_z : out std_logic_vector(23 downto 0);
     fragment_red, fragment_green, fragment_blue : out std_logic_vector(7 downto 0);
-    busy : out std_logic;
+    busy, fault : out std_logic;
     probe : out std_logic_vector(probe_bits(g_exact, g_channels) - 1 downto 0));
 end entity;
 architecture rtl of quadratic_shader is
@@ -70,6 +70,7 @@ architecture rtl of quadratic_shader is
     x        : unsigned(11 downto 0);
     triangle : std_logic_vector(31 downto 0);
     y        : std_logic_vector(11 downto 0);
+    alarm    : std_logic_vector(4 downto 0);
   end record;
   signal r, r_next : reg_t;
   signal ready, take : std_logic;
@@ -98,8 +99,10 @@ begin
         v.valid := '0';
       end if;
     end if;
+    v.alarm := r.alarm(3 downto 0) & (r.alarm(0) or @ALARM@);
     if reset = '1' then
       v.valid := '0';
+      v.alarm := (others => '0');
     end if;
     @FAULT@
     r_next <= v;
@@ -111,6 +114,7 @@ begin
     end if;
   end process;
   busy              <= r.valid;
+  fault             <= r.alarm(@DELAY@);
   fragment_valid    <= @VALID@;
   fragment_triangle <= r.triangle;
   fragment_y        <= r.y;
@@ -129,6 +133,7 @@ end architecture;
 
 struct Parts {
   std::string last = "is_last", fault = "", valid = "r.valid", red = "std_logic_vector(r.x(7 downto 0))";
+  std::string alarm = "'0'", delay = "0";
 };
 
 void replace(std::string& text, const std::string& what, const std::string& with) {
@@ -159,6 +164,8 @@ class Simulators : public testing::Test {
     replace(text, "@FAULT@", parts.fault);
     replace(text, "@VALID@", parts.valid);
     replace(text, "@RED@", parts.red);
+    replace(text, "@ALARM@", parts.alarm);
+    replace(text, "@DELAY@", parts.delay);
     replace(text, "  signal ready, take : std_logic;\nbegin",
             "  signal ready, take : std_logic;\n  signal one_left : std_logic;\nbegin\n"
             "  one_left <= '1' when r.left = 1 else '0';");
@@ -324,6 +331,15 @@ TEST_F(Simulators, NoVectorsGiveAnEmptyTrace) {
 TEST_F(Simulators, AHangIsSeen) {
   write_rtl({.fault = "if r.left = 9 then v := r; end if;", .valid = "'0' when r.left = 9 else r.valid"});
   expect_both_fail("hang", "hang");
+}
+
+TEST_F(Simulators, AFaultThatTheHardwareTellsIsSeen) {
+  // With the last vector's fragment, and a few cycles later, when nothing is held any more.
+  for (const char* delay : {"0", "4"}) {
+    write_rtl(
+        {.alarm = "(r.valid and fragment_ready and r.triangle(3) and not r.triangle(31))", .delay = delay});
+    expect_both_fail("shadow counter", "shadow counter");
+  }
 }
 
 TEST_F(Simulators, APayloadThatMovesIsSeen) {

@@ -22,6 +22,12 @@ entity frame_tb is
     g_powers             : natural  := 2;
     g_address_bits       : positive := 6;
     g_data_bits          : positive := 6;
+    g_directional        : natural  := 1;
+    g_positional         : natural  := 0;
+    g_spots              : natural  := 0;
+    g_normalize          : boolean  := true;
+    g_shadows            : boolean  := false;
+    g_unrolled           : boolean  := true;
     g_probe              : boolean  := false;
 
     g_init_file     : string   := "init.txt";
@@ -41,6 +47,8 @@ architecture sim of frame_tb is
   subtype events_t is std_logic_vector(3 downto 0);
   constant c_no_event : events_t := (others => '0');
 
+  constant c_late_cycles : positive := 8; -- for a fault
+
   signal clk               : std_logic := '0';
   signal reset             : std_logic := '1';
   signal init_valid        : std_logic := '0';
@@ -56,6 +64,7 @@ architecture sim of frame_tb is
   signal fragment_green    : std_logic_vector(7 downto 0);
   signal fragment_blue     : std_logic_vector(7 downto 0);
   signal busy              : std_logic;
+  signal fault             : std_logic;
   signal probe             : std_logic_vector(c_probe_bits - 1 downto 0);
   signal finished          : boolean := false;
 
@@ -107,6 +116,7 @@ begin
       fragment_green    => fragment_green,
       fragment_blue     => fragment_blue,
       busy              => busy,
+      fault             => fault,
       probe             => probe);
 
   clock : process is
@@ -146,6 +156,14 @@ begin
     variable payload     : std_logic_vector(103 downto 0);
     variable held        : std_logic_vector(103 downto 0);
     variable holding     : boolean := false;   -- the fragment of the last edge was not taken
+
+    procedure check_fault is
+    begin
+      if fault /= '0' then
+        report "a shadow counter left its range, by cycle " & to_string(cycle) & ": fault is " & to_string(fault)
+          severity failure;
+      end if;
+    end procedure;
 
     procedure next_vector is
     begin
@@ -252,6 +270,7 @@ begin
       if is_x(init_ready) or is_x(fragment_valid) or is_x(busy) then
         report "metavalue in init_ready, fragment_valid or busy in cycle " & to_string(cycle) severity failure;
       end if;
+      check_fault;
       if init_valid = '1' and init_ready = '1' then
         moved   := true;
         started := true;
@@ -322,6 +341,12 @@ begin
         cycle := cycle + 1;
       end if;
       drive;
+    end loop;
+
+    -- A counter may find out what was wrong with a token after that has gone.
+    for i in 1 to c_late_cycles loop
+      wait until rising_edge(clk);
+      check_fault;
     end loop;
 
     if started then

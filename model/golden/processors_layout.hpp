@@ -20,9 +20,9 @@ struct ProcessorsConfig {
   bool normalize = true;                 ///< the ambient processor can normalize N
   bool shadows = false;
 
-  int lights() const { return directional + positional + spots; }
+  constexpr int lights() const { return directional + positional + spots; }
   /// In the pipeline: ambient, and for each light a diffuse and a specular one.
-  int processors() const { return 1 + lights() * ((diffuse ? 1 : 0) + (specular ? 1 : 0)); }
+  constexpr int processors() const { return 1 + lights() * ((diffuse ? 1 : 0) + (specular ? 1 : 0)); }
 };
 
 /// Of the host's vectors, and of tokens. In tokens the first three carry an object to shade and say where it
@@ -105,6 +105,17 @@ class ProcessorsLayout {
   constexpr int token_bits() const {
     return std::max(light_colour_low(c_.channels), radiance_low(c_.channels));
   }
+
+  // The probe: the walk's (that of preset exact in either), the planes' values as vectors, and of each
+  // processor the object that leaves it.
+  static constexpr int probe_plane_low(int plane) {
+    return Exact::c_probe_header_bits + plane * Preset::c_vector_bits;
+  }
+  constexpr int probe_processor_low(int processor) const {
+    return probe_plane_low(planes()) + processor * (Preset::c_processor_probe_header_bits +
+                                                    c_.channels * Preset::c_processor_probe_channel_bits);
+  }
+  constexpr int probe_bits() const { return probe_processor_low(c_.processors()); }
 
  private:
   ProcessorsConfig c_;

@@ -14,6 +14,8 @@ struct Unwatched {
   template <class Shader>
   void sample(const Shader&, SpanXWord) {}
   template <class Shader>
+  void processor(const Shader&, SpanXWord, int) {}
+  template <class Shader>
   void product(const Shader&, SpanXWord) {}
 };
 

@@ -5,16 +5,19 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plan/plan.hpp"
 #include "run/limits.hpp"
 #include "run/scene_stream.hpp"
 #include "scene/builtin_meshes.hpp"
+#include "setup/random_solids.hpp"
 #include "setup/setup.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
@@ -28,14 +31,18 @@ struct Subset {
   unsigned directional = 0, positional = 0, spots = 0;
   bool ambient = true, diffuse = false, specular = false;
   bool coloured = false, coloured_highlights = false;
+  bool curved = true, shadows = false;
 
   std::string name() const {
-    return fmt::format("{} directional, {} positional, {} spots{}{}{}{}{}", directional, positional, spots,
-                       ambient ? ", ambient" : "", diffuse ? ", diffuse" : "", specular ? ", specular" : "",
-                       coloured ? ", coloured" : "", coloured_highlights ? ", coloured highlights" : "");
+    return fmt::format("{} directional, {} positional, {} spots{}{}{}{}{}{}{}", directional, positional,
+                       spots, ambient ? ", ambient" : "", diffuse ? ", diffuse" : "",
+                       specular ? ", specular" : "", coloured ? ", coloured" : "",
+                       coloured_highlights ? ", coloured highlights" : "", curved ? "" : ", flat",
+                       shadows ? ", shadows" : "");
   }
 };
 
+// Of what every shader has.
 std::vector<Subset> every_subset() {
   std::vector<Subset> subsets;
   for (unsigned lights = 0; lights < 27; ++lights)
@@ -45,7 +52,21 @@ std::vector<Subset> every_subset() {
   return subsets;
 }
 
-/// A sphere of two materials, lit from the eye's side; its exponents take different tables.
+// Of what the shading processors have besides.
+std::vector<Subset> every_subset_of_processors() {
+  std::vector<Subset> subsets;
+  for (Subset subset : every_subset())
+    for (const bool curved : {true, false})
+      for (const bool shadows : {false, true}) {
+        subset.curved = curved;
+        subset.shadows = shadows;
+        subsets.push_back(subset);
+      }
+  return subsets;
+}
+
+/// A sphere of two materials, lit from the eye's side; its exponents take different tables. Where there are
+/// shadows, a box before it casts one on it.
 Scene scene_of(const Subset& subset) {
   Scene scene;
   scene.name = "subset";
@@ -73,10 +94,20 @@ Scene scene_of(const Subset& subset) {
     m.exponent = exponent;
     scene.materials.push_back(m);
   }
-  const Mesh mesh = make_uv_sphere(8, 6, 1.0);
+  Mesh mesh = make_uv_sphere(8, 6, 1.0);
+  if (!subset.curved) {
+    // One normal a triangle: its first corner's.
+    for (SceneTriangle& t : mesh.triangles) t.normal = {t.normal[0], t.normal[0], t.normal[0]};
+  }
   scene.positions_world = mesh.positions;
   scene.normals_world = mesh.normals;
   scene.triangles = mesh.triangles;
+  scene.shadows = subset.shadows;
+  if (subset.shadows) {
+    Mesh box = make_box(glm::dvec3(0.5), 1);
+    for (glm::dvec3& p : box.positions) p += glm::dvec3(-0.1, 0.25, 1.3);
+    add_mesh(scene, box);
+  }
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) scene.triangles[i].material = i % 2;
   scene.camera = {.eye_world = {0.0, 0.0, 3.4}, .vertical_fov_degrees = 40.0};
   return scene;
@@ -108,7 +139,7 @@ Drawing draw(const Scene& scene, const HardwareKey& key, bool with_rtl = false) 
     rtl.emplace(std::move(*opened));
   }
   const std::size_t words_per_vector = (setup->init_bits() + 31) / 32;
-  SceneStream stream(scene, *setup, key, 1);
+  SceneStream stream(*setup, key, 1);
   for (Batch batch; stream.next(batch);) {
     out.golden.insert(out.golden.end(), batch.golden.begin(), batch.golden.end());
     if (rtl)
@@ -132,6 +163,18 @@ void expect_equal(const std::vector<Fragment>& called_for, const std::vector<Fra
         "with all effects {} {} {} z {}",
         i, a.triangle, a.y, a.x, a.red, a.green, a.blue, a.z, b.red, b.green, b.blue, b.z);
   }
+}
+
+// Of each pixel the fragment that the frame keeps: hardware that goes by lines draws in another order, and
+// only these.
+std::vector<Fragment> nearest(const std::vector<Fragment>& fragments) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Fragment> kept;
+  for (const Fragment& f : fragments)
+    if (const auto [it, is_first] = kept.try_emplace({f.y, f.x}, f); !is_first && f.z < it->second.z)
+      it->second = f;
+  std::vector<Fragment> list;
+  for (const auto& [pixel, fragment] : kept) list.push_back(fragment);
+  return list;
 }
 
 struct Hardware {
@@ -195,6 +238,65 @@ TEST(AllEffects, LightsMoreThanTheScenesStayDark) {
         ASSERT_NO_FATAL_FAILURE(
             expect_equal(draw(scene, plan.called_for).golden, draw(scene, plan.key).golden));
       }
+}
+
+TEST(AllEffects, ProcessorsDrawTheSameFrameForEverySubset) {
+  const std::vector<Subset> subsets = every_subset_of_processors();
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    std::set<std::string> keys;
+    for (const Subset& subset : subsets) {
+      SCOPED_TRACE(fmt::format("{}, {}", to_string(preset), subset.name()));
+      const Scene scene = scene_of(subset);
+      const Plan plan = plan_of(scene, {.shader = Shader::processors, .preset = preset});
+      keys.insert(plan.called_for.name());
+      ASSERT_NO_FATAL_FAILURE(expect_equal(nearest(draw(scene, plan.called_for).golden),
+                                           nearest(draw(scene, plan.everything).golden)));
+    }
+    fmt::print("{} scenes, {} kinds of hardware called for\n", subsets.size(), keys.size());
+    // One and three channels. Of each but the first of 27 sets of lights: diffuse, specular, both; with and
+    // without shadows; in preset exact, with and without N normalized.
+    EXPECT_EQ(keys.size(), 2U * (1 + 26 * 3 * 2 * (preset == Preset::exact ? 2 : 1)));
+  }
+}
+
+TEST(AllEffects, ProcessorsLightsMoreThanTheScenesStayDark) {
+  const std::vector<Subset> subsets = {{}, {0, 1, 0, true, true, true}, {2, 2, 2, true, true, true, true}};
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (Subset subset : subsets)
+      for (const bool shadows : {false, true}) {
+        subset.shadows = shadows;
+        SCOPED_TRACE(fmt::format("{}, {}", to_string(preset), subset.name()));
+        const Scene scene = scene_of(subset);
+        const Plan plan = plan_of(
+            scene, {.shader = Shader::processors, .preset = preset, .all_effects = true, .lights = 16});
+        EXPECT_EQ(plan.key.processors.spots, 16U);
+        ASSERT_NO_FATAL_FAILURE(expect_equal(nearest(draw(scene, plan.called_for).golden),
+                                             nearest(draw(scene, plan.key).golden)));
+      }
+}
+
+TEST(AllEffects, OfProcessorsEachShowsInTheFrame) {
+  const Subset full{2, 2, 2, true, true, true, true, true, true, true};
+  std::vector<Subset> less(10, full);
+  less[0].directional = less[1].positional = less[2].spots = 1;
+  less[3].ambient = less[4].diffuse = less[5].specular = less[6].coloured = less[7].coloured_highlights =
+      less[8].curved = less[9].shadows = false;
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    const auto golden = [&](const Subset& subset) {
+      const Scene scene = scene_of(subset);
+      return nearest(
+          draw(scene, plan_of(scene, {.shader = Shader::processors, .preset = preset}).everything).golden);
+    };
+    const std::vector<Fragment> all = golden(full);
+    for (const Subset& subset : less) {
+      std::size_t changed = 0;
+      for (const Fragment& f : golden(subset))
+        for (const Fragment& g : all)
+          changed += f.x == g.x && f.y == g.y && f.triangle == g.triangle &&
+                     (f.red != g.red || f.green != g.green || f.blue != g.blue);
+      EXPECT_GT(changed, 20U) << to_string(preset) << ", " << subset.name();
+    }
+  }
 }
 
 TEST_P(EachShader, DrawTheSameInTheRtl) {

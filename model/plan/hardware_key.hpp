@@ -2,6 +2,7 @@
 // The hardware key: what is elaborated. One key, one build of the RTL for each simulator.
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 namespace halfway {
 
 enum class Shader { quadratic, spherical, processors };
+inline constexpr std::array c_shaders = {Shader::quadratic, Shader::spherical, Shader::processors};
 inline const char* to_string(Shader shader) {
   switch (shader) {
     case Shader::quadratic:

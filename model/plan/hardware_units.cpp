@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan/hardware_units.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace halfway {
@@ -9,7 +10,9 @@ namespace {
 // Entities below one, with all that lies below them.
 class Units {
  public:
-  explicit Units(const HardwareKey& key) : key_(key), exact_(key.preset == Preset::exact) {}
+  // The walk of the shading processors is exact in either preset.
+  explicit Units(const HardwareKey& key)
+      : key_(key), exact_(key.preset == Preset::exact || key.shader == Shader::processors) {}
 
   std::map<std::string, int> take() && {
     // What is not there is not named.
@@ -30,6 +33,7 @@ class Units {
   }
   void add_z_interpolator() {
     add("z_interpolator");
+    add("plane_interpolator");
     add("line_interpolator", 2);
     add("parameter_register", exact_ ? 4 : 3);
   }
@@ -83,8 +87,67 @@ class Units {
     add("saturating_sum", config.channels);
     add("saturate", config.channels);
   }
+  void add_function_roms(const std::string& entity, int roms, int count) {
+    add(entity, count);
+    add("function_rom", roms * count);
+  }
+  void add_power_units() {
+    const ProcessorUnits& p = key_.processors;
+    if (p.specular) add_function_roms("power", 2, static_cast<int>(p.lights()));
+  }
+  // What a processor has; `normalizations` of up to two vectors, side by side in one of the unrolled form,
+  // one after the other in a folded one.
+  void add_processor(int normalizations, bool has_cosine) {
+    const bool folded = key_.processors.form == ProcessorForm::folded;
+    const int units = folded ? std::min(normalizations, 1) : normalizations;
+    add(folded ? "shading_processor" : "unrolled_shading_processor");
+    add("parameter_register");  // what of its light it keeps
+    add("vector_multiply");
+    add("dot_product",
+        folded ? (has_cosine || normalizations > 0 ? 1 : 0) : normalizations + (has_cosine ? 1 : 0));
+    add("vector_shift", units);
+    add_function_roms("reciprocal_root", 1, units);
+  }
+  void add_ambient_processor() {
+    const golden::ProcessorsConfig config = processors_config(key_);
+    const bool has_view = is_exact() && golden::ProcessorsLayout<golden::Exact>(config).has_view();
+    add_processor((config.normalize ? 1 : 0) + (has_view ? 1 : 0), false);
+  }
+  // Of one light, which hardware for a place or for a spot serves as well.
+  void add_light_processors(bool positional, bool spot) {
+    const ProcessorUnits& p = key_.processors;
+    const int terms = (p.diffuse ? 1 : 0) + (p.specular ? 1 : 0);
+    if (p.diffuse) add_processor(positional ? 1 : 0, true);
+    if (p.specular)
+      add_processor(is_exact() ? 1 + (positional ? 1 : 0) : (positional ? 1 : 0) + (spot ? 1 : 0), true);
+    if (spot) add("spot_cone", terms);
+    if (p.shadows) add("shadow_counter", terms);
+  }
+  void add_processors_shader() {
+    const golden::ProcessorsConfig config = processors_config(key_);
+    const int planes = is_exact() ? golden::ProcessorsLayout<golden::Exact>(config).planes()
+                                  : golden::ProcessorsLayout<golden::Published>(config).planes();
+    add_stream_registers(2);       // the buffer in front, the fragment
+    add("parameter_register", 6);  // request and material of line and span; depth and colour
+    add_walker();
+    add_z_interpolator();
+    add("plane_interpolator", planes);
+    add("line_interpolator", 2 * planes);
+    add("parameter_register", 4 * planes);
+    if (config.shadows) {
+      add("object_stage");
+      add("parameter_register");  // the token that it holds
+    }
+    add("shading_pipeline");
+    add_ambient_processor();
+    for (int light = 0; light < config.lights(); ++light)
+      add_light_processors(light >= config.directional, light >= config.directional + config.positional);
+    add_power_units();
+    add("saturate", config.channels);
+  }
 
  private:
+  bool is_exact() const { return key_.preset == Preset::exact; }
   const HardwareKey& key_;
   bool exact_;
   std::map<std::string, int> counts_;
@@ -96,6 +159,8 @@ std::map<std::string, int> hardware_units(const HardwareKey& key) {
   Units units(key);
   if (key.shader == Shader::spherical)
     units.add_spherical_shader();
+  else if (key.shader == Shader::processors)
+    units.add_processors_shader();
   else
     units.add_quadratic_shader();
   return std::move(units).take();
@@ -116,7 +181,16 @@ std::map<std::string, int> depth_units(const HardwareKey& key) {
 
 std::map<std::string, int> ambient_units(const HardwareKey& key) {
   Units units(key);
-  units.add_ambient();
+  if (key.shader == Shader::processors)
+    units.add_ambient_processor();
+  else
+    units.add_ambient();
+  return std::move(units).take();
+}
+
+std::map<std::string, int> power_units(const HardwareKey& key) {
+  Units units(key);
+  units.add_power_units();
   return std::move(units).take();
 }
 

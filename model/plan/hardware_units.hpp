@@ -15,8 +15,11 @@ std::map<std::string, int> hardware_units(const HardwareKey& key);
 /// What is in `to` and not in `from`.
 std::map<std::string, int> units_added(const HardwareKey& from, const HardwareKey& to);
 
-/// Of these, what every key has: the depth's, and what the spherical shader has for ambient light.
+/// Of these, what every key has: the depth's, and what the spherical shader and the processors have for
+/// ambient light.
 std::map<std::string, int> depth_units(const HardwareKey& key);
 std::map<std::string, int> ambient_units(const HardwareKey& key);
+/// What raises cosines to a material's exponent, in the shading processors.
+std::map<std::string, int> power_units(const HardwareKey& key);
 
 }  // namespace halfway

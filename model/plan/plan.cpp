@@ -22,10 +22,11 @@ Result<Plan> plan_scene(const Scene& scene, const PlanRequest& request) {
     case Shader::quadratic:
       return plan_quadratic(scene, calls, request);
     case Shader::spherical:
+      return plan_spherical(scene, calls, request);
     case Shader::processors:
       break;
   }
-  return plan_spherical(scene, calls, request);
+  return plan_processors(scene, calls, request);
 }
 
 }  // namespace halfway

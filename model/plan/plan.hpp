@@ -44,11 +44,13 @@ struct PlanRequest {
   std::optional<TableSize> tables;  ///< of the spherical shader; none: the preset's
   /// Elaborate Plan::everything; what the scene has not, setup gives coefficients of zero.
   bool all_effects = false;
-  /// Lights that Plan::everything has in the spherical shader; none: those of the scene, and at least one.
+  /// Lights that Plan::everything has in the spherical shader and in the processors; none: those of the
+  /// scene, and at least one.
   std::optional<unsigned> lights;
+  std::optional<ProcessorForm> form;  ///< of the shading processors; none: unrolled
 };
 
-inline constexpr std::size_t c_most_lights = 16;  ///< of the spherical shader
+inline constexpr std::size_t c_most_lights = 16;  ///< of the spherical shader, and of the processors
 
 /// An error where the shader cannot draw the scene.
 Result<Plan> plan_scene(const Scene& scene, const PlanRequest& request);

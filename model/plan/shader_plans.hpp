@@ -8,6 +8,9 @@ namespace halfway {
 
 Result<Plan> plan_quadratic(const Scene& scene, const SceneCalls& calls, const PlanRequest& request);
 Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const PlanRequest& request);
+Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const PlanRequest& request);
+
+inline constexpr const char* c_form_of_another = "--form: only the shading processors have two forms";
 
 /// What the scene says of the effect, and who does it; nothing elaborated yet.
 PlannedEffect planned(const SceneCalls& calls, Effect effect, DoneBy by, std::string how);

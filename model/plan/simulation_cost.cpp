@@ -76,7 +76,7 @@ class Measurement {
     auto file = InitFileWriter::open(path, key_.name(), setup_->init_bits());
     if (!file) return file.error();
     FrameAssembler assembler(s_.size, scene_.background);
-    SceneStream stream(scene_, *setup_, key_, s_.threads);
+    SceneStream stream(*setup_, key_, s_.threads);
     for (Batch batch; stream.next(batch);) {
       file->write(batch.init_words);
       if (Status status = assembler.add(batch.golden); !status) return status;
@@ -117,7 +117,7 @@ class Measurement {
       if (added) return Ok{};
       return Error{ExitCode::differs, fmt::format("{} in Verilator: {}", key_.name(), added.error().message)};
     };
-    SceneStream stream(scene_, *setup_, key_, s_.threads);
+    SceneStream stream(*setup_, key_, s_.threads);
     for (Batch batch; stream.next(batch);) {
       golden += batch.golden.size();
       const std::size_t vectors = batch.init_words.size() / words_per_vector;

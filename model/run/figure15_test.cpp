@@ -24,7 +24,7 @@ Frame published_frame(const Scene& scene, TableSize tables) {
   const auto plan = plan_scene(scene, {Shader::spherical, Preset::published, tables});
   if (!plan) throw std::runtime_error(plan.error().message);
   const auto setup = make_setup(scene, c_frame, plan->key, {});
-  SceneStream stream(scene, *setup, plan->key, 2);
+  SceneStream stream(*setup, plan->key, 2);
   FrameAssembler assembler(c_frame, scene.background);
   for (Batch batch; stream.next(batch);)
     if (const Status status = assembler.add(batch.golden); !status)

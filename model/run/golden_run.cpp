@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/golden_run.hpp"
 
+#include "golden/processors_shader.hpp"
 #include "golden/quadratic_shader.hpp"
 #include "golden/spherical_shader.hpp"
 
@@ -17,6 +18,7 @@ struct Room {
 
 struct Watch {
   std::vector<ProbeEvent>& events;
+  const std::vector<Fragment>& fragments;
   void line(const auto& shader) { add(shader, Stage::line, shader.walker().start(), shader.line_probe()); }
   void span(const auto& shader, golden::SpanXWord x) { add(shader, Stage::span, x, shader.span_probe(x)); }
   void sample(const auto& shader, golden::SpanXWord x) {
@@ -25,6 +27,9 @@ struct Watch {
   void product(const auto& shader, golden::SpanXWord x) {
     add(shader, Stage::product, x, shader.product_probe());
   }
+  void processor(const auto& shader, golden::SpanXWord x, int number) {
+    add(shader, processor_stage(number), x, shader.processor_probe(number));
+  }
 
  private:
   void add(const auto& shader, Stage stage, golden::SpanXWord x, const auto& words) {
@@ -32,7 +37,8 @@ struct Watch {
                       shader.walker().triangle(),
                       shader.walker().y(),
                       static_cast<std::uint32_t>(golden::low_bits(x.bits(), golden::Exact::c_pixel_x_bits)),
-                      {words.begin(), words.end()}});
+                      {words.begin(), words.end()},
+                      fragments.size()});
   }
 };
 
@@ -51,8 +57,14 @@ class Model final : public GoldenModel {
                    std::vector<ProbeEvent>& events) override {
     each_triangle(init_words, [&](auto words) {
       shader_.draw(
-          words, [&](const Fragment& f) { fragments.push_back(f); }, Watch{events});
+          words, [&](const Fragment& f) { fragments.push_back(f); }, Watch{events, fragments});
     });
+  }
+  bool fault() const override {
+    if constexpr (requires { shader_.fault(); })
+      return shader_.fault();
+    else
+      return false;
   }
   unsigned init_bits() const override { return static_cast<unsigned>(shader_.init_bits()); }
   unsigned probe_bits() const override { return static_cast<unsigned>(shader_.probe_bits()); }
@@ -75,6 +87,8 @@ template <class Preset>
 std::unique_ptr<GoldenModel> make(const HardwareKey& key) {
   if (key.shader == Shader::spherical)
     return std::make_unique<Model<golden::SphericalShader<Preset>>>(golden_config(key));
+  if (key.shader == Shader::processors)
+    return std::make_unique<Model<golden::ProcessorsShader<Preset>>>(processors_config(key));
   if (key.channels == 1) return std::make_unique<Model<golden::QuadraticShader<Preset, 1>>>();
   return std::make_unique<Model<golden::QuadraticShader<Preset, 3>>>();
 }

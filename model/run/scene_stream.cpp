@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/scene_stream.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <span>
 #include <thread>
 
 #include "run/golden_run.hpp"
@@ -12,7 +15,8 @@ namespace halfway {
 namespace {
 
 constexpr std::uint32_t c_least_batch = 64, c_first_batch = 1024, c_largest_batch = 8192;  // triangles
-constexpr std::uint32_t c_most_chunk = 256;                                                // triangles
+constexpr std::uint32_t c_least_lines = 1, c_first_lines = 32;
+constexpr std::uint32_t c_most_chunk = 256;                   // units
 constexpr std::size_t c_batch_bytes = std::size_t{64} << 20;  // about what a batch should hold
 
 std::size_t bytes(const Batch& batch) {
@@ -26,12 +30,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-SceneStream::SceneStream(const Scene& scene, const Setup& setup, const HardwareKey& key, unsigned threads)
-    : scene_(scene),
-      setup_(setup),
+SceneStream::SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads)
+    : setup_(setup),
       key_(key),
       threads_(std::max(1U, threads)),
-      batch_triangles_(c_first_batch) {
+      batch_units_(setup.units_are_lines() ? c_first_lines : c_first_batch) {
+  setup_.append_prologue(prologue_, counts_);
   prefetch();
 }
 
@@ -40,10 +44,10 @@ SceneStream::~SceneStream() {
 }
 
 void SceneStream::prefetch() {
-  const auto total = static_cast<std::uint32_t>(scene_.triangles.size());
-  if (next_triangle_ >= total) return;
-  const std::uint32_t begin = next_triangle_, end = std::min(total, begin + batch_triangles_);
-  next_triangle_ = end;
+  const std::uint32_t total = setup_.units();
+  if (next_unit_ >= total) return;
+  const std::uint32_t begin = next_unit_, end = std::min(total, begin + batch_units_);
+  next_unit_ = end;
   ahead_ = std::async(std::launch::async, [this, begin, end] { return make(begin, end); });
 }
 
@@ -51,11 +55,12 @@ bool SceneStream::next(Batch& batch) {
   if (!ahead_.valid()) return false;
   Work work = ahead_.get();
   if (bytes(work.batch) > c_batch_bytes)
-    batch_triangles_ = std::max(c_least_batch, batch_triangles_ / 2);
+    batch_units_ = std::max(setup_.units_are_lines() ? c_least_lines : c_least_batch, batch_units_ / 2);
   else if (bytes(work.batch) < c_batch_bytes / 4)
-    batch_triangles_ = std::min(c_largest_batch, batch_triangles_ * 2);
+    batch_units_ = std::min(c_largest_batch, batch_units_ * 2);
   prefetch();
   counts_ += work.counts;
+  fault_ = fault_ || work.fault;
   setup_seconds_ += work.setup_seconds;
   golden_seconds_ += work.golden_seconds;
   batch = std::move(work.batch);
@@ -64,21 +69,26 @@ bool SceneStream::next(Batch& batch) {
 
 SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) const {
   // Small enough for all threads to have some.
-  const std::uint32_t chunk_triangles = std::clamp((end - begin) / (4 * threads_), 1U, c_most_chunk);
-  const std::size_t chunks = (end - begin + chunk_triangles - 1) / chunk_triangles;
+  const std::uint32_t chunk_units = std::clamp((end - begin) / (4 * threads_), 1U, c_most_chunk);
+  const std::size_t chunks = (end - begin + chunk_units - 1) / chunk_units;
   std::vector<Work> parts(chunks);
   std::atomic<std::size_t> next_chunk = 0;
   const auto work = [&] {
     const std::unique_ptr<GoldenModel> golden = make_golden_model(key_);
+    std::vector<Fragment> none;
+    golden->draw(prologue_, none);
     for (std::size_t i = next_chunk++; i < chunks; i = next_chunk++) {
       Work& part = parts[i];
-      const auto first = static_cast<std::uint32_t>(begin + i * chunk_triangles);
+      const auto first = static_cast<std::uint32_t>(begin + i * chunk_units);
       const auto setup_start = std::chrono::steady_clock::now();
-      for (std::uint32_t t = first; t < std::min(end, first + chunk_triangles); ++t)
-        setup_.append(t, part.batch.init_words, part.counts);
+      if (first == 0) part.batch.init_words = prologue_;
+      const std::size_t drawn = part.batch.init_words.size();
+      for (std::uint32_t unit = first; unit < std::min(end, first + chunk_units); ++unit)
+        setup_.append(unit, part.batch.init_words, part.counts);
       part.setup_seconds = seconds_since(setup_start);
       const auto golden_start = std::chrono::steady_clock::now();
-      golden->draw(part.batch.init_words, part.batch.golden);
+      golden->draw(std::span(part.batch.init_words).subspan(drawn), part.batch.golden);
+      part.fault = golden->fault();
       part.golden_seconds = seconds_since(golden_start);
     }
   };
@@ -93,13 +103,27 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) cons
     all.batch.init_words.insert(all.batch.init_words.end(), part.batch.init_words.begin(),
                                 part.batch.init_words.end());
     all.batch.golden.insert(all.batch.golden.end(), part.batch.golden.begin(), part.batch.golden.end());
+    all.fault = all.fault || part.fault;
     part.batch = {};
     all.counts += part.counts;
     all.setup_seconds += part.setup_seconds;
     all.golden_seconds += part.golden_seconds;
   }
-  all.batch.triangles_done = end;
+  all.batch.done = static_cast<double>(end) / setup_.units();
   return all;
+}
+
+Status check_shadow_counts(const Scene& scene, const SceneStream& stream) {
+  if (const std::uint64_t deepest = stream.counts().deepest_shadow; deepest > c_most_shadows)
+    return bad_input(
+        fmt::format("{}: {} shadow volumes of one light begin or end before one another at a pixel, and the "
+                    "processors count up "
+                    "to {}; leave out casters in others' shadow, or the shadows",
+                    scene.name, deepest, c_most_shadows));
+  if (stream.fault())
+    return tool_failed(
+        fmt::format("{}: before a pixel more shadow volumes end than begin; please report it", scene.name));
+  return Ok{};
 }
 
 }  // namespace halfway

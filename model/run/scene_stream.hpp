@@ -7,6 +7,7 @@
 #include <future>
 #include <vector>
 
+#include "common/result.hpp"
 #include "frame/fragment.hpp"
 #include "plan/hardware_key.hpp"
 #include "setup/setup.hpp"
@@ -16,22 +17,25 @@ namespace halfway {
 struct Batch {
   std::vector<std::uint32_t> init_words;
   std::vector<Fragment> golden;
-  std::uint32_t triangles_done = 0;  ///< of the scene, this batch's included
+  double done = 0.0;   ///< part of the stream, this batch included: 0 to 1
 };
 
 /// Setup and golden model on `threads` threads, one batch ahead of who takes them. The stream does not depend
-/// on the number of threads. Memory is bounded by a batch, not by the mesh: batches of large triangles, or of
-/// triangles with many line records, hold fewer.
+/// on the number of threads. The first batch begins with setup's prologue, which every thread's golden model
+/// is given first. Memory is bounded by a batch, not by the mesh: batches of large triangles, of triangles
+/// with many line records, or of crowded lines hold fewer units.
 class SceneStream {
  public:
-  /// Scene and setup must outlive the stream.
-  SceneStream(const Scene& scene, const Setup& setup, const HardwareKey& key, unsigned threads);
+  /// The setup must outlive the stream.
+  SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads);
   ~SceneStream();
 
   /// The next batch; false after the last.
   bool next(Batch& batch);
   /// Of all batches taken so far.
   const SetupCounts& counts() const { return counts_; }
+  /// The golden model's in one of them: fragments are worth nothing.
+  bool fault() const { return fault_; }
   /// Processor seconds that setup took, and the golden model.
   double setup_seconds() const { return setup_seconds_; }
   double golden_seconds() const { return golden_seconds_; }
@@ -41,18 +45,24 @@ class SceneStream {
     Batch batch;
     SetupCounts counts;
     double setup_seconds = 0, golden_seconds = 0;
+    bool fault = false;
   };
   Work make(std::uint32_t begin, std::uint32_t end) const;
   void prefetch();
 
-  const Scene& scene_;
   const Setup& setup_;
   HardwareKey key_;
   unsigned threads_;
-  std::uint32_t next_triangle_ = 0, batch_triangles_;
+  std::vector<std::uint32_t> prologue_;
+  std::uint32_t next_unit_ = 0, batch_units_;
   std::future<Work> ahead_;
   SetupCounts counts_;
+  bool fault_ = false;
   double setup_seconds_ = 0, golden_seconds_ = 0;
 };
+
+/// Whether, in all batches taken so far, each pixel's shadow volumes could be counted; bad input where there
+/// are too many.
+Status check_shadow_counts(const Scene& scene, const SceneStream& stream);
 
 }  // namespace halfway

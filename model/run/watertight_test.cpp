@@ -62,7 +62,7 @@ TEST_P(Watertight, TheRtlDrawsEveryPixelOfAClosedSolidOnce) {
     // Split nearly everywhere, or nowhere.
     options.quadratic.threshold = options.spherical.threshold = round % 2 == 0 ? 0.25 : 1e6;
     const auto setup = make_setup(scene, c_frame, key, options);
-    SceneStream stream(scene, *setup, key, 2);
+    SceneStream stream(*setup, key, 2);
     auto rtl = VerilatorSimulator::open(key, folders);
     ASSERT_TRUE(rtl) << rtl.error().message;
     std::vector<Fragment> drawn;

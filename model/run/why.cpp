@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <deque>
 #include <span>
+#include <type_traits>
 
 #include "golden/spherical_layout.hpp"
 #include "golden/word.hpp"
@@ -24,43 +25,62 @@ struct PlacedField {
   std::string name;
   golden::Field field;
   int block_low;
-  Stage stage = Stage::line;     // of the probe's fields: with which event it is valid
-  std::string_view entity = {};  // whose register it shows
+  Stage stage = Stage::line;  // of the probe's fields: with which event it is valid
+  std::string entity = {};    // whose register it shows, and what gives that its inputs
 };
 
-constexpr std::string_view c_stage_names[] = {"line", "span", "sample", "product"};
+// A stage of which the probe tells what it does, in the order of Stage.
+struct ProbedStage {
+  std::string name;
+  int event;                // its bit of the probe
+  std::string_view entity;  // that makes it happen
+};
 
 // What a hardware key's flat vectors hold.
 struct Layouts {
   std::vector<PlacedField> init, record, probe;
-  unsigned stages;  // of c_stage_names
+  std::vector<ProbedStage> stages;
 };
+
+std::vector<ProbedStage> walked_stages(std::initializer_list<const char*> names) {
+  std::vector<ProbedStage> stages;
+  for (const char* name : names) stages.push_back({name, static_cast<int>(stages.size()), "triangle_walker"});
+  return stages;
+}
 
 std::string channel_name(unsigned channel, unsigned channels) {
   static constexpr const char* c_colours[] = {"red", "green", "blue"};
   return channels == 1 ? "grey" : c_colours[channel];
 }
 
-std::string_view walk_entity(std::string_view field) {
-  if (field == "line_start" || field == "line_stop" || field == "line_carry")
-    return "edge_walker (in preset published: line_interpolator)";
-  return field.ends_with("_z") ? "z_interpolator" : "triangle_walker";
+// A register shows what its entity did with what it was given: a fault may lie on either side.
+std::string within(std::string_view entity, std::string_view around) {
+  return fmt::format("{}, or {} around it", entity, around);
 }
 
 template <class P>
-void place_probe_header(Layouts& layouts) {
+std::string walk_entity(std::string_view field, const std::string& shader) {
+  if (field == "line_start" || field == "line_stop" || field == "line_carry")
+    return within(std::is_same_v<P, golden::Exact> ? "edge_walker" : "line_interpolator", "triangle_walker");
+  return within(field.ends_with("_z") ? "z_interpolator" : "triangle_walker", shader);
+}
+
+template <class P>
+void place_probe_header(Layouts& layouts, const std::string& shader) {
   for (const golden::Field& f : P::c_probe_header)
     if (!f.name.ends_with("_event"))
       layouts.probe.push_back({std::string(f.name), f, 0,
-                               f.name.starts_with("line_") ? Stage::line : Stage::span, walk_entity(f.name)});
+                               f.name.starts_with("line_") ? Stage::line : Stage::span,
+                               walk_entity<P>(f.name, shader)});
 }
 
 template <class P>
-Layouts quadratic_layouts(unsigned channels) {
+Layouts quadratic_layouts(const HardwareKey& key) {
+  const unsigned channels = key.channels;
   Layouts layouts;
-  layouts.stages = 2;
+  layouts.stages = walked_stages({"line", "span"});
   for (const golden::Field& f : P::c_init_header) layouts.init.push_back({std::string(f.name), f, 0});
-  place_probe_header<P>(layouts);
+  place_probe_header<P>(layouts, key.entity());
   for (unsigned c = 0; c < channels; ++c) {
     const auto name = [&](const golden::Field& f) {
       return fmt::format("{} {}", channel_name(c, channels), f.name);
@@ -69,9 +89,10 @@ Layouts quadratic_layouts(unsigned channels) {
       layouts.init.push_back(
           {name(f), f, P::c_init_header_bits + static_cast<int>(c) * P::c_init_channel_bits});
     for (const golden::Field& f : P::c_probe_channel)
-      layouts.probe.push_back(
-          {name(f), f, P::c_probe_header_bits + static_cast<int>(c) * P::c_probe_channel_bits,
-           f.name.starts_with("line_") ? Stage::line : Stage::span, "quadratic_interpolator"});
+      layouts.probe.push_back({name(f), f,
+                               P::c_probe_header_bits + static_cast<int>(c) * P::c_probe_channel_bits,
+                               f.name.starts_with("line_") ? Stage::line : Stage::span,
+                               within("quadratic_interpolator", key.entity())});
   }
   return layouts;
 }
@@ -81,25 +102,26 @@ Layouts spherical_layouts(const HardwareKey& key) {
   const golden::SphericalConfig config = golden_config(key);
   const golden::SphericalLayout<P> at(config);
   Layouts layouts;
-  layouts.stages = 4;
+  layouts.stages = walked_stages({"line", "span", "sample", "product"});
   for (const golden::Field& f : P::c_init_header) layouts.init.push_back({std::string(f.name), f, 0});
   for (int c = 0; c < config.channels; ++c)
     layouts.init.push_back({channel_name(static_cast<unsigned>(c), key.channels) + " ambient",
                             P::ambient_channel_at::ambient, at.ambient_low(c)});
-  place_probe_header<P>(layouts);
+  place_probe_header<P>(layouts, key.entity());
   // One slice's part of a record or of the probe: its header's fields, then a word a channel.
   const auto place = [](std::vector<PlacedField>& fields, std::span<const golden::Field> header,
                         int header_bits, std::span<const golden::Field> channel, int channel_bits,
-                        int channels, const std::string& slice, int low, std::string_view entity) {
+                        int channels, const std::string& slice, int low, std::string_view around) {
     const auto add = [&](const golden::Field& f, int block_low, const std::string& of) {
       const Stage stage = f.name == "product"                          ? Stage::product
                           : f.name == "sample" || f.name == "in_range" ? Stage::sample
                                                                        : Stage::span;
       fields.push_back({fmt::format("{} {}{}", slice, of, f.name), f, block_low, stage,
-                        stage == Stage::span     ? "line_interpolator"
-                        : f.name == "in_range"   ? "angle_address"
-                        : stage == Stage::sample ? "cosine_rom"
-                                                 : entity});
+                        within(stage == Stage::span     ? "line_interpolator"
+                               : f.name == "in_range"   ? "angle_address"
+                               : stage == Stage::sample ? "cosine_rom"
+                                                        : "multiplier",
+                               around)});
     };
     for (const golden::Field& f : header) add(f, low, "");
     for (int c = 0; c < channels; ++c)
@@ -114,7 +136,7 @@ Layouts spherical_layouts(const HardwareKey& key) {
             P::c_diffuse_channel_bits, at.diffuse_channels(), light + " diffuse", at.diffuse_low(l), "");
       place(layouts.probe, P::c_diffuse_probe_header, P::c_diffuse_probe_header_bits,
             P::c_diffuse_probe_channel, P::c_diffuse_probe_channel_bits, at.diffuse_channels(),
-            light + " diffuse", at.diffuse_probe_low(l), "multiplier");
+            light + " diffuse", at.diffuse_probe_low(l), "diffuse_slice");
     }
     if (config.specular) {
       place(layouts.record, P::c_specular_header, P::c_specular_header_bits, P::c_specular_channel,
@@ -122,15 +144,83 @@ Layouts spherical_layouts(const HardwareKey& key) {
             "");
       place(layouts.probe, P::c_specular_probe_header, P::c_specular_probe_header_bits,
             P::c_specular_probe_channel, P::c_specular_probe_channel_bits, config.highlight_channels,
-            light + " specular", at.specular_probe_low(l), "multiplier");
+            light + " specular", at.specular_probe_low(l), "specular_slice");
     }
   }
   return layouts;
 }
 
 template <class P>
+Layouts processors_layouts(const HardwareKey& key) {
+  using golden::Field;
+  const golden::ProcessorsConfig config = processors_config(key);
+  const golden::ProcessorsLayout<P> at(config);
+  const bool folded = key.processors.form == ProcessorForm::folded;
+  const std::string_view processor = folded ? "shading_processor" : "unrolled_shading_processor";
+  Layouts layouts;
+  layouts.stages = walked_stages({"line", "span"});
+  const auto colour = [&](int channel) { return channel_name(static_cast<unsigned>(channel), key.channels); };
+  // What the planes are of.
+  std::vector<std::string> planes;
+  for (const char* axis : {"x", "y", "z"}) planes.push_back(std::string("N ") + axis);
+  if (at.has_place())
+    for (const char* axis : {"x", "y", "z"})
+      planes.push_back(std::string(key.preset == Preset::exact ? "view ray " : "P ") + axis);
+  if (at.has_distance()) planes.emplace_back("1/w");
+
+  for (const Field& f : P::c_request_header) layouts.init.push_back({std::string(f.name), f, 0});
+  for (const Field& f : golden::Exact::c_init_header)
+    layouts.init.push_back({std::string(f.name), f, at.walk_low()});
+  for (std::size_t p = 0; p < planes.size(); ++p)
+    for (const Field& f : P::c_plane_header)
+      layouts.init.push_back({fmt::format("{} {}", planes[p], f.name), f, at.plane_low(static_cast<int>(p))});
+  const int material = at.init_material_low();
+  if (config.specular)
+    layouts.init.push_back({"exponent",
+                            {"", at.exponent_low(), P::c_exponent_bits, false, P::c_exponent_fraction_bits},
+                            material});
+  const auto place_coefficient = [&](const char* name, int low, int channel) {
+    layouts.init.push_back({fmt::format("{} {}", colour(channel), name),
+                            {"", low, P::c_coefficient_bits, false, P::c_coefficient_fraction_bits},
+                            material});
+  };
+  for (int c = 0; c < config.channels; ++c) {
+    place_coefficient("k ambient", at.ambient_low(c), c);
+    if (config.diffuse) place_coefficient("k diffuse", at.diffuse_low(c), c);
+    if (config.specular) place_coefficient("k specular", at.specular_low(c), c);
+  }
+
+  place_probe_header<golden::Exact>(layouts, key.entity());
+  for (std::size_t p = 0; p < planes.size(); ++p)
+    layouts.probe.push_back({planes[p],
+                             {"", 0, P::c_vector_bits, true, P::c_vector_fraction_bits},
+                             at.probe_plane_low(static_cast<int>(p)),
+                             Stage::span,
+                             "plane_interpolator"});
+  int number = 0;
+  const auto add_processor = [&](std::string name) {
+    const int low = at.probe_processor_low(number);
+    const Stage stage = processor_stage(number++);
+    using At = typename P::processor_probe_header_at;
+    layouts.stages.push_back({std::move(name), low + At::leaves.low, processor});
+    layouts.probe.push_back({"command", At::command, low, stage, "processors_shader"});
+    for (int c = 0; c < config.channels; ++c)
+      layouts.probe.push_back({colour(c) + " so far", P::processor_probe_channel_at::radiance,
+                               low + P::c_processor_probe_header_bits + c * P::c_processor_probe_channel_bits,
+                               stage, std::string(processor)});
+  };
+  add_processor("ambient");
+  for (int light = 1; light <= config.lights(); ++light) {
+    if (config.diffuse) add_processor(fmt::format("diffuse {}", light));
+    if (config.specular) add_processor(fmt::format("specular {}", light));
+  }
+  return layouts;
+}
+
+template <class P>
 Layouts layouts_of(const HardwareKey& key) {
-  return key.shader == Shader::spherical ? spherical_layouts<P>(key) : quadratic_layouts<P>(key.channels);
+  if (key.shader == Shader::processors) return processors_layouts<P>(key);
+  return key.shader == Shader::spherical ? spherical_layouts<P>(key) : quadratic_layouts<P>(key);
 }
 
 std::string shown(std::uint64_t word, const PlacedField& f) {
@@ -169,7 +259,7 @@ class Explainer {
     key.probe = true;
     layouts_ =
         key.preset == Preset::exact ? layouts_of<golden::Exact>(key) : layouts_of<golden::Published>(key);
-    expected_.resize(layouts_.stages);
+    expected_.resize(layouts_.stages.size());
     auto simulator =
         VerilatorSimulator::open(key, s_.folders, {.idle_limit = c_idle_limit, .record_probes = true});
     if (!simulator) return simulator.error();
@@ -177,11 +267,10 @@ class Explainer {
     const std::unique_ptr<GoldenModel> golden = make_golden_model(report_.key);
     words_per_vector_ = (setup->init_bits() + 31) / 32;
 
-    SceneStream stream(scene_, *setup, report_.key, s_.threads);
+    SceneStream stream(*setup, report_.key, s_.threads);
     bool alive = true;
     for (Batch batch; alive && stream.next(batch);) {
-      s_.on_progress(static_cast<double>(batch.triangles_done) /
-                     static_cast<double>(scene_.triangles.size()));
+      s_.on_progress(batch.done);
       for (auto rest = std::span<const std::uint32_t>(batch.init_words); alive && !rest.empty();) {
         const std::size_t vectors = golden->group(rest);
         const auto words = rest.first(vectors * words_per_vector_);
@@ -215,9 +304,17 @@ class Explainer {
     std::vector<Fragment> fragments;
     std::vector<ProbeEvent> events;
     golden.draw_probed(words, fragments, events);
-    std::size_t drawn = 0;
     std::optional<std::size_t> story;  // of the pixel whose stages come now
-    for (ProbeEvent& event : events) {
+    // Backwards: whether a span's pixel leaves a fragment is told by those drawn before the next one.
+    std::vector<bool> draws(events.size());
+    std::size_t drawn = fragments.size();
+    for (std::size_t i = events.size(); i-- > 0;) {
+      if (events[i].stage != Stage::span) continue;
+      draws[i] = events[i].fragment != drawn;
+      drawn = events[i].fragment;
+    }
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      ProbeEvent& event = events[i];
       const auto stage = static_cast<std::size_t>(event.stage);
       Expected expected{std::move(event), std::nullopt};
       if (expected.event.stage == Stage::line) {
@@ -225,15 +322,17 @@ class Explainer {
       } else {
         if (expected.event.stage == Stage::span) {
           story.reset();
-          ExpectedFragment fragment{fragments[drawn++], std::nullopt};
-          if (expected.event.x == s_.x && expected.event.y == s_.y) {
-            story = begin_story(words, fragment.fragment);
-            // The line that this pixel is on is the last one expected.
-            expected_[0].back().story = story;
-            show(line_event_, *story);
-            fragment.story = story;
+          if (draws[i]) {
+            ExpectedFragment fragment{fragments[expected.event.fragment], std::nullopt};
+            if (expected.event.x == s_.x && expected.event.y == s_.y) {
+              story = begin_story(words, fragment.fragment);
+              // The line that this pixel is on is the last one expected.
+              expected_[0].back().story = story;
+              show(line_event_, *story);
+              fragment.story = story;
+            }
+            golden_fragments_.push_back(fragment);
           }
-          golden_fragments_.push_back(fragment);
         }
         expected.story = story;
         if (story) show(expected.event, *story);
@@ -252,8 +351,7 @@ class Explainer {
       const auto record = words.subspan((1 + line) * words_per_vector_, words_per_vector_);
       for (const PlacedField& f : layouts_.record) story.record.push_back(value_of(f, record, record));
     }
-    for (std::size_t i = 0; i < layouts_.stages; ++i)
-      story.stages.push_back({std::string(c_stage_names[i]), std::nullopt, {}});
+    for (const ProbedStage& stage : layouts_.stages) story.stages.push_back({stage.name, std::nullopt, {}});
     story.stages.push_back({"fragment", std::nullopt, {}});
     const auto golden = fields(fragment);
     for (std::size_t i = 0; i < golden.size(); ++i)
@@ -277,10 +375,13 @@ class Explainer {
   bool take(const Status& status, VerilatorSimulator& simulator) {
     for (const ProbeRecord& record : simulator.probes()) {
       last_cycle_ = record.cycle;
-      // The probe's lowest bits are the stages' events. A later stage holds an earlier pixel.
-      for (std::size_t stage = layouts_.stages; stage-- > 0;)
-        if ((record.words[0] >> stage & 1) != 0) check(record, stage);
-      if ((record.words[0] >> (layouts_.stages - 1) & 1) != 0) fragment_cycles_.push_back(record.cycle + 1);
+      // A later stage holds an earlier pixel.
+      const auto happens = [&](const ProbedStage& stage) {
+        return golden::get_bits(record.words, {"", stage.event, 1, false, 0}) != 0;
+      };
+      for (std::size_t stage = layouts_.stages.size(); stage-- > 0;)
+        if (happens(layouts_.stages[stage])) check(record, stage);
+      if (happens(layouts_.stages.back())) fragment_cycles_.push_back(record.cycle + 1);
     }
     simulator.probes().clear();
     for (const Fragment& f : rtl_fragments_) check_fragment(f);
@@ -294,11 +395,11 @@ class Explainer {
   }
 
   void check(const ProbeRecord& record, std::size_t stage) {
-    const std::string name(c_stage_names[stage]);
+    const std::string& name = layouts_.stages[stage].name;
     std::deque<Expected>& queue = expected_[stage];
     if (queue.empty()) {
-      differ({name, "triangle_walker", fmt::format("a {} too many", name), record.cycle, 0, 0, 0, "nothing",
-              "one"});
+      differ({name, std::string(layouts_.stages[stage].entity), fmt::format("a {} too many", name),
+              record.cycle, 0, 0, 0, "nothing", "one"});
       return;
     }
     const Expected expected = std::move(queue.front());
@@ -316,7 +417,7 @@ class Explainer {
       const std::uint64_t golden = golden::get_bits(expected.event.words, f.field, f.block_low);
       const std::uint64_t rtl = golden::get_bits(record.words, f.field, f.block_low);
       if (golden == rtl) continue;
-      differ({name, std::string(f.entity), f.name, record.cycle, expected.event.triangle, expected.event.y,
+      differ({name, f.entity, f.name, record.cycle, expected.event.triangle, expected.event.y,
               expected.event.x, shown(golden, f), shown(rtl, f)});
       return;
     }
@@ -338,7 +439,7 @@ class Explainer {
       if (a[i] != b[i]) {
         differ({"fragment",
                 i < 4                                     ? "the register behind the shader"
-                : report_.key.shader == Shader::quadratic ? "saturate, or the register behind it"
+                : report_.key.shader != Shader::spherical ? "saturate, or the register behind it"
                                                           : "saturating_sum, or the register behind it",
                 std::string(c_fragment_fields[i]), cycle, expected.fragment.triangle, expected.fragment.y,
                 expected.fragment.x, std::to_string(a[i]), std::to_string(b[i])});
@@ -350,9 +451,9 @@ class Explainer {
     for (std::size_t stage = 0; stage < expected_.size(); ++stage) {
       if (expected_[stage].empty()) continue;
       const ProbeEvent& e = expected_[stage].front().event;
-      const std::string name(c_stage_names[stage]);
-      differ({name, "triangle_walker", fmt::format("a {} that never came", name), UINT64_MAX, e.triangle, e.y,
-              e.x, "one", "nothing"});
+      const std::string& name = layouts_.stages[stage].name;
+      differ({name, std::string(layouts_.stages[stage].entity), fmt::format("a {} that never came", name),
+              UINT64_MAX, e.triangle, e.y, e.x, "one", "nothing"});
     }
     if (report_.first && report_.first->cycle == UINT64_MAX) report_.first->cycle = last_cycle_ + 1;
   }

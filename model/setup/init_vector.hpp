@@ -12,6 +12,7 @@
 #include "golden/word.hpp"
 #include "setup/exact_division.hpp"
 #include "setup/quadratic_fit.hpp"
+#include "setup/screen_triangle.hpp"
 #include "setup/walk.hpp"
 
 namespace halfway {
@@ -57,8 +58,21 @@ inline double depth_steps(double z) {
   return std::clamp(z * c_depth_steps, 1.0, c_depth_steps - 2.0);
 }
 
-/// The header of preset exact: triangle, walk and depth.
-void put_header(InitVector& init, std::uint32_t triangle, const Walk& walk, const DepthWords& depth);
+/// Of a triangle's vertices, in the unit of depth_sum.
+inline std::array<std::int64_t, 3> fixed_depths(const ScreenTriangle& t) {
+  const auto depth = [&](std::size_t i) {
+    return fixed(depth_steps(t.vertex[i].z), golden::Exact::c_depth_sum_fraction_bits);
+  };
+  return {depth(0), depth(1), depth(2)};
+}
+
+inline std::array<ScreenPoint, 3> screen_points(const ScreenTriangle& t) {
+  return {{{t.vertex[0].x, t.vertex[0].y}, {t.vertex[1].x, t.vertex[1].y}, {t.vertex[2].x, t.vertex[2].y}}};
+}
+
+/// The header of preset exact: triangle, walk and depth; from bit `low` of the vector on.
+void put_header(InitVector& init, std::uint32_t triangle, const Walk& walk, const DepthWords& depth,
+                int low = 0);
 
 /// Where forward differences start on a walk.
 inline DifferenceStart difference_start(const Walk& walk) {

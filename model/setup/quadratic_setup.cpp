@@ -159,14 +159,6 @@ double held_sample(double radiance, SetupCounts& counts) {
   return c_largest_sample;
 }
 
-// Depth words of the whole triangle.
-std::array<std::int64_t, 3> fixed_depths(const ScreenTriangle& t) {
-  std::array<std::int64_t, 3> z;
-  for (std::size_t i = 0; i < 3; ++i)
-    z[i] = fixed(depth_steps(t.vertex[i].z), Exact::c_depth_sum_fraction_bits);
-  return z;
-}
-
 }  // namespace
 
 QuadraticSetup::QuadraticSetup(const Scene& scene, FrameSize frame, const HardwareKey& key,
@@ -200,9 +192,7 @@ void QuadraticSetup::append(std::uint32_t triangle, std::vector<std::uint32_t>& 
 void QuadraticSetup::append_exact(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
                                   SetupCounts& counts) const {
   const int subpixel_bits = projector_.options().subpixel_bits;
-  const std::array<ScreenPoint, 3> corners = {{{triangle.vertex[0].x, triangle.vertex[0].y},
-                                               {triangle.vertex[1].x, triangle.vertex[1].y},
-                                               {triangle.vertex[2].x, triangle.vertex[2].y}}};
+  const std::array<ScreenPoint, 3> corners = screen_points(triangle);
   // A triangle that covers no pixel needs no sample.
   if (plan_walks(corners, subpixel_bits, frame_).empty()) return;
   const Sampler sampler(*scene_, triangle, counts);

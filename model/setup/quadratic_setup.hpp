@@ -18,6 +18,7 @@ class QuadraticSetup final : public Setup {
   QuadraticSetup(const Scene& scene, FrameSize frame, const HardwareKey& key, QuadraticSetupOptions options);
 
   unsigned init_bits() const override { return init_bits_; }
+  std::uint32_t units() const override { return static_cast<std::uint32_t>(scene_->triangles.size()); }
   void append(std::uint32_t triangle, std::vector<std::uint32_t>& words, SetupCounts& counts) const override;
 
  private:

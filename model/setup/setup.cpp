@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "setup/setup.hpp"
 
+#include <algorithm>
+
+#include "setup/processors_setup.hpp"
 #include "setup/quadratic_setup.hpp"
 #include "setup/spherical_setup.hpp"
 
@@ -16,6 +19,8 @@ SetupCounts& SetupCounts::operator+=(const SetupCounts& o) {
   shaded += o.shaded;
   overexposed += o.overexposed;
   unresolved += o.unresolved;
+  shadows += o.shadows;
+  deepest_shadow = std::max(deepest_shadow, o.deepest_shadow);
   return *this;
 }
 
@@ -23,6 +28,7 @@ std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const Har
                                   const SetupOptions& options) {
   if (key.shader == Shader::spherical)
     return std::make_unique<SphericalSetup>(scene, frame, key, options.spherical);
+  if (key.shader == Shader::processors) return make_processors_setup(scene, frame, key);
   return std::make_unique<QuadraticSetup>(scene, frame, key, options.quadratic);
 }
 

@@ -64,6 +64,16 @@ EdgeSection section(const Interval& interval, std::int64_t begin, std::int64_t e
   return s;
 }
 
+// Of the section's first `steps` steps, those with one more pixel.
+std::int64_t carries_of(const EdgeSection& s, std::int64_t steps) {
+  const std::int64_t error = s.error + s.remainder - (s.carry ? s.divisor : 0);  // before the first step
+  return ceil_divide(steps * s.remainder - error, s.divisor);
+}
+
+std::int64_t pixel_of(const EdgeSection& s, std::int64_t steps) {
+  return s.pixel + steps * s.quotient + carries_of(s, steps);
+}
+
 // A run of lines on which both edges keep to one interval each.
 struct Run {
   std::int64_t begin, end;
@@ -141,6 +151,20 @@ std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> p, int unit_bits, FrameS
     i += pair ? 2 : 1;
   }
   return walks;
+}
+
+WalkLine line_of(const Walk& walk, std::int64_t y) {
+  WalkLine line;
+  line.steps = y - walk.y;
+  line.carries = carries_of(walk.start, line.steps);
+  const bool upper = line.steps < walk.upper_lines;
+  line.walk.y = y;
+  line.walk.upper_lines = 1;
+  line.walk.backward = walk.backward;
+  line.walk.start.pixel = pixel_of(walk.start, line.steps);
+  line.walk.upper.pixel =
+      upper ? pixel_of(walk.upper, line.steps) : pixel_of(walk.lower, line.steps - walk.upper_lines);
+  return line;
 }
 
 std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> points, int unit_bits, Columns columns,

@@ -34,6 +34,17 @@ struct Walk {
 /// edge with two of the stop edge. Points either way round, in 1/2^unit_bits pixels.
 std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> points, int unit_bits, FrameSize frame);
 
+/// One line of a walk, and how the start edge came there: `steps` lines down, of which `carries` with one
+/// more pixel.
+struct WalkLine {
+  Walk walk;  ///< of this line alone
+  std::int64_t steps, carries;
+  bool empty() const { return walk.start.pixel == walk.upper.pixel; }
+};
+
+/// `y` is one of the walk's lines.
+WalkLine line_of(const Walk& walk, std::int64_t y);
+
 /// Columns [begin, end) of the frame.
 struct Columns {
   std::int64_t begin, end;

@@ -173,5 +173,43 @@ TEST(Walk, OrderOfThePointsDoesNotMatter) {
   }
 }
 
+// A line taken by itself is the walk's, span and sums.
+TEST(Walk, ALineOfItIsThatLine) {
+  RandomTriangles random(17);
+  std::uint64_t lines = 0, carries = 0;
+  for (const TriangleKind kind : c_triangle_kinds)
+    for (int i = 0; i < 300; ++i) {
+      const FrameSize frame = c_frames[static_cast<std::size_t>(i) % c_frames.size()];
+      for (const Walk& walk : plan_walks(random.next(kind, 4, frame), 4, frame)) {
+        std::array<std::uint32_t, (Exact::c_init_header_bits + 31) / 32> words{};
+        put_walk(words, walk);
+        golden::TriangleWalker<Exact> walker;
+        walker.line_load(words);
+        for (std::int64_t steps = 0, carried = 0;; ++steps) {
+          const WalkLine line = line_of(walk, walk.y + steps);
+          ASSERT_EQ(line.steps, steps);
+          ASSERT_EQ(line.carries, carried);
+          ASSERT_EQ(line.empty(), walker.line_empty());
+          std::array<std::uint32_t, (Exact::c_init_header_bits + 31) / 32> line_words{};
+          put_walk(line_words, line.walk);
+          golden::TriangleWalker<Exact> alone;
+          alone.line_load(line_words);
+          ASSERT_EQ(alone.y(), walker.y());
+          ASSERT_EQ(alone.backward(), walker.backward());
+          ASSERT_EQ(alone.start(), walker.start());
+          ASSERT_EQ(alone.stop(), walker.stop());
+          ASSERT_TRUE(alone.line_last());
+          ++lines;
+          if (walker.line_last()) break;
+          carried += walker.carry();
+          carries += walker.carry();
+          walker.line_step();
+        }
+      }
+    }
+  EXPECT_GT(lines, 100'000U);
+  EXPECT_GT(carries, 10'000U);
+}
+
 }  // namespace
 }  // namespace halfway

@@ -82,6 +82,9 @@ package processors_pkg is
 
   function light_colour_low (c : config_t) return natural;
 
+  -- Of a vector, or token, that loads.
+  function load_bits (c : config_t) return positive;
+
   function init_bits (c : config_t) return positive;
 
   -- Within a material.
@@ -110,6 +113,14 @@ package processors_pkg is
   function radiance_low (c : config_t; channel : natural) return natural;
 
   function token_bits (c : config_t) return positive;
+
+  -- The probe: the walk's (that of preset exact in either), the planes' values as vectors, and of each processor the
+  -- object that leaves it (processor_probe).
+  function probe_plane_low (c : config_t; plane : natural) return natural;
+
+  function probe_processor_low (c : config_t; processor : natural) return natural;
+
+  function probe_bits (c : config_t) return positive;
 
 end package;
 
@@ -177,7 +188,7 @@ package body processors_pkg is
     return light_axes_low(c) + light_axes_bits(c.exact, c_axes);
   end function;
 
-  function light_end (c : config_t) return natural is
+  function load_bits (c : config_t) return positive is
   begin
     return light_colour_low(c) + light_colour_bits(c.exact, c.channels);
   end function;
@@ -185,8 +196,8 @@ package body processors_pkg is
   function init_bits (c : config_t) return positive is
     constant c_draw_bits : positive := init_material_low(c) + material_bits(c);
   begin
-    if light_end(c) > c_draw_bits then
-      return light_end(c);
+    if load_bits(c) > c_draw_bits then
+      return load_bits(c);
     end if;
     return c_draw_bits;
   end function;
@@ -259,10 +270,25 @@ package body processors_pkg is
   function token_bits (c : config_t) return positive is
     constant c_pixel_bits : positive := radiance_low(c, c.channels);
   begin
-    if light_end(c) > c_pixel_bits then
-      return light_end(c);
+    if load_bits(c) > c_pixel_bits then
+      return load_bits(c);
     end if;
     return c_pixel_bits;
+  end function;
+
+  function probe_plane_low (c : config_t; plane : natural) return natural is
+  begin
+    return probe_channel_low(true, 0) + plane * formats(c.exact).vector.bits;
+  end function;
+
+  function probe_processor_low (c : config_t; processor : natural) return natural is
+  begin
+    return probe_plane_low(c, planes(c)) + processor * processor_probe_bits(c.exact, c.channels);
+  end function;
+
+  function probe_bits (c : config_t) return positive is
+  begin
+    return probe_processor_low(c, processors(c));
   end function;
 
 end package body;

@@ -55,6 +55,7 @@ entity spherical_shader is
     fragment_green    : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     fragment_blue     : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     busy              : out std_logic; -- something is on its way
+    fault             : out std_logic; -- nothing here can go wrong
     probe             : out std_logic_vector(probe_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
       g_highlight_channels) - 1 downto 0)
   );
@@ -546,6 +547,7 @@ begin
 
   fragment_valid <= out_valid;
   busy           <= waiting or walking or sample_valid or product_valid or out_valid;
+  fault          <= '0';
 
   probed : if g_probe generate
 

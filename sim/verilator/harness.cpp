@@ -33,6 +33,7 @@ constexpr std::size_t words_of(std::size_t bits) {
 }
 constexpr std::size_t kInitWords = words_of(HALFWAY_INIT_BITS);
 constexpr std::size_t kProbeWords = words_of(HALFWAY_PROBE_BITS);
+constexpr int kLateCycles = 8;               // for a fault, as in tb/frame_tb.vhd
 constexpr std::uint32_t kProbeEvents = 0xf;  // its lowest bits: what the stages do in this cycle
 
 // Ports of up to 64 bits are plain integers, wider ones arrays of words.
@@ -191,6 +192,12 @@ class Model {
     settle();
   }
 
+  // A counter may find out what was wrong with a token after that has gone.
+  bool faults_late() {
+    for (int i = 0; i < kLateCycles && !shader_->fault; ++i) rising_edge();
+    return shader_->fault;
+  }
+
   HalfwayFragment fragment() const {
     return {static_cast<std::uint32_t>(shader_->fragment_triangle),
             static_cast<std::uint32_t>(shader_->fragment_z),
@@ -228,6 +235,10 @@ class Model {
         status = HALFWAY_BUFFER_FULL;
         break;
       }
+      if (shader_->fault) {
+        status = HALFWAY_FAULT;
+        break;
+      }
       const bool take = offered_ && shader_->init_ready;
       const bool valid = shader_->fragment_valid;
       const bool emit = valid && (!stall || shader_->fragment_ready);
@@ -254,7 +265,10 @@ class Model {
       if (take || emit) {
         last_move = cycle;
       } else {
-        if (drain && !valid && !shader_->busy) break;
+        if (drain && !valid && !shader_->busy) {
+          if (faults_late()) status = HALFWAY_FAULT;
+          break;
+        }
         if (cycle - last_move >= options_.idle_limit) {
           status = HALFWAY_HANG;
           break;

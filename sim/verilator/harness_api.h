@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-#define HALFWAY_HARNESS_VERSION 1
+#define HALFWAY_HARNESS_VERSION 2
 
 /* Laid out as halfway::Fragment. */
 typedef struct {
@@ -23,7 +23,8 @@ typedef enum {
   HALFWAY_DONE = 0,        /* run: every vector is taken; drain: nothing is held any more */
   HALFWAY_BUFFER_FULL = 1, /* call again with room */
   HALFWAY_HANG = 2,        /* nothing moved for idle_limit cycles */
-  HALFWAY_CHANGED = 3      /* a fragment changed or was withdrawn while it was not taken */
+  HALFWAY_CHANGED = 3,     /* a fragment changed or was withdrawn while it was not taken */
+  HALFWAY_FAULT = 4        /* the hardware says itself that it went wrong: a shadow counter left its range */
 } HalfwayStatus;
 
 typedef struct {

@@ -211,6 +211,10 @@ Status VerilatorSimulator::advance(const std::uint32_t* words, std::size_t vecto
             fmt::format("{} in Verilator: a fragment changed or was withdrawn while it was not taken, after "
                         "{} cycles",
                         state_->name, cycles())};
+      case HALFWAY_FAULT:
+        return Error{ExitCode::differs,
+                     fmt::format("{} in Verilator: a shadow counter left its range, by cycle {}",
+                                 state_->name, cycles())};
       default:
         return tool_failed(fmt::format("{} in Verilator: unknown status {}", state_->name, status));
     }

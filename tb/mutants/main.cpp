@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_mutants SOURCE VECTORS SCRATCH: puts one small fault after the other into a copy of the RTL and
-// runs the entity's testbench on it; each must be found. SOURCE is the project's root, VECTORS what
-// halfway_vectors wrote.
+// halfway_mutants SOURCE VECTORS SCRATCH [PART]: puts one small fault after the other into a copy of the RTL
+// and runs the entity's testbench on it; each must be found. SOURCE is the project's root, VECTORS what
+// halfway_vectors wrote; with PART only the faults in files whose names hold it.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -50,6 +50,62 @@ constexpr Mutant c_mutants[] = {
     // A sum that wraps; the last term forgotten.
     {"arithmetic/saturating_sum.vhd", "positive := g_term_bits + carry_bits", "positive := g_term_bits + 1"},
     {"arithmetic/saturating_sum.vhd", "for i in 1 to g_terms - 1 loop", "for i in 1 to g_terms - 2 loop"},
+    // A slope that ends at the cell before; a table for another; a bit of an entry.
+    {"tables/function_rom.vhd", "c_table(i + 1) - c_table(i)",
+     "c_table(i + 1) - c_table(i) - boolean'pos(i = 7)"},
+    {"tables/function_pkg.vhd", "508, 500,", "508, 501,", "tables/function_rom.vhd"},
+    {"tables/function_rom.vhd", "if enable = '1' then", "if enable = '1' or address(0) = '1' then"},
+    // A digit's carry lost; the sign forgotten; a tie rounded down; light from the horizon; a cosine above 1.
+    {"arithmetic/shading_pkg.vhd", "half := half - 1;", "half := half;"},
+    {"arithmetic/shading_pkg.vhd", "digits(place) := digits(place) - weight;",
+     "digits(place) := digits(place) + weight;"},
+    {"arithmetic/shading_pkg.vhd", "half := '0' & word(bits - 1);", "half := \"00\";"},
+    {"arithmetic/shading_pkg.vhd", "dot(dot'left) = '0' and dot /= c_zero", "dot(dot'left) = '0'"},
+    {"arithmetic/shading_pkg.vhd", "one(c_fraction) := '1';", "one(c_fraction) := '0';"},
+    // A component left out; one clock late where enable is '0'; the wrong axis.
+    {"arithmetic/dot_product.vhd", "sum_of_products(a, b)",
+     "sum_of_products(a, b(3 * g_bits - 1 downto g_bits) & (g_bits - 1 downto 0 => '0'))"},
+    {"arithmetic/dot_product.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
+    {"arithmetic/vector_multiply.vhd", "axis_of(b, axis)", "axis_of(b, 2 - axis)"},
+    {"arithmetic/vector_multiply.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
+    // The sign counted as a bit that moves; a zero vector's search without an end; the largest shift left
+    // out.
+    {"arithmetic/vector_shift.vhd", "words(axis) xor signs", "words(axis)"},
+    {"arithmetic/vector_shift.vhd", "moving(c_high - 1 downto 0) & '1'", "moving(c_high - 1 downto 0) & '0'"},
+    {"arithmetic/vector_shift.vhd", "for stage in stages - 1 downto 0 loop",
+     "for stage in stages - 2 downto 0 loop"},
+    // Roots of 1/4 to 1 not doubled; the cell of 2 to 4 off by its half; an x of the clock before; no rise.
+    {"arithmetic/reciprocal_root.vhd", "r.root & '0' when r.below_one = '1'",
+     "r.root & '0' when r.rest_below_one = '1'"},
+    {"arithmetic/reciprocal_root.vhd", "'0' & x(c_high - 2 downto c_high - c_address)",
+     "'0' & x(c_high - 1 downto c_high - c_address + 1)"},
+    {"arithmetic/reciprocal_root.vhd", "product(r.square_x, r.entry_square)",
+     "product(r.table_x, r.entry_square)"},
+    {"arithmetic/reciprocal_root.vhd", "c_rest_fraction + 17", "c_rest_fraction + 16"},
+    {"arithmetic/reciprocal_root.vhd", "entry & '0' when r.below_one = '1'",
+     "entry & '0' when below_one = '1'"},
+    // 0 to a power; 1 not quite 1; a stage's exponent for another's; a product's high bits; rounding.
+    {"arithmetic/power.vhd", "if r.zeros(5) = '1' then", "if r.zeros(4) = '1' then"},
+    {"arithmetic/power.vhd", "r.log_one      <= base(c_fraction);", "r.log_one      <= '0';"},
+    {"arithmetic/power.vhd", "product(r.loss, r.loss_exponent)", "product(r.loss, r.log_exponent)"},
+    {"arithmetic/power.vhd",
+     "if whole(c_whole_bits - 1 downto c_shifts) /= c_zeros(c_whole_bits - 1 downto c_shifts) then",
+     "if whole(c_shifts) = '1' then"},
+    {"arithmetic/power.vhd", "shifted(c_guard - 1 downto c_guard - 1)",
+     "shifted(c_guard - 2 downto c_guard - 2)"},
+    {"arithmetic/power.vhd", "for stage in 0 to c_shifts - 1 loop", "for stage in 0 to c_shifts - 2 loop"},
+    {"arithmetic/power.vhd", "elsif r.one = '1' then", "elsif r.log_one = '1' then"},
+    // Light behind the outer edge; t above 1; a t of the clock before; 3 - t; a slope that does not wait.
+    {"illumination/spot_cone.vhd", "if over(over'high) = '0' then",
+     "if over(over'high) = '0' or over(0) = '1' then"},
+    {"illumination/spot_cone.vhd", "t(t'high downto c_weight - 1)", "t(t'high downto c_weight)"},
+    {"illumination/spot_cone.vhd", "- (r.square_t & '0')", "- (r.t & '0')"},
+    {"illumination/spot_cone.vhd", "- (r.square_t & '0')", "- ('0' & r.square_t)"},
+    {"illumination/spot_cone.vhd", "product(r.over, r.slope)", "product(r.over, unsigned(slope))"},
+    // A place too many; a word taken while the line stands still; the last word of two.
+    {"stream/delay_line.vhd", "if index = c_places - 1 then", "if index = c_places then"},
+    {"stream/delay_line.vhd", "elsif enable = '1' then", "else"},
+    {"stream/delay_line.vhd", "held   <= before;", "held   <= word;"},
     // Loads without being told to.
     {"stream/parameter_register.vhd", "if load = '1' then", "if load = '1' or start(0) = '1' then"},
     // Overwrites a word that waits; survives reset.
@@ -59,9 +115,11 @@ constexpr Mutant c_mutants[] = {
     {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
     {"interpolation/line_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '0' then"},
     // Carry turned round; the span takes the next triangle's step.
-    {"interpolation/z_interpolator.vhd", "de <= de1 when line_carry = '1' else de0",
+    {"interpolation/plane_interpolator.vhd", "de <= de1 when line_carry = '1' else de0",
      "de <= de0 when line_carry = '1' else de1"},
-    {"interpolation/z_interpolator.vhd", "increment => span_dx", "increment => dx"},
+    {"interpolation/plane_interpolator.vhd", "increment => span_dx", "increment => dx"},
+    // Depth that never takes the carry.
+    {"interpolation/z_interpolator.vhd", "line_carry => line_carry", "line_carry => line_load"},
     // Carry ignored in one register; the span takes the next triangle's step.
     {"interpolation/quadratic_interpolator.vhd", "de0_step   <= de0e1 when", "de0_step   <= de0e0 when"},
     {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
@@ -76,6 +134,21 @@ constexpr Mutant c_mutants[] = {
     // A line, or a span, that does not wait for what it needs.
     {"raster/triangle_walker.vhd", "r.line.valid and line_ready and (", "r.line.valid and ("},
     {"raster/triangle_walker.vhd", "r.line.valid and line_ready and not", "r.line.valid and not"},
+    // Of equal depths the last; a polygon on the surface is before it; a pixel shaded twice; a column that
+    // the
+    // token before has just changed; its change that does not go on with it; columns that a clear leaves; a
+    // token overwritten while it waits.
+    {"raster/object_stage.vhd", "keeps <= nearer or", "keeps <= nearer or not (kept(0) xor token(0)) or"},
+    {"raster/object_stage.vhd", "passes <= nearer and present", "passes <= present"},
+    {"raster/object_stage.vhd", "z < kept_z", "z <= kept_z"},
+    {"raster/object_stage.vhd", "      changed <= c_nothing;", "      changed <= kept;"},
+    {"raster/object_stage.vhd", "if changes = '1' and in_column = column then",
+     "if changes = '1' and z < 0 then"},
+    {"raster/object_stage.vhd", "if changes = '1' and in_column = column then",
+     "if r.valid = '1' and in_column = column then"},
+    {"raster/object_stage.vhd", "and column > r.last then", "and column > r.last and column(0) = '1' then"},
+    {"raster/object_stage.vhd", "not r.valid or not passes or out_ready",
+     "not r.valid or out_ready or not passes or r.forwarded"},
     // The next line's slope; the next pixel's horizon; light behind the horizon.
     {"illumination/diffuse_slice.vhd", "increment => slope",
      "increment => part(c_part.slope.high downto c_part.slope.low)"},
@@ -142,6 +215,34 @@ constexpr Mutant c_mutants[] = {
     {"shaders/spherical_shader.vhd", "sample_valid and sample_ready", "sample_valid"},
     {"shaders/spherical_shader.vhd", "channel * boolean'pos(g_highlight_channels > 1)",
      "channel * boolean'pos(g_highlight_channels > 3)"},
+    // A load taken for a triangle, one that overtakes objects in the walker or in the object stage, one that
+    // is
+    // dropped; a frame that leaves objects behind, or whose first object is not on a new line; a pixel's next
+    // object taken for a new pixel; the next triangle's request or material; a shadow polygon that counts as
+    // an
+    // object; a first colour that is not rounded; a colour that moves on; not busy with an object in the
+    // pipeline; grey that is red.
+    {"shaders/processors_shader.vhd", "walk_valid <= waiting and not loads;", "walk_valid <= waiting;"},
+    {"shaders/processors_shader.vhd", "waiting and loads and not walking and objects_free",
+     "waiting and loads and objects_free"},
+    {"shaders/processors_shader.vhd", "drawn_ready and not objects_busy", "drawn_ready"},
+    {"shaders/processors_shader.vhd", "token_ready and load_valid when", "load_valid when"},
+    {"shaders/processors_shader.vhd", "clear     => objects_clear", "clear     => '0'"},
+    {"shaders/processors_shader.vhd", "if reset = '1' or objects_clear = '1' then", "if reset = '1' then"},
+    {"shaders/processors_shader.vhd", "command_word(c_new_object) when", "command_word(c_new_pixel) when"},
+    {"shaders/processors_shader.vhd", "start => line_request", "start => init(request_t'range)"},
+    {"shaders/processors_shader.vhd", "start => line_material",
+     "start => init(init_material_low(c_config) + material_t'high downto init_material_low(c_config))"},
+    {"shaders/processors_shader.vhd",
+     "object_token(c_pixel.command.high downto c_pixel.command.low)\n      /= command_word(c_shadow) then",
+     "object_token(c_pixel.command.high downto c_pixel.command.low)\n      /= command_word(c_delete) then"},
+    {"shaders/processors_shader.vhd", "value(c_formats.radiance.fraction - 1) := '1'",
+     "value(c_formats.radiance.fraction - 1) := '0'"},
+    {"shaders/processors_shader.vhd", "load  => shaded_step,\n      start => colours",
+     "load  => shaded_valid,\n      start => colours"},
+    {"shaders/processors_shader.vhd", "or objects_busy or shading", "or objects_busy"},
+    {"shaders/processors_shader.vhd", "colour * boolean'pos(g_channels > 1)",
+     "colour * boolean'pos(g_channels > 3)"},
 };
 
 struct Folders {
@@ -215,20 +316,28 @@ Result<Outcome> run(const Folders& folders, const char* file, const Mutant* muta
 
 int main(int argc, char** argv) {
   using namespace halfway;
-  if (argc != 4) {
-    fmt::print(stderr, "usage: halfway_mutants SOURCE VECTORS SCRATCH\n");
+  if (argc != 4 && argc != 5) {
+    fmt::print(stderr, "usage: halfway_mutants SOURCE VECTORS SCRATCH [PART]\n");
     return static_cast<int>(ExitCode::bad_input);
   }
   const Folders folders{std::filesystem::absolute(argv[1]), std::filesystem::absolute(argv[2]),
                         std::filesystem::absolute(argv[3])};
+  std::vector<const Mutant*> mutants;
+  for (const Mutant& mutant : c_mutants)
+    if (argc == 4 || std::string_view(mutant.file).find(argv[4]) != std::string_view::npos)
+      mutants.push_back(&mutant);
+  if (mutants.empty()) {
+    fmt::print(stderr, "{}: no fault is in a file of this name\n", argv[4]);
+    return static_cast<int>(ExitCode::bad_input);
+  }
   // The first job has no fault in it, and must pass.
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
   int missed = 0, broken = 0;
   const auto work = [&] {
-    for (std::size_t job; (job = next++) <= std::size(c_mutants);) {
-      const Mutant* mutant = job == 0 ? nullptr : &c_mutants[job - 1];
-      const char* file = mutant == nullptr ? c_mutants[0].tested : mutant->tested;
+    for (std::size_t job; (job = next++) <= mutants.size();) {
+      const Mutant* mutant = job == 0 ? nullptr : mutants[job - 1];
+      const char* file = mutant == nullptr ? mutants[0]->tested : mutant->tested;
       const auto outcome = run(folders, file, mutant);
       const std::lock_guard lock(mutex);
       if (!outcome) {
@@ -249,7 +358,7 @@ int main(int argc, char** argv) {
     std::vector<std::jthread> workers;
     for (int i = 0; i < 2; ++i) workers.emplace_back(work);
   }
-  fmt::print("{} of {} mutants not found, {} could not be run\n", missed, std::size(c_mutants), broken);
+  fmt::print("{} of {} mutants not found, {} could not be run\n", missed, mutants.size(), broken);
   return static_cast<int>(broken > 0   ? ExitCode::tool_failed
                           : missed > 0 ? ExitCode::differs
                                        : ExitCode::equal);

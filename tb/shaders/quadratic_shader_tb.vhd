@@ -65,6 +65,7 @@ architecture sim of quadratic_shader_run is
   signal fragment_green    : std_logic_vector(fragment_red'range);
   signal fragment_blue     : std_logic_vector(fragment_red'range);
   signal busy              : std_logic;
+  signal fault             : std_logic;
   signal probe             : probe_t;
 begin
   dut : entity work.quadratic_shader
@@ -85,6 +86,7 @@ begin
       fragment_green    => fragment_green,
       fragment_blue     => fragment_blue,
       busy              => busy,
+      fault             => fault,
       probe             => probe);
 
   checker : entity work.shader_checker
@@ -113,6 +115,7 @@ begin
       fragment_green    => fragment_green,
       fragment_blue     => fragment_blue,
       busy              => busy,
+      fault             => fault,
       probe             => probe,
       finished          => finished);
 end architecture;

@@ -15,12 +15,16 @@ entity shader_checker is
     g_init_bits  : positive;
     g_probe_bits : positive;
     g_probe      : boolean;
-    -- Of the probe, the fields that an event is about: c_events times g_probe_bits, the event of the probe's lowest bit
-    -- lowest. An event without a field must not come.
+    -- Of the probe, the fields that an event is about: four times g_probe_bits, the line's lowest. An event without a
+    -- field must not come.
     g_fields     : std_logic_vector;
-    g_latency    : positive; -- clocks from a triangle's first init vector taken to its first fragment
-    g_gapless    : boolean;  -- no clock is lost between triangles without an empty line
-    g_stem       : string    -- of the files' names
+    g_events     : integer_vector(0 to 3) := (0, 1, 2, 3); -- their bits of the probe
+    g_timed      : boolean  := true; -- the files give the clocks
+    g_latency    : positive := 1;    -- clocks from a triangle's first init vector taken to its first fragment, where timed
+    g_gapless    : boolean;          -- no clock is lost between triangles without an empty line
+    g_resets     : natural  := 10;   -- passes that a reset ends
+    g_faults     : boolean  := false; -- there is a set, "fault", at the end of which the hardware says that it went wrong
+    g_stem       : string            -- of the files' names
   );
   port (
     clk               : buffer std_logic := '0';
@@ -38,6 +42,7 @@ entity shader_checker is
     fragment_green    : in     std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     fragment_blue     : in     std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     busy              : in     std_logic;
+    fault             : in     std_logic;
     probe             : in     std_logic_vector(g_probe_bits - 1 downto 0);
     finished          : buffer boolean := false
   );
@@ -95,8 +100,8 @@ begin
 
     procedure check_event (event : natural; variable probes : inout vectors_t; name : string; clock : integer) is
     begin
-      if not has_event(event) or probe(event) /= '1' then
-        check_flag(name & "_event of the probe", probe(event), '0', clock);
+      if not has_event(event) or probe(g_events(event)) /= '1' then
+        check_flag(name & "_event of the probe", probe(g_events(event)), '0', clock);
       else
         probes.expect_vector(name & " event");
         probes.check_word("probe", probe, c_masks(event));
@@ -131,6 +136,7 @@ begin
       variable taken      : natural := 0;
       variable given      : natural := 0;
       variable init_clock : natural;
+      variable first      : natural := g_latency; -- the clock of the first fragment
     begin
       inits.open_file(g_stem & set & "_init.txt");
       fragments.open_file(g_stem & set & "_fragments.txt");
@@ -161,6 +167,9 @@ begin
         end if;
         idle := idle + 1;
 
+        if set /= "fault" then
+          check_flag("fault", fault, '0', clock);
+        end if;
         if just_taken then
           check_flag("busy with a vector just taken", busy, '1', clock);
         end if;
@@ -180,9 +189,13 @@ begin
             fragments.check_word("green", fragment_green);
             fragments.check_word("blue", fragment_blue);
             if c_full then
-              fragments.check_word("clock", std_logic_vector(to_unsigned(clock, 32)));
-              if set = "dense" and (given = 1 or g_gapless) and clock /= given - 1 + g_latency then
-                fragments.fail("comes in clock " & to_string(clock) & ", expected " & to_string(given - 1 + g_latency));
+              if g_timed then
+                fragments.check_word("clock", std_logic_vector(to_unsigned(clock, 32)));
+              elsif given = 1 then
+                first := clock;
+              end if;
+              if set = "dense" and (given = 1 or g_gapless) and clock /= given - 1 + first then
+                fragments.fail("comes in clock " & to_string(clock) & ", expected " & to_string(given - 1 + first));
               end if;
             end if;
           else
@@ -211,7 +224,7 @@ begin
 
         just_taken := init_valid = '1' and init_ready = '1';
         if just_taken then
-          if c_full and clock /= init_clock then
+          if c_full and g_timed and clock /= init_clock then
             inits.fail("is taken in clock " & to_string(clock) & ", expected " & to_string(init_clock));
           end if;
           offered := false;
@@ -242,6 +255,15 @@ begin
       close_event(2, sample_probes, "sample", ticks /= reset_at);
       close_event(3, product_probes, "product", ticks /= reset_at);
 
+      if set = "fault" then
+        for i in 1 to 8 loop
+          wait until rising_edge(clk);
+        end loop;
+        check_flag("fault", fault, '1', clock);
+        reset <= '1';
+        wait until rising_edge(clk);
+      end if;
+
       -- Idle, after a reset as after the last triangle.
       init_valid     <= '0';
       reset          <= '0';
@@ -251,6 +273,7 @@ begin
         check_flag("init_ready when idle", init_ready, '1', clock);
         check_flag("fragment_valid when idle", fragment_valid, '0', clock);
         check_flag("busy when idle", busy, '0', clock);
+        check_flag("fault when idle", fault, '0', clock);
       end loop;
     end procedure;
 
@@ -263,10 +286,14 @@ begin
     pass("mixed", 12, 1, 1, 0);
     pass("mixed", 13, 4, 0, 0);
     pass("dense", 14, 0, 1, 0);
-    for i in c_resets'range loop
+    for i in 0 to g_resets - 1 loop
       pass("mixed", 20 + i, 0, i mod 2, c_resets(i));
     end loop;
     pass("mixed", 1, 0, 0, 0);
+    if g_faults then
+      pass("fault", 1, 0, 0, 0);
+      pass("mixed", 1, 0, 0, 0);
+    end if;
     finished <= true;
     wait;
   end process;

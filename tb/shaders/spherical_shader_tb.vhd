@@ -110,6 +110,7 @@ architecture sim of spherical_shader_run is
   signal fragment_green    : std_logic_vector(fragment_red'range);
   signal fragment_blue     : std_logic_vector(fragment_red'range);
   signal busy              : std_logic;
+  signal fault             : std_logic;
   signal probe             : probe_t;
 begin
   dut : entity work.spherical_shader
@@ -140,6 +141,7 @@ begin
       fragment_green    => fragment_green,
       fragment_blue     => fragment_blue,
       busy              => busy,
+      fault             => fault,
       probe             => probe);
 
   checker : entity work.shader_checker
@@ -169,6 +171,7 @@ begin
       fragment_green    => fragment_green,
       fragment_blue     => fragment_blue,
       busy              => busy,
+      fault             => fault,
       probe             => probe,
       finished          => finished);
 end architecture;

@@ -25,9 +25,11 @@ Status write_spot_cone(const std::filesystem::path& folder);
 Status write_delay_line(const std::filesystem::path& folder);
 Status write_shading_pkg(const std::filesystem::path& folder);
 Status write_line_interpolator(const std::filesystem::path& folder);
+Status write_plane_interpolator(const std::filesystem::path& folder);
 Status write_z_interpolator(const std::filesystem::path& folder);
 Status write_quadratic_interpolator(const std::filesystem::path& folder);
 Status write_edge_walker(const std::filesystem::path& folder);
+Status write_object_stage(const std::filesystem::path& folder);
 Status write_triangle_walker(const std::filesystem::path& folder);
 Status write_diffuse_slice(const std::filesystem::path& folder);
 Status write_specular_slice(const std::filesystem::path& folder);
@@ -36,5 +38,6 @@ Status write_shading_processor(const std::filesystem::path& folder);
 Status write_shading_pipeline(const std::filesystem::path& folder);
 Status write_quadratic_shader(const std::filesystem::path& folder);
 Status write_spherical_shader(const std::filesystem::path& folder);
+Status write_processors_shader(const std::filesystem::path& folder);
 
 }  // namespace halfway::vectors

@@ -62,6 +62,30 @@ void add_strobes(VectorFile& file, const Strobes& s) {
   file.flag(s.line_load).flag(s.line_step).flag(s.line_carry).flag(s.span_load).flag(s.span_step);
 }
 
+// A line: checked, plane, strobes; line_value, value, before the edge.
+template <int W, bool Carries>
+Status write_plane(const std::filesystem::path& path) {
+  constexpr int c_bits = (Carries ? 4 : 3) * W;
+  Random random(W);
+  VectorFile file;
+  golden::PlaneInterpolator<W> twin;
+  for (int i = 0; i < 2500; ++i) {
+    std::array<std::uint32_t, (c_bits + 31) / 32> plane;
+    std::array<golden::Word<W>, 4> words;
+    for (int w = 0; w < 4; ++w) {
+      words[static_cast<std::size_t>(w)] = random.word<W>();
+      if (w * W < c_bits)
+        golden::set_bits(plane, {"", w * W, W, true, 0}, words[static_cast<std::size_t>(w)].bits());
+    }
+    const Strobes s = random_strobes(random, i);
+    file.flag(i > 1).words_of(plane, c_bits);
+    add_strobes(file, s);
+    file.word(twin.line_value()).word(twin.value()).end_vector();
+    clock(twin, s, [&] { twin.line_load(words[0], words[1], words[2], words[Carries ? 3 : 2]); });
+  }
+  return file.write(path);
+}
+
 // A line: checked, init, strobes; line_value, value, before the edge.
 template <class Preset>
 Status write_z(const std::filesystem::path& folder) {
@@ -109,6 +133,12 @@ Status write_line_interpolator(const std::filesystem::path& folder) {
   if (auto s = write_line<3>(folder); !s) return s;
   if (auto s = write_line<Published::c_intensity_bits>(folder); !s) return s;
   return write_line<Exact::c_intensity_bits>(folder);
+}
+
+Status write_plane_interpolator(const std::filesystem::path& folder) {
+  if (auto s = write_plane<Exact::c_plane_sum_bits, true>(folder / "exact.txt"); !s) return s;
+  if (auto s = write_plane<Published::c_plane_sum_bits, true>(folder / "published.txt"); !s) return s;
+  return write_plane<7, false>(folder / "without_carry.txt");
 }
 
 Status write_z_interpolator(const std::filesystem::path& folder) {

@@ -30,9 +30,11 @@ int main(int argc, char** argv) {
       std::pair{"delay_line", &write_delay_line},
       std::pair{"shading_pkg", &write_shading_pkg},
       std::pair{"line_interpolator", &write_line_interpolator},
+      std::pair{"plane_interpolator", &write_plane_interpolator},
       std::pair{"z_interpolator", &write_z_interpolator},
       std::pair{"quadratic_interpolator", &write_quadratic_interpolator},
       std::pair{"edge_walker", &write_edge_walker},
+      std::pair{"object_stage", &write_object_stage},
       std::pair{"triangle_walker", &write_triangle_walker},
       std::pair{"diffuse_slice", &write_diffuse_slice},
       std::pair{"specular_slice", &write_specular_slice},
@@ -42,6 +44,7 @@ int main(int argc, char** argv) {
       std::pair{"shading_pipeline", &write_shading_pipeline},
       std::pair{"quadratic_shader", &write_quadratic_shader},
       std::pair{"spherical_shader", &write_spherical_shader},
+      std::pair{"processors_shader", &write_processors_shader},
   };
   bool found = false;
   for (const auto& [name, write] : entities) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "golden/edge_walker.hpp"
+#include "golden/object_stage.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
 #include "vectors/triangles.hpp"
@@ -84,6 +85,60 @@ Status write_walker(const std::filesystem::path& folder) {
   return Ok{};
 }
 
+// In: clear, token; out: the tokens that leave.
+template <class Preset>
+Status write_objects(const std::filesystem::path& folder) {
+  using At = typename Preset::pixel_header_at;
+  using golden::Command;
+  constexpr int c_bits = Preset::c_pixel_header_bits + 37;
+  Random random(57);
+  VectorFile in, out;
+  golden::ObjectStage twin;
+  const auto put = [&](Command command, std::uint32_t x, std::uint32_t z, std::uint32_t triangle) {
+    InitVector token = random_vector(random, c_bits);
+    set_bits(token, At::command, static_cast<std::uint32_t>(command));
+    set_bits(token, At::x, x);
+    set_bits(token, At::z, z);
+    set_bits(token, At::triangle, triangle);
+    in.flag(false).words_of(token, c_bits).end_vector();
+    if (twin.passes(command, x, z, triangle)) out.words_of(token, c_bits).end_vector();
+  };
+  for (int line = 0; line < 90; ++line) {
+    // On few columns a token meets the one before; lines of the frame's whole width now and then.
+    const std::int64_t first = random.one_in(3) ? random.between(0, 4090) : 4096 - 6 * random.between(1, 2);
+    const std::int64_t columns = random.between(1, 6), objects = random.between(1, 12);
+    struct Span {
+      std::uint32_t x, z, triangle;
+    };
+    std::vector<Span> drawn;
+    for (std::int64_t i = 0; i < objects; ++i) {
+      // Depths that meet, and such as differ in their highest or lowest bit alone.
+      constexpr std::uint32_t c_depths[] = {0, 1, 0x7fffff, 0x800000, 0xffffff};
+      const std::uint32_t z = random.one_in(3) ? static_cast<std::uint32_t>(random.word(Preset::c_depth_bits))
+                                               : c_depths[random.between(0, 4)];
+      drawn.push_back({static_cast<std::uint32_t>(first + random.between(0, columns - 1)), z,
+                       static_cast<std::uint32_t>(random.between(0, 3)) << (random.one_in(2) ? 30 : 0)});
+    }
+    for (const Span& s : drawn) put(Command::depth, s.x, s.z, s.triangle);
+    for (std::int64_t i = random.between(0, 20); i > 0; --i) {
+      const Span& s = drawn[static_cast<std::size_t>(random.between(0, objects - 1))];
+      put(Command::shadow, s.x, (s.z + static_cast<std::uint32_t>(random.between(-1, 1))) & 0xffffff,
+          static_cast<std::uint32_t>(random.bits(32)));
+    }
+    // A clear that finds something, now and then; or the next line comes upon what this one left.
+    if (random.one_in(3)) {
+      in.flag(true).words_of(random_vector(random, c_bits), c_bits).end_vector();
+      twin.clear();
+    }
+    if (random.one_in(6)) continue;
+    // Twice: each pixel is given once.
+    for (int round = 0; round < 2; ++round)
+      for (const Span& s : drawn) put(Command::draw, s.x, s.z, s.triangle);
+  }
+  if (auto s = in.write(folder / (std::string(Preset::c_name) + "_in.txt")); !s) return s;
+  return out.write(folder / (std::string(Preset::c_name) + "_out.txt"));
+}
+
 }  // namespace
 
 // A line: checked, load, x, quotient, remainder, divisor, error, carry, step; x, carry, before the edge.
@@ -113,6 +168,11 @@ Status write_edge_walker(const std::filesystem::path& folder) {
     }
   }
   return file.write(folder / "edges.txt");
+}
+
+Status write_object_stage(const std::filesystem::path& folder) {
+  if (auto s = write_objects<Exact>(folder); !s) return s;
+  return write_objects<Published>(folder);
 }
 
 Status write_triangle_walker(const std::filesystem::path& folder) {

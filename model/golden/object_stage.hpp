@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of rtl/raster/object_stage.vhd: which object is nearest at each pixel of a line.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "golden/processors_layout.hpp"
+
+namespace halfway::golden {
+
+class ObjectStage {
+ public:
+  ObjectStage() : entries_(std::size_t{1} << Exact::c_pixel_x_bits) {}
+
+  void clear() { std::fill(entries_.begin(), entries_.end(), Entry{}); }
+  /// Whether a token leaves the stage; `command` is of the host's: depth, shadow, or draw.
+  bool passes(Command command, std::uint32_t x, std::uint32_t z, std::uint32_t triangle) {
+    Entry& kept = entries_[x];
+    if (command == Command::depth) {
+      if (!kept.present || z < kept.z) kept = {true, z, triangle};
+      return false;
+    }
+    if (command == Command::shadow) return kept.present && z < kept.z;
+    if (!kept.present || z != kept.z || triangle != kept.triangle) return false;
+    kept = {};
+    return true;
+  }
+
+ private:
+  struct Entry {
+    bool present = false;
+    std::uint32_t z = 0, triangle = 0;
+  };
+  std::vector<Entry> entries_;
+};
+
+}  // namespace halfway::golden

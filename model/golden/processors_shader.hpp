@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of rtl/shaders/processors_shader.vhd: the host's vectors to fragments, in the order that the hardware
+// emits them.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <optional>
+#include <vector>
+
+#include "frame/fragment.hpp"
+#include "golden/object_stage.hpp"
+#include "golden/plane_interpolator.hpp"
+#include "golden/saturate.hpp"
+#include "golden/shading_pipeline.hpp"
+#include "golden/triangle_walker.hpp"
+#include "golden/unwatched.hpp"
+#include "golden/z_interpolator.hpp"
+
+namespace halfway::golden {
+
+/// Lights, shadow counts and the object stage's line live from a vector to the next.
+template <class Preset>
+class ProcessorsShader {
+ public:
+  explicit ProcessorsShader(const ProcessorsConfig& config)
+      : config_(config),
+        layout_(config),
+        planes_(static_cast<std::size_t>(layout_.planes())),
+        pipeline_(config) {
+    assert(config.channels == 1 || config.channels == 3);
+    if (config.shadows) objects_.emplace();
+  }
+
+  int init_bits() const { return layout_.init_bits(); }
+  int probe_bits() const { return layout_.probe_bits(); }
+  std::size_t init_words() const { return words_of(init_bits()); }
+  /// Each vector stands alone.
+  std::size_t group(std::span<const std::uint32_t>) const { return 1; }
+  /// A count of shadow volumes went wrong: what came since is worth nothing.
+  bool fault() const { return pipeline_.fault(); }
+
+  /// Draws one vector: emit(Fragment) for each pixel that leaves the pipeline; watch.line where the span
+  /// stage takes a line, watch.span for each pixel of it, watch.processor for each object that leaves a
+  /// processor, as the RTL's probe. Faster where emit.room(n) gives room for n fragments; nothing is watched
+  /// then.
+  template <class Emit, class Watch = Unwatched>
+  void draw(std::span<const std::uint32_t> vector, Emit&& emit, Watch&& watch = {}) {
+    assert(vector.size() >= init_words());
+    const auto request = [&](const Field& field) {
+      return static_cast<std::uint32_t>(get_bits(vector, field));
+    };
+    const auto command = static_cast<Command>(request(RequestAt::command));
+    switch (command) {
+      case Command::new_frame:
+        previous_.reset();
+        if (objects_) objects_->clear();
+        [[fallthrough]];
+      case Command::define:
+      case Command::redefine:
+      case Command::remove: {
+        Token load = Token::decode(config_, vector);
+        pipeline_.process(load);
+        return;
+      }
+      default:
+        break;
+    }
+    walk_ = command;
+    token_.light_number = request(RequestAt::light);
+    token_.opens = request(RequestAt::opens) != 0;
+    token_.normalize = request(RequestAt::normalize) != 0;
+    line_load(vector);
+    token_.triangle = walker_.triangle();
+    for (;;) {
+      if (!walker_.line_empty()) {
+        watch.line(*this);
+        span_load();
+        draw_span(emit, watch);
+      }
+      if (walker_.line_last()) return;
+      const bool carry = walker_.carry();
+      walker_.line_step();
+      depth_.line_step(carry);
+      for (auto& plane : planes_) plane.line_step(carry);
+    }
+  }
+
+  const TriangleWalker<Exact>& walker() const { return walker_; }
+
+  /// The stages' registers as the RTL's probe carries them: the line; the pixel that the span stands at; the
+  /// object that has left a processor.
+  std::vector<std::uint32_t> line_probe() const {
+    auto words = probe_words(ProbeAt::line_event);
+    set_bits(words, ProbeAt::line_y, walker_.y());
+    set_bits(words, ProbeAt::line_start, walker_.start().bits());
+    set_bits(words, ProbeAt::line_stop, walker_.stop().bits());
+    set_bits(words, ProbeAt::line_carry, walker_.carry());
+    set_bits(words, ProbeAt::line_z, depth_.line_value().bits());
+    return words;
+  }
+  std::vector<std::uint32_t> span_probe(SpanXWord x) const {
+    auto words = probe_words(ProbeAt::span_event);
+    set_bits(words, ProbeAt::span_y, walker_.y());
+    set_bits(words, ProbeAt::span_x, x.bits());
+    set_bits(words, ProbeAt::span_z, depth_.value().bits());
+    for (int p = 0; p < layout_.planes(); ++p)
+      set_bits(words, {"", 0, Preset::c_vector_bits, true, 0}, static_cast<std::uint64_t>(plane_value(p)),
+               layout_.probe_plane_low(p));
+    return words;
+  }
+  std::vector<std::uint32_t> processor_probe(int processor) const {
+    using At = typename Preset::processor_probe_header_at;
+    const bool last = processor == config_.processors() - 1;
+    auto words = probe_words(last ? ProbeAt::product_event : ProbeAt::sample_event);
+    const int low = layout_.probe_processor_low(processor);
+    set_bits(words, At::leaves, 1, low);
+    set_bits(words, At::command, static_cast<std::uint32_t>(token_.command), low);
+    for (int c = 0; c < config_.channels; ++c)
+      set_bits(words, Preset::processor_probe_channel_at::radiance,
+               token_.radiance[static_cast<std::size_t>(c)],
+               low + Preset::c_processor_probe_header_bits + c * Preset::c_processor_probe_channel_bits);
+    return words;
+  }
+
+ private:
+  using RequestAt = typename Preset::request_header_at;
+  using PlaneAt = typename Preset::plane_header_at;
+  using ProbeAt = Exact::probe_header_at;
+  using Token = ShadingToken<Preset>;
+  using Plane = PlaneInterpolator<Preset::c_plane_sum_bits>;
+
+  static constexpr std::size_t words_of(int bits) { return static_cast<std::size_t>(bits + 31) / 32; }
+  /// Of the colour before the first processor: what rounds it, where it has a fraction.
+  static constexpr std::uint32_t c_half =
+      Preset::c_radiance_fraction_bits == 0 ? 0 : 1U << (Preset::c_radiance_fraction_bits - 1);
+
+  std::vector<std::uint32_t> probe_words(const Field& happened) const {
+    std::vector<std::uint32_t> words(words_of(probe_bits()));
+    set_bits(words, happened, 1);
+    return words;
+  }
+
+  void line_load(std::span<const std::uint32_t> vector) {
+    // The walk begins amid a word.
+    std::array<std::uint32_t, words_of(Exact::c_init_header_bits)> walk;
+    for (std::size_t i = 0; i < walk.size(); ++i)
+      walk[i] = static_cast<std::uint32_t>(
+          get_bits(vector, {"", 32 * static_cast<int>(i), 32, false, 0}, layout_.walk_low()));
+    static_assert(Exact::c_init_header_bits % 32 == 0);
+    walker_.line_load(walk);
+    depth_.line_load(walk);
+    for (int p = 0; p < layout_.planes(); ++p) {
+      const auto word = [&](const Field& field) {
+        return Plane::Value::from_bits(get_bits(vector, field, layout_.plane_low(p)));
+      };
+      planes_[static_cast<std::size_t>(p)].line_load(word(PlaneAt::value), word(PlaneAt::dx),
+                                                     word(PlaneAt::de0), word(PlaneAt::de1));
+    }
+    const auto material = [&](int low, int bits) {
+      return static_cast<std::uint32_t>(
+          get_bits(vector, {"", low, bits, false, 0}, layout_.init_material_low()));
+    };
+    constexpr int c_k = Preset::c_coefficient_bits;
+    if (config_.specular) token_.exponent = material(layout_.exponent_low(), Preset::c_exponent_bits);
+    for (int i = 0; i < config_.channels; ++i) {
+      const auto channel = static_cast<std::size_t>(i);
+      token_.ambient[channel] = material(layout_.ambient_low(i), c_k);
+      if (config_.diffuse) token_.diffuse[channel] = material(layout_.diffuse_low(i), c_k);
+      if (config_.specular) token_.specular[channel] = material(layout_.specular_low(i), c_k);
+    }
+  }
+  void span_load() {
+    depth_.span_load();
+    for (auto& plane : planes_) plane.span_load();
+  }
+  void span_step() {
+    depth_.span_step();
+    for (auto& plane : planes_) plane.span_step();
+  }
+
+  /// The plane's top bits: the host has added half a step of what they drop.
+  std::int64_t plane_value(int plane) const {
+    constexpr int c_drop = Preset::c_plane_sum_bits - Preset::c_vector_bits;
+    return planes_[static_cast<std::size_t>(plane)].value().value() >> c_drop;
+  }
+
+  template <class Emit, class Watch>
+  void draw_span(Emit& emit, Watch& watch) {
+    const std::int64_t from = walker_.start().value(), to = walker_.stop().value();
+    const std::int64_t step = walker_.backward() ? -1 : 1;
+    token_.y = walker_.y();
+    for (std::int64_t x = from; x != to; x += step) {
+      const auto at = SpanXWord::from_bits(static_cast<std::uint64_t>(x));
+      watch.span(*this, at);
+      token_.x = static_cast<std::uint32_t>(low_bits(at.bits(), Preset::c_pixel_x_bits));
+      token_.z = static_cast<std::uint32_t>(
+          low_bits(depth_.value().bits() >> Preset::c_depth_sum_fraction_bits, Preset::c_depth_bits));
+      if (!objects_ || objects_->passes(walk_, token_.x, token_.z, token_.triangle)) {
+        if (walk_ == Command::shadow) {
+          token_.command = Command::shadow;
+          pipeline_.process(token_);
+        } else {
+          shade(at, watch);
+          emit_fragment(emit);
+        }
+      }
+      span_step();
+    }
+  }
+
+  template <class Watch>
+  void shade(SpanXWord at, Watch& watch) {
+    token_.command = place_of_object();
+    for (int i = 0; i < c_axes; ++i) token_.normal[static_cast<std::size_t>(i)] = plane_value(i);
+    if (layout_.has_place())
+      for (int i = 0; i < c_axes; ++i) token_.place[static_cast<std::size_t>(i)] = plane_value(c_axes + i);
+    if (layout_.has_distance()) token_.distance = plane_value(2 * c_axes);
+    token_.radiance.fill(c_half);
+    if constexpr (std::is_same_v<std::remove_cvref_t<Watch>, Unwatched>)
+      pipeline_.process(token_);
+    else
+      pipeline_.process(token_, [&](std::size_t processor, const Token&) {
+        watch.processor(*this, at, static_cast<int>(processor));
+      });
+  }
+
+  Command place_of_object() {
+    const Pixel now{token_.y, token_.x};
+    const Command command = !previous_ || previous_->y != now.y ? Command::new_scanline
+                            : previous_->x == now.x             ? Command::new_object
+                                                                : Command::new_pixel;
+    previous_ = now;
+    return command;
+  }
+
+  template <class Emit>
+  void emit_fragment(Emit& emit) {
+    const auto colour = [&](std::size_t channel) {
+      constexpr int c_bits = Preset::c_radiance_bits + 2;
+      return static_cast<std::uint8_t>(
+          saturate<c_bits, Preset::c_radiance_fraction_bits, Preset::c_colour_bits>(
+              Word<c_bits>::from_bits(token_.radiance[config_.channels == 3 ? channel : 0])));
+    };
+    Fragment fragment{};
+    fragment.triangle = token_.triangle;
+    fragment.y = static_cast<std::uint16_t>(token_.y);
+    fragment.x = static_cast<std::uint16_t>(token_.x);
+    fragment.z = token_.z;
+    fragment.red = colour(0);
+    fragment.green = colour(1);
+    fragment.blue = colour(2);
+    if constexpr (requires { emit.room(std::size_t{}); })
+      *emit.room(1) = fragment;
+    else
+      emit(fragment);
+  }
+
+  struct Pixel {
+    std::uint32_t y, x;
+  };
+
+  ProcessorsConfig config_;
+  ProcessorsLayout<Preset> layout_;
+  Command walk_ = Command::draw;
+  TriangleWalker<Exact> walker_;
+  ZInterpolator<Exact> depth_;
+  std::vector<Plane> planes_;  // N, P or the view ray, 1/w
+  std::optional<ObjectStage> objects_;
+  std::optional<Pixel> previous_;  // of the last object, in this frame
+  Token token_;                    // the object on its way
+  ShadingPipeline<Preset> pipeline_;
+};
+
+}  // namespace halfway::golden

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "plan/hardware_units.hpp"
+#include "plan/shader_plans.hpp"
+
+namespace halfway {
+namespace {
+
+// The first triangle over which the normal turns; none where each has one normal.
+std::optional<std::size_t> first_curved(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    const auto& n = scene.triangles[i].normal;
+    const auto normal_world = [&](std::size_t corner) { return scene.normals_world[n[corner]]; };
+    if (normal_world(1) != normal_world(0) || normal_world(2) != normal_world(0)) return i;
+  }
+  return std::nullopt;
+}
+
+// Whether N is normalized for each pixel, and why. The scene's own word on it, "unit vectors are called for",
+// does not say whether a pixel's N has to be made one.
+Call call_normalize(const Scene& scene, const SceneCalls& calls, Preset preset) {
+  const Call& lit = calls[Effect::normalization];
+  if (!lit.called_for) return lit;
+  if (preset == Preset::published) {
+    const bool has_places = calls.count(LightKind::positional) + calls.count(LightKind::spot) > 0;
+    return {has_places, has_places ? "version II: lights with a place" : "version I: no light has a place"};
+  }
+  if (const auto triangle = first_curved(scene))
+    return {true, fmt::format("the normals at the corners of triangle {} differ", *triangle)};
+  return {false, "each triangle has one normal, unit from the host"};
+}
+
+// Bad input where a highlight is not Blinn's.
+Status check_highlights(const Scene& scene) {
+  const std::vector<bool> worn = worn_materials(scene);
+  for (std::size_t i = 0; i < worn.size(); ++i) {
+    const Material& m = scene.materials[i];
+    if (!worn[i] || !has_specular(m) || m.brdf == Brdf::blinn) continue;
+    const bool phong = m.brdf == Brdf::phong;
+    return bad_input(fmt::format(
+        "{}: material '{}' is {}, and the shading processors' highlights are blinn's, powers of N.H; make it "
+        "blinn{}, or take the {} shader",
+        scene.name, m.name, phong ? "phong" : "cook_torrance",
+        phong ? " with about four times the exponent" : "", phong ? "quadratic or spherical" : "quadratic"));
+  }
+  return Ok{};
+}
+
+// Hardware without an effect has nothing of what only that effect uses.
+HardwareKey without_idle_units(HardwareKey key) {
+  ProcessorUnits& p = key.processors;
+  if (!p.diffuse && !p.specular) p.directional = p.positional = p.spots = 0;
+  if (p.lights() == 0) p.diffuse = p.specular = p.normalize = p.shadows = false;
+  return key;
+}
+
+HardwareKey everything(HardwareKey key, unsigned lights) {
+  ProcessorUnits& p = key.processors;
+  key.channels = 3;
+  // Hardware for a spot serves any light.
+  p.directional = p.positional = 0;
+  p.spots = lights;
+  p.diffuse = p.specular = p.normalize = p.shadows = true;
+  return key;
+}
+
+class Planner {
+ public:
+  Planner(const SceneCalls& calls, const Call& normalize, const Plan& plan)
+      : calls_(calls), normalize_(normalize), key_(plan.key) {}
+
+  PlannedEffect effect_of(Effect effect) const {
+    const ProcessorUnits& p = key_.processors;
+    const bool exact = key_.preset == Preset::exact;
+    HardwareKey other = key_;
+    ProcessorUnits& o = other.processors;
+    switch (effect) {
+      case Effect::ambient:
+        return there_anyway(effect, "the first processor", ambient_units(key_));
+      case Effect::depth:
+        return there_anyway(effect, "", depth_units(key_));
+      case Effect::diffuse:
+        o.diffuse = !p.diffuse;
+        if (o.lights() == 0) o.directional = 1;
+        return in_hardware(effect, "a processor a light", p.diffuse, other);
+      case Effect::specular:
+        o.specular = !p.specular;
+        if (o.lights() == 0) o.directional = 1;
+        return in_hardware(effect, "a processor a light", p.specular, other);
+      case Effect::highlight_colour:
+        if (!p.specular) return in_hardware(effect, "");
+        other.channels = key_.channels == 1 ? 3 : 1;
+        return in_hardware(effect, "the channels of all colours", key_.channels == 3, other);
+      case Effect::exponents: {
+        PlannedEffect out = in_hardware(effect, "any exponent, a material at a time");
+        out.elaborated = p.specular;
+        if (p.specular) out.units = power_units(key_);
+        return out;
+      }
+      case Effect::directional:
+        return lights_of(effect, LightKind::directional, "");
+      case Effect::positional:
+        return lights_of(effect, LightKind::positional, "the way to it, normalized");
+      case Effect::spot:
+        return lights_of(effect, LightKind::spot, "as a positional one, and its cone");
+      case Effect::shadow:
+        o.shadows = !p.shadows;
+        if (o.lights() == 0) o.directional = 1;
+        if (!o.diffuse && !o.specular) o.diffuse = true;
+        return in_hardware(effect, "volumes counted by every processor of a light", p.shadows, other);
+      case Effect::normalization: {
+        o.normalize = !p.normalize;
+        if (o.lights() == 0) o.directional = 1;
+        if (!o.diffuse && !o.specular) o.diffuse = true;
+        PlannedEffect out = in_hardware(effect, "of N, by the first processor", p.normalize, other);
+        out.called_for = normalize_.called_for;
+        out.why = normalize_.why;
+        return out;
+      }
+      case Effect::colour:
+        other.channels = key_.channels == 1 ? 3 : 1;
+        return in_hardware(effect, "vectors of channels", key_.channels == 3, other);
+      case Effect::subdivision: {
+        PlannedEffect out = planned(calls_, effect, DoneBy::nobody, "not needed");
+        out.called_for = false;
+        out.why = "every pixel is shaded by itself";
+        return out;
+      }
+      case Effect::perspective:
+        break;
+    }
+    if (exact) return planned(calls_, effect, DoneBy::host, "planes of what is linear on the screen");
+    return planned(calls_, effect, DoneBy::nobody, "as published, N and P go straight across the screen");
+  }
+
+ private:
+  PlannedEffect in_hardware(Effect effect, std::string how) const {
+    return planned(calls_, effect, DoneBy::hardware, std::move(how));
+  }
+  PlannedEffect in_hardware(Effect effect, std::string how, bool elaborated, const HardwareKey& other) const {
+    PlannedEffect out = in_hardware(effect, std::move(how));
+    out.elaborated = elaborated;
+    set_other(out, key_, without_idle_units(other));
+    return out;
+  }
+  PlannedEffect there_anyway(Effect effect, std::string how, std::map<std::string, int> units) const {
+    PlannedEffect out = in_hardware(effect, std::move(how));
+    out.elaborated = true;
+    out.units = std::move(units);
+    return out;
+  }
+  PlannedEffect lights_of(Effect effect, LightKind kind, std::string how) const {
+    const auto count = static_cast<unsigned>(calls_.count(kind));
+    HardwareKey other = key_;
+    ProcessorUnits& o = other.processors;
+    // With all effects every light's hardware is a spot's.
+    const bool all_spots = o.spots != calls_.count(LightKind::spot);
+    unsigned& of_kind = all_spots || kind == LightKind::spot ? o.spots
+                        : kind == LightKind::positional      ? o.positional
+                                                             : o.directional;
+    if (count > 0) {
+      of_kind -= count;
+      return in_hardware(effect, std::move(how), true, other);
+    }
+    if (all_spots && kind != LightKind::directional) {
+      (kind == LightKind::spot ? o.positional : o.directional) = o.spots;
+      o.spots = 0;
+      return in_hardware(effect, std::move(how), true, other);
+    }
+    if (o.lights() == c_most_lights) return in_hardware(effect, std::move(how));
+    ++of_kind;
+    if (!o.diffuse && !o.specular) o.diffuse = true;
+    return in_hardware(effect, std::move(how), false, other);
+  }
+
+  const SceneCalls& calls_;
+  const Call& normalize_;
+  const HardwareKey& key_;
+};
+
+}  // namespace
+
+Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const PlanRequest& request) {
+  if (request.tables)
+    return bad_input("--address-bits, --data-bits: only the spherical shader has cosine tables");
+  if (calls.lights.size() > c_most_lights)
+    return bad_input(fmt::format(
+        "{}: {} lights; the shading processors take up to {}: leave some out, or take the quadratic shader",
+        scene.name, calls.lights.size(), c_most_lights));
+  const auto lights = static_cast<unsigned>(calls.lights.size());
+  const Call normalize = call_normalize(scene, calls, request.preset);
+
+  Plan plan;
+  HardwareKey& key = plan.called_for;
+  key.shader = Shader::processors;
+  key.preset = request.preset;
+  key.channels = calls[Effect::colour].called_for ? 3 : 1;
+  ProcessorUnits& units = key.processors;
+  units.directional = static_cast<unsigned>(calls.count(LightKind::directional));
+  units.positional = static_cast<unsigned>(calls.count(LightKind::positional));
+  units.spots = static_cast<unsigned>(calls.count(LightKind::spot));
+  units.diffuse = calls[Effect::diffuse].called_for;
+  units.specular = calls[Effect::specular].called_for;
+  units.normalize = normalize.called_for;
+  units.shadows = calls[Effect::shadow].called_for;
+  units.form = request.form.value_or(ProcessorForm::unrolled);
+  if (units.specular)
+    if (Status status = check_highlights(scene); !status) return status.error();
+
+  const unsigned most = request.lights.value_or(std::max(lights, 1U));
+  if (most < std::max(lights, 1U) || most > c_most_lights)
+    return bad_input(fmt::format("--lights: {} is not {} to {}", most, std::max(lights, 1U), c_most_lights));
+  plan.everything = everything(key, most);
+  plan.key = request.all_effects ? plan.everything : plan.called_for;
+  const Planner planner(calls, normalize, plan);
+  for (std::size_t i = 0; i < c_effects; ++i)
+    plan.effects.push_back(planner.effect_of(static_cast<Effect>(i)));
+  return plan;
+}
+
+}  // namespace halfway

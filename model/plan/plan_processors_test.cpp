@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which shading processors a scene calls for, and why.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "plan/plan.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::AllOf, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not;
+
+// A flat grey triangle, no light yet.
+Scene flat_scene() {
+  Scene scene;
+  scene.name = "s";
+  scene.materials = {{.name = "plain"}};
+  scene.positions_world = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  scene.normals_world = {{0, 0, 1}, {0, 0.6, 0.8}, {0, 0, 1}};
+  scene.triangles = {{{0, 1, 2}, {0, 0, 2}, 0}};  // two normals by number, one by value
+  return scene;
+}
+
+Scene with_lights(std::size_t directional, std::size_t positional = 0, std::size_t spots = 0) {
+  Scene scene = flat_scene();
+  scene.directional.resize(directional);
+  scene.positional.resize(positional);
+  scene.spots.resize(spots);
+  return scene;
+}
+
+Plan planned(const Scene& scene, PlanRequest request = {}) {
+  request.shader = Shader::processors;
+  const auto plan = plan_scene(scene, request);
+  EXPECT_TRUE(plan) << plan.error().message;
+  return plan ? *plan : Plan{};
+}
+std::string key(const Scene& scene, PlanRequest request = {}) {
+  return planned(scene, request).key.name();
+}
+std::string refusal(const Scene& scene, PlanRequest request = {}) {
+  request.shader = Shader::processors;
+  const auto plan = plan_scene(scene, request);
+  EXPECT_FALSE(plan);
+  if (plan) return {};
+  EXPECT_EQ(plan.error().code, ExitCode::bad_input);
+  return plan.error().message;
+}
+const PlannedEffect& effect(const Plan& plan, Effect which) {
+  return *std::ranges::find(plan.effects, which, &PlannedEffect::effect);
+}
+
+TEST(PlanProcessors, LightsByTheirKinds) {
+  EXPECT_EQ(key(flat_scene()), "processors_shader-exact-c1-l0.0.0-unrolled");
+  EXPECT_EQ(key(with_lights(1)), "processors_shader-exact-c1-l1.0.0-d-s-unrolled");
+  EXPECT_EQ(key(with_lights(1, 2, 3)), "processors_shader-exact-c1-l1.2.3-d-s-unrolled");
+  Scene dark = with_lights(2, 2, 2);
+  dark.directional[1].intensity = dark.positional[0].intensity = glm::dvec3(0.0);
+  EXPECT_EQ(key(dark), "processors_shader-exact-c1-l1.1.2-d-s-unrolled");
+  EXPECT_EQ(key(with_lights(16)), "processors_shader-exact-c1-l16.0.0-d-s-unrolled");
+  EXPECT_THAT(refusal(with_lights(8, 8, 1)), AllOf(HasSubstr("17 lights"), HasSubstr("up to 16")));
+}
+
+TEST(PlanProcessors, NoProcessorsForWhatNoMaterialReflects) {
+  Scene scene = with_lights(1, 1);
+  scene.materials[0].specular = 0.0;
+  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.1.0-d-unrolled");
+  scene.materials[0].diffuse = 0.0;
+  scene.shadows = true;
+  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l0.0.0-unrolled");
+  EXPECT_EQ(effect(planned(scene), Effect::normalization).why, "no material reflects a light");
+  scene.materials[0].specular = 0.3;
+  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.1.0-s-shadows-unrolled");
+}
+
+TEST(PlanProcessors, NormalizesWhereNormalsDifferOrAsPublishedForLightsWithAPlace) {
+  Scene curved = with_lights(1);
+  curved.triangles.push_back({{0, 1, 2}, {0, 1, 2}, 0});
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    const auto normalization = [&](const Scene& scene) {
+      const Plan plan = planned(scene, {.preset = preset});
+      const PlannedEffect& e = effect(plan, Effect::normalization);
+      EXPECT_EQ(e.called_for, plan.key.processors.normalize);
+      EXPECT_EQ(e.elaborated, plan.key.processors.normalize);
+      return e;
+    };
+    const bool exact = preset == Preset::exact;
+    EXPECT_FALSE(normalization(with_lights(1)).called_for);
+    EXPECT_EQ(normalization(with_lights(0, 1)).called_for, !exact);
+    EXPECT_EQ(normalization(with_lights(0, 0, 1)).called_for, !exact);
+    EXPECT_EQ(normalization(curved).called_for, exact);
+    EXPECT_THAT(normalization(curved).why, HasSubstr(exact ? "triangle 1" : "version I:"));
+    Scene late = with_lights(1);
+    late.triangles.push_back({{0, 1, 2}, {0, 2, 1}, 0});
+    EXPECT_EQ(normalization(late).called_for, exact);
+    Scene unlit = curved;
+    unlit.directional.clear();
+    EXPECT_FALSE(normalization(unlit).called_for);
+  }
+}
+
+TEST(PlanProcessors, ShadowsWhereALightIsReflected) {
+  Scene scene = with_lights(1);
+  scene.shadows = true;
+  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.0.0-d-s-shadows-unrolled");
+  EXPECT_EQ(effect(planned(scene), Effect::shadow).by, DoneBy::hardware);
+  EXPECT_TRUE(effect(planned(scene), Effect::shadow).elaborated);
+  scene.directional.clear();
+  EXPECT_FALSE(planned(scene).key.processors.shadows);
+}
+
+TEST(PlanProcessors, EveryHighlightIsBlinns) {
+  for (const Brdf brdf : {Brdf::phong, Brdf::cook_torrance}) {
+    Scene scene = with_lights(1);
+    scene.materials.push_back({.name = "other", .brdf = brdf});
+    EXPECT_EQ(key(scene), key(with_lights(1)));  // not worn
+    scene.triangles.push_back(scene.triangles[0]);
+    scene.triangles.back().material = 1;
+    EXPECT_THAT(refusal(scene),
+                AllOf(HasSubstr("'other'"), HasSubstr("make it blinn"), HasSubstr("quadratic")));
+    scene.materials[1].specular = 0.0;
+    EXPECT_EQ(key(scene), key(with_lights(1)));
+    scene.materials[1].specular = 0.4;
+    scene.directional.clear();
+    EXPECT_EQ(key(scene), key(flat_scene()));
+  }
+}
+
+TEST(PlanProcessors, AllEffectsAreSpotsForEveryLightAndAllElse) {
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    const std::string begin = fmt::format("processors_shader-{}-c3-l0.0.", to_string(preset));
+    const auto all = [&](const Scene& scene, std::optional<unsigned> lights = {}) {
+      return key(scene, {.preset = preset, .all_effects = true, .lights = lights});
+    };
+    EXPECT_EQ(all(flat_scene()), begin + "1-d-s-n-shadows-unrolled");
+    EXPECT_EQ(all(with_lights(2, 1, 1)), begin + "4-d-s-n-shadows-unrolled");
+    EXPECT_EQ(all(with_lights(2, 1, 1), 16), begin + "16-d-s-n-shadows-unrolled");
+    EXPECT_EQ(planned(with_lights(1), {.preset = preset}).everything.name(), all(with_lights(1)));
+  }
+  EXPECT_EQ(refusal(with_lights(3), {.all_effects = true, .lights = 2}), "--lights: 2 is not 3 to 16");
+  EXPECT_EQ(refusal(with_lights(3), {.all_effects = true, .lights = 17}), "--lights: 17 is not 3 to 16");
+}
+
+TEST(PlanProcessors, TwoForms) {
+  EXPECT_EQ(key(with_lights(1), {.form = ProcessorForm::folded}),
+            "processors_shader-exact-c1-l1.0.0-d-s-folded");
+  EXPECT_THAT(key(with_lights(1), {.all_effects = true, .form = ProcessorForm::folded}),
+              ::testing::EndsWith("-folded"));
+  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+    const auto plan = plan_scene(with_lights(1), {.shader = shader, .form = ProcessorForm::folded});
+    ASSERT_FALSE(plan);
+    EXPECT_THAT(plan.error().message, HasSubstr("--form"));
+  }
+  EXPECT_THAT(refusal(flat_scene(), {.tables = TableSize{6, 6}}), HasSubstr("only the spherical shader"));
+}
+
+TEST(PlanProcessors, EveryEffectSaysWhatItIsAndWhatItTakes) {
+  Scene shaded = with_lights(1, 1, 1);
+  shaded.shadows = true;
+  shaded.triangles[0].normal = {0, 1, 2};
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (const bool all_effects : {false, true})
+      for (const Scene& scene : {flat_scene(), with_lights(1), with_lights(0, 2), shaded}) {
+        const Plan plan = planned(scene, {.preset = preset, .all_effects = all_effects});
+        ASSERT_EQ(plan.effects.size(), c_effects);
+        for (const PlannedEffect& e : plan.effects) {
+          SCOPED_TRACE(plan.key.name() + ": " + to_string(e.effect));
+          EXPECT_THAT(e.why, Not(IsEmpty()));
+          if (e.by == DoneBy::hardware) {
+            EXPECT_TRUE(e.elaborated || !e.called_for);
+          } else {
+            EXPECT_FALSE(e.elaborated || e.other);
+            EXPECT_THAT(e.how, Not(IsEmpty()));
+          }
+          if (!e.other) continue;
+          // The two differ in this alone.
+          EXPECT_NE(e.other->name(), plan.key.name());
+          const ProcessorUnits &here = plan.key.processors, &other = e.other->processors;
+          switch (e.effect) {
+            case Effect::shadow:
+              EXPECT_NE(here.shadows, other.shadows);
+              EXPECT_EQ(e.elaborated, here.shadows);
+              break;
+            case Effect::diffuse:
+              EXPECT_NE(here.diffuse, other.diffuse);
+              break;
+            case Effect::normalization:
+              EXPECT_NE(here.normalize, other.normalize);
+              break;
+            case Effect::spot:
+              EXPECT_NE(here.spots, other.spots);
+              EXPECT_EQ(e.elaborated, here.spots > 0);
+              break;
+            default:
+              break;
+          }
+        }
+      }
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,625 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "setup/processors_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <optional>
+#include <utility>
+
+#include "golden/processors_layout.hpp"
+#include "plan/effects.hpp"
+#include "setup/init_vector.hpp"
+#include "setup/quadratic_fit.hpp"
+#include "setup/shadow_volume.hpp"
+#include "setup/walk.hpp"
+
+namespace halfway {
+namespace {
+
+using golden::Command, golden::Exact, golden::Published, golden::c_axes;
+
+// A light farther than this many times the surfaces' extent would leave their places no bits: in preset
+// published it is as if at infinity.
+constexpr double c_farthest_light = 4096.0;
+
+constexpr double c_white = 255.0;  // colour steps
+
+// A number format that stands in no block of its own.
+constexpr golden::Field word(int bits, int fraction_bits, bool is_signed = false) {
+  return {"", 0, bits, is_signed, fraction_bits};
+}
+
+std::int64_t largest(const golden::Field& f) {
+  return (std::int64_t{1} << (f.bits - (f.is_signed ? 1 : 0))) - 1;
+}
+double largest_value(const golden::Field& f) {
+  return std::ldexp(static_cast<double>(largest(f)), -f.fraction_bits);
+}
+
+// Rounded, and held within the format.
+std::int64_t held(double value, const golden::Field& f) {
+  const double most = static_cast<double>(largest(f)), least = f.is_signed ? -most - 1.0 : 0.0;
+  const double rounded = std::floor(std::ldexp(value, f.fraction_bits) + 0.5);
+  return std::isnan(rounded) ? 0 : static_cast<std::int64_t>(std::clamp(rounded, least, most));
+}
+bool holds(double value, const golden::Field& f) {
+  return std::floor(std::ldexp(value, f.fraction_bits) + 0.5) <= static_cast<double>(largest(f));
+}
+
+double largest_component(glm::dvec3 v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+// e such that v is 2^e times 1/2 to 1; 0 where there is no such e.
+int exponent_of(double v) {
+  int e = 0;
+  if (std::isfinite(v)) std::frexp(v, &e);
+  return e;
+}
+
+glm::dvec3 unit_or_zero(glm::dvec3 v) {
+  const double scale = largest_component(v);
+  return scale > 0.0 && std::isfinite(scale) ? glm::normalize(v / scale) : glm::dvec3(0.0);
+}
+
+class ViewSpace {
+ public:
+  explicit ViewSpace(const Camera& camera) : eye_world_(camera.eye_world), basis_(view_basis(camera)) {}
+  glm::dvec3 direction(glm::dvec3 direction_world) const {
+    return {glm::dot(basis_.right_world, direction_world), glm::dot(basis_.up_world, direction_world),
+            glm::dot(basis_.backward_world, direction_world)};
+  }
+  glm::dvec3 point(glm::dvec3 point_world) const { return direction(point_world - eye_world_); }
+
+ private:
+  glm::dvec3 eye_world_;
+  ViewBasis basis_;
+};
+
+constexpr glm::dvec3 c_to_eye_view(0.0, 0.0, 1.0);  // published: from everywhere
+
+// One for each plane and vertex, in units of plane_sum.
+using PlaneValues = std::array<std::int64_t, 3>;
+constexpr std::size_t c_most_planes = 2 * c_axes + 1;
+
+struct Surface {
+  bool normalize;
+  std::array<PlaneValues, c_most_planes> planes;  // as many as the layout has
+};
+
+// Which of some items lie on a line, in the order they were added.
+class ByLine {
+ public:
+  explicit ByLine(std::uint32_t height) : bands_((height + c_band - 1) / c_band) {}
+  void add(std::uint32_t item, std::int64_t first_line, std::int64_t last_line) {
+    for (std::int64_t band = first_line / c_band; band <= last_line / c_band; ++band)
+      bands_[static_cast<std::size_t>(band)].push_back(item);
+  }
+  /// And perhaps others.
+  const std::vector<std::uint32_t>& near(std::uint32_t y) const { return bands_[y / c_band]; }
+
+ private:
+  static constexpr std::uint32_t c_band = 16;  // lines
+  std::vector<std::vector<std::uint32_t>> bands_;
+};
+
+// Where a shadow polygon's depth stands still: before the near plane.
+struct Shadow {
+  ShadowPolygon polygon;
+  bool before_near;
+};
+
+// How many polygons lie over one another on a line, at most.
+class Overlap {
+ public:
+  explicit Overlap(std::uint32_t width) : change_(width + 2, 0) {}
+  void add(const Walk& line) {
+    // Backward spans: [stop + 1, start + 1).
+    const std::int64_t shift = line.backward ? 1 : 0;
+    const auto [begin, end] = std::minmax({line.start.pixel + shift, line.upper.pixel + shift});
+    ++change_[static_cast<std::size_t>(begin)];
+    --change_[static_cast<std::size_t>(end)];
+    any_ = true;
+  }
+  std::uint64_t most() const {
+    if (!any_) return 0;
+    std::int64_t here = 0, most = 0;
+    for (const std::int32_t change : change_) most = std::max(most, here += change);
+    return static_cast<std::uint64_t>(most);
+  }
+
+ private:
+  std::vector<std::int32_t> change_;
+  bool any_ = false;
+};
+
+template <class P>
+class ProcessorsSetup final : public Setup {
+ public:
+  ProcessorsSetup(const Scene& scene, FrameSize frame, const HardwareKey& key)
+      : scene_(scene),
+        frame_(frame),
+        config_(processors_config(key)),
+        layout_(config_),
+        view_(scene.camera),
+        projector_(scene, frame, {.subpixel_bits = 4, .clip_to_frame = false}),
+        lights_(reflected_lights(scene)),
+        has_places_(std::ranges::any_of(
+            lights_, [](LightRef light) { return light.kind != LightKind::directional; })) {
+    set_scales();
+    for (const Material& m : scene.materials) materials_.push_back(material_words(m));
+    note_what_is_held();
+    if (config_.shadows) index_lines();
+  }
+
+  unsigned init_bits() const override { return static_cast<unsigned>(layout_.init_bits()); }
+  bool units_are_lines() const override { return config_.shadows; }
+  std::uint32_t units() const override {
+    return config_.shadows ? frame_.height : static_cast<std::uint32_t>(scene_.triangles.size());
+  }
+  std::vector<std::string> notes() const override { return notes_; }
+
+  void append_prologue(std::vector<std::uint32_t>& words, SetupCounts& counts) const override {
+    counts += whole_frame_;
+    request(words, Command::new_frame, counts);
+    InitVector ambient = request(words, Command::define, counts);
+    put_colour(ambient, scene_.ambient);
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+      InitVector light = request(words, Command::define, counts, static_cast<int>(i) + 1);
+      put_light(light, i);
+      put_colour(light, intensity(scene_, lights_[i]));
+    }
+  }
+
+  void append(std::uint32_t unit, std::vector<std::uint32_t>& words, SetupCounts& counts) const override {
+    if (config_.shadows) {
+      append_line(unit, words, counts);
+      return;
+    }
+    std::vector<ScreenTriangle> on_screen;
+    projector_.project(unit, on_screen, counts.projection);
+    for (const ScreenTriangle& t : on_screen) {
+      ++counts.triangles;
+      const std::vector<Walk> walks = plan_walks(screen_points(t), subpixel_bits(), frame_);
+      if (walks.empty()) continue;
+      ++counts.leaves;
+      const Surface surface = surface_of(t);
+      for (const Walk& walk : walks) {
+        InitVector init = request(words, Command::draw, counts);
+        put_header(init, t.source, walk, depth_words(t, walk), layout_.walk_low());
+        put_surface(init, t, surface, walk, {walk, 0, 0});
+      }
+    }
+  }
+
+ private:
+  using Request = typename P::request_header_at;
+  using Axes = typename P::light_axes_header_at;
+  using Axis = typename P::light_axes_channel_at;
+  using Plane = typename P::plane_header_at;
+
+  static constexpr bool c_exact = golden::ProcessorsLayout<P>::c_exact;
+  static constexpr golden::Field c_direction = word(P::c_direction_bits, P::c_direction_fraction_bits, true);
+  static constexpr golden::Field c_exponent = word(P::c_exponent_bits, P::c_exponent_fraction_bits);
+  static constexpr golden::Field c_coefficient = word(P::c_coefficient_bits, P::c_coefficient_fraction_bits);
+  static constexpr golden::Field c_reflected = word(P::c_reflected_bits, P::c_reflected_fraction_bits);
+  static constexpr golden::Field c_intensity = P::light_colour_channel_at::intensity;
+  // Half a step of vector, which the hardware cuts the planes to.
+  static constexpr std::int64_t c_half_vector =
+      half(P::c_plane_sum_fraction_bits - P::c_vector_fraction_bits);
+
+  struct MaterialWords {
+    std::int64_t exponent;
+    std::array<std::int64_t, 3> ambient, diffuse, specular;
+  };
+
+  int subpixel_bits() const { return projector_.options().subpixel_bits; }
+
+  void set_scales() {
+    const DepthRange range = depth_range(scene_.camera, bounding_sphere(scene_));
+    double nearest = range.far, extent = 0.0;
+    for (const SceneTriangle& t : scene_.triangles)
+      for (const std::uint32_t corner : t.position) {
+        const glm::dvec3 p_view = view_.point(scene_.positions_world[corner]);
+        nearest = std::min(nearest, -p_view.z);
+        extent = std::max(extent, largest_component(p_view));
+      }
+    if constexpr (c_exact) {
+      const double height = std::tan(0.5 * glm::radians(scene_.camera.vertical_fov_degrees));
+      const double width = height * frame_.width / frame_.height;
+      ray_exponent_ = -exponent_of(std::max({1.0, height, width}));
+      distance_exponent_ = -exponent_of(1.0 / std::max(nearest, range.near));
+      return;
+    }
+    double farthest = extent;
+    for (const LightRef light : lights_) {
+      if (light.kind == LightKind::directional) continue;
+      const double distance = largest_component(place_view(light));
+      if (distance <= c_farthest_light * extent) farthest = std::max(farthest, distance);
+    }
+    scale_exponent_ = exponent_of(farthest);
+    farthest_ = c_farthest_light * extent;
+  }
+
+  glm::dvec3 place_view(LightRef light) const {
+    return view_.point(light.kind == LightKind::spot ? scene_.spots[light.index].position_world
+                                                     : scene_.positional[light.index].position_world);
+  }
+
+  // The power of two that the place comes below 1 with, taken off: none where the format has none, or the
+  // light is too far.
+  std::optional<int> light_shift(glm::dvec3 place_view) const {
+    const double distance = largest_component(place_view);
+    if (distance == 0.0) return 0;
+    if constexpr (c_exact) {
+      const int shift = std::max(0, exponent_of(distance) + ray_exponent_ - distance_exponent_);
+      if (!std::isfinite(distance) || shift >= 1 << P::c_light_shift_bits) return std::nullopt;
+      return shift;
+    } else {
+      if (!(distance <= farthest_)) return std::nullopt;
+      return 0;
+    }
+  }
+
+  InitVector request(std::vector<std::uint32_t>& words, Command command, SetupCounts& counts,
+                     int light = 0) const {
+    ++counts.vectors;
+    InitVector init(words, init_bits());
+    init.put(Request::command, static_cast<std::int64_t>(command));
+    init.put(Request::light, light);
+    return init;
+  }
+
+  void put_colour(InitVector& init, glm::dvec3 light_intensity) const {
+    for (int c = 0; c < config_.channels; ++c)
+      init.put(P::light_colour_channel_at::intensity, held(light_intensity[c] * c_white, c_intensity),
+               layout_.light_colour_low(c));
+  }
+
+  void put_axis_vector(InitVector& init, const golden::Field& field, glm::dvec3 v) const {
+    for (int axis = 0; axis < c_axes; ++axis)
+      init.put(field, held(v[axis], field), layout_.light_axis_low(axis));
+  }
+
+  // A unit vector in the place's field.
+  void put_towards(InitVector& init, glm::dvec3 to_light_view) const {
+    constexpr int c_below = P::c_light_place_fraction_bits - P::c_direction_fraction_bits;
+    for (int axis = 0; axis < c_axes; ++axis)
+      init.put(Axis::place, held(to_light_view[axis], c_direction) * (std::int64_t{1} << c_below),
+               layout_.light_axis_low(axis));
+  }
+
+  void put_light(InitVector& init, std::size_t number) const {
+    const LightRef light = lights_[number];
+    const int low = layout_.light_axes_low();
+    if (config_.shadows && number < volumes_.size())
+      init.put(Axes::around_eye,
+               std::min<std::int64_t>(volumes_[number].around_eye, largest(Axes::around_eye)), low);
+    glm::dvec3 to_light_view(0.0);
+    std::optional<int> shift;
+    if (light.kind == LightKind::directional) {
+      to_light_view = view_.direction(scene_.directional[light.index].to_light_world);
+    } else {
+      const glm::dvec3 place = place_view(light);
+      shift = light_shift(place);
+      if (shift)
+        put_place(init, place, *shift);
+      else
+        to_light_view = unit_or_zero(place);
+    }
+    init.put(Axes::positional, shift.has_value(), low);
+    if (!shift) put_towards(init, to_light_view);
+    if constexpr (!c_exact)
+      put_axis_vector(init, Axis::half,
+                      shift ? std::ldexp(1.0, -scale_exponent_) * c_to_eye_view
+                            : unit_or_zero(c_to_eye_view + to_light_view));
+    if (light.kind != LightKind::spot) return;
+    const SpotLight& spot = scene_.spots[light.index];
+    init.put(Axes::spot, 1, low);
+    put_axis_vector(init, Axis::axis, view_.direction(spot.axis_world));
+    init.put(Axes::outer, held(spot.cos_outer, Axes::outer), low);
+    const double width = spot.cos_inner - spot.cos_outer;
+    init.put(Axes::slope, width > 0.0 ? held(1.0 / width, Axes::slope) : largest(Axes::slope), low);
+  }
+
+  void put_place(InitVector& init, glm::dvec3 place, int shift) const {
+    const int exponent = c_exact ? ray_exponent_ - distance_exponent_ - shift : -scale_exponent_;
+    if constexpr (c_exact) init.put(Axes::shift, shift, layout_.light_axes_low());
+    put_axis_vector(
+        init, Axis::place,
+        {std::ldexp(place.x, exponent), std::ldexp(place.y, exponent), std::ldexp(place.z, exponent)});
+  }
+
+  MaterialWords material_words(const Material& m) const {
+    MaterialWords w{.exponent = held(m.exponent, c_exponent)};
+    for (int c = 0; c < 3; ++c) {
+      const auto i = static_cast<std::size_t>(c);
+      w.ambient[i] = held(m.ambient * m.colour[c], c_coefficient);
+      w.diffuse[i] = held(m.diffuse * m.colour[c], c_coefficient);
+      w.specular[i] = held(m.specular * m.specular_colour[c], c_coefficient);
+    }
+    return w;
+  }
+
+  void put_material(InitVector& init, const MaterialWords& w) const {
+    const int low = layout_.init_material_low();
+    if (config_.specular) init.put(c_exponent, w.exponent, low + layout_.exponent_low());
+    for (int c = 0; c < config_.channels; ++c) {
+      const auto i = static_cast<std::size_t>(c);
+      init.put(c_coefficient, w.ambient[i], low + layout_.ambient_low(c));
+      if (config_.diffuse) init.put(c_coefficient, w.diffuse[i], low + layout_.diffuse_low(c));
+      if (config_.specular) init.put(c_coefficient, w.specular[i], low + layout_.specular_low(c));
+    }
+  }
+
+  DepthWords depth_words(const ScreenTriangle& t, const Walk& walk) const {
+    return DepthFit(screen_points(t), subpixel_bits(), fixed_depths(t))
+        .words(difference_start(walk), half(Exact::c_depth_sum_fraction_bits));
+  }
+
+  bool has_one_normal(const ScreenTriangle& t) const {
+    const auto& n = scene_.triangles[t.source].normal;
+    const auto& world = scene_.normals_world;
+    return world[n[0]] == world[n[1]] && world[n[0]] == world[n[2]];
+  }
+
+  static glm::dvec3 corner(std::size_t i) {
+    glm::dvec3 barycentric(0.0);
+    barycentric[static_cast<int>(i)] = 1.0;
+    return barycentric;
+  }
+
+  Surface surface_of(const ScreenTriangle& t) const {
+    Surface surface;
+    std::array<glm::dvec3, 3> normal, place;
+    const bool flat = has_one_normal(t);
+    if constexpr (c_exact) {
+      surface.normalize = !flat && !lights_.empty();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const ScreenVertex& v = t.vertex[i];
+        normal[i] = flat ? surface_point(t, glm::dvec3(1.0 / 3.0)).normal_world
+                         : v.inverse_w / t.vertex[0].inverse_w * v.normal_world;
+        place[i] = std::ldexp(v.inverse_w, ray_exponent_) * view_.point(v.position_world);
+      }
+      if (!flat) scale(normal);
+    } else {
+      surface.normalize = has_places_;
+      for (std::size_t i = 0; i < 3; ++i) {
+        normal[i] = surface_point(t, corner(i)).normal_world;
+        place[i] = std::ldexp(1.0, -scale_exponent_) * view_.point(t.vertex[i].position_world);
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::dvec3 n_view = view_.direction(normal[i]);
+      for (int axis = 0; axis < c_axes; ++axis) {
+        const auto n = static_cast<std::size_t>(axis);
+        surface.planes[n][i] = plane_value(n_view[axis]);
+        surface.planes[c_axes + n][i] = plane_value(place[i][axis]);
+      }
+      surface.planes[2 * c_axes][i] = plane_value(std::ldexp(t.vertex[i].inverse_w, distance_exponent_));
+    }
+    return surface;
+  }
+
+  // So that the largest component in view space is 1/2 to 1.
+  void scale(std::array<glm::dvec3, 3>& normal) const {
+    double most = 0.0;
+    for (const glm::dvec3& n : normal) most = std::max(most, largest_component(view_.direction(n)));
+    for (glm::dvec3& n : normal) n = most > 0.0 ? std::ldexp(1.0, -exponent_of(most)) * n : glm::dvec3(0.0);
+  }
+
+  // A vertex beside the frame may lie far past what is drawn, but not past 2^13 times that.
+  static std::int64_t plane_value(double v) {
+    constexpr double c_most = 1 << 15;
+    return std::isnan(v) ? 0 : fixed(std::clamp(v, -c_most, c_most), P::c_plane_sum_fraction_bits);
+  }
+
+  // The words where the walk starts, or on one of its lines.
+  void put_surface(InitVector& init, const ScreenTriangle& t, const Surface& surface, const Walk& walk,
+                   const WalkLine& line) const {
+    init.put(Request::normalize, surface.normalize);
+    for (int plane = 0; plane < layout_.planes(); ++plane) {
+      // Without a place the planes after N's are not there.
+      const DepthWords words =
+          on_line(DepthFit(screen_points(t), subpixel_bits(), surface.planes[static_cast<std::size_t>(plane)])
+                      .words(difference_start(walk), c_half_vector),
+                  line);
+      const int low = layout_.plane_low(plane);
+      init.put(Plane::value, words.value, low);
+      init.put(Plane::dx, words.dx, low);
+      init.put(Plane::de0, words.de0, low);
+      init.put(Plane::de1, words.de1, low);
+    }
+    put_material(init, materials_[t.material]);
+  }
+
+  static DepthWords on_line(DepthWords words, const WalkLine& line) {
+    words.value += (line.steps - line.carries) * words.de0 + line.carries * words.de1;
+    return words;
+  }
+
+  // Everything that will be drawn, and the lines it is on.
+  void index_lines() {
+    std::vector<ScreenTriangle> on_screen;
+    triangles_by_line_.emplace(frame_.height);
+    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) {
+      on_screen.clear();
+      projector_.project(t, on_screen, whole_frame_.projection);
+      for (const ScreenTriangle& piece : on_screen) {
+        ++whole_frame_.triangles;
+        if (!add_lines(*triangles_by_line_, static_cast<std::uint32_t>(triangles_.size()), piece)) continue;
+        ++whole_frame_.leaves;
+        triangles_.push_back(piece);
+      }
+    }
+    shadows_by_line_.emplace(frame_.height);
+    if (!scene_.shadows) return;
+    volumes_ = make_shadow_volumes(scene_, lights_);
+    ProjectionCounts counts;
+    for (ShadowPolygon& polygon : shadow_polygons(scene_, projector_, volumes_, counts)) {
+      if (!add_lines(*shadows_by_line_, static_cast<std::uint32_t>(shadows_.size()), polygon.triangle))
+        continue;
+      const auto& v = polygon.triangle.vertex;
+      const bool before_near = v[0].z == 0.0 && v[1].z == 0.0 && v[2].z == 0.0;
+      shadows_.push_back({std::move(polygon), before_near});
+    }
+    whole_frame_.projection.unrepresentable += counts.unrepresentable;
+  }
+
+  bool add_lines(ByLine& by_line, std::uint32_t item, const ScreenTriangle& t) const {
+    const std::vector<Walk> walks = plan_walks(screen_points(t), subpixel_bits(), frame_);
+    if (walks.empty()) return false;
+    by_line.add(item, walks.front().y,
+                walks.back().y + walks.back().upper_lines + walks.back().lower_lines - 1);
+    return true;
+  }
+
+  // Calls part(walk, line) for what the triangle has on the line.
+  template <class Part>
+  void for_each_part(const ScreenTriangle& t, std::uint32_t y, Part&& part) const {
+    for (const Walk& walk : plan_walks(screen_points(t), subpixel_bits(), frame_)) {
+      if (y < walk.y || y >= walk.y + walk.upper_lines + walk.lower_lines) continue;
+      const WalkLine line = line_of(walk, y);
+      if (!line.empty()) part(walk, line);
+    }
+  }
+
+  void append_line(std::uint32_t y, std::vector<std::uint32_t>& words, SetupCounts& counts) const {
+    bool any = false;
+    for_each_triangle(y, [&](const ScreenTriangle& t, const Walk& walk, const WalkLine& line) {
+      any = true;
+      InitVector init = request(words, Command::depth, counts);
+      put_header(init, t.source, line.walk, on_line(depth_words(t, walk), line), layout_.walk_low());
+    });
+    if (!any) return;  // shadows fall on nothing
+    for (const bool opens : {true, false}) append_shadows(y, opens, words, counts);
+    for_each_triangle(y, [&](const ScreenTriangle& t, const Walk& walk, const WalkLine& line) {
+      InitVector init = request(words, Command::draw, counts);
+      put_header(init, t.source, line.walk, on_line(depth_words(t, walk), line), layout_.walk_low());
+      put_surface(init, t, surface_of(t), walk, line);
+    });
+  }
+
+  template <class Part>
+  void for_each_triangle(std::uint32_t y, Part&& part) const {
+    for (const std::uint32_t item : triangles_by_line_->near(y)) {
+      const ScreenTriangle& t = triangles_[item];
+      for_each_part(t, y, [&](const Walk& walk, const WalkLine& line) { part(t, walk, line); });
+    }
+  }
+
+  void append_shadows(std::uint32_t y, bool opens, std::vector<std::uint32_t>& words,
+                      SetupCounts& counts) const {
+    std::vector<Overlap> over(volumes_.size(), Overlap(frame_.width));
+    for (const std::uint32_t item : shadows_by_line_->near(y)) {
+      const auto& [polygon, before_near] = shadows_[item];
+      if (polygon.opens != opens) continue;
+      for_each_part(polygon.triangle, y, [&](const Walk& walk, const WalkLine& line) {
+        ++counts.shadows;
+        over[polygon.light].add(line.walk);
+        InitVector init = request(words, Command::shadow, counts, static_cast<int>(polygon.light) + 1);
+        init.put(Request::opens, opens);
+        const DepthWords depth =
+            before_near ? DepthWords{0, 0, 0, 0} : on_line(depth_words(polygon.triangle, walk), line);
+        put_header(init, polygon.triangle.source, line.walk, depth, layout_.walk_low());
+      });
+    }
+    for (std::size_t light = 0; light < over.size(); ++light)
+      counts.deepest_shadow =
+          std::max(counts.deepest_shadow, over[light].most() + (opens ? volumes_[light].around_eye : 0));
+  }
+
+  void note_what_is_held() {
+    const auto note_light = [&](const std::string& name, glm::dvec3 light_intensity) {
+      const double most = largest_component(light_intensity);
+      if (!holds(most * c_white, c_intensity))
+        notes_.push_back(fmt::format("the {} is {:.4g} times white and was held at {:.4g}", name, most,
+                                     largest_value(c_intensity) / c_white));
+    };
+    note_light("ambient light", scene_.ambient);
+    for (const LightRef light : lights_) note_light(name_of(light), intensity(scene_, light));
+    const std::vector<bool> worn = worn_materials(scene_);
+    for (std::size_t i = 0; i < worn.size(); ++i)
+      if (worn[i]) note_material(scene_.materials[i]);
+    for (const LightRef light : lights_) {
+      if (light.kind == LightKind::directional) continue;
+      const std::optional<int> shift = light_shift(place_view(light));
+      if (!shift)
+        notes_.push_back(
+            fmt::format("{} is so far away that it was drawn as a directional one", name_of(light)));
+      if constexpr (!c_exact)
+        if (shift && !holds(std::ldexp(1.0, -scale_exponent_), Axis::half))
+          notes_.push_back(
+              fmt::format("{}: the scene is so small that the eye's vector, which the published highlight "
+                          "adds to the way to the "
+                          "light, was held at {:.4g} times its size",
+                          name_of(light), largest_value(Axis::half)));
+    }
+  }
+
+  void note_material(const Material& m) {
+    struct Term {
+      const char* name;
+      glm::dvec3 k;
+    };
+    const std::array<Term, 3> terms = {{{"k_a", m.ambient * m.colour},
+                                        {"k_d", m.diffuse * m.colour},
+                                        {"k_s", m.specular * m.specular_colour}}};
+    for (const Term& term : terms) {
+      const double most = largest_component(term.k);
+      if (most > 0.0 && !holds(most, c_coefficient))
+        notes_.push_back(fmt::format("material '{}': its {} of {:.4g} was held at {:.4g}", m.name, term.name,
+                                     most, largest_value(c_coefficient)));
+    }
+    if (has_specular(m) && !lights_.empty() && !holds(m.exponent, c_exponent))
+      notes_.push_back(fmt::format("material '{}': its exponent {:.6g} was held at {:.6g}", m.name,
+                                   m.exponent, largest_value(c_exponent)));
+    const auto note_reflected = [&](const Term& term, const std::string& light, glm::dvec3 light_intensity) {
+      const double most = largest_component(term.k * light_intensity);
+      if (!holds(most * c_white, c_reflected))
+        notes_.push_back(
+            fmt::format("material '{}': its {} times the {} is {:.4g} times white and is held at {:.4g}",
+                        m.name, term.name, light, most, largest_value(c_reflected) / c_white));
+    };
+    note_reflected(terms[0], "ambient light", scene_.ambient);
+    for (const LightRef light : lights_)
+      for (const Term& term : {terms[1], terms[2]})
+        note_reflected(term, name_of(light), intensity(scene_, light));
+  }
+
+  const Scene& scene_;
+  FrameSize frame_;
+  golden::ProcessorsConfig config_;
+  golden::ProcessorsLayout<P> layout_;
+  ViewSpace view_;
+  Projector projector_;
+  std::vector<LightRef> lights_;  // no more than the key has; any further light of the key stays undefined
+  bool has_places_;
+  // Exact: b is 2^ray_exponent_, a 2^distance_exponent_. Published: the scale is 2^scale_exponent_.
+  int ray_exponent_ = 0, distance_exponent_ = 0, scale_exponent_ = 0;
+  double farthest_ = 0.0;  // published: of a light's place
+  std::vector<MaterialWords> materials_;
+  std::vector<std::string> notes_;
+
+  // With shadows.
+  std::vector<ScreenTriangle> triangles_;
+  std::vector<ShadowVolumes> volumes_;
+  std::vector<Shadow> shadows_;
+  std::optional<ByLine> triangles_by_line_, shadows_by_line_;
+  SetupCounts whole_frame_;
+};
+
+}  // namespace
+
+std::unique_ptr<Setup> make_processors_setup(const Scene& scene, FrameSize frame, const HardwareKey& key) {
+  if (key.preset == Preset::exact) return std::make_unique<ProcessorsSetup<Exact>>(scene, frame, key);
+  return std::make_unique<ProcessorsSetup<Published>>(scene, frame, key);
+}
+
+}  // namespace halfway

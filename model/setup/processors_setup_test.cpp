@@ -1,0 +1,595 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shading processors' setup through their golden model: frames against the reference, triangle by
+// triangle and line by line, scenes that leave the formats, and lights where directions end.
+#include "setup/processors_setup.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "frame/assemble.hpp"
+#include "frame/metrics.hpp"
+#include "golden/processors_layout.hpp"
+#include "golden/word.hpp"
+#include "plan/plan.hpp"
+#include "reference/renderer.hpp"
+#include "run/golden_run.hpp"
+#include "scene/builtin_meshes.hpp"
+#include "scene/load_scene.hpp"
+#include "setup/random_scenes.hpp"
+#include "setup/random_solids.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::HasSubstr, ::testing::IsEmpty, ::testing::UnorderedElementsAre;
+
+constexpr FrameSize c_frame{96, 72};
+
+HardwareKey key_of(const Scene& scene, Preset preset = Preset::exact) {
+  const auto plan = plan_scene(scene, {.shader = Shader::processors, .preset = preset});
+  if (!plan) throw std::runtime_error(plan.error().message);
+  return plan->key;
+}
+HardwareKey with_shadows(HardwareKey key) {
+  key.processors.shadows = true;
+  return key;
+}
+
+struct Drawn {
+  std::vector<std::uint32_t> words;
+  std::vector<Fragment> fragments;
+  SetupCounts counts;
+  Frame frame;
+  bool fault = false;
+};
+
+Drawn draw(const Scene& scene, const HardwareKey& key, FrameSize size = c_frame) {
+  const auto setup = make_setup(scene, size, key, {});
+  Drawn out;
+  setup->append_prologue(out.words, out.counts);
+  for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, out.words, out.counts);
+  const auto golden = make_golden_model(key);
+  EXPECT_EQ(golden->init_bits(), setup->init_bits());
+  golden->draw(out.words, out.fragments);
+  out.fault = golden->fault();
+  FrameAssembler assembler(size, scene.background);
+  const Status status = assembler.add(out.fragments);
+  EXPECT_TRUE(status) << status.error().message;
+  out.frame = assembler.frame();
+  return out;
+}
+
+ReferenceImage reference_of(const Scene& scene, FrameSize size = c_frame) {
+  return render_reference(scene, Projector(scene, size, {}).project_all(), {.frame = size, .threads = 1});
+}
+
+FrameDistance distance(const Scene& scene, const Frame& frame, FrameSize size = c_frame) {
+  const ReferenceImage reference = reference_of(scene, size);
+  return *frame_distance(frame, reference.frame, reference.mask);
+}
+
+Scene builtin(const std::string& name) {
+  const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
+  if (!scene) throw std::runtime_error(scene.error().message);
+  return *scene;
+}
+
+// Lights of the kind asked for, over triangles or a mesh.
+Scene random_scene(RandomScenes& random, RandomScenes::Lights kind) {
+  Scene scene;
+  scene.name = "random";
+  scene.ambient = random.colour(false);
+  scene.materials = {random.material(false, false)};
+  scene.materials[0].brdf = Brdf::blinn;
+  if (random.one_in(2)) {
+    RandomScenes::set_mesh(scene, make_uv_sphere(9, 7, 1.0));
+    scene.camera.eye_world = {0.0, 0.3, 3.4};
+  } else {
+    random.add_triangles(scene, 12, 0.8, 0.6);
+  }
+  random.add_lights(scene, random.whole(1, 3), kind, 1.0, false);
+  return scene;
+}
+
+TEST(ProcessorsSetup, ExactDrawsTheReference) {
+  RandomScenes random(1);
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto kind : {RandomScenes::directional, RandomScenes::positional, RandomScenes::spots})
+    for (int i = 0; i < 40; ++i) {
+      SCOPED_TRACE(fmt::format("kind {}, scene {}", static_cast<int>(kind), i));
+      const Scene scene = random_scene(random, kind);
+      const FrameDistance d = distance(scene, draw(scene, key_of(scene)).frame);
+      EXPECT_LE(d.max_lsb, 1U);
+      least = std::min(least, d.psnr_db);
+    }
+  EXPECT_GT(least, 50.0);
+  fmt::print("least PSNR {:.2f} dB\n", least);
+}
+
+TEST(ProcessorsSetup, ScaleDoesNotMatter) {
+  RandomScenes random(2);
+  for (const double scale : {1e-9, 1e-3, 1e3, 1e9})
+    for (int i = 0; i < 10; ++i) {
+      Scene scene = random_scene(random, RandomScenes::any);
+      for (glm::dvec3& p : scene.positions_world) p *= scale;
+      for (PositionalLight& l : scene.positional) l.position_world *= scale;
+      for (SpotLight& l : scene.spots) l.position_world *= scale;
+      scene.camera.eye_world *= scale;
+      EXPECT_LE(distance(scene, draw(scene, key_of(scene)).frame).max_lsb, 1U) << scale;
+    }
+}
+
+TEST(ProcessorsSetup, ExactDrawsTheBuiltInScenes) {
+  for (const char* name : {"highlights", "lights", "matte", "spheres", "teapot"}) {
+    const Scene scene = builtin(name);
+    const FrameDistance d = distance(scene, draw(scene, key_of(scene), {320, 240}).frame, {320, 240});
+    EXPECT_LE(d.max_lsb, 1U) << name;
+    EXPECT_GT(d.psnr_db, 60.0) << name;
+  }
+}
+
+// Near and far planes cut triangles; the eye stands among them.
+TEST(ProcessorsSetup, TrianglesThroughTheNearPlane) {
+  RandomScenes random(4);
+  int cut = 0;
+  for (int i = 0; i < 60; ++i) {
+    Scene scene = random_scene(random, RandomScenes::any);
+    scene.camera.eye_world = random.within(0.3, 1.2) * random.unit();
+    scene.camera.target_world = random.cube();
+    scene.camera.near = random.log_within(1e-3, 0.5);
+    scene.camera.far = 10.0;
+    const Drawn drawn = draw(scene, key_of(scene));
+    cut += drawn.counts.triangles > drawn.counts.projection.visible;
+    const FrameDistance d = distance(scene, drawn.frame);
+    EXPECT_LE(d.max_lsb, 2U) << "scene " << i << " near " << scene.camera.near;
+  }
+  EXPECT_GT(cut, 10);
+}
+
+Scene ball() {
+  Scene scene;
+  scene.name = "ball";
+  scene.materials = {{.name = "clay", .colour = {0.9, 0.5, 0.4}, .specular = 0.5, .exponent = 30.0}};
+  RandomScenes::set_mesh(scene, make_uv_sphere(16, 12, 1.0));
+  scene.camera.eye_world = {0.0, 0.0, 3.4};
+  return scene;
+}
+
+TEST(ProcessorsSetup, LightsWhereDirectionsEnd) {
+  const auto error = [](const Scene& scene) {
+    return distance(scene, draw(scene, key_of(scene)).frame).max_lsb;
+  };
+  // At the eye.
+  Scene scene = ball();
+  scene.positional = {{scene.camera.eye_world, glm::dvec3(0.8)}};
+  EXPECT_LE(error(scene), 1U);
+  for (double scale : {1e-12, 1e12}) {
+    Scene scaled = scene;
+    for (glm::dvec3& p : scaled.positions_world) p *= scale;
+    scaled.camera.eye_world *= scale;
+    scaled.positional[0].position_world = scaled.camera.eye_world;
+    EXPECT_LE(error(scaled), 1U) << scale;
+  }
+  // Beyond any number of the format: as at infinity.
+  for (const double far : {1e6, 1e12, 1e30, 1e300}) {
+    scene.positional = {{far * glm::dvec3(0.3, 0.5, 0.8), glm::dvec3(0.8)}};
+    EXPECT_LE(error(scene), 1U) << far;
+  }
+  // On the surface, and right above it.
+  for (const double above : {0.0, 1e-9, 1e-6, 1e-3}) {
+    scene.positional = {{(1.0 + above) * scene.positions_world[40], glm::dvec3(0.8)}};
+    EXPECT_LE(error(scene), above < 1e-3 ? 8U : 2U) << above;
+  }
+  // Behind the eye, and behind the ball.
+  for (const double z : {100.0, 5.0, -3.0}) {
+    scene.positional = {{{0.1, 0.2, z}, glm::dvec3(0.8)}};
+    EXPECT_LE(error(scene), 1U) << z;
+  }
+  // A spot without a soft edge, and one that is all soft edge.
+  scene.positional.clear();
+  scene.spots = {{.position_world = {0.0, 0.0, 3.0}, .cos_inner = 0.99, .cos_outer = 0.99}};
+  EXPECT_LE(distance(scene, draw(scene, key_of(scene)).frame).percentile99, 1U);
+  scene.spots[0].cos_inner = 1.0;
+  scene.spots[0].cos_outer = 0.0;
+  EXPECT_LE(error(scene), 2U);
+}
+
+// Whatever it is, it is drawn: each pixel that it covers, in colours of the format.
+TEST(ProcessorsSetup, DegenerateNormalsAndSliversAreDrawn) {
+  RandomScenes random(6);
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (int i = 0; i < 30; ++i) {
+      Scene scene = random_scene(random, RandomScenes::any);
+      for (std::size_t n = 0; n < scene.normals_world.size(); n += 3)
+        scene.normals_world[n] = i % 2 == 0 ? glm::dvec3(0.0) : -scene.normals_world[n];
+      for (std::size_t p = 0; p + 1 < scene.positions_world.size(); p += 5)
+        scene.positions_world[p + 1] = scene.positions_world[p] + 1e-4 * random.cube();
+      const ReferenceImage reference = reference_of(scene);
+      const HardwareKey key = key_of(scene, preset);
+      for (const Drawn& drawn : {draw(scene, key), draw(scene, with_shadows(key))}) {
+        std::vector<std::uint8_t> mask(reference.mask.size(), 0);
+        for (const Fragment& f : drawn.fragments) mask[std::size_t{f.y} * c_frame.width + f.x] = 1;
+        EXPECT_EQ(mask, reference.mask);
+        EXPECT_FALSE(drawn.fault);
+      }
+    }
+}
+
+// A flat triangle whose normals are zero has its own.
+TEST(ProcessorsSetup, OneZeroNormalIsTheTrianglesOwn) {
+  Scene scene = ball();
+  scene.directional = {{glm::normalize(glm::dvec3(0.2, 0.3, 1.0)), glm::dvec3(1.0)}};
+  scene.normals_world = {glm::dvec3(0.0)};
+  for (SceneTriangle& t : scene.triangles) t.normal = {0, 0, 0};
+  EXPECT_FALSE(key_of(scene).processors.normalize);
+  const FrameDistance d = distance(scene, draw(scene, key_of(scene)).frame);
+  EXPECT_LE(d.max_lsb, 1U);
+}
+
+std::vector<std::string> notes(const Scene& scene, Preset preset) {
+  return make_setup(scene, c_frame, key_of(scene, preset), {})->notes();
+}
+
+TEST(ProcessorsSetup, WhatIsHeldIsNoted) {
+  Scene scene = ball();
+  scene.directional = {{.intensity = glm::dvec3(64.0)}};
+  scene.ambient = glm::dvec3(64.0);
+  scene.materials[0].ambient = scene.materials[0].diffuse = 1.0;
+  scene.materials[0].exponent = 8000.0;
+  scene.materials.push_back({.name = "unworn", .diffuse = 1e6});
+  EXPECT_THAT(notes(scene, Preset::exact), IsEmpty());
+  // Colour steps, k and exponents as published.
+  EXPECT_THAT(notes(scene, Preset::published),
+              UnorderedElementsAre(HasSubstr("ambient light is 64 times white and was held at 1"),
+                                   HasSubstr("directional light 1 is 64 times white and was held at 1"),
+                                   HasSubstr("'clay': its exponent 8000 was held at 1023"),
+                                   HasSubstr("its k_a times the ambient light is 57.6 times white"),
+                                   HasSubstr("its k_d times the directional light 1 is 57.6 times white"),
+                                   HasSubstr("its k_s times the directional light 1 is 32 times white")));
+  scene = ball();
+  scene.materials[0].diffuse = 20.0;
+  scene.positional = {{{0.0, 0.0, 1e30}, glm::dvec3(100.0)}};
+  scene.materials[0].exponent = 1e5;
+  EXPECT_THAT(notes(scene, Preset::exact),
+              UnorderedElementsAre(HasSubstr("positional light 1 is 100 times white and was held at 64.25"),
+                                   HasSubstr("'clay': its k_d of 18 was held at 16"),
+                                   HasSubstr("its exponent 100000 was held at 8192"),
+                                   HasSubstr("its k_d times the positional light 1 is 1800 times white"),
+                                   HasSubstr("so far away that it was drawn as a directional one")));
+  // The colours that come of it are the largest.
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (const Fragment& f : draw(scene, key_of(scene, preset)).fragments)
+      if (f.x == c_frame.width / 2 && f.y == c_frame.height / 2) {
+        EXPECT_EQ(f.red, 255);
+      }
+}
+
+// With hardware for shadows the stream goes by lines; each pixel is shaded as it is without.
+TEST(ProcessorsSetup, LinesDrawWhatTrianglesDraw) {
+  RandomScenes random(3);
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (int i = 0; i < 30; ++i) {
+      const Scene scene = random_scene(random, RandomScenes::any);
+      const HardwareKey key = key_of(scene, preset);
+      const Drawn triangles = draw(scene, key), lines = draw(scene, with_shadows(key));
+      ASSERT_EQ(triangles.frame.rgb, lines.frame.rgb) << to_string(preset) << ", scene " << i;
+      EXPECT_FALSE(lines.fault);
+      // Each pixel once.
+      EXPECT_LE(lines.fragments.size(), triangles.fragments.size());
+      EXPECT_EQ(lines.counts.triangles, triangles.counts.triangles);
+      EXPECT_EQ(lines.counts.leaves, triangles.counts.leaves);
+      EXPECT_EQ(lines.counts.projection.visible, triangles.counts.projection.visible);
+    }
+}
+
+// Pixels that the frame and the reference, its shadows cast by rays, colour differently.
+struct Agreement {
+  std::uint64_t pixels = 0, differ = 0, faults = 0;
+};
+
+void compare_shadows(Scene scene, Preset preset, FrameSize size, Agreement& sum) {
+  for (Material& m : scene.materials) m.specular = 0.0;
+  const Drawn drawn = draw(scene, key_of(scene, preset), size);
+  const ReferenceImage reference = reference_of(scene, size);
+  sum.faults += drawn.fault;
+  for (std::size_t i = 0; i < reference.mask.size(); ++i) {
+    if (reference.mask[i] == 0) continue;
+    ++sum.pixels;
+    int most = 0;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
+      most = std::max(most, std::abs(int{reference.frame.rgb[c]} - int{drawn.frame.rgb[c]}));
+    sum.differ += most > 1;
+  }
+}
+
+/// A floor on which solids stand.
+Scene on_a_floor(RandomSolids& random, int solids) {
+  Scene scene = random.scene(solids);
+  Mesh floor = make_box({30.0, 0.5, 30.0}, 2);
+  for (glm::dvec3& p : floor.positions) p.y -= 1.5;
+  add_mesh(scene, floor);
+  scene.directional[0].to_light_world.y = std::abs(scene.directional[0].to_light_world.y) + 0.1;
+  scene.directional[0].to_light_world = glm::normalize(scene.directional[0].to_light_world);
+  scene.camera.up_world = {0.1, 1.0, 0.1};
+  return scene;
+}
+
+void expect_rays(const Agreement& sum, std::uint64_t least_pixels) {
+  EXPECT_GT(sum.pixels, least_pixels);
+  EXPECT_LT(sum.differ * 1'000, sum.pixels) << sum.differ << " of " << sum.pixels;
+  EXPECT_EQ(sum.faults, 0U);
+}
+
+TEST(ProcessorsSetup, ShadowsAreThoseOfRays) {
+  RandomSolids random(5);
+  Agreement sum;
+  for (int i = 0; i < 60; ++i) compare_shadows(random.scene(1 + i % 5), Preset::exact, {160, 120}, sum);
+  for (int i = 0; i < 20; ++i) compare_shadows(on_a_floor(random, 4), Preset::exact, {160, 120}, sum);
+  expect_rays(sum, 300'000);
+  sum = {};
+  compare_shadows(builtin("shadows"), Preset::exact, {640, 480}, sum);
+  fmt::print("{} of {} pixels of the built-in scene differ\n", sum.differ, sum.pixels);
+  expect_rays(sum, 120'000);
+}
+
+TEST(ProcessorsSetup, ShadowsSeenFromWithinThem) {
+  RandomSolids random(8);
+  Agreement sum;
+  for (int i = 0; i < 30; ++i) {
+    Scene scene = on_a_floor(random, 4);
+    const LightPoint light = light_point(scene, {i % 2 ? LightKind::directional : LightKind::positional, 0});
+    const glm::dvec3 caster = scene.positions_world[i % 4 < 2 ? 0 : 5];
+    scene.camera.eye_world = caster - random.within(0.2, 1.0) * glm::normalize(light.way_from(caster)) +
+                             random.within(1e-4, 0.3) * random.unit();
+    scene.camera.eye_world.y = std::max(scene.camera.eye_world.y, -1.2);
+    scene.camera.target_world = random.cube(1.0);
+    compare_shadows(scene, Preset::exact, {160, 120}, sum);
+  }
+  expect_rays(sum, 200'000);
+}
+
+TEST(ProcessorsSetup, ShadowsWhereTheNearPlaneCutsOrMeshesAreOpen) {
+  RandomSolids random(9);
+  Agreement sum;
+  for (int i = 0; i < 30; ++i) {
+    Scene scene = on_a_floor(random, 4);
+    if (i % 2 == 0) {
+      scene.camera.eye_world = 3.0 * random.unit();
+      scene.camera.eye_world.y = std::abs(scene.camera.eye_world.y) - 1.0;
+      scene.camera.near = random.within(1.0, 3.0);
+    } else {
+      for (int k = 0; k < 20; ++k) scene.triangles.erase(scene.triangles.begin() + random.whole(0, 30));
+    }
+    compare_shadows(scene, Preset::exact, {160, 120}, sum);
+  }
+  expect_rays(sum, 200'000);
+}
+
+// In preset published N turns otherwise between vertices, but shadows fall on the same pixels: where it is
+// dark without a light that would shine.
+TEST(ProcessorsSetup, ShadowsOfBothPresetsFallOnTheSamePixels) {
+  RandomSolids random(10);
+  std::uint64_t dark = 0, apart = 0;
+  for (int i = 0; i < 10; ++i) {
+    Scene scene = on_a_floor(random, 3);
+    scene.positional.clear();
+    scene.spots.clear();
+    scene.materials[0].specular = 0.0;
+    const auto darkened = [&](Preset preset) {
+      Scene lit = scene;
+      lit.shadows = false;
+      const Frame shaded = draw(scene, key_of(scene, preset)).frame,
+                  all = draw(lit, key_of(lit, preset)).frame;
+      std::vector<int> by;
+      for (std::size_t c = 0; c < all.rgb.size(); c += 3) by.push_back(all.rgb[c] - shaded.rgb[c]);
+      return by;
+    };
+    const std::vector<int> exact = darkened(Preset::exact), published = darkened(Preset::published);
+    for (std::size_t p = 0; p < exact.size(); ++p) {
+      dark += exact[p] > 8;
+      apart += (exact[p] > 8 && published[p] == 0) || (published[p] > 8 && exact[p] == 0);
+    }
+  }
+  fmt::print("{} pixels in shadow, {} in one preset alone\n", dark, apart);
+  EXPECT_GT(dark, 800U);
+  EXPECT_LT(apart * 100, dark);
+}
+
+using Request = golden::Exact::request_header_at;
+using Walked = golden::Exact::init_header_at;
+
+// The vectors of a stream, one after the other.
+template <class Vector>
+void for_each_vector(const std::vector<std::uint32_t>& words, unsigned bits, Vector&& vector) {
+  const std::size_t size = (bits + 31) / 32;
+  for (std::size_t i = 0; i < words.size(); i += size) vector(std::span(words).subspan(i, size));
+}
+
+// Line by line: all depths, then shadows, those that open first, then all that is shaded, the same triangles.
+TEST(ProcessorsSetup, ALineIsDepthsShadowsAndSurfaces) {
+  RandomSolids random(11);
+  Scene scene = on_a_floor(random, 4);
+  scene.camera.near = 2.0;  // cuts volumes
+  const HardwareKey key = key_of(scene);
+  const auto setup = make_setup(scene, c_frame, key, {});
+  const int walk = golden::ProcessorsLayout<golden::Exact>::walk_low();
+  std::uint64_t opening = 0, closing = 0, before_near = 0;
+  for (std::uint32_t y = 0; y < setup->units(); ++y) {
+    std::vector<std::uint32_t> words;
+    SetupCounts counts;
+    setup->append(y, words, counts);
+    std::vector<std::uint64_t> depths, drawn;
+    int stage = 0;
+    for_each_vector(words, setup->init_bits(), [&](std::span<const std::uint32_t> v) {
+      EXPECT_EQ(golden::get_bits(v, Walked::y, walk), y);
+      EXPECT_EQ(golden::get_bits(v, Walked::upper_lines, walk), 1U);
+      EXPECT_EQ(golden::get_bits(v, Walked::lower_lines, walk), 0U);
+      const auto command = static_cast<golden::Command>(golden::get_bits(v, Request::command));
+      const bool opens = golden::get_bits(v, Request::opens) != 0;
+      const std::uint64_t triangle = golden::get_bits(v, Walked::triangle, walk);
+      int now = 3;
+      if (command == golden::Command::depth) {
+        now = 0;
+        depths.push_back(triangle);
+      } else if (command == golden::Command::shadow) {
+        now = opens ? 1 : 2;
+        ++(opens ? opening : closing);
+        const std::uint64_t light = golden::get_bits(v, Request::light);
+        EXPECT_TRUE(light >= 1 && light <= 3) << light;
+        before_near +=
+            golden::get_bits(v, Walked::z, walk) == 0 && golden::get_bits(v, Walked::z_dx, walk) == 0;
+      } else {
+        EXPECT_EQ(command, golden::Command::draw);
+        drawn.push_back(triangle);
+      }
+      EXPECT_GE(now, stage);
+      stage = now;
+    });
+    EXPECT_EQ(depths, drawn);
+  }
+  EXPECT_GT(opening, 100U);
+  EXPECT_GT(closing, 100U);
+  EXPECT_GT(before_near, 10U);
+}
+
+// Of a triangle with one normal N is that, each component rounded once.
+TEST(ProcessorsSetup, AnUnchangingNormalIsRoundedOnce) {
+  Scene scene = ball();
+  scene.directional = {{.to_light_world = {0.0, 0.0, 1.0}}};
+  for (SceneTriangle& t : scene.triangles) t.normal = {t.normal[0], t.normal[0], t.normal[0]};
+  const HardwareKey key = key_of(scene);
+  const golden::ProcessorsLayout<golden::Exact> layout(processors_config(key));
+  using Plane = golden::Exact::plane_header_at;
+  constexpr int c_drop = golden::Exact::c_plane_sum_fraction_bits - golden::Exact::c_vector_fraction_bits;
+  int seen = 0;
+  for_each_vector(draw(scene, key).words, static_cast<unsigned>(layout.init_bits()), [&](auto v) {
+    if (golden::get_bits(v, Request::command) != static_cast<std::uint32_t>(golden::Command::draw)) return;
+    EXPECT_EQ(golden::get_bits(v, Request::normalize), 0U);
+    const auto triangle = golden::get_bits(v, Walked::triangle, layout.walk_low());
+    // The camera's axes are the world's.
+    const glm::dvec3 n = scene.normals_world[scene.triangles[triangle].normal[0]];
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto word = golden::Word<golden::Exact::c_plane_sum_bits>::from_bits(
+          golden::get_bits(v, Plane::value, layout.plane_low(axis)));
+      EXPECT_EQ(word.value() >> c_drop,
+                std::floor(std::ldexp(n[axis], golden::Exact::c_vector_fraction_bits) + 0.5));
+      EXPECT_EQ(golden::get_bits(v, Plane::dx, layout.plane_low(axis)), 0U);
+      ++seen;
+    }
+  });
+  EXPECT_GT(seen, 100);
+}
+
+// No bit of a place is given away: the farthest, a light's here, is 1/2 to 1.
+TEST(ProcessorsSetup, PlacesFillTheirFormat) {
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (const double distance : {30.0, 500.0}) {
+      Scene scene = ball();
+      scene.positional = {{{0.0, 0.0, -distance}, glm::dvec3(1.0)}};
+      const HardwareKey key = key_of(scene, preset);
+      const auto setup = make_setup(scene, c_frame, key, {});
+      std::int64_t place = 0;
+      for_each_vector(draw(scene, key).words, setup->init_bits(), [&](auto v) {
+        if (golden::get_bits(v, Request::light) != 1) return;
+        const auto z = [&]<class P>(P) {
+          return static_cast<std::int64_t>(golden::get_bits(v, P::light_axes_channel_at::place,
+                                                            golden::ProcessorsLayout<P>::light_axis_low(2))
+                                           << (64 - P::c_light_place_bits)) >>
+                 (62 - 15);
+        };
+        place = preset == Preset::exact ? z(golden::Exact{}) : z(golden::Published{});
+      });
+      // In 2^-15 of the format's 1.
+      EXPECT_LE(place, -(1 << 14)) << to_string(preset) << ' ' << distance;
+      EXPECT_GE(place, -(1 << 15));
+    }
+}
+
+// As published, in double: N goes straight across the screen, and is made unit only where a light has a
+// place; the eye is at infinity; a positional highlight's vector adds a unit one and one of the light's
+// distance.
+glm::dvec3 published_radiance(const Scene& scene, const ScreenTriangle& t, glm::dvec3 weight) {
+  const Material& m = scene.materials[t.material];
+  glm::dvec3 n(0.0), p(0.0);
+  for (int i = 0; i < 3; ++i) {
+    n += weight[i] * glm::normalize(t.vertex[static_cast<std::size_t>(i)].normal_world);
+    p += weight[i] * t.vertex[static_cast<std::size_t>(i)].position_world;
+  }
+  const glm::dvec3 to_eye = glm::normalize(scene.camera.eye_world - scene.camera.target_world);
+  if (!scene.positional.empty()) n = glm::normalize(n);
+  glm::dvec3 sum = scene.ambient * m.ambient * m.colour;
+  const auto add = [&](glm::dvec3 light, glm::dvec3 half, glm::dvec3 intensity) {
+    sum += intensity * (std::max(0.0, glm::dot(n, light)) * m.diffuse * m.colour +
+                        std::pow(std::clamp(glm::dot(n, half), 0.0, 1.0), std::round(m.exponent)) *
+                            m.specular * m.specular_colour);
+  };
+  for (const DirectionalLight& l : scene.directional)
+    add(l.to_light_world, glm::normalize(l.to_light_world + to_eye), l.intensity);
+  for (const PositionalLight& l : scene.positional)
+    add(glm::normalize(l.position_world - p), glm::normalize(to_eye + l.position_world - p), l.intensity);
+  return 255.0 * glm::min(sum, glm::dvec3(1.0));
+}
+
+TEST(ProcessorsSetup, PublishedDrawsWhatIsPublished) {
+  RandomScenes random(12);
+  for (const auto kind : {RandomScenes::directional, RandomScenes::positional}) {
+    std::uint64_t fragments = 0, far = 0;
+    double sum = 0.0;
+    for (int i = 0; i < 20; ++i) {
+      Scene scene = random_scene(random, kind);
+      scene.materials[0].exponent = random.within(2.0, 12.0);
+      std::vector<ScreenTriangle> pieces = Projector(scene, c_frame, {}).project_all();
+      for (const Fragment& f : draw(scene, key_of(scene, Preset::published)).fragments)
+        for (const ScreenTriangle& t : pieces) {
+          if (t.source != f.triangle) continue;
+          const glm::dvec3 weight =
+              barycentric_screen(t, (2 * std::int64_t{f.x} + 1) << 4, (2 * std::int64_t{f.y} + 1) << 4);
+          if (std::min({weight.x, weight.y, weight.z}) < 0.0) continue;
+          const double error = std::abs(published_radiance(scene, t, weight).x - f.red);
+          ++fragments;
+          sum += error;
+          far += error > 8.0;
+        }
+    }
+    fmt::print("{} fragments, {:.2f} steps off on average, {} more than 8\n", fragments,
+               sum / static_cast<double>(fragments), far);
+    EXPECT_GT(fragments, 10'000U);
+    EXPECT_LT(sum, 1.6 * static_cast<double>(fragments));
+    EXPECT_LT(far * 1000, fragments);
+  }
+}
+
+// Boxes in a row before one another, the light behind them all: each opens a volume.
+TEST(ProcessorsSetup, DeepShadowsAreCounted) {
+  Scene scene;
+  scene.name = "row";
+  scene.shadows = true;
+  scene.materials = {{.name = "wood"}};
+  for (int i = 0; i < 12; ++i) {
+    Mesh box = make_box({0.5, 0.5, 0.05}, 1);
+    for (glm::dvec3& p : box.positions) p += glm::dvec3(1.0 + 0.001 * i, 0.2, -0.2 * i);
+    add_mesh(scene, box);
+  }
+  add_mesh(scene, make_box({40.0, 40.0, 0.1}, 1));
+  for (std::size_t i = scene.positions_world.size() - 8; i < scene.positions_world.size(); ++i)
+    scene.positions_world[i].z -= 8.0;
+  scene.directional = {{.to_light_world = glm::normalize(glm::dvec3(1.0, 0.1, 0.1))}};
+  scene.camera = {.eye_world = {-3.0, 0.2, 3.0}, .target_world = {0.0, 0.0, -6.0}};
+  const Drawn drawn = draw(scene, key_of(scene));
+  EXPECT_GT(drawn.counts.deepest_shadow, 3U);
+  EXPECT_LE(drawn.counts.deepest_shadow, 13U);
+  EXPECT_GT(drawn.counts.shadows, 100U);
+  EXPECT_FALSE(drawn.fault);
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+// For each configuration of the processors shader and set of vectors: init, fragments and probes as in
+// shaders.cpp; the clocks stand there for the file's sake, as 0. A set leaves nothing behind: no light, no
+// object.
+#include "golden/processors_shader.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "vectors/entities.hpp"
+#include "vectors/random.hpp"
+#include "vectors/triangles.hpp"
+#include "vectors/vector_file.hpp"
+
+namespace halfway::vectors {
+namespace {
+
+using golden::Command, golden::Exact, golden::Field, golden::Published, golden::SpanXWord, golden::set_bits;
+
+// tb/shaders/processors_shader_tb.vhd has the same.
+struct Processors {
+  const char* name;
+  golden::ProcessorsConfig config;
+  bool probe;
+  std::int64_t pixels;
+};
+
+constexpr Processors c_exact_shaders[] = {
+    {"directional", {3, 1, 0, 0, true, true, true, false}, true, 160},
+    {"all_kinds", {3, 1, 1, 1, true, true, true, false}, true, 160},
+    {"grey", {1, 2, 0, 0, true, false, false, false}, true, 160},
+    {"no_light", {3, 0, 0, 0, false, false, true, false}, true, 160},
+    {"shadows", {3, 1, 1, 0, true, true, true, true}, true, 160},
+    {"folded", {3, 0, 1, 0, true, true, true, false}, true, 90},
+};
+constexpr Processors c_published_shaders[] = {
+    {"published", {3, 1, 1, 1, true, true, true, false}, true, 90},
+    {"published_unrolled", {1, 1, 0, 0, true, true, false, false}, false, 160},
+    {"published_shadows", {3, 0, 1, 0, false, true, true, true}, false, 90},
+};
+
+template <class Preset>
+class Host {
+ public:
+  using Shader = golden::ProcessorsShader<Preset>;
+
+  explicit Host(const Processors& processors)
+      : p_(processors),
+        layout_(processors.config),
+        twin_(processors.config),
+        random_(static_cast<std::uint64_t>(layout_.init_bits())) {}
+
+  // What a set is made of.
+  void define_all() {
+    for (int light = 0; light <= p_.config.lights(); ++light) load(Command::define, light);
+  }
+  void some_load() {
+    constexpr Command c_loads[] = {Command::define, Command::redefine, Command::remove, Command::new_frame};
+    // Of lights that are not there, too.
+    load(c_loads[random_.between(0, 3)], static_cast<int>(random_.between(0, p_.config.lights() + 1)));
+  }
+  void draw(const InitVector& walk) { send(walk_vector(Command::draw, walk)); }
+  void draw_triangles(Mix mix) {
+    for (const InitVector& walk :
+         random_triangles<Exact>(random_, mix, Exact::c_init_header_bits, p_.pixels)) {
+      if (mix == Mix::mixed && random_.one_in(3)) some_load();
+      if (mix == Mix::mixed && random_.one_in(4)) draw_pile();
+      draw(walk);
+    }
+  }
+  // Objects that meet: at one pixel, and at its neighbour above.
+  void draw_pile() {
+    const auto y = static_cast<std::uint32_t>(random_.between(1, 4095));
+    const std::int64_t x = random_.between(0, 4095);
+    for (const std::uint32_t line : {y, y, y - 1, y - 1, y}) draw(line_walk(line, x, x + 1, 1 << 20, 3));
+  }
+  // A line in its rounds. Each volume's exit lies behind its entry, so that no count falls below its
+  // beginning.
+  void draw_line() {
+    const std::uint32_t y = static_cast<std::uint32_t>(random_.between(0, 4095));
+    const std::int64_t left = random_.one_in(4) ? 4096 - 12 : random_.between(0, 4000);
+    const auto span = [&](std::int64_t z, std::uint32_t triangle) {
+      const std::int64_t from = left + random_.between(0, 4), to = left + random_.between(6, 12);
+      return line_walk(y, from, to, z, triangle);
+    };
+    std::vector<InitVector> objects;
+    for (std::int64_t i = random_.between(1, 4); i > 0; --i)
+      objects.push_back(span(random_.between(1, 14) << 20, static_cast<std::uint32_t>(random_.bits(32))));
+    for (const InitVector& object : objects) send(walk_vector(Command::depth, object));
+    for (int light = 1; light <= p_.config.lights(); ++light)
+      for (std::int64_t i = random_.between(0, 2); i > 0; --i) {
+        const std::int64_t z = random_.between(0, 14) << 20;
+        const InitVector entry = span(z, 7);
+        send(shadow_vector(light, true, entry));
+        InitVector exit = entry;
+        put_depth(exit, std::min<std::int64_t>(z + (random_.between(0, 6) << 20), 15 << 20));
+        send(shadow_vector(light, false, exit));
+      }
+    if (random_.one_in(8)) some_load();
+    for (const InitVector& object : objects) draw(object);
+  }
+  // An object inside less than no volume.
+  void go_wrong() {
+    define_all();
+    const InitVector object = line_walk(5, 3, 4, 1 << 20, 1);
+    send(walk_vector(Command::depth, object));
+    InitVector exit = object;
+    put_depth(exit, 1 << 19);
+    for (int i = 0; i < 2; ++i) send(shadow_vector(1, false, exit));
+    draw(object);
+  }
+  void finish() {
+    for (int light = 0; light <= p_.config.lights(); ++light) load(Command::remove, light);
+    load(Command::new_frame, 0);
+  }
+  bool fault() const { return twin_.fault(); }
+
+  Status write(const std::filesystem::path& folder, const char* set) {
+    const std::string stem = fmt::format("{}_{}", p_.name, set);
+    if (fragments_.size() == 0) return tool_failed(stem + ": no fragment");
+    if (auto s = inits_.write(folder / (stem + "_init.txt")); !s) return s;
+    if (auto s = fragments_.write(folder / (stem + "_fragments.txt")); !s) return s;
+    constexpr const char* c_events[] = {"line", "span", "sample", "product"};
+    for (std::size_t event = 0; p_.probe && event < probes_.size(); ++event)
+      if (auto s = probes_[event].write(folder / fmt::format("{}_{}_probes.txt", stem, c_events[event])); !s)
+        return s;
+    return Ok{};
+  }
+
+ private:
+  // The checker sees the first processor and the last.
+  struct Watch : golden::Unwatched {
+    explicit Watch(Host& h) : host(h) {}
+    Host& host;
+    void add(std::size_t event, const Shader& s, const std::vector<std::uint32_t>& words) {
+      host.probes_[event].words_of(words, s.probe_bits()).end_vector();
+    }
+    void line(const Shader& s) { add(0, s, s.line_probe()); }
+    void span(const Shader& s, SpanXWord x) { add(1, s, s.span_probe(x)); }
+    void processor(const Shader& s, SpanXWord, int number) {
+      const int last = host.p_.config.processors() - 1;
+      if (number == last)
+        add(3, s, s.processor_probe(number));
+      else if (number == 0)
+        add(2, s, s.processor_probe(number));
+    }
+  };
+
+  void send(const InitVector& vector) {
+    inits_.words_of(vector, layout_.init_bits()).word(0, 32).end_vector();
+    twin_.draw(
+        vector,
+        [&](const Fragment& f) {
+          fragments_.word(f.triangle, Preset::c_triangle_bits).word(f.y, Preset::c_pixel_y_bits);
+          fragments_.word(f.x, Preset::c_pixel_x_bits).word(f.z, Preset::c_depth_bits);
+          for (const std::uint8_t colour : {f.red, f.green, f.blue})
+            fragments_.word(colour, Preset::c_colour_bits);
+          fragments_.word(0, 32).end_vector();
+        },
+        Watch(*this));
+  }
+
+  InitVector request(Command command, int light) {
+    using At = typename Preset::request_header_at;
+    InitVector vector = random_vector(random_, layout_.init_bits());
+    set_bits(vector, At::command, static_cast<std::uint32_t>(command));
+    set_bits(vector, At::light, static_cast<std::uint32_t>(light));
+    return vector;
+  }
+
+  void load(Command command, int light) {
+    InitVector vector = request(command, light);
+    if (command == Command::define || command == Command::redefine) {
+      golden::ShadingLight l;
+      l.positional = random_.one_in(2);
+      l.spot = random_.one_in(2);
+      l.shift = Preset::c_light_shift_bits > 0 ? static_cast<int>(random_.between(0, 4)) : 0;
+      l.outer = fixed(uniform(-1, 0.5), Preset::c_direction_fraction_bits);
+      l.slope = static_cast<std::uint32_t>(random_.word(Preset::c_spot_slope_bits));
+      l.around_eye = static_cast<int>(random_.between(0, 3) / 3);
+      const auto to_light = direction(), axis = direction(), half = direction();
+      for (std::size_t i = 0; i < 3; ++i) {
+        l.place[i] = fixed(to_light[i], Preset::c_light_place_fraction_bits);
+        l.axis[i] = fixed(axis[i], Preset::c_direction_fraction_bits);
+        l.half[i] = fixed(half[i], Preset::c_direction_fraction_bits);
+        l.intensity[i] = static_cast<std::uint32_t>(
+            random_.bits(8 + Preset::c_light_intensity_fraction_bits - (random_.one_in(3) ? 0 : 1)));
+      }
+      golden::ShadingToken<Preset>::encode_light(p_.config, l, vector);
+    }
+    send(vector);
+  }
+
+  InitVector walk_vector(Command command, const InitVector& walk) {
+    InitVector vector = request(command, static_cast<int>(random_.bits(5)));
+    for (int low = 0; low < Exact::c_init_header_bits; low += 32)
+      set_bits(vector, {"", low, 32, false, 0}, walk[static_cast<std::size_t>(low) / 32], layout_.walk_low());
+    put_planes(vector);
+    put_material(vector);
+    return vector;
+  }
+  InitVector shadow_vector(int light, bool opens, const InitVector& walk) {
+    using At = typename Preset::request_header_at;
+    InitVector vector = walk_vector(Command::shadow, walk);
+    set_bits(vector, At::light, static_cast<std::uint32_t>(light));
+    set_bits(vector, At::opens, opens);
+    return vector;
+  }
+
+  // Vectors that turn slowly; one plane in twelve is left as it is, random words.
+  void put_planes(InitVector& vector) {
+    using At = typename Preset::plane_header_at;
+    const auto normal = direction(), place = direction();
+    for (int plane = 0; plane < layout_.planes(); ++plane) {
+      if (random_.one_in(12)) continue;
+      const auto axis = static_cast<std::size_t>(plane % 3);
+      const double value = plane < 3 ? normal[axis] : plane < 6 ? place[axis] : uniform(0.1, 1);
+      for (const Field* field : {&At::value, &At::dx, &At::de0, &At::de1})
+        set_bits(vector, *field,
+                 static_cast<std::uint64_t>(fixed(field == &At::value ? value : uniform(-0.03, 0.03),
+                                                  Preset::c_plane_sum_fraction_bits)),
+                 layout_.plane_low(plane));
+    }
+  }
+  void put_material(InitVector& vector) {
+    const int low = layout_.init_material_low();
+    if (p_.config.specular)
+      set_bits(vector, {"", low + layout_.exponent_low(), Preset::c_exponent_bits, false, 0},
+               static_cast<std::uint64_t>(random_.between(1, 80) << Preset::c_exponent_fraction_bits));
+    const int first = low + layout_.ambient_low(0);
+    for (int at = first; at < low + layout_.material_bits(); at += Preset::c_coefficient_bits)
+      set_bits(vector, {"", at, Preset::c_coefficient_bits, false, 0},
+               random_.bits(Preset::c_coefficient_fraction_bits - (random_.one_in(3) ? 0 : 1)));
+  }
+
+  InitVector line_walk(std::uint32_t y, std::int64_t from, std::int64_t to, std::int64_t z,
+                       std::uint32_t triangle) {
+    using At = Exact::init_header_at;
+    InitVector walk(static_cast<std::size_t>(Exact::c_init_header_bits / 32));
+    set_bits(walk, At::triangle, triangle);
+    set_bits(walk, At::y, y);
+    set_bits(walk, At::upper_lines, 1);
+    const bool backward = random_.one_in(2);
+    set_bits(walk, At::backward, backward);
+    set_bits(walk, At::start_x, static_cast<std::uint64_t>(backward ? to - 1 : from));
+    set_bits(walk, At::upper_x, static_cast<std::uint64_t>(backward ? from - 1 : to));
+    put_depth(walk, z);
+    return walk;
+  }
+  static void put_depth(InitVector& walk, std::int64_t z) {
+    set_bits(walk, Exact::init_header_at::z,
+             static_cast<std::uint64_t>(z) << Exact::c_depth_sum_fraction_bits);
+  }
+
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(random_.bits(32)) * 0x1p-32;
+  }
+  std::array<double, 3> direction() {
+    std::array<double, 3> v{uniform(-0.6, 0.6), uniform(-0.6, 0.6), uniform(0.1, 1)};
+    const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (double& component : v) component /= length;
+    return v;
+  }
+  static std::int64_t fixed(double value, int fraction_bits) {
+    return std::llround(std::ldexp(value, fraction_bits));
+  }
+
+  const Processors& p_;
+  golden::ProcessorsLayout<Preset> layout_;
+  Shader twin_;
+  Random random_;
+  VectorFile inits_, fragments_;
+  std::array<VectorFile, 4> probes_;
+};
+
+template <class Preset>
+Status write_set(const std::filesystem::path& folder, const Processors& processors, const char* set) {
+  Host<Preset> host(processors);
+  if (set == std::string_view("fault")) {
+    host.go_wrong();
+    if (!host.fault()) return tool_failed(fmt::format("{}: nothing went wrong", processors.name));
+    return host.write(folder, set);
+  }
+  const Mix mix = set == std::string_view("dense") ? Mix::dense : Mix::mixed;
+  host.define_all();
+  if (processors.config.shadows)
+    for (std::int64_t line = 0; line < processors.pixels / 8; ++line) host.draw_line();
+  else
+    host.draw_triangles(mix);
+  host.finish();
+  if (host.fault()) return tool_failed(fmt::format("{}: a fault in the set {}", processors.name, set));
+  return host.write(folder, set);
+}
+
+template <class Preset>
+Status write_all(const std::filesystem::path& folder, std::span<const Processors> shaders) {
+  for (const Processors& processors : shaders)
+    for (const char* set : {"dense", "mixed", "fault"}) {
+      if (set == std::string_view("fault") && !processors.config.shadows) continue;
+      if (auto s = write_set<Preset>(folder, processors, set); !s) return s;
+    }
+  return Ok{};
+}
+
+}  // namespace
+
+Status write_processors_shader(const std::filesystem::path& folder) {
+  if (auto s = write_all<Exact>(folder, c_exact_shaders); !s) return s;
+  return write_all<Published>(folder, c_published_shaders);
+}
+
+}  // namespace halfway::vectors
