@@ -29,7 +29,11 @@ illumination/specular_slice.vhd
 illumination/shadow_counter.vhd
 illumination/spot_cone.vhd
 illumination/terms_pkg.vhd
+arithmetic/unit_vector.vhd
 illumination/shading_processor.vhd
+illumination/unrolled_shading_processor.vhd
+shaders/shading_pipeline.vhd
 shaders/quadratic_shader.vhd
 shaders/spherical_pkg.vhd
 shaders/spherical_shader.vhd
+shaders/processors_shader.vhd

@@ -445,11 +445,11 @@ struct Exact {
 
   static constexpr int c_processor_probe_header_bits = 4;
   static constexpr std::array<Field, 2> c_processor_probe_header = {{
-      {"event", 0, 1, false, 0},
+      {"leaves", 0, 1, false, 0},
       {"command", 1, 3, false, 0},
   }};
   struct processor_probe_header_at {
-    static constexpr const Field& event = c_processor_probe_header[0];
+    static constexpr const Field& leaves = c_processor_probe_header[0];
     static constexpr const Field& command = c_processor_probe_header[1];
   };
 
@@ -843,11 +843,11 @@ struct Published {
 
   static constexpr int c_processor_probe_header_bits = 4;
   static constexpr std::array<Field, 2> c_processor_probe_header = {{
-      {"event", 0, 1, false, 0},
+      {"leaves", 0, 1, false, 0},
       {"command", 1, 3, false, 0},
   }};
   struct processor_probe_header_at {
-    static constexpr const Field& event = c_processor_probe_header[0];
+    static constexpr const Field& leaves = c_processor_probe_header[0];
     static constexpr const Field& command = c_processor_probe_header[1];
   };
 

@@ -114,7 +114,7 @@ class ProcessorsShader {
     const bool last = processor == config_.processors() - 1;
     auto words = probe_words(last ? ProbeAt::product_event : ProbeAt::sample_event);
     const int low = layout_.probe_processor_low(processor);
-    set_bits(words, At::event, 1, low);
+    set_bits(words, At::leaves, 1, low);
     set_bits(words, At::command, static_cast<std::uint32_t>(token_.command), low);
     for (int c = 0; c < config_.channels; ++c)
       set_bits(words, Preset::processor_probe_channel_at::radiance,

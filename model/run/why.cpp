@@ -191,7 +191,7 @@ Layouts processors_layouts(const HardwareKey& key) {
     const int low = at.probe_processor_low(number);
     const Stage stage = processor_stage(number++);
     using At = typename P::processor_probe_header_at;
-    layouts.stages.push_back({std::move(name), low + At::event.low, processor});
+    layouts.stages.push_back({std::move(name), low + At::leaves.low, processor});
     layouts.probe.push_back({"command", At::command, low, stage, "processors_shader"});
     for (int c = 0; c < config.channels; ++c)
       layouts.probe.push_back({colour(c) + " so far", P::processor_probe_channel_at::radiance,

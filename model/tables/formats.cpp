@@ -88,7 +88,7 @@ std::vector<Layout> processors_layouts(bool exact) {
        {}},
       {"light_axes", light, axis},
       {"light_colour", {}, {{"intensity", "light_intensity"}}},
-      {"processor_probe", {{"event", "flag"}, {"command", "command"}}, {{"radiance", "radiance"}}},
+      {"processor_probe", {{"leaves", "flag"}, {"command", "command"}}, {{"radiance", "radiance"}}},
   };
 }
 

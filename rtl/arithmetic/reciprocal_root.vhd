@@ -79,16 +79,16 @@ begin
 
     type reg_t is record
       table_below_one  : std_logic;
-      table_x      : x_t;
+      table_x          : x_t;
       square_below_one : std_logic;
-      square_x     : x_t;
-      square_entry : entry_t;
-      entry_square : unsigned(c_square_bits - 1 downto 0);
-      rest_below_one : std_logic;
-      rest_entry   : entry_t;
-      rest         : unsigned(c_rest_bits - 1 downto 0);
+      square_x         : x_t;
+      square_entry     : entry_t;
+      entry_square     : unsigned(c_square_bits - 1 downto 0);
+      rest_below_one   : std_logic;
+      rest_entry       : entry_t;
+      rest             : unsigned(c_rest_bits - 1 downto 0);
       below_one        : std_logic;
-      root         : std_logic_vector(c_formats.root.bits - 1 downto 0);
+      root             : std_logic_vector(c_formats.root.bits - 1 downto 0);
     end record;
 
     signal r : reg_t;
@@ -96,27 +96,27 @@ begin
     begin
 
       registers : process (clk)
-        variable product_3 : unsigned(c_x_bits + c_square_bits - 1 downto 0);
-        variable three     : unsigned(c_x_bits + c_square_bits - 1 downto 0);
-        variable twice     : unsigned(c_entry_bits + c_rest_bits - 1 downto 0);
+        variable difference : unsigned(c_x_bits + c_square_bits - 1 downto 0);
+        variable three      : unsigned(c_x_bits + c_square_bits - 1 downto 0);
+        variable twice      : unsigned(c_entry_bits + c_rest_bits - 1 downto 0);
       begin
         if rising_edge(clk) then
           if enable = '1' then
             r.table_below_one  <= below_one;
-            r.table_x      <= unsigned(x(c_high downto c_high - c_x_bits + 1));
+            r.table_x          <= unsigned(x(c_high downto c_high - c_x_bits + 1));
             r.square_below_one <= r.table_below_one;
-            r.square_x     <= r.table_x;
-            r.square_entry <= unsigned(entry);
-            r.entry_square <= product(unsigned(entry), unsigned(entry));
+            r.square_x         <= r.table_x;
+            r.square_entry     <= unsigned(entry);
+            r.entry_square     <= product(unsigned(entry), unsigned(entry));
             r.rest_below_one   <= r.square_below_one;
-            r.rest_entry   <= r.square_entry;
-            three          := (others => '0');
+            r.rest_entry       <= r.square_entry;
+            three              := (others => '0');
             three(three'high downto three'high - 1) := "11";
-            product_3      := three - product(r.square_x, r.entry_square);
-            r.rest         <= product_3(product_3'high downto c_cut);
+            difference         := three - product(r.square_x, r.entry_square);
+            r.rest             <= difference(difference'high downto c_cut);
             r.below_one        <= r.rest_below_one;
-            twice          := product(r.rest_entry, r.rest);
-            r.root         <= std_logic_vector(twice(c_root_low + c_formats.root.bits - 1 downto c_root_low));
+            twice              := product(r.rest_entry, r.rest);
+            r.root             <= std_logic_vector(twice(c_root_low + c_formats.root.bits - 1 downto c_root_low));
           end if;
         end if;
       end process;

@@ -37,6 +37,25 @@ package terms_pkg is
   -- A signed word in more bits.
   function extended (word : std_logic_vector; bits : positive) return std_logic_vector;
 
+  function unit_vector_latency (exact : boolean) return positive;
+
+  -- Of the unrolled form: how many clocks behind the token's coming something is there.
+  type times_t is record
+    summed   : natural; -- the way to the light, added up
+    to_light : natural; -- L
+    halved   : natural; -- what H is made of
+    half     : natural; -- H
+    cosine   : natural; -- all that the dot product with N takes
+    angle    : natural; -- (N.A)
+    raised   : natural; -- (N.A)**x
+    factor   : natural; -- of a spot's cone
+    weight   : natural; -- what k I is multiplied with
+    term     : natural; -- what is added
+    leave    : natural; -- the token
+  end record;
+
+  function times (c : config_t; kind, light : natural) return times_t;
+
   -- A component of N that is not to be normalized, as a direction.
   function plain_direction (exact : boolean; word : signed) return std_logic_vector;
 
@@ -123,6 +142,57 @@ package body terms_pkg is
       return a;
     end if;
     return b;
+  end function;
+
+  function unit_vector_latency (exact : boolean) return positive is
+  begin
+    return c_vector_shift_latency + c_dot_product_latency + reciprocal_root_latency(exact) + c_vector_multiply_latency
+      + 1;
+  end function;
+
+  function times (c : config_t; kind, light : natural) return times_t is
+    constant c_shape : shape_t := shape(c, kind, light);
+    constant c_unit  : positive := unit_vector_latency(c.exact);
+
+    variable t : times_t := (others => 0);
+  begin
+    if kind = c_ambient then
+      t.weight := c_vector_multiply_latency;
+      if c_shape.first or c_shape.second then
+        t.weight := larger(c_unit, t.weight);
+      end if;
+      t.term  := t.weight;
+      t.leave := t.term + 1;
+      return t;
+    end if;
+    if c_shape.first then
+      t.summed := 1;
+      if c_shape.far then
+        t.summed := c_vector_multiply_latency + 1;
+      end if;
+      t.to_light := t.summed + c_unit;
+    end if;
+    if c_shape.second then
+      t.halved := 1;
+      if c.exact then
+        t.halved := t.to_light + 1;
+      end if;
+      t.half := t.halved + c_unit;
+    end if;
+    t.cosine := larger(t.to_light, t.half);
+    t.angle  := t.cosine + c_dot_product_latency;
+    t.raised := t.angle + 1;
+    if kind = c_specular then
+      t.raised := t.angle + power_latency(c.exact);
+    end if;
+    t.weight := t.raised;
+    if c_shape.spots then
+      t.factor := t.to_light + c_dot_product_latency + c_spot_cone_latency;
+      t.weight := larger(t.raised, t.factor) + 1;
+    end if;
+    t.term  := t.weight + c_vector_multiply_latency;
+    t.leave := t.term + 1;
+    return t;
   end function;
 
   function low_bits (value : signed; bits : positive) return std_logic_vector is

@@ -258,7 +258,7 @@ begin
           value      => value
           );
 
-      -- The host has added half a step of what this drops.
+        -- The host has added half a step of what this drops.
       vectors((plane + 1) * c_vector_bits - 1 downto plane * c_vector_bits) <=
         value(c_sum_bits - 1 downto c_sum_bits - c_vector_bits);
 
@@ -286,7 +286,7 @@ begin
       value => line_material
       );
 
-  -- The line stage may hold the next triangle already.
+    -- The line stage may hold the next triangle already.
   span_request_register : entity work.parameter_register
     generic map (
       g_bits => request_t'length
@@ -417,7 +417,8 @@ begin
       g_specular    => g_specular,
       g_normalize   => g_normalize,
       g_shadows     => g_shadows,
-      g_unrolled    => g_unrolled
+      g_unrolled    => g_unrolled,
+      g_probe       => g_probe
       )
     port map (
       clk       => clk,
@@ -534,12 +535,12 @@ begin
       begin
         v := '0';
         for processor in 0 to c_last - 1 loop
-          v := v or taps(processor * c_block_bits + c_block.event.low);
+          v := v or taps(processor * c_block_bits + c_block.leaves.low);
         end loop;
         probe(c_probe.sample_event.low) <= v;
       end process;
 
-      probe(c_probe.product_event.low)                             <= taps(c_last * c_block_bits + c_block.event.low);
+      probe(c_probe.product_event.low)                             <= taps(c_last * c_block_bits + c_block.leaves.low);
       probe(c_probe.line_event.low)                                <= span_load;
       probe(c_probe.span_event.low)                                <= span_step;
       probe(c_probe.line_y.high downto c_probe.line_y.low)         <= line_y;

@@ -15,7 +15,7 @@ use ieee.numeric_std.all;
 entity delay_line is
   generic (
     g_bits  : positive;
-    g_depth : positive
+    g_depth : natural -- 0: the word itself
   );
   port (
     clk     : in  std_logic;
@@ -34,7 +34,11 @@ architecture rtl of delay_line is
 
 begin
 
-  places : if g_depth = 1 generate
+  places : if g_depth = 0 generate
+
+    held <= word;
+
+  elsif g_depth = 1 generate
 
     registers : process (clk)
     begin

@@ -836,17 +836,17 @@ package formats_pkg is
   function light_colour_bits (exact : boolean; channels : natural) return natural;
 
   type processor_probe_header_t is record
-    event : slice_t;
+    leaves : slice_t;
     command : slice_t;
   end record;
 
   constant c_exact_processor_probe_header : processor_probe_header_t := (
-    event => (0, 0),
+    leaves => (0, 0),
     command => (3, 1)
   );
 
   constant c_published_processor_probe_header : processor_probe_header_t := (
-    event => (0, 0),
+    leaves => (0, 0),
     command => (3, 1)
   );
 

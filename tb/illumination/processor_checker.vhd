@@ -4,7 +4,9 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
+use work.formats_pkg.all;
 use work.processors_pkg.all;
+use work.terms_pkg.all;
 use work.tb_pkg.all;
 
 entity processor_checker is
@@ -64,6 +66,31 @@ architecture sim of processor_checker is
 begin
   folded : if not g_unrolled generate
     dut : entity work.shading_processor
+      generic map (
+        g_exact       => g_exact,
+        g_channels    => g_channels,
+        g_directional => g_directional,
+        g_positional  => g_positional,
+        g_spots       => g_spots,
+        g_diffuse     => g_diffuse,
+        g_specular    => g_specular,
+        g_normalize   => g_normalize,
+        g_shadows     => g_shadows,
+        g_kind        => g_kind,
+        g_light       => g_light)
+      port map (
+        clk       => clk,
+        reset     => reset,
+        in_valid  => in_valid,
+        in_ready  => in_ready,
+        in_token  => in_token,
+        out_valid => out_valid,
+        out_ready => out_ready,
+        out_token => out_token,
+        busy      => busy,
+        fault     => fault);
+  else generate
+    dut : entity work.unrolled_shading_processor
       generic map (
         g_exact       => g_exact,
         g_channels    => g_channels,
@@ -169,6 +196,31 @@ begin
     finished <= true;
     wait;
   end process;
+
+  -- The unrolled form takes an object each clock, and its first token leaves when it should.
+  unrolled : if g_unrolled generate
+    pace : process (clk) is
+      constant c_header  : pixel_header_t := pixel_header(g_exact);
+      constant c_latency : positive       := times(c_config, g_kind, g_light).leave;
+      variable clocks    : natural        := 0;
+      variable taken     : boolean        := false;
+      variable left      : boolean        := false;
+    begin
+      if rising_edge(clk) and reset = '0' then
+        assert in_ready = '1' or in_valid = '0' or out_ready = '0' or g_shadows
+          or unsigned(in_token(c_header.command.high downto c_header.command.low)) > c_new_scanline
+          report c_file & ": an object is not taken at once" severity failure;
+        if taken and not left then
+          clocks := clocks + 1;
+          left   := out_valid = '1';
+          assert not left or clocks = c_latency
+            report c_file & ": the first token leaves after " & to_string(clocks) & " clocks, expected "
+            & to_string(c_latency) severity failure;
+        end if;
+        taken := taken or (in_valid = '1' and in_ready = '1');
+      end if;
+    end process;
+  end generate;
 
   steady : process (clk) is
     variable waiting : boolean := false;

@@ -120,6 +120,34 @@ constexpr Mutant c_mutants[] = {
     {"shaders/spherical_shader.vhd", "sample_valid and sample_ready", "sample_valid"},
     {"shaders/spherical_shader.vhd", "channel * boolean'pos(g_highlight_channels > 1)",
      "channel * boolean'pos(g_highlight_channels > 3)"},
+    // A load taken for a triangle, one that overtakes objects in the walker or in the object stage, one that
+    // is
+    // dropped; a frame that leaves objects behind, or whose first object is not on a new line; a pixel's next
+    // object taken for a new pixel; the next triangle's request or material; a shadow polygon that counts as
+    // an
+    // object; a first colour that is not rounded; a colour that moves on; not busy with an object in the
+    // pipeline; grey that is red.
+    {"shaders/processors_shader.vhd", "walk_valid <= waiting and not loads;", "walk_valid <= waiting;"},
+    {"shaders/processors_shader.vhd", "waiting and loads and not walking and objects_free",
+     "waiting and loads and objects_free"},
+    {"shaders/processors_shader.vhd", "drawn_ready and not objects_busy", "drawn_ready"},
+    {"shaders/processors_shader.vhd", "token_ready and load_valid when", "load_valid when"},
+    {"shaders/processors_shader.vhd", "clear     => objects_clear", "clear     => '0'"},
+    {"shaders/processors_shader.vhd", "if reset = '1' or objects_clear = '1' then", "if reset = '1' then"},
+    {"shaders/processors_shader.vhd", "command_word(c_new_object) when", "command_word(c_new_pixel) when"},
+    {"shaders/processors_shader.vhd", "start => line_request", "start => init(request_t'range)"},
+    {"shaders/processors_shader.vhd", "start => line_material",
+     "start => init(init_material_low(c_config) + material_t'high downto init_material_low(c_config))"},
+    {"shaders/processors_shader.vhd",
+     "object_token(c_pixel.command.high downto c_pixel.command.low)\n      /= command_word(c_shadow) then",
+     "object_token(c_pixel.command.high downto c_pixel.command.low)\n      /= command_word(c_delete) then"},
+    {"shaders/processors_shader.vhd", "value(c_formats.radiance.fraction - 1) := '1'",
+     "value(c_formats.radiance.fraction - 1) := '0'"},
+    {"shaders/processors_shader.vhd", "load  => shaded_step,\n      start => colours",
+     "load  => shaded_valid,\n      start => colours"},
+    {"shaders/processors_shader.vhd", "or objects_busy or shading", "or objects_busy"},
+    {"shaders/processors_shader.vhd", "colour * boolean'pos(g_channels > 1)",
+     "colour * boolean'pos(g_channels > 3)"},
 };
 
 struct Folders {

@@ -50,7 +50,7 @@ architecture sim of processors_shader_run is
 
     procedure add_processor (low : natural) is
     begin
-      add_field(mask, c_block.event, low);
+      add_field(mask, c_block.leaves, low);
       add_field(mask, c_block.command, low);
       for channel in 0 to g_channels - 1 loop
         add_field(mask, c_part.radiance, low + processor_probe_channel_low(g_exact, channel));
@@ -81,7 +81,7 @@ architecture sim of processors_shader_run is
   function first_event return natural is
   begin
     if c_many then
-      return c_first + c_block.event.low;
+      return c_first + c_block.leaves.low;
     end if;
     return probe_header(true).sample_event.low;
   end function;
@@ -144,7 +144,7 @@ begin
       g_probe      => g_probe,
       g_fields     => fields_of(last_processor) & fields_of(first_processor) & fields_of(span_stage)
       & fields_of(line_stage),
-      g_events     => (0, 1, first_event, c_last + c_block.event.low),
+      g_events     => (0, 1, first_event, c_last + c_block.leaves.low),
       g_timed      => false,
       g_gapless    => g_unrolled and not g_shadows,
       g_resets     => 10 - 8 * boolean'pos(g_shadows),

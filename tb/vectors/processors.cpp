@@ -46,8 +46,8 @@ class TokenMaker {
     auto& to = token.light;
     to.positional = !random_.one_in(4);
     to.spot = !random_.one_in(4);
-    to.shift = Exact::c_light_shift_bits > 0 && random_.one_in(4) ? static_cast<int>(random_.bits(5)) : 0;
-    if constexpr (Preset::c_light_shift_bits == 0) to.shift = 0;
+    if constexpr (Preset::c_light_shift_bits > 0)
+      if (random_.one_in(4)) to.shift = static_cast<int>(random_.bits(Preset::c_light_shift_bits));
     to.outer = static_cast<std::int64_t>(one_direction() * 0.1 * static_cast<double>(random_.between(-3, 9)));
     to.slope = static_cast<std::uint32_t>(random_.one_in(4) ? random_.word(Preset::c_spot_slope_bits)
                                                             : random_.between(64, 640));
@@ -214,6 +214,46 @@ Status write_processors(const std::filesystem::path& folder, int tokens) {
   return Ok{};
 }
 
+// A line: token, comes; the object that comes out (meant where it comes), fault once it has.
+template <class Preset>
+Status write_pipeline(const std::filesystem::path& folder, const ProcessorsConfig& config, bool faults) {
+  constexpr int c_tokens = 360;
+  const int bits = golden::ProcessorsLayout<Preset>(config).token_bits();
+  TokenMaker<Preset> maker(config, static_cast<std::uint64_t>(bits));
+  golden::ShadingPipeline<Preset> twin(config);
+  VectorFile file;
+  while (file.size() < c_tokens) {
+    const auto done = static_cast<int>(file.size());
+    const int light = static_cast<int>(maker.random().between(0, config.lights()));
+    // First all lights.
+    auto token = done <= config.lights() ? maker.load(Command::define, static_cast<std::uint32_t>(done))
+                                         : maker.token(light);
+    auto words = maker.words(token, bits);
+    auto next = twin;
+    // Faults come in the last part, if at all.
+    token = golden::ShadingToken<Preset>::decode(config, words);
+    const bool comes = next.process(token);
+    if (next.fault() && !(faults && done > c_tokens * 3 / 4)) continue;
+    twin = std::move(next);
+    file.words_of(words, bits).flag(comes);
+    if (comes) token.encode(config, words);
+    file.words_of(words, bits).flag(twin.fault()).end_vector();
+  }
+  return file.write(folder / fmt::format("{}_{}.txt", Preset::c_name, name_of(config)));
+}
+
+template <class Preset>
+Status write_pipelines(const std::filesystem::path& folder) {
+  // tb/shaders/shading_pipeline_tb.vhd has the same list.
+  const ProcessorsConfig configs[] = {{3, 1, 1, 1, true, true, true, true},
+                                      {3, 2, 0, 0, true, true, false, false},
+                                      {1, 0, 1, 1, false, true, true, false},
+                                      {3, 0, 0, 0, false, false, true, false}};
+  for (const ProcessorsConfig& config : configs)
+    if (auto s = write_pipeline<Preset>(folder, config, config.shadows); !s) return s;
+  return Ok{};
+}
+
 }  // namespace
 
 // A line: reset, step, clear, counts, opens, takes, x, clocks until ready; then before the edge: counted,
@@ -288,6 +328,11 @@ Status write_shading_processor(const std::filesystem::path& folder) {
   constexpr int c_tokens = 400;
   if (auto s = write_processors<Exact>(folder, c_tokens); !s) return s;
   return write_processors<Published>(folder, c_tokens);
+}
+
+Status write_shading_pipeline(const std::filesystem::path& folder) {
+  if (auto s = write_pipelines<Exact>(folder); !s) return s;
+  return write_pipelines<Published>(folder);
 }
 
 }  // namespace halfway::vectors

@@ -66,8 +66,15 @@ class Host {
     for (const InitVector& walk :
          random_triangles<Exact>(random_, mix, Exact::c_init_header_bits, p_.pixels)) {
       if (mix == Mix::mixed && random_.one_in(3)) some_load();
+      if (mix == Mix::mixed && random_.one_in(4)) draw_pile();
       draw(walk);
     }
+  }
+  // Objects that meet: at one pixel, and at its neighbour above.
+  void draw_pile() {
+    const auto y = static_cast<std::uint32_t>(random_.between(1, 4095));
+    const std::int64_t x = random_.between(0, 4095);
+    for (const std::uint32_t line : {y, y, y - 1, y - 1, y}) draw(line_walk(line, x, x + 1, 1 << 20, 3));
   }
   // A line in its rounds. Each volume's exit lies behind its entry, so that no count falls below its
   // beginning.

@@ -1,0 +1,127 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     A unit vector in a vector's direction, a vector a clock: block shift, dot product with itself, 1/sqrt, vector
+--             product, rounding.
+-- Formats     components: of g_vector_bits each, signed, of any scale, x lowest; unit: format direction
+-- Latency     unit_vector_latency of terms_pkg, clocks with enable
+-- Throughput  1 vector a clock
+-- Error       see reciprocal_root
+-- Source      processors paper, figure 2
+-- Golden twin model/golden/unit_vector.hpp (normalized)
+
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.formats_pkg.all;
+use work.processors_pkg.all;
+use work.shading_pkg.all;
+use work.terms_pkg.all;
+
+entity unit_vector is
+  generic (
+    g_exact       : boolean := true;
+    g_vector_bits : positive
+  );
+  port (
+    clk        : in  std_logic;
+    reset      : in  std_logic;
+    enable     : in  std_logic;
+    components : in  std_logic_vector(c_axes * g_vector_bits - 1 downto 0);
+    unit       : out std_logic_vector(c_axes * formats(g_exact).direction.bits - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of unit_vector is
+
+  constant c_bits       : positive := formats(g_exact).direction.bits;
+  constant c_root       : positive := formats(g_exact).root.bits + 1;
+  constant c_product    : positive := c_bits + c_root + 1;
+  constant c_square_low : natural  := 2 * (c_bits - 1) - formats(g_exact).square.fraction;
+
+  signal shifted  : std_logic_vector(unit'range);
+  signal waited   : std_logic_vector(unit'range);
+  signal dot      : std_logic_vector(2 * c_bits downto 0);
+  signal square   : std_logic_vector(formats(g_exact).square.bits - 1 downto 0);
+  signal root     : std_logic_vector(c_root - 1 downto 0);
+  signal factor   : std_logic_vector(c_root downto 0);
+  signal products : std_logic_vector(c_axes * c_product - 1 downto 0);
+
+begin
+
+  block_shift : entity work.vector_shift
+    generic map (
+      g_vector_bits => g_vector_bits,
+      g_result_bits => c_bits
+      )
+    port map (
+      clk        => clk,
+      enable     => enable,
+      components => components,
+      shifted    => shifted
+      );
+
+  length : entity work.dot_product
+    generic map (
+      g_bits => c_bits
+      )
+    port map (
+      clk    => clk,
+      enable => enable,
+      a      => shifted,
+      b      => shifted,
+      sum    => dot
+      );
+
+  square <= dot(c_square_low + square'high downto c_square_low);
+
+  reciprocal_root : entity work.reciprocal_root
+    generic map (
+      g_exact => g_exact
+      )
+    port map (
+      clk        => clk,
+      enable     => enable,
+      square     => square,
+      reciprocal => root
+      );
+
+  beside_root : entity work.delay_line
+    generic map (
+      g_bits  => shifted'length,
+      g_depth => c_dot_product_latency + reciprocal_root_latency(g_exact)
+      )
+    port map (
+      clk     => clk,
+      reset   => reset,
+      enable  => enable,
+      word    => shifted,
+      delayed => waited
+      );
+
+  factor <= '0' & root;
+
+  scale : entity work.vector_multiply
+    generic map (
+      g_a_bits => c_bits,
+      g_b_bits => c_root + 1
+      )
+    port map (
+      clk      => clk,
+      enable   => enable,
+      a        => waited,
+      b        => factor & factor & factor,
+      products => products
+      );
+
+  to_direction : process (clk)
+  begin
+    if rising_edge(clk) then
+      if enable = '1' then
+        for axis in 0 to c_axes - 1 loop
+          unit((axis + 1) * c_bits - 1 downto axis * c_bits) <= unit_direction(g_exact, axis_of(products, axis));
+        end loop;
+      end if;
+    end if;
+  end process;
+
+end architecture;

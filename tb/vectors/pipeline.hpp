@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vectors of an entity that takes words in each clock with enable and shows what they come to a fixed number
+// of such clocks later.
+#pragma once
+
+#include <initializer_list>
+#include <vector>
+
+#include "golden/delay_line.hpp"
+#include "golden/vector_shift.hpp"
+#include "vectors/vector_file.hpp"
+
+namespace halfway::vectors {
+
+/// Words side by side, the first lowest.
+struct Flat {
+  std::vector<std::uint32_t> words;
+  int bits = 0;
+
+  Flat() = default;
+  Flat(std::uint64_t value, int width) { add(value, width); }
+  Flat& add(std::uint64_t value, int width) {
+    words.resize(static_cast<std::size_t>(bits + width + 31) / 32);
+    golden::set_bits(words, {"", bits, width, false, 0}, golden::low_bits(value, width));
+    bits += width;
+    return *this;
+  }
+};
+
+inline Flat flat(const golden::Axes& v, int bits) {
+  Flat all;
+  for (const std::int64_t component : v) all.add(static_cast<std::uint64_t>(component), bits);
+  return all;
+}
+
+/// First line: latency. Then a line a clock: checked, enable, inputs; the result, before the edge.
+class Pipeline {
+ public:
+  explicit Pipeline(int latency) : due_(latency) {
+    file_.word(static_cast<std::uint64_t>(latency), 32).end_vector();
+  }
+  void clock(bool enable, std::initializer_list<Flat> inputs, const Flat& result) {
+    file_.flag(due_.full()).flag(enable);
+    for (const Flat& input : inputs) file_.words_of(input.words, input.bits);
+    const Flat& shown = due_.full() ? due_.delayed() : result;
+    file_.words_of(shown.words, shown.bits).end_vector();
+    if (enable) due_.step(result);
+  }
+  Status write(const std::filesystem::path& path) const { return file_.write(path); }
+
+ private:
+  VectorFile file_;
+  golden::DelayLine<Flat> due_;
+};
+
+}  // namespace halfway::vectors

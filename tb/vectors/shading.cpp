@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "golden/dot_product.hpp"
+#include "golden/power.hpp"
+#include "golden/reciprocal_root.hpp"
+#include "golden/spot_cone.hpp"
+#include "golden/unit_vector.hpp"
+#include "golden/vector_multiply.hpp"
+#include "golden/vector_shift.hpp"
+#include "vectors/entities.hpp"
+#include "vectors/pipeline.hpp"
+#include "vectors/random.hpp"
+
+namespace halfway::vectors {
+namespace {
+
+using golden::Axes, golden::Exact, golden::Published;
+
+// At full speed first, then with pauses.
+constexpr int c_running = 3000, c_pausing = 1000;
+
+std::int64_t signed_word(Random& random, int bits) {
+  return static_cast<std::int64_t>(random.word(bits) << (64 - bits)) >> (64 - bits);
+}
+
+// Components of one magnitude or of three, none often.
+Axes random_axes(Random& random, int bits) {
+  Axes v;
+  const auto smaller = random.between(0, bits - 1);
+  const bool alike = random.one_in(2);
+  for (std::int64_t& component : v) component = signed_word(random, bits) >> (alike ? smaller : 0);
+  if (random.one_in(8)) v[static_cast<std::size_t>(random.between(0, 2))] = 0;
+  if (random.one_in(50)) v = {};
+  if (random.one_in(50)) v = {-1, 0, -1};
+  return v;
+}
+
+template <class Add>
+void run(Random& random, const Add& add) {
+  for (int i = 0; i < c_running; ++i) add(true);
+  for (int i = 0; i < c_pausing; ++i) add(random.one_in(2));
+}
+
+template <class Preset>
+std::string file_of() {
+  return std::string(Preset::c_name) + ".txt";
+}
+
+// Inputs: address.
+template <class Preset>
+Status write_function_rom(const std::filesystem::path& folder, golden::Function function) {
+  const golden::FunctionTable& table = golden::function_table<Preset>(function);
+  Random random(static_cast<std::uint64_t>(table.value_bits));
+  Pipeline pipeline(1);
+  const auto add = [&](bool enable, std::uint32_t address) {
+    const golden::FunctionSample sample = golden::function_rom<Preset>(function, address);
+    Flat result(sample.value, table.value_bits);
+    if (table.slope_bits > 0) result.add(sample.slope, table.slope_bits);
+    pipeline.clock(enable, {{address, table.address_bits}}, result);
+  };
+  const std::uint32_t entries = 1U << table.address_bits;
+  for (std::uint32_t address = 0; address < entries; ++address) add(true, address);
+  for (std::uint32_t i = 0; i < entries; ++i)
+    add(random.one_in(2), static_cast<std::uint32_t>(random.bits(table.address_bits)));
+  return pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, static_cast<int>(function)));
+}
+
+// Inputs: a, b.
+Status write_dot_product_of(const std::filesystem::path& folder, int bits) {
+  Random random(static_cast<std::uint64_t>(bits));
+  Pipeline pipeline(1);
+  run(random, [&](bool enable) {
+    const Axes a = random_axes(random, bits), b = random.one_in(4) ? a : random_axes(random, bits);
+    const auto sum = static_cast<std::uint64_t>(golden::dot_product(a, b));
+    pipeline.clock(enable, {flat(a, bits), flat(b, bits)}, {sum, 2 * bits + 1});
+  });
+  return pipeline.write(folder / fmt::format("{}.txt", bits));
+}
+
+// Inputs: a, b.
+Status write_vector_multiply_of(const std::filesystem::path& folder, int a_bits, int b_bits) {
+  Random random(static_cast<std::uint64_t>(a_bits + b_bits));
+  Pipeline pipeline(1);
+  run(random, [&](bool enable) {
+    const Axes a = random_axes(random, a_bits), b = random_axes(random, b_bits);
+    pipeline.clock(enable, {flat(a, a_bits), flat(b, b_bits)},
+                   flat(golden::vector_multiply(a, b), a_bits + b_bits));
+  });
+  return pipeline.write(folder / fmt::format("{}_{}.txt", a_bits, b_bits));
+}
+
+// Inputs: components.
+template <int VectorBits, int ResultBits>
+Status write_vector_shift_of(const std::filesystem::path& folder) {
+  Random random(VectorBits + ResultBits);
+  Pipeline pipeline(1);
+  const auto add = [&](bool enable, const Axes& v) {
+    pipeline.clock(enable, {flat(v, VectorBits)},
+                   flat(golden::vector_shift<VectorBits, ResultBits>(v), ResultBits));
+  };
+  if constexpr (3 * VectorBits <= 16) {
+    constexpr std::int64_t c_half = std::int64_t{1} << (VectorBits - 1);
+    for (std::int64_t x = -c_half; x < c_half; ++x)
+      for (std::int64_t y = -c_half; y < c_half; ++y)
+        for (std::int64_t z = -c_half; z < c_half; ++z) add(true, {x, y, z});
+  }
+  // Each shift, by each component and either sign.
+  for (int bit = 0; bit < VectorBits; ++bit)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const std::int64_t sign : {1, -1}) {
+        Axes v{};
+        v[axis] = sign * (std::int64_t{1} << bit);
+        if (bit == VectorBits - 1 && sign > 0) --v[axis];
+        add(true, v);
+      }
+  run(random, [&](bool enable) { add(enable, random_axes(random, VectorBits)); });
+  return pipeline.write(folder / fmt::format("{}_{}.txt", VectorBits, ResultBits));
+}
+
+// Inputs: square.
+template <class Preset>
+Status write_reciprocal_root_of(const std::filesystem::path& folder, int latency) {
+  constexpr int c_bits = Preset::c_square_bits;
+  Random random(c_bits);
+  Pipeline pipeline(latency);
+  const auto add = [&](bool enable, std::uint64_t bits) {
+    const auto square = static_cast<std::uint32_t>(golden::low_bits(bits, c_bits));
+    using Root = golden::ReciprocalRoot<Preset>;
+    pipeline.clock(enable, {{square, c_bits}}, {Root::reciprocal(square), Root::c_bits});
+  };
+  if constexpr (c_bits <= 16) {
+    for (std::uint64_t square = 0; square < std::uint64_t{1} << c_bits; ++square) add(true, square);
+  } else {
+    // About each cell's ends, from 1/4 to 4.
+    for (std::uint64_t cell = 0; cell < 1024; ++cell)
+      for (const std::uint64_t offset : {~std::uint64_t{0}, std::uint64_t{0}, random.bits(c_bits - 10)})
+        add(true, (cell << (c_bits - 10)) + offset);
+    for (int bit = 0; bit < c_bits; ++bit) add(true, std::uint64_t{1} << bit);
+  }
+  run(random, [&](bool enable) { add(enable, random.word(c_bits)); });
+  return pipeline.write(folder / file_of<Preset>());
+}
+
+// Inputs: base, exponent.
+template <class Preset>
+Status write_power_of(const std::filesystem::path& folder, int latency) {
+  using Power = golden::Power<Preset>;
+  Random random(Preset::c_exponent_bits);
+  Pipeline pipeline(latency);
+  const auto add = [&](bool enable, std::uint32_t base, std::uint64_t exponent) {
+    const auto m = static_cast<std::uint32_t>(golden::low_bits(exponent, Preset::c_exponent_bits));
+    pipeline.clock(enable, {{base, Power::c_base_fraction + 1}, {m, Preset::c_exponent_bits}},
+                   {Power::power(base, m), Preset::c_weight_bits});
+  };
+  // Highlights of any exponent, and of any height: where the power is neither 0 nor 1 nearly everywhere.
+  const auto any = [&](bool enable) {
+    const std::uint64_t exponent =
+        random.bits(Preset::c_exponent_bits) >> random.between(0, Preset::c_exponent_bits - 1);
+    const std::int64_t below_one = std::min<std::int64_t>(
+        random.between(0, 8 * Power::c_one) / std::max<std::int64_t>(1, static_cast<std::int64_t>(exponent) >>
+                                                                            Preset::c_exponent_fraction_bits),
+        Power::c_one);
+    add(enable,
+        random.one_in(4) ? static_cast<std::uint32_t>(random.between(0, Power::c_one))
+                         : Power::c_one - static_cast<std::uint32_t>(below_one),
+        exponent);
+  };
+  if constexpr (Power::c_base_fraction <= 16)
+    for (std::uint32_t base = 0; base <= Power::c_one; ++base)
+      add(true, base, random.bits(Preset::c_exponent_bits) >> random.between(0, 9));
+  for (int bit = 0; bit <= Power::c_base_fraction; ++bit)
+    for (const std::uint32_t offset : {~0U, 0U, 1U}) {
+      const std::uint32_t base = std::min((1U << bit) + offset, Power::c_one);
+      add(true, base, random.word(Preset::c_exponent_bits));
+      for (const std::uint64_t exponent :
+           {std::uint64_t{0}, std::uint64_t{1} << Preset::c_exponent_fraction_bits, ~std::uint64_t{0}})
+        add(true, base, exponent);
+    }
+  for (int i = 0; i < c_running; ++i) any(true);
+  run(random, any);
+  return pipeline.write(folder / file_of<Preset>());
+}
+
+// Inputs: axis_sum, outer, slope.
+template <class Preset>
+Status write_spot_cone_of(const std::filesystem::path& folder) {
+  constexpr int c_sum_bits = 2 * Preset::c_direction_bits + 1, c_slope_bits = Preset::c_spot_slope_bits;
+  constexpr int c_fraction = Preset::c_direction_fraction_bits;
+  Random random(c_sum_bits);
+  Pipeline pipeline(4);
+  const auto add = [&](bool enable, std::int64_t sum, std::int64_t outer, std::uint64_t slope) {
+    pipeline.clock(enable,
+                   {{static_cast<std::uint64_t>(sum), c_sum_bits},
+                    {static_cast<std::uint64_t>(outer), Preset::c_direction_bits},
+                    {slope, c_slope_bits}},
+                   {golden::SpotCone<Preset>::factor(sum, outer, static_cast<std::uint32_t>(slope)),
+                    Preset::c_weight_bits});
+  };
+  run(random, [&](bool enable) {
+    const std::int64_t outer = signed_word(random, Preset::c_direction_bits);
+    const std::uint64_t slope =
+        std::max<std::uint64_t>(1, random.bits(c_slope_bits) >> random.between(0, c_slope_bits - 1));
+    // Between the edges and a little outside, or anywhere.
+    const std::int64_t width = (std::int64_t{1} << (2 * c_fraction + Preset::c_spot_slope_fraction_bits)) /
+                               static_cast<std::int64_t>(slope);
+    const std::int64_t edge = -outer * (std::int64_t{1} << c_fraction);
+    std::int64_t sum = edge - random.between(-width / 4, width * 5 / 4);
+    if (random.one_in(16)) sum = edge - random.between(-1, 1);
+    if (random.one_in(8) || std::abs(sum) >= std::int64_t{1} << (c_sum_bits - 1))
+      sum = signed_word(random, c_sum_bits);
+    add(enable, sum, outer, random.one_in(50) ? 0 : slope);
+  });
+  return pipeline.write(folder / file_of<Preset>());
+}
+
+// Inputs: word.
+Status write_delay_line_of(const std::filesystem::path& folder, int bits, int depth) {
+  Random random(static_cast<std::uint64_t>(bits + depth));
+  Pipeline pipeline(depth);
+  run(random, [&](bool enable) {
+    Flat word;
+    for (int left = bits; left > 0; left -= 64) word.add(random.bits(64), std::min(left, 64));
+    pipeline.clock(enable, {word}, word);
+  });
+  return pipeline.write(folder / fmt::format("{}_{}.txt", bits, depth));
+}
+
+// A line: dot; its cosine, positive.
+template <class Preset>
+Status write_cosine(const std::filesystem::path& folder) {
+  constexpr int c_bits = 2 * Preset::c_direction_bits + 1, c_fraction = Preset::c_direction_fraction_bits;
+  Random random(c_bits);
+  VectorFile file;
+  const auto add = [&](std::int64_t dot) {
+    file.word(static_cast<std::uint64_t>(dot), c_bits)
+        .word(golden::cosine<Preset>(dot), c_fraction + 1)
+        .flag(golden::positive(dot))
+        .end_vector();
+  };
+  for (int bit = 0; bit < c_bits - 1; ++bit)
+    for (const std::int64_t offset : {-1, 0, 1}) {
+      add((std::int64_t{1} << bit) + offset);
+      add(offset - (std::int64_t{1} << bit));
+    }
+  constexpr std::int64_t c_one = std::int64_t{1} << (2 * c_fraction);
+  for (int i = 0; i < c_running; ++i) {
+    add(random.between(-c_one / 8, c_one));
+    add(c_one - random.between(-3, 1) * (std::int64_t{1} << (c_fraction - 1)) - random.between(0, 2));
+    add(signed_word(random, c_bits));
+  }
+  return file.write(folder / file_of<Preset>());
+}
+
+}  // namespace
+
+Status write_function_rom(const std::filesystem::path& folder) {
+  for (const auto function :
+       {golden::Function::reciprocal_root, golden::Function::logarithm, golden::Function::decay}) {
+    if (auto s = write_function_rom<Exact>(folder, function); !s) return s;
+    if (auto s = write_function_rom<Published>(folder, function); !s) return s;
+  }
+  return Ok{};
+}
+
+Status write_dot_product(const std::filesystem::path& folder) {
+  for (const int bits : {4, 16, 24, 30})
+    if (auto s = write_dot_product_of(folder, bits); !s) return s;
+  return Ok{};
+}
+
+Status write_vector_multiply(const std::filesystem::path& folder) {
+  for (const auto& [a, b] : {std::pair{2, 5}, {16, 11}, {24, 26}, {28, 30}, {13, 26}})
+    if (auto s = write_vector_multiply_of(folder, a, b); !s) return s;
+  return Ok{};
+}
+
+Status write_vector_shift(const std::filesystem::path& folder) {
+  if (auto s = write_vector_shift_of<5, 5>(folder); !s) return s;
+  if (auto s = write_vector_shift_of<30, 24>(folder); !s) return s;
+  if (auto s = write_vector_shift_of<25, 24>(folder); !s) return s;
+  if (auto s = write_vector_shift_of<17, 16>(folder); !s) return s;
+  return write_vector_shift_of<16, 24>(folder);
+}
+
+Status write_reciprocal_root(const std::filesystem::path& folder) {
+  if (auto s = write_reciprocal_root_of<Exact>(folder, 4); !s) return s;
+  return write_reciprocal_root_of<Published>(folder, 1);
+}
+
+Status write_power(const std::filesystem::path& folder) {
+  if (auto s = write_power_of<Exact>(folder, 6); !s) return s;
+  return write_power_of<Published>(folder, 2);
+}
+
+Status write_spot_cone(const std::filesystem::path& folder) {
+  if (auto s = write_spot_cone_of<Exact>(folder); !s) return s;
+  return write_spot_cone_of<Published>(folder);
+}
+
+Status write_delay_line(const std::filesystem::path& folder) {
+  for (const auto& [bits, depth] : {std::pair{8, 1}, {70, 2}, {1, 3}, {33, 4}, {100, 13}})
+    if (auto s = write_delay_line_of(folder, bits, depth); !s) return s;
+  return Ok{};
+}
+
+Status write_shading_pkg(const std::filesystem::path& folder) {
+  if (auto s = write_cosine<Exact>(folder); !s) return s;
+  return write_cosine<Published>(folder);
+}
+
+}  // namespace halfway::vectors
