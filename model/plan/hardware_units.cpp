@@ -95,33 +95,60 @@ class Units {
     const ProcessorUnits& p = key_.processors;
     if (p.specular) add_function_roms("power", 2, static_cast<int>(p.lights()));
   }
-  // What a processor has; `normalizations` of up to two vectors, side by side in one of the unrolled form,
-  // one after the other in a folded one.
-  void add_processor(int normalizations, bool has_cosine) {
-    const bool folded = key_.processors.form == ProcessorForm::folded;
-    const int units = folded ? std::min(normalizations, 1) : normalizations;
-    add(folded ? "shading_processor" : "unrolled_shading_processor");
+  void add_normalizations(int count) {
+    add("vector_shift", count);
+    add_function_roms("reciprocal_root", 1, count);
+  }
+  void add_unit_vectors(int count) {
+    add("unit_vector", count);
+    add_normalizations(count);
+    add("dot_product", count);
+    add("vector_multiply", count);
+    add("delay_line", count);
+  }
+  // The first and the second vector are normalized: N and the view vector, or L and H. A folded processor
+  // does one after the other, by the same units.
+  void add_folded_processor(bool first, bool second, bool has_cosine) {
+    add("shading_processor");
     add("parameter_register");  // what of its light it keeps
     add("vector_multiply");
-    add("dot_product",
-        folded ? (has_cosine || normalizations > 0 ? 1 : 0) : normalizations + (has_cosine ? 1 : 0));
-    add("vector_shift", units);
-    add_function_roms("reciprocal_root", 1, units);
+    add("dot_product", first || second || has_cosine ? 1 : 0);
+    add_normalizations(first || second ? 1 : 0);
+  }
+  void add_unrolled_processor(bool first, bool second) {
+    add("unrolled_shading_processor");
+    add("parameter_register");
+    add("vector_multiply");  // k I
+    add("delay_line", 2);
+    add_unit_vectors((first ? 1 : 0) + (second ? 1 : 0));
   }
   void add_ambient_processor() {
-    const golden::ProcessorsConfig config = processors_config(key_);
-    const bool has_view = is_exact() && golden::ProcessorsLayout<golden::Exact>(config).has_view();
-    add_processor((config.normalize ? 1 : 0) + (has_view ? 1 : 0), false);
+    const bool view =
+        is_exact() && golden::ProcessorsLayout<golden::Exact>(processors_config(key_)).has_view();
+    if (is_folded())
+      add_folded_processor(key_.processors.normalize, view, false);
+    else
+      add_unrolled_processor(key_.processors.normalize, view);
+  }
+  void add_light_processor(bool positional, bool spot, bool specular) {
+    const bool first = specular && !is_exact() ? spot : positional;
+    const bool second = specular && (is_exact() || positional);
+    add("spot_cone", spot ? 1 : 0);
+    add("shadow_counter", key_.processors.shadows ? 1 : 0);
+    if (is_folded()) {
+      add_folded_processor(first, second, true);
+      return;
+    }
+    add_unrolled_processor(first, second);
+    add("vector_multiply", first && is_exact() ? 2 : 1);  // the place at its distance; the weighted term
+    const bool horizon = specular && is_exact();          // a product besides the one with A
+    add("dot_product", 1 + (horizon ? 1 : 0) + (spot ? 1 : 0));
+    add("delay_line", 2 + (first ? 1 : 0) + (horizon ? 2 : 0) + (specular ? 1 : 0) + (spot ? 2 : 0));
   }
   // Of one light, which hardware for a place or for a spot serves as well.
   void add_light_processors(bool positional, bool spot) {
-    const ProcessorUnits& p = key_.processors;
-    const int terms = (p.diffuse ? 1 : 0) + (p.specular ? 1 : 0);
-    if (p.diffuse) add_processor(positional ? 1 : 0, true);
-    if (p.specular)
-      add_processor(is_exact() ? 1 + (positional ? 1 : 0) : (positional ? 1 : 0) + (spot ? 1 : 0), true);
-    if (spot) add("spot_cone", terms);
-    if (p.shadows) add("shadow_counter", terms);
+    if (key_.processors.diffuse) add_light_processor(positional, spot, false);
+    if (key_.processors.specular) add_light_processor(positional, spot, true);
   }
   void add_processors_shader() {
     const golden::ProcessorsConfig config = processors_config(key_);
@@ -148,6 +175,7 @@ class Units {
 
  private:
   bool is_exact() const { return key_.preset == Preset::exact; }
+  bool is_folded() const { return key_.processors.form == ProcessorForm::folded; }
   const HardwareKey& key_;
   bool exact_;
   std::map<std::string, int> counts_;

@@ -98,6 +98,21 @@ TEST_F(HardwareUnits, AreThoseOfTheNetlist) {
       spherical({.lights = 2, .specular = true, .powers = 16});
       spherical(
           {.lights = 3, .diffuse = true, .specular = true, .highlight_channels = channels, .powers = 22});
+      const auto processors = [&](ProcessorUnits units) {
+        for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
+          units.form = form;
+          keys.push_back(
+              {.shader = Shader::processors, .preset = preset, .channels = channels, .processors = units});
+        }
+      };
+      if (channels == 1) {
+        processors({});
+        processors({.directional = 2, .diffuse = true});
+        processors({.positional = 1, .specular = true, .normalize = true, .shadows = true});
+      } else {
+        processors({.directional = 1, .positional = 1, .spots = 1, .diffuse = true, .specular = true});
+        processors({.spots = 1, .diffuse = true, .specular = true, .normalize = true, .shadows = true});
+      }
     }
   }
   for (const HardwareKey& key : keys) EXPECT_EQ(found(key), hardware_units(key)) << key.name();
