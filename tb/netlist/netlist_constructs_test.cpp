@@ -220,7 +220,7 @@ TEST_F(NetlistConstructs, TheShadingArithmeticIsEqual) {
     const std::size_t at = (kLanes - 1 - lane) * kLaneBits / 4;
     std::set<std::string> values;
     for (const std::string& line : expected) values.insert(line.substr(at, kLaneBits / 4));
-    EXPECT_GE(values.size(), 100U) << "lane " << lane << " hardly moves";
+    EXPECT_GE(values.size(), 50U) << "lane " << lane << " hardly moves";
   }
 }
 
