@@ -6,21 +6,25 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 
 # What a target hands to the program. Values travel through the environment and are quoted where they are
 # used: neither make nor a shell ever reads them as code.
-variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS
+variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS \
+  ALL_EFFECTS LIGHTS MEASURE OBJECTS RATE
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
 
 jobs := $${JOBS:-$$(nproc)}
 option = $${$(1):+$(2)="$$$(1)"}
+# A flag is given where its variable is neither empty nor 0.
+flag = $$(case "$${$(1)}" in ('' | 0) ;; (*) echo $(2) ;; esac)
 scene := $${SCENE:+-- "$$SCENE"}
-run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size)
+run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size) \
+  $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights)
 sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) \
   $(call option,OUT,--out)
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim compare why figure17 tables check-tables test bench build program generator configure setup doctor format \
-  check-format clean
+.PHONY: help sim compare why plan figure17 gallery tables check-tables test bench build program generator configure setup \
+  doctor format check-format clean
 
 help: ## this list
 	@echo 'Halfway: shading hardware in VHDL, checked bit for bit against C++'
@@ -35,6 +39,9 @@ help: ## this list
 	@echo '  SIMULATOR  ghdl or verilator                              (default: both)'
 	@echo '  OUT        the folder for results                         (default: build/out)'
 	@echo '  THREADS    threads for triangle setup and golden model    (default: all cores)'
+	@echo '  ALL_EFFECTS  1: hardware with every effect, whatever the scene calls for; LIGHTS  for how many lights'
+	@echo '  MEASURE    1: make plan counts cells by Yosys, and cycles and seconds by simulation'
+	@echo '  OBJECTS, RATE  make plan: how many shading processors draw so many objects a pixel, frames a second'
 	@echo '  PIXEL      x,y of the pixel that make why explains'
 	@echo '  ADDRESS_BITS, DATA_BITS   make tables: size of cosine tables  (default: 9, 8; published 6, 6)'
 	@echo '  TESTS      a regular expression: make test runs only the tests that match'
@@ -44,13 +51,21 @@ sim: program ## scenes through golden model, GHDL and Verilator: compare, write 
 	@build/halfway sim $(sim_options) $(scene)
 
 compare: program ## the frames that make sim left, once more
-	@build/halfway compare $(call option,SHADER,--shader) $(call option,OUT,--out) $(scene)
+	@build/halfway compare $(call option,SHADER,--shader) $(call flag,ALL_EFFECTS,--all-effects) \
+	  $(call option,OUT,--out) $(scene)
 
 why: program ## one pixel stage by stage, golden beside RTL (SCENE, PIXEL)
 	@build/halfway why $(run_options) $(call option,PIXEL,--pixel) $(call option,OUT,--out) $(scene)
 
+plan: program ## the hardware that a scene calls for, and why (SCENE; MEASURE=1: cells and time)
+	@build/halfway plan $(run_options) $(call flag,MEASURE,--measure) $(call option,SIMULATOR,--simulator) \
+	  $(call option,OBJECTS,--objects) $(call option,RATE,--rate) $(call option,THREADS,--threads) $(scene)
+
 figure17: setup ## figure 17 of the spherical paper, from its timing model's trace
 	@tb/timing/figure17.sh build/figure17
+
+gallery: program ## the pictures in sim/gallery, drawn anew by the RTL
+	@scripts/gallery.sh build/gallery
 
 tables: generator ## write ROMs and formats anew
 	@build/halfway_generator tables $(table_options)
@@ -80,9 +95,11 @@ configure: setup
 	elif [ -f build/configure.stamp ] && [ "$$(cat build/configure.stamp)" = "$$key" ]; then exit 0; fi; \
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf '%s\n' "$$key" >build/configure.stamp
 
-# Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs one package more.
+# Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs one package more, and so
+# does `make plan MEASURE=1`.
 setup:
-	@scripts/setup.sh $(filter bench,$(MAKECMDGOALS))
+	@scripts/setup.sh $(filter bench,$(MAKECMDGOALS)) \
+	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth))
 
 doctor: ## tools and libraries found, and the command that mends what is missing
 	@sh scripts/setup.sh --doctor

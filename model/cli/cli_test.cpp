@@ -4,10 +4,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <thread>
 
 #include "common/file.hpp"
+#include "common/folder_lock.hpp"
 #include "common/subprocess.hpp"
 
 namespace halfway {
@@ -93,13 +100,88 @@ TEST_F(CliTest, BadUsageExitsTwoAndSaysWhatToDo) {
       {{"why", "spheres", "--pixel", "12"}, "is not x,y"},
       {{"why", "spheres", "--pixel", "640,0"}, "outside the frame"},
       {{"render", "spheres", "--method", "oil"}, "--method: 'oil' is not a method"},
+      {{"compare", "spheres", "--shader", "toon"}, "--shader: 'toon' is not a shader"},
       {{"compare", "spheres"}, "run `make sim SCENE=spheres` first"},
+      {{"compare", "spheres", "--shader", "spherical"},
+       "run `make sim SCENE=spheres SHADER=spherical` first"},
+      {{"compare", "spheres", "--all-effects", "--out", "o"},
+       "run `make sim SCENE=spheres ALL_EFFECTS=1 OUT=o` first"},
   };
   for (const auto& [arguments, expected] : cases) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr(expected));
   }
+}
+
+// Zero is a number that was given, and what no `make tables` can make is not advised.
+TEST_F(CliTest, TableSizesOutOfRangeExitTwo) {
+  const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
+      {"0", "0", "--address-bits: 0 is not 3 to 12"},
+      {"-1", "8", "--address-bits: -1 is not 3 to 12"},
+      {"13", "8", "--address-bits: 13 is not 3 to 12"},
+      {"9", "0", "--data-bits: 0 is not 2 to 12"},
+      {"9", "13", "--data-bits: 13 is not 2 to 12"},
+      {"11", "3", "make tables PRESET=exact ADDRESS_BITS=11 DATA_BITS=3"}};
+  for (const auto& [address, data, expected] : cases) {
+    const Outcome outcome =
+        run({"sim", "spheres", "--shader", "spherical", "--address-bits", address, "--data-bits", data});
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(expected));
+    EXPECT_EQ(outcome.output.find("make tables") != std::string::npos, address == "11") << outcome.output;
+  }
+  for (const char* one : {"--address-bits", "--data-bits"})
+    EXPECT_THAT(run({"sim", "spheres", "--shader", "spherical", one, "4"}).output,
+                HasSubstr("--address-bits and --data-bits go together"));
+}
+
+TEST_F(CliTest, OptionsOfOtherHardwareExitTwo) {
+  const auto mesh = write("one.obj", c_triangle);
+  struct Case {
+    std::string shader, preset, option, value;
+    bool taken;
+  };
+  const std::string q = "quadratic", s = "spherical", exact = "exact", published = "published";
+  for (const Case& c : {Case{q, exact, "--span-ends", "surface", false},
+                        {q, published, "--span-ends", "slerp", false},
+                        {s, exact, "--span-ends", "slerp", true},
+                        {s, published, "--span-ends", "slerp", false},
+                        {q, exact, "--threshold", "1", true},
+                        {q, published, "--threshold", "1", true},
+                        {s, exact, "--threshold", "1", true},
+                        {s, published, "--threshold", "2", false},
+                        {q, exact, "--highlight-test", "none", true},
+                        {q, published, "--highlight-test", "none", true},
+                        {s, exact, "--highlight-test", "none", false},
+                        {s, published, "--highlight-test", "centroid", false},
+                        {q, exact, "--max-level", "0", true},
+                        {q, published, "--max-level", "5", true},
+                        {s, exact, "--max-level", "5", false},
+                        {s, published, "--max-level", "0", false},
+                        {q, exact, "--address-bits", "9", false},
+                        {q, exact, "--data-bits", "8", false},
+                        {q, exact, "--lights", "2", false}}) {
+    const Outcome outcome = run({"init", mesh, "--shader", c.shader, "--preset", c.preset, c.option, c.value,
+                                 "--size", "20x15", "--file", "init.txt"});
+    const std::string what = fmt::format("{} {} {}: {}", c.shader, c.preset, c.option, outcome.output);
+    EXPECT_EQ(outcome.exit_code, c.taken ? 0 : 2) << what;
+    EXPECT_EQ(outcome.output.find(c.option + " belongs to the ") == std::string::npos, c.taken) << what;
+    EXPECT_EQ(outcome.output.find(fmt::format("says nothing for the {} shader in preset {}\n", c.shader,
+                                              c.preset)) == std::string::npos,
+              c.taken)
+        << what;
+  }
+  const Outcome both = run({"init", mesh, "--shader", s, "--preset", published, "--threshold", "1"});
+  EXPECT_THAT(both.output,
+              HasSubstr("--threshold belongs to the quadratic shader and the spherical shader in "
+                        "preset exact, and says"));
+  const Outcome uncut = run({"init", mesh, "--shader", s, "--threshold", "1", "--span-ends", "slerp"});
+  EXPECT_EQ(uncut.exit_code, 2) << uncut.output;
+  EXPECT_THAT(uncut.output, HasSubstr("--threshold goes with --span-ends surface"));
+  // A method in double that is spherical whatever hardware --shader names.
+  EXPECT_EQ(run({"render", mesh, "--method", "spherical-fixed", "--span-ends", "slerp", "--size", "20x15"})
+                .exit_code,
+            0);
 }
 
 TEST_F(CliTest, BadScenesAndMeshesExitTwoAndLeaveNothing) {
@@ -178,6 +260,8 @@ TEST_F(CliTest, SummaryHoldsWhatTheRunWas) {
     EXPECT_EQ(entry["fragments"], json["fragments"]);
   }
   EXPECT_EQ(json["runs"][0]["cycles"], json["runs"][1]["cycles"]);
+  EXPECT_GT(json["runs"][0]["cycles"], 100);
+  EXPECT_GT(json["runs"][0]["seconds"], 0.0);
   for (const char* file : {"reference.png", "golden.png", "ghdl.png", "verilator.png", "diff.png", "init.txt",
                            "golden.trace", "ghdl.trace", "verilator.trace"})
     EXPECT_TRUE(std::filesystem::exists(out() / "one" / "quadratic" / file)) << file;
@@ -217,6 +301,22 @@ TEST_F(CliTest, AllEffectsHaveAFolderOfTheirOwn) {
   }
 }
 
+TEST_F(CliTest, TheLineNamesTablesOfAnUnusualSize) {
+  const auto line = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"sim",   "highlights", "--out",     out(),         "--size",
+                                          "40x30", "--shader",   "spherical", "--simulator", "verilator"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return outcome.output;
+  };
+  EXPECT_THAT(line({"--preset", "published", "--address-bits", "4", "--data-bits", "4"}),
+              HasSubstr(" fragments, tables 4/4 | verilator: "));
+  EXPECT_THAT(line({"--preset", "published", "--address-bits", "6", "--data-bits", "6"}),
+              HasSubstr(" fragments | verilator: "));
+  EXPECT_THAT(line({}), HasSubstr(" fragments | verilator: "));
+}
+
 TEST_F(CliTest, CompareSeesAChangedTraceAndRefusesADamagedOne) {
   const auto mesh = write("one.obj", c_triangle);
   ASSERT_EQ(run({"sim", mesh, "--out", out(), "--size", "20x15", "--simulator", "verilator"}).exit_code, 0);
@@ -244,6 +344,92 @@ TEST_F(CliTest, CompareSeesAChangedTraceAndRefusesADamagedOne) {
     EXPECT_EQ(refused.exit_code, 2) << refused.output;
     EXPECT_THAT(refused.output, HasSubstr("verilator.trace"));
   }
+}
+
+// Part of the results is no reason to say that all are equal.
+TEST_F(CliTest, CompareSaysWhatIsNotThere) {
+  const auto mesh = write("one.obj", c_triangle);
+  const std::vector<std::string> sim = {"sim", mesh, "--out", out(), "--size", "20x15"},
+                                 compare = {"compare", "one", "--out", out()};
+  const auto folder = out() / "one" / "quadratic";
+  auto verilator_alone = sim;
+  verilator_alone.insert(verilator_alone.end(), {"--simulator", "verilator"});
+  ASSERT_EQ(run(verilator_alone).exit_code, 0);
+  const Outcome one = run(compare);
+  EXPECT_EQ(one.exit_code, 0) << one.output;
+  EXPECT_THAT(one.output, AllOf(ContainsRegex("one +ghdl +not compared: it was not asked to draw\n"),
+                                ContainsRegex("one +verilator +quadratic_shader.* 0 mismatches")));
+
+  ASSERT_EQ(run(sim).exit_code, 0);
+  const auto summary = read_file(folder / "summary.json");
+  ASSERT_TRUE(summary);
+  EXPECT_THAT(run(compare).output, Not(HasSubstr("not compared")));
+  std::filesystem::remove(folder / "ghdl.trace");
+  const Outcome gone = run(compare);
+  EXPECT_EQ(gone.exit_code, 2) << gone.output;
+  EXPECT_THAT(gone.output, HasSubstr("ghdl.trace is gone; run `make sim SCENE=one OUT="));
+
+  // As sim leaves it where it was broken off, and where GHDL ended with a fault.
+  std::filesystem::remove(folder / "summary.json");
+  const Outcome broken_off = run(compare);
+  EXPECT_EQ(broken_off.exit_code, 2) << broken_off.output;
+  EXPECT_THAT(broken_off.output, HasSubstr("a run here was broken off; run `make sim SCENE=one OUT="));
+  auto json = nlohmann::json::parse(*summary);
+  json["runs"][0]["fault"] = "it hangs";
+  ASSERT_TRUE(write_file(folder / "summary.json", json.dump()));
+  const Outcome faulty = run(compare);
+  EXPECT_EQ(faulty.exit_code, 1) << faulty.output;
+  EXPECT_THAT(faulty.output, AllOf(ContainsRegex("one +ghdl +differs, as sim found: it hangs\n"),
+                                   ContainsRegex("one +verilator .* 0 mismatches")));
+  ASSERT_TRUE(write_file(folder / "summary.json", "{}"));
+  const Outcome damaged = run(compare);
+  EXPECT_EQ(damaged.exit_code, 2) << damaged.output;
+  EXPECT_THAT(damaged.output, HasSubstr("summary.json: not a summary"));
+}
+
+// Without a terminal too, whoever waits says so, once; and neither looks at what the other is writing.
+TEST_F(CliTest, SimAndCompareWaitForAnotherRunInTheirFolder) {
+  const auto mesh = write("one.obj", c_triangle);
+  const std::vector<std::string> sim = {"sim",    mesh,    "--out",       out(),
+                                        "--size", "20x15", "--simulator", "verilator"};
+  ASSERT_EQ(run(sim).exit_code, 0);
+  const auto folder = out() / "one" / "quadratic";
+  const auto summary = read_file(folder / "summary.json");
+  ASSERT_TRUE(summary);
+  for (const auto& arguments : {sim, {"compare", "one", "--out", out()}}) {
+    auto lock = FolderLock::take(folder, [] { FAIL() << "nobody holds it"; });
+    ASSERT_TRUE(lock) << lock.error().message;
+    std::optional<FolderLock> held(std::move(*lock));
+    std::filesystem::remove(folder / "summary.json");
+    std::atomic<bool> ended = false;
+    Outcome outcome;
+    std::jthread other([&] {
+      outcome = run(arguments);
+      ended = true;
+    });
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    EXPECT_FALSE(ended) << arguments[0] << " did not wait";
+    ASSERT_TRUE(write_file(folder / "summary.json", *summary));
+    held.reset();
+    other.join();
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    const std::string line =
+        fmt::format("waiting for {} (another halfway sim draws into it", folder.string());
+    const std::size_t first = outcome.output.find(line);
+    EXPECT_NE(first, std::string::npos) << outcome.output;
+    EXPECT_EQ(outcome.output.find("waiting for", first + 1), std::string::npos) << outcome.output;
+  }
+}
+
+TEST_F(CliTest, InitSaysWhatSetupMade) {
+  EXPECT_THAT(
+      run({"init", "spheres", "--size", "64x48"}).output,
+      ContainsRegex("^init.txt: ([0-9]+) init vectors and 0 line records, of [0-9]+ bits, for quadratic"
+                    "[^\n]*\n.* [1-9][0-9]* of them split in four: [0-9]+ pieces in all, in [0-9]+ init "
+                    "vectors and 0 line records; [0-9]+ points shaded\n"));
+  EXPECT_THAT(run({"init", "spheres", "--size", "64x48", "--shader", "spherical"}).output,
+              ContainsRegex(" 0 of them cut into columns: [0-9]+ pieces in all, in [0-9]+ init vectors and "
+                            "[1-9][0-9]* line records; [0-9]+ points where vectors were computed\n"));
 }
 
 TEST_F(CliTest, AMissingOrDyingToolExitsThree) {
@@ -290,6 +476,27 @@ TEST_F(CliTest, WhyAgreesOnRightHardware) {
   const Outcome nothing = run({"why", mesh, "--pixel", "0,0", "--size", "40x30"});
   EXPECT_EQ(nothing.exit_code, 0);
   EXPECT_THAT(nothing.output, HasSubstr("0 triangles cover it"));
+}
+
+// Names of any length, in one column; and words.
+TEST_F(CliTest, WhyAlignsItsColumns) {
+  for (const std::string shader : {"quadratic", "spherical"}) {
+    const Outcome outcome =
+        run({"why", "lights", "--shader", shader, "--pixel", "24,36", "--size", "96x72", "--threads", "2"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    std::set<std::size_t> golden, rtl, given;
+    std::istringstream lines(outcome.output);
+    for (std::string line; std::getline(lines, line);)
+      if (line.find(" RTL ") != std::string::npos && line.starts_with("    ")) {
+        golden.insert(line.find(" golden "));
+        rtl.insert(line.find(" RTL "));
+      } else if (line.starts_with("    ")) {
+        given.insert(line.rfind(' ', line.find(" = ") - 1));
+      }
+    EXPECT_EQ(golden.size(), 1U) << outcome.output;
+    EXPECT_EQ(rtl.size(), 1U) << outcome.output;
+    EXPECT_EQ(given, golden) << outcome.output;
+  }
 }
 
 // Wrong hardware: a copy of the sources with one thing changed.
@@ -348,7 +555,9 @@ TEST_F(WrongTable, AFlippedBitOfARomIsCaught) {
                                  ContainsRegex("rtl/tables/cosine_pkg.vhd:[0-9]+: not what the generator")));
   const Outcome why = run(
       {"--source", copy(), "why", "spheres", "--shader", "spherical", "--pixel", "20,20", "--size", "96x72"});
-  EXPECT_THAT(why.output, HasSubstr("first difference in the frame: sample stage (cosine_rom)"))
+  EXPECT_THAT(why.output,
+              HasSubstr("first difference in the frame: sample stage (cosine_rom, or specular_slice "
+                        "around it)"))
       << why.output;
 }
 TEST_F(WrongTable, AFlippedBitOfAnUnusedRomIsCaught) {
@@ -358,6 +567,26 @@ TEST_F(WrongTable, AFlippedBitOfAnUnusedRomIsCaught) {
   EXPECT_THAT(unused.output,
               AllOf(HasSubstr(" 0 mismatches"),
                     ContainsRegex("rtl/tables/cosine_pkg.vhd:[0-9]+: not what the generator")));
+}
+
+// GHDL's testbench ends a run that draws on and on, and knows no cycles then.
+using RunawayRtl = WrongRtl;
+TEST_F(RunawayRtl, HasNoCyclesThatNobodyCounted) {
+  ASSERT_NO_FATAL_FAILURE(
+      change("raster/triangle_walker.vhd", "", "v.span.valid := not span_last;", "v.span.valid := '1';"));
+  const Outcome drawn = sim("quadratic", "ghdl");
+  EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
+  EXPECT_THAT(drawn.output,
+              AllOf(ContainsRegex("\\| ghdl: [0-9]+ mismatches \\| "), Not(HasSubstr("cycles,"))));
+  const auto text = read_file(out() / "spheres" / "quadratic" / "summary.json");
+  ASSERT_TRUE(text);
+  const auto json = nlohmann::json::parse(*text);
+  EXPECT_TRUE(json["runs"][0]["cycles"].is_null()) << *text;
+  EXPECT_TRUE(json["runs"][0]["seconds"].is_null()) << *text;
+  EXPECT_NE(json["runs"][0]["fault"], "");
+  const Outcome compared = run({"compare", "spheres", "--out", out()});
+  EXPECT_EQ(compared.exit_code, 1) << compared.output;
+  EXPECT_THAT(compared.output, HasSubstr("differs, as sim found: "));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -375,7 +604,11 @@ INSTANTIATE_TEST_SUITE_P(
                             "not angle when angle(c_sign) = '1' else angle", "angle", "sample stage"},
                       Fault{"product_of_the_wrong_operand", "spherical", "arithmetic/multiplier.vhd",
                             "unsigned(a) * unsigned(b)", "unsigned(a) * unsigned(not b)",
-                            "product stage (multiplier)"},
+                            "product stage (multiplier, or diffuse_slice around it)"},
+                      Fault{"factors_of_the_slice_inverted", "spherical", "illumination/specular_slice.vhd",
+                            "start => part(part'high downto c_factors_low)",
+                            "start => not part(part'high downto c_factors_low)",
+                            "product stage (multiplier, or specular_slice around it)"},
                       Fault{"sum_without_its_first_term", "spherical", "arithmetic/saturating_sum.vhd",
                             "for i in 1 to g_terms - 1 loop", "for i in 2 to g_terms - 1 loop",
                             "fragment stage (saturating_sum"}),

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
 
 #include "cli/options.hpp"
+#include "common/file.hpp"
+#include "common/folder_lock.hpp"
 #include "frame/image.hpp"
 #include "frame/metrics.hpp"
 #include "frame/trace.hpp"
@@ -38,7 +42,79 @@ Result<std::string> compare_traces(const std::filesystem::path& golden_path,
   return golden->key_name();
 }
 
+// The simulators that a run had, each with its fault, or "": from its summary, which is written last.
+Result<std::map<std::string, std::string>> faults_of(const std::filesystem::path& summary) {
+  const auto text = read_file(summary);
+  if (!text) return text.error();
+  std::map<std::string, std::string> faults;
+  try {
+    const auto json = nlohmann::json::parse(*text);
+    for (const auto& run : json.at("runs"))
+      faults[run.at("simulator").get<std::string>()] = run.value("fault", "");
+  } catch (const nlohmann::json::exception& error) {
+    return bad_input(fmt::format("{}: not a summary: {}", summary.string(), error.what()));
+  }
+  return faults;
+}
+
+// What makes the results again.
+std::string make_sim(const std::string& scene, const CompareCommand& command) {
+  std::string text = "make sim SCENE=" + scene;
+  if (command.shader != CompareCommand{}.shader) text += " SHADER=" + command.shader;
+  if (command.all_effects) text += " ALL_EFFECTS=1";
+  if (command.out != CompareCommand{}.out) text += " OUT=" + command.out;
+  return text;
+}
+
+// Whether all that a run left of a scene is equal.
+Result<bool> compare_scene(const std::string& scene, const CompareCommand& command) {
+  const ResultFiles files =
+      ResultFiles::of(command.out, result_name(scene), command.shader, command.all_effects);
+  const auto none = [&](const char* what) {
+    return bad_input(
+        fmt::format("{}: {}; run `{}` first", files.folder.string(), what, make_sim(scene, command)));
+  };
+  std::error_code error;
+  if (!std::filesystem::is_directory(files.folder, error)) return none("no results here");
+  const auto lock = FolderLock::take(files.folder, [&] { say_waiting(files.folder); });
+  if (!lock) return lock.error();
+  if (!std::filesystem::exists(files.summary(), error)) return none("a run here was broken off");
+  const auto faults = faults_of(files.summary());
+  if (!faults) return faults.error();
+
+  bool equal = true;
+  for (const std::string simulator : {"ghdl", "verilator"}) {
+    const auto fault = faults->find(simulator);
+    if (fault == faults->end()) {
+      fmt::print("{:<12} {:<10} not compared: it was not asked to draw\n", result_name(scene), simulator);
+      continue;
+    }
+    if (!fault->second.empty()) {
+      fmt::print("{:<12} {:<10} differs, as sim found: {}\n", result_name(scene), simulator, fault->second);
+      equal = false;
+      continue;
+    }
+    if (!std::filesystem::exists(files.trace(simulator), error))
+      return none(fmt::format("{}.trace is gone", simulator).c_str());
+    StreamComparator comparator;
+    const auto key = compare_traces(files.trace("golden"), files.trace(simulator), comparator);
+    if (!key) return key.error();
+    const auto golden = read_png(files.frame("golden")), rtl = read_png(files.frame(simulator));
+    if (!golden) return golden.error();
+    if (!rtl) return rtl.error();
+    const auto distance = frame_distance(*golden, *rtl);
+    if (!distance) return distance.error();
+    equal = equal && comparator.mismatches() == 0 && distance->differing == 0;
+    fmt::print("{:<12} {:<10} {} {}x{} {:>9} fragments, {} mismatches; frame: {} of {} pixels differ\n",
+               result_name(scene), simulator, *key, golden->size.width, golden->size.height,
+               comparator.golden_count(), comparator.mismatches(), distance->differing, distance->pixels);
+    if (comparator.mismatches() != 0) fmt::print(stderr, "{}", comparator.describe(simulator));
+  }
+  return equal;
+}
+
 int run(const Folders& folders, const CompareCommand& command) {
+  if (const auto shader = checked_shader(command.shader); !shader) return report(shader.error());
   std::vector<std::string> scenes = command.scenes;
   if (scenes.empty()) {
     auto builtin = builtin_scenes(folders);
@@ -47,34 +123,9 @@ int run(const Folders& folders, const CompareCommand& command) {
   }
   bool equal = true;
   for (const std::string& scene : scenes) {
-    const ResultFiles files =
-        ResultFiles::of(command.out, result_name(scene), command.shader, command.all_effects);
-    std::error_code error;
-    if (!std::filesystem::exists(files.trace("golden"), error))
-      return report(bad_input(
-          fmt::format("{}: no results here; run `make sim SCENE={}` first", files.folder.string(), scene)));
-    bool any = false;
-    for (const char* simulator : {"ghdl", "verilator"}) {
-      if (!std::filesystem::exists(files.trace(simulator), error)) continue;
-      any = true;
-      StreamComparator comparator;
-      const auto key = compare_traces(files.trace("golden"), files.trace(simulator), comparator);
-      if (!key) return report(key.error());
-      const auto golden = read_png(files.frame("golden")), rtl = read_png(files.frame(simulator));
-      if (!golden) return report(golden.error());
-      if (!rtl) return report(rtl.error());
-      const auto distance = frame_distance(*golden, *rtl);
-      if (!distance) return report(distance.error());
-      const bool same = comparator.mismatches() == 0 && distance->differing == 0;
-      equal = equal && same;
-      fmt::print("{:<12} {:<10} {} {}x{} {:>9} fragments, {} mismatches; frame: {} of {} pixels differ\n",
-                 result_name(scene), simulator, *key, golden->size.width, golden->size.height,
-                 comparator.golden_count(), comparator.mismatches(), distance->differing, distance->pixels);
-      if (comparator.mismatches() != 0) fmt::print(stderr, "{}", comparator.describe(simulator));
-    }
-    if (!any)
-      return report(bad_input(fmt::format("{}: no trace of a simulator here; run `make sim SCENE={}` first",
-                                          files.folder.string(), scene)));
+    const auto same = compare_scene(scene, command);
+    if (!same) return report(same.error());
+    equal = *same && equal;
   }
   return static_cast<int>(equal ? ExitCode::equal : ExitCode::differs);
 }
@@ -86,7 +137,7 @@ void add_compare(CLI::App& app, const Folders& folders, int& exit_code) {
       app.add_subcommand("compare", "compare what sim left: traces field by field, frames pixel by pixel");
   auto command = std::make_shared<CompareCommand>();
   sub->add_option("scene", command->scenes, "as for sim; none: all built-in scenes");
-  sub->add_option("--shader", command->shader, "quadratic")->capture_default_str();
+  sub->add_option("--shader", command->shader, c_shader_names)->capture_default_str();
   sub->add_flag("--all-effects", command->all_effects, "what sim --all-effects left");
   sub->add_option("--out", command->out, "folder of results")->capture_default_str();
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });

@@ -33,6 +33,7 @@ int run(const Folders& folders, const InitCommand& command) {
   SceneStream stream(*setup, key, draw->threads);
   for (Batch batch; stream.next(batch);) {
     progress.show(batch.done);
+    if (const Status status = check_shadow_counts(*scene, stream); !status) return report(status.error());
     file->write(batch.init_words);
   }
   progress.clear();
@@ -42,11 +43,12 @@ int run(const Folders& folders, const InitCommand& command) {
   fmt::print("{}: {} init vectors and {} line records, of {} bits, for {}\n", command.file, n.vectors,
              n.records, setup->init_bits(), key.name());
   fmt::print(
-      "  {} triangles: {} back-facing, {} outside, {} degenerate on the screen; {} drawn, {} of them split "
-      "into "
-      "{} pieces in all; {} points shaded\n",
+      "  {} triangles: {} back-facing, {} outside, {} degenerate on the screen; {} drawn, {} of them {}: "
+      "{} pieces in all, in {} init vectors and {} line records; {} points {}\n",
       scene->triangles.size(), n.projection.back_facing, n.projection.outside + n.projection.behind_near,
-      n.projection.degenerate, n.triangles, n.subdivided, n.leaves, n.shaded);
+      n.projection.degenerate, n.triangles, n.subdivided,
+      key.shader == Shader::quadratic ? "split in four" : "cut into columns", n.leaves, n.vectors, n.records,
+      n.shaded, key.shader == Shader::quadratic ? "shaded" : "where vectors were computed");
   return 0;
 }
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,20 +15,20 @@
 
 namespace halfway::cli {
 
-/// Options of every command that draws.
+/// Options of every command that draws. What is not given is setup's or the plan's to choose.
 struct DrawOptions {
   std::string shader = "quadratic";
-  int address_bits = 0, data_bits = 0;  ///< of the spherical shader's tables; 0: the preset's
+  std::optional<int> address_bits, data_bits;  ///< of the spherical shader's tables
   bool all_effects = false;
-  unsigned lights = 0;    ///< with all effects; 0: the scene's, and at least one
-  std::string span_ends;  ///< empty: surface in preset exact, slerp in published
+  std::optional<unsigned> lights;  ///< with all effects
+  std::optional<std::string> span_ends;
   std::string preset = "exact";
-  std::string form;  ///< of the shading processors; empty: unrolled
+  std::optional<std::string> form;  ///< of the shading processors; none: unrolled
   std::string size = "640x480";
   std::string out = "build/out";
-  std::string highlight_test;  ///< empty: conservative in preset exact, centroid in published
-  double threshold = 2.0;
-  int max_level = 5;
+  std::optional<std::string> highlight_test;
+  std::optional<double> threshold;
+  std::optional<int> max_level;
   unsigned threads = 0;
 
   void add_to(CLI::App& command);
@@ -44,6 +45,11 @@ struct DrawSettings {
 
 Result<DrawSettings> checked(const DrawOptions& options);
 
+/// For help texts.
+inline constexpr const char* c_shader_names = "quadratic, spherical or processors";
+/// By its name.
+Result<Shader> checked_shader(const std::string& name);
+
 struct Simulators {
   bool ghdl = true, verilator = true;
 };
@@ -55,6 +61,9 @@ Result<std::vector<std::string>> builtin_scenes(const Folders& folders);
 
 /// The folder's name under which the results of a scene lie, however it was named: without folder and ending.
 std::string result_name(const std::string& scene);
+
+/// Says on stderr, terminal or not, that another run holds a folder of results.
+void say_waiting(const std::filesystem::path& folder);
 
 /// A line on a terminal that is written over; silent elsewhere.
 class Progress {

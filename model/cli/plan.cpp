@@ -9,8 +9,10 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <set>
 #include <thread>
+#include <tuple>
 
 #include "cli/options.hpp"
 #include "plan/cells.hpp"
@@ -27,7 +29,7 @@ struct PlanCommand {
   std::string scene;
   bool measure = false;
   std::vector<std::string> simulators;
-  std::uint64_t objects = 0, rate = 0;  // 0: not given
+  std::optional<std::uint64_t> objects, rate;
 };
 
 constexpr std::uint64_t c_most_objects = 1000, c_most_rate = 1000;
@@ -49,8 +51,11 @@ std::string cells_text(const PlannedEffect& effect, const HardwareKey& key, cons
   const auto difference = [&](std::uint64_t a, std::uint64_t b) {
     return (effect.elaborated ? 1 : -1) * (static_cast<std::int64_t>(a) - static_cast<std::int64_t>(b));
   };
-  return fmt::format(": {} LUTs, {} flip-flops", difference(here.luts, there.luts),
-                     difference(here.flip_flops, there.flip_flops));
+  std::string text = fmt::format(": {} LUTs, {} flip-flops", difference(here.luts, there.luts),
+                                 difference(here.flip_flops, there.flip_flops));
+  if (const auto bits = difference(here.memory_bits, there.memory_bits); bits != 0)
+    text += fmt::format(", {} bits of memory", bits);
+  return text;
 }
 
 void print_effects(const Plan& plan, const CellsByKey& cells) {
@@ -137,6 +142,7 @@ void print_measured(const Plan& plan, const CellsByKey& cells, const SimulationC
   const Cells few = cells.at(plan.called_for.name()), all = cells.at(plan.everything.name());
   print_counts("LUTs of 4 inputs (Yosys, flattened)", few.luts, all.luts);
   print_counts("flip-flops", few.flip_flops, all.flip_flops);
+  if (all.memory_bits != 0) print_counts("bits of memory", few.memory_bits, all.memory_bits);
   print_counts("cycles", called_for.cycles, everything.cycles);
   print_seconds("GHDL", called_for.ghdl_seconds, everything.ghdl_seconds);
   print_seconds("Verilator", called_for.verilator_seconds, everything.verilator_seconds);
@@ -148,8 +154,8 @@ void print_measured(const Plan& plan, const CellsByKey& cells, const SimulationC
 void print_processors(const SceneCalls& calls, const PlanCommand& command, FrameSize size) {
   ShadingLoad load;
   load.pixels = std::uint64_t{size.width} * size.height;
-  load.frames = command.rate != 0 ? command.rate : 30;
-  load.objects = command.objects != 0 ? command.objects : 1;
+  load.frames = command.rate.value_or(30);
+  load.objects = command.objects.value_or(1);
   load.directional = calls.count(LightKind::directional);
   load.positional = calls.count(LightKind::positional) + calls.count(LightKind::spot);
   fmt::print(
@@ -183,9 +189,10 @@ int run(const Folders& folders, const PlanCommand& command) {
   if (!draw) return report(draw.error());
   const auto simulators = checked_simulators(command.simulators);
   if (!simulators) return report(simulators.error());
-  if (command.objects > c_most_objects || command.rate > c_most_rate)
-    return report(bad_input(fmt::format("--objects, --rate: {} and {} are not up to {} and {}",
-                                        command.objects, command.rate, c_most_objects, c_most_rate)));
+  for (const auto& [name, given, most] : {std::tuple{"--objects", command.objects, c_most_objects},
+                                          std::tuple{"--rate", command.rate, c_most_rate}})
+    if (given && (*given < 1 || *given > most))
+      return report(bad_input(fmt::format("{}: {} is not 1 to {}", name, *given, most)));
   const auto scene = load_scene(command.scene, folders.scenes());
   if (!scene) return report(scene.error());
   const auto planned = plan_scene(*scene, draw->plan);
@@ -224,7 +231,7 @@ int run(const Folders& folders, const PlanCommand& command) {
   const bool same =
       called_for.frame.rgb == everything.frame.rgb && called_for.fragments == everything.fragments;
   if (command.measure) print_measured(plan, cells, called_for, everything, same);
-  if (command.objects != 0 || command.rate != 0) print_processors(calls_of(*scene), command, draw->size);
+  if (command.objects || command.rate) print_processors(calls_of(*scene), command, draw->size);
   return static_cast<int>(same ? ExitCode::equal : ExitCode::differs);
 }
 

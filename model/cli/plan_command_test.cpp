@@ -93,15 +93,21 @@ TEST_F(PlanCommand, Table5OfTheLights) {
 
 TEST_F(PlanCommand, BadUsageExitsTwo) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {{"plan", "matte", "--lights", "3"}, "--lights goes with --all-effects"},
+      {{"plan", "matte", "--shader", "spherical", "--lights", "3"}, "--lights goes with --all-effects"},
       {{"plan", "matte", "--all-effects", "--lights", "3"},
-       "the quadratic shader has no hardware for lights"},
+       "--lights belongs to the spherical shader and the processors shader, and says nothing for the "
+       "quadratic "
+       "shader"},
+      {{"plan", "matte", "--shader", "spherical", "--all-effects", "--lights", "0"}, "0 is not 1 to 16"},
       {{"plan", "lights", "--shader", "spherical", "--all-effects", "--lights", "9"}, "9 is not 10 to 16"},
       {{"sim", "lights", "--shader", "spherical", "--all-effects", "--lights", "17"}, "17 is not 10 to 16"},
+      {{"plan", "matte", "--rate", "1001"}, "--rate: 1001 is not 1 to 1000"},
+      {{"plan", "matte", "--rate", "0"}, "--rate: 0 is not 1 to 1000"},
+      {{"plan", "matte", "--objects", "0"}, "--objects: 0 is not 1 to 1000"},
       {{"plan", "lights", "--shader", "processors", "--all-effects", "--lights", "9"}, "9 is not 10 to 16"},
-      {{"plan", "matte", "--form", "folded"}, "only the shading processors have two forms"},
+      {{"plan", "matte", "--form", "folded"},
+       "--form belongs to the processors shader, and says nothing for the quadratic shader"},
       {{"plan", "matte", "--shader", "processors", "--form", "flat"}, "take folded or unrolled"},
-      {{"plan", "matte", "--rate", "1001"}, "--rate"},
       {{"plan", "matte", "--objects", "-1"}, "--objects"},
       {{"plan", "matte", "--measure", "--simulator", "modelsim"}, "is not a simulator"},
       {{"sim", "matte", "--simulator", "modelsim"}, "is not a simulator"},

@@ -39,13 +39,17 @@ Result<Frame> golden_frame(const Scene& scene, const DrawSettings& draw) {
   Progress progress(scene.name);
   for (Batch batch; stream.next(batch);) {
     progress.show(batch.done);
+    if (const Status status = check_shadow_counts(scene, stream); !status) return status.error();
     if (const Status status = assembler.add(batch.golden); !status) return status.error();
   }
   return assembler.frame();
 }
 
 int run(const Folders& folders, const RenderCommand& command) {
-  const auto draw = checked(command.draw);
+  const bool spherical = command.method.starts_with("spherical-");
+  DrawOptions options_given = command.draw;
+  if (spherical) options_given.shader = to_string(Shader::spherical);  // whose options these methods take
+  const auto draw = checked(options_given);
   if (!draw) return report(draw.error());
   if (std::find(c_methods.begin(), c_methods.end(), command.method) == c_methods.end())
     return report(bad_input(
@@ -59,7 +63,7 @@ int run(const Folders& folders, const RenderCommand& command) {
   const ReferenceImage reference = render_reference(*scene, triangles, options);
   Frame frame = reference.frame;
   if (command.method == "gouraud") frame = render_gouraud(*scene, triangles, options).frame;
-  if (command.method == "spherical-fixed" || command.method == "spherical-both") {
+  if (spherical) {
     const SphericalMethod method{
         command.method == "spherical-fixed" ? VectorScheme::one_fixed : VectorScheme::both_interpolated,
         draw->setup.spherical.ends};

@@ -66,6 +66,10 @@ Outcome draw_scene(const std::string& name, std::size_t number, const Folders& f
   settings.on_progress = [&](const std::string& what, double done) {
     board.show(number, done < 0.0 ? what : fmt::format("{} {} %", what, static_cast<int>(100.0 * done)));
   };
+  settings.on_wait = [&](const std::filesystem::path& folder) {
+    board.clear();
+    say_waiting(folder);
+  };
   auto summary = simulate(*scene, settings);
   board.show(number, "");
   if (!summary) return summary.error();

@@ -2,7 +2,9 @@
 // `halfway tables`: writes what is generated, or checks that it is as it would be written.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -80,6 +82,26 @@ void print_errors(bool exact) {
   }
 }
 
+// Sizes that the checkout has tables of, and will not have.
+std::vector<tables::CosineSize> sizes_that_go(const std::filesystem::path& checkout, bool exact,
+                                              const tables::CosineSizes& sizes) {
+  const auto present = read_file(checkout / "rtl" / "tables" / "cosine_pkg.vhd");
+  if (!present) return {};
+  const auto& kept = exact ? sizes.exact : sizes.published;
+  std::vector<tables::CosineSize> gone;
+  const auto [least_address, least_data] = tables::c_smallest_cosine_size;
+  const auto [most_address, most_data] = tables::c_largest_cosine_size;
+  for (int address = least_address; address <= most_address; ++address)
+    for (int data = least_data; data <= most_data; ++data) {
+      const std::string name =
+          fmt::format("constant c_{}_cosine_1_{}_{} :", exact ? "exact" : "published", address, data);
+      if (present->find(name) != std::string::npos &&
+          std::ranges::find(kept, tables::CosineSize{address, data}) == kept.end())
+        gone.push_back({address, data});
+    }
+  return gone;
+}
+
 int run(const Folders& folders, const TablesOptions& options) {
   const Result<TablesSettings> settings = checked(options);
   if (!settings) return report(settings.error());
@@ -88,6 +110,13 @@ int run(const Folders& folders, const TablesOptions& options) {
     return static_cast<int>(ExitCode::equal);
   }
   bool differs = false;
+  if (!options.check)
+    for (const bool exact : {true, false})
+      for (const tables::CosineSize size : sizes_that_go(folders.source, exact, settings->sizes))
+        fmt::print(
+            "preset {0}: the tables of {1}/{2} address/data bits go; for them again: make tables PRESET={0} "
+            "ADDRESS_BITS={1} DATA_BITS={2}\n",
+            exact ? "exact" : "published", size.address_bits, size.data_bits);
   if (options.check)
     for (const std::string& message : tables::stale_files(folders.source, settings->sizes)) {
       fmt::print(stderr, "{}\n", message);

@@ -133,6 +133,25 @@ TEST_F(TablesCommand, ASizeIsForOnePresetAndStandsOnce) {
       << again.output;
 }
 
+// A preset has one size that was asked for: what another run made goes, and not in silence.
+TEST_F(TablesCommand, SaysWhichTablesGo) {
+  EXPECT_THAT(run({}).output, Not(HasSubstr(" go; "))) << "there were none";
+  EXPECT_THAT(run({}).output, Not(HasSubstr(" go; ")));
+  EXPECT_THAT(run({"--address-bits", "12"}).output,
+              AllOf(HasSubstr("preset exact: the tables of 9/8 address/data bits go; for them again: make "
+                              "tables PRESET=exact ADDRESS_BITS=9 DATA_BITS=8\n"),
+                    Not(HasSubstr("preset published: the tables"))));
+  const std::vector<std::string> other = {"--preset", "published", "--address-bits", "5"};
+  std::vector<std::string> check = other;
+  check.emplace_back("--check");
+  EXPECT_THAT(run(check).output, Not(HasSubstr(" go; "))) << "--check changes nothing";
+  EXPECT_THAT(run(other).output,
+              AllOf(HasSubstr("preset exact: the tables of 12/8 address/data bits go; for them again: make "
+                              "tables PRESET=exact ADDRESS_BITS=12 DATA_BITS=8\n"),
+                    HasSubstr("preset published: the tables of 6/6 address/data bits go"),
+                    Not(HasSubstr("4/4 address/data bits go"))));
+}
+
 TEST_F(TablesCommand, RefusesWhatIsNoSizeAndWritesNothing) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--address-bits", "2"}, "--address-bits: '2' is not a whole number from 3 to 12"},

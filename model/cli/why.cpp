@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 
@@ -38,14 +39,42 @@ std::string word(std::uint64_t bits, const StageValue& v) {
                      static_cast<double>(value) / static_cast<double>(std::uint64_t{1} << v.fraction_bits));
 }
 
-void print_stage(const StageState& stage) {
+// As wide as the widest name and golden word of the page.
+struct Widths {
+  std::size_t name = 0, golden = 0;
+
+  void take(const std::vector<StageValue>& values) {
+    for (const StageValue& v : values) {
+      name = std::max(name, v.name.size());
+      golden = std::max(golden, word(v.golden, v).size());
+    }
+  }
+};
+
+Widths widths_of(const WhyReport& why) {
+  Widths widths;
+  for (const PixelStory& story : why.stories) {
+    widths.take(story.init);
+    widths.take(story.record);
+    for (const StageState& stage : story.stages) widths.take(stage.values);
+  }
+  return widths;
+}
+
+void print_given(const std::string& what, const std::vector<StageValue>& values, const Widths& widths) {
+  if (values.empty()) return;
+  fmt::print("  {} (given to both)\n", what);
+  for (const StageValue& v : values) fmt::print("    {:<{}} {}\n", v.name, widths.name, word(v.golden, v));
+}
+
+void print_stage(const StageState& stage, const Widths& widths) {
   if (stage.cycle)
     fmt::print("  {} stage, cycle {}\n", stage.stage, *stage.cycle);
   else
     fmt::print("  {} stage: the RTL never came here\n", stage.stage);
   for (const StageValue& v : stage.values) {
     const bool same = stage.cycle && v.golden == v.rtl;
-    fmt::print("    {:<20} golden {:<28} RTL {}{}\n", v.name, word(v.golden, v),
+    fmt::print("    {:<{}} golden {:<{}} RTL {}{}\n", v.name, widths.name, word(v.golden, v), widths.golden,
                stage.cycle ? word(v.rtl, v) : "-", same ? "" : "   <-- differs");
   }
 }
@@ -77,13 +106,12 @@ int run(const Folders& folders, const WhyCommand& command) {
 
   fmt::print("{}: pixel {},{} of {}x{}, hardware {}: {} triangles cover it\n", scene->name, settings.x,
              settings.y, settings.size.width, settings.size.height, why->key.name(), why->stories.size());
+  const Widths widths = widths_of(*why);
   for (const PixelStory& story : why->stories) {
     fmt::print("\ntriangle {}, init vector {}\n", story.triangle, story.vector);
-    fmt::print("  init vector (given to both)\n");
-    for (const StageValue& v : story.init) fmt::print("    {:<20} {}\n", v.name, word(v.golden, v));
-    if (!story.record.empty()) fmt::print("  its line's record (given to both)\n");
-    for (const StageValue& v : story.record) fmt::print("    {:<20} {}\n", v.name, word(v.golden, v));
-    for (const StageState& stage : story.stages) print_stage(stage);
+    print_given("init vector", story.init, widths);
+    print_given("its line's record", story.record, widths);
+    for (const StageState& stage : story.stages) print_stage(stage, widths);
   }
   if (!why->fault.empty()) fmt::print("\n{}\n", why->fault);
   if (why->first) {

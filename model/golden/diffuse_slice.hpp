@@ -40,15 +40,15 @@ class DiffuseSlice {
   /// The pixel is not behind the light's horizon.
   bool lit() const { return place().in_range; }
   std::uint32_t sample() const { return rom_.sample(place().address); }
-  std::uint32_t product(int channel) const { return product(channel, gated()); }
+  std::uint64_t product(int channel) const { return product(channel, gated()); }
 
   /// What the multipliers take in place of the sample: zero past the bell's ends.
   std::uint32_t gated() const {
     const AngleAddress at = place();
     return at.in_range ? rom_.sample(at.address) : 0;
   }
-  std::uint32_t product(int channel, std::uint32_t gated) const {
-    return static_cast<std::uint32_t>(multiply(gated, factors_[static_cast<std::size_t>(channel)]));
+  std::uint64_t product(int channel, std::uint32_t gated) const {
+    return multiply(gated, factors_[static_cast<std::size_t>(channel)]);
   }
 
  private:

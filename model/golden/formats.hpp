@@ -45,15 +45,9 @@ struct Exact {
   // s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
   static constexpr int c_depth_sum_bits = 40;
   static constexpr int c_depth_sum_fraction_bits = 15;
-  // u10.8: colour steps up to 1023; off by at most 2^-9 of a step
-  static constexpr int c_factor_bits = 18;
-  static constexpr int c_factor_fraction_bits = 8;
   // u16.0: a cosine table's entry, of whatever size, for the probe
   static constexpr int c_sample_word_bits = 16;
   static constexpr int c_sample_word_fraction_bits = 0;
-  // u36.0: a factor times a table's entry, for the probe
-  static constexpr int c_product_word_bits = 36;
-  static constexpr int c_product_word_fraction_bits = 0;
   // u3.0: of a vector or token of the shading processors
   static constexpr int c_command_bits = 3;
   static constexpr int c_command_fraction_bits = 0;
@@ -126,6 +120,12 @@ struct Exact {
   // u10.12: sum of the terms in colour steps; held at four times white
   static constexpr int c_radiance_bits = 22;
   static constexpr int c_radiance_fraction_bits = 12;
+  // u16.8: off by at most 2^-9 of a step; the largest times the least entry of up to 8 bits is white, so what is brighter needs no more
+  static constexpr int c_factor_bits = 24;
+  static constexpr int c_factor_fraction_bits = 8;
+  // u40.0: a factor times a table's entry, for the probe
+  static constexpr int c_product_word_bits = 40;
+  static constexpr int c_product_word_fraction_bits = 0;
 
   static constexpr int c_init_header_bits = 480;
   static constexpr std::array<Field, 27> c_init_header = {{
@@ -263,9 +263,9 @@ struct Exact {
 
   static constexpr int c_ambient_header_bits = 0;
 
-  static constexpr int c_ambient_channel_bits = 18;
+  static constexpr int c_ambient_channel_bits = 24;
   static constexpr std::array<Field, 1> c_ambient_channel = {{
-      {"ambient", 0, 18, false, 8},
+      {"ambient", 0, 24, false, 8},
   }};
   struct ambient_channel_at {
     static constexpr const Field& ambient = c_ambient_channel[0];
@@ -281,9 +281,9 @@ struct Exact {
     static constexpr const Field& slope = c_diffuse_header[1];
   };
 
-  static constexpr int c_diffuse_channel_bits = 18;
+  static constexpr int c_diffuse_channel_bits = 24;
   static constexpr std::array<Field, 1> c_diffuse_channel = {{
-      {"factor", 0, 18, false, 8},
+      {"factor", 0, 24, false, 8},
   }};
   struct diffuse_channel_at {
     static constexpr const Field& factor = c_diffuse_channel[0];
@@ -301,9 +301,9 @@ struct Exact {
     static constexpr const Field& power = c_specular_header[2];
   };
 
-  static constexpr int c_specular_channel_bits = 18;
+  static constexpr int c_specular_channel_bits = 24;
   static constexpr std::array<Field, 1> c_specular_channel = {{
-      {"factor", 0, 18, false, 8},
+      {"factor", 0, 24, false, 8},
   }};
   struct specular_channel_at {
     static constexpr const Field& factor = c_specular_channel[0];
@@ -321,9 +321,9 @@ struct Exact {
     static constexpr const Field& sample = c_diffuse_probe_header[2];
   };
 
-  static constexpr int c_diffuse_probe_channel_bits = 36;
+  static constexpr int c_diffuse_probe_channel_bits = 40;
   static constexpr std::array<Field, 1> c_diffuse_probe_channel = {{
-      {"product", 0, 36, false, 0},
+      {"product", 0, 40, false, 0},
   }};
   struct diffuse_probe_channel_at {
     static constexpr const Field& product = c_diffuse_probe_channel[0];
@@ -341,9 +341,9 @@ struct Exact {
     static constexpr const Field& sample = c_specular_probe_header[2];
   };
 
-  static constexpr int c_specular_probe_channel_bits = 36;
+  static constexpr int c_specular_probe_channel_bits = 40;
   static constexpr std::array<Field, 1> c_specular_probe_channel = {{
-      {"product", 0, 36, false, 0},
+      {"product", 0, 40, false, 0},
   }};
   struct specular_probe_channel_at {
     static constexpr const Field& product = c_specular_probe_channel[0];
@@ -491,15 +491,9 @@ struct Published {
   // s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
   static constexpr int c_depth_sum_bits = 40;
   static constexpr int c_depth_sum_fraction_bits = 15;
-  // u10.8: colour steps up to 1023; off by at most 2^-9 of a step
-  static constexpr int c_factor_bits = 18;
-  static constexpr int c_factor_fraction_bits = 8;
   // u16.0: a cosine table's entry, of whatever size, for the probe
   static constexpr int c_sample_word_bits = 16;
   static constexpr int c_sample_word_fraction_bits = 0;
-  // u36.0: a factor times a table's entry, for the probe
-  static constexpr int c_product_word_bits = 36;
-  static constexpr int c_product_word_fraction_bits = 0;
   // u3.0: of a vector or token of the shading processors
   static constexpr int c_command_bits = 3;
   static constexpr int c_command_fraction_bits = 0;
@@ -572,6 +566,12 @@ struct Published {
   // u8.0: an integer; held at white
   static constexpr int c_radiance_bits = 8;
   static constexpr int c_radiance_fraction_bits = 0;
+  // u10.8: colour steps up to 1023; off by at most 2^-9 of a step
+  static constexpr int c_factor_bits = 18;
+  static constexpr int c_factor_fraction_bits = 8;
+  // u36.0: a factor times a table's entry, for the probe
+  static constexpr int c_product_word_bits = 36;
+  static constexpr int c_product_word_fraction_bits = 0;
 
   static constexpr int c_init_header_bits = 305;
   static constexpr std::array<Field, 10> c_init_header = {{

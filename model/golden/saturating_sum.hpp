@@ -10,7 +10,7 @@ namespace halfway::golden {
 /// Unsigned terms, added one by one; the sum is exact.
 class SaturatingSum {
  public:
-  constexpr void add(std::uint32_t term) { sum_ += term; }
+  constexpr void add(std::uint64_t term) { sum_ += term; }
   constexpr std::uint32_t result(int fraction_bits, int result_bits) const {
     const std::uint64_t largest = (std::uint64_t{1} << result_bits) - 1;
     return static_cast<std::uint32_t>(std::min(sum_ >> fraction_bits, largest));

@@ -52,15 +52,15 @@ class SpecularSlice {
   /// Not past the bell's ends and, `lit`, not behind the light's horizon.
   bool in_range(bool lit) const { return lit && place().in_range; }
   std::uint32_t sample() const { return selected_.sample(place().address); }
-  std::uint32_t product(int channel, bool lit) const { return product(channel, gated(lit)); }
+  std::uint64_t product(int channel, bool lit) const { return product(channel, gated(lit)); }
 
   /// What the multipliers take in place of the sample: zero where not in_range.
   std::uint32_t gated(bool lit) const {
     const AngleAddress at = place();
     return lit && at.in_range ? selected_.sample(at.address) : 0;
   }
-  std::uint32_t product(int channel, std::uint32_t gated) const {
-    return static_cast<std::uint32_t>(multiply(gated, factors_[static_cast<std::size_t>(channel)]));
+  std::uint64_t product(int channel, std::uint32_t gated) const {
+    return multiply(gated, factors_[static_cast<std::size_t>(channel)]);
   }
 
  private:

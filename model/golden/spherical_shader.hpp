@@ -247,7 +247,7 @@ class SphericalShader {
   template <int Channels>
   std::array<SaturatingSum, Channels> ambient_sums() const {
     std::array<SaturatingSum, Channels> sums;
-    for (std::size_t c = 0; c < Channels; ++c) sums[c].add(ambient_[c] << config_.data_bits);
+    for (std::size_t c = 0; c < Channels; ++c) sums[c].add(std::uint64_t{ambient_[c]} << config_.data_bits);
     return sums;
   }
   template <int Channels>

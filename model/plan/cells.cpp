@@ -28,19 +28,22 @@ Result<Cells> read_cells(const std::filesystem::path& path) {
   const auto text = read_file(path);
   if (!text) return tool_failed(text.error().message);
   const auto json = nlohmann::json::parse(*text, nullptr, false);
-  const auto by_type = json.is_object()
-                           ? json.value("/design/num_cells_by_type"_json_pointer, nlohmann::json())
-                           : nlohmann::json();
+  const auto design = json.is_object() ? json.value("design", nlohmann::json()) : nlohmann::json();
+  const auto by_type =
+      design.is_object() ? design.value("num_cells_by_type", nlohmann::json()) : nlohmann::json();
   if (!by_type.is_object())
     return tool_failed(
         fmt::format("{}: not what Yosys's stat writes; delete it and try again", path.string()));
   Cells cells;
+  cells.memory_bits = design.value("num_memory_bits", std::uint64_t{0});
   for (const auto& [type, count] : by_type.items()) {
     if (type == "$lut")
       cells.luts += count.get<std::uint64_t>();
     else if (type.find("DFF") != std::string::npos)
       cells.flip_flops += count.get<std::uint64_t>();
-    else  // a latch, say: never in a right netlist, and not to be passed over
+    else if (type.starts_with("$memrd") || type.starts_with("$memwr"))
+      continue;  // ports of what memory_bits counts
+    else         // a latch, say: never in a right netlist, and not to be passed over
       return tool_failed(fmt::format("{}: cells of type {}, neither LUT nor flip-flop", path.string(), type));
   }
   return cells;
@@ -66,12 +69,15 @@ Result<Cells> CellCounter::count(const HardwareKey& key) const {
   if (!netlist) return netlist.error();
   const auto mended = mend_netlist(*netlist);
   if (!mended) return mended.error();
-  const std::string script =
-      fmt::format("read_verilog netlist.v; synth -flatten -lut 4 -top {}; tee -q -o {} stat -json",
-                  key.entity(), kFigures);
+  // As `synth` has it, but for memory that is written: that stays memory.
+  const std::string script = fmt::format(
+      "read_verilog netlist.v; synth -flatten -lut 4 -top {} -run begin:fine; opt -fast -full; "
+      "memory_map -rom-only; opt -full; techmap; opt -fast; abc -fast -lut 4; opt -fast; memory_unpack; "
+      "tee -q -o {} stat -json",
+      key.entity(), kFigures);
 
   ContentHash hash;
-  hash.add("cells 1").add(version_).add(script).add(*mended);
+  hash.add("cells 2").add(version_).add(script).add(*mended);
   const std::filesystem::path folder = cache_ / fmt::format("{}-{}", key.name(), hash.hex());
   if (!std::filesystem::exists(folder)) {
     auto fresh = TemporaryFolder::make(cache_);

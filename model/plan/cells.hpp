@@ -12,10 +12,10 @@ namespace halfway {
 
 inline constexpr const char* kInstallYosys = "apt-get install yosys";
 
-/// Of no FPGA family: functions of up to four inputs, and flip-flops. Tables and multipliers are made of
-/// these too.
+/// Of no FPGA family: functions of up to four inputs, flip-flops, and bits of memory that is written. Tables
+/// and multipliers are made of the first.
 struct Cells {
-  std::uint64_t luts = 0, flip_flops = 0;
+  std::uint64_t luts = 0, flip_flops = 0, memory_bits = 0;
   friend bool operator==(Cells, Cells) = default;
 };
 

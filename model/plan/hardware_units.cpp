@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan/hardware_units.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace halfway {
@@ -86,32 +87,67 @@ class Units {
     add("saturating_sum", config.channels);
     add("saturate", config.channels);
   }
+  void add_function_roms(const std::string& entity, int roms, int count) {
+    add(entity, count);
+    add("function_rom", roms * count);
+  }
   void add_power_units() {
     const ProcessorUnits& p = key_.processors;
-    if (p.specular) add("power", static_cast<int>(p.lights()));
+    if (p.specular) add_function_roms("power", 2, static_cast<int>(p.lights()));
   }
-  void add_ambient_processor() { add(processor()); }
+  // What a processor has; `normalizations` of up to two vectors, side by side in one of the unrolled form,
+  // one after the other in a folded one.
+  void add_processor(int normalizations, bool has_cosine) {
+    const bool folded = key_.processors.form == ProcessorForm::folded;
+    const int units = folded ? std::min(normalizations, 1) : normalizations;
+    add(folded ? "shading_processor" : "unrolled_shading_processor");
+    add("parameter_register");  // what of its light it keeps
+    add("vector_multiply");
+    add("dot_product",
+        folded ? (has_cosine || normalizations > 0 ? 1 : 0) : normalizations + (has_cosine ? 1 : 0));
+    add("vector_shift", units);
+    add_function_roms("reciprocal_root", 1, units);
+  }
+  void add_ambient_processor() {
+    const golden::ProcessorsConfig config = processors_config(key_);
+    const bool has_view = is_exact() && golden::ProcessorsLayout<golden::Exact>(config).has_view();
+    add_processor((config.normalize ? 1 : 0) + (has_view ? 1 : 0), false);
+  }
+  // Of one light, which hardware for a place or for a spot serves as well.
+  void add_light_processors(bool positional, bool spot) {
+    const ProcessorUnits& p = key_.processors;
+    const int terms = (p.diffuse ? 1 : 0) + (p.specular ? 1 : 0);
+    if (p.diffuse) add_processor(positional ? 1 : 0, true);
+    if (p.specular)
+      add_processor(is_exact() ? 1 + (positional ? 1 : 0) : (positional ? 1 : 0) + (spot ? 1 : 0), true);
+    if (spot) add("spot_cone", terms);
+    if (p.shadows) add("shadow_counter", terms);
+  }
   void add_processors_shader() {
     const golden::ProcessorsConfig config = processors_config(key_);
-    const int planes = key_.preset == Preset::exact
-                           ? golden::ProcessorsLayout<golden::Exact>(config).planes()
-                           : golden::ProcessorsLayout<golden::Published>(config).planes();
-    add_stream_registers(1);
+    const int planes = is_exact() ? golden::ProcessorsLayout<golden::Exact>(config).planes()
+                                  : golden::ProcessorsLayout<golden::Published>(config).planes();
+    add_stream_registers(2);       // the buffer in front, the fragment
+    add("parameter_register", 6);  // request and material of line and span; depth and colour
     add_walker();
     add_z_interpolator();
     add("plane_interpolator", planes);
-    add("object_stage", config.shadows ? 1 : 0);
+    add("line_interpolator", 2 * planes);
+    add("parameter_register", 4 * planes);
+    if (config.shadows) {
+      add("object_stage");
+      add("parameter_register");  // the token that it holds
+    }
     add("shading_pipeline");
-    add(processor(), config.processors());
-    add("shadow_counter", config.shadows ? config.processors() - 1 : 0);
+    add_ambient_processor();
+    for (int light = 0; light < config.lights(); ++light)
+      add_light_processors(light >= config.directional, light >= config.directional + config.positional);
     add_power_units();
     add("saturate", config.channels);
   }
 
  private:
-  std::string processor() const {
-    return key_.processors.form == ProcessorForm::folded ? "shading_processor" : "unrolled_shading_processor";
-  }
+  bool is_exact() const { return key_.preset == Preset::exact; }
   const HardwareKey& key_;
   bool exact_;
   std::map<std::string, int> counts_;

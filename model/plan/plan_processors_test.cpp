@@ -95,6 +95,9 @@ TEST(PlanProcessors, NormalizesWhereNormalsDifferOrAsPublishedForLightsWithAPlac
     EXPECT_EQ(normalization(with_lights(0, 0, 1)).called_for, !exact);
     EXPECT_EQ(normalization(curved).called_for, exact);
     EXPECT_THAT(normalization(curved).why, HasSubstr(exact ? "triangle 1" : "version I:"));
+    Scene late = with_lights(1);
+    late.triangles.push_back({{0, 1, 2}, {0, 2, 1}, 0});
+    EXPECT_EQ(normalization(late).called_for, exact);
     Scene unlit = curved;
     unlit.directional.clear();
     EXPECT_FALSE(normalization(unlit).called_for);

@@ -291,10 +291,12 @@ Difference measure(const Scene& scene, FrameSize size, SpanEnds ends) {
                      *frame_distance(fixed.frame, reference.frame, reference.mask),
                      *frame_distance(both.frame, reference.frame, reference.mask)};
   const auto record = [&](const char* what, const FrameDistance& distance) {
-    testing::Test::RecordProperty(
-        fmt::format("{}_{}_{}", scene.name, ends == SpanEnds::on_surface ? "surface" : "slerp", what),
+    const char* const from = ends == SpanEnds::on_surface ? "surface" : "slerp";
+    const std::string figures =
         fmt::format("largest {} rms {:.4f} PSNR {:.2f} dB differing {} of {}", distance.max_lsb, distance.rms,
-                    distance.psnr_db, distance.differing, distance.pixels));
+                    distance.psnr_db, distance.differing, distance.pixels);
+    testing::Test::RecordProperty(fmt::format("{}_{}_{}", scene.name, from, what), figures);
+    fmt::print("{:<10} ends by {:<7} {:<23} {}\n", scene.name, from, what, figures);
   };
   record("fixed_against_both", d.schemes);
   record("fixed_against_reference", d.fixed);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/scene_stream.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -58,6 +60,7 @@ bool SceneStream::next(Batch& batch) {
     batch_units_ = std::min(c_largest_batch, batch_units_ * 2);
   prefetch();
   counts_ += work.counts;
+  fault_ = fault_ || work.fault;
   setup_seconds_ += work.setup_seconds;
   golden_seconds_ += work.golden_seconds;
   batch = std::move(work.batch);
@@ -85,7 +88,7 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) cons
       part.setup_seconds = seconds_since(setup_start);
       const auto golden_start = std::chrono::steady_clock::now();
       golden->draw(std::span(part.batch.init_words).subspan(drawn), part.batch.golden);
-      part.batch.fault = golden->fault();
+      part.fault = golden->fault();
       part.golden_seconds = seconds_since(golden_start);
     }
   };
@@ -100,7 +103,7 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) cons
     all.batch.init_words.insert(all.batch.init_words.end(), part.batch.init_words.begin(),
                                 part.batch.init_words.end());
     all.batch.golden.insert(all.batch.golden.end(), part.batch.golden.begin(), part.batch.golden.end());
-    all.batch.fault |= part.batch.fault;
+    all.fault = all.fault || part.fault;
     part.batch = {};
     all.counts += part.counts;
     all.setup_seconds += part.setup_seconds;
@@ -108,6 +111,19 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) cons
   }
   all.batch.done = static_cast<double>(end) / setup_.units();
   return all;
+}
+
+Status check_shadow_counts(const Scene& scene, const SceneStream& stream) {
+  if (const std::uint64_t deepest = stream.counts().deepest_shadow; deepest > c_most_shadows)
+    return bad_input(
+        fmt::format("{}: {} shadow volumes of one light begin or end before one another at a pixel, and the "
+                    "processors count up "
+                    "to {}; leave out casters in others' shadow, or the shadows",
+                    scene.name, deepest, c_most_shadows));
+  if (stream.fault())
+    return tool_failed(
+        fmt::format("{}: before a pixel more shadow volumes end than begin; please report it", scene.name));
+  return Ok{};
 }
 
 }  // namespace halfway

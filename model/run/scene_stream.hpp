@@ -7,6 +7,7 @@
 #include <future>
 #include <vector>
 
+#include "common/result.hpp"
 #include "frame/fragment.hpp"
 #include "plan/hardware_key.hpp"
 #include "setup/setup.hpp"
@@ -16,7 +17,6 @@ namespace halfway {
 struct Batch {
   std::vector<std::uint32_t> init_words;
   std::vector<Fragment> golden;
-  bool fault = false;  ///< the golden model's: a shadow counter left its range
   double done = 0.0;   ///< part of the stream, this batch included: 0 to 1
 };
 
@@ -34,6 +34,8 @@ class SceneStream {
   bool next(Batch& batch);
   /// Of all batches taken so far.
   const SetupCounts& counts() const { return counts_; }
+  /// The golden model's in one of them: fragments are worth nothing.
+  bool fault() const { return fault_; }
   /// Processor seconds that setup took, and the golden model.
   double setup_seconds() const { return setup_seconds_; }
   double golden_seconds() const { return golden_seconds_; }
@@ -43,6 +45,7 @@ class SceneStream {
     Batch batch;
     SetupCounts counts;
     double setup_seconds = 0, golden_seconds = 0;
+    bool fault = false;
   };
   Work make(std::uint32_t begin, std::uint32_t end) const;
   void prefetch();
@@ -54,7 +57,12 @@ class SceneStream {
   std::uint32_t next_unit_ = 0, batch_units_;
   std::future<Work> ahead_;
   SetupCounts counts_;
+  bool fault_ = false;
   double setup_seconds_ = 0, golden_seconds_ = 0;
 };
+
+/// Whether, in all batches taken so far, each pixel's shadow volumes could be counted; bad input where there
+/// are too many.
+Status check_shadow_counts(const Scene& scene, const SceneStream& stream);
 
 }  // namespace halfway

@@ -25,11 +25,15 @@
 #include "setup/spherical_setup.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
+#include "tables/cosine.hpp"
 
 namespace halfway {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// Times white, past which a light's brightness is worth a note.
+constexpr double c_bright = 2.0;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -102,8 +106,7 @@ class Simulation {
     if (!plan) return plan.error();
     summary_.plan = std::move(*plan);
     if (Status status = make_folders(files_.folder); !status) return status.error();
-    const auto lock = FolderLock::take(
-        files_.folder, [this] { s_.on_progress("waiting for another run in its folder", -1.0); });
+    const auto lock = FolderLock::take(files_.folder, [this] { s_.on_wait(files_.folder); });
     if (!lock) return lock.error();
     if (Status status = forget_old_results(); !status) return status.error();
     std::future<ReferenceImage> reference =
@@ -171,13 +174,50 @@ class Simulation {
           "{} pieces may err by more than {} colour steps after {} levels of splitting; a finer mesh helps",
           n.unresolved, s_.setup.quadratic.threshold, s_.setup.quadratic.max_level));
     if (s_.plan.shader == Shader::spherical)
-      for (const Material& m : scene_.materials)
-        if (has_specular(m) && m.exponent > c_largest_exponent)
-          note(fmt::format("material '{}': its exponent {:g} was held at {:g}", m.name, m.exponent,
-                           c_largest_exponent));
-    if (n.overexposed != 0)
-      note(fmt::format("{} samples or factors are over-exposed more than four times and were held there",
-                       n.overexposed));
+      note_of_bells();
+    else if (n.overexposed != 0)
+      note(
+          fmt::format("{} samples are over-exposed more than four times and were held there", n.overexposed));
+  }
+
+  void note_of_bells() {
+    const HardwareKey& key = summary_.plan.key;
+    const bool exact = key.preset == Preset::exact;
+    const std::vector<bool> worn = worn_materials(scene_);
+    double brightest = 0.0;
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+      const Material& m = scene_.materials[i];
+      if (!worn[i]) continue;
+      for (const LightRef light : reflected_lights(scene_)) {
+        const glm::dvec3 in = intensity(scene_, light);
+        for (int c = 0; c < 3; ++c)
+          brightest = std::max(brightest,
+                               in[c] * std::max(m.diffuse * m.colour[c], m.specular * m.specular_colour[c]));
+      }
+      if (!has_specular(m)) continue;
+      if (m.exponent > c_largest_exponent)
+        note(fmt::format("material '{}': its exponent {:g} was held at {:g}", m.name, m.exponent,
+                         c_largest_exponent));
+      // At 1 the bell is the cosine itself.
+      const double steps =
+          exact && m.exponent < 2.0 ? 255.0 * fit_error(m.exponent, fitted_bell(m.exponent)) : 0.0;
+      if (steps > 1.0)
+        note(fmt::format(
+            "material '{}': no bell fits exponents between 1 and 2 well; that of {:g} is off by up "
+            "to {:.1f} colour steps where a highlight's peak is white",
+            m.name, m.exponent, steps));
+    }
+    if (exact && brightest > c_bright)
+      note(
+          fmt::format("a light is reflected {:.3g} times as bright as white: where it has faded below white, "
+                      "the errors of bells and tables are as many times larger",
+                      brightest));
+    const std::uint64_t held = summary_.setup.overexposed;
+    if (held == 0 || (exact && key.spherical.tables.data_bits <= c_white_data_bits)) return;
+    note(fmt::format(
+        "{} factors are over-exposed more than {:.0f} times and were held there: all that they "
+        "light comes out too dark, not only what is beyond white",
+        held, (exact ? c_largest_factor<golden::Exact> : c_largest_factor<golden::Published>) / 255.0));
   }
 
   ReferenceImage draw_reference() const {
@@ -231,9 +271,7 @@ class Simulation {
     };
     for (Batch batch; stream.next(batch);) {
       s_.on_progress("setup, golden model, Verilator", batch.done);
-      if (batch.fault)
-        return Error{ExitCode::differs, fmt::format("{} in the golden model: a shadow counter left its range",
-                                                    summary_.plan.key.name())};
+      if (Status status = check_shadow_counts(scene_, stream); !status) return status;
       init_file->write(batch.init_words);
       golden_trace->write(batch.golden);
       if (Status status = golden_.add(batch.golden); !status)
@@ -259,11 +297,6 @@ class Simulation {
           fmt::format("{}: {} triangles project to no finite point; bring the scene nearer to the origin, or "
                       "the camera away from them",
                       scene_.name, lost));
-    if (const std::uint64_t deepest = summary_.setup.deepest_shadow; deepest > c_most_shadows)
-      return bad_input(fmt::format(
-          "{}: {} shadow volumes of one light begin or end before one another at a pixel, and the "
-          "processors count up to {}; leave out casters that lie in others' shadow, or the shadows",
-          scene_.name, deepest, c_most_shadows));
     summary_.setup_seconds = stream.setup_seconds();
     summary_.golden_seconds = stream.golden_seconds();
     summary_.fragments = golden_.fragments();
@@ -389,14 +422,34 @@ Result<SceneSummary> simulate(const Scene& scene, const SimulateSettings& settin
   return Simulation(scene, settings).run();
 }
 
+namespace {
+
+template <class Number>
+nlohmann::ordered_json number_or_null(std::optional<Number> number) {
+  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
+}
+
+// " tables 4/4", where the hardware has tables of another size than the project's own.
+std::string unusual_tables(const HardwareKey& key) {
+  const tables::CosineSizes sizes;
+  const tables::CosineSize usual = (key.preset == Preset::exact ? sizes.exact : sizes.published).front();
+  const TableSize size = key.spherical.tables;
+  if (key.shader != Shader::spherical || !key.spherical.records() ||
+      size == TableSize{usual.address_bits, usual.data_bits})
+    return {};
+  return fmt::format(", tables {}/{}", size.address_bits, size.data_bits);
+}
+
+}  // namespace
+
 std::string to_json(const SceneSummary& s) {
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();
   for (const SimulatorRun& run : s.runs) {
     nlohmann::ordered_json entry = {{"simulator", run.simulator},
-                                    {"cycles", run.cycles},
+                                    {"cycles", number_or_null(run.cycles)},
                                     {"fragments", run.fragments},
                                     {"mismatches", run.mismatches},
-                                    {"seconds", run.seconds}};
+                                    {"seconds", number_or_null(run.seconds)}};
     if (!run.fault.empty()) entry["fault"] = run.fault;
     runs.push_back(std::move(entry));
   }
@@ -443,12 +496,17 @@ std::string to_line(const SceneSummary& s) {
       fmt::format("{:<12} {:<10} {:<9} {:>4}x{:<4} {:>8} triangles {:>9} fragments", s.scene, s.shader,
                   to_string(s.plan.key.preset), s.size.width, s.size.height, s.triangles, s.fragments);
   if (s.all_effects) line += ", all effects";
-  for (const SimulatorRun& run : s.runs)
-    fmt::format_to(
-        std::back_inserter(line), " | {}: {} cycles, {:.3f} a fragment, {} mismatches, {:.2f} s",
-        run.simulator, run.cycles,
-        run.fragments == 0 ? 0.0 : static_cast<double>(run.cycles) / static_cast<double>(run.fragments),
-        run.mismatches, run.seconds);
+  line += unusual_tables(s.plan.key);
+  for (const SimulatorRun& run : s.runs) {
+    const auto to = std::back_inserter(line);
+    fmt::format_to(to, " | {}: ", run.simulator);
+    if (run.cycles)
+      fmt::format_to(
+          to, "{} cycles, {:.3f} a fragment, ", *run.cycles,
+          run.fragments == 0 ? 0.0 : static_cast<double>(*run.cycles) / static_cast<double>(run.fragments));
+    fmt::format_to(to, "{} mismatches", run.mismatches);
+    if (run.seconds) fmt::format_to(to, ", {:.2f} s", *run.seconds);
+  }
   if (std::isfinite(s.accuracy.psnr_db))
     fmt::format_to(std::back_inserter(line), " | reference: PSNR {:.2f} dB, largest error {}/255",
                    s.accuracy.psnr_db, s.accuracy.max_lsb);

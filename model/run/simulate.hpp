@@ -31,12 +31,16 @@ struct SimulateSettings {
   SimulatorFolders folders;
   /// Told what is being done, and how far it is (0 to 1, or below 0 where that is not known).
   std::function<void(const std::string& what, double done)> on_progress = [](const std::string&, double) {};
+  /// Told the folder of results where another run holds it.
+  std::function<void(const std::filesystem::path& folder)> on_wait = [](const std::filesystem::path&) {};
 };
 
 struct SimulatorRun {
   std::string simulator;
-  std::uint64_t cycles = 0, fragments = 0, mismatches = 0;
-  double seconds = 0.0;
+  std::uint64_t fragments = 0, mismatches = 0;
+  /// Of the whole run; none where a fault ended it before its simulator could say.
+  std::optional<std::uint64_t> cycles;
+  std::optional<double> seconds;
   std::string fault;        ///< of the hardware, as the simulator tells it; empty: none
   std::string description;  ///< the first mismatches and their counts; empty: none
   std::vector<Mismatch> first;

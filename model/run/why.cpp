@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <deque>
 #include <span>
+#include <type_traits>
 
 #include "golden/spherical_layout.hpp"
 #include "golden/word.hpp"
@@ -24,8 +25,8 @@ struct PlacedField {
   std::string name;
   golden::Field field;
   int block_low;
-  Stage stage = Stage::line;     // of the probe's fields: with which event it is valid
-  std::string_view entity = {};  // whose register it shows
+  Stage stage = Stage::line;  // of the probe's fields: with which event it is valid
+  std::string entity = {};    // whose register it shows, and what gives that its inputs
 };
 
 // A stage of which the probe tells what it does, in the order of Stage.
@@ -52,26 +53,34 @@ std::string channel_name(unsigned channel, unsigned channels) {
   return channels == 1 ? "grey" : c_colours[channel];
 }
 
-std::string_view walk_entity(std::string_view field) {
-  if (field == "line_start" || field == "line_stop" || field == "line_carry")
-    return "edge_walker (in preset published: line_interpolator)";
-  return field.ends_with("_z") ? "z_interpolator" : "triangle_walker";
+// A register shows what its entity did with what it was given: a fault may lie on either side.
+std::string within(std::string_view entity, std::string_view around) {
+  return fmt::format("{}, or {} around it", entity, around);
 }
 
 template <class P>
-void place_probe_header(Layouts& layouts) {
+std::string walk_entity(std::string_view field, const std::string& shader) {
+  if (field == "line_start" || field == "line_stop" || field == "line_carry")
+    return within(std::is_same_v<P, golden::Exact> ? "edge_walker" : "line_interpolator", "triangle_walker");
+  return within(field.ends_with("_z") ? "z_interpolator" : "triangle_walker", shader);
+}
+
+template <class P>
+void place_probe_header(Layouts& layouts, const std::string& shader) {
   for (const golden::Field& f : P::c_probe_header)
     if (!f.name.ends_with("_event"))
       layouts.probe.push_back({std::string(f.name), f, 0,
-                               f.name.starts_with("line_") ? Stage::line : Stage::span, walk_entity(f.name)});
+                               f.name.starts_with("line_") ? Stage::line : Stage::span,
+                               walk_entity<P>(f.name, shader)});
 }
 
 template <class P>
-Layouts quadratic_layouts(unsigned channels) {
+Layouts quadratic_layouts(const HardwareKey& key) {
+  const unsigned channels = key.channels;
   Layouts layouts;
   layouts.stages = walked_stages({"line", "span"});
   for (const golden::Field& f : P::c_init_header) layouts.init.push_back({std::string(f.name), f, 0});
-  place_probe_header<P>(layouts);
+  place_probe_header<P>(layouts, key.entity());
   for (unsigned c = 0; c < channels; ++c) {
     const auto name = [&](const golden::Field& f) {
       return fmt::format("{} {}", channel_name(c, channels), f.name);
@@ -80,9 +89,10 @@ Layouts quadratic_layouts(unsigned channels) {
       layouts.init.push_back(
           {name(f), f, P::c_init_header_bits + static_cast<int>(c) * P::c_init_channel_bits});
     for (const golden::Field& f : P::c_probe_channel)
-      layouts.probe.push_back(
-          {name(f), f, P::c_probe_header_bits + static_cast<int>(c) * P::c_probe_channel_bits,
-           f.name.starts_with("line_") ? Stage::line : Stage::span, "quadratic_interpolator"});
+      layouts.probe.push_back({name(f), f,
+                               P::c_probe_header_bits + static_cast<int>(c) * P::c_probe_channel_bits,
+                               f.name.starts_with("line_") ? Stage::line : Stage::span,
+                               within("quadratic_interpolator", key.entity())});
   }
   return layouts;
 }
@@ -97,20 +107,21 @@ Layouts spherical_layouts(const HardwareKey& key) {
   for (int c = 0; c < config.channels; ++c)
     layouts.init.push_back({channel_name(static_cast<unsigned>(c), key.channels) + " ambient",
                             P::ambient_channel_at::ambient, at.ambient_low(c)});
-  place_probe_header<P>(layouts);
+  place_probe_header<P>(layouts, key.entity());
   // One slice's part of a record or of the probe: its header's fields, then a word a channel.
   const auto place = [](std::vector<PlacedField>& fields, std::span<const golden::Field> header,
                         int header_bits, std::span<const golden::Field> channel, int channel_bits,
-                        int channels, const std::string& slice, int low, std::string_view entity) {
+                        int channels, const std::string& slice, int low, std::string_view around) {
     const auto add = [&](const golden::Field& f, int block_low, const std::string& of) {
       const Stage stage = f.name == "product"                          ? Stage::product
                           : f.name == "sample" || f.name == "in_range" ? Stage::sample
                                                                        : Stage::span;
       fields.push_back({fmt::format("{} {}{}", slice, of, f.name), f, block_low, stage,
-                        stage == Stage::span     ? "line_interpolator"
-                        : f.name == "in_range"   ? "angle_address"
-                        : stage == Stage::sample ? "cosine_rom"
-                                                 : entity});
+                        within(stage == Stage::span     ? "line_interpolator"
+                               : f.name == "in_range"   ? "angle_address"
+                               : stage == Stage::sample ? "cosine_rom"
+                                                        : "multiplier",
+                               around)});
     };
     for (const golden::Field& f : header) add(f, low, "");
     for (int c = 0; c < channels; ++c)
@@ -125,7 +136,7 @@ Layouts spherical_layouts(const HardwareKey& key) {
             P::c_diffuse_channel_bits, at.diffuse_channels(), light + " diffuse", at.diffuse_low(l), "");
       place(layouts.probe, P::c_diffuse_probe_header, P::c_diffuse_probe_header_bits,
             P::c_diffuse_probe_channel, P::c_diffuse_probe_channel_bits, at.diffuse_channels(),
-            light + " diffuse", at.diffuse_probe_low(l), "multiplier");
+            light + " diffuse", at.diffuse_probe_low(l), "diffuse_slice");
     }
     if (config.specular) {
       place(layouts.record, P::c_specular_header, P::c_specular_header_bits, P::c_specular_channel,
@@ -133,7 +144,7 @@ Layouts spherical_layouts(const HardwareKey& key) {
             "");
       place(layouts.probe, P::c_specular_probe_header, P::c_specular_probe_header_bits,
             P::c_specular_probe_channel, P::c_specular_probe_channel_bits, config.highlight_channels,
-            light + " specular", at.specular_probe_low(l), "multiplier");
+            light + " specular", at.specular_probe_low(l), "specular_slice");
     }
   }
   return layouts;
@@ -179,7 +190,7 @@ Layouts processors_layouts(const HardwareKey& key) {
     if (config.specular) place_coefficient("k specular", at.specular_low(c), c);
   }
 
-  place_probe_header<golden::Exact>(layouts);
+  place_probe_header<golden::Exact>(layouts, key.entity());
   for (std::size_t p = 0; p < planes.size(); ++p)
     layouts.probe.push_back({planes[p],
                              {"", 0, P::c_vector_bits, true, P::c_vector_fraction_bits},
@@ -196,7 +207,7 @@ Layouts processors_layouts(const HardwareKey& key) {
     for (int c = 0; c < config.channels; ++c)
       layouts.probe.push_back({colour(c) + " so far", P::processor_probe_channel_at::radiance,
                                low + P::c_processor_probe_header_bits + c * P::c_processor_probe_channel_bits,
-                               stage, processor});
+                               stage, std::string(processor)});
   };
   add_processor("ambient");
   for (int light = 1; light <= config.lights(); ++light) {
@@ -209,7 +220,7 @@ Layouts processors_layouts(const HardwareKey& key) {
 template <class P>
 Layouts layouts_of(const HardwareKey& key) {
   if (key.shader == Shader::processors) return processors_layouts<P>(key);
-  return key.shader == Shader::spherical ? spherical_layouts<P>(key) : quadratic_layouts<P>(key.channels);
+  return key.shader == Shader::spherical ? spherical_layouts<P>(key) : quadratic_layouts<P>(key);
 }
 
 std::string shown(std::uint64_t word, const PlacedField& f) {
@@ -406,7 +417,7 @@ class Explainer {
       const std::uint64_t golden = golden::get_bits(expected.event.words, f.field, f.block_low);
       const std::uint64_t rtl = golden::get_bits(record.words, f.field, f.block_low);
       if (golden == rtl) continue;
-      differ({name, std::string(f.entity), f.name, record.cycle, expected.event.triangle, expected.event.y,
+      differ({name, f.entity, f.name, record.cycle, expected.event.triangle, expected.event.y,
               expected.event.x, shown(golden, f), shown(rtl, f)});
       return;
     }

@@ -19,7 +19,8 @@ struct Bell {
 ///
 /// For each power, scale and gain have the least largest error; the power is the one where this and what a
 /// table of 2^9 entries adds (steeper bells suffer more) are least together. That sum is within 1e-5 of the
-/// least that any such bell has, for n >= 2.
+/// least that any such bell has, for n >= 2. Between 1 and 2 no such bell is good: cos^n has a corner at pi/2
+/// there, and the error reaches 8.7/255.
 Bell fitted_bell(double exponent);
 
 /// Preset published: a(n) of cos^n x ~ cos^2 ax, from 1/(n+1) = (2a^2 (1 - cos(pi/2a)) - 1)/(4a^2 - 1): both

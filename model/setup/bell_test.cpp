@@ -432,6 +432,16 @@ Parts parts(double n, const Bell& bell) {
   return {c_steps * fit_error(n, bell), bell.gain * table, bell.gain * drift};
 }
 
+TEST(Bell, BelowTwoNoBellIsGood) {
+  double most = 0.0, at = 0.0;
+  for (int i = 0; i <= 400; ++i) {
+    const double n = 1.0 + i / 400.0, steps = c_steps * fit_error(n, fitted_bell(n));
+    if (steps > most) most = steps, at = n;
+  }
+  EXPECT_NEAR(most, 8.67, 0.01) << "n = " << at;
+  EXPECT_NEAR(at, 1.305, 0.01);
+}
+
 // For every n in [2, 1000], not only those that are tried.
 //
 // From n1 to n > n1 the error of one bell grows by (n - n1)/(e n1) at most, as |d/dn cos^n x| <= 1/(e n). So

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -171,6 +172,13 @@ TEST(ProcessorsSetup, LightsWhereDirectionsEnd) {
   Scene scene = ball();
   scene.positional = {{scene.camera.eye_world, glm::dvec3(0.8)}};
   EXPECT_LE(error(scene), 1U);
+  for (double scale : {1e-12, 1e12}) {
+    Scene scaled = scene;
+    for (glm::dvec3& p : scaled.positions_world) p *= scale;
+    scaled.camera.eye_world *= scale;
+    scaled.positional[0].position_world = scaled.camera.eye_world;
+    EXPECT_LE(error(scaled), 1U) << scale;
+  }
   // Beyond any number of the format: as at infinity.
   for (const double far : {1e6, 1e12, 1e30, 1e300}) {
     scene.positional = {{far * glm::dvec3(0.3, 0.5, 0.8), glm::dvec3(0.8)}};
@@ -277,6 +285,9 @@ TEST(ProcessorsSetup, LinesDrawWhatTrianglesDraw) {
       EXPECT_FALSE(lines.fault);
       // Each pixel once.
       EXPECT_LE(lines.fragments.size(), triangles.fragments.size());
+      EXPECT_EQ(lines.counts.triangles, triangles.counts.triangles);
+      EXPECT_EQ(lines.counts.leaves, triangles.counts.leaves);
+      EXPECT_EQ(lines.counts.projection.visible, triangles.counts.projection.visible);
     }
 }
 
@@ -391,6 +402,170 @@ TEST(ProcessorsSetup, ShadowsOfBothPresetsFallOnTheSamePixels) {
   fmt::print("{} pixels in shadow, {} in one preset alone\n", dark, apart);
   EXPECT_GT(dark, 800U);
   EXPECT_LT(apart * 100, dark);
+}
+
+using Request = golden::Exact::request_header_at;
+using Walked = golden::Exact::init_header_at;
+
+// The vectors of a stream, one after the other.
+template <class Vector>
+void for_each_vector(const std::vector<std::uint32_t>& words, unsigned bits, Vector&& vector) {
+  const std::size_t size = (bits + 31) / 32;
+  for (std::size_t i = 0; i < words.size(); i += size) vector(std::span(words).subspan(i, size));
+}
+
+// Line by line: all depths, then shadows, those that open first, then all that is shaded, the same triangles.
+TEST(ProcessorsSetup, ALineIsDepthsShadowsAndSurfaces) {
+  RandomSolids random(11);
+  Scene scene = on_a_floor(random, 4);
+  scene.camera.near = 2.0;  // cuts volumes
+  const HardwareKey key = key_of(scene);
+  const auto setup = make_setup(scene, c_frame, key, {});
+  const int walk = golden::ProcessorsLayout<golden::Exact>::walk_low();
+  std::uint64_t opening = 0, closing = 0, before_near = 0;
+  for (std::uint32_t y = 0; y < setup->units(); ++y) {
+    std::vector<std::uint32_t> words;
+    SetupCounts counts;
+    setup->append(y, words, counts);
+    std::vector<std::uint64_t> depths, drawn;
+    int stage = 0;
+    for_each_vector(words, setup->init_bits(), [&](std::span<const std::uint32_t> v) {
+      EXPECT_EQ(golden::get_bits(v, Walked::y, walk), y);
+      EXPECT_EQ(golden::get_bits(v, Walked::upper_lines, walk), 1U);
+      EXPECT_EQ(golden::get_bits(v, Walked::lower_lines, walk), 0U);
+      const auto command = static_cast<golden::Command>(golden::get_bits(v, Request::command));
+      const bool opens = golden::get_bits(v, Request::opens) != 0;
+      const std::uint64_t triangle = golden::get_bits(v, Walked::triangle, walk);
+      int now = 3;
+      if (command == golden::Command::depth) {
+        now = 0;
+        depths.push_back(triangle);
+      } else if (command == golden::Command::shadow) {
+        now = opens ? 1 : 2;
+        ++(opens ? opening : closing);
+        const std::uint64_t light = golden::get_bits(v, Request::light);
+        EXPECT_TRUE(light >= 1 && light <= 3) << light;
+        before_near +=
+            golden::get_bits(v, Walked::z, walk) == 0 && golden::get_bits(v, Walked::z_dx, walk) == 0;
+      } else {
+        EXPECT_EQ(command, golden::Command::draw);
+        drawn.push_back(triangle);
+      }
+      EXPECT_GE(now, stage);
+      stage = now;
+    });
+    EXPECT_EQ(depths, drawn);
+  }
+  EXPECT_GT(opening, 100U);
+  EXPECT_GT(closing, 100U);
+  EXPECT_GT(before_near, 10U);
+}
+
+// Of a triangle with one normal N is that, each component rounded once.
+TEST(ProcessorsSetup, AnUnchangingNormalIsRoundedOnce) {
+  Scene scene = ball();
+  scene.directional = {{.to_light_world = {0.0, 0.0, 1.0}}};
+  for (SceneTriangle& t : scene.triangles) t.normal = {t.normal[0], t.normal[0], t.normal[0]};
+  const HardwareKey key = key_of(scene);
+  const golden::ProcessorsLayout<golden::Exact> layout(processors_config(key));
+  using Plane = golden::Exact::plane_header_at;
+  constexpr int c_drop = golden::Exact::c_plane_sum_fraction_bits - golden::Exact::c_vector_fraction_bits;
+  int seen = 0;
+  for_each_vector(draw(scene, key).words, static_cast<unsigned>(layout.init_bits()), [&](auto v) {
+    if (golden::get_bits(v, Request::command) != static_cast<std::uint32_t>(golden::Command::draw)) return;
+    EXPECT_EQ(golden::get_bits(v, Request::normalize), 0U);
+    const auto triangle = golden::get_bits(v, Walked::triangle, layout.walk_low());
+    // The camera's axes are the world's.
+    const glm::dvec3 n = scene.normals_world[scene.triangles[triangle].normal[0]];
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto word = golden::Word<golden::Exact::c_plane_sum_bits>::from_bits(
+          golden::get_bits(v, Plane::value, layout.plane_low(axis)));
+      EXPECT_EQ(word.value() >> c_drop,
+                std::floor(std::ldexp(n[axis], golden::Exact::c_vector_fraction_bits) + 0.5));
+      EXPECT_EQ(golden::get_bits(v, Plane::dx, layout.plane_low(axis)), 0U);
+      ++seen;
+    }
+  });
+  EXPECT_GT(seen, 100);
+}
+
+// No bit of a place is given away: the farthest, a light's here, is 1/2 to 1.
+TEST(ProcessorsSetup, PlacesFillTheirFormat) {
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (const double distance : {30.0, 500.0}) {
+      Scene scene = ball();
+      scene.positional = {{{0.0, 0.0, -distance}, glm::dvec3(1.0)}};
+      const HardwareKey key = key_of(scene, preset);
+      const auto setup = make_setup(scene, c_frame, key, {});
+      std::int64_t place = 0;
+      for_each_vector(draw(scene, key).words, setup->init_bits(), [&](auto v) {
+        if (golden::get_bits(v, Request::light) != 1) return;
+        const auto z = [&]<class P>(P) {
+          return static_cast<std::int64_t>(golden::get_bits(v, P::light_axes_channel_at::place,
+                                                            golden::ProcessorsLayout<P>::light_axis_low(2))
+                                           << (64 - P::c_light_place_bits)) >>
+                 (62 - 15);
+        };
+        place = preset == Preset::exact ? z(golden::Exact{}) : z(golden::Published{});
+      });
+      // In 2^-15 of the format's 1.
+      EXPECT_LE(place, -(1 << 14)) << to_string(preset) << ' ' << distance;
+      EXPECT_GE(place, -(1 << 15));
+    }
+}
+
+// As published, in double: N goes straight across the screen, and is made unit only where a light has a
+// place; the eye is at infinity; a positional highlight's vector adds a unit one and one of the light's
+// distance.
+glm::dvec3 published_radiance(const Scene& scene, const ScreenTriangle& t, glm::dvec3 weight) {
+  const Material& m = scene.materials[t.material];
+  glm::dvec3 n(0.0), p(0.0);
+  for (int i = 0; i < 3; ++i) {
+    n += weight[i] * glm::normalize(t.vertex[static_cast<std::size_t>(i)].normal_world);
+    p += weight[i] * t.vertex[static_cast<std::size_t>(i)].position_world;
+  }
+  const glm::dvec3 to_eye = glm::normalize(scene.camera.eye_world - scene.camera.target_world);
+  if (!scene.positional.empty()) n = glm::normalize(n);
+  glm::dvec3 sum = scene.ambient * m.ambient * m.colour;
+  const auto add = [&](glm::dvec3 light, glm::dvec3 half, glm::dvec3 intensity) {
+    sum += intensity * (std::max(0.0, glm::dot(n, light)) * m.diffuse * m.colour +
+                        std::pow(std::clamp(glm::dot(n, half), 0.0, 1.0), std::round(m.exponent)) *
+                            m.specular * m.specular_colour);
+  };
+  for (const DirectionalLight& l : scene.directional)
+    add(l.to_light_world, glm::normalize(l.to_light_world + to_eye), l.intensity);
+  for (const PositionalLight& l : scene.positional)
+    add(glm::normalize(l.position_world - p), glm::normalize(to_eye + l.position_world - p), l.intensity);
+  return 255.0 * glm::min(sum, glm::dvec3(1.0));
+}
+
+TEST(ProcessorsSetup, PublishedDrawsWhatIsPublished) {
+  RandomScenes random(12);
+  for (const auto kind : {RandomScenes::directional, RandomScenes::positional}) {
+    std::uint64_t fragments = 0, far = 0;
+    double sum = 0.0;
+    for (int i = 0; i < 20; ++i) {
+      Scene scene = random_scene(random, kind);
+      scene.materials[0].exponent = random.within(2.0, 12.0);
+      std::vector<ScreenTriangle> pieces = Projector(scene, c_frame, {}).project_all();
+      for (const Fragment& f : draw(scene, key_of(scene, Preset::published)).fragments)
+        for (const ScreenTriangle& t : pieces) {
+          if (t.source != f.triangle) continue;
+          const glm::dvec3 weight =
+              barycentric_screen(t, (2 * std::int64_t{f.x} + 1) << 4, (2 * std::int64_t{f.y} + 1) << 4);
+          if (std::min({weight.x, weight.y, weight.z}) < 0.0) continue;
+          const double error = std::abs(published_radiance(scene, t, weight).x - f.red);
+          ++fragments;
+          sum += error;
+          far += error > 8.0;
+        }
+    }
+    fmt::print("{} fragments, {:.2f} steps off on average, {} more than 8\n", fragments,
+               sum / static_cast<double>(fragments), far);
+    EXPECT_GT(fragments, 10'000U);
+    EXPECT_LT(sum, 1.6 * static_cast<double>(fragments));
+    EXPECT_LT(far * 1000, fragments);
+  }
 }
 
 // Boxes in a row before one another, the light behind them all: each opens a volume.

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
+#include <ranges>
 #include <span>
 
 #include "golden/triangle_walker.hpp"
@@ -147,11 +148,12 @@ PointVectors SphericalSetup::slerped(const PointVectors& a, const PointVectors& 
   return out;
 }
 
+template <class P>
 std::int64_t SphericalSetup::factor_word(double steps, SetupCounts& counts) const {
   // What is no number (a light without measure on what reflects none of it) is nothing.
   if (!(steps > 0.0)) return 0;
-  if (steps > c_largest_sample) ++counts.overexposed;
-  return fixed(std::min(steps, c_largest_sample), Exact::c_factor_fraction_bits);
+  if (steps > c_largest_factor<P>) ++counts.overexposed;
+  return fixed(std::min(steps, c_largest_factor<P>), P::c_factor_fraction_bits);
 }
 
 void SphericalSetup::put_ambient(InitVector& init, const Material& material, SetupCounts& counts) const {
@@ -161,9 +163,10 @@ void SphericalSetup::put_ambient(InitVector& init, const Material& material, Set
     // The half makes dropping the sum's fraction a rounding.
     const double steps = 255.0 * scene_->ambient[c] * material.ambient * material.colour[c] + 0.5;
     if (preset_ == Preset::exact)
-      init.put(Exact::ambient_channel_at::ambient, factor_word(steps, counts), exact.ambient_low(c));
+      init.put(Exact::ambient_channel_at::ambient, factor_word<Exact>(steps, counts), exact.ambient_low(c));
     else
-      init.put(Published::ambient_channel_at::ambient, factor_word(steps, counts), published.ambient_low(c));
+      init.put(Published::ambient_channel_at::ambient, factor_word<Published>(steps, counts),
+               published.ambient_low(c));
   }
 }
 
@@ -232,7 +235,7 @@ void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index
       for (int c = 0; c < at.diffuse_channels(); ++c)
         record.put(
             P::diffuse_channel_at::factor,
-            factor_word(steps[c] * material.diffuse * material.colour[c] * arcs.diffuse.amplitude, counts),
+            factor_word<P>(steps[c] * material.diffuse * material.colour[c] * arcs.diffuse.amplitude, counts),
             low + P::c_diffuse_header_bits + c * P::c_diffuse_channel_bits);
     }
     if (specular) {
@@ -244,7 +247,7 @@ void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index
                                                       std::min(material.exponent, c_largest_exponent));
       for (int c = 0; c < config_.highlight_channels; ++c)
         record.put(P::specular_channel_at::factor,
-                   factor_word(steps[c] * material.specular * material.specular_colour[c] * peak, counts),
+                   factor_word<P>(steps[c] * material.specular * material.specular_colour[c] * peak, counts),
                    low + P::c_specular_header_bits + c * P::c_specular_channel_bits);
     }
   }
@@ -300,12 +303,14 @@ class SphericalSetup::ExactTriangle {
   }
 
  private:
-  // A line is looked at at this many places, or more: often enough that no highlight is stepped over, which
-  // is a half bell to either side of its peak.
-  static constexpr std::int64_t c_least_looks = 3;
+  // Of a span with so few steps every pixel is looked at.
+  static constexpr std::int64_t c_short_span = 16;
+  // A longer one is looked at at this many places, or more: often enough that no highlight is stepped over,
+  // which is a half bell to either side of its peak.
+  static constexpr std::int64_t c_least_looks = 7;
   static constexpr double c_looks_a_half_bell = 2.0;
-  // Spots begin and end where they like: at places no farther apart than this.
-  static constexpr std::int64_t c_pixels_between = 8;
+  // In a part of a spot's light, its edge or where it is full: every pixel, or so many.
+  static constexpr std::int64_t c_spot_looks = 16;
 
   std::vector<Walk> walks_of(Columns columns) const {
     return plan_walks(corners_, subpixel_bits_, columns, setup_.frame_.height);
@@ -364,6 +369,34 @@ class SphericalSetup::ExactTriangle {
     return surface_point(triangle_, barycentric_screen(triangle_, half_x << subpixel_bits_,
                                                        (2 * std::int64_t{y} + 1) << subpixel_bits_));
   }
+  // From a span's first pixel, s = 0, to its last, s = 1: what the surface has there before normals are made
+  // unit, linear in s.
+  struct Chord {
+    glm::dvec3 position_world, position_ahead, normal_world, normal_ahead;
+    double first_inverse_w, last_inverse_w;
+    // How far along the span on the screen, 0 to 1.
+    double on_screen(double s) const {
+      return s * first_inverse_w / ((1.0 - s) * last_inverse_w + s * first_inverse_w);
+    }
+  };
+  Chord chord(const Span& at) const {
+    const auto& [a, b, c] = triangle_.vertex;
+    glm::dvec3 position[2], normal[2];
+    double inverse_w[2];
+    for (int i = 0; i < 2; ++i) {
+      const std::int64_t half_x = 2 * (i == 0 ? at.first : at.last) + 1;
+      glm::dvec3 weight = barycentric_screen(triangle_, half_x << subpixel_bits_,
+                                             (2 * std::int64_t{at.y} + 1) << subpixel_bits_) *
+                          glm::dvec3(a.inverse_w, b.inverse_w, c.inverse_w);
+      inverse_w[i] = weight.x + weight.y + weight.z;
+      weight /= inverse_w[i];
+      position[i] = weight.x * a.position_world + weight.y * b.position_world + weight.z * c.position_world;
+      normal[i] = weight.x * a.normal_world + weight.y * b.normal_world + weight.z * c.normal_world;
+    }
+    return {position[0], position[1] - position[0], normal[0], normal[1] - normal[0], inverse_w[0],
+            inverse_w[1]};
+  }
+
   PointVectors vectors(const SurfacePoint& surface) const {
     ++counts_.shaded;
     return setup_.vectors_at(material_, surface);
@@ -407,7 +440,7 @@ class SphericalSetup::ExactTriangle {
   bool line_interpolates_well(const Span& at) const {
     if (at.steps() == 0) return true;
     const SpanArcs arcs = arcs_of(at);
-    return std::ranges::all_of(places_to_look_at(arcs, at.steps()), [&](std::int64_t i) {
+    return std::ranges::all_of(places_to_look_at(arcs, at), [&](std::int64_t i) {
       ++counts_.shaded;
       const double t = arcs.first + static_cast<double>(i) * arcs.step;
       return setup_.interpolation_error(material_, arcs, t, point(2 * (at.first + i * at.way()) + 1, at.y)) <=
@@ -415,40 +448,118 @@ class SphericalSetup::ExactTriangle {
     });
   }
   // Pixels of a span, counted from its first.
-  std::vector<std::int64_t> places_to_look_at(const SpanArcs& arcs, std::int64_t steps) const {
+  std::vector<std::int64_t> places_to_look_at(const SpanArcs& arcs, const Span& at) const {
+    const std::int64_t steps = at.steps();
     std::vector<std::int64_t> places;
-    const auto add_between = [&](double t, auto&& add) {
-      if (t > 0.0 && t < 1.0) add(t * static_cast<double>(steps));
+    if (!std::ranges::all_of(arcs.light | std::views::take(setup_.lights_.size()), &LightArcs::exact_at_ends))
+      places.insert(places.end(), {0, steps});
+    if (steps <= c_short_span) {
+      for (std::int64_t i = 1; i < steps; ++i) places.push_back(i);
+      return places;
+    }
+    const auto add_about = [&](double t) {
+      if (!(t > 0.0 && t < 1.0)) return;
+      const auto before = static_cast<std::int64_t>(t * static_cast<double>(steps));
+      places.insert(places.end(), {before, std::min(steps, before + 1)});
     };
-    bool exact_at_ends = true;
     double half_bells = 0.0;
     for (std::size_t i = 0; i < setup_.lights_.size(); ++i) {
       const LightArcs& light = arcs.light[i];
-      exact_at_ends = exact_at_ends && light.exact_at_ends;
       half_bells = std::max({half_bells, light.diffuse.sweep / c_half_bell,
                              setup_.bells_[triangle_.material].scale * light.specular.sweep / c_half_bell});
       // A highlight's peak and where it is steepest: there a shift shows.
       if (is_seen(light.specular.amplitude))
         for (const double x : {-steepest_, 0.0, steepest_})
-          add_between((light.specular.phase + x) / light.specular.sweep,
-                      [&](double place) { places.push_back(std::llround(place)); });
-      // The light's horizon, where the highlight ends however bright it is.
-      for (const double x : {-c_half_bell, c_half_bell}) {
-        const double t = (light.diffuse.phase + x) / light.diffuse.sweep;
-        if (is_seen(light.specular.at(t)))
-          add_between(t, [&](double place) {
-            places.push_back(static_cast<std::int64_t>(place));
-            places.push_back(std::min(steps, static_cast<std::int64_t>(place) + 1));
-          });
-      }
+          add_about((light.specular.phase + x) / light.specular.sweep);
+      // The light's horizon as it is drawn: there the highlight ends however bright it is.
+      for (const double x : {-c_half_bell, c_half_bell})
+        add_about((light.diffuse.phase + x) / light.diffuse.sweep);
     }
-    if (!exact_at_ends) places.insert(places.end(), {0, steps});
+    add_places_of_the_surface(chord(at), steps, places);
     auto looks = std::max(c_least_looks, static_cast<std::int64_t>(c_looks_a_half_bell * half_bells) + 1);
-    if (setup_.has_spots_) looks = std::max(looks, steps / c_pixels_between);
     looks = std::min(looks, steps - 1);
     for (std::int64_t look = 1; look <= looks; ++look) places.push_back(look * steps / (looks + 1));
+    std::ranges::sort(places);
+    places.erase(std::ranges::unique(places).begin(), places.end());
     return places;
   }
+
+  // Where what the arcs do not know of happens: directions that turn fast, horizons, spots.
+  void add_places_of_the_surface(const Chord& c, std::int64_t steps,
+                                 std::vector<std::int64_t>& places) const {
+    const auto pixels = static_cast<double>(steps);
+    const auto add_about = [&](double s) {
+      if (!(s > 0.0 && s < 1.0)) return;
+      const auto before = static_cast<std::int64_t>(c.on_screen(s) * pixels);
+      places.insert(places.end(), {before, std::min(steps, before + 1)});
+    };
+    // The direction of start + s * ahead turns fastest where this is shortest, and most of its turn lies
+    // within a few times that length of it.
+    const auto add_turn = [&](glm::dvec3 start, glm::dvec3 ahead) {
+      const double length = glm::length(ahead), s = -glm::dot(start, ahead) / (length * length),
+                   width = glm::length(start + s * ahead) / length;
+      if (!(width < 1.0)) return;
+      for (const double x : {-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0}) add_about(s + x * width);
+    };
+    add_turn(c.normal_world, c.normal_ahead);
+    if (has_specular(material_))
+      add_turn(c.position_world - setup_.scene_->camera.eye_world, c.position_ahead);
+    for (const LightRef ref : setup_.lights_) {
+      if (ref.kind == LightKind::directional) {
+        const glm::dvec3 to_light = setup_.scene_->directional[ref.index].to_light_world;
+        add_about(-glm::dot(c.normal_world, to_light) / glm::dot(c.normal_ahead, to_light));
+        continue;
+      }
+      const bool is_spot = ref.kind == LightKind::spot;
+      const glm::dvec3 light_world = is_spot ? setup_.scene_->spots[ref.index].position_world
+                                             : setup_.scene_->positional[ref.index].position_world;
+      const glm::dvec3 from_light = c.position_world - light_world;
+      add_turn(from_light, c.position_ahead);
+      // N.L = 0.
+      for (const double s :
+           roots(glm::dot(c.normal_ahead, c.position_ahead),
+                 glm::dot(c.normal_ahead, from_light) + glm::dot(c.normal_world, c.position_ahead),
+                 glm::dot(c.normal_world, from_light)))
+        add_about(s);
+      if (is_spot) add_places_of_spot(setup_.scene_->spots[ref.index], from_light, c, steps, places);
+    }
+  }
+
+  // From one place to the next where a spot's light changes its course, wherever it shines between them.
+  void add_places_of_spot(const SpotLight& spot, glm::dvec3 from_light, const Chord& c, std::int64_t steps,
+                          std::vector<std::int64_t>& places) const {
+    const glm::dvec3 ahead = c.position_ahead;
+    const double along = glm::dot(from_light, spot.axis_world),
+                 along_ahead = glm::dot(ahead, spot.axis_world);
+    const double d00 = glm::dot(from_light, from_light), d01 = glm::dot(from_light, ahead),
+                 d11 = glm::dot(ahead, ahead);
+    std::vector<double> turns = {0.0, 1.0};
+    // (along + s along_ahead)^2 = cos^2 |from_light + s ahead|^2
+    for (const double cosine : {spot.cos_outer, spot.cos_inner})
+      for (const double s :
+           roots(along_ahead * along_ahead - cosine * cosine * d11,
+                 2.0 * (along * along_ahead - cosine * cosine * d01), along * along - cosine * cosine * d00))
+        turns.push_back(s);
+    std::erase_if(turns, [](double s) { return !(s >= 0.0 && s <= 1.0); });
+    std::ranges::sort(turns);
+    for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+      const glm::dvec3 there = from_light + 0.5 * (turns[i] + turns[i + 1]) * ahead;
+      if (spot_factor(spot, glm::dot(there, spot.axis_world) / glm::length(there)) == 0.0) continue;
+      const auto pixels = static_cast<double>(steps);
+      const double from = std::floor(c.on_screen(turns[i]) * pixels),
+                   to = std::ceil(c.on_screen(turns[i + 1]) * pixels),
+                   way = std::max(1.0, (to - from) / static_cast<double>(c_spot_looks));
+      for (double place = from; place < to + way; place += way)
+        places.push_back(std::min(steps, static_cast<std::int64_t>(place)));
+    }
+  }
+
+  // Real ones of a s^2 + b s + c; where there are none, where it is nearest zero.
+  static std::array<double, 2> roots(double a, double b, double c) {
+    const double far = -0.5 * (b + std::copysign(std::sqrt(std::max(0.0, b * b - 4.0 * a * c)), b));
+    return {far / a, c / far};
+  }
+
   // Whether a highlight there is bright enough to matter.
   bool is_seen(double cosine) const { return highlight_power(cosine, material_.exponent) > 1.0 / 255.0; }
 

@@ -21,6 +21,15 @@ namespace halfway {
 /// Larger exponents are held at it: the bell's angle would leave its format.
 inline constexpr double c_largest_exponent = 1e6;
 
+/// Factors are held at it, in colour steps. Preset exact: so bright that a table's least entry other than 0,
+/// of up to c_white_data_bits, gives white: the picture is the one without a limit. With wider tables, and in
+/// preset published (four times white) always, all under a bell whose factor is held comes out too dark.
+template <class P>
+inline constexpr double c_largest_factor =
+    static_cast<double>((1 << (P::c_factor_bits - P::c_factor_fraction_bits)) - 1);
+inline constexpr int c_white_data_bits = 8;
+static_assert(c_largest_factor<golden::Exact> >= 255.0 * (1 << c_white_data_bits));
+
 /// What the illumination model takes from a point of the surface, a light at a time. Zero vectors: no such
 /// direction there (the light at the very point, L = -V).
 struct LightVectors {
@@ -78,6 +87,7 @@ class SphericalSetup final : public Setup {
   /// illumination model there.
   double interpolation_error(const Material& material, const SpanArcs& span, double t,
                              const SurfacePoint& there) const;
+  template <class P>
   std::int64_t factor_word(double steps, SetupCounts& counts) const;
 
   const Scene* scene_;

@@ -24,9 +24,7 @@ std::vector<Format> common_formats() {
       {"depth_sum", true, 24, 15,
        "first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: "
        "off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step"},
-      {"factor", false, 10, 8, "colour steps up to 1023; off by at most 2^-9 of a step"},
       {"sample_word", false, 16, 0, "a cosine table's entry, of whatever size, for the probe"},
-      {"product_word", false, 36, 0, "a factor times a table's entry, for the probe"},
       {"command", false, 3, 0, "of a vector or token of the shading processors"},
       {"light", false, 5, 0, "a light's number from 1; 0 is the ambient light"},
       {"shadow_count", true, 9, 0, "shadow volumes opened less those closed, up to 511 either way"},
@@ -277,7 +275,11 @@ std::vector<PresetFormats> preset_formats() {
             {"coefficient", false, 4, 16, "k of a material, up to 15"},
             {"light_intensity", false, 14, 4, "colour steps, 64 times white"},
             {"reflected", false, 14, 8, "k I in colour steps; held at 64 times white"},
-            {"radiance", false, 10, 12, "sum of the terms in colour steps; held at four times white"}}),
+            {"radiance", false, 10, 12, "sum of the terms in colour steps; held at four times white"},
+            {"factor", false, 16, 8,
+             "off by at most 2^-9 of a step; the largest times the least entry of up to 8 bits is white, so "
+             "what is brighter needs no more"},
+            {"product_word", false, 40, 0, "a factor times a table's entry, for the probe"}}),
        joined(joined(exact_layouts(), spherical_layouts(true)), processors_layouts(true))},
       {"published",
        joined(
@@ -304,7 +306,9 @@ std::vector<PresetFormats> preset_formats() {
             {"coefficient", false, 1, 7, "an integer, in 1/128"},
             {"light_intensity", false, 8, 0, "an integer, in colour steps"},
             {"reflected", false, 8, 0, "k I, an integer"},
-            {"radiance", false, 8, 0, "an integer; held at white"}}),
+            {"radiance", false, 8, 0, "an integer; held at white"},
+            {"factor", false, 10, 8, "colour steps up to 1023; off by at most 2^-9 of a step"},
+            {"product_word", false, 36, 0, "a factor times a table's entry, for the probe"}}),
        joined(joined(published_layouts(), spherical_layouts(false)), processors_layouts(false))},
   };
 }

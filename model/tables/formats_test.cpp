@@ -116,6 +116,10 @@ TEST(Formats, ErrorBoundsFollowFromTheFractionBits) {
   // Exponent 10^6 by cos^16: the scale is 250, and an arc's angles are within three half bells of it,
   // unscaled.
   EXPECT_LT(3.0 * 251, std::ldexp(1.0, Exact::c_angle_bits - 1 - Exact::c_angle_fraction_bits));
+  // The largest factor times the least entry of 8 bits is white, and a probe holds any product.
+  EXPECT_GE((1 << Exact::c_factor_bits) - (1 << Exact::c_factor_fraction_bits),
+            (255 << 8) << Exact::c_factor_fraction_bits);
+  EXPECT_EQ(Exact::c_product_word_bits, Exact::c_factor_bits + Exact::c_sample_word_bits);
   // Guard band: differences below 2^13 pixels of 16 subpixels.
   EXPECT_LE(8191 * 16, (1 << Exact::c_edge_error_bits) - 1);
 }

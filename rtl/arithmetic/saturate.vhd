@@ -5,6 +5,7 @@
 --             in the start value (quadratic paper, section 5).
 -- Formats     value: signed, g_value_bits with g_fraction_bits of fraction; result: unsigned, g_result_bits
 -- Latency     0 (combinational)
+-- Throughput  1 result a clock
 -- Error       [0, 1) below the value inside the range
 -- Golden twin model/golden/saturate.hpp
 

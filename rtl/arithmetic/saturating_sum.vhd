@@ -6,6 +6,7 @@
 -- Formats     terms: g_terms of g_term_bits each, g_fraction_bits of them fraction, the first lowest; result: unsigned,
 --             g_result_bits
 -- Latency     0 (combinational)
+-- Throughput  1 result a clock
 -- Error       [0, 1) below the sum inside the range
 -- Source      spherical paper, figure 12 (the adders of red, green and blue)
 -- Golden twin model/golden/saturating_sum.hpp

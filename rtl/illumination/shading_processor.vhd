@@ -265,7 +265,7 @@ architecture rtl of shading_processor is
   signal factor    : std_logic_vector(c_weight - 1 downto 0);
 
   -- From clock `first` on for `clocks` clocks.
-  function within (cycle, first, clocks : natural) return boolean is
+  function during (cycle, first, clocks : natural) return boolean is
   begin
     return cycle >= first and cycle < first + clocks;
   end function;
@@ -579,8 +579,8 @@ begin
 
     begin
 
-      shifts <= '1' when (c_shape.first and within(r.cycle, c_at.shift_1, c_shift_clocks)) or
-        (c_shape.second and within(r.cycle, c_at.shift_2, c_shift_clocks)) else '0';
+      shifts <= '1' when (c_shape.first and during(r.cycle, c_at.shift_1, c_shift_clocks)) or
+        (c_shape.second and during(r.cycle, c_at.shift_2, c_shift_clocks)) else '0';
 
       block_shift : entity work.vector_shift
         generic map (

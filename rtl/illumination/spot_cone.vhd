@@ -10,7 +10,7 @@
 --             spot_slope; factor: weight
 -- Latency     4 clocks with enable (shading_pkg)
 -- Throughput  1 a clock
--- Error       within 1.5 * 2**-16 exact, 1.5 * 2**-8 published, where the slope is 4096 twice that: t is cut
+-- Error       3.5 * 2**-16 exact, 2 * 2**-8 published: what is cut from over and t, and rounding
 -- Source      ours: the processors paper has no spot lights
 -- Golden twin model/golden/spot_cone.hpp
 

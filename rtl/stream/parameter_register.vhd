@@ -4,6 +4,7 @@
 -- Formats     g_bits of anything
 -- Latency     1 clock from load to value
 -- Throughput  1 load a clock
+-- Error       none: the words are held as they are
 -- Golden twin model/golden/parameter_register.hpp
 
 library ieee;

@@ -7,6 +7,7 @@
 -- Formats     g_bits of anything
 -- Latency     1 clock
 -- Throughput  1 word a clock
+-- Error       none: words come out as they went in, each once, in their order
 -- Golden twin model/golden/stream_register.hpp
 
 library ieee;

@@ -28,9 +28,7 @@ package formats_pkg is
     colour : format_t;
     depth : format_t;
     depth_sum : format_t;
-    factor : format_t;
     sample_word : format_t;
-    product_word : format_t;
     command : format_t;
     light : format_t;
     shadow_count : format_t;
@@ -55,6 +53,8 @@ package formats_pkg is
     light_intensity : format_t;
     reflected : format_t;
     radiance : format_t;
+    factor : format_t;
+    product_word : format_t;
   end record;
 
   constant c_exact_formats : formats_t := (
@@ -76,12 +76,8 @@ package formats_pkg is
     depth => (24, 0),
     -- s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
     depth_sum => (40, 15),
-    -- u10.8: colour steps up to 1023; off by at most 2^-9 of a step
-    factor => (18, 8),
     -- u16.0: a cosine table's entry, of whatever size, for the probe
     sample_word => (16, 0),
-    -- u36.0: a factor times a table's entry, for the probe
-    product_word => (36, 0),
     -- u3.0: of a vector or token of the shading processors
     command => (3, 0),
     -- u5.0: a light's number from 1; 0 is the ambient light
@@ -129,7 +125,11 @@ package formats_pkg is
     -- u14.8: k I in colour steps; held at 64 times white
     reflected => (22, 8),
     -- u10.12: sum of the terms in colour steps; held at four times white
-    radiance => (22, 12)
+    radiance => (22, 12),
+    -- u16.8: off by at most 2^-9 of a step; the largest times the least entry of up to 8 bits is white, so what is brighter needs no more
+    factor => (24, 8),
+    -- u40.0: a factor times a table's entry, for the probe
+    product_word => (40, 0)
   );
 
   constant c_published_formats : formats_t := (
@@ -151,12 +151,8 @@ package formats_pkg is
     depth => (24, 0),
     -- s24.15: first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step
     depth_sum => (40, 15),
-    -- u10.8: colour steps up to 1023; off by at most 2^-9 of a step
-    factor => (18, 8),
     -- u16.0: a cosine table's entry, of whatever size, for the probe
     sample_word => (16, 0),
-    -- u36.0: a factor times a table's entry, for the probe
-    product_word => (36, 0),
     -- u3.0: of a vector or token of the shading processors
     command => (3, 0),
     -- u5.0: a light's number from 1; 0 is the ambient light
@@ -204,7 +200,11 @@ package formats_pkg is
     -- u8.0: k I, an integer
     reflected => (8, 0),
     -- u8.0: an integer; held at white
-    radiance => (8, 0)
+    radiance => (8, 0),
+    -- u10.8: colour steps up to 1023; off by at most 2^-9 of a step
+    factor => (18, 8),
+    -- u36.0: a factor times a table's entry, for the probe
+    product_word => (36, 0)
   );
 
   function formats (exact : boolean) return formats_t;
@@ -452,7 +452,7 @@ package formats_pkg is
   end record;
 
   constant c_exact_ambient_channel : ambient_channel_t := (
-    ambient => (17, 0)
+    ambient => (23, 0)
   );
 
   constant c_published_ambient_channel : ambient_channel_t := (
@@ -461,7 +461,7 @@ package formats_pkg is
 
   function ambient_channel (exact : boolean) return ambient_channel_t;
 
-  constant c_exact_ambient_channel_bits : natural := 18;
+  constant c_exact_ambient_channel_bits : natural := 24;
   constant c_published_ambient_channel_bits : natural := 18;
 
   function ambient_channel_low (exact : boolean; channel : natural) return natural;
@@ -493,7 +493,7 @@ package formats_pkg is
   end record;
 
   constant c_exact_diffuse_channel : diffuse_channel_t := (
-    factor => (17, 0)
+    factor => (23, 0)
   );
 
   constant c_published_diffuse_channel : diffuse_channel_t := (
@@ -502,7 +502,7 @@ package formats_pkg is
 
   function diffuse_channel (exact : boolean) return diffuse_channel_t;
 
-  constant c_exact_diffuse_channel_bits : natural := 18;
+  constant c_exact_diffuse_channel_bits : natural := 24;
   constant c_published_diffuse_channel_bits : natural := 18;
 
   function diffuse_channel_low (exact : boolean; channel : natural) return natural;
@@ -537,7 +537,7 @@ package formats_pkg is
   end record;
 
   constant c_exact_specular_channel : specular_channel_t := (
-    factor => (17, 0)
+    factor => (23, 0)
   );
 
   constant c_published_specular_channel : specular_channel_t := (
@@ -546,7 +546,7 @@ package formats_pkg is
 
   function specular_channel (exact : boolean) return specular_channel_t;
 
-  constant c_exact_specular_channel_bits : natural := 18;
+  constant c_exact_specular_channel_bits : natural := 24;
   constant c_published_specular_channel_bits : natural := 18;
 
   function specular_channel_low (exact : boolean; channel : natural) return natural;
@@ -581,7 +581,7 @@ package formats_pkg is
   end record;
 
   constant c_exact_diffuse_probe_channel : diffuse_probe_channel_t := (
-    product => (35, 0)
+    product => (39, 0)
   );
 
   constant c_published_diffuse_probe_channel : diffuse_probe_channel_t := (
@@ -590,7 +590,7 @@ package formats_pkg is
 
   function diffuse_probe_channel (exact : boolean) return diffuse_probe_channel_t;
 
-  constant c_exact_diffuse_probe_channel_bits : natural := 36;
+  constant c_exact_diffuse_probe_channel_bits : natural := 40;
   constant c_published_diffuse_probe_channel_bits : natural := 36;
 
   function diffuse_probe_channel_low (exact : boolean; channel : natural) return natural;
@@ -625,7 +625,7 @@ package formats_pkg is
   end record;
 
   constant c_exact_specular_probe_channel : specular_probe_channel_t := (
-    product => (35, 0)
+    product => (39, 0)
   );
 
   constant c_published_specular_probe_channel : specular_probe_channel_t := (
@@ -634,7 +634,7 @@ package formats_pkg is
 
   function specular_probe_channel (exact : boolean) return specular_probe_channel_t;
 
-  constant c_exact_specular_probe_channel_bits : natural := 36;
+  constant c_exact_specular_probe_channel_bits : natural := 40;
   constant c_published_specular_probe_channel_bits : natural := 36;
 
   function specular_probe_channel_low (exact : boolean; channel : natural) return natural;

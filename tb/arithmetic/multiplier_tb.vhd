@@ -60,7 +60,7 @@ end entity;
 architecture sim of multiplier_tb is
   type sizes_t is array (natural range <>, natural range <>) of positive;
 
-  constant c_sizes : sizes_t := ((1, 1), (8, 8), (4, 9), (8, 18), (18, 12), (32, 32));
+  constant c_sizes : sizes_t := ((1, 1), (8, 8), (4, 9), (8, 18), (18, 12), (8, 24), (12, 24), (32, 32));
 
   signal finished : boolean_vector(c_sizes'range(1));
 begin

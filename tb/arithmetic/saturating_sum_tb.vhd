@@ -58,7 +58,7 @@ architecture sim of saturating_sum_tb is
 
   -- terms, term, fraction and result bits
   constant c_sizes : sizes_t := ((1, 16, 4, 8), (2, 8, 2, 6), (2, 6, 0, 6), (3, 5, 1, 4), (5, 3, 0, 4), (3, 24, 14, 8),
-    (33, 26, 16, 8));
+    (33, 26, 16, 8), (33, 32, 16, 8), (3, 36, 20, 8));
 
   signal finished : boolean_vector(c_sizes'range(1));
 begin

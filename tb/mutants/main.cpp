@@ -50,6 +50,62 @@ constexpr Mutant c_mutants[] = {
     // A sum that wraps; the last term forgotten.
     {"arithmetic/saturating_sum.vhd", "positive := g_term_bits + carry_bits", "positive := g_term_bits + 1"},
     {"arithmetic/saturating_sum.vhd", "for i in 1 to g_terms - 1 loop", "for i in 1 to g_terms - 2 loop"},
+    // A slope that ends at the cell before; a table for another; a bit of an entry.
+    {"tables/function_rom.vhd", "c_table(i + 1) - c_table(i)",
+     "c_table(i + 1) - c_table(i) - boolean'pos(i = 7)"},
+    {"tables/function_pkg.vhd", "508, 500,", "508, 501,", "tables/function_rom.vhd"},
+    {"tables/function_rom.vhd", "if enable = '1' then", "if enable = '1' or address(0) = '1' then"},
+    // A digit's carry lost; the sign forgotten; a tie rounded down; light from the horizon; a cosine above 1.
+    {"arithmetic/shading_pkg.vhd", "half := half - 1;", "half := half;"},
+    {"arithmetic/shading_pkg.vhd", "digits(place) := digits(place) - weight;",
+     "digits(place) := digits(place) + weight;"},
+    {"arithmetic/shading_pkg.vhd", "half := '0' & word(bits - 1);", "half := \"00\";"},
+    {"arithmetic/shading_pkg.vhd", "dot(dot'left) = '0' and dot /= c_zero", "dot(dot'left) = '0'"},
+    {"arithmetic/shading_pkg.vhd", "one(c_fraction) := '1';", "one(c_fraction) := '0';"},
+    // A component left out; one clock late where enable is '0'; the wrong axis.
+    {"arithmetic/dot_product.vhd", "sum_of_products(a, b)",
+     "sum_of_products(a, b(3 * g_bits - 1 downto g_bits) & (g_bits - 1 downto 0 => '0'))"},
+    {"arithmetic/dot_product.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
+    {"arithmetic/vector_multiply.vhd", "axis_of(b, axis)", "axis_of(b, 2 - axis)"},
+    {"arithmetic/vector_multiply.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
+    // The sign counted as a bit that moves; a zero vector's search without an end; the largest shift left
+    // out.
+    {"arithmetic/vector_shift.vhd", "words(axis) xor signs", "words(axis)"},
+    {"arithmetic/vector_shift.vhd", "moving(c_high - 1 downto 0) & '1'", "moving(c_high - 1 downto 0) & '0'"},
+    {"arithmetic/vector_shift.vhd", "for stage in stages - 1 downto 0 loop",
+     "for stage in stages - 2 downto 0 loop"},
+    // Roots of 1/4 to 1 not doubled; the cell of 2 to 4 off by its half; an x of the clock before; no rise.
+    {"arithmetic/reciprocal_root.vhd", "r.root & '0' when r.below_one = '1'",
+     "r.root & '0' when r.rest_below_one = '1'"},
+    {"arithmetic/reciprocal_root.vhd", "'0' & x(c_high - 2 downto c_high - c_address)",
+     "'0' & x(c_high - 1 downto c_high - c_address + 1)"},
+    {"arithmetic/reciprocal_root.vhd", "product(r.square_x, r.entry_square)",
+     "product(r.table_x, r.entry_square)"},
+    {"arithmetic/reciprocal_root.vhd", "c_rest_fraction + 17", "c_rest_fraction + 16"},
+    {"arithmetic/reciprocal_root.vhd", "entry & '0' when r.below_one = '1'",
+     "entry & '0' when below_one = '1'"},
+    // 0 to a power; 1 not quite 1; a stage's exponent for another's; a product's high bits; rounding.
+    {"arithmetic/power.vhd", "if r.zeros(5) = '1' then", "if r.zeros(4) = '1' then"},
+    {"arithmetic/power.vhd", "r.log_one      <= base(c_fraction);", "r.log_one      <= '0';"},
+    {"arithmetic/power.vhd", "product(r.loss, r.loss_exponent)", "product(r.loss, r.log_exponent)"},
+    {"arithmetic/power.vhd",
+     "if whole(c_whole_bits - 1 downto c_shifts) /= c_zeros(c_whole_bits - 1 downto c_shifts) then",
+     "if whole(c_shifts) = '1' then"},
+    {"arithmetic/power.vhd", "shifted(c_guard - 1 downto c_guard - 1)",
+     "shifted(c_guard - 2 downto c_guard - 2)"},
+    {"arithmetic/power.vhd", "for stage in 0 to c_shifts - 1 loop", "for stage in 0 to c_shifts - 2 loop"},
+    {"arithmetic/power.vhd", "elsif r.one = '1' then", "elsif r.log_one = '1' then"},
+    // Light behind the outer edge; t above 1; a t of the clock before; 3 - t; a slope that does not wait.
+    {"illumination/spot_cone.vhd", "if over(over'high) = '0' then",
+     "if over(over'high) = '0' or over(0) = '1' then"},
+    {"illumination/spot_cone.vhd", "t(t'high downto c_weight - 1)", "t(t'high downto c_weight)"},
+    {"illumination/spot_cone.vhd", "- (r.square_t & '0')", "- (r.t & '0')"},
+    {"illumination/spot_cone.vhd", "- (r.square_t & '0')", "- ('0' & r.square_t)"},
+    {"illumination/spot_cone.vhd", "product(r.over, r.slope)", "product(r.over, unsigned(slope))"},
+    // A place too many; a word taken while the line stands still; the last word of two.
+    {"stream/delay_line.vhd", "if index = c_places - 1 then", "if index = c_places then"},
+    {"stream/delay_line.vhd", "elsif enable = '1' then", "else"},
+    {"stream/delay_line.vhd", "held   <= before;", "held   <= word;"},
     // Loads without being told to.
     {"stream/parameter_register.vhd", "if load = '1' then", "if load = '1' or start(0) = '1' then"},
     // Overwrites a word that waits; survives reset.
@@ -107,6 +163,43 @@ constexpr Mutant c_mutants[] = {
      "start => part(c_part.power.high downto c_part.power.low)"},
     {"illumination/specular_slice.vhd", "sample <= (others => '0');", "sample <= samples(1);"},
     {"illumination/specular_slice.vhd", "b       => carried(", "b       => carried_in("},
+    // A column that comes again at once is read from memory; a count wraps; a clear ends too early; an object
+    // leaves
+    // its count.
+    {"illumination/shadow_counter.vhd", "v.forwarded := '1'", "v.forwarded := '0'"},
+    {"illumination/shadow_counter.vhd", "if held = c_most then", "if held = c_least then"},
+    {"illumination/shadow_counter.vhd", "v.last := unsigned(x)", "v.last := r.last"},
+    {"illumination/shadow_counter.vhd", "if r.takes = '1' then", "if r.takes = '1' and r.opens = '1' then"},
+    // Redefines what is not there; lit where volumes are missing; a highlight below the horizon; a spot's
+    // light
+    // everywhere; the far light's shift forgotten.
+    {"illumination/shading_processor.vhd", "(command = c_redefine and r.valid = '1')",
+     "command = c_redefine"},
+    {"illumination/shading_processor.vhd", "'1' when around = 0", "'1' when around <= 0"},
+    {"illumination/shading_processor.vhd", "r.cycle = c_at.horizon and positive_dot = '0'",
+     "r.cycle = c_at.horizon and positive_dot = 'Z'"},
+    {"illumination/shading_processor.vhd", "r.cycle = c_at.weigh_in - 1 and spotted = '0'",
+     "r.cycle = c_at.weigh_in - 1"},
+    {"illumination/terms_pkg.vhd", "near     := arithmetic_shift(near, shift)", "near     := near",
+     "illumination/shading_processor.vhd"},
+    // A clock more than the paper's; the vector product a clock early.
+    {"illumination/shading_processor.vhd", "s.weigh_in := s.angle + 1", "s.weigh_in := s.angle + 2",
+     "illumination/table4.vhd"},
+    {"illumination/shading_processor.vhd", "s.round_1  := s.scale_1 + c_mul_clocks",
+     "s.round_1  := s.scale_1"},
+    // A light that changes under the tokens before; the first token's shadow for the next; a stage that does
+    // not
+    // stand still.
+    {"illumination/unrolled_shading_processor.vhd", "not (in_valid and changes and (or r.filled))", "'1'"},
+    {"illumination/unrolled_shading_processor.vhd", "g_depth => c_at.term - 1\n", "g_depth => c_at.term\n"},
+    {"illumination/unrolled_shading_processor.vhd", "out_ready or not r.filled(c_at.leave)", "out_ready"},
+    {"arithmetic/unit_vector.vhd", "c_dot_product_latency + reciprocal_root_latency(g_exact)",
+     "reciprocal_root_latency(g_exact)", "illumination/unrolled_shading_processor.vhd"},
+    // What loads leaves; a light's processors changed about; a fault unseen.
+    {"shaders/shading_pipeline.vhd", "valid(c_processors) and object", "valid(c_processors)"},
+    {"shaders/shading_pipeline.vhd", "(processor - 1) / c_terms + 1",
+     "(processor - 1) / c_terms + 2 - c_terms"},
+    {"shaders/shading_pipeline.vhd", "or faults", "faults(0)"},
     // Not busy while only the buffer in front holds a triangle; the colour of a fragment that waits moves on.
     {"shaders/quadratic_shader.vhd", "waiting or walking or out_valid", "walking or out_valid"},
     {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => colours",

@@ -10,6 +10,7 @@ entity netlist_constructs_tb is
     g_exact     : boolean  := true;
     g_count     : positive := 3;
     g_known_bad : boolean  := false;
+    g_shading   : boolean  := false;
     g_construct : natural  := 0;
     g_stimuli   : string   := "stimuli.txt";
     g_responses : string   := "responses.txt"
@@ -22,7 +23,10 @@ architecture sim of netlist_constructs_tb is
   signal stimulus : std_logic_vector(c_stimulus - 1 downto 0) := (others => '0');
   signal response : std_logic_vector(c_lanes * c_lane - 1 downto 0);
 begin
-  constructs : if not g_known_bad generate
+  constructs : if g_shading generate
+    dut : entity work.netlist_shading
+      port map (clk => clk, reset => reset, stimulus => stimulus, response => response);
+  elsif not g_known_bad generate
     dut : entity work.netlist_constructs
       generic map (g_exact => g_exact, g_count => g_count)
       port map (clk => clk, reset => reset, stimulus => stimulus, response => response);

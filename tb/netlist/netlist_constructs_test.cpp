@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -81,9 +82,11 @@ class NetlistConstructs : public testing::Test {
   }
 
   std::vector<VhdlSource> sources(bool testbench) const {
-    std::vector<VhdlSource> found;
-    std::vector<std::string> names = {"tb/netlist/netlist_constructs.vhd",
-                                      "tb/netlist/netlist_known_bad.vhd"};
+    auto rtl = read_rtl_sources(HALFWAY_SOURCE_DIR);
+    EXPECT_TRUE(rtl) << rtl.error().message;
+    std::vector<VhdlSource> found = std::move(*rtl);
+    std::vector<std::string> names = {"tb/netlist/netlist_constructs.vhd", "tb/netlist/netlist_known_bad.vhd",
+                                      "tb/netlist/netlist_shading.vhd"};
     if (testbench) names.emplace_back("tb/netlist/netlist_constructs_tb.vhd");
     for (const std::string& name : names) {
       auto source = read_vhdl_source(HALFWAY_SOURCE_DIR, name);
@@ -201,6 +204,23 @@ TEST_F(NetlistConstructs, EveryConstructOfTheRtlIsEqual) {
       EXPECT_GE(distinct, lane == 35 && generics[0].second == "true" ? 1 : 2)
           << "lane " << lane << " stands still";
     }
+  }
+}
+
+// Its products and memories are other text where GHDL simulates them than where it synthesizes them.
+TEST_F(NetlistConstructs, TheShadingArithmeticIsEqual) {
+  const auto expected = simulate({{"g_shading", "true"}});
+  for (const Netlist kind : {Netlist::mended, Netlist::split}) {
+    const auto found = verilate("netlist_shading", {}, kind);
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(differences(expected, *found), "");
+  }
+  constexpr std::size_t used_lanes = 21;
+  for (std::size_t lane = 0; lane < used_lanes; ++lane) {
+    const std::size_t at = (kLanes - 1 - lane) * kLaneBits / 4;
+    std::set<std::string> values;
+    for (const std::string& line : expected) values.insert(line.substr(at, kLaneBits / 4));
+    EXPECT_GE(values.size(), 50U) << "lane " << lane << " hardly moves";
   }
 }
 

@@ -52,6 +52,9 @@ bool has_word(std::string_view code, std::string_view word) {
 /// Text above the architecture or inside a package may compute constants as it likes: they are folded by
 /// GHDL, not put into hardware. What is not hardware says so on its line: `-- elaboration only`.
 constexpr std::string_view kElaborationOnly = "-- elaboration only";
+/// What stands between these lines is simulated and not synthesized.
+constexpr std::string_view kSynthesisOff = "-- synthesis translate_off",
+                           kSynthesisOn = "-- synthesis translate_on";
 
 std::vector<std::string> faults_in(const std::string& name, std::string_view text) {
   // Reserved in Verilog or SystemVerilog, free in VHDL: GHDL prints them as they are.
@@ -70,6 +73,7 @@ std::vector<std::string> faults_in(const std::string& name, std::string_view tex
       "unique",   "var",     "virtual",  "void",      "weak",    "wildcard",  "wire",     "within"};
   std::vector<std::string> faults;
   std::size_t number = 0;
+  bool synthesized = true;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     const std::string_view line = text.substr(0, end);
@@ -78,8 +82,10 @@ std::vector<std::string> faults_in(const std::string& name, std::string_view tex
     const auto fault = [&](std::string_view what) {
       faults.push_back(fmt::format("{}:{}: {}", name, number, what));
     };
+    if (line.find(kSynthesisOff) != std::string_view::npos) synthesized = false;
+    if (line.find(kSynthesisOn) != std::string_view::npos) synthesized = true;
     const std::string code = code_of(line);
-    if (line.find(kElaborationOnly) == std::string_view::npos) {
+    if (synthesized && line.find(kElaborationOnly) == std::string_view::npos) {
       if (has_word(code, "shift_right") && code.find("shift_right(unsigned(") == std::string::npos) {
         fault("shift_right: concatenate the sign's bits and a slice");
       }
@@ -142,6 +148,12 @@ TEST(RtlLint, SeesEachFault) {
                                          "  x <= '/';",
                                          "  x <= shift_right(unsigned(y), 3);"};
   for (const std::string& line : good) EXPECT_EQ(faults_in("x.vhd", line).size(), 0U) << line;
+  EXPECT_EQ(
+      faults_in("x.vhd",
+                "  x <= a / b;\n  -- synthesis translate_off\n  x <= a / b;\n  -- synthesis translate_on\n"
+                "  x <= a / b;\n")
+          .size(),
+      2U);
 }
 
 }  // namespace

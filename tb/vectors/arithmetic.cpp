@@ -110,12 +110,12 @@ Status write_sum_of(const std::filesystem::path& folder, int terms, int term_bit
                     int result_bits) {
   Random random(static_cast<std::uint64_t>(terms * term_bits));
   VectorFile file;
-  std::vector<std::uint32_t> values(static_cast<std::size_t>(terms));
+  std::vector<std::uint64_t> values(static_cast<std::size_t>(terms));
   const auto add = [&] {
     golden::SaturatingSum sum;
     std::vector<std::uint32_t> flat(static_cast<std::size_t>(terms * term_bits + 31) / 32);
     for (int i = 0; i < terms; ++i) {
-      const std::uint32_t value = values[static_cast<std::size_t>(i)];
+      const std::uint64_t value = values[static_cast<std::size_t>(i)];
       sum.add(value);
       golden::set_bits(flat, {"term", i * term_bits, term_bits, false, 0}, value);
     }
@@ -125,8 +125,7 @@ Status write_sum_of(const std::filesystem::path& folder, int terms, int term_bit
   if (terms * term_bits <= 16) {
     for (std::uint64_t all = 0; all < std::uint64_t{1} << terms * term_bits; ++all) {
       for (int i = 0; i < terms; ++i)
-        values[static_cast<std::size_t>(i)] =
-            static_cast<std::uint32_t>(golden::low_bits(all >> i * term_bits, term_bits));
+        values[static_cast<std::size_t>(i)] = golden::low_bits(all >> i * term_bits, term_bits);
       add();
     }
   } else {
@@ -134,13 +133,13 @@ Status write_sum_of(const std::filesystem::path& folder, int terms, int term_bit
     for (int i = 0; i < 3000; ++i) {
       // Any words, all at their largest, or about as many whole steps together as the result holds.
       const auto kind = random.between(0, 9);
-      for (std::uint32_t& value : values) {
+      for (std::uint64_t& value : values) {
         const std::uint64_t word =
             kind == 0   ? ~std::uint64_t{0}
             : kind < 3  ? random.word(term_bits)
             : kind == 3 ? full / values.size() + static_cast<std::uint64_t>(random.between(-2, 2))
                         : random.bits(64) % (2 * full / values.size());
-        value = static_cast<std::uint32_t>(golden::low_bits(word, term_bits));
+        value = golden::low_bits(word, term_bits);
       }
       add();
     }
@@ -165,7 +164,7 @@ Status write_saturate(const std::filesystem::path& folder) {
 
 Status write_multiplier(const std::filesystem::path& folder) {
   for (const auto& [a, b] : {std::pair{1, 1}, std::pair{8, 8}, std::pair{4, 9}, std::pair{8, 18},
-                             std::pair{18, 12}, std::pair{32, 32}})
+                             std::pair{18, 12}, std::pair{8, 24}, std::pair{12, 24}, std::pair{32, 32}})
     if (auto s = write_multiplier_of(folder, a, b); !s) return s;
   return Ok{};
 }
@@ -182,8 +181,9 @@ Status write_saturating_sum(const std::filesystem::path& folder) {
   struct Sizes {
     int terms, term_bits, fraction_bits, result_bits;
   };
-  for (const Sizes& s : {Sizes{1, 16, 4, 8}, Sizes{2, 8, 2, 6}, Sizes{2, 6, 0, 6}, Sizes{3, 5, 1, 4},
-                         Sizes{5, 3, 0, 4}, Sizes{3, 24, 14, 8}, Sizes{33, 26, 16, 8}})
+  for (const Sizes& s :
+       {Sizes{1, 16, 4, 8}, Sizes{2, 8, 2, 6}, Sizes{2, 6, 0, 6}, Sizes{3, 5, 1, 4}, Sizes{5, 3, 0, 4},
+        Sizes{3, 24, 14, 8}, Sizes{33, 26, 16, 8}, Sizes{33, 32, 16, 8}, Sizes{3, 36, 20, 8}})
     if (auto written = write_sum_of(folder, s.terms, s.term_bits, s.fraction_bits, s.result_bits); !written)
       return written;
   return Ok{};

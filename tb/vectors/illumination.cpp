@@ -35,7 +35,7 @@ Strobes random_strobes(Random& random, int i) {
 struct Pixel {
   bool in_range = false;
   std::uint32_t sample = 0;
-  std::array<std::uint32_t, 3> products{};
+  std::array<std::uint64_t, 3> products{};
 };
 
 struct SliceSize {

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// How near the power and the spot's share come to base^exponent and to the cubic, in long double; the bounds
+// are those that the headers of rtl/ state.
+#include "golden/power.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "golden/spot_cone.hpp"
+
+namespace halfway::golden {
+namespace {
+
+template <class Preset>
+long double power_error(std::uint32_t base, std::uint32_t exponent) {
+  using P = Power<Preset>;
+  const long double c = std::ldexp(static_cast<long double>(base), -P::c_base_fraction),
+                    m = std::ldexp(static_cast<long double>(exponent), -Preset::c_exponent_fraction_bits);
+  return std::ldexp(static_cast<long double>(P::power(base, exponent)), -Preset::c_weight_fraction_bits) -
+         std::pow(c, m);
+}
+
+// 2^-15 and m 2^-23: far within half a step of 255 and m 2^-19, which is what a cosine's own error asks for.
+TEST(Power, ExactForExponentsFrom1To8191) {
+  using P = Power<Exact>;
+  std::mt19937_64 random(1);
+  long double nearest_to_bound = 0;
+  for (std::uint32_t m = 1; m <= 8191; ++m) {
+    for (int i = 0; i < 250; ++i) {
+      const std::uint32_t exponent = (m << Exact::c_exponent_fraction_bits) +
+                                     (m < 8191 ? static_cast<std::uint32_t>(random() & 255) : 0);
+      // Up to where the power has come down to 2^-12, and anywhere.
+      const auto below = static_cast<std::uint32_t>(random() % P::c_one);
+      const std::uint32_t base =
+          P::c_one - (i % 4 == 0 ? below : static_cast<std::uint32_t>(below / (1 + m / 8)));
+      const long double bound = std::ldexp(1.0L, -15) + std::ldexp(static_cast<long double>(exponent),
+                                                                   -23 - Exact::c_exponent_fraction_bits);
+      const long double error = std::fabs(power_error<Exact>(base, exponent));
+      ASSERT_LT(error, bound) << base << " to the " << exponent;
+      nearest_to_bound = std::max(nearest_to_bound, error / bound);
+    }
+  }
+  EXPECT_GT(nearest_to_bound, 0.7L);
+}
+
+TEST(Power, ExactOverAllBases) {
+  for (const std::uint32_t m : {1U, 7U, 64U, 1000U, 8191U}) {
+    const long double bound = std::ldexp(1.0L, -15) + std::ldexp(static_cast<long double>(m), -23);
+    for (std::uint32_t base = 0; base <= Power<Exact>::c_one; base += m == 1000 ? 1 : 17)
+      ASSERT_LT(std::fabs(power_error<Exact>(base, m << 8)), bound) << base << " to the " << m;
+  }
+}
+
+template <class Preset>
+void expect_ends() {
+  using P = Power<Preset>;
+  constexpr std::uint32_t c_weight_one = 1U << Preset::c_weight_fraction_bits;
+  const std::uint32_t largest = (1U << Preset::c_exponent_bits) - 1;
+  for (const std::uint32_t m : {0U, 1U, largest / 3, largest}) {
+    EXPECT_EQ(P::power(P::c_one, m), c_weight_one) << m;
+    EXPECT_EQ(P::power(0, m), 0U) << m;
+  }
+  for (const std::uint32_t base : {1U, 77U, P::c_one / 2, P::c_one - 1})
+    EXPECT_EQ(P::power(base, 0), c_weight_one) << base;
+  EXPECT_EQ(P::power(1, largest), 0U);
+}
+
+TEST(Power, Ends) {
+  expect_ends<Exact>();
+  expect_ends<Published>();
+}
+
+// A power never rises where its base falls: no rings about a highlight.
+TEST(Power, RisesWithItsBase) {
+  for (const std::uint32_t m : {1U, 5U, 50U, 500U}) {
+    for (std::uint32_t base = 1; base <= Power<Published>::c_one; ++base)
+      ASSERT_GE(Power<Published>::power(base, m), Power<Published>::power(base - 1, m)) << base << ", " << m;
+    for (std::uint32_t base = 1; base <= Power<Exact>::c_one; ++base)
+      ASSERT_GE(Power<Exact>::power(base, m << 8), Power<Exact>::power(base - 1, m << 8))
+          << base << ", " << m;
+  }
+}
+
+// Cells of 1/64 of a power of two: the paper's kind of table, and what it does to sharp highlights.
+TEST(Power, WhatPublishedMeasures) {
+  for (const auto& [m, expected] :
+       {std::pair{1U, 1.99}, {10U, 9.81}, {50U, 45.04}, {100U, 83.12}, {500U, 213.47}}) {
+    long double largest = 0;
+    for (std::uint32_t base = 0; base <= Power<Published>::c_one; ++base)
+      largest = std::max(largest, std::fabs(power_error<Published>(base, m)));
+    EXPECT_NEAR(static_cast<double>(255 * largest), expected, 0.005) << m;
+  }
+}
+
+template <class Preset>
+void expect_spot(double bound) {
+  constexpr int c_fraction = Preset::c_direction_fraction_bits;
+  std::mt19937_64 random(2);
+  long double largest = 0;
+  for (int i = 0; i < 300'000; ++i) {
+    const auto slope = static_cast<std::uint32_t>(
+        1 + (random() % ((1U << Preset::c_spot_slope_bits) - 1) >> random() % Preset::c_spot_slope_bits));
+    const auto outer = static_cast<std::int64_t>(random() % (2ULL << c_fraction)) - (1LL << c_fraction);
+    const long double s = std::ldexp(static_cast<long double>(slope), -Preset::c_spot_slope_fraction_bits);
+    // A little outside the outer edge, to a little inside the inner one.
+    const long double wanted = (static_cast<long double>(random() % 1'000'000) / 800'000 - 0.1L) / s;
+    const auto over = static_cast<std::int64_t>(std::ldexp(std::min(wanted, 2.0L), 2 * c_fraction));
+    const std::int64_t sum = -(outer * (std::int64_t{1} << c_fraction)) - over;
+    const long double t =
+        std::clamp(std::ldexp(static_cast<long double>(over), -2 * c_fraction) * s, 0.0L, 1.0L);
+    const std::uint32_t factor = SpotCone<Preset>::factor(sum, outer, slope);
+    const long double error =
+        std::ldexp(static_cast<long double>(factor), -Preset::c_weight_fraction_bits) - t * t * (3 - 2 * t);
+    largest = std::max(largest, std::fabs(error));
+    if (t == 0) {
+      ASSERT_EQ(factor, 0U);
+    }
+    if (t == 1) {
+      ASSERT_EQ(factor, 1U << Preset::c_weight_fraction_bits);
+    }
+  }
+  EXPECT_LT(largest, bound);
+  EXPECT_GT(largest, 0.6L * bound);
+}
+
+// t is cut by up to a step, over by up to 2^-28, the share's slope is 3/2 at most, and its end is rounded.
+TEST(SpotCone, IsTheCubic) {
+  expect_spot<Exact>(std::ldexp(3.5, -16));
+  expect_spot<Published>(std::ldexp(2.0, -8));
+}
+
+}  // namespace
+}  // namespace halfway::golden

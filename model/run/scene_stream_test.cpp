@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stream is setup's prologue and units, whoever draws them: one golden model that has all of it, or
+// several that have the prologue and their own.
+#include "run/scene_stream.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "plan/plan.hpp"
+#include "run/golden_run.hpp"
+#include "scene/load_scene.hpp"
+#include "setup/random_solids.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr FrameSize c_frame{160, 120};
+
+HardwareKey key_of(const Scene& scene, Shader shader) {
+  const auto plan = plan_scene(scene, {.shader = shader});
+  if (!plan) throw std::runtime_error(plan.error().message);
+  return plan->key;
+}
+
+TEST(SceneStream, IsPrologueAndUnitsForAnyNumberOfThreads) {
+  for (const char* name : {"shadows", "lights"})
+    for (const Shader shader : c_shaders) {
+      const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
+      ASSERT_TRUE(scene) << scene.error().message;
+      const HardwareKey key = key_of(*scene, shader);
+      const auto setup = make_setup(*scene, c_frame, key, {});
+      SCOPED_TRACE(key.name());
+      EXPECT_EQ(setup->units_are_lines(), key.processors.shadows);
+      std::vector<std::uint32_t> words;
+      SetupCounts counts;
+      setup->append_prologue(words, counts);
+      EXPECT_EQ(!words.empty(), shader == Shader::processors);
+      for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, words, counts);
+      const auto golden = make_golden_model(key);
+      std::vector<Fragment> fragments;
+      golden->draw(words, fragments);
+      ASSERT_GT(fragments.size(), 2'000U);
+
+      for (const unsigned threads : {1U, 3U, 16U}) {
+        Batch all;
+        SceneStream stream(*setup, key, threads);
+        for (Batch batch; stream.next(batch); all.done = batch.done) {
+          EXPECT_GT(batch.done, all.done);
+          all.init_words.insert(all.init_words.end(), batch.init_words.begin(), batch.init_words.end());
+          all.golden.insert(all.golden.end(), batch.golden.begin(), batch.golden.end());
+        }
+        EXPECT_EQ(all.done, 1.0);
+        EXPECT_EQ(all.init_words, words) << threads;
+        EXPECT_EQ(all.golden, fragments) << threads;
+        EXPECT_EQ(stream.counts().vectors, counts.vectors);
+        EXPECT_EQ(stream.counts().shadows, counts.shadows);
+        EXPECT_EQ(stream.counts().projection.visible, counts.projection.visible);
+        EXPECT_TRUE(check_shadow_counts(*scene, stream));
+      }
+    }
+}
+
+// Sheets behind one another before a wall, the light behind the eye.
+Scene sheets(int count) {
+  Scene scene;
+  scene.name = "sheets";
+  scene.shadows = true;
+  scene.materials = {{.name = "paper"}};
+  for (int i = 0; i <= count; ++i) {
+    const bool wall = i == count;
+    Mesh sheet = make_box(wall ? glm::dvec3(40.0, 40.0, 0.1) : glm::dvec3(0.5, 0.5, 0.001), 1);
+    for (glm::dvec3& p : sheet.positions)
+      p += wall ? glm::dvec3(0.0, 0.0, -8.0) : glm::dvec3(1.0, 0.2, -0.003 * i);
+    add_mesh(scene, sheet);
+  }
+  scene.directional = {{.to_light_world = glm::normalize(glm::dvec3(0.02, 0.01, 1.0))}};
+  scene.camera = {.eye_world = {-3.0, 0.2, 3.0}, .target_world = {0.0, 0.0, -6.0}};
+  return scene;
+}
+
+TEST(SceneStream, MoreShadowVolumesThanAreCountedAreRefused) {
+  for (const int count : {300, 600}) {
+    const Scene scene = sheets(count);
+    const HardwareKey key = key_of(scene, Shader::processors);
+    const auto setup = make_setup(scene, {80, 60}, key, {});
+    SceneStream stream(*setup, key, 2);
+    for (Batch batch; stream.next(batch);) {
+    }
+    const Status status = check_shadow_counts(scene, stream);
+    EXPECT_GE(stream.counts().deepest_shadow, static_cast<std::uint64_t>(count));
+    if (count == 300) {
+      EXPECT_TRUE(status) << status.error().message;
+      continue;
+    }
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, ExitCode::bad_input);
+    EXPECT_THAT(status.error().message, ::testing::HasSubstr("count up to 511"));
+    EXPECT_TRUE(stream.fault());
+  }
+}
+
+// The eye behind all the sheets: none of their volumes begins before a pixel.
+TEST(SceneStream, VolumesAroundTheEyeCount) {
+  Scene scene = sheets(40);
+  scene.camera = {.eye_world = {0.95, 0.18, -3.0},
+                  .target_world = {0.95, 0.18, -8.0},
+                  .vertical_fov_degrees = 0.5,
+                  .far = 9.0};
+  const HardwareKey key = key_of(scene, Shader::processors);
+  const auto setup = make_setup(scene, {40, 30}, key, {});
+  SceneStream stream(*setup, key, 1);
+  for (Batch batch; stream.next(batch);) {
+  }
+  EXPECT_EQ(stream.counts().deepest_shadow, 40U);
+  EXPECT_FALSE(stream.fault());
+}
+
+}  // namespace
+}  // namespace halfway

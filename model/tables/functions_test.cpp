@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every value is the nearest to MPFR's, sizes are the formats', and the committed VHDL and C++ carry the same
+// numbers.
+#include "tables/functions.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mpfr.h>
+
+#include <cmath>
+
+#include "common/file.hpp"
+#include "golden/formats.hpp"
+#include "golden/function_rom.hpp"
+
+namespace halfway::tables {
+namespace {
+
+class Real {
+ public:
+  Real() { mpfr_init2(value_, 256); }
+  ~Real() { mpfr_clear(value_); }
+  Real(const Real&) = delete;
+  Real& operator=(const Real&) = delete;
+  operator mpfr_ptr() { return value_; }
+
+ private:
+  mpfr_t value_;
+};
+
+constexpr const char* c_names[] = {"reciprocal_root", "logarithm", "decay"};
+
+std::string name_of(const FunctionTable& table) {
+  return fmt::format("{} {}", table.exact ? "exact" : "published", c_names[static_cast<int>(table.function)]);
+}
+
+// The function's argument at value `index`, in units of 2^-(address_bits + 1): exact.
+long argument(const FunctionTable& table, long index) {
+  const long half_cells = 2 * index + (table.slope_bits > 0 ? 0 : 1), one = 2L << table.address_bits;
+  switch (table.function) {
+    case Function::reciprocal_root:
+      // The first half of the cells up to 2, the others twice as wide.
+      return 2 * half_cells < one ? one + 2 * half_cells : 4 * half_cells;
+    case Function::logarithm:
+      return one + half_cells;
+    case Function::decay:
+      break;
+  }
+  return half_cells;
+}
+
+// How far a value is from the true one, in units of its last bit, and how far that is from a tie.
+std::pair<double, double> distance(const FunctionTable& table, long index) {
+  Real value, rest;
+  mpfr_set_si_2exp(value, argument(table, index), -(table.address_bits + 1), MPFR_RNDN);
+  switch (table.function) {
+    case Function::reciprocal_root:
+      mpfr_rec_sqrt(value, value, MPFR_RNDN);
+      break;
+    case Function::logarithm:
+      mpfr_log2(value, value, MPFR_RNDN);
+      break;
+    case Function::decay:
+      mpfr_neg(value, value, MPFR_RNDN);
+      mpfr_exp2(value, value, MPFR_RNDN);
+      break;
+  }
+  mpfr_mul_2si(value, value, table.fraction_bits, MPFR_RNDN);
+  mpfr_frac(rest, value, MPFR_RNDN);
+  mpfr_sub_d(rest, rest, 0.5, MPFR_RNDN);
+  mpfr_sub_ui(value, value, table.values[static_cast<std::size_t>(index)], MPFR_RNDN);
+  return {std::fabs(mpfr_get_d(value, MPFR_RNDA)), std::fabs(mpfr_get_d(rest, MPFR_RNDZ))};
+}
+
+TEST(Functions, EveryValueIsTheNearestToMpfr) {
+  for (const FunctionTable& table : function_tables()) {
+    ASSERT_EQ(table.values.size(), (std::size_t{1} << table.address_bits) + (table.slope_bits > 0 ? 1U : 0U))
+        << name_of(table);
+    for (std::size_t i = 0; i < table.values.size(); ++i) {
+      const auto [from_true, from_tie] = distance(table, static_cast<long>(i));
+      ASSERT_LT(from_true, 0.5) << name_of(table) << ", value " << i << " is " << table.values[i];
+      ASSERT_GT(from_tie, 1e-9) << name_of(table) << ", value " << i;
+    }
+  }
+}
+
+TEST(Functions, ValuesAndSlopesFitTheirBits) {
+  for (const FunctionTable& table : function_tables()) {
+    const std::size_t cells = std::size_t{1} << table.address_bits;
+    std::uint32_t steepest = 0, largest = 0;
+    for (std::size_t i = 0; i < cells; ++i) {
+      largest = std::max(largest, table.values[i]);
+      if (table.slope_bits == 0) continue;
+      const std::int64_t slope = std::int64_t{table.values[i + 1]} - table.values[i];
+      EXPECT_EQ(slope > 0, table.function == Function::logarithm) << name_of(table) << ", value " << i;
+      steepest = std::max(steepest, static_cast<std::uint32_t>(std::abs(slope)));
+    }
+    // No bit too many, either.
+    EXPECT_EQ(std::bit_width(largest), table.value_bits) << name_of(table);
+    EXPECT_EQ(std::bit_width(steepest), table.slope_bits) << name_of(table);
+  }
+}
+
+template <class Preset>
+void expect_formats() {
+  const golden::FunctionTable& root = golden::function_table<Preset>(golden::Function::reciprocal_root);
+  EXPECT_EQ(root.value_bits, Preset::c_root_entry_bits);
+  EXPECT_EQ(root.fraction_bits, Preset::c_root_entry_fraction_bits);
+}
+
+TEST(Functions, TheRootsEntryHasItsFormat) {
+  expect_formats<golden::Exact>();
+  expect_formats<golden::Published>();
+}
+
+TEST(Functions, TheCommittedFilesAreTheGeneratorsOwn) {
+  for (const auto& [name, text] : {std::pair{"rtl/tables/function_pkg.vhd", function_vhdl_package()},
+                                   {"model/golden/function_tables.hpp", function_cpp_header()}}) {
+    const auto committed = read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / name);
+    ASSERT_TRUE(committed) << name;
+    EXPECT_TRUE(text == *committed) << name << ": run `make tables`";
+  }
+}
+
+// The numbers of the aggregate that follows a constant's name.
+std::vector<std::uint32_t> numbers_of(const std::string& text, const std::string& name,
+                                      const std::string& open, const std::string& close) {
+  std::size_t at = text.find(name);
+  EXPECT_NE(at, std::string::npos) << name;
+  at = text.find(open, at) + open.size();
+  const std::size_t end = text.find(close, at);
+  std::vector<std::uint32_t> numbers;
+  while ((at = text.find_first_of("0123456789", at)) < end) {
+    std::size_t length = 0;
+    numbers.push_back(static_cast<std::uint32_t>(std::stoul(text.substr(at, 10), &length)));
+    at += length;
+  }
+  return numbers;
+}
+
+TEST(Functions, VhdlAndCppCarryTheSameNumbers) {
+  const std::string vhdl = function_vhdl_package(), cpp = function_cpp_header();
+  for (const FunctionTable& table : function_tables()) {
+    const std::string name = fmt::format("c_{}_{}", table.exact ? "exact" : "published",
+                                         c_names[static_cast<int>(table.function)]);
+    EXPECT_EQ(numbers_of(vhdl, "constant " + name + " :", "(\n", ");"), table.values) << name;
+    EXPECT_EQ(numbers_of(cpp, " " + name + "_values", "= {\n", "\n}"), table.values) << name;
+    const std::string choice =
+        fmt::format("if {}exact and which = c_{} then\n      return ", table.exact ? "" : "not ",
+                    c_names[static_cast<int>(table.function)]);
+    EXPECT_THAT(vhdl, ::testing::HasSubstr(choice + name + ";"));
+    EXPECT_THAT(vhdl, ::testing::HasSubstr(choice + fmt::format("({}, {}, {}, {});", table.address_bits,
+                                                                table.value_bits, table.fraction_bits,
+                                                                table.slope_bits)));
+    const golden::FunctionTable& compiled =
+        (table.exact ? golden::c_exact_functions
+                     : golden::c_published_functions)[static_cast<std::size_t>(table.function)];
+    EXPECT_THAT(compiled.values, ::testing::ElementsAreArray(table.values)) << name;
+    EXPECT_EQ(compiled.address_bits, table.address_bits) << name;
+    EXPECT_EQ(compiled.value_bits, table.value_bits) << name;
+    EXPECT_EQ(compiled.fraction_bits, table.fraction_bits) << name;
+    EXPECT_EQ(compiled.slope_bits, table.slope_bits) << name;
+  }
+  for (const std::string& text : {vhdl, cpp})
+    for (std::size_t start = 0, end; (end = text.find('\n', start)) != std::string::npos; start = end + 1)
+      EXPECT_LE(end - start, 120U) << text.substr(start, end - start);
+}
+
+}  // namespace
+}  // namespace halfway::tables

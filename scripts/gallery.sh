@@ -1,0 +1,70 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# Makes the pictures of sim/gallery that the RTL draws, from GHDL's frames of `halfway sim`. Figure 17 is
+# tb/timing/figure17.sh's.
+#
+#   scripts/gallery.sh [--check] FOLDER   FOLDER takes what is made on the way; --check writes nothing else, draws by
+#                                         the golden model alone, and fails where the gallery has another picture
+#
+# Exit codes: 0 done, 1 a check or a comparison failed, 2 bad usage, 3 a tool is missing.
+set -eu
+export LC_ALL=C
+
+check=false
+if [ "${1-}" = --check ]; then
+  check=true
+  shift
+fi
+case "$#:${1-}" in
+  1:[!-]*) ;;
+  *)
+    echo "usage: scripts/gallery.sh [--check] FOLDER" >&2
+    exit 2
+    ;;
+esac
+root=$(cd "$(dirname "$0")/.." && pwd)
+halfway=${HALFWAY:-$root/build/halfway}
+gallery=$root/sim/gallery
+mkdir -p "$1"
+cd "$1"
+for tool in oiiotool idiff; do
+  command -v $tool >/dev/null || {
+    echo "gallery: $tool is missing; install it with: apt-get install openimageio-tools" >&2
+    exit 3
+  }
+done
+
+# Draws a scene into NAME.png.
+draw() { # name scene option...
+  name=$1
+  scene=$2
+  shift 2
+  if $check; then
+    "$halfway" render "$scene" --method golden --file "$name.png" "$@" >"$name.log"
+  else
+    "$halfway" sim "$scene" --out "$name" "$@"
+    cp "$name/$scene"/*/ghdl.png "$name.png"
+  fi
+}
+
+draw spheres spheres
+draw teapot teapot
+# Figure 15 of the spherical paper: one coarse sphere by tables of 4 address and 4 data bits, beside it by 6 and 6.
+for bits in 4 6; do
+  draw tables$bits highlights --shader spherical --preset published --address-bits $bits --data-bits $bits
+  oiiotool tables$bits.png --cut 190x200+225+140 --resample 380x400 -o half$bits.png
+done
+oiiotool --nosoftwareattrib half4.png half6.png --mosaic 2x1 --eraseattrib Software --eraseattrib '.*ImageHistory' \
+  -o figure15.png
+
+bad=0
+for picture in spheres teapot figure15; do
+  if ! $check; then
+    cp $picture.png "$gallery"
+    echo "sim/gallery/$picture.png: written"
+  elif ! idiff $picture.png "$gallery/$picture.png" >$picture.log; then
+    echo "gallery: sim/gallery/$picture.png is not what is drawn: run make gallery" >&2
+    bad=1
+  fi
+done
+exit $bad
