@@ -207,7 +207,7 @@ begin
       variable left      : boolean        := false;
     begin
       if rising_edge(clk) and reset = '0' then
-        assert in_ready = '1' or in_valid = '0' or out_ready = '0' or g_shadows
+        assert in_ready = '1' or in_valid = '0' or (out_valid = '1' and out_ready = '0') or g_shadows
           or unsigned(in_token(c_header.command.high downto c_header.command.low)) > c_new_scanline
           report c_file & ": an object is not taken at once" severity failure;
         if taken and not left then

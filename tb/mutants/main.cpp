@@ -187,12 +187,14 @@ constexpr Mutant c_mutants[] = {
      "illumination/table4.vhd"},
     {"illumination/shading_processor.vhd", "s.round_1  := s.scale_1 + c_mul_clocks",
      "s.round_1  := s.scale_1"},
-    // A light that changes under the tokens before; the first token's shadow for the next; a stage that does
-    // not
-    // stand still.
+    // A light that changes under the tokens before; the first token's shadow for the next; stages that stand
+    // still without need, and that do not while a token waits.
     {"illumination/unrolled_shading_processor.vhd", "not (in_valid and changes and (or r.filled))", "'1'"},
     {"illumination/unrolled_shading_processor.vhd", "g_depth => c_at.term - 1\n", "g_depth => c_at.term\n"},
-    {"illumination/unrolled_shading_processor.vhd", "out_ready or not r.filled(c_at.leave)", "out_ready"},
+    {"illumination/unrolled_shading_processor.vhd", "flows <= out_ready or not r.filled(c_at.leave)",
+     "flows <= out_ready"},
+    {"illumination/unrolled_shading_processor.vhd", "flows <= out_ready or not r.filled(c_at.leave)",
+     "flows <= '1'"},
     {"arithmetic/unit_vector.vhd", "c_dot_product_latency + reciprocal_root_latency(g_exact)",
      "reciprocal_root_latency(g_exact)", "illumination/unrolled_shading_processor.vhd"},
     // What loads leaves; a light's processors changed about; a fault unseen.
