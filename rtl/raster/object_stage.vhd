@@ -7,9 +7,9 @@
 --               shadow    a shadow polygon leaves where an object is there and the polygon is nearer, strictly
 --               any other of all objects again: the one leaves whose z and triangle are the kept ones, and takes them
 --                         away, so that each pixel is shaded once, and no column is left for the next line
--- Contract    valid/ready; tokens leave in order and stand still while they wait. clear, only where busy = '0' and
---             in_ready = '1', takes all columns away; it, and reset, keep in_ready at '0' for a clock a column up to the
---             last kept one, after reset for all.
+-- Contract    valid/ready; tokens leave in order and stand still while they wait. clear, only where idle = '1', takes all
+--             columns away; it, and reset, keep in_ready and idle at '0' for a clock a column up to the last kept one,
+--             after reset for all. busy: a token is held; idle: neither that, nor are columns being taken away.
 -- Formats     formats_pkg: pixel (the token's header); of the rest nothing is read
 -- Latency     1 clock
 -- Throughput  1 token a clock, whatever columns follow each other
@@ -37,7 +37,8 @@ entity object_stage is
     out_valid : out std_logic;
     out_ready : in  std_logic;
     out_token : out std_logic_vector(g_bits - 1 downto 0);
-    busy      : out std_logic
+    busy      : out std_logic;
+    idle      : out std_logic
   );
 end entity;
 
@@ -200,5 +201,6 @@ begin
   out_valid <= r.valid and passes;
   out_token <= token;
   busy      <= r.valid;
+  idle      <= not r.valid and not r.clearing;
 
 end architecture;

@@ -136,7 +136,7 @@ architecture rtl of processors_shader is
   signal span_token                : token_t;
   signal objects_clear             : std_logic;
   signal objects_busy              : std_logic;
-  signal objects_free              : std_logic; -- nothing is in the object stage, and it is not being cleared
+  signal objects_idle              : std_logic; -- nothing is in the object stage, and it is not being cleared
   signal object_valid              : std_logic;
   signal object_token              : token_t;
   signal place_command             : command_t; -- of an object
@@ -184,7 +184,7 @@ begin
 
   -- A load goes past the walker, which holds nothing then.
   walk_valid <= waiting and not loads;
-  load_valid <= waiting and loads and not walking and objects_free;
+  load_valid <= waiting and loads and not walking and objects_idle;
   taken      <= token_ready and load_valid when loads = '1' else walk_ready;
 
   walk <= init(walk_low(c_config) + c_walk_bits - 1 downto walk_low(c_config));
@@ -346,10 +346,9 @@ begin
           out_valid => object_valid,
           out_ready => token_ready,
           out_token => object_token,
-          busy      => objects_busy
+          busy      => objects_busy,
+          idle      => objects_idle
           );
-
-      objects_free <= drawn_ready and not objects_busy;
 
   else generate
 
@@ -357,7 +356,7 @@ begin
     object_token <= span_token;
     drawn_ready  <= token_ready;
     objects_busy <= '0';
-    objects_free <= '1';
+    objects_idle <= '1';
 
   end generate;
 

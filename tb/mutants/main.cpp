@@ -149,6 +149,8 @@ constexpr Mutant c_mutants[] = {
     {"raster/object_stage.vhd", "and column > r.last then", "and column > r.last and column(0) = '1' then"},
     {"raster/object_stage.vhd", "not r.valid or not passes or out_ready",
      "not r.valid or out_ready or not passes or r.forwarded"},
+    // Idle with a token.
+    {"raster/object_stage.vhd", "not r.valid and not r.clearing;", "not r.clearing;"},
     // The next line's slope; the next pixel's horizon; light behind the horizon.
     {"illumination/diffuse_slice.vhd", "increment => slope",
      "increment => part(c_part.slope.high downto c_part.slope.low)"},
@@ -223,9 +225,8 @@ constexpr Mutant c_mutants[] = {
     // object; a first colour that is not rounded; a colour that moves on; not busy with an object in the
     // pipeline; grey that is red.
     {"shaders/processors_shader.vhd", "walk_valid <= waiting and not loads;", "walk_valid <= waiting;"},
-    {"shaders/processors_shader.vhd", "waiting and loads and not walking and objects_free",
-     "waiting and loads and objects_free"},
-    {"shaders/processors_shader.vhd", "drawn_ready and not objects_busy", "drawn_ready"},
+    {"shaders/processors_shader.vhd", "waiting and loads and not walking and objects_idle",
+     "waiting and loads and objects_idle"},
     {"shaders/processors_shader.vhd", "token_ready and load_valid when", "load_valid when"},
     {"shaders/processors_shader.vhd", "clear     => objects_clear", "clear     => '0'"},
     {"shaders/processors_shader.vhd", "if reset = '1' or objects_clear = '1' then", "if reset = '1' then"},

@@ -99,7 +99,8 @@ std::vector<std::string> faults_in(const std::string& name, std::string_view tex
     }
     // A declaration gives a name to hardware: signal, port, entity, instance, record field.
     const std::size_t colon = code.find(':');
-    if (colon != std::string::npos && code.substr(colon, 2) != ":=") {
+    // Functions and what they are given leave no name in the netlist.
+    if (colon != std::string::npos && code.substr(colon, 2) != ":=" && !has_word(code, "function")) {
       std::string_view names = std::string_view(code).substr(0, colon);
       for (const std::string_view word : verilog_words) {
         if (has_word(names, word)) fault(fmt::format("{}: a word of Verilog's as a name", word));

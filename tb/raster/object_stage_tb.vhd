@@ -32,6 +32,7 @@ architecture sim of object_stage_run is
   signal out_ready : std_logic := '0';
   signal out_token : std_logic_vector(c_bits - 1 downto 0);
   signal busy      : std_logic;
+  signal idle      : std_logic;
 begin
   dut : entity work.object_stage
     generic map (g_exact => g_exact, g_bits => c_bits)
@@ -45,7 +46,8 @@ begin
       out_valid => out_valid,
       out_ready => out_ready,
       out_token => out_token,
-      busy      => busy);
+      busy      => busy,
+      idle      => idle);
 
   clk <= not clk after c_half_period when not finished;
 
@@ -64,7 +66,7 @@ begin
       variable offered  : boolean := false;
       variable waiting  : boolean := false;
       variable taken    : natural := 0;
-      variable idle     : natural := 0;
+      variable still    : natural := 0; -- clocks in which nothing moved
 
       procedure next_input is
       begin
@@ -81,7 +83,7 @@ begin
       loop
         random := next_random(random);
         -- A clear stands alone, between tokens.
-        if to_come and clears = '1' and in_valid = '0' and busy = '0' and in_ready = '1' then
+        if to_come and clears = '1' and in_valid = '0' and idle = '1' then
           clear    <= '1';
           in_valid <= '0';
           wait until rising_edge(clk);
@@ -94,8 +96,8 @@ begin
         in_token  <= token;
         out_ready <= to_flag(not stalls or random(20) = '1');
         wait until rising_edge(clk);
-        idle := idle + 1;
-        assert idle < 2 ** (formats(true).pixel_x.bits + 1)
+        still := still + 1;
+        assert still < 2 ** (formats(true).pixel_x.bits + 1)
           report g_stem & ": nothing moves after " & to_string(taken) & " tokens" severity failure;
 
         if in_ready = '1' then
@@ -103,6 +105,10 @@ begin
         elsif not stalls and not clearing then
           inputs.fail("is not taken at once");
         end if;
+        assert idle = (not busy and in_ready)
+          report g_stem & ": idle is " & to_string(idle) & ", busy " & to_string(busy) & ", in_ready "
+          & to_string(in_ready)
+          severity failure;
         if waiting and out_valid = '0' then
           outputs.fail("is withdrawn");
         end if;
@@ -119,13 +125,13 @@ begin
             outputs.check_word("token", out_token);
           end if;
           held := out_token;
-          idle := 0;
+          still := 0;
         end if;
         waiting := out_valid = '1' and out_ready = '0';
         if in_valid = '1' and in_ready = '1' then
           taken   := taken + 1;
           offered := false;
-          idle    := 0;
+          still   := 0;
           exit when taken = reset_at;
           next_input;
         elsif not to_come then
