@@ -7,7 +7,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 # What a target hands to the program. Values travel through the environment and are quoted where they are
 # used: neither make nor a shell ever reads them as code.
 variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS \
-  ALL_EFFECTS LIGHTS MEASURE OBJECTS RATE
+  ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
 
@@ -17,7 +17,7 @@ option = $${$(1):+$(2)="$$$(1)"}
 flag = $$(case "$${$(1)}" in ('' | 0) ;; (*) echo $(2) ;; esac)
 scene := $${SCENE:+-- "$$SCENE"}
 run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size) \
-  $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights)
+  $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights)
 sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) \
   $(call option,OUT,--out)
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
@@ -33,7 +33,8 @@ help: ## this list
 	@echo
 	@echo 'Variables, e.g. make sim SCENE=../shared/meshes/cow.obj SIZE=800x600'
 	@echo '  SCENE      a built-in scene, a TOML file or a mesh file   (default: all built-in scenes)'
-	@echo '  SHADER     quadratic or spherical                         (default: quadratic)'
+	@echo '  SHADER     quadratic, spherical or processors             (default: quadratic)'
+	@echo '  FORM       folded or unrolled shading processors          (default: unrolled)'
 	@echo '  PRESET     exact or published                             (default: exact)'
 	@echo '  SIZE       WIDTHxHEIGHT in pixels                         (default: 640x480)'
 	@echo '  SIMULATOR  ghdl or verilator                              (default: both)'

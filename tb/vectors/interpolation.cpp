@@ -70,7 +70,7 @@ Status write_plane(const std::filesystem::path& path) {
   VectorFile file;
   golden::PlaneInterpolator<W> twin;
   for (int i = 0; i < 2500; ++i) {
-    std::array<std::uint32_t, (c_bits + 31) / 32> plane;
+    std::array<std::uint32_t, (c_bits + 31) / 32> plane{};
     std::array<golden::Word<W>, 4> words;
     for (int w = 0; w < 4; ++w) {
       words[static_cast<std::size_t>(w)] = random.word<W>();
