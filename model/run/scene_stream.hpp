@@ -17,7 +17,7 @@ namespace halfway {
 struct Batch {
   std::vector<std::uint32_t> init_words;
   std::vector<Fragment> golden;
-  double done = 0.0;   ///< part of the stream, this batch included: 0 to 1
+  double done = 0.0;  ///< part of the stream, this batch included: 0 to 1
 };
 
 /// Setup and golden model on `threads` threads, one batch ahead of who takes them. The stream does not depend
