@@ -29,23 +29,15 @@ end entity;
 
 architecture rtl of dot_product is
 
-  type reg_t is record
-    sum : signed(2 * g_bits downto 0);
-  end record;
-
-  signal r : reg_t;
-
 begin
 
   registers : process (clk)
   begin
     if rising_edge(clk) then
       if enable = '1' then
-        r.sum <= sum_of_products(a, b);
+        sum <= std_logic_vector(sum_of_products(a, b));
       end if;
     end if;
   end process;
-
-  sum <= std_logic_vector(r.sum);
 
 end architecture;

@@ -32,12 +32,6 @@ architecture rtl of vector_multiply is
 
   constant c_bits : positive := g_a_bits + g_b_bits;
 
-  type reg_t is record
-    products : std_logic_vector(c_axes * c_bits - 1 downto 0);
-  end record;
-
-  signal r : reg_t;
-
 begin
 
   registers : process (clk)
@@ -45,13 +39,11 @@ begin
     if rising_edge(clk) then
       if enable = '1' then
         for axis in 0 to c_axes - 1 loop
-          r.products((axis + 1) * c_bits - 1 downto axis * c_bits) <=
+          products((axis + 1) * c_bits - 1 downto axis * c_bits) <=
             std_logic_vector(product(axis_of(a, axis), axis_of(b, axis)));
         end loop;
       end if;
     end if;
   end process;
-
-  products <= r.products;
 
 end architecture;

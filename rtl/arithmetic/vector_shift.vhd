@@ -78,23 +78,15 @@ architecture rtl of vector_shift is
     return result;
   end function;
 
-  type reg_t is record
-    shifted : result_t;
-  end record;
-
-  signal r : reg_t;
-
 begin
 
   registers : process (clk)
   begin
     if rising_edge(clk) then
       if enable = '1' then
-        r.shifted <= shift_all(components);
+        shifted <= shift_all(components);
       end if;
     end if;
   end process;
-
-  shifted <= r.shifted;
 
 end architecture;

@@ -106,7 +106,6 @@ architecture rtl of unrolled_shading_processor is
   signal terms     : std_logic_vector(g_channels * (c_reflected + c_weight) - 1 downto 0);
   signal shaded    : std_logic; -- the token at the sum is an object that takes the term
   signal behind    : token_t;   -- at the sum
-  signal leaves    : token_t;
   signal renewed   : std_logic_vector(c_axes * c_direction - 1 downto 0); -- N of the ambient processor
   signal view      : directions_t;
 
@@ -138,7 +137,6 @@ begin
 
   in_ready  <= free;
   out_valid <= r.filled(c_at.leave);
-  out_token <= leaves;
   busy      <= or r.filled;
   fault     <= r.fault or count_fault;
 
@@ -306,22 +304,22 @@ begin
   begin
     if rising_edge(clk) then
       if flows = '1' then
-        leaves <= behind;
+        out_token <= behind;
         now := to_integer(unsigned(of_header(behind, c_header.command)));
         if g_kind = c_ambient and (now = c_new_pixel or now = c_new_object or now = c_new_scanline) then
           for axis in 0 to c_axes - 1 loop
             low := normal_low(c_config, axis);
-            leaves(low + c_vector - 1 downto low) <= extended(std_logic_vector(axis_of(renewed, axis)), c_vector);
+            out_token(low + c_vector - 1 downto low) <= extended(std_logic_vector(axis_of(renewed, axis)), c_vector);
           end loop;
           if c_shape.second then
             low := view_low(c_config, 0);
-            leaves(low + view'high downto low) <= view;
+            out_token(low + view'high downto low) <= view;
           end if;
         end if;
         if shaded = '1' and (now = c_new_pixel or now = c_new_object or now = c_new_scanline) then
           for channel in 0 to g_channels - 1 loop
             low := radiance_low(c_config, channel);
-            leaves(low + c_radiance - 1 downto low) <= brightened(g_exact, behind(low + c_radiance - 1 downto low),
+            out_token(low + c_radiance - 1 downto low) <= brightened(g_exact, behind(low + c_radiance - 1 downto low),
               unsigned(terms((channel + 1) * (c_reflected + c_weight) - 1 downto channel * (c_reflected + c_weight))));
           end loop;
         end if;

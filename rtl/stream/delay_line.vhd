@@ -30,13 +30,11 @@ architecture rtl of delay_line is
 
   subtype word_t is std_logic_vector(g_bits - 1 downto 0);
 
-  signal held : word_t;
-
 begin
 
   places : if g_depth = 0 generate
 
-    held <= word;
+    delayed <= word;
 
   elsif g_depth = 1 generate
 
@@ -44,7 +42,7 @@ begin
     begin
       if rising_edge(clk) then
         if enable = '1' then
-          held <= word;
+          delayed <= word;
         end if;
       end if;
     end process;
@@ -59,8 +57,8 @@ begin
       begin
         if rising_edge(clk) then
           if enable = '1' then
-            before <= word;
-            held   <= before;
+            before  <= word;
+            delayed <= before;
           end if;
         end if;
       end process;
@@ -107,14 +105,12 @@ begin
       begin
         if rising_edge(clk) then
           if enable = '1' then
-            held                       <= memory(to_integer(index));
+            delayed                   <= memory(to_integer(index));
             memory(to_integer(index)) := word;
           end if;
         end if;
       end process;
 
   end generate;
-
-  delayed <= held;
 
 end architecture;

@@ -38,10 +38,6 @@ architecture rtl of function_rom is
   -- Downwards: GHDL's netlist reads an upward array by subtracting the address from its last.
   type rom_t is array (2 ** c_format.address_bits - 1 downto 0) of sample_t;
 
-  type reg_t is record
-    sample : sample_t;
-  end record;
-
   function entries return rom_t is
     constant c_table : function_table_t := function_table(g_exact, g_which);
 
@@ -64,19 +60,15 @@ architecture rtl of function_rom is
 
   constant c_rom : rom_t := entries;
 
-  signal r : reg_t;
-
 begin
 
   registers : process (clk)
   begin
     if rising_edge(clk) then
       if enable = '1' then
-        r.sample <= c_rom(to_integer(unsigned(address)));
+        sample <= c_rom(to_integer(unsigned(address)));
       end if;
     end if;
   end process;
-
-  sample <= r.sample;
 
 end architecture;
