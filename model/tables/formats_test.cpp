@@ -52,7 +52,7 @@ void expect_layout(const PresetFormats& preset, const std::vector<Field>& fields
 template <class Preset>
 void expect_preset(const PresetFormats& preset) {
   EXPECT_EQ(preset.name, Preset::c_name);
-  ASSERT_EQ(preset.layouts.size(), 7u);
+  ASSERT_EQ(preset.layouts.size(), 13u);
   const auto header = [&](std::size_t layout, const auto& compiled, int bits) {
     expect_layout(preset, preset.layouts[layout].header, compiled, bits);
   };
@@ -73,6 +73,16 @@ void expect_preset(const PresetFormats& preset) {
   channel(5, Preset::c_diffuse_probe_channel, Preset::c_diffuse_probe_channel_bits);
   header(6, Preset::c_specular_probe_header, Preset::c_specular_probe_header_bits);
   channel(6, Preset::c_specular_probe_channel, Preset::c_specular_probe_channel_bits);
+  header(7, Preset::c_request_header, Preset::c_request_header_bits);
+  header(8, Preset::c_plane_header, Preset::c_plane_header_bits);
+  header(9, Preset::c_pixel_header, Preset::c_pixel_header_bits);
+  for (const std::size_t layout : {7, 8, 9}) EXPECT_TRUE(preset.layouts[layout].channel.empty());
+  header(10, Preset::c_light_axes_header, Preset::c_light_axes_header_bits);
+  channel(10, Preset::c_light_axes_channel, Preset::c_light_axes_channel_bits);
+  EXPECT_TRUE(preset.layouts[11].header.empty() && Preset::c_light_colour_header_bits == 0);
+  channel(11, Preset::c_light_colour_channel, Preset::c_light_colour_channel_bits);
+  header(12, Preset::c_processor_probe_header, Preset::c_processor_probe_header_bits);
+  channel(12, Preset::c_processor_probe_channel, Preset::c_processor_probe_channel_bits);
 }
 
 TEST(Formats, TheCompiledLayoutsHaveNeitherGapsNorOverlaps) {
@@ -120,6 +130,14 @@ TEST(Formats, ErrorBoundsFollowFromTheFractionBits) {
   EXPECT_GE((1 << Exact::c_factor_bits) - (1 << Exact::c_factor_fraction_bits),
             (255 << 8) << Exact::c_factor_fraction_bits);
   EXPECT_EQ(Exact::c_product_word_bits, Exact::c_factor_bits + Exact::c_sample_word_bits);
+  // Planes: value and differences rounded once each; in steps of what the processors take.
+  const auto plane_error = [&]<class P>(P) {
+    return (1 + c_walked) * std::ldexp(0.5, P::c_vector_fraction_bits - P::c_plane_sum_fraction_bits);
+  };
+  EXPECT_LE(plane_error(golden::Exact{}), 0.4);
+  EXPECT_LE(plane_error(golden::Published{}), 1.51);
+  // Exponents are rounded: x^n falls by x^n ln(1/x) dn, at most dn/(e n), from n = 1 on.
+  EXPECT_LE(std::ldexp(0.5, -Exact::c_exponent_fraction_bits) / std::exp(1.0), 0.0008);
   // Guard band: differences below 2^13 pixels of 16 subpixels.
   EXPECT_LE(8191 * 16, (1 << Exact::c_edge_error_bits) - 1);
 }
