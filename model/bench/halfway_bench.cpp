@@ -52,16 +52,27 @@ struct Stream {
 
 constexpr std::size_t c_batch = 512;  // vectors, at least
 
-const Stream& stream_of(Shader shader, const std::string& name, FrameSize size) {
-  static std::map<std::tuple<Shader, std::string, std::uint32_t>, Stream> streams;
-  const auto [it, fresh] = streams.try_emplace({shader, name, size.width});
+// What is measured: a shader, the shading processors in either form.
+struct Hardware {
+  const char* name;
+  PlanRequest plan;
+};
+const Hardware c_hardware[] = {
+    {"quadratic", {.shader = Shader::quadratic}},
+    {"spherical", {.shader = Shader::spherical}},
+    {"processors", {.shader = Shader::processors}},
+    {"folded_processors", {.shader = Shader::processors, .form = ProcessorForm::folded}}};
+
+const Stream& stream_of(const Hardware& hardware, const std::string& name, FrameSize size) {
+  static std::map<std::tuple<std::string, std::string, std::uint32_t>, Stream> streams;
+  const auto [it, fresh] = streams.try_emplace({hardware.name, name, size.width});
   Stream& s = it->second;
   if (!fresh) return s;
   const Scene scene = must(load_scene(name, c_source / "sim" / "scenes"));
-  s.key = must(plan_scene(scene, {.shader = shader})).key;
+  s.key = must(plan_scene(scene, hardware.plan)).key;
   const std::unique_ptr<Setup> setup = make_setup(scene, size, s.key, {});
   s.init_bits = setup->init_bits();
-  SceneStream source(scene, *setup, s.key, 1);
+  SceneStream source(*setup, s.key, 1);
   for (Batch batch; source.next(batch);) {
     s.words.insert(s.words.end(), batch.init_words.begin(), batch.init_words.end());
     s.golden.insert(s.golden.end(), batch.golden.begin(), batch.golden.end());
@@ -87,23 +98,23 @@ void report_fragments(benchmark::State& state, std::size_t fragments) {
       benchmark::Counter(static_cast<double>(fragments), benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void setup(benchmark::State& state, Shader shader) {
+void setup(benchmark::State& state, const Hardware& hardware) {
   const Scene scene = must(load_scene("teapot", c_source / "sim" / "scenes"));
-  const HardwareKey key = must(plan_scene(scene, {.shader = shader})).key;
+  const HardwareKey key = must(plan_scene(scene, hardware.plan)).key;
   const std::unique_ptr<Setup> maker = make_setup(scene, c_large, key, {});
   SetupCounts counts;
   for (auto _ : state) {
     counts = {};
     std::vector<std::uint32_t> words;
-    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) maker->append(t, words, counts);
+    for (std::uint32_t unit = 0; unit < maker->units(); ++unit) maker->append(unit, words, counts);
     benchmark::DoNotOptimize(words.data());
   }
   state.counters["vectors/s"] = benchmark::Counter(static_cast<double>(counts.vectors + counts.records),
                                                    benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void golden_model(benchmark::State& state, Shader shader, const char* scene) {
-  const Stream& s = stream_of(shader, scene, c_large);
+void golden_model(benchmark::State& state, const Hardware& hardware, const char* scene) {
+  const Stream& s = stream_of(hardware, scene, c_large);
   const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
   std::vector<Fragment> fragments;
   fragments.reserve(s.golden.size());
@@ -116,8 +127,8 @@ void golden_model(benchmark::State& state, Shader shader, const char* scene) {
 }
 
 // Hardware alone, then with the golden model drawing the same on the same core and every field compared.
-void verilator(benchmark::State& state, Shader shader, const char* scene, bool compared) {
-  const Stream& s = stream_of(shader, scene, c_large);
+void verilator(benchmark::State& state, const Hardware& hardware, const char* scene, bool compared) {
+  const Stream& s = stream_of(hardware, scene, c_large);
   auto simulator = must(VerilatorSimulator::open(s.key, c_folders));
   const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
   const std::size_t words_per_vector = (s.init_bits + 31) / 32;
@@ -157,8 +168,8 @@ void verilator(benchmark::State& state, Shader shader, const char* scene, bool c
       (static_cast<double>(s.golden.size()) * static_cast<double>(state.iterations()));
 }
 
-void ghdl(benchmark::State& state, Shader shader, const char* scene) {
-  const Stream& s = stream_of(shader, scene, c_small);
+void ghdl(benchmark::State& state, const Hardware& hardware, const char* scene) {
+  const Stream& s = stream_of(hardware, scene, c_small);
   const auto runner = must(GhdlRunner::open(s.key, c_folders));
   const std::filesystem::path folder = c_source / "build" / "bench";
   if (const Status made = make_folders(folder); !made) fail(made.error());
@@ -220,8 +231,8 @@ class Ratios final : public benchmark::ConsoleReporter {
         if (name.find(part) != std::string::npos) return value;
       return 0.0;
     };
-    for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
-      const std::string of = fmt::format("/{}/spheres", to_string(shader));
+    for (const Hardware& hardware : c_hardware) {
+      const std::string of = fmt::format("/{}/spheres", hardware.name);
       const double compared = rate("verilator_compared" + of), golden = rate("golden" + of);
       const double alone = rate("verilator" + of), in_ghdl = rate("ghdl" + of);
       if (compared == 0.0 || golden == 0.0 || in_ghdl == 0.0) continue;
@@ -230,7 +241,7 @@ class Ratios final : public benchmark::ConsoleReporter {
           "  Verilator with comparison        1.00  ({:.1f} million)\n"
           "  Verilator alone                  {:.2f}\n  golden model alone               {:.2f}\n"
           "  GHDL                             1/{:.0f}\n",
-          to_string(shader), compared / 1e6, alone / compared, golden / compared, compared / in_ghdl);
+          hardware.name, compared / 1e6, alone / compared, golden / compared, compared / in_ghdl);
     }
   }
 
@@ -241,19 +252,19 @@ class Ratios final : public benchmark::ConsoleReporter {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+  for (const Hardware& hardware : c_hardware) {
     const auto add = [&](const char* what, const char* scene, auto&&... arguments) {
-      return benchmark::RegisterBenchmark(fmt::format("{}/{}/{}", what, to_string(shader), scene).c_str(),
+      return benchmark::RegisterBenchmark(fmt::format("{}/{}/{}", what, hardware.name, scene).c_str(),
                                           arguments...)
           ->Unit(benchmark::kMillisecond);
     };
-    add("setup", "teapot", setup, shader);
+    add("setup", "teapot", setup, hardware);
     for (const char* scene : {"spheres", "matte"}) {
-      add("golden", scene, golden_model, shader, scene);
-      add("verilator", scene, verilator, shader, scene, false);
-      add("verilator_compared", scene, verilator, shader, scene, true);
+      add("golden", scene, golden_model, hardware, scene);
+      add("verilator", scene, verilator, hardware, scene, false);
+      add("verilator_compared", scene, verilator, hardware, scene, true);
     }
-    add("ghdl", "spheres", ghdl, shader, "spheres")->UseManualTime()->Iterations(1);
+    add("ghdl", "spheres", ghdl, hardware, "spheres")->UseManualTime()->Iterations(1);
   }
   benchmark::RegisterBenchmark("million_triangles/1920x1080", million_triangles)
       ->Unit(benchmark::kMillisecond)
