@@ -46,6 +46,7 @@ Result<FrameDistance> frame_distance(const Frame& a, const Frame& b, std::span<c
       worst = std::max(worst, d);
     }
     result.differing += worst > 0;
+    result.off += worst > c_close;
   }
 
   const std::uint64_t channels = 3 * result.pixels;

@@ -10,10 +10,14 @@
 
 namespace halfway {
 
+/// As far apart pixels may be that show the same.
+inline constexpr unsigned c_close = 2;
+
 /// Over the three channels of the pixels compared, in steps of 1/255.
 struct FrameDistance {
   std::uint64_t pixels = 0;     ///< compared
   std::uint64_t differing = 0;  ///< of them, with at least one channel that differs
+  std::uint64_t off = 0;        ///< of them, with one that differs by more than c_close steps
   double psnr_db = 0.0;         ///< 20 log10(255/rms), infinity where nothing differs
   double rms = 0.0;
   unsigned max_lsb = 0;       ///< greatest absolute difference

@@ -22,6 +22,12 @@ TEST(Metrics, EqualFramesHaveNoDistance) {
   EXPECT_EQ(d->percentile99, 0u);
 }
 
+TEST(Metrics, UpToTwoStepsArePassedAsClose) {
+  Frame a({2, 1}), b({2, 1});
+  b.rgb = {2, 2, 2, 0, 3, 0};
+  EXPECT_EQ(frame_distance(a, b)->off, 1u);
+}
+
 TEST(Metrics, CountsDifferencesInTheMaskOnly) {
   Frame a({2, 2}), b({2, 2});
   b.rgb = {3, 0, 0, 0, 0, 4, 200, 0, 0, 0, 0, 0};
@@ -30,6 +36,7 @@ TEST(Metrics, CountsDifferencesInTheMaskOnly) {
   ASSERT_TRUE(d);
   EXPECT_EQ(d->pixels, 2u);
   EXPECT_EQ(d->differing, 2u);
+  EXPECT_EQ(d->off, 2u);
   EXPECT_EQ(d->max_lsb, 4u);
   EXPECT_EQ(d->percentile99, 4u);
   EXPECT_DOUBLE_EQ(d->rms, std::sqrt(25.0 / 6.0));

@@ -470,7 +470,9 @@ std::string to_json(const SceneSummary& s) {
        {{"psnr_db", std::isfinite(s.accuracy.psnr_db) ? nlohmann::ordered_json(s.accuracy.psnr_db) : nullptr},
         {"max_lsb", s.accuracy.max_lsb},
         {"percentile99_lsb", s.accuracy.percentile99},
-        {"rms_lsb", s.accuracy.rms}}},
+        {"rms_lsb", s.accuracy.rms},
+        {"pixels", s.accuracy.pixels},
+        {"pixels_off", s.accuracy.off}}},
       {"setup",
        {{"back_facing", s.setup.projection.back_facing},
         {"behind_near", s.setup.projection.behind_near},
@@ -512,6 +514,11 @@ std::string to_line(const SceneSummary& s) {
                    s.accuracy.psnr_db, s.accuracy.max_lsb);
   else
     fmt::format_to(std::back_inserter(line), " | reference: equal");
+  if (s.accuracy.off != 0)
+    fmt::format_to(std::back_inserter(line), ", {} of {} pixels ({:.2g} %) off by more than {}",
+                   s.accuracy.off, s.accuracy.pixels,
+                   100.0 * static_cast<double>(s.accuracy.off) / static_cast<double>(s.accuracy.pixels),
+                   c_close);
   fmt::format_to(std::back_inserter(line), " | {:.2f} s", s.seconds);
   return line;
 }
