@@ -49,6 +49,7 @@ draw() { # name scene option...
 
 draw spheres spheres
 draw teapot teapot
+draw shadows shadows --shader processors
 # Figure 15 of the spherical paper: one coarse sphere by tables of 4 address and 4 data bits, beside it by 6 and 6.
 for bits in 4 6; do
   draw tables$bits highlights --shader spherical --preset published --address-bits $bits --data-bits $bits
@@ -58,7 +59,7 @@ oiiotool --nosoftwareattrib half4.png half6.png --mosaic 2x1 --eraseattrib Softw
   -o figure15.png
 
 bad=0
-for picture in spheres teapot figure15; do
+for picture in spheres teapot shadows figure15; do
   if ! $check; then
     cp $picture.png "$gallery"
     echo "sim/gallery/$picture.png: written"
