@@ -57,8 +57,8 @@ struct Exact {
   // s9.0: shadow volumes opened less those closed, up to 511 either way
   static constexpr int c_shadow_count_bits = 10;
   static constexpr int c_shadow_count_fraction_bits = 0;
-  // u12.6: one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-12
-  static constexpr int c_spot_slope_bits = 18;
+  // u18.6: one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-18, so that a cone of a tenth of a degree still comes to its full light
+  static constexpr int c_spot_slope_bits = 24;
   static constexpr int c_spot_slope_fraction_bits = 6;
   // u18.0: below the edge's height in subpixels: 8192 pixels of 16, doubled at no level of subdivision
   static constexpr int c_edge_error_bits = 18;
@@ -405,14 +405,14 @@ struct Exact {
 
   static constexpr int c_pixel_channel_bits = 0;
 
-  static constexpr int c_light_axes_header_bits = 59;
+  static constexpr int c_light_axes_header_bits = 65;
   static constexpr std::array<Field, 6> c_light_axes_header = {{
       {"positional", 0, 1, false, 0},
       {"spot", 1, 1, false, 0},
       {"shift", 2, 5, false, 0},
       {"outer", 7, 24, true, 22},
-      {"slope", 31, 18, false, 6},
-      {"around_eye", 49, 10, true, 0},
+      {"slope", 31, 24, false, 6},
+      {"around_eye", 55, 10, true, 0},
   }};
   struct light_axes_header_at {
     static constexpr const Field& positional = c_light_axes_header[0];
@@ -503,8 +503,8 @@ struct Published {
   // s9.0: shadow volumes opened less those closed, up to 511 either way
   static constexpr int c_shadow_count_bits = 10;
   static constexpr int c_shadow_count_fraction_bits = 0;
-  // u12.6: one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-12
-  static constexpr int c_spot_slope_bits = 18;
+  // u18.6: one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-18, so that a cone of a tenth of a degree still comes to its full light
+  static constexpr int c_spot_slope_bits = 24;
   static constexpr int c_spot_slope_fraction_bits = 6;
   // u0.0: edges are stepped by a real slope
   static constexpr int c_edge_error_bits = 0;
@@ -803,13 +803,13 @@ struct Published {
 
   static constexpr int c_pixel_channel_bits = 0;
 
-  static constexpr int c_light_axes_header_bits = 46;
+  static constexpr int c_light_axes_header_bits = 52;
   static constexpr std::array<Field, 5> c_light_axes_header = {{
       {"positional", 0, 1, false, 0},
       {"spot", 1, 1, false, 0},
       {"outer", 2, 16, true, 14},
-      {"slope", 18, 18, false, 6},
-      {"around_eye", 36, 10, true, 0},
+      {"slope", 18, 24, false, 6},
+      {"around_eye", 42, 10, true, 0},
   }};
   struct light_axes_header_at {
     static constexpr const Field& positional = c_light_axes_header[0];

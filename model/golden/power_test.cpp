@@ -94,14 +94,16 @@ TEST(Power, WhatPublishedMeasures) {
   }
 }
 
+// Slopes up to 2^whole_bits.
 template <class Preset>
-void expect_spot(double bound) {
+void expect_spot(double bound, int whole_bits = 12) {
   constexpr int c_fraction = Preset::c_direction_fraction_bits;
   std::mt19937_64 random(2);
   long double largest = 0;
   for (int i = 0; i < 300'000; ++i) {
-    const auto slope = static_cast<std::uint32_t>(
-        1 + (random() % ((1U << Preset::c_spot_slope_bits) - 1) >> random() % Preset::c_spot_slope_bits));
+    const int slope_bits = whole_bits + Preset::c_spot_slope_fraction_bits;
+    const auto slope =
+        static_cast<std::uint32_t>(1 + (random() % ((1ULL << slope_bits) - 1) >> random() % slope_bits));
     const auto outer = static_cast<std::int64_t>(random() % (2ULL << c_fraction)) - (1LL << c_fraction);
     const long double s = std::ldexp(static_cast<long double>(slope), -Preset::c_spot_slope_fraction_bits);
     // A little outside the outer edge, to a little inside the inner one.
@@ -129,6 +131,9 @@ void expect_spot(double bound) {
 TEST(SpotCone, IsTheCubic) {
   expect_spot<Exact>(std::ldexp(3.5, -16));
   expect_spot<Published>(std::ldexp(2.0, -8));
+  // Steeper.
+  constexpr int c_steepest = Exact::c_spot_slope_bits - Exact::c_spot_slope_fraction_bits;
+  expect_spot<Exact>(std::ldexp(3.5, -16) + std::ldexp(1.5, c_steepest - 28), c_steepest);
 }
 
 }  // namespace

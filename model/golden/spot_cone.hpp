@@ -14,7 +14,8 @@ class SpotCone {
  public:
   /// Of a sum of products of directions.
   static constexpr int c_sum_fraction = 2 * Preset::c_direction_fraction_bits;
-  /// Of what the cosine is above the outer edge's: with the largest slope a step is one of t.
+  /// Of what the cosine is above the outer edge's: with a slope of 2^12 a step is one of t; steeper edges are
+  /// as narrow as the errors of directions.
   static constexpr int c_over_fraction = 28;
 
   /// The light's share in format weight, by the cosine of the angle between the way from the light to the

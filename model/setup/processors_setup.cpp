@@ -30,6 +30,9 @@ constexpr double c_farthest_light = 4096.0;
 
 constexpr double c_white = 255.0;  // colour steps
 
+// A cone of fewer errors of a cosine than this, from its axis to its edge, is noted.
+constexpr double c_least_cone = 32.0;
+
 // A number format that stands in no block of its own.
 constexpr golden::Field word(int bits, int fraction_bits, bool is_signed = false) {
   return {"", 0, bits, is_signed, fraction_bits};
@@ -210,6 +213,8 @@ class ProcessorsSetup final : public Setup {
   static constexpr golden::Field c_coefficient = word(P::c_coefficient_bits, P::c_coefficient_fraction_bits);
   static constexpr golden::Field c_reflected = word(P::c_reflected_bits, P::c_reflected_fraction_bits);
   static constexpr golden::Field c_intensity = P::light_colour_channel_at::intensity;
+  // Of a unit vector's length, and so of a cosine near 1: reciprocal_root.vhd.
+  static constexpr double c_cosine_error = c_exact ? 0x1p-19 : 0x1p-7;
   // Half a step of vector, which the hardware cuts the planes to.
   static constexpr std::int64_t c_half_vector =
       half(P::c_plane_sum_fraction_bits - P::c_vector_fraction_bits);
@@ -560,7 +565,17 @@ class ProcessorsSetup final : public Setup {
                           "adds to the way to the "
                           "light, was held at {:.4g} times its size",
                           name_of(light), largest_value(Axis::half)));
+      if (light.kind == LightKind::spot) note_cone(light);
     }
+  }
+
+  void note_cone(LightRef light) {
+    const double cos_outer = scene_.spots[light.index].cos_outer;
+    if (1.0 - cos_outer >= c_least_cone * c_cosine_error) return;
+    notes_.push_back(fmt::format(
+        "{}: its cone of {:.2g} degrees is so narrow that its light is rough: the cosine of an angle is only "
+        "good to {:.1g}",
+        name_of(light), 2.0 * glm::degrees(std::acos(cos_outer)), c_cosine_error));
   }
 
   void note_material(const Material& m) {

@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec2.hpp>
 #include <limits>
 #include <span>
 #include <stdexcept>
@@ -30,7 +32,7 @@
 namespace halfway {
 namespace {
 
-using ::testing::HasSubstr, ::testing::IsEmpty, ::testing::UnorderedElementsAre;
+using ::testing::Contains, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::UnorderedElementsAre;
 
 constexpr FrameSize c_frame{96, 72};
 
@@ -201,6 +203,44 @@ TEST(ProcessorsSetup, LightsWhereDirectionsEnd) {
   scene.spots[0].cos_inner = 1.0;
   scene.spots[0].cos_outer = 0.0;
   EXPECT_LE(error(scene), 2U);
+}
+
+// Onto the middle of a wall that a narrow cone fills a good part of; inner edge and outer edge in degrees.
+Scene narrow_spot(double inner, double outer) {
+  const double radius = 3.0 * std::tan(glm::radians(outer));
+  Scene scene;
+  scene.name = "spot";
+  scene.materials = {{.name = "wall", .ambient = 0.0, .diffuse = 1.0, .specular = 0.0}};
+  for (const glm::dvec2 corner : {glm::dvec2(-2, -2), glm::dvec2(2, -2), glm::dvec2(2, 2), glm::dvec2(-2, 2)})
+    scene.positions_world.emplace_back(radius * corner, 0.0);
+  scene.normals_world = {{0.0, 0.0, 1.0}};
+  scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}, {{0, 2, 3}, {0, 0, 0}, 0}};
+  scene.camera.eye_world = radius * glm::dvec3(1.0, 0.5, 6.0);
+  scene.spots = {{.position_world = {0.9, 1.2, 2.6},
+                  .axis_world = glm::normalize(-glm::dvec3(0.9, 1.2, 2.6)),
+                  .cos_inner = std::cos(glm::radians(inner)),
+                  .cos_outer = std::cos(glm::radians(outer))}};
+  return scene;
+}
+
+// Not dimmed, however hard the edge: only what the directions' own errors move it by is left.
+TEST(ProcessorsSetup, NarrowSpotsComeToTheirFullLight) {
+  for (const double outer : {0.7, 1.0, 1.5, 3.0, 10.0})
+    for (const double inner : {0.0, 0.7, 1.0}) {
+      const Scene scene = narrow_spot(inner * outer, outer);
+      const FrameDistance d = distance(scene, draw(scene, key_of(scene)).frame);
+      if (inner == 0.0)
+        EXPECT_LE(d.max_lsb, outer < 1.0 ? 6U : outer < 1.5 ? 3U : 2U) << outer;
+      else
+        EXPECT_LE(d.percentile99, outer < 1.0 ? 16U : 8U) << outer << ", from " << inner;
+      EXPECT_THAT(make_setup(scene, c_frame, key_of(scene), {})->notes(), IsEmpty());
+    }
+  // Narrower ones are noted; published, those of a few tens of degrees.
+  for (const auto& [preset, angle] : {std::pair{Preset::exact, 0.4}, {Preset::published, 40.0}}) {
+    const Scene scene = narrow_spot(0.0, angle);
+    EXPECT_THAT(make_setup(scene, c_frame, key_of(scene, preset), {})->notes(),
+                Contains(HasSubstr("spot light 1: its cone of")));
+  }
 }
 
 // Whatever it is, it is drawn: each pixel that it covers, in colours of the format.

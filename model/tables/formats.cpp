@@ -28,8 +28,9 @@ std::vector<Format> common_formats() {
       {"command", false, 3, 0, "of a vector or token of the shading processors"},
       {"light", false, 5, 0, "a light's number from 1; 0 is the ambient light"},
       {"shadow_count", true, 9, 0, "shadow volumes opened less those closed, up to 511 either way"},
-      {"spot_slope", false, 12, 6,
-       "one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-12"},
+      {"spot_slope", false, 18, 6,
+       "one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-18, so that a "
+       "cone of a tenth of a degree still comes to its full light"},
   };
 }
 

@@ -10,7 +10,8 @@
 --             spot_slope; factor: weight
 -- Latency     4 clocks with enable (shading_pkg)
 -- Throughput  1 a clock
--- Error       3.5 * 2**-16 exact, 2 * 2**-8 published: what is cut from over and t, and rounding
+-- Error       3.5 * 2**-16 exact, 2 * 2**-8 published, for slopes up to 2**12: what is cut from over and t, and rounding;
+--             1.5 * 2**-28 * slope more for steeper ones, where the directions' own errors are larger
 -- Source      ours: the processors paper has no spot lights
 -- Golden twin model/golden/spot_cone.hpp
 

@@ -84,8 +84,8 @@ package formats_pkg is
     light => (5, 0),
     -- s9.0: shadow volumes opened less those closed, up to 511 either way
     shadow_count => (10, 0),
-    -- u12.6: one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-12
-    spot_slope => (18, 6),
+    -- u18.6: one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-18, so that a cone of a tenth of a degree still comes to its full light
+    spot_slope => (24, 6),
     -- u18.0: below the edge's height in subpixels: 8192 pixels of 16, doubled at no level of subdivision
     edge_error => (18, 0),
     -- s13.0: an edge is a whole pixel and a remainder
@@ -159,8 +159,8 @@ package formats_pkg is
     light => (5, 0),
     -- s9.0: shadow volumes opened less those closed, up to 511 either way
     shadow_count => (10, 0),
-    -- u12.6: one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-12
-    spot_slope => (18, 6),
+    -- u18.6: one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-18, so that a cone of a tenth of a degree still comes to its full light
+    spot_slope => (24, 6),
     -- u0.0: edges are stepped by a real slope
     edge_error => (0, 0),
     -- s13.18: 32 bits, as the quadratic paper's other registers
@@ -766,8 +766,8 @@ package formats_pkg is
     spot => (1, 1),
     shift => (6, 2),
     outer => (30, 7),
-    slope => (48, 31),
-    around_eye => (58, 49)
+    slope => (54, 31),
+    around_eye => (64, 55)
   );
 
   constant c_published_light_axes_header : light_axes_header_t := (
@@ -775,14 +775,14 @@ package formats_pkg is
     spot => (1, 1),
     shift => (-1, 0),
     outer => (17, 2),
-    slope => (35, 18),
-    around_eye => (45, 36)
+    slope => (41, 18),
+    around_eye => (51, 42)
   );
 
   function light_axes_header (exact : boolean) return light_axes_header_t;
 
-  constant c_exact_light_axes_header_bits : natural := 59;
-  constant c_published_light_axes_header_bits : natural := 46;
+  constant c_exact_light_axes_header_bits : natural := 65;
+  constant c_published_light_axes_header_bits : natural := 52;
 
   type light_axes_channel_t is record
     place : slice_t;
