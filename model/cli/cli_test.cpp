@@ -219,6 +219,17 @@ TEST_F(CliTest, BadScenesAndMeshesExitTwoAndLeaveNothing) {
   EXPECT_EQ(run({"sim", folder_->path(), "--out", out()}).exit_code, 2);
 }
 
+TEST_F(CliTest, RenderingTheGoldenModelSaysWhatWasHeld) {
+  const auto scene = write("bright.toml",
+                           "[[directional]]\nto_light = [0, 0, 1]\nintensity = [100, 1, 1]\n[[material]]\n"
+                           "name = \"m\"\n[[mesh]]\nkind = \"box\"\nmaterial = \"m\"\n");
+  const auto image = (folder_->path() / "bright.png").string();
+  const Outcome golden = run(
+      {"render", scene, "--method", "golden", "--shader", "processors", "--size", "20x15", "--file", image});
+  EXPECT_EQ(golden.exit_code, 0) << golden.output;
+  EXPECT_THAT(golden.output, HasSubstr("directional light 1 is 100 times white and was held"));
+}
+
 TEST_F(CliTest, CameraInsideTheMeshOrBehindItStillDraws) {
   const std::string common =
       "[[directional]]\nto_light = [0, 0, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nkind = "

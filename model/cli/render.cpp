@@ -34,6 +34,7 @@ Result<Frame> golden_frame(const Scene& scene, const DrawSettings& draw) {
   const auto plan = plan_scene(scene, draw.plan);
   if (!plan) return plan.error();
   const std::unique_ptr<Setup> setup = make_setup(scene, draw.size, plan->key, draw.setup);
+  for (const std::string& note : setup->notes()) fmt::print(stderr, "{}: {}\n", scene.name, note);
   SceneStream stream(*setup, plan->key, draw.threads);
   FrameAssembler assembler(draw.size, scene.background);
   Progress progress(scene.name);

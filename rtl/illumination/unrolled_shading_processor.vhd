@@ -7,7 +7,8 @@
 --             stays '1' from, at the latest, the clock after the token that left in it.
 -- Formats     processors_pkg, formats_pkg; words between the units: terms_pkg
 -- Latency     times of terms_pkg: leave (published, exact): ambient 2, 2; with N normalized or the view vector 6, 9;
---             directional diffuse 4, 4, specular 5, 18; positional diffuse 10, 14, specular 11, 28
+--             directional diffuse 4, 4, specular 5, 18; positional diffuse 10, 14, specular 11, 28; spot diffuse 14, 18,
+--             specular 14, 29
 -- Throughput  1 token a clock
 -- Source      processors paper, figures 1 and 2, unrolled; ours
 -- Golden twin model/golden/shading_processor.hpp
