@@ -265,8 +265,8 @@ int run(const Folders& folders, const PlanCommand& command) {
   print_units(plan);
   // The object stage, which comes with shadows, lets no object out that another one hides.
   const bool hides = plan.called_for.processors.shadows != plan.everything.processors.shadows;
-  const bool same = called_for.frame.rgb == everything.frame.rgb &&
-                    (hides || called_for.fragments == everything.fragments);
+  const bool same =
+      called_for.frame.rgb == everything.frame.rgb && (hides || called_for.fragments == everything.fragments);
   if (command.measure) print_measured(plan, cells, called_for, everything, same);
   if (command.objects || command.rate) print_processors(*scene, command, draw->size);
   return static_cast<int>(same ? ExitCode::equal : ExitCode::differs);

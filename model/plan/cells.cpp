@@ -82,7 +82,7 @@ Result<Cells> read_cells(const std::filesystem::path& folder) {
   if (multipliers > 0)
     if (Status status = read_multipliers(folder / kMultipliers, cells); !status) return status.error();
   if (multipliers != cells.multipliers)
-    return tool_failed(fmt::format("{}: {} multipliers, and {} before: delete it and try again",
+    return tool_failed(fmt::format("{}: {} multipliers, {} with a width: delete it and try again",
                                    path.string(), multipliers, cells.multipliers));
   return cells;
 }
@@ -90,19 +90,21 @@ Result<Cells> read_cells(const std::filesystem::path& folder) {
 // As `synth` has it, but for memory that is written: that stays memory.
 std::string yosys_script(const HardwareKey& key) {
   const std::string top = key.entity();
-  // Whole multipliers are most of abc's time, and of the LUTs, where there are many wide ones.
-  const std::string coarse =
-      key.shader == Shader::processors
-          ? fmt::format(
-                "read_verilog -lib {0}.v; hierarchy -top {1}; proc; flatten; opt_expr; opt_clean; "
-                "opt -nodffe -nosdff; wreduce; opt_clean; tee -q -o {2} stat -json -width; "
-                "chtype -set {0} t:$mul; synth -lut 4 -top {1} -run coarse:fine",
-                kMultiplier, top, kMultipliers)
-          : fmt::format("synth -flatten -lut 4 -top {} -run begin:fine", top);
+  std::string coarse = fmt::format("synth -flatten -lut 4 -top {} -run begin:fine", top), multipliers;
+  // Wide multipliers, and many of them, would take nearly all of abc's time.
+  if (key.shader == Shader::processors) {
+    coarse = fmt::format(
+        "read_verilog -lib {0}.v; hierarchy -top {1}; proc; flatten; opt_expr; opt_clean; opt -nodffe "
+        "-nosdff; "
+        "wreduce; opt_clean; chtype -set {0} t:$mul; synth -lut 4 -top {1} -run coarse:fine",
+        kMultiplier, top);
+    multipliers =
+        fmt::format("; chtype -set $mul t:{}; tee -q -o {} stat -json -width", kMultiplier, kMultipliers);
+  }
   return fmt::format(
       "read_verilog netlist.v; {}; opt -fast -full; memory_map -rom-only; opt -full; techmap; opt -fast; "
-      "abc -fast -lut 4; opt -fast; memory_unpack; tee -q -o {} stat -json",
-      coarse, kFigures);
+      "abc -fast -lut 4; opt -fast; memory_unpack; tee -q -o {} stat -json{}",
+      coarse, kFigures, multipliers);
 }
 
 }  // namespace

@@ -263,9 +263,8 @@ begin
         generic map (g_folder, "spot specular", c_exact, 0, 1, true, true, c_specular, c_new_pixel, '0', '1')
         port map (finished(c_first + 12), rows(c_first + 12));
 
-      -- The view vector alone: N is not normalized, or cannot be.
       viewing_only : entity work.table4_run
-        generic map (g_folder, "ambient and view vector", c_exact, 0, 0, true, true, c_ambient, c_new_pixel, '0', '1')
+        generic map (g_folder, "ambient and view vector, version II", c_exact, 0, 0, true, true, c_ambient, c_new_pixel, '0', '1')
         port map (finished(c_first + 13), rows(c_first + 13));
 
       viewing_without : entity work.table4_run
