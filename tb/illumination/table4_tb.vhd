@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- The clocks of the folded shading processor, from one token taken to the next one taken while nothing behind it waits:
--- in preset published those of the processors paper's table 4, and what preset exact takes; what the paper does not
--- have besides.
+-- those of model/plan/processor_clocks.hpp, row by row.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
