@@ -17,6 +17,7 @@
 #include "cli/options.hpp"
 #include "plan/cells.hpp"
 #include "plan/hardware_units.hpp"
+#include "plan/processor_clocks.hpp"
 #include "plan/processor_count.hpp"
 #include "plan/simulation_cost.hpp"
 #include "scene/load_scene.hpp"
@@ -53,6 +54,8 @@ std::string cells_text(const PlannedEffect& effect, const HardwareKey& key, cons
   };
   std::string text = fmt::format(": {} LUTs, {} flip-flops", difference(here.luts, there.luts),
                                  difference(here.flip_flops, there.flip_flops));
+  if (const auto n = difference(here.multipliers, there.multipliers); n != 0)
+    text += fmt::format(", {} multipliers", n);
   if (const auto bits = difference(here.memory_bits, there.memory_bits); bits != 0)
     text += fmt::format(", {} bits of memory", bits);
   return text;
@@ -141,6 +144,10 @@ void print_measured(const Plan& plan, const CellsByKey& cells, const SimulationC
   print_row("measured", "as called for", "all effects", "saved");
   const Cells few = cells.at(plan.called_for.name()), all = cells.at(plan.everything.name());
   print_counts("LUTs of 4 inputs (Yosys, flattened)", few.luts, all.luts);
+  if (all.multipliers != 0) {
+    print_counts("multipliers, none of them in LUTs", few.multipliers, all.multipliers);
+    print_counts("  bits of their products", few.product_bits, all.product_bits);
+  }
   print_counts("flip-flops", few.flip_flops, all.flip_flops);
   if (all.memory_bits != 0) print_counts("bits of memory", few.memory_bits, all.memory_bits);
   print_counts("cycles", called_for.cycles, everything.cycles);
@@ -150,8 +157,35 @@ void print_measured(const Plan& plan, const CellsByKey& cells, const SimulationC
              called_for.fragments, everything.fragments);
 }
 
+// The same of the pipelines that the scene calls for, at the clocks that theirs take.
+void print_own_processors(const Scene& scene, const ShadingLoad& load) {
+  fmt::print(
+      "as measured (table 4), of the pipeline that the scene calls for\n  {:<10} {:<9} {:<36} {:>6}  {:<20} "
+      "{}\n",
+      "preset", "form", "slowest processor", "clocks", "pipelines", "processors");
+  for (const Preset preset : {Preset::published, Preset::exact}) {
+    const auto plan = plan_scene(scene, {.shader = Shader::processors, .preset = preset});
+    if (!plan) {
+      fmt::print("  none: {}\n", plan.error().message);
+      return;
+    }
+    const HardwareKey& key = plan->called_for;
+    const ProcessorClocks& slowest = slowest_processor(key);
+    const auto row = [&](ProcessorForm form, const char* what, unsigned clocks) {
+      const auto per_pipeline = static_cast<std::uint64_t>(processors_config(key).processors());
+      const PipelineCount n = count_pipelines(clocks, per_pipeline, load);
+      fmt::print("  {:<10} {:<9} {:<36} {:>6}  {:<20} {} ({} a pipeline)\n", to_string(preset),
+                 to_string(form), what, clocks, fmt::format("{} ({:.2f})", n.pipelines, n.pipelines_needed),
+                 n.processors(), n.per_pipeline);
+    };
+    row(ProcessorForm::folded, slowest.what, *slowest.clocks(preset));
+    row(ProcessorForm::unrolled, "all alike", 1);
+  }
+}
+
 // Table 5 of the processors paper.
-void print_processors(const SceneCalls& calls, const PlanCommand& command, FrameSize size) {
+void print_processors(const Scene& scene, const PlanCommand& command, FrameSize size) {
+  const SceneCalls calls = calls_of(scene);
   ShadingLoad load;
   load.pixels = std::uint64_t{size.width} * size.height;
   load.frames = command.rate.value_or(30);
@@ -182,6 +216,7 @@ void print_processors(const SceneCalls& calls, const PlanCommand& command, Frame
           fmt::format("{} pipelines, {} processors", *n.published_pipelines,
                       *n.published_pipelines * n.per_pipeline));
   }
+  print_own_processors(scene, load);
 }
 
 int run(const Folders& folders, const PlanCommand& command) {
@@ -228,10 +263,12 @@ int run(const Folders& folders, const PlanCommand& command) {
   print_effects(plan, cells);
   fmt::print("\n");
   print_units(plan);
+  // The object stage, which comes with shadows, lets no object out that another one hides.
+  const bool hides = plan.called_for.processors.shadows != plan.everything.processors.shadows;
   const bool same =
-      called_for.frame.rgb == everything.frame.rgb && called_for.fragments == everything.fragments;
+      called_for.frame.rgb == everything.frame.rgb && (hides || called_for.fragments == everything.fragments);
   if (command.measure) print_measured(plan, cells, called_for, everything, same);
-  if (command.objects || command.rate) print_processors(calls_of(*scene), command, draw->size);
+  if (command.objects || command.rate) print_processors(*scene, command, draw->size);
   return static_cast<int>(same ? ExitCode::equal : ExitCode::differs);
 }
 

@@ -86,9 +86,46 @@ TEST_F(PlanCommand, Table5OfTheLights) {
                     ContainsRegex("a pixel due in 33 ns +60 pipelines, 1260 processors\n"),
                     ContainsRegex("\\(14 R \\+ 4\\) O dt +11100 ns\n"),
                     ContainsRegex("\\(14 R \\+ 26 P \\+ 6\\) O dt +30900 ns\n")));
+  // Beside them those of this scene's own pipeline, at the clocks of table 4.
+  EXPECT_THAT(
+      asked.output,
+      AllOf(ContainsRegex(
+                "published +folded +positional specular +13 +59 \\(58.50\\) +1239 \\(21 a pipeline\\)\n"),
+            ContainsRegex("published +unrolled +all alike +1 +5 \\(4.50\\) +105 \\(21 a pipeline\\)\n"),
+            ContainsRegex(
+                "exact +folded +positional specular +30 +135 \\(135.00\\) +2835 \\(21 a pipeline\\)\n"),
+            ContainsRegex("exact +unrolled +all alike +1 +5 \\(4.50\\) +105 \\(21 a pipeline\\)\n")));
   // One of the two is enough.
   EXPECT_THAT(run({"plan", "lights", "--rate", "60"}).output, HasSubstr("60 frames a second, O = 1"));
   EXPECT_THAT(run({"plan", "lights"}).output, Not(HasSubstr("table 5")));
+}
+
+TEST_F(PlanCommand, Table5OfTheProcessorsThatAreThere) {
+  const Outcome matte = run({"plan", "matte", "--rate", "30", "--size", "1000x1000"});
+  EXPECT_EQ(matte.exit_code, 0) << matte.output;
+  EXPECT_THAT(
+      matte.output,
+      AllOf(
+          ContainsRegex("published +folded +directional diffuse +6 +9 \\(9.00\\) +18 \\(2 a pipeline\\)\n"),
+          ContainsRegex("published +unrolled +all alike +1 +2 \\(1.50\\) +4 \\(2 a pipeline\\)\n"),
+          ContainsRegex("exact +folded +ambient, N normalized +9 +14 \\(13.50\\) +28 \\(2 a pipeline\\)\n")));
+  // Whatever shader the scene is planned for.
+  EXPECT_THAT(
+      run({"plan", "matte", "--rate", "30", "--size", "1000x1000", "--shader", "processors", "--all-effects"})
+          .output,
+      ContainsRegex("exact +folded +ambient, N normalized +9 "));
+  // A scene that is not for the shading processors says so.
+  const auto spheres =
+      read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes" / "spheres.toml");
+  ASSERT_TRUE(spheres);
+  const std::size_t at = spheres->find("\nk_s = ");
+  ASSERT_NE(at, std::string::npos) << "mend this test";
+  std::string changed = *spheres;
+  ASSERT_TRUE(write_file(folder_->path() / "phong.toml", changed.insert(at, "\nbrdf = \"phong\"")));
+  const Outcome phong = run({"plan", "phong.toml", "--rate", "30"});
+  EXPECT_EQ(phong.exit_code, 0) << phong.output;
+  EXPECT_THAT(phong.output,
+              AllOf(HasSubstr("P = 0 positional ones"), HasSubstr("is phong"), Not(HasSubstr("all alike"))));
 }
 
 TEST_F(PlanCommand, BadUsageExitsTwo) {

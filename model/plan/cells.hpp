@@ -13,9 +13,11 @@ namespace halfway {
 inline constexpr const char* kInstallYosys = "apt-get install yosys";
 
 /// Of no FPGA family: functions of up to four inputs, flip-flops, and bits of memory that is written. Tables
-/// and multipliers are made of the first.
+/// are made of the first. So are multipliers, but for those of the shading processors, nine tenths of whose
+/// LUTs they would be: they are counted apart.
 struct Cells {
   std::uint64_t luts = 0, flip_flops = 0, memory_bits = 0;
+  std::uint64_t multipliers = 0, product_bits = 0;  ///< the latter of all multipliers' products together
   friend bool operator==(Cells, Cells) = default;
 };
 

@@ -106,6 +106,29 @@ TEST_F(CellsTest, ChangedRtlIsCountedAnew) {
   EXPECT_EQ(cached(), 2U);
 }
 
+// The shading processors' alone, which have wide ones and many.
+TEST_F(CellsTest, MultipliersOfTheShadingProcessorsAreNoLuts) {
+  if (find_program("yosys").empty()) GTEST_SKIP() << "no yosys: " << kInstallYosys;
+  HardwareKey key{.shader = Shader::processors, .preset = Preset::published, .channels = 1};
+  const auto ambient = count(key);
+  ASSERT_TRUE(ambient) << ambient.error().message;
+  // k I alone.
+  EXPECT_EQ(ambient->multipliers, 1U);
+  const int k_bits = golden::Published::c_coefficient_bits,
+            i_bits = golden::Published::c_light_intensity_bits;
+  EXPECT_GE(ambient->product_bits, static_cast<std::uint64_t>(k_bits + i_bits));
+  EXPECT_LE(ambient->product_bits, static_cast<std::uint64_t>(k_bits + i_bits + 2));  // signs
+  key.processors = {.directional = 1, .diffuse = true};
+  const auto lit = count(key);
+  ASSERT_TRUE(lit) << lit.error().message;
+  // N.L has three, k I and the weighted term one each.
+  EXPECT_EQ(lit->multipliers, 1 + 3 + 2U);
+  EXPECT_GT(lit->luts, ambient->luts);
+  EXPECT_GT(lit->flip_flops, ambient->flip_flops);
+  // Table and adders are LUTs; so many multipliers would be as many again.
+  EXPECT_LT(lit->luts, 4000U);
+}
+
 // What Yosys might leave, and what then is said; nothing of it stays in the cache.
 TEST_F(CellsTest, WhatIsNoCountOfLutsAndFlipFlopsIsRefused) {
   const auto stat = [](const std::string& cells) {
@@ -119,6 +142,10 @@ TEST_F(CellsTest, WhatIsNoCountOfLutsAndFlipFlopsIsRefused) {
   const std::size_t before = cached();
   const std::vector<std::pair<std::string, std::string>> cases = {
       {stat("\"$lut\": 12, \"$_DLATCH_P_\": 1"), "$_DLATCH_P_"},
+      {stat("\"$lut\": 12, \"multiplier_cell\": 1"), "multipliers.json"},
+      {stat("\"multiplier_cell\": 2") + "[ $# = 1 ] || echo '{\"design\": {\"num_cells_by_type\": "
+                                        "{\"$mul_48\": 1}}}' >multipliers.json",
+       "2 multipliers, 1 with a width"},
       {"[ $# = 1 ] || echo nonsense >cells.json", "not what Yosys's stat writes"},
       {"[ $# = 1 ] || echo '{}' >cells.json", "not what Yosys's stat writes"},
       {"exit 0", "cells.json"},

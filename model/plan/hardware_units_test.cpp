@@ -52,6 +52,14 @@ class Netlist {
   std::map<std::string, std::vector<std::string>> instances_;
 };
 
+Plan plan_of(const std::string& name, Shader shader, Preset preset) {
+  const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
+  EXPECT_TRUE(scene) << scene.error().message;
+  const auto plan = plan_scene(*scene, {.shader = shader, .preset = preset});
+  EXPECT_TRUE(plan) << plan.error().message;
+  return *plan;
+}
+
 class HardwareUnits : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -118,17 +126,30 @@ TEST_F(HardwareUnits, AreThoseOfTheNetlist) {
   for (const HardwareKey& key : keys) EXPECT_EQ(found(key), hardware_units(key)) << key.name();
 }
 
-Plan plan_of(const std::string& name, Shader shader, Preset preset) {
-  const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
-  EXPECT_TRUE(scene) << scene.error().message;
-  const auto plan = plan_scene(*scene, {.shader = shader, .preset = preset});
-  EXPECT_TRUE(plan) << plan.error().message;
-  return *plan;
+// Every built-in scene's, as called for and with all effects.
+TEST_F(HardwareUnits, OfTheScenesProcessorsAreThoseOfTheNetlist) {
+  std::map<std::string, HardwareKey> keys;
+  int scenes = 0;
+  const auto folder = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes";
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    if (file.path().extension() != ".toml") continue;
+    ++scenes;
+    for (const Preset preset : {Preset::exact, Preset::published}) {
+      const Plan plan = plan_of(file.path().stem(), Shader::processors, preset);
+      for (HardwareKey key : {plan.called_for, plan.everything})
+        for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
+          key.processors.form = form;
+          keys.emplace(key.name(), key);
+        }
+    }
+  }
+  EXPECT_GE(scenes, 6);
+  for (const auto& [name, key] : keys) EXPECT_EQ(found(key), hardware_units(key)) << name;
 }
 
 TEST_F(HardwareUnits, WhatAPlanSaysOfAnEffectIsInTheNetlistOrIsNot) {
   for (const char* scene : {"matte", "spheres", "teapot"})
-    for (const Shader shader : {Shader::quadratic, Shader::spherical})
+    for (const Shader shader : c_shaders)
       for (const Preset preset : {Preset::exact, Preset::published}) {
         const Plan plan = plan_of(scene, shader, preset);
         const auto here = found(plan.key);
@@ -169,6 +190,28 @@ TEST_F(HardwareUnits, OfAnEffectNotCalledForAreNowhere) {
                 {"specular", "diffuse", "cosine", "multiplier"});
     EXPECT_EQ(hardware_units(plan_of("matte", Shader::quadratic, preset).key).at("quadratic_interpolator"),
               1);
+
+    // Grey, one light afar, no highlight: a processor for ambient light and one for the light.
+    for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
+      HardwareKey key = plan_of("matte", Shader::processors, preset).called_for;
+      key.processors.form = form;
+      expect_none(key, {"power", "specular_", "shadow_counter", "object_stage", "spot_cone", "cosine_rom"});
+      EXPECT_EQ(hardware_units(key).at(form == ProcessorForm::folded ? "shading_processor"
+                                                                     : "unrolled_shading_processor"),
+                2);
+      // Published: version I, which has no unit vectors to make.
+      if (preset == Preset::published)
+        expect_none(key, {"reciprocal_root", "vector_shift", "function_rom", "unit_vector"});
+      // They are looked for by names that are there with all effects.
+      HardwareKey all = plan_of("matte", Shader::processors, preset).everything;
+      all.processors.form = form;
+      const std::string text = netlist(all);
+      for (const char* entity :
+           {"power", "shadow_counter", "object_stage", "spot_cone", "reciprocal_root", "function_rom"}) {
+        EXPECT_NE(text.find(entity), std::string::npos) << all.name() << " has no " << entity;
+        EXPECT_TRUE(hardware_units(all).contains(entity)) << all.name();
+      }
+    }
   }
 }
 

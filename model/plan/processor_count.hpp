@@ -32,21 +32,29 @@ constexpr std::uint64_t single_clocks(ProcessorVersion version, std::uint64_t di
   return version == ProcessorVersion::one ? 14 * directional + 4 : 14 * directional + 26 * positional + 6;
 }
 
-struct ProcessorCount {
+/// Pipelines side by side that keep up.
+struct PipelineCount {
   std::uint64_t pipeline_ns;   ///< of a pixel in a pipeline
-  std::uint64_t single_ns;     ///< of a pixel in one processor that does all
-  double pipelines_needed;     ///< side by side; not whole
+  double pipelines_needed;     ///< not whole
   std::uint64_t per_pipeline;  ///< processors
   std::uint64_t pipelines;     ///< whole ones
-  /// The same as the paper counts, for whom a pixel is due in whole nanoseconds, the rest dropped: 33
-  /// of 33.3. None where less than one is left.
-  std::optional<std::uint64_t> published_due_ns, published_pipelines;
 
   std::uint64_t processors() const { return pipelines * per_pipeline; }
 };
 
-/// Version one has no positional lights: they are left out. All of `load` but the lights is at least 1, and
-/// the busy nanoseconds of a second fit into 64 bits.
+/// Of pipelines of so many processors, which take an object each `clocks`. All of `load` but the lights is at
+/// least 1, and the busy nanoseconds of a second fit into 64 bits.
+PipelineCount count_pipelines(std::uint64_t clocks, std::uint64_t per_pipeline, const ShadingLoad& load);
+
+/// As the paper's formulas have it.
+struct ProcessorCount : PipelineCount {
+  std::uint64_t single_ns;  ///< of a pixel in one processor that does all
+  /// The same as the paper counts, for whom a pixel is due in whole nanoseconds, the rest dropped: 33
+  /// of 33.3. None where less than one is left.
+  std::optional<std::uint64_t> published_due_ns, published_pipelines;
+};
+
+/// Version one has no positional lights: they are left out. `load` as for count_pipelines.
 ProcessorCount count_processors(ProcessorVersion version, const ShadingLoad& load);
 
 }  // namespace halfway

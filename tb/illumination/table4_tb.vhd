@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- The clocks of the folded shading processor, from one token taken to the next one taken while nothing behind it waits:
--- in preset published those of the processors paper's table 4, and what preset exact takes; what the paper does not
--- have besides.
+-- those of model/plan/processor_clocks.hpp, row by row.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -11,6 +10,7 @@ use work.tb_pkg.all;
 
 entity table4_run is
   generic (
+    g_folder     : string;
     g_name       : string;
     g_exact      : boolean;
     g_positional : natural range 0 to 1;
@@ -20,11 +20,11 @@ entity table4_run is
     g_kind       : natural;
     g_command    : natural;
     g_normalize  : std_logic; -- of objects
-    g_light      : std_logic; -- lit: the light is valid
-    g_clocks     : positive
+    g_light      : std_logic -- lit: the light is valid
   );
   port (
-    finished : out boolean := false
+    finished : out boolean := false;
+    row      : out natural := 0 -- of the table, once finished
   );
 end entity;
 
@@ -38,6 +38,15 @@ architecture sim of table4_run is
   -- Of light 1, but for the ambient processor.
   constant c_light : natural := boolean'pos(g_kind /= c_ambient);
 
+  -- Where there is nothing to do, a number that no kind has.
+  function work_kind return natural is
+  begin
+    if g_light = '0' or g_command = c_shadow or g_command = c_define then
+      return c_specular + 1;
+    end if;
+    return g_kind;
+  end function;
+
   subtype token_t is std_logic_vector(token_bits(c_config) - 1 downto 0);
 
   signal clk       : std_logic := '0';
@@ -50,6 +59,14 @@ architecture sim of table4_run is
   signal busy      : std_logic;
   signal fault     : std_logic;
   signal ended     : boolean   := false;
+
+  constant c_object : boolean := g_light = '1' and g_command /= c_shadow and g_command /= c_define;
+  constant c_first  : boolean := c_object and g_kind = c_ambient;
+
+  -- In the table: preset, kind of processor, positional, spot, N normalized, view vector.
+  constant c_work : std_logic_vector(6 downto 0) := to_flag(g_exact) & std_logic_vector(to_unsigned(work_kind, 2)) &
+    to_flag(c_object and g_positional > 0) & to_flag(c_object and g_spots > 0) &
+    to_flag(c_first and g_normalize = '1') & to_flag(c_first and has_view(c_config));
 
   procedure set (variable token : inout token_t; low, bits, value : in natural) is
   begin
@@ -121,8 +138,23 @@ begin
   clk <= not clk after c_half_period when not ended;
 
   run : process is
+    variable rows_file : vectors_t;
+    variable row_of : std_logic_vector(c_work'range);
+    variable number : natural := 0;
     variable clocks : natural;
+    variable wanted : natural;
   begin
+    -- The row that has this work.
+    rows_file.open_file(g_folder & "/table4.txt");
+    loop
+      rows_file.expect_vector("work that is in no row, " & g_name);
+      rows_file.read_word(row_of);
+      exit when row_of = c_work;
+      number := number + 1;
+    end loop;
+    wanted := rows_file.read_number;
+    rows_file.close_file;
+
     for i in 1 to 3 loop
       wait until rising_edge(clk);
     end loop;
@@ -142,13 +174,14 @@ begin
         clocks := clocks + 1;
         exit when in_ready = '1';
       end loop;
-      assert clocks = g_clocks
+      assert clocks = wanted
         report "table 4, " & g_name & ", " & preset_name(g_exact) & ": " & to_string(clocks) & " clocks, expected "
-        & to_string(g_clocks) severity failure;
+        & to_string(wanted) severity failure;
     end loop;
     report "table 4, " & g_name & ", " & preset_name(g_exact) & ": " & to_string(clocks) severity note;
     assert fault = '0' report g_name & ": fault" severity failure;
     ended    <= true;
+    row      <= number;
     finished <= true;
     wait;
   end process;
@@ -157,91 +190,105 @@ end architecture;
 library ieee;
 use ieee.std_logic_1164.all;
 use work.processors_pkg.all;
+use work.tb_pkg.all;
 
 entity table4_tb is
   generic (
-    g_folder : string := "table4" -- no vectors
+    g_folder : string
   );
 end entity;
 
 architecture sim of table4_tb is
-  signal finished : boolean_vector(0 to 25);
+  constant c_runs : positive := 15; -- of a preset
 
-  function clocks (exact : boolean; in_published, in_exact : positive) return positive is
-  begin
-    if exact then
-      return in_exact;
-    end if;
-    return in_published;
-  end function;
+  signal finished : boolean_vector(0 to 2 * c_runs - 1);
+  signal rows     : integer_vector(0 to 2 * c_runs - 1);
+
 begin
   presets : for preset in 0 to 1 generate
     constant c_exact : boolean := preset = 1;
-    constant c_first : natural := 13 * preset;
+    constant c_first : natural := c_runs * preset;
     begin
       ambient_1 : entity work.table4_run
-        generic map ("ambient, version I", c_exact, 0, 0, false, false, c_ambient, c_new_pixel, '0', '1', 4)
-        port map (finished(c_first));
+        generic map (g_folder, "ambient, version I", c_exact, 0, 0, false, false, c_ambient, c_new_pixel, '0', '1')
+        port map (finished(c_first), rows(c_first));
 
       ambient_2 : entity work.table4_run
-        generic map ("ambient, version II", c_exact, 0, 0, true, false, c_ambient, c_new_object, '0', '1', 4)
-        port map (finished(c_first + 1));
+        generic map (g_folder, "ambient, version II", c_exact, 0, 0, true, false, c_ambient, c_new_object, '0', '1')
+        port map (finished(c_first + 1), rows(c_first + 1));
 
       normalizing : entity work.table4_run
-        generic map ("ambient and normalization", c_exact, 0, 0, true, false, c_ambient, c_new_pixel, '1', '1',
-          clocks(c_exact, 6, 9))
-        port map (finished(c_first + 2));
+        generic map (g_folder, "ambient and normalization", c_exact, 0, 0, true, false, c_ambient, c_new_pixel, '1', '1')
+        port map (finished(c_first + 2), rows(c_first + 2));
 
       viewing : entity work.table4_run
-        generic map ("ambient, normalization and view vector", c_exact, 0, 0, true, true, c_ambient, c_new_scanline, '1',
-          '1', clocks(c_exact, 6, 15))
-        port map (finished(c_first + 3));
+        generic map (g_folder, "ambient, normalization and view vector", c_exact, 0, 0, true, true, c_ambient, c_new_scanline, '1',
+          '1')
+        port map (finished(c_first + 3), rows(c_first + 3));
 
       directional_diffuse : entity work.table4_run
-        generic map ("directional diffuse", c_exact, 0, 0, false, true, c_diffuse, c_new_pixel, '0', '1', 6)
-        port map (finished(c_first + 4));
+        generic map (g_folder, "directional diffuse", c_exact, 0, 0, false, true, c_diffuse, c_new_pixel, '0', '1')
+        port map (finished(c_first + 4), rows(c_first + 4));
 
       directional_specular : entity work.table4_run
-        generic map ("directional specular", c_exact, 0, 0, false, true, c_specular, c_new_pixel, '0', '1',
-          clocks(c_exact, 7, 20))
-        port map (finished(c_first + 5));
+        generic map (g_folder, "directional specular", c_exact, 0, 0, false, true, c_specular, c_new_pixel, '0', '1')
+        port map (finished(c_first + 5), rows(c_first + 5));
 
       positional_diffuse : entity work.table4_run
-        generic map ("positional diffuse", c_exact, 1, 0, true, true, c_diffuse, c_new_pixel, '0', '1',
-          clocks(c_exact, 12, 16))
-        port map (finished(c_first + 6));
+        generic map (g_folder, "positional diffuse", c_exact, 1, 0, true, true, c_diffuse, c_new_pixel, '0', '1')
+        port map (finished(c_first + 6), rows(c_first + 6));
 
       positional_specular : entity work.table4_run
-        generic map ("positional specular", c_exact, 1, 0, true, true, c_specular, c_new_pixel, '0', '1',
-          clocks(c_exact, 13, 30))
-        port map (finished(c_first + 7));
+        generic map (g_folder, "positional specular", c_exact, 1, 0, true, true, c_specular, c_new_pixel, '0', '1')
+        port map (finished(c_first + 7), rows(c_first + 7));
 
       shadow_polygon : entity work.table4_run
-        generic map ("shadow polygon", c_exact, 1, 0, true, true, c_specular, c_shadow, '0', '1', 2)
-        port map (finished(c_first + 8));
+        generic map (g_folder, "shadow polygon", c_exact, 1, 0, true, true, c_specular, c_shadow, '0', '1')
+        port map (finished(c_first + 8), rows(c_first + 8));
 
       loading : entity work.table4_run
-        generic map ("define", c_exact, 1, 0, true, true, c_specular, c_define, '0', '1', 2)
-        port map (finished(c_first + 9));
+        generic map (g_folder, "define", c_exact, 1, 0, true, true, c_specular, c_define, '0', '1')
+        port map (finished(c_first + 9), rows(c_first + 9));
 
       no_light : entity work.table4_run
-        generic map ("object, no light", c_exact, 1, 0, true, true, c_specular, c_new_pixel, '0', '0', 2)
-        port map (finished(c_first + 10));
+        generic map (g_folder, "object, no light", c_exact, 1, 0, true, true, c_specular, c_new_pixel, '0', '0')
+        port map (finished(c_first + 10), rows(c_first + 10));
 
       spot_diffuse : entity work.table4_run
-        generic map ("spot diffuse", c_exact, 0, 1, true, true, c_diffuse, c_new_pixel, '0', '1',
-          clocks(c_exact, 18, 22))
-        port map (finished(c_first + 11));
+        generic map (g_folder, "spot diffuse", c_exact, 0, 1, true, true, c_diffuse, c_new_pixel, '0', '1')
+        port map (finished(c_first + 11), rows(c_first + 11));
 
       spot_specular : entity work.table4_run
-        generic map ("spot specular", c_exact, 0, 1, true, true, c_specular, c_new_pixel, '0', '1',
-          clocks(c_exact, 24, 32))
-        port map (finished(c_first + 12));
+        generic map (g_folder, "spot specular", c_exact, 0, 1, true, true, c_specular, c_new_pixel, '0', '1')
+        port map (finished(c_first + 12), rows(c_first + 12));
+
+      viewing_only : entity work.table4_run
+        generic map (g_folder, "ambient and view vector, version II", c_exact, 0, 0, true, true, c_ambient, c_new_pixel, '0', '1')
+        port map (finished(c_first + 13), rows(c_first + 13));
+
+      viewing_without : entity work.table4_run
+        generic map (g_folder, "ambient and view vector, version I", c_exact, 0, 0, false, true, c_ambient, c_new_pixel,
+          '0', '1')
+        port map (finished(c_first + 14), rows(c_first + 14));
   end generate;
 
   done : process is
+    variable rows_file : vectors_t;
+    variable number : natural := 0;
+    variable measured : boolean;
   begin
     wait until and finished;
+    -- Every row, by one of the runs.
+    rows_file.open_file(g_folder & "/table4.txt");
+    while rows_file.next_vector loop
+      measured := false;
+      for i in rows'range loop
+        measured := measured or rows(i) = number;
+      end loop;
+      assert measured report "table 4: no run measures row " & to_string(number) severity failure;
+      number := number + 1;
+    end loop;
+    rows_file.close_file;
     report "table4_tb: passed" severity note;
     wait;
   end process;

@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
       std::pair{"shadow_counter", &write_shadow_counter},
       std::pair{"shading_processor", &write_shading_processor},
       std::pair{"unrolled_shading_processor", &write_shading_processor},
+      std::pair{"table4", &write_table4},
       std::pair{"shading_pipeline", &write_shading_pipeline},
       std::pair{"quadratic_shader", &write_quadratic_shader},
       std::pair{"spherical_shader", &write_spherical_shader},
