@@ -23,7 +23,7 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim compare why plan figure17 gallery tables check-tables test bench build program generator configure setup \
+.PHONY: help sim compare why plan figure17 gallery tables check-tables test mutants bench build program generator configure setup \
   doctor format check-format clean
 
 help: ## this list
@@ -76,6 +76,10 @@ check-tables: generator ## fail if make tables would change anything
 
 test: build ## every test
 	@ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
+
+mutants: build ## small faults in the RTL, one after the other: a testbench must find each
+	@ctest --test-dir build -Q -R '^tb[.](ghdl|vectors)$$' && \
+	  build/tb/halfway_mutants . build/tb/vectors build/tb/mutants
 
 bench: program ## speed, as ratios within one run
 	@cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench

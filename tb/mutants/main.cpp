@@ -105,7 +105,7 @@ constexpr Mutant c_mutants[] = {
     // A place too many; a word taken while the line stands still; the last word of two.
     {"stream/delay_line.vhd", "if index = c_places - 1 then", "if index = c_places then"},
     {"stream/delay_line.vhd", "elsif enable = '1' then", "else"},
-    {"stream/delay_line.vhd", "held   <= before;", "held   <= word;"},
+    {"stream/delay_line.vhd", "delayed <= before;", "delayed <= word;"},
     // Loads without being told to.
     {"stream/parameter_register.vhd", "if load = '1' then", "if load = '1' or start(0) = '1' then"},
     // Overwrites a word that waits; survives reset.
@@ -323,9 +323,12 @@ int main(int argc, char** argv) {
   }
   const Folders folders{std::filesystem::absolute(argv[1]), std::filesystem::absolute(argv[2]),
                         std::filesystem::absolute(argv[3])};
+  std::string_view part = argc == 4 ? "" : argv[4];
+  const bool without = part.starts_with('-');
+  if (without) part.remove_prefix(1);
   std::vector<const Mutant*> mutants;
   for (const Mutant& mutant : c_mutants)
-    if (argc == 4 || std::string_view(mutant.file).find(argv[4]) != std::string_view::npos)
+    if ((std::string_view(mutant.file).find(part) != std::string_view::npos) != without)
       mutants.push_back(&mutant);
   if (mutants.empty()) {
     fmt::print(stderr, "{}: no fault is in a file of this name\n", argv[4]);
