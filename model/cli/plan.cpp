@@ -138,6 +138,11 @@ void print_seconds(const std::string& simulator, std::optional<double> called_fo
             fmt::format("{:.4g}", *everything), saved(*called_for, *everything));
 }
 
+// The object stage, which comes with shadows, lets no object out that another one hides.
+bool hides_more(const Plan& plan) {
+  return plan.called_for.processors.shadows != plan.everything.processors.shadows;
+}
+
 void print_measured(const Plan& plan, const CellsByKey& cells, const SimulationCost& called_for,
                     const SimulationCost& everything, bool same) {
   fmt::print("\n");
@@ -153,8 +158,9 @@ void print_measured(const Plan& plan, const CellsByKey& cells, const SimulationC
   print_counts("cycles", called_for.cycles, everything.cycles);
   print_seconds("GHDL", called_for.ghdl_seconds, everything.ghdl_seconds);
   print_seconds("Verilator", called_for.verilator_seconds, everything.verilator_seconds);
-  fmt::print("the two frames {}, {} and {} fragments\n", same ? "are equal bit for bit" : "DIFFER",
-             called_for.fragments, everything.fragments);
+  fmt::print("the two frames {}, {} and {} fragments{}\n", same ? "are equal bit for bit" : "DIFFER",
+             called_for.fragments, everything.fragments,
+             hides_more(plan) ? ", of which the object stage leaves out the hidden ones" : "");
 }
 
 // The same of the pipelines that the scene calls for, at the clocks that theirs take.
@@ -263,10 +269,8 @@ int run(const Folders& folders, const PlanCommand& command) {
   print_effects(plan, cells);
   fmt::print("\n");
   print_units(plan);
-  // The object stage, which comes with shadows, lets no object out that another one hides.
-  const bool hides = plan.called_for.processors.shadows != plan.everything.processors.shadows;
-  const bool same =
-      called_for.frame.rgb == everything.frame.rgb && (hides || called_for.fragments == everything.fragments);
+  const bool same = called_for.frame.rgb == everything.frame.rgb &&
+                    (hides_more(plan) || called_for.fragments == everything.fragments);
   if (command.measure) print_measured(plan, cells, called_for, everything, same);
   if (command.objects || command.rate) print_processors(*scene, command, draw->size);
   return static_cast<int>(same ? ExitCode::equal : ExitCode::differs);
@@ -282,7 +286,7 @@ void add_plan(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_flag(
       "--measure", command->measure,
       "count cells by Yosys, and cycles and seconds by simulation, as called for and with all effects;\n"
-      "also each effect's own cells");
+      "also each effect's own cells; of the shading processors this takes some minutes, for ten lights many");
   sub->add_option("--simulator", command->simulators, "to measure in: ghdl or verilator (default: both)");
   sub->add_option("--objects", command->objects,
                   "objects a pixel: how many shading processors keep up (processors paper, table 5)");

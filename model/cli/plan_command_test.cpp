@@ -192,6 +192,19 @@ TEST_F(PlanCommand, MeasuresCellsCyclesAndSeconds) {
   }
 }
 
+// With all effects there are shadows, and so the object stage: fewer fragments, the same frame.
+TEST_F(PlanCommand, MeasuresShadingProcessors) {
+  const std::vector<std::string> arguments = {"plan",   "matte", "--shader",    "processors", "--measure",
+                                              "--size", "64x48", "--simulator", "verilator"};
+  const Outcome outcome = run(arguments, path_with_yosys());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("the two frames are equal bit for bit, 791 and 768 fragments, of which the "
+                              "object stage leaves out the hidden ones\n"),
+                    ContainsRegex("\nspecular +no +hardware +every k_s is 0\n +left out: .*1 power"),
+                    ContainsRegex("\n  power +0 +1 +100 %\n")));
+}
+
 // RTL whose fault only hardware with all effects has: factors of zero that are not.
 TEST_F(PlanCommand, MeasuringTellsFramesThatDiffer) {
   const std::filesystem::path source = HALFWAY_SOURCE_DIR, copy = folder_->path() / "source";
