@@ -82,6 +82,7 @@ begin
     constant c_formats : formats_t := formats(c_exact);
 
     constant c_half    : positive  := c_formats.exponent.bits / 2;
+    constant c_gentle  : positive  := c_formats.spot_slope.bits * 3 / 4;
     constant c_outer   : positive  := c_formats.direction.bits;
     constant c_low     : positive  := c_formats.direction.fraction + c_outer / 2 - 1;
 
@@ -91,6 +92,7 @@ begin
     signal reciprocal : std_logic_vector(c_formats.root.bits downto 0);
     signal result     : std_logic_vector(c_formats.weight.bits - 1 downto 0);
     signal factor     : std_logic_vector(c_formats.weight.bits - 1 downto 0);
+    signal slope      : std_logic_vector(c_formats.spot_slope.bits - 1 downto 0);
     begin
       base <= '1' & (c_formats.direction.fraction - 1 downto 0 => '0') when control(5 downto 2) = "0000" else
         '0' & a(c_formats.direction.fraction - 1 downto 0);
@@ -113,8 +115,11 @@ begin
       cone : entity work.spot_cone
         generic map (g_exact => c_exact)
         port map (clk => clk, enable => enable, axis_sum => dot_sum,
-          outer => a(c_formats.direction.bits - 1 downto 0), slope => a(71 downto 72 - c_formats.spot_slope.bits),
-          factor => factor);
+          outer => a(c_formats.direction.bits - 1 downto 0), slope => slope, factor => factor);
+
+        -- Mostly gentle: a steep one gives all or nothing.
+      slope <= a(71 downto 72 - slope'length) when b(1 downto 0) = "11" else
+        (slope'length - 1 downto c_gentle => '0') & a(71 downto 72 - c_gentle);
 
       lanes(5 + preset)  <= lane(reciprocal);
       lanes(7 + preset)  <= lane(result);
