@@ -14,7 +14,7 @@
 -- Latency     a clock less than the throughput's
 -- Throughput  A token in so many clocks, the one that takes it and the one that hands it on included (published, exact):
 --             load, delete, shadow polygon, object that is not lit 2, 2; ambient 4, 4; with N normalized 6, 9; with the
---             view vector too -, 15; directional diffuse 6, 6, specular 7, 20; positional diffuse 12, 16, specular 13,
+--             view vector too -, 15 (without N 10); directional diffuse 6, 6, specular 7, 20; positional diffuse 12, 16, specular 13,
 --             30; spot diffuse 18, 22, specular 24, 32. None of them waits but for a unit: the paper's counts leave no
 --             slack.
 -- Source      processors paper, figures 1 and 2 and table 4, whose clocks those of preset published are. Ours: spots,

@@ -6,6 +6,8 @@
 --             waits. Tokens run in order through all processors; loads and shadow polygons are dropped behind the last.
 --             busy: a processor holds a token. fault stays '1': shading_processor. taps, with g_probe: of each
 --             processor whether an object leaves it in this clock, its command, and the colour so far.
+--             Unrolled, out_ready reaches in_ready through every processor without a register between; who needs a
+--             faster clock puts a stream_register between two of them.
 -- Formats     processors_pkg; taps: formats_pkg, processor_probe
 -- Latency     the sum of the processors'
 -- Throughput  that of the slowest processor; unrolled a token a clock
