@@ -294,7 +294,7 @@ Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fa
   if (!prepared) return prepared.error();
   if (!prepared->succeeded()) return failed(proof, "yosys", *prepared);
   if (pdr) return by_pdr(folder, proof);
-  const auto first = by_solver(folder, proof, fault == nullptr ? proof.depth : proof.fault_depth, false);
+  const auto first = by_solver(folder, proof, fault == nullptr ? proof.depth : std::max(proof.depth, proof.fault_depth), false);
   if (!first || first->verdict != Verdict::holds || fault != nullptr || proof.method == Method::bounded)
     return first;
   return by_solver(folder, proof, proof.depth, true);
