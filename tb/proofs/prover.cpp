@@ -112,6 +112,8 @@ Formal formal(std::string_view netlist) {
                                     between(lines[i + 1], "if (!", ")"));
       ++result.asserts;
       i += 2;
+    } else if (is_in(lines[i], "'bX; // (signal)")) {
+      // A signal of the unit without a driver: one that is anything, and the same wherever it is read.
     } else if (lines[i].ends_with("--  assume")) {
       const std::string_view label = between(lines[i], "  ", ":");
       result.verilog +=
@@ -125,20 +127,24 @@ Formal formal(std::string_view netlist) {
 }
 
 // A constant of more than 32 bits comes out as a string of digits: "01" for 2'b01.
-std::string with_constants(std::string_view verilog) {
+// One below zero comes out with zeros for its sign: that one is refused.
+Result<std::string> with_constants(std::string_view verilog) {
   std::string result;
   while (!verilog.empty()) {
     const std::size_t open = verilog.find('"');
     const std::size_t close = open == std::string_view::npos ? open : verilog.find('"', open + 1);
     if (close == std::string_view::npos) break;
     const std::string_view digits = verilog.substr(open + 1, close - open - 1);
+    if (digits.size() > 32 && digits.find('1') == digits.size() - 32)
+      return tool_failed(fmt::format("{}: GHDL has lost the sign of a constant; write it positive", digits));
     result.append(verilog.substr(0, open));
     result += digits.find_first_not_of("01") == std::string_view::npos && !digits.empty()
                   ? fmt::format("{}'b{}", digits.size(), digits)
                   : fmt::format("\"{}\"", digits);
     verilog.remove_prefix(close + 1);
   }
-  return result.append(verilog);
+  result.append(verilog);
+  return result;
 }
 
 // How often `word` stands in the unit, in front of a space, outside comments.
@@ -188,7 +194,9 @@ Status make_netlist(const Folders& folders, const std::filesystem::path& folder,
       is_in(prepared.verilog, "$fatal"))
     return tool_failed(fmt::format("{}: of {} assertions and {} assumptions {} and {} came out of GHDL",
                                    proof.unit, asserts, assumes, prepared.asserts, prepared.assumes));
-  return write_file(folder / "formal.v", with_constants(prepared.verilog));
+  const auto verilog = with_constants(prepared.verilog);
+  if (!verilog) return verilog.error();
+  return write_file(folder / "formal.v", *verilog);
 }
 
 std::string last_line_with(std::string_view text, std::string_view part) {
@@ -294,7 +302,8 @@ Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fa
   if (!prepared) return prepared.error();
   if (!prepared->succeeded()) return failed(proof, "yosys", *prepared);
   if (pdr) return by_pdr(folder, proof);
-  const auto first = by_solver(folder, proof, fault == nullptr ? proof.depth : std::max(proof.depth, proof.fault_depth), false);
+  const auto first = by_solver(
+      folder, proof, fault == nullptr ? proof.depth : std::max(proof.depth, proof.fault_depth), false);
   if (!first || first->verdict != Verdict::holds || fault != nullptr || proof.method == Method::bounded)
     return first;
   return by_solver(folder, proof, proof.depth, true);
