@@ -23,7 +23,7 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim compare why plan figure17 gallery tables check-tables test bench build program generator configure setup \
+.PHONY: help sim compare why plan figure17 gallery tables check-tables test prove bench build program generator configure setup \
   doctor format check-format clean
 
 help: ## this list
@@ -77,6 +77,10 @@ check-tables: generator ## fail if make tables would change anything
 test: build ## every test
 	@ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
 
+prove: configure ## formal proofs on the RTL, each with faults that it must refute
+	@cmake --build build -j "$(jobs)" --target halfway_proofs
+	@build/tb/halfway_proofs --page tb/proofs/README.md . build/proofs
+
 bench: program ## speed, as ratios within one run
 	@cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench
 
@@ -97,9 +101,9 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf '%s\n' "$$key" >build/configure.stamp
 
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs one package more, and so
-# does `make plan MEASURE=1`.
+# do `make plan MEASURE=1` and `make prove`.
 setup:
-	@scripts/setup.sh $(filter bench,$(MAKECMDGOALS)) \
+	@scripts/setup.sh $(filter bench prove,$(MAKECMDGOALS)) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth))
 
 doctor: ## tools and libraries found, and the command that mends what is missing

@@ -328,7 +328,7 @@ std::vector<Proof> all_proofs() {
        Method::induction,
        3,
        true,
-       {{"g_channels", "3"}},
+       {{"g_channels", "3"}, {"g_probe", "true"}},
        {{"shaders/quadratic_shader.vhd", "waiting or walking or out_valid", "walking or out_valid"},
         {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => colours",
          "load  => drawn,\n      start => colours"},
