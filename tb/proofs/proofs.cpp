@@ -259,11 +259,11 @@ std::vector<Proof> all_proofs() {
   proofs.push_back(
       {"interpolation/line_interpolator",
        "interpolation/line_interpolator.psl",
-       "Within (1 + steps)/2 units of a twin of 4 bits more: 40 bits",
+       "Within (1 + steps)/2 units of a twin of 4 bits more: 12 bits",
        Method::induction,
        2,
        true,
-       {{"g_bits", "40"}},
+       {{"g_bits", "12"}},
        {{"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
         {"interpolation/line_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '0' then"}},
        {},
@@ -357,14 +357,18 @@ std::vector<Proof> all_proofs() {
        Method::induction,
        2,
        false,
-       {{"g_exact", "false"}, {"g_channels", "1"}, {"g_specular", "false"}, {"g_normalize", "false"}},
+       {{"g_exact", "false"},
+        {"g_channels", "1"},
+        {"g_directional", "0"},
+        {"g_specular", "false"},
+        {"g_normalize", "false"}},
        {{"shaders/processors_shader.vhd", "load  => shaded_step,\n      start => colours",
          "load  => shaded_valid,\n      start => colours"},
         {"shaders/processors_shader.vhd", "shaded_step  <= shaded_valid and shaded_ready",
          "shaded_step  <= shaded_valid"}},
        {},
        true,
-       16});
+       11});
   return proofs;
 }
 
