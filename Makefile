@@ -23,8 +23,8 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim compare why plan figure17 gallery tables check-tables test mutants bench build program generator configure setup \
-  doctor format check-format clean
+.PHONY: help sim compare why plan figure17 gallery tables check-tables test mutants prove bench build program generator \
+  configure setup doctor format check-format clean
 
 help: ## this list
 	@echo 'Halfway: shading hardware in VHDL, checked bit for bit against C++'
@@ -81,6 +81,10 @@ mutants: build ## small faults in the RTL, one after the other: a testbench must
 	@ctest --test-dir build -Q -R '^tb[.](ghdl|vectors)$$' && \
 	  build/tb/halfway_mutants . build/tb/vectors build/tb/mutants
 
+prove: configure ## formal proofs on the RTL, each with faults that it must refute
+	@cmake --build build -j "$(jobs)" --target halfway_proofs
+	@build/tb/halfway_proofs --page tb/proofs/README.md . build/proofs
+
 bench: program ## speed, as ratios within one run
 	@cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench
 
@@ -101,9 +105,9 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf '%s\n' "$$key" >build/configure.stamp
 
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs one package more, and so
-# does `make plan MEASURE=1`.
+# do `make plan MEASURE=1` and `make prove`.
 setup:
-	@scripts/setup.sh $(filter bench,$(MAKECMDGOALS)) \
+	@scripts/setup.sh $(filter bench prove,$(MAKECMDGOALS)) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth))
 
 doctor: ## tools and libraries found, and the command that mends what is missing

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// halfway_proofs [--quick] [--page FILE] SOURCE SCRATCH [PART]: proves every property of the list on the RTL,
+// and puts each of its faults into a copy, which must refute it. SOURCE is the project's root; with PART only
+// the proofs of entities whose names hold it; --quick: those of a few seconds, and exit code 77 where a tool
+// is missing; --page: writes the table into that file, behind what stands there before it.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cstdio>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "common/file.hpp"
+#include "prover.hpp"
+
+namespace halfway::proofs {
+namespace {
+
+constexpr int kSkipped = 77;  // as CMakeLists.txt has it in SKIP_RETURN_CODE
+constexpr std::string_view kTable =
+    "| property | entity | method | clocks | seconds | faults refuted |\n| --- | --- | --- | --- | --- | --- "
+    "|\n";
+
+struct Options {
+  bool quick = false;
+  std::filesystem::path page{};
+  Folders folders{};
+  std::string part{};
+};
+
+bool read_options(const std::vector<std::string>& arguments, Options& options) {
+  std::vector<std::string> places;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == "--quick") {
+      options.quick = true;
+    } else if (arguments[i] == "--page" && i + 1 < arguments.size()) {
+      options.page = arguments[++i];
+    } else if (arguments[i].starts_with("--")) {
+      return false;
+    } else {
+      places.push_back(arguments[i]);
+    }
+  }
+  if (places.size() != 2 && places.size() != 3) return false;
+  options.folders = {std::filesystem::absolute(places[0]), std::filesystem::absolute(places[1])};
+  if (places.size() == 3) options.part = places[2];
+  return true;
+}
+
+// What a proof and its faults came to.
+struct Outcome {
+  bool holds = false;
+  int refuted = 0;
+  double seconds = 0;  ///< of the proof alone
+};
+
+std::string in_page(const Proof& proof, const Outcome& outcome) {
+  constexpr const char* names[] = {"induction", "BMC", "PDR", "Gappa"};
+  const bool clocks = proof.method == Method::induction || proof.method == Method::bounded;
+  return fmt::format(
+      "| {} | `{}` | {} | {} | {:.1f} | {} |\n", proof.property, proof.entity,
+      names[static_cast<int>(proof.method)], clocks ? std::to_string(proof.depth) : "all", outcome.seconds,
+      outcome.holds ? fmt::format("{} of {}", outcome.refuted, proof.faults.size()) : "not proved");
+}
+
+Status write_page(const std::filesystem::path& path, std::string_view rows) {
+  auto text = read_file(path);
+  if (!text) return text.error();
+  text->resize(std::min(text->find(kTable.substr(0, kTable.find('\n'))), text->size()));
+  return write_file(path, fmt::format("{}{}{}", *text, kTable, rows));
+}
+
+ExitCode run(const Options& options, const std::vector<Proof>& proofs) {
+  // Each job is a proof, or a fault of one.
+  struct Job {
+    std::size_t proof;
+    const Fault* fault;
+  };
+  std::vector<Job> jobs;
+  for (std::size_t i = 0; i < proofs.size(); ++i) {
+    jobs.push_back({i, nullptr});
+    for (const Fault& fault : proofs[i].faults) jobs.push_back({i, &fault});
+  }
+  std::vector<Outcome> outcomes(proofs.size());
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  int unproved = 0, missed = 0, broken = 0;
+  const auto work = [&] {
+    for (std::size_t at; (at = next++) < jobs.size();) {
+      const auto [index, fault] = jobs[at];
+      const Proof& proof = proofs[index];
+      const auto began = std::chrono::steady_clock::now();
+      const auto answer = prove(options.folders, proof, fault);
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+      const std::lock_guard lock(mutex);
+      if (!answer) {
+        ++broken;
+        fmt::print("{}\n", answer.error().message);
+      } else if (fault == nullptr) {
+        outcomes[index].holds = answer->verdict == Verdict::holds;
+        outcomes[index].seconds = seconds;
+        unproved += answer->verdict == Verdict::holds ? 0 : 1;
+        fmt::print("{}: {}: {} ({:.1f} s)\n", proof.unit, proof.property,
+                   answer->verdict == Verdict::holds ? "proved" : "NOT PROVED: " + answer->said, seconds);
+      } else if (answer->verdict == Verdict::refuted) {
+        ++outcomes[index].refuted;
+        fmt::print("{}: refutes `{}` ({:.1f} s)\n", proof.unit, fault->to, seconds);
+      } else {
+        ++missed;
+        fmt::print("{}: does NOT refute `{}` for `{}` {}\n", proof.unit, fault->to, fault->from,
+                   answer->said);
+      }
+      std::fflush(stdout);
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (int i = 0; i < 2; ++i) workers.emplace_back(work);
+  }
+  std::string rows;
+  for (std::size_t i = 0; i < proofs.size(); ++i) rows += in_page(proofs[i], outcomes[i]);
+  fmt::print("\n{}{}\n{} of {} not proved, {} faults not refuted, {} could not be run\n", kTable, rows,
+             unproved, proofs.size(), missed, broken);
+  if (broken > 0) return ExitCode::tool_failed;
+  if (unproved + missed > 0) return ExitCode::differs;
+  if (options.page.empty()) return ExitCode::equal;
+  const auto written = write_page(options.page, rows);
+  if (written) return ExitCode::equal;
+  fmt::print(stderr, "{}\n", written.error().message);
+  return written.error().code;
+}
+
+}  // namespace
+}  // namespace halfway::proofs
+
+int main(int argc, char** argv) {
+  using namespace halfway;
+  using namespace halfway::proofs;
+  Options options;
+  if (!read_options(std::vector<std::string>(argv + 1, argv + argc), options)) {
+    fmt::print(stderr, "usage: halfway_proofs [--quick] [--page FILE] SOURCE SCRATCH [PART]\n");
+    return static_cast<int>(ExitCode::bad_input);
+  }
+  std::vector<Proof> proofs;
+  for (Proof& proof : all_proofs())
+    if ((proof.quick || !options.quick) &&
+        std::string_view(proof.unit).find(options.part) != std::string_view::npos)
+      proofs.push_back(std::move(proof));
+  if (proofs.empty()) {
+    fmt::print(stderr, "{}: no proof is of an entity of this name\n", options.part);
+    return static_cast<int>(ExitCode::bad_input);
+  }
+  if (const auto found = find_tools(); !found) {
+    fmt::print(stderr, "{}{}\n", options.quick ? "skipped: " : "", found.error().message);
+    return options.quick ? kSkipped : static_cast<int>(found.error().code);
+  }
+  return static_cast<int>(run(options, proofs));
+}

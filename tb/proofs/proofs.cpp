@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is proved, and the faults that each proof refutes.
+#include "prover.hpp"
+
+namespace halfway::proofs {
+
+std::vector<Proof> all_proofs() {
+  std::vector<Proof> proofs;
+
+  // Streams.
+  proofs.push_back(
+      {"stream/stream_register",
+       "stream/stream_register.psl",
+       "Every word comes out once, the next clock on; none is lost, doubled or changed while it waits",
+       Method::induction,
+       3,
+       true,
+       {{"g_bits", "40"}},
+       {{"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= '1'"},
+        {"stream/stream_register.vhd", "v.valid := '0'", "v.valid := r.valid"},
+        {"stream/stream_register.vhd", "v.valid := in_valid", "v.valid := in_valid or r.valid"},
+        {"stream/stream_register.vhd", "take     <= in_valid and free", "take     <= in_valid"},
+        {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= not r.valid"}}});
+  proofs.push_back({"stream/delay_line",
+                    "stream/delay_line.psl",
+                    "The word of g_depth = 5 enabled clocks ago, whatever stalls",
+                    Method::pdr,
+                    16,
+                    true,
+                    {{"g_bits", "3"}, {"g_depth", "5"}},
+                    {{"stream/delay_line.vhd", "if index = c_places - 1 then", "if index = c_places then"},
+                     {"stream/delay_line.vhd", "elsif enable = '1' then", "else"},
+                     {"stream/delay_line.vhd", "delayed                   <= memory(to_integer(index));",
+                      "delayed                   <= word;"}}});
+
+  // Arithmetic.
+  proofs.push_back(
+      {"arithmetic/saturate",
+       "arithmetic/saturate.psl",
+       "The value's whole part, 0 below, the largest above: every value of 40 bits, 28 of fraction",
+       Method::induction,
+       1,
+       true,
+       {{"g_value_bits", "40"}, {"g_fraction_bits", "28"}, {"g_result_bits", "8"}},
+       {{"arithmetic/saturate.vhd", "value(c_sign - 1 downto c_result_high + 1) & '0'",
+         "value(c_sign - 2 downto c_result_high + 1) & \"00\""},
+        {"arithmetic/saturate.vhd", "result <= (others => '0')", "result <= (others => '1')"},
+        {"arithmetic/saturate.vhd", "unsigned(above) /= 0", "unsigned(above) > 2"}}});
+  proofs.push_back(
+      {"arithmetic/saturating_sum",
+       "arithmetic/saturating_sum.psl",
+       "The sum's whole part, the largest above: any five terms of 32 bits, 16 of fraction",
+       Method::induction,
+       1,
+       true,
+       {{"g_terms", "5"}, {"g_term_bits", "32"}, {"g_fraction_bits", "16"}, {"g_result_bits", "8"}},
+       {{"arithmetic/saturating_sum.vhd", "positive := g_term_bits + carry_bits",
+         "positive := g_term_bits + 2"},
+        {"arithmetic/saturating_sum.vhd", "for i in 1 to g_terms - 1 loop",
+         "for i in 1 to g_terms - 2 loop"}}});
+
+  // Walkers.
+  proofs.push_back(
+      {"raster/edge_walker",
+       "raster/edge_walker.psl",
+       "Whole pixels and rest together move by quotient + remainder/divisor every step; the rest stays below "
+       "it",
+       Method::induction,
+       3,
+       true,
+       {},
+       {{"raster/edge_walker.vhd", "r.x + r.quotient + 1", "r.x + r.quotient"},
+        {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
+        {"raster/edge_walker.vhd", "r.error - r.remainder + r.divisor", "r.error + r.remainder"}}});
+  const std::vector<Fault> walker_faults = {
+      {"raster/triangle_walker.vhd", "not r.line.valid or (line_step and line_last)", "not r.line.valid"},
+      {"raster/triangle_walker.vhd", "not r.line.valid or (line_step and line_last)",
+       "not r.line.valid or line_step"},
+      {"raster/triangle_walker.vhd", "not r.span.valid or (fragment_ready and span_last)",
+       "not r.span.valid"},
+      {"raster/triangle_walker.vhd", "(fragment_ready and span_last)", "span_last"},
+      {"raster/triangle_walker.vhd", "(fragment_ready and span_last)", "fragment_ready"},
+      {"raster/triangle_walker.vhd", "v.span.valid := not span_last", "v.span.valid := '1'"},
+      {"raster/triangle_walker.vhd", "span_step <= r.span.valid and fragment_ready",
+       "span_step <= r.span.valid"},
+      {"raster/triangle_walker.vhd", "v.span.x        := start", "v.span.x        := stop"},
+      {"raster/triangle_walker.vhd", "start >= stop", "start > stop"},
+      {"raster/triangle_walker.vhd", "line_ready and not line_empty and span_free",
+       "not line_empty and span_free"},
+      {"raster/triangle_walker.vhd", "(line_empty or span_free)", "span_free"},
+      {"raster/triangle_walker.vhd", "v.line.y     := r.line.y + 1", "v.line.y     := r.line.y"},
+      {"raster/triangle_walker.vhd", "v.line.lines := r.line.lines - 1", "v.line.lines := r.line.lines"},
+  };
+  std::vector<Fault> exact_faults = walker_faults;
+  exact_faults.push_back(
+      {"raster/triangle_walker.vhd", "section_last = '1' and r.line.lower_lines = 0", "section_last = '1'"});
+  exact_faults.push_back({"raster/triangle_walker.vhd", "when r.span.backward = '1' else r.span.x + 1",
+                          "when r.line.backward = '1' else r.span.x + 1"});
+  for (const bool exact : {true, false})
+    proofs.push_back(
+        {"raster/triangle_walker",
+         "raster/triangle_walker.psl",
+         exact
+             ? "Each line once, each pixel of [start, stop) once and in turn, y in the frame; a fragment "
+               "stands "
+               "still while it waits; every clock that nothing holds up takes a pixel or a line, so the walk "
+               "ends; no clock between spans is lost"
+             : "The same in preset `published`",
+         Method::induction,
+         3,
+         exact,
+         {{"g_exact", exact ? "true" : "false"}},
+         exact ? exact_faults : walker_faults,
+         {},
+         false,
+         8});
+
+  proofs.push_back(
+      {"raster/object_stage",
+       "raster/object_stage.psl",
+       "A token that waits stands still; none is overwritten or leaves twice, whatever the memory holds",
+       Method::induction,
+       3,
+       true,
+       {{"g_bits", "120"}},
+       {{"raster/object_stage.vhd", "not r.valid or not passes or out_ready",
+         "not r.valid or not passes or out_ready or in_valid"},
+        {"raster/object_stage.vhd", "take     <= in_valid and free and not r.clearing",
+         "take     <= in_valid and not r.clearing"},
+        {"raster/object_stage.vhd", "v.valid := take;", "v.valid := take or r.valid;"},
+        {"raster/object_stage.vhd", "not r.valid and not r.clearing;", "not r.clearing;"}},
+       {{"pixel_x", 2, 0}},
+       false,
+       12});
+  proofs.push_back(
+      {"raster/object_stage",
+       "raster/object_stage_column.psl",
+       "A column keeps the nearest, of equals the first; polygons before it leave, and it leaves once: 4 "
+       "columns, "
+       "4 depths, 2 triangles",
+       Method::pdr,
+       14,
+       false,
+       {{"g_bits", "17"}},
+       {{"raster/object_stage.vhd", "keeps <= nearer or", "keeps <= nearer or not (kept(0) xor token(0)) or"},
+        {"raster/object_stage.vhd", "passes <= nearer and present", "passes <= present"},
+        {"raster/object_stage.vhd", "z < kept_z", "z <= kept_z"},
+        {"raster/object_stage.vhd", "      changed <= c_nothing;", "      changed <= kept;"},
+        {"raster/object_stage.vhd", "if changes = '1' and in_column = column then",
+         "if changes = '1' and z < 0 then"},
+        {"raster/object_stage.vhd", "and column > r.last then",
+         "and column > r.last and column(0) = '1' then"}},
+       {{"pixel_x", 2, 0}, {"pixel_y", 1, 0}, {"depth", 2, 0}, {"triangle", 1, 0}}});
+
+  // Shadows.
+  proofs.push_back(
+      {"illumination/shadow_counter",
+       "illumination/shadow_counter.psl",
+       "A count moves by one or stands at its limit, and then fault rises and stays: it never wraps",
+       Method::induction,
+       3,
+       true,
+       {},
+       {{"illumination/shadow_counter.vhd", "if held = c_most then",
+         "if held = c_least and r.counts = '1' then"},
+        {"illumination/shadow_counter.vhd", "if held = c_least then",
+         "if held = c_most and r.counts = '1' then"},
+        {"illumination/shadow_counter.vhd", "if leaves = '1' then", "if leaves = '1' and step = '1' then"},
+        {"illumination/shadow_counter.vhd", "v.fault := '1';", "v.fault := not r.fault;"}},
+       {{"pixel_x", 1, 0}, {"shadow_count", 1, 0}},
+       false,
+       12});
+  proofs.push_back({"illumination/shadow_counter",
+                    "illumination/shadow_counter_column.psl",
+                    "A column's count is what was opened less what was closed, whatever columns come "
+                    "between: 4 columns, 3 bits",
+                    Method::pdr,
+                    14,
+                    false,
+                    {},
+                    {{"illumination/shadow_counter.vhd", "v.forwarded := '1'", "v.forwarded := '0'"},
+                     {"illumination/shadow_counter.vhd", "v.last := unsigned(x)", "v.last := r.last"},
+                     {"illumination/shadow_counter.vhd", "if r.takes = '1' then",
+                      "if r.takes = '1' and r.opens = '1' then"},
+                     {"illumination/shadow_counter.vhd", "v.forward := changed", "v.forward := held"}},
+                    {{"pixel_x", 2, 0}, {"shadow_count", 2, 0}}});
+
+  // Shading processors: the second of two directional lights, preset published.
+  using Generics = std::vector<std::pair<std::string, std::string>>;
+  const Generics diffuse = {{"g_exact", "false"},    {"g_channels", "1"},      {"g_directional", "2"},
+                            {"g_specular", "false"}, {"g_normalize", "false"}, {"g_kind", "1"},
+                            {"g_light", "2"}};
+  for (const bool unrolled : {false, true}) {
+    const char* file =
+        unrolled ? "illumination/unrolled_shading_processor.vhd" : "illumination/shading_processor.vhd";
+    std::vector<Fault> faults = {
+        {file, "(command = c_redefine and r.valid = '1')", "command = c_redefine"},
+        {file, "c_header.light)) = g_light else", "c_header.light)) /= 0 else"},
+        {file, "command = c_delete then", "command = c_redefine then"},
+        {file, "load  => take and defines", "load  => in_valid and defines"},
+        {file, "when mine = '1' and (command = c_define or (",
+         "when mine = '1' and (command = c_delete or ("},
+    };
+    if (unrolled) faults.push_back({file, "not (in_valid and changes and (or r.filled))", "'1'"});
+    proofs.push_back(
+        {unrolled ? "illumination/unrolled_shading_processor" : "illumination/shading_processor",
+         unrolled ? "illumination/unrolled_shading_processor_commands.psl"
+                  : "illumination/shading_processor_commands.psl",
+         unrolled ? "The same, and not while a token before it is in the stages"
+                  : "A load changes its own light alone; redefine a defined one, delete takes it away",
+         Method::induction,
+         3,
+         true,
+         diffuse,
+         faults,
+         {},
+         true,
+         12});
+  }
+  proofs.push_back(
+      {"illumination/shading_processor",
+       "illumination/shading_processor.psl",
+       "A token comes out once, with its header, in the clocks of table 4 at most, and stands still while it "
+       "waits; "
+       "any products",
+       Method::induction,
+       3,
+       true,
+       diffuse,
+       {{"illumination/shading_processor.vhd", "if out_ready = '1' then",
+         "if out_ready = '1' or in_valid = '1' then"},
+        {"illumination/shading_processor.vhd", "v.cycle := r.cycle + 1;", "v.cycle := r.cycle;"},
+        {"illumination/shading_processor.vhd", "take    <= in_valid and free", "take    <= in_valid"},
+        {"illumination/shading_processor.vhd", "if r.cycle = c_at.add and r.valid = '1' then",
+         "if r.cycle = c_at.leave and r.valid = '1' then"}},
+       {},
+       true,
+       14});
+  proofs.push_back(
+      {"illumination/unrolled_shading_processor",
+       "illumination/unrolled_shading_processor.psl",
+       "Numbered tokens come out with every number, in order, however held up; any products",
+       Method::pdr,
+       12,
+       true,
+       diffuse,
+       {{"illumination/unrolled_shading_processor.vhd", "flows <= out_ready or not r.filled(c_at.leave)",
+         "flows <= '1'"},
+        {"illumination/unrolled_shading_processor.vhd", "free  <= flows and ready", "free  <= ready"},
+        {"illumination/unrolled_shading_processor.vhd",
+         "g_depth => c_at.term\n      )\n    port map (\n      clk     => clk,\n      reset   => reset,\n    "
+         "  enable  => flows,\n      word    => in_token,",
+         "g_depth => c_at.term\n      )\n    port map (\n      clk     => clk,\n      reset   => reset,\n    "
+         "  enable  => take,\n      word    => in_token,"}},
+       {},
+       true});
+
+  // Differences.
+  proofs.push_back(
+      {"interpolation/line_interpolator",
+       "interpolation/line_interpolator.psl",
+       "Within (1 + steps)/2 units of a twin of 4 bits more: 12 bits",
+       Method::induction,
+       2,
+       true,
+       {{"g_bits", "12"}},
+       {{"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
+        {"interpolation/line_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '0' then"}},
+       {},
+       false,
+       6});
+  proofs.push_back(
+      {"interpolation/plane_interpolator",
+       "interpolation/plane_interpolator.psl",
+       "Within (1 + lines + steps)/2 units of a twin of 4 bits more, any lines and carries: 12 bits",
+       Method::bounded,
+       5,
+       false,
+       {{"g_bits", "12"}},
+       {{"interpolation/plane_interpolator.vhd", "de <= de1 when line_carry = '1' else de0",
+         "de <= de0 when line_carry = '1' else de1"},
+        {"interpolation/plane_interpolator.vhd", "increment => span_dx", "increment => dx"},
+        {"interpolation/plane_interpolator.vhd", "load      => span_load", "load      => line_load"}},
+       {},
+       false,
+       6});
+  proofs.push_back(
+      {"interpolation/quadratic_interpolator",
+       "interpolation/intensity.gappa",
+       "At most 0.15 of a colour step off after 4095 lines and 8190 steps, preset exact, full width",
+       Method::gappa,
+       0,
+       true,
+       {},
+       {{"tables/formats_pkg.vhd", "intensity => (40, 28)", "intensity => (40, 27)"}}});
+  proofs.push_back(
+      {"interpolation/z_interpolator",
+       "interpolation/depth_sum.gappa",
+       "At most 0.19 of a depth step off after 4095 lines and 8190 steps, full width",
+       Method::gappa,
+       0,
+       true,
+       {},
+       {{"tables/formats_pkg.vhd",
+         "depth_sum => (40, 15),\n    -- u16.0: a cosine table's entry, of whatever size, for the probe\n    "
+         "sample_word => (16, 0),\n    -- u3.0: of a vector or token of the shading processors\n    command "
+         "=> (3, 0),\n    -- u5.0: a light's number from 1; 0 is the ambient light\n    light => (5, 0),\n   "
+         " -- s9.0: shadow volumes opened less those closed, up to 511 either way\n    shadow_count => (10, "
+         "0),\n    -- u12.6: one over the width of a spot's soft edge, in cosines; a harder edge has one of "
+         "2^-12\n    spot_slope => (18, 6),\n    -- u18.0",
+         "depth_sum => (40, 14),\n    -- u18.0"}}});
+  proofs.push_back(
+      {"interpolation/plane_interpolator",
+       "interpolation/plane_sum.gappa",
+       "At most 0.4 of a step of `vector` off after 4095 lines and 8190 steps, preset exact, full width",
+       Method::gappa,
+       0,
+       true,
+       {},
+       {{"tables/formats_pkg.vhd", "plane_sum => (44, 42)", "plane_sum => (44, 41)"}}});
+
+  // Shaders.
+  proofs.push_back(
+      {"shaders/quadratic_shader",
+       "shaders/quadratic_shader.psl",
+       "Each pixel of the walker comes out once, with its own depth and colours, and stands still while it "
+       "waits",
+       Method::induction,
+       3,
+       true,
+       {{"g_channels", "3"}, {"g_probe", "true"}},
+       {{"shaders/quadratic_shader.vhd", "waiting or walking or out_valid", "walking or out_valid"},
+        {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => colours",
+         "load  => drawn,\n      start => colours"},
+        {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => whole_z",
+         "load  => span_load,\n      start => whole_z"}},
+       {},
+       false,
+       8});
+  proofs.push_back({"shaders/spherical_shader",
+                    "shaders/spherical_shader.psl",
+                    "The same through both stages behind the walker, in order; any products",
+                    Method::induction,
+                    3,
+                    false,
+                    {{"g_channels", "1"}, {"g_highlight_channels", "1"}},
+                    {{"shaders/spherical_shader.vhd", "walking or sample_valid or product_valid",
+                      "walking or product_valid"},
+                     {"shaders/spherical_shader.vhd", "product_valid and product_ready", "product_valid"}},
+                    {},
+                    true,
+                    10});
+  proofs.push_back(
+      {"shaders/processors_shader",
+       "shaders/processors_shader.psl",
+       "Each object of the pipeline comes out once and stands still while it waits; any products",
+       Method::induction,
+       2,
+       false,
+       {{"g_exact", "false"},
+        {"g_channels", "1"},
+        {"g_directional", "0"},
+        {"g_specular", "false"},
+        {"g_normalize", "false"}},
+       {{"shaders/processors_shader.vhd", "or objects_busy or shading", "or objects_busy"},
+        {"shaders/processors_shader.vhd", "shaded_step  <= shaded_valid and shaded_ready",
+         "shaded_step  <= shaded_valid"}},
+       {},
+       true,
+       11});
+  return proofs;
+}
+
+}  // namespace halfway::proofs
