@@ -64,7 +64,9 @@ Result<std::vector<VhdlSource>> sources_of(const Folders& folders, const Proof& 
       source.content = tables::vhdl_package(narrowed(proof.widths));
     if (fault == nullptr || source.name != std::string("rtl/") + fault->file) continue;
     const std::size_t at = source.content.find(fault->from);
-    if (at == std::string::npos || source.content.find(fault->from, at + 1) != std::string::npos)
+    // Of the formats that both presets have, preset exact's stands first.
+    if (at == std::string::npos ||
+        (source.name != kFormats && source.content.find(fault->from, at + 1) != std::string::npos))
       return bad_input(
           fmt::format("{}: `{}` does not occur once; mend the list of proofs", source.name, fault->from));
     source.content.replace(at, fault->from.size(), fault->to);

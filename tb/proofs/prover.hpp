@@ -16,7 +16,7 @@ namespace halfway::proofs {
 /// A text of the RTL exchanged for another.
 struct Fault {
   const char* file;       ///< in rtl/
-  std::string_view from;  ///< occurs once
+  std::string_view from;  ///< occurs once; in the formats, first in preset exact
   std::string_view to;
 };
 
