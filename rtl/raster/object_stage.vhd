@@ -7,8 +7,8 @@
 --               shadow    a shadow polygon leaves where an object is there and the polygon is nearer, strictly
 --               any other of all objects again: the one leaves whose z and triangle are the kept ones, and takes them
 --                         away, so that each pixel is shaded once, and no column is left for the next line
--- Contract    valid/ready; tokens leave in order and stand still while they wait. clear, only where idle = '1', takes all
---             columns away; it, and reset, keep in_ready and idle at '0' for a clock a column up to the last kept one,
+-- Contract    valid/ready; tokens leave in order and stand still while they wait. clear, only where idle = '1' and
+--             in_valid = '0', takes all columns away; it, and reset, keep in_ready and idle at '0' for a clock a column up to the last kept one,
 --             after reset for all. busy: a token is held; idle: neither that, nor are columns being taken away.
 -- Formats     formats_pkg: pixel (the token's header); of the rest nothing is read
 -- Latency     1 clock
