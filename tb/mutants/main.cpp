@@ -196,7 +196,9 @@ constexpr Mutant c_mutants[] = {
     {"illumination/unrolled_shading_processor.vhd", "flows <= out_ready or not r.filled(c_at.leave)",
      "flows <= '1'"},
     {"arithmetic/unit_vector.vhd", "c_dot_product_latency + reciprocal_root_latency(g_exact)",
-     "reciprocal_root_latency(g_exact)", "illumination/unrolled_shading_processor.vhd"},
+     "reciprocal_root_latency(g_exact)"},
+    {"arithmetic/unit_vector.vhd", "factor <= '0' & root;",
+     "factor <= \"00\" & root(root'high - 1 downto 0);"},
     // What loads leaves; a light's processors changed about; a fault unseen.
     {"shaders/shading_pipeline.vhd", "valid(c_processors) and object", "valid(c_processors)"},
     {"shaders/shading_pipeline.vhd", "(processor - 1) / c_terms + 1",

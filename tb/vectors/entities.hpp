@@ -19,6 +19,7 @@ Status write_function_rom(const std::filesystem::path& folder);
 Status write_dot_product(const std::filesystem::path& folder);
 Status write_vector_multiply(const std::filesystem::path& folder);
 Status write_vector_shift(const std::filesystem::path& folder);
+Status write_unit_vector(const std::filesystem::path& folder);
 Status write_reciprocal_root(const std::filesystem::path& folder);
 Status write_power(const std::filesystem::path& folder);
 Status write_spot_cone(const std::filesystem::path& folder);

@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
       std::pair{"dot_product", &write_dot_product},
       std::pair{"vector_multiply", &write_vector_multiply},
       std::pair{"vector_shift", &write_vector_shift},
+      std::pair{"unit_vector", &write_unit_vector},
       std::pair{"reciprocal_root", &write_reciprocal_root},
       std::pair{"power", &write_power},
       std::pair{"spot_cone", &write_spot_cone},

@@ -92,6 +92,20 @@ Status write_vector_multiply_of(const std::filesystem::path& folder, int a_bits,
   return pipeline.write(folder / fmt::format("{}_{}.txt", a_bits, b_bits));
 }
 
+// Each shift, by each component and either sign; then vectors of any kind.
+template <int Bits, class Add>
+void run_axes(Random& random, const Add& add) {
+  for (int bit = 0; bit < Bits; ++bit)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const std::int64_t sign : {1, -1}) {
+        Axes v{};
+        v[axis] = sign * (std::int64_t{1} << bit);
+        if (bit == Bits - 1 && sign > 0) --v[axis];
+        add(true, v);
+      }
+  run(random, [&](bool enable) { add(enable, random_axes(random, Bits)); });
+}
+
 // Inputs: components.
 template <int VectorBits, int ResultBits>
 Status write_vector_shift_of(const std::filesystem::path& folder) {
@@ -107,17 +121,20 @@ Status write_vector_shift_of(const std::filesystem::path& folder) {
       for (std::int64_t y = -c_half; y < c_half; ++y)
         for (std::int64_t z = -c_half; z < c_half; ++z) add(true, {x, y, z});
   }
-  // Each shift, by each component and either sign.
-  for (int bit = 0; bit < VectorBits; ++bit)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (const std::int64_t sign : {1, -1}) {
-        Axes v{};
-        v[axis] = sign * (std::int64_t{1} << bit);
-        if (bit == VectorBits - 1 && sign > 0) --v[axis];
-        add(true, v);
-      }
-  run(random, [&](bool enable) { add(enable, random_axes(random, VectorBits)); });
+  run_axes<VectorBits>(random, add);
   return pipeline.write(folder / fmt::format("{}_{}.txt", VectorBits, ResultBits));
+}
+
+// Inputs: components.
+template <class Preset, int VectorBits>
+Status write_unit_vector_of(const std::filesystem::path& folder, int latency) {
+  Random random(VectorBits);
+  Pipeline pipeline(latency);
+  run_axes<VectorBits>(random, [&](bool enable, const Axes& v) {
+    pipeline.clock(enable, {flat(v, VectorBits)},
+                   flat(golden::normalized<Preset, VectorBits>(v), Preset::c_direction_bits));
+  });
+  return pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, VectorBits));
 }
 
 // Inputs: square.
@@ -283,6 +300,15 @@ Status write_vector_shift(const std::filesystem::path& folder) {
   if (auto s = write_vector_shift_of<25, 24>(folder); !s) return s;
   if (auto s = write_vector_shift_of<17, 16>(folder); !s) return s;
   return write_vector_shift_of<16, 24>(folder);
+}
+
+Status write_unit_vector(const std::filesystem::path& folder) {
+  constexpr int c_exact = 8, c_published = 5;  // clocks
+  if (auto s = write_unit_vector_of<Exact, Exact::c_vector_bits>(folder, c_exact); !s) return s;
+  if (auto s = write_unit_vector_of<Exact, Exact::c_offset_bits>(folder, c_exact); !s) return s;
+  if (auto s = write_unit_vector_of<Exact, Exact::c_direction_bits + 1>(folder, c_exact); !s) return s;
+  if (auto s = write_unit_vector_of<Published, Published::c_vector_bits>(folder, c_published); !s) return s;
+  return write_unit_vector_of<Published, Published::c_offset_bits>(folder, c_published);
 }
 
 Status write_reciprocal_root(const std::filesystem::path& folder) {
