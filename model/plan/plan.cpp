@@ -11,6 +11,18 @@ PlannedEffect planned(const SceneCalls& calls, Effect effect, DoneBy by, std::st
   return {effect, call.called_for, call.why, by, std::move(how)};
 }
 
+PlannedEffect in_hardware(const SceneCalls& calls, Effect effect, std::string how) {
+  return planned(calls, effect, DoneBy::hardware, std::move(how));
+}
+
+PlannedEffect there_anyway(const SceneCalls& calls, Effect effect, std::string how,
+                           std::map<std::string, int> units) {
+  PlannedEffect out = in_hardware(calls, effect, std::move(how));
+  out.elaborated = true;
+  out.units = std::move(units);
+  return out;
+}
+
 void set_other(PlannedEffect& effect, const HardwareKey& key, const HardwareKey& other) {
   effect.other = other;
   effect.units = effect.elaborated ? units_added(other, key) : units_added(key, other);

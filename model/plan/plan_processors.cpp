@@ -80,9 +80,9 @@ class Planner {
     ProcessorUnits& o = other.processors;
     switch (effect) {
       case Effect::ambient:
-        return there_anyway(effect, "the first processor", ambient_units(key_));
+        return there_anyway(calls_, effect, "the first processor", ambient_units(key_));
       case Effect::depth:
-        return there_anyway(effect, "", depth_units(key_));
+        return there_anyway(calls_, effect, "", depth_units(key_));
       case Effect::diffuse:
         o.diffuse = !p.diffuse;
         if (o.lights() == 0) o.directional = 1;
@@ -139,18 +139,12 @@ class Planner {
 
  private:
   PlannedEffect in_hardware(Effect effect, std::string how) const {
-    return planned(calls_, effect, DoneBy::hardware, std::move(how));
+    return halfway::in_hardware(calls_, effect, std::move(how));
   }
   PlannedEffect in_hardware(Effect effect, std::string how, bool elaborated, const HardwareKey& other) const {
     PlannedEffect out = in_hardware(effect, std::move(how));
     out.elaborated = elaborated;
     set_other(out, key_, without_idle_units(other));
-    return out;
-  }
-  PlannedEffect there_anyway(Effect effect, std::string how, std::map<std::string, int> units) const {
-    PlannedEffect out = in_hardware(effect, std::move(how));
-    out.elaborated = true;
-    out.units = std::move(units);
     return out;
   }
   PlannedEffect lights_of(Effect effect, LightKind kind, std::string how) const {

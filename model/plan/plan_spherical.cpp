@@ -101,9 +101,9 @@ class Planner {
     SphericalUnits& o = other.spherical;
     switch (effect) {
       case Effect::ambient:
-        return there_anyway(effect, "its word rounds the colours too", ambient_units(key_));
+        return there_anyway(calls_, effect, "its word rounds the colours too", ambient_units(key_));
       case Effect::depth:
-        return there_anyway(effect, "", depth_units(key_));
+        return there_anyway(calls_, effect, "", depth_units(key_));
       case Effect::diffuse:
         o.diffuse = !s.diffuse;
         o.lights = std::max(s.lights, 1U);
@@ -158,18 +158,12 @@ class Planner {
 
  private:
   PlannedEffect in_hardware(Effect effect, std::string how) const {
-    return planned(calls_, effect, DoneBy::hardware, std::move(how));
+    return halfway::in_hardware(calls_, effect, std::move(how));
   }
   PlannedEffect in_hardware(Effect effect, std::string how, bool elaborated, const HardwareKey& other) const {
     PlannedEffect out = in_hardware(effect, std::move(how));
     out.elaborated = elaborated;
     set_other(out, key_, without_idle_units(other));
-    return out;
-  }
-  PlannedEffect there_anyway(Effect effect, std::string how, std::map<std::string, int> units) const {
-    PlannedEffect out = in_hardware(effect, std::move(how));
-    out.elaborated = true;
-    out.units = std::move(units);
     return out;
   }
   // A light's slices do not know its kind.

@@ -15,6 +15,12 @@ inline constexpr const char* c_form_of_another = "--form: only the shading proce
 /// What the scene says of the effect, and who does it; nothing elaborated yet.
 PlannedEffect planned(const SceneCalls& calls, Effect effect, DoneBy by, std::string how);
 
+/// Done by the hardware.
+PlannedEffect in_hardware(const SceneCalls& calls, Effect effect, std::string how);
+/// The same, and elaborated whatever the scene calls for, in these units.
+PlannedEffect there_anyway(const SceneCalls& calls, Effect effect, std::string how,
+                           std::map<std::string, int> units);
+
 /// Makes `other` the key's counterpart, and `units` where they differ.
 void set_other(PlannedEffect& effect, const HardwareKey& key, const HardwareKey& other);
 
