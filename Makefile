@@ -23,7 +23,7 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim compare why plan figure17 gallery tables check-tables test mutants prove bench build program generator \
+.PHONY: help sim compare why plan figure17 gallery tables check-tables test mutants prove stability bench build program generator \
   configure setup doctor format check-format clean
 
 help: ## this list
@@ -84,6 +84,10 @@ mutants: build ## small faults in the RTL, one after the other: a testbench must
 prove: configure ## formal proofs on the RTL, each with faults that it must refute
 	@cmake --build build -j "$(jobs)" --target halfway_proofs
 	@build/tb/halfway_proofs --page tb/proofs/README.md . build/proofs
+
+stability: configure ## hard cases, in specification, golden model and RTL: what breaks, and what holds
+	@cmake --build build -j "$(jobs)" --target halfway_stability
+	@build/tb/halfway_stability --page tb/stability/README.md .
 
 bench: program ## speed, as ratios within one run
 	@cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench

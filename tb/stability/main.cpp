@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// halfway_stability [--quick] [--page FILE] SOURCE [PART]: tries every hard case of the registry in the
+// specification, in the golden model and in the RTL. SOURCE is the project's root; with PART only the
+// families whose names hold it, or the cases; --page: writes the table into that file, behind what stands
+// there before it.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <iterator>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "common/file.hpp"
+#include "stability/hard_case.hpp"
+#include "stability/trial.hpp"
+
+namespace halfway::stability {
+namespace {
+
+constexpr const Family* c_families[] = {&c_edges};
+
+constexpr std::string_view c_table =
+    "| case | breaks | remedy | holds | published | ours | figures | fragments in golden, RTL |\n"
+    "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+
+struct Options {
+  bool quick = false;
+  std::filesystem::path page{}, source{};
+  std::string part{};
+};
+
+bool read_options(const std::vector<std::string>& arguments, Options& options) {
+  std::vector<std::string> places;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == "--quick") {
+      options.quick = true;
+    } else if (arguments[i] == "--page" && i + 1 < arguments.size()) {
+      options.page = arguments[++i];
+    } else if (arguments[i].starts_with("--")) {
+      return false;
+    } else {
+      places.push_back(arguments[i]);
+    }
+  }
+  if (places.size() != 1 && places.size() != 2) return false;
+  options.source = std::filesystem::absolute(places[0]);
+  if (places.size() == 2) options.part = places[1];
+  return true;
+}
+
+struct Job {
+  const Family* family;
+  const HardCase* hard_case;
+};
+
+struct Outcome {
+  std::string failure;  ///< empty: the property holds
+  bool broken = false;  ///< a tool was missing or broke, as `failure` says
+  std::string row;      ///< of the page
+};
+
+std::string past(const Worst& worst, const HardCase& c) {
+  return fmt::format("{:.4g} of {:.4g} {} at {}", worst.figure, worst.bound, c.unit, worst.where);
+}
+
+std::string failure_of(const HardCase& c, const Trial& trial) {
+  if (!trial.failure().empty()) return trial.failure();
+  const Worst &ours = trial.ours(), &published = trial.published();
+  if (ours.count == 0) return "has no figure";
+  if (!ours.within()) return past(ours, c);
+  switch (c.published) {
+    case Published::breaks:
+      if (published.count == 0) return "has no figure of the published form";
+      if (published.within()) return "the published form does not break: " + past(published, c);
+      break;
+    case Published::holds:
+      if (published.count == 0) return "has no figure of the published form";
+      if (!published.within()) return "published: " + past(published, c);
+      break;
+    case Published::silent:
+      if (published.count > 0) return "has a figure of the published form, and says it had none";
+      break;
+  }
+  return "";
+}
+
+std::string row_of(const HardCase& c, const Trial& trial) {
+  const auto figure = [](const Worst& worst) { return fmt::format("{:.3g}", worst.figure); };
+  return fmt::format("| {} | {} | {} | {} | {} | {} of {:.3g} {} | {} | {}, {} |\n", c.name, c.breaks,
+                     c.remedy, c.holds, c.published == Published::silent ? "–" : figure(trial.published()),
+                     figure(trial.ours()), trial.ours().bound, c.unit,
+                     trial.ours().count + trial.published().count, trial.golden_fragments(),
+                     trial.rtl_fragments());
+}
+
+Outcome run(const Job& job, const Options& options) {
+  Trial trial({options.source, options.source / "build" / "cache"}, options.quick);
+  job.hard_case->run(trial);
+  if (!trial.tools()) return {trial.tools().error().message, true, ""};
+  return {failure_of(*job.hard_case, trial), false, row_of(*job.hard_case, trial)};
+}
+
+Status write_page(const std::filesystem::path& path, std::string_view tables) {
+  auto text = read_file(path);
+  if (!text) return text.error();
+  constexpr std::string_view c_first = "\n## ";
+  text->resize(std::min(text->find(c_first), text->size()));
+  return write_file(path, fmt::format("{}{}", *text, tables));
+}
+
+ExitCode run_all(const std::vector<Job>& jobs, const Options& options) {
+  std::vector<Outcome> outcomes(jobs.size());
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  std::size_t done = 0, failed = 0, broken = 0;
+  const bool terminal = isatty(STDERR_FILENO);
+  const auto work = [&] {
+    for (std::size_t at; (at = next++) < jobs.size();) {
+      const auto began = std::chrono::steady_clock::now();
+      outcomes[at] = run(jobs[at], options);
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+      const std::lock_guard lock(mutex);
+      const Outcome& outcome = outcomes[at];
+      broken += outcome.broken;
+      failed += !outcome.broken && !outcome.failure.empty();
+      fmt::print("{}: {}: {} ({:.1f} s)\n", jobs[at].family->name, jobs[at].hard_case->name,
+                 outcome.failure.empty() ? "holds"
+                 : outcome.broken        ? outcome.failure
+                                         : "FAILS: " + outcome.failure,
+                 seconds);
+      std::fflush(stdout);
+      if (terminal) fmt::print(stderr, "{} of {}\r", ++done, jobs.size());
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    const unsigned count = options.quick ? 1 : std::max(1U, std::thread::hardware_concurrency());
+    for (unsigned i = 0; i < count; ++i) workers.emplace_back(work);
+  }
+  fmt::print("{} of {} cases fail, {} could not be run\n", failed, jobs.size(), broken);
+  if (broken > 0) return ExitCode::tool_failed;
+  if (failed > 0) return ExitCode::differs;
+  std::string tables;
+  const Family* family = nullptr;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (jobs[i].family != family) {
+      family = jobs[i].family;
+      tables += fmt::format("\n## {}\n\n{}", family->name, c_table);
+    }
+    tables += outcomes[i].row;
+  }
+  if (options.page.empty()) return ExitCode::equal;
+  const auto written = write_page(options.page, tables);
+  if (written) return ExitCode::equal;
+  fmt::print(stderr, "{}\n", written.error().message);
+  return written.error().code;
+}
+
+}  // namespace
+}  // namespace halfway::stability
+
+int main(int argc, char** argv) {
+  using namespace halfway;
+  using namespace halfway::stability;
+  Options options;
+  if (!read_options(std::vector<std::string>(argv + 1, argv + argc), options)) {
+    fmt::print(stderr, "usage: halfway_stability [--quick] [--page FILE] SOURCE [PART]\n");
+    return static_cast<int>(ExitCode::bad_input);
+  }
+  std::vector<Job> jobs;
+  for (const Family* family : c_families)
+    for (const HardCase& c : family->cases)
+      if (family->name.find(options.part) != std::string_view::npos ||
+          c.name.find(options.part) != std::string_view::npos)
+        jobs.push_back({family, &c});
+  if (jobs.empty()) {
+    fmt::print(stderr, "{}: no family and no case has a name like this\n", options.part);
+    return static_cast<int>(ExitCode::bad_input);
+  }
+  return static_cast<int>(run_all(jobs, options));
+}

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// The specification: what the papers' formulas come to at one pixel, in exact integers or long double,
+// without any of the code under test. It gives the value that a figure is measured from.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "frame/frame_size.hpp"
+#include "scene/scene.hpp"
+#include "setup/edge.hpp"
+#include "setup/screen_triangle.hpp"
+
+namespace halfway::stability {
+
+using Wide = __int128;
+using LongVec = glm::vec<3, long double>;
+
+/// Barycentrics of a point over one divisor, which is twice the area: exact. The point is in 1/2^(unit_bits +
+/// 1) pixels, the vertices in 1/2^unit_bits.
+struct ExactBarycentric {
+  std::array<Wide, 3> weight;
+  Wide sum;
+  std::array<long double, 3> real() const {
+    return {(long double)weight[0] / (long double)sum, (long double)weight[1] / (long double)sum,
+            (long double)weight[2] / (long double)sum};
+  }
+};
+
+inline ExactBarycentric barycentric(const std::array<ScreenPoint, 3>& p, Wide x_half, Wide y_half) {
+  const auto twice_area = [](Wide ax, Wide ay, Wide bx, Wide by, Wide cx, Wide cy) {
+    return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+  };
+  std::array<Wide, 3> x, y;
+  for (std::size_t i = 0; i < 3; ++i) x[i] = 2 * Wide{p[i].x}, y[i] = 2 * Wide{p[i].y};
+  return {
+      {twice_area(x_half, y_half, x[1], y[1], x[2], y[2]), twice_area(x[0], y[0], x_half, y_half, x[2], y[2]),
+       twice_area(x[0], y[0], x[1], y[1], x_half, y_half)},
+      twice_area(x[0], y[0], x[1], y[1], x[2], y[2])};
+}
+
+/// The middle of pixel `at`, in 1/2^(unit_bits + 1) pixels.
+constexpr Wide centre(std::int64_t at, int unit_bits) {
+  return (2 * Wide{at} + 1) << unit_bits;
+}
+
+/// Whether the pixel's centre lies in the triangle, by the top-left rule: on an edge it belongs to the
+/// triangle to the right of the edge, or below it where the edge is level.
+inline bool covers(std::array<ScreenPoint, 3> p, int unit_bits, std::int64_t x, std::int64_t y) {
+  ExactBarycentric b = barycentric(p, centre(x, unit_bits), centre(y, unit_bits));
+  if (b.sum == 0) return false;
+  if (b.sum < 0) {
+    std::swap(p[1], p[2]);
+    b = barycentric(p, centre(x, unit_bits), centre(y, unit_bits));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (b.weight[i] < 0) return false;
+    if (b.weight[i] > 0) continue;
+    // The edge opposite vertex i; clockwise on a screen whose y runs down, so the inside is to the right of
+    // its way.
+    const ScreenPoint from = p[(i + 1) % 3], to = p[(i + 2) % 3];
+    const bool left = to.y < from.y, top = to.y == from.y && to.x > from.x;
+    if (!left && !top) return false;
+  }
+  return true;
+}
+
+/// Calls pixel(x, y) for each pixel of the frame that the triangle covers, line by line.
+template <class Pixel>
+void for_each_covered(const std::array<ScreenPoint, 3>& p, int unit_bits, FrameSize frame, Pixel&& pixel) {
+  const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
+  const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
+  const auto first = [&](std::int32_t v) { return std::max<std::int64_t>((v >> unit_bits) - 1, 0); };
+  const auto last = [&](std::int32_t v, std::uint32_t side) {
+    return std::min<std::int64_t>((v >> unit_bits) + 1, std::int64_t{side} - 1);
+  };
+  for (std::int64_t y = first(top); y <= last(bottom, frame.height); ++y)
+    for (std::int64_t x = first(left); x <= last(right, frame.width); ++x)
+      if (covers(p, unit_bits, x, y)) pixel(x, y);
+}
+
+/// Through the values at three vertices.
+inline long double linear(const std::array<long double, 3>& barycentric,
+                          const std::array<long double, 3>& value) {
+  return barycentric[0] * value[0] + barycentric[1] * value[1] + barycentric[2] * value[2];
+}
+
+/// Through the values at three vertices and at the midpoints of the edges 1-2, 1-3, 2-3 (quadratic, the
+/// element of six samples).
+inline long double quadratic(const std::array<long double, 3>& barycentric,
+                             const std::array<long double, 6>& value) {
+  const auto& [a, b, c] = barycentric;
+  return value[0] * a * (2 * a - 1) + value[1] * b * (2 * b - 1) + value[2] * c * (2 * c - 1) +
+         4 * (value[3] * a * b + value[4] * a * c + value[5] * b * c);
+}
+
+/// The surface behind a pixel's centre, perspective-correct.
+struct ExactSurface {
+  LongVec position_world, normal_world;  ///< the normal is not unit; it may vanish
+  long double z;
+};
+
+inline ExactSurface surface(const ScreenTriangle& t, int unit_bits, std::int64_t x, std::int64_t y) {
+  const auto screen =
+      barycentric(
+          {{{t.vertex[0].x, t.vertex[0].y}, {t.vertex[1].x, t.vertex[1].y}, {t.vertex[2].x, t.vertex[2].y}}},
+          centre(x, unit_bits), centre(y, unit_bits))
+          .real();
+  ExactSurface s{LongVec(0), LongVec(0), 0};
+  long double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const long double weight = screen[i] * (long double)t.vertex[i].inverse_w;
+    sum += weight;
+    s.position_world += weight * LongVec(t.vertex[i].position_world);
+    s.normal_world += weight * LongVec(t.vertex[i].normal_world);
+    s.z += screen[i] * (long double)t.vertex[i].z;
+  }
+  s.position_world /= sum;
+  s.normal_world /= sum;
+  return s;
+}
+
+/// Blinn's radiance, I_a k_a + sum of I (k_d N.L + k_s (N.H)^n) over the lights before the surface
+/// (spherical, equations 1 to 3; processors, section 2), unclamped; `normal` is unit. A light at the point
+/// itself has no direction and gives nothing.
+inline LongVec radiance(const Scene& scene, const Material& m, const LongVec& position,
+                        const LongVec& normal) {
+  LongVec sum = LongVec(scene.ambient) * LongVec(m.colour) * (long double)m.ambient;
+  const LongVec to_eye = LongVec(scene.camera.eye_world) - position;
+  const long double eye_distance = glm::length(to_eye);
+  const LongVec v = eye_distance > 0 ? to_eye / eye_distance : normal;
+  const auto add = [&](const LongVec& to_light, const LongVec& intensity) {
+    const long double distance = glm::length(to_light);
+    if (!(distance > 0)) return;
+    const LongVec l = to_light / distance, h = l + v;
+    const long double n_dot_l = glm::dot(normal, l), h_length = glm::length(h);
+    if (!(n_dot_l > 0)) return;
+    const long double n_dot_h = h_length > 0 ? std::min(glm::dot(normal, h) / h_length, 1.0L) : 0.0L;
+    const long double highlight = n_dot_h > 0 ? std::pow(n_dot_h, (long double)m.exponent) : 0.0L;
+    sum += intensity * (LongVec(m.colour) * ((long double)m.diffuse * std::min(n_dot_l, 1.0L)) +
+                        LongVec(m.specular_colour) * ((long double)m.specular * highlight));
+  };
+  for (const DirectionalLight& light : scene.directional)
+    add(LongVec(light.to_light_world), LongVec(light.intensity));
+  for (const PositionalLight& light : scene.positional)
+    add(LongVec(light.position_world) - position, LongVec(light.intensity));
+  for (const SpotLight& light : scene.spots) {
+    const LongVec to_light = LongVec(light.position_world) - position;
+    const long double distance = glm::length(to_light);
+    if (!(distance > 0)) continue;
+    const long double cosine = -glm::dot(to_light, LongVec(light.axis_world)) / distance,
+                      inner = light.cos_inner, outer = light.cos_outer;
+    long double share = cosine >= inner ? 1.0L : 0.0L;
+    if (cosine < inner && cosine > outer) {
+      const long double t = (cosine - outer) / (inner - outer);
+      share = t * t * (3 - 2 * t);
+    }
+    add(to_light, share * LongVec(light.intensity));
+  }
+  return sum;
+}
+
+}  // namespace halfway::stability

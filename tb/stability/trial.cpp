@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stability/trial.hpp"
+
+#include <fmt/format.h>
+
+#include "common/file.hpp"
+#include "frame/init_file.hpp"
+#include "frame/trace.hpp"
+#include "run/golden_run.hpp"
+#include "run/limits.hpp"
+#include "run/stream_comparator.hpp"
+#include "sim/ghdl/ghdl_runner.hpp"
+
+namespace halfway::stability {
+namespace {
+
+// What GHDL draws in a few seconds.
+constexpr std::size_t c_most_for_ghdl = 4000;
+
+}  // namespace
+
+void Worst::add(double next, double next_bound, const std::function<std::string()>& where_of) {
+  ++count;
+  // By how much of the bound, without dividing by a bound of nothing.
+  const auto nearer = [&] {
+    if (within() != (next <= next_bound)) return within();
+    return !(next * bound <= figure * next_bound) || (bound == 0.0 && !(next <= figure));
+  };
+  if (count > 1 && !nearer()) return;
+  figure = next;
+  bound = next_bound;
+  where = where_of();
+}
+
+Drawing Trial::draw(const Scene& scene, const DrawOptions& options) {
+  Drawing drawing;
+  const auto plan = plan_scene(scene, options.plan);
+  if (!plan) {
+    require(false, [&] { return plan.error().message; });
+    return drawing;
+  }
+  drawing.key = plan->key;
+  const auto setup = make_setup(scene, options.frame, drawing.key, options.setup);
+  drawing.init_bits = setup->init_bits();
+  setup->append_prologue(drawing.words, drawing.counts);
+  for (std::uint32_t unit = 0; unit < setup->units(); ++unit)
+    setup->append(unit, drawing.words, drawing.counts);
+  drawing.notes = setup->notes();
+  const auto golden = make_golden_model(drawing.key);
+  golden->draw(drawing.words, drawing.fragments);
+  drawing.fault = golden->fault();
+  compare_rtl(drawing.key, drawing.init_bits, drawing.words, drawing.fragments, drawing.fault);
+  return drawing;
+}
+
+std::vector<Fragment> Trial::draw(const HardwareKey& key, std::span<const std::uint32_t> words) {
+  const auto golden = make_golden_model(key);
+  std::vector<Fragment> fragments;
+  golden->draw(words, fragments);
+  compare_rtl(key, golden->init_bits(), words, fragments, golden->fault());
+  return fragments;
+}
+
+void Trial::compare_rtl(const HardwareKey& key, unsigned init_bits, std::span<const std::uint32_t> words,
+                        std::span<const Fragment> golden, bool fault) {
+  golden_fragments_ += golden.size();
+  if (!tools_ || words.empty()) return;
+  const auto compare = [&](std::string_view name, const Status& status, std::span<const Fragment> drawn) {
+    if (!status && status.error().code == ExitCode::tool_failed) {
+      tools_ = status;
+      return;
+    }
+    rtl_fragments_ += drawn.size();
+    require(bool(status) != fault, [&] {
+      return fault ? fmt::format("{}: {} sees no fault, the golden model does", key.name(), name)
+                   : fmt::format("{}: {}: {}", key.name(), name, status.error().message);
+    });
+    if (fault) return;  // the fragments are worth nothing
+    StreamComparator comparator;
+    comparator.add_golden(golden);
+    comparator.add_rtl(drawn);
+    comparator.finish();
+    require(comparator.mismatches() == 0,
+            [&] { return fmt::format("{}: {}", key.name(), comparator.describe(name)); });
+  };
+  std::vector<Fragment> drawn;
+  const std::size_t most = golden.size() + c_most_surplus;
+  const Status verilated = run_verilator(key, init_bits, words, drawn, most);
+  compare("Verilator", verilated, drawn);
+  if (quick_ || golden.size() > c_most_for_ghdl || !through_ghdl_.insert(key.name()).second) return;
+  drawn.clear();
+  const Status simulated = run_ghdl(key, init_bits, words, drawn, most);
+  compare("GHDL", simulated, drawn);
+}
+
+Status Trial::run_verilator(const HardwareKey& key, unsigned init_bits, std::span<const std::uint32_t> words,
+                            std::vector<Fragment>& drawn, std::size_t most) {
+  auto found = rtl_.find(key.name());
+  if (found == rtl_.end()) {
+    auto opened = VerilatorSimulator::open(key, folders_);
+    if (!opened) return opened.error();
+    found = rtl_.emplace(key.name(), std::move(*opened)).first;
+  }
+  VerilatorSimulator& rtl = found->second;
+  auto status = rtl.run(words, words.size() / ((init_bits + 31) / 32), drawn, most);
+  if (status) status = rtl.finish(drawn, most);
+  // Hardware that keeps a prologue, or has gone astray, begins anew.
+  if (key.shader == Shader::processors || !status) rtl_.erase(found);
+  return status;
+}
+
+Status Trial::run_ghdl(const HardwareKey& key, unsigned init_bits, std::span<const std::uint32_t> words,
+                       std::vector<Fragment>& drawn, std::size_t most) {
+  auto folder = TemporaryFolder::make(folders_.cache);
+  if (!folder) return folder.error();
+  const auto init = folder->path() / "init.txt", trace = folder->path() / "ghdl.trace";
+  if (auto written = write_init_file(init, key.name(), {init_bits, {words.begin(), words.end()}}); !written)
+    return written.error();
+  const auto runner = GhdlRunner::open(key, folders_);
+  if (!runner) return runner.error();
+  const auto run = runner->run(
+      init, trace, {.max_fragments = static_cast<std::uint32_t>(most), .idle_limit = c_idle_limit});
+  if (!run) return run.error();
+  auto read = read_trace(trace, key.name());
+  if (!read) return read.error();
+  drawn = std::move(read->fragments);
+  return Ok{};
+}
+
+}  // namespace halfway::stability
