@@ -66,7 +66,7 @@ class ShadingProcessor {
   }
 
   /// A count of shadow volumes left its format, or fell below those that hold the eye; since the beginning.
-  bool fault() const { return fault_ || (counter_ && counter_->fault()); }
+  bool fault() const { return counter_ && counter_->fault(); }
 
  private:
   static constexpr bool c_exact = ProcessorsLayout<Preset>::c_exact;
@@ -90,13 +90,8 @@ class ShadingProcessor {
       if (valid_) add(token, token.ambient, c_one);
       return;
     }
-    const int count = counter_ ? counter_->take(token.x) : 0;
-    if (!valid_) return;
-    if (counter_) {
-      const int around = light_.around_eye + count;
-      fault_ = fault_ || around < 0;
-      if (around != 0) return;
-    }
+    const bool reached = !counter_ || counter_->take(token.x, light_.around_eye, valid_);
+    if (!valid_ || !reached) return;
     Axes normal;
     for (std::size_t i = 0; i < c_axes; ++i) normal[i] = wrapped<Direction>(token.normal[i]);
     if (term_ == Term::diffuse) {
@@ -198,7 +193,7 @@ class ShadingProcessor {
   Term term_;
   std::uint32_t number_;
   bool positional_, spots_;  ///< its light can be positional, a spot
-  bool valid_ = false, fault_ = false;
+  bool valid_ = false;
   ShadingLight light_;
   std::optional<ShadowCounter> counter_;
 };

@@ -2,11 +2,12 @@
 --
 -- Purpose     A signed fixed-point value to an unsigned whole number of fewer bits: below zero gives zero, above the
 --             largest gives the largest, in between the fraction is dropped. The 0.5 that makes this rounding stands
---             in the start value (quadratic paper, section 5).
+--             in the start value.
 -- Formats     value: signed, g_value_bits with g_fraction_bits of fraction; result: unsigned, g_result_bits
 -- Latency     0 (combinational)
 -- Throughput  1 result a clock
 -- Error       [0, 1) below the value inside the range
+-- Source      quadratic paper, section 5 (the 0.5 in the start value)
 -- Golden twin model/golden/saturate.hpp
 
 library ieee;

@@ -190,14 +190,11 @@ package body shading_pkg is
   function round_half_up (value : signed; bits : natural) return signed is
     alias word      : signed(value'length - 1 downto 0) is value;
     constant c_bits : positive := value'length - bits + 1;
-
-    variable half : signed(1 downto 0);
   begin
     if bits = 0 then
       return resize(word, c_bits);
     end if;
-    half := '0' & word(bits - 1);
-    return resize(word(word'high downto bits), c_bits) + half;
+    return resize(word(word'high downto bits), c_bits) + ('0' & word(bits - 1 downto bits - 1));
   end function;
 
   function round_half_up (value : unsigned; bits : natural) return unsigned is

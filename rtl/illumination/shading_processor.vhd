@@ -223,7 +223,6 @@ architecture rtl of shading_processor is
     cycle : cycle_t;   -- 0: no token
     taken : std_logic; -- in the clock before
     valid : std_logic; -- the light
-    fault : std_logic;
   end record;
 
   signal r, r_next : reg_t;
@@ -237,10 +236,8 @@ architecture rtl of shading_processor is
   signal token   : std_logic_vector(in_token'range);
   signal light   : std_logic_vector(light_bits(c_config) - 1 downto 0);
 
-  signal ready       : std_logic; -- the counter
-  signal lit         : std_logic;
-  signal below       : std_logic; -- fewer volumes around the point than none
-  signal count_fault : std_logic;
+  signal ready : std_logic; -- the counter
+  signal lit   : std_logic;
 
   subtype directions_t is std_logic_vector(c_axes * c_direction - 1 downto 0);
 
@@ -300,7 +297,6 @@ begin
   out_valid <= '1' when r.cycle = c_at.leave else '0';
   out_token <= token;
   busy      <= '0' when r.cycle = 0 else '1';
-  fault     <= r.fault or count_fault;
 
   light_register : entity work.parameter_register
     generic map (
@@ -381,14 +377,10 @@ begin
       end if;
     end if;
 
-    if r.taken = '1' and r.valid = '1' and below = '1' then
-      v.fault := '1';
-    end if;
     if reset = '1' then
       v.cycle := 0;
       v.taken := '0';
       v.valid := '0';
-      v.fault := '0';
     end if;
     r_next <= v;
   end process;
@@ -452,10 +444,6 @@ begin
 
   shadows : if g_shadows and g_kind /= c_ambient generate
 
-    constant c_count : positive := c_formats.shadow_count.bits;
-
-    signal count  : std_logic_vector(c_count - 1 downto 0);
-    signal around : signed(c_count downto 0);
     signal counts : std_logic;
     signal clear  : std_logic;
 
@@ -466,29 +454,26 @@ begin
 
       counter : entity work.shadow_counter
         port map (
-          clk    => clk,
-          reset  => reset,
-          ready  => ready,
-          step   => take,
-          clear  => clear,
-          counts => counts,
-          opens  => in_token(c_header.opens.low),
-          takes  => comes,
-          x      => of_header(in_token, c_header.x),
-          count  => count,
-          fault  => count_fault
+          clk        => clk,
+          reset      => reset,
+          ready      => ready,
+          step       => take,
+          clear      => clear,
+          counts     => counts,
+          opens      => in_token(c_header.opens.low),
+          takes      => comes,
+          x          => of_header(in_token, c_header.x),
+          valid      => r.valid,
+          around_eye => of_header(light, c_light_header.around_eye),
+          lit        => lit,
+          fault      => fault
           );
-
-      around <= resize(signed(count), around'length) + signed(of_header(light, c_light_header.around_eye));
-      lit    <= '1' when around = 0 else '0';
-      below  <= around(c_count);
 
   else generate
 
-    ready       <= '1';
-    lit         <= '1';
-    below       <= '0';
-    count_fault <= '0';
+    ready <= '1';
+    lit   <= '1';
+    fault <= '0';
 
   end generate;
 

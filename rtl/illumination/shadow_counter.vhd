@@ -2,14 +2,16 @@
 --
 -- Purpose     One light's shadow volumes around the surfaces of a line: a count for each column, one more where a
 --             shadow polygon opens a volume, one less where it closes it. An object takes its column's count, which
---             then starts anew at 0.
+--             then starts anew at 0; with the volumes that hold the eye it says whether the light reaches the object.
 -- Contract    At a rising edge with step and ready, column x is counted (counts, with opens), taken (takes), or all
---             columns are cleared (clear); at most one of the three. count is then what column x held before, until the
---             next step. Any columns may follow each other. After reset and a clear ready is '0' until all columns are
---             0: a clock for each column up to the last counted one, after reset for all. A count that would leave its
---             format is held, and fault stays '1' from then on.
--- Formats     formats_pkg: x: pixel_x, count: shadow_count; the same in both presets
--- Latency     1 clock from step to count, 2 to fault
+--             columns are cleared (clear); at most one of the three. Until the next step lit is '1' where what column x
+--             held before and around_eye make 0; so long, valid (the light is there) and around_eye stand still. Any
+--             columns may follow each other. After reset and a clear ready is '0' until all columns are 0: a clock for
+--             each column up to the last counted one, after reset for all. A count that would leave its format is
+--             held; fault stays '1' from then on, as it does from an object on, where the light is there, whose count
+--             and around_eye are less than 0.
+-- Formats     formats_pkg: x: pixel_x, around_eye: shadow_count; the same in both presets
+-- Latency     1 clock from step to lit, 2 to fault
 -- Throughput  1 column a clock
 -- Source      processors paper, section 3.3 (a single counter: there a stage holds a pixel at a time)
 -- Golden twin model/golden/shadow_counter.hpp
@@ -21,26 +23,28 @@ use work.formats_pkg.all;
 
 entity shadow_counter is
   port (
-    clk    : in  std_logic;
-    reset  : in  std_logic;
-    ready  : out std_logic;
-    step   : in  std_logic;
-    clear  : in  std_logic;
-    counts : in  std_logic;
-    opens  : in  std_logic;
-    takes  : in  std_logic;
-    x      : in  std_logic_vector(formats(true).pixel_x.bits - 1 downto 0);
-    count  : out std_logic_vector(formats(true).shadow_count.bits - 1 downto 0);
-    fault  : out std_logic
+    clk        : in  std_logic;
+    reset      : in  std_logic;
+    ready      : out std_logic;
+    step       : in  std_logic;
+    clear      : in  std_logic;
+    counts     : in  std_logic;
+    opens      : in  std_logic;
+    takes      : in  std_logic;
+    x          : in  std_logic_vector(formats(true).pixel_x.bits - 1 downto 0);
+    valid      : in  std_logic; -- the light
+    around_eye : in  std_logic_vector(formats(true).shadow_count.bits - 1 downto 0);
+    lit        : out std_logic;
+    fault      : out std_logic
   );
 end entity;
 
 architecture rtl of shadow_counter is
 
   subtype column_t is unsigned(x'range);
-  subtype count_t is std_logic_vector(count'range);
+  subtype count_t is std_logic_vector(around_eye'range);
 
-  constant c_least : count_t := '1' & (count'high - 1 downto 0 => '0');
+  constant c_least : count_t := '1' & (around_eye'high - 1 downto 0 => '0');
   constant c_most  : count_t := not c_least;
 
   type reg_t is record
@@ -60,6 +64,7 @@ architecture rtl of shadow_counter is
   signal moved    : std_logic;
   signal memory_q : count_t; -- read
   signal held     : count_t;
+  signal around   : signed(count_t'length downto 0); -- volumes around the object
   signal changed  : count_t;
   signal leaves   : std_logic; -- its format
   signal writes   : std_logic;
@@ -71,9 +76,10 @@ begin
   ready <= not r.clearing;
   moved <= step and not r.clearing;
 
-  held  <= r.forward when r.forwarded = '1' else memory_q;
-  count <= held;
-  fault <= r.fault;
+  held   <= r.forward when r.forwarded = '1' else memory_q;
+  around <= resize(signed(held), around'length) + signed(around_eye);
+  lit    <= '1' when around = 0 else '0';
+  fault  <= r.fault;
 
   change : process (all)
   begin
@@ -105,6 +111,9 @@ begin
   begin
     v := r;
     if leaves = '1' then
+      v.fault := '1';
+    end if;
+    if r.takes = '1' and valid = '1' and around < 0 then
       v.fault := '1';
     end if;
     if r.clearing = '1' then

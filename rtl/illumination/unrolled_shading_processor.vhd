@@ -78,9 +78,7 @@ architecture rtl of unrolled_shading_processor is
 
   type reg_t is record
     filled : std_logic_vector(c_at.leave downto 1); -- stages that hold a token
-    object : std_logic;                             -- the first stage's token is one
     valid  : std_logic;                             -- the light
-    fault  : std_logic;
   end record;
 
   signal r, r_next : reg_t;
@@ -95,10 +93,8 @@ architecture rtl of unrolled_shading_processor is
   signal take    : std_logic;
   signal light   : std_logic_vector(light_bits(c_config) - 1 downto 0);
 
-  signal ready       : std_logic; -- the counter
-  signal lit         : std_logic; -- the first stage's token
-  signal below       : std_logic; -- fewer volumes around the point than none
-  signal count_fault : std_logic;
+  signal ready : std_logic; -- the counter
+  signal lit   : std_logic; -- the first stage's token
 
   signal colours   : std_logic_vector(c_axes * (c_k + 1) - 1 downto 0); -- k
   signal colours_i : std_logic_vector(c_axes * (c_k + 1) - 1 downto 0);
@@ -139,7 +135,6 @@ begin
   in_ready  <= free;
   out_valid <= r.filled(c_at.leave);
   busy      <= or r.filled;
-  fault     <= r.fault or count_fault;
 
   light_register : entity work.parameter_register
     generic map (
@@ -158,7 +153,6 @@ begin
     v := r;
     if flows = '1' then
       v.filled := r.filled(c_at.leave - 1 downto 1) & take;
-      v.object := take and comes;
     end if;
     if take = '1' then
       if defines = '1' then
@@ -167,14 +161,9 @@ begin
         v.valid := '0';
       end if;
     end if;
-    if r.object = '1' and r.valid = '1' and below = '1' then
-      v.fault := '1';
-    end if;
     if reset = '1' then
       v.filled := (others => '0');
-      v.object := '0';
       v.valid  := '0';
-      v.fault  := '0';
     end if;
     r_next <= v;
   end process;
@@ -190,10 +179,6 @@ begin
 
   shadows : if g_shadows and g_kind /= c_ambient generate
 
-    constant c_count : positive := c_formats.shadow_count.bits;
-
-    signal count  : std_logic_vector(c_count - 1 downto 0);
-    signal around : signed(c_count downto 0);
     signal counts : std_logic;
     signal clear  : std_logic;
 
@@ -204,29 +189,26 @@ begin
 
       counter : entity work.shadow_counter
         port map (
-          clk    => clk,
-          reset  => reset,
-          ready  => ready,
-          step   => take,
-          clear  => clear,
-          counts => counts,
-          opens  => in_token(c_header.opens.low),
-          takes  => comes,
-          x      => of_header(in_token, c_header.x),
-          count  => count,
-          fault  => count_fault
+          clk        => clk,
+          reset      => reset,
+          ready      => ready,
+          step       => take,
+          clear      => clear,
+          counts     => counts,
+          opens      => in_token(c_header.opens.low),
+          takes      => comes,
+          x          => of_header(in_token, c_header.x),
+          valid      => r.valid,
+          around_eye => of_header(light, c_light_header.around_eye),
+          lit        => lit,
+          fault      => fault
           );
-
-      around <= resize(signed(count), around'length) + signed(of_header(light, c_light_header.around_eye));
-      lit    <= '1' when around = 0 else '0';
-      below  <= around(c_count);
 
   else generate
 
-    ready       <= '1';
-    lit         <= '1';
-    below       <= '0';
-    count_fault <= '0';
+    ready <= '1';
+    lit   <= '1';
+    fault <= '0';
 
   end generate;
 

@@ -6,6 +6,7 @@
 -- Formats     g_bits of anything
 -- Latency     g_depth clocks with enable
 -- Throughput  1 word a clock
+-- Source      ours: the papers have no pipeline as deep
 -- Golden twin model/golden/delay_line.hpp
 
 library ieee;

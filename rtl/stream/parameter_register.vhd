@@ -5,6 +5,7 @@
 -- Latency     1 clock from load to value
 -- Throughput  1 load a clock
 -- Error       none: the words are held as they are
+-- Source      none: the papers leave out what holds their parameters
 -- Golden twin model/golden/parameter_register.hpp
 
 library ieee;

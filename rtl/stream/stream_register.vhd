@@ -8,6 +8,8 @@
 -- Latency     1 clock
 -- Throughput  1 word a clock
 -- Error       none: words come out as they went in, each once, in their order
+-- Source      quadratic paper, section 5 (the next triangle is initialized while this one is drawn); valid/ready is
+--             ours
 -- Golden twin model/golden/stream_register.hpp
 
 library ieee;

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- Clock by clock against the golden twin: every column after reset, runs on few columns at full speed and with pauses,
--- counts past both ends of their format, clears, and resets in between.
+-- counts past both ends of their format, fewer volumes around an object than none, with a light and without, clears,
+-- and resets in between.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -23,30 +24,35 @@ architecture sim of shadow_counter_tb is
   signal opens    : std_logic := '0';
   signal takes    : std_logic := '0';
   signal x        : std_logic_vector(formats(true).pixel_x.bits - 1 downto 0) := (others => '0');
-  signal count    : std_logic_vector(formats(true).shadow_count.bits - 1 downto 0);
+  signal valid    : std_logic := '0';
+  signal eye      : std_logic_vector(formats(true).shadow_count.bits - 1 downto 0) := (others => '0');
+  signal lit      : std_logic;
   signal fault    : std_logic;
 begin
   dut : entity work.shadow_counter
     port map (
-      clk    => clk,
-      reset  => reset,
-      ready  => ready,
-      step   => step,
-      clear  => clear,
-      counts => counts,
-      opens  => opens,
-      takes  => takes,
-      x      => x,
-      count  => count,
-      fault  => fault);
+      clk        => clk,
+      reset      => reset,
+      ready      => ready,
+      step       => step,
+      clear      => clear,
+      counts     => counts,
+      opens      => opens,
+      takes      => takes,
+      x          => x,
+      valid      => valid,
+      around_eye => eye,
+      lit        => lit,
+      fault      => fault);
 
   clk <= not clk after c_half_period when not finished;
 
   run : process is
     variable vectors                                                       : vectors_t;
     variable reset_now, step_now, clear_now, counts_now, opens_now, takes_now : std_logic;
-    variable counted, reset_before                                         : std_logic;
+    variable valid_now, counted, reset_before                              : std_logic;
     variable x_now                                                         : std_logic_vector(x'range);
+    variable eye_now                                                       : std_logic_vector(eye'range);
     variable waits                                                         : natural;
   begin
     vectors.open_file(g_folder & "/columns.txt");
@@ -59,6 +65,8 @@ begin
       vectors.read_flag(opens_now);
       vectors.read_flag(takes_now);
       vectors.read_word(x_now);
+      vectors.read_flag(valid_now);
+      vectors.read_word(eye_now);
       reset  <= reset_now;
       step   <= step_now;
       clear  <= clear_now;
@@ -66,6 +74,8 @@ begin
       opens  <= opens_now;
       takes  <= takes_now;
       x      <= x_now;
+      valid  <= valid_now;
+      eye    <= eye_now;
       waits := vectors.read_number;
       wait until rising_edge(clk);
       for i in 1 to waits loop
@@ -78,7 +88,7 @@ begin
         vectors.fail("not ready after " & to_string(waits) & " clocks");
       end if;
       vectors.read_flag(counted);
-      vectors.check_word_if(counted, "count", count);
+      vectors.check_flag_if(counted, "lit", lit);
       vectors.check_flag_if(not reset_before, "fault", fault);
       reset_before := reset_now and reset_before;
     end loop;

@@ -164,18 +164,19 @@ constexpr Mutant c_mutants[] = {
     {"illumination/specular_slice.vhd", "sample <= (others => '0');", "sample <= samples(1);"},
     {"illumination/specular_slice.vhd", "b       => carried(", "b       => carried_in("},
     // A column that comes again at once is read from memory; a count wraps; a clear ends too early; an object
-    // leaves
-    // its count.
+    // leaves its count; lit where volumes are missing; no fault where they are, and one without a light.
     {"illumination/shadow_counter.vhd", "v.forwarded := '1'", "v.forwarded := '0'"},
     {"illumination/shadow_counter.vhd", "if held = c_most then", "if held = c_least then"},
     {"illumination/shadow_counter.vhd", "v.last := unsigned(x)", "v.last := r.last"},
     {"illumination/shadow_counter.vhd", "if r.takes = '1' then", "if r.takes = '1' and r.opens = '1' then"},
-    // Redefines what is not there; lit where volumes are missing; a highlight below the horizon; a spot's
+    {"illumination/shadow_counter.vhd", "'1' when around = 0", "'1' when around <= 0"},
+    {"illumination/shadow_counter.vhd", "and around < 0", "and around < -1"},
+    {"illumination/shadow_counter.vhd", "r.takes = '1' and valid = '1' and", "r.takes = '1' and"},
+    // Redefines what is not there; a highlight below the horizon; a spot's
     // light
     // everywhere; the far light's shift forgotten.
     {"illumination/shading_processor.vhd", "(command = c_redefine and r.valid = '1')",
      "command = c_redefine"},
-    {"illumination/shading_processor.vhd", "'1' when around = 0", "'1' when around <= 0"},
     {"illumination/shading_processor.vhd", "r.cycle = c_at.horizon and positive_dot = '0'",
      "r.cycle = c_at.horizon and positive_dot = 'Z'"},
     {"illumination/shading_processor.vhd", "r.cycle = c_at.weigh_in - 1 and spotted = '0'",

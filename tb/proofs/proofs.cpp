@@ -156,7 +156,9 @@ std::vector<Proof> all_proofs() {
   proofs.push_back(
       {"illumination/shadow_counter",
        "illumination/shadow_counter.psl",
-       "A count moves by one or stands at its limit, and then fault rises and stays: it never wraps",
+       "A count moves by one or stands at its limit, and then fault rises and stays: it never wraps; lit "
+       "where "
+       "count and volumes around the eye make 0, fault where an object has less",
        Method::induction,
        3,
        true,
@@ -166,7 +168,11 @@ std::vector<Proof> all_proofs() {
         {"illumination/shadow_counter.vhd", "if held = c_least then",
          "if held = c_most and r.counts = '1' then"},
         {"illumination/shadow_counter.vhd", "if leaves = '1' then", "if leaves = '1' and step = '1' then"},
-        {"illumination/shadow_counter.vhd", "v.fault := '1';", "v.fault := not r.fault;"}},
+        {"illumination/shadow_counter.vhd", "if leaves = '1' then\n      v.fault := '1';",
+         "if leaves = '1' then\n      v.fault := not r.fault;"},
+        {"illumination/shadow_counter.vhd", "'1' when around = 0", "'1' when around <= 0"},
+        {"illumination/shadow_counter.vhd", "and around < 0", "and around < -1"},
+        {"illumination/shadow_counter.vhd", "r.takes = '1' and valid = '1' and", "r.takes = '1' and"}},
        {{"pixel_x", 1, 0}, {"shadow_count", 1, 0}},
        false,
        12});

@@ -257,40 +257,51 @@ Status write_pipelines(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// A line: reset, step, clear, counts, opens, takes, x, clocks until ready; then before the edge: counted,
-// count (meant where counted), fault.
+// A line: reset, step, clear, counts, opens, takes, x, and for the column before valid and around_eye, clocks
+// until ready; then before the edge: counted, lit (meant where counted), fault.
 Status write_shadow_counter(const std::filesystem::path& folder) {
   constexpr int c_columns = 1 << Exact::c_pixel_x_bits;
+  constexpr int c_most = (1 << (Exact::c_shadow_count_bits - 1)) - 1;
   Random random(9);
   VectorFile file;
   golden::ShadowCounter twin;
   std::uint32_t last = 0;   // counted since the last clear
   std::uint32_t waits = 0;  // until ready
   bool counted = false;     // the last step was one of a column
-  int held = 0;             // what that column held
-  bool fault = false;       // as seen two clocks after the step
+  int around_eye = 0;       // until the next step
+  bool valid = false, lit = false;
+  bool fault = false;        // as seen two clocks after the step
+  bool may_be_less = false;  // volumes around an object than none
+  // What goes with a column that holds `held`: often the one that makes the object lit, else one beside it or
+  // any.
+  const auto choose_light = [&](int held) {
+    around_eye = random.one_in(4)
+                     ? static_cast<int>(random.between(-c_most - 1, c_most))
+                     : std::clamp(static_cast<int>(random.between(-1, 1)) - held, -c_most, c_most);
+    if (random.one_in(2)) around_eye = std::clamp(-held, -c_most, c_most);
+    valid = !random.one_in(4) && (may_be_less || held + around_eye >= 0);
+    lit = held + around_eye == 0;
+  };
   const auto line = [&](bool reset, bool step, bool clear, bool counts, bool opens, bool takes,
                         std::uint32_t x) {
     const bool stepped = step && !reset;
     file.flag(reset).flag(step).flag(clear).flag(counts).flag(opens).flag(takes);
-    file.word(x, Exact::c_pixel_x_bits).word(reset ? 0 : waits, 32);
+    file.word(x, Exact::c_pixel_x_bits).flag(valid);
+    file.word(static_cast<std::uint64_t>(around_eye), Exact::c_shadow_count_bits).word(reset ? 0 : waits, 32);
     if (waits > 0 && !reset) fault = twin.fault();
-    file.flag(counted).word(static_cast<std::uint64_t>(held), Exact::c_shadow_count_bits).flag(fault);
-    file.end_vector();
+    file.flag(counted).flag(lit).flag(fault).end_vector();
     if (!reset) waits = 0;
     fault = twin.fault();
     if (stepped) {
       counted = counts || takes;
+      choose_light(twin.held(x));
       if (clear) {
         twin.clear();
         waits = last + 1;
         last = 0;
       } else if (takes) {
-        held = twin.take(x);
+        twin.take(x, around_eye, valid);
       } else if (counts) {
-        // The twin shows a count only to the object that takes it.
-        held = twin.take(x);
-        for (int i = 0; i < (held < 0 ? -held : held); ++i) twin.count(x, held > 0);
         twin.count(x, opens);
         last = x > last ? x : last;
       }
@@ -307,7 +318,8 @@ Status write_shadow_counter(const std::filesystem::path& folder) {
   for (std::uint32_t x = 0; x < c_columns; ++x) line(false, true, false, false, false, true, x);
   for (int i = 0; i < 12000; ++i) {
     const int part = i / 1500;
-    if (i % 6000 == 5999) {
+    may_be_less = i % 3000 > 2900;
+    if (i % 3000 == 2999) {
       line(true, random.one_in(2), false, true, true, false, 0);
       continue;
     }
