@@ -50,15 +50,15 @@ class Checker {
   virtual ~Checker() = default;
   /// The golden model against the specification.
   virtual std::optional<Failure> check(const Input& input, Tally& tally) = 0;
-  /// The RTL against the golden model, one input after the other through the same hardware. An error is a tool
-  /// that is missing or broke.
+  /// The RTL against the golden model, one input after the other through the same hardware. An error is a
+  /// tool that is missing or broke.
   virtual Result<std::optional<Failure>> check_rtl(std::span<const Input> inputs, Tally& tally) = 0;
 };
 
 class Search {
  public:
   virtual ~Search() = default;
-  virtual std::string_view name() const = 0;  ///< what it searches through, a plural
+  virtual std::string_view name() const = 0;   ///< what it searches through, a plural
   virtual std::string_view about() const = 0;  ///< for the page, a sentence or two
   virtual std::span<const Parameter> parameters() const = 0;
   /// The same input for the same seed, whatever came before; another for another.
