@@ -7,7 +7,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 # What a target hands to the program. Values travel through the environment and are quoted where they are
 # used: neither make nor a shell ever reads them as code.
 variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS \
-  ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE
+  ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE TRIANGLES SEED
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
 
@@ -23,7 +23,7 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim compare why plan figure17 gallery tables check-tables test mutants prove stability bench build program generator \
+.PHONY: help sim compare why plan figure17 gallery tables check-tables test mutants prove stability search bench build program generator \
   configure setup doctor format check-format clean
 
 help: ## this list
@@ -43,6 +43,7 @@ help: ## this list
 	@echo '  ALL_EFFECTS  1: hardware with every effect, whatever the scene calls for; LIGHTS  for how many lights'
 	@echo '  MEASURE    1: make plan counts cells by Yosys, and cycles and seconds by simulation'
 	@echo '  OBJECTS, RATE  make plan: how many shading processors draw so many objects a pixel, frames a second'
+	@echo '  TRIANGLES, SEED  make search: how many, and which ones     (default: 10000000, 1)'
 	@echo '  PIXEL      x,y of the pixel that make why explains'
 	@echo '  ADDRESS_BITS, DATA_BITS   make tables: size of cosine tables  (default: 9, 8; published 6, 6)'
 	@echo '  TESTS      a regular expression: make test runs only the tests that match'
@@ -88,6 +89,11 @@ prove: configure ## formal proofs on the RTL, each with faults that it must refu
 stability: configure ## hard cases, in specification, golden model and RTL: what breaks, and what holds
 	@cmake --build build -j "$(jobs)" --target halfway_stability
 	@build/tb/halfway_stability --page tb/stability/README.md .
+
+search: configure ## random triangles in golden model and RTL; what fails is shrunk and kept (TRIANGLES, SEED)
+	@cmake --build build -j "$(jobs)" --target halfway_search
+	@build/tb/halfway_search $(call option,TRIANGLES,--triangles) $(call option,SEED,--seed) \
+	  --page tb/stability/README.md --keep tb/stability/regressions .
 
 bench: program ## speed, as ratios within one run
 	@cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench

@@ -5,6 +5,14 @@
 
 namespace halfway {
 
+HalfVertex half_vertex(ScreenPoint corner, int level, double depth_steps) {
+  const auto nearest_pixel = [level](std::int32_t v) {
+    return static_cast<long double>(
+        floor_divide(2 * std::int64_t{v} + (std::int64_t{1} << level), std::int64_t{2} << level).quotient);
+  };
+  return {nearest_pixel(corner.x), nearest_pixel(corner.y), depth_steps};
+}
+
 long double twice_area(const std::array<HalfVertex, 3>& p) {
   return (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
 }

@@ -17,6 +17,10 @@ struct HalfVertex {
   long double x, y, z;
 };
 
+/// A corner of a piece of a triangle, in 1/2^level pixels, as the vertex of one: a midpoint between pixels is
+/// rounded, and a T-junction may open (a published fault).
+HalfVertex half_vertex(ScreenPoint corner, int level, double depth_steps);
+
 /// An edge by its ends, upper one first: indices into the triangle's vertices.
 struct HalfEdge {
   std::size_t top, bottom;

@@ -159,7 +159,89 @@ double held_sample(double radiance, SetupCounts& counts) {
   return c_largest_sample;
 }
 
+template <class Preset>
+constexpr unsigned vector_bits(int channels) {
+  return static_cast<unsigned>(Preset::c_init_header_bits + channels * Preset::c_init_channel_bits);
+}
+
+ChannelSamples held_samples(const Piece& piece, int channels, SetupCounts& counts) {
+  ChannelSamples samples{};
+  for (int c = 0; c < channels; ++c)
+    for (std::size_t i = 0; i < 6; ++i)
+      samples[static_cast<std::size_t>(c)][i] = held_sample(piece.samples[i].radiance[c], counts);
+  return samples;
+}
+
 }  // namespace
+
+void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
+                    std::span<const Walk> walks, const std::array<ScreenPoint, 3>& points, int unit_bits,
+                    const DepthFit& depth, const ChannelSamples& samples) {
+  constexpr int c_fraction = Exact::c_intensity_fraction_bits;
+  using ChannelAt = Exact::init_channel_at;
+  const QuadraticFit fit(points, unit_bits);
+  std::array<SixSamples, 3> channel;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) {
+    const auto sample = [&](std::size_t i) { return fixed(samples[c][i], c_fraction); };
+    channel[c] = {{sample(0), sample(1), sample(2)}, sample(3), sample(4), sample(5)};
+  }
+  for (const Walk& walk : walks) {
+    InitVector init(words, vector_bits<Exact>(channels));
+    const DifferenceStart start = difference_start(walk);
+    put_header(init, triangle, walk, depth.words(start, half(Exact::c_depth_sum_fraction_bits)));
+    for (int c = 0; c < channels; ++c) {
+      const QuadraticWords w = fit.words(channel[static_cast<std::size_t>(c)], start, half(c_fraction));
+      const int low = Exact::c_init_header_bits + c * Exact::c_init_channel_bits;
+      init.put(ChannelAt::value, w.value, low);
+      init.put(ChannelAt::dx, w.dx, low);
+      init.put(ChannelAt::de0, w.de0, low);
+      init.put(ChannelAt::de1, w.de1, low);
+      init.put(ChannelAt::dxx, w.dxx, low);
+      init.put(ChannelAt::dxe0, w.dxe0, low);
+      init.put(ChannelAt::dxe1, w.dxe1, low);
+      init.put(ChannelAt::de0e0, w.de0e0, low);
+      init.put(ChannelAt::de0e1, w.de0e1, low);
+      init.put(ChannelAt::de1e1, w.de1e1, low);
+    }
+  }
+}
+
+std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
+                           const std::array<HalfVertex, 3>& p, const ChannelSamples& samples) {
+  constexpr int c_fraction = Published::c_intensity_fraction_bits, c_bits = Published::c_intensity_bits;
+  using ChannelAt = Published::init_channel_at;
+  using Real = long double;
+  const Real x2 = p[1].x - p[0].x, y2 = p[1].y - p[0].y, x3 = p[2].x - p[0].x, y3 = p[2].y - p[0].y;
+  const Real d = x2 * y3 - y2 * x3;
+  const std::vector<HalfTriangle> halves = half_triangles(p);
+  for (const HalfTriangle& half_triangle : halves) {
+    InitVector init(words, vector_bits<Published>(channels));
+    put_header(init, triangle, half_triangle, p);
+    const Real u = half_triangle.x_start - p[0].x, v = static_cast<Real>(half_triangle.y) - p[0].y;
+    const Real a = half_triangle.slope_start;
+    for (int c = 0; c < channels; ++c) {
+      const int low = Published::c_init_header_bits + c * Published::c_init_channel_bits;
+      const auto i = [&](std::size_t n) { return Real{samples[static_cast<std::size_t>(c)][n]}; };
+      const Real c2 = 4 * i(3) - 3 * i(0) - i(1), c3 = 4 * i(4) - 3 * i(0) - i(2);
+      const Real q2 = 2 * (i(0) + i(1) - 2 * i(3)), q3 = 2 * (i(0) + i(2) - 2 * i(4));
+      const Real b = 4 * (i(5) - i(3) - i(4) + i(0));
+      const Real t1 = (c3 * x2 - c2 * x3) / d, t2 = (c2 * y3 - c3 * y2) / d;
+      const Real t3 = (q2 * x3 * x3 - b * x2 * x3 + q3 * x2 * x2) / (d * d);
+      const Real t4 = (-2 * q2 * x3 * y3 + b * (x2 * y3 + x3 * y2) - 2 * q3 * x2 * y2) / (d * d);
+      const Real t5 = (q2 * y3 * y3 - b * y2 * y3 + q3 * y2 * y2) / (d * d);
+      const auto word = [&](Real value) { return Int128{wrapped_word(value, c_fraction, c_bits)}; };
+      init.put(ChannelAt::value, word(i(0) + t2 * u + t1 * v + t5 * u * u + t4 * u * v + t3 * v * v + 0.5L),
+               low);
+      init.put(ChannelAt::dx, word(2 * t5 * u + t4 * v + t5 + t2), low);
+      init.put(ChannelAt::de0,
+               word(t5 * a * a + (2 * t5 * u + t4 * v + t4 + t2) * a + t4 * u + 2 * t3 * v + t3 + t1), low);
+      init.put(ChannelAt::dxx, word(2 * t5), low);
+      init.put(ChannelAt::dxe0, word(2 * t5 * a + t4), low);
+      init.put(ChannelAt::de0e0, word(2 * (t5 * a * a + t4 * a + t3)), low);
+    }
+  }
+  return halves.size();
+}
 
 QuadraticSetup::QuadraticSetup(const Scene& scene, FrameSize frame, const HardwareKey& key,
                                QuadraticSetupOptions options)
@@ -167,10 +249,8 @@ QuadraticSetup::QuadraticSetup(const Scene& scene, FrameSize frame, const Hardwa
       frame_(frame),
       preset_(key.preset),
       channels_(static_cast<int>(key.channels)),
-      init_bits_(static_cast<unsigned>(
-          preset_ == Preset::exact
-              ? Exact::c_init_header_bits + channels_ * Exact::c_init_channel_bits
-              : Published::c_init_header_bits + channels_ * Published::c_init_channel_bits)),
+      init_bits_(preset_ == Preset::exact ? vector_bits<Exact>(channels_)
+                                          : vector_bits<Published>(channels_)),
       options_(options),
       projector_(scene, frame,
                  preset_ == Preset::exact ? ProjectionOptions{.subpixel_bits = 4, .clip_to_frame = false}
@@ -197,8 +277,6 @@ void QuadraticSetup::append_exact(const ScreenTriangle& triangle, std::vector<st
   if (plan_walks(corners, subpixel_bits, frame_).empty()) return;
   const Sampler sampler(*scene_, triangle, counts);
   const std::array<std::int64_t, 3> depths = fixed_depths(triangle);
-  constexpr int c_fraction = Exact::c_intensity_fraction_bits;
-  using ChannelAt = Exact::init_channel_at;
 
   subdivide(whole(triangle, sampler), sampler, options_, subpixel_bits, counts, [&](const Piece& piece) {
     const int unit_bits = subpixel_bits + piece.level;
@@ -209,93 +287,22 @@ void QuadraticSetup::append_exact(const ScreenTriangle& triangle, std::vector<st
     std::array<ScreenPoint, 3> scaled = corners;
     for (ScreenPoint& p : scaled) p = {p.x << piece.level, p.y << piece.level};
     // Depth follows the whole triangle's plane, so that its pieces agree.
-    const DepthFit depth(scaled, unit_bits, depths);
-    const QuadraticFit fit(points, unit_bits);
-    std::array<SixSamples, 3> channel;
-    for (int c = 0; c < channels_; ++c) {
-      const auto sample = [&](std::size_t i) {
-        return fixed(held_sample(s[i].radiance[c], counts), c_fraction);
-      };
-      channel[static_cast<std::size_t>(c)] = {
-          {sample(0), sample(1), sample(2)}, sample(3), sample(4), sample(5)};
-    }
-    for (const Walk& walk : walks) {
-      ++counts.vectors;
-      InitVector init(words, init_bits_);
-      const DifferenceStart start = difference_start(walk);
-      put_header(init, triangle.source, walk, depth.words(start, half(Exact::c_depth_sum_fraction_bits)));
-      for (int c = 0; c < channels_; ++c) {
-        const QuadraticWords w = fit.words(channel[static_cast<std::size_t>(c)], start, half(c_fraction));
-        const int low = Exact::c_init_header_bits + c * Exact::c_init_channel_bits;
-        init.put(ChannelAt::value, w.value, low);
-        init.put(ChannelAt::dx, w.dx, low);
-        init.put(ChannelAt::de0, w.de0, low);
-        init.put(ChannelAt::de1, w.de1, low);
-        init.put(ChannelAt::dxx, w.dxx, low);
-        init.put(ChannelAt::dxe0, w.dxe0, low);
-        init.put(ChannelAt::dxe1, w.dxe1, low);
-        init.put(ChannelAt::de0e0, w.de0e0, low);
-        init.put(ChannelAt::de0e1, w.de0e1, low);
-        init.put(ChannelAt::de1e1, w.de1e1, low);
-      }
-    }
+    append_vectors(words, channels_, triangle.source, walks, points, unit_bits,
+                   DepthFit(scaled, unit_bits, depths), held_samples(piece, channels_, counts));
+    counts.vectors += walks.size();
   });
 }
 
 void QuadraticSetup::append_published(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
                                       SetupCounts& counts) const {
   const Sampler sampler(*scene_, triangle, counts);
-  constexpr int c_fraction = Published::c_intensity_fraction_bits, c_bits = Published::c_intensity_bits;
-  using ChannelAt = Published::init_channel_at;
-  using Real = long double;
-
   subdivide(whole(triangle, sampler), sampler, options_, 0, counts, [&](const Piece& piece) {
-    // Vertices are whole pixels: a midpoint between them is rounded, and a T-junction may open (a published
-    // fault).
     const auto vertex = [&](std::size_t i) {
-      const Corner& corner = piece.samples[i].corner;
-      const auto whole_pixel = [&](std::int32_t v) {
-        return static_cast<Real>(floor_divide(2 * std::int64_t{v} + (std::int64_t{1} << piece.level),
-                                              std::int64_t{2} << piece.level)
-                                     .quotient);
-      };
-      return HalfVertex{whole_pixel(corner.point.x), whole_pixel(corner.point.y),
-                        depth_steps(piece.samples[i].surface.z)};
+      const Sample& sample = piece.samples[i];
+      return half_vertex(sample.corner.point, piece.level, depth_steps(sample.surface.z));
     };
-    const std::array<HalfVertex, 3> p = {vertex(0), vertex(1), vertex(2)};
-    std::array<std::array<Real, 6>, 3> sample{};
-    for (std::size_t c = 0; c < static_cast<std::size_t>(channels_); ++c)
-      for (std::size_t n = 0; n < 6; ++n)
-        sample[c][n] = held_sample(piece.samples[n].radiance[static_cast<int>(c)], counts);
-    const Real x2 = p[1].x - p[0].x, y2 = p[1].y - p[0].y, x3 = p[2].x - p[0].x, y3 = p[2].y - p[0].y;
-    const Real d = x2 * y3 - y2 * x3;
-    for (const HalfTriangle& half_triangle : half_triangles(p)) {
-      ++counts.vectors;
-      InitVector init(words, init_bits_);
-      put_header(init, triangle.source, half_triangle, p);
-      const Real u = half_triangle.x_start - p[0].x, v = static_cast<Real>(half_triangle.y) - p[0].y;
-      const Real a = half_triangle.slope_start;
-      for (int c = 0; c < channels_; ++c) {
-        const int low = Published::c_init_header_bits + c * Published::c_init_channel_bits;
-        const auto i = [&](std::size_t n) { return sample[static_cast<std::size_t>(c)][n]; };
-        const Real c2 = 4 * i(3) - 3 * i(0) - i(1), c3 = 4 * i(4) - 3 * i(0) - i(2);
-        const Real q2 = 2 * (i(0) + i(1) - 2 * i(3)), q3 = 2 * (i(0) + i(2) - 2 * i(4));
-        const Real b = 4 * (i(5) - i(3) - i(4) + i(0));
-        const Real t1 = (c3 * x2 - c2 * x3) / d, t2 = (c2 * y3 - c3 * y2) / d;
-        const Real t3 = (q2 * x3 * x3 - b * x2 * x3 + q3 * x2 * x2) / (d * d);
-        const Real t4 = (-2 * q2 * x3 * y3 + b * (x2 * y3 + x3 * y2) - 2 * q3 * x2 * y2) / (d * d);
-        const Real t5 = (q2 * y3 * y3 - b * y2 * y3 + q3 * y2 * y2) / (d * d);
-        const auto word = [&](Real value) { return Int128{wrapped_word(value, c_fraction, c_bits)}; };
-        init.put(ChannelAt::value, word(i(0) + t2 * u + t1 * v + t5 * u * u + t4 * u * v + t3 * v * v + 0.5L),
-                 low);
-        init.put(ChannelAt::dx, word(2 * t5 * u + t4 * v + t5 + t2), low);
-        init.put(ChannelAt::de0,
-                 word(t5 * a * a + (2 * t5 * u + t4 * v + t4 + t2) * a + t4 * u + 2 * t3 * v + t3 + t1), low);
-        init.put(ChannelAt::dxx, word(2 * t5), low);
-        init.put(ChannelAt::dxe0, word(2 * t5 * a + t4), low);
-        init.put(ChannelAt::de0e0, word(2 * (t5 * a * a + t4 * a + t3)), low);
-      }
-    }
+    counts.vectors += append_vectors(words, channels_, triangle.source, {vertex(0), vertex(1), vertex(2)},
+                                     held_samples(piece, channels_, counts));
   });
 }
 

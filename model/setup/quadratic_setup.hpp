@@ -2,15 +2,34 @@
 // Setup of the quadratic shader: from the scene's triangles to init vectors.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
+#include "setup/half_triangle.hpp"
 #include "setup/project.hpp"
+#include "setup/quadratic_fit.hpp"
 #include "setup/setup.hpp"
+#include "setup/walk.hpp"
 
 namespace halfway {
+
+/// Samples of each channel, in colour steps, 0 to c_largest_sample: at the three vertices, then at the
+/// midpoints of edges 1-2, 1-3, 2-3.
+using ChannelSamples = std::array<std::array<double, 6>, 3>;
+
+/// Appends the vectors of preset exact that draw a triangle on the screen, or a piece of one: one for each of
+/// its walks. Points in 1/2^unit_bits pixels; depth may follow a larger triangle's plane.
+void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
+                    std::span<const Walk> walks, const std::array<ScreenPoint, 3>& points, int unit_bits,
+                    const DepthFit& depth, const ChannelSamples& samples);
+
+/// The same of preset published: one for each half. Returns how many.
+std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
+                           const std::array<HalfVertex, 3>& vertices, const ChannelSamples& samples);
 
 class QuadraticSetup final : public Setup {
  public:

@@ -2,63 +2,436 @@
 // Which pixels a triangle covers: exact by integers in preset exact, by a stepped real slope as published.
 #include <fmt/format.h>
 
-#include <map>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <random>
+#include <tuple>
 
-#include "golden/formats.hpp"
-#include "setup/half_triangle.hpp"
-#include "setup/init_vector.hpp"
-#include "setup/random_triangles.hpp"
+#include "scene/camera.hpp"
 #include "stability/hard_case.hpp"
+#include "stability/screen_drawing.hpp"
 #include "stability/specification.hpp"
 #include "stability/trial.hpp"
 
 namespace halfway::stability {
-namespace {
 
-constexpr int c_unit_bits = 4;
-constexpr HardwareKey c_exact{.shader = Shader::quadratic, .preset = Preset::exact, .channels = 1};
-
-std::string name_of(const Points& p) {
-  return fmt::format("({}, {}) ({}, {}) ({}, {}) in 1/16 pixel", p[0].x, p[0].y, p[1].x, p[1].y, p[2].x,
-                     p[2].y);
+std::string name_of(const Points& p, int unit_bits) {
+  return fmt::format("({}, {}) ({}, {}) ({}, {}) in 1/{} pixel", p[0].x, p[0].y, p[1].x, p[1].y, p[2].x,
+                     p[2].y, 1 << unit_bits);
 }
 
-// Pixels too many and too few.
-void cover(Trial& trial, const std::vector<Points>& triangles, FrameSize frame) {
-  const unsigned bits = golden::Exact::c_init_header_bits + golden::Exact::c_init_channel_bits;
+namespace {
+
+// Triangles that cover each of their pixels once, drawn as pieces that should do the same.
+struct Shape {
+  std::vector<ScreenPiece> whole, pieces;
+};
+
+Shape shape_of(const Points& p) {
+  return {{{.points = p}}, {{.points = p}}};
+}
+
+enum class Wrong {
+  any,     ///< pixels too many and too few
+  missing  ///< too few: cracks
+};
+
+using Pixel = std::tuple<std::uint32_t, std::uint16_t, std::uint16_t>;  // shape, y, x
+
+// Hands on, shape by shape, how many pixels are drawn otherwise than covered.
+template <class Figure>
+void count_wrong(const std::vector<Shape>& shapes, FrameSize frame, std::vector<Fragment> fragments,
+                 Wrong wrong, Figure&& figure) {
+  std::vector<Pixel> drawn, covered;
+  for (const Fragment& f : fragments) drawn.emplace_back(f.triangle, f.y, f.x);
+  for (std::uint32_t i = 0; i < shapes.size(); ++i)
+    for (const ScreenPiece& whole : shapes[i].whole)
+      for_each_covered(whole.points, whole.unit_bits, frame, [&](std::int64_t x, std::int64_t y) {
+        covered.emplace_back(i, static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(x));
+      });
+  std::ranges::sort(drawn);
+  std::ranges::sort(covered);
+  if (wrong == Wrong::missing) drawn.erase(std::ranges::unique(drawn).begin(), drawn.end());
+  std::vector<Pixel> other;
+  if (wrong == Wrong::missing)
+    std::ranges::set_difference(covered, drawn, std::back_inserter(other));
+  else
+    std::ranges::set_symmetric_difference(covered, drawn, std::back_inserter(other));
+  std::vector<std::size_t> count(shapes.size());
+  for (const auto& [shape, y, x] : other) ++count[shape];
+  for (std::size_t i = 0; i < shapes.size(); ++i) figure(shapes[i], static_cast<double>(count[i]));
+}
+
+void cover(Trial& trial, const std::vector<Shape>& shapes, FrameSize frame) {
   std::vector<std::uint32_t> words;
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    for (const Walk& walk : plan_walks(triangles[i], c_unit_bits, frame)) {
-      InitVector init(words, bits);
-      put_header(init, static_cast<std::uint32_t>(i), walk, {});
-    }
-  std::map<std::tuple<std::uint32_t, std::int64_t, std::int64_t>, int> drawn;
-  for (const Fragment& f : trial.draw(c_exact, words)) ++drawn[{f.triangle, f.x, f.y}];
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    for_each_covered(triangles[i], c_unit_bits, frame, [&](std::int64_t x, std::int64_t y) {
-      --drawn[{i, x, y}];
-    });
-  }
-  std::map<std::uint32_t, int> wrong;
-  for (const auto& [at, count] : drawn) wrong[std::get<0>(at)] += std::abs(count);
-  for (std::uint32_t i = 0; i < triangles.size(); ++i)
-    trial.ours(wrong[i], 0, [&] { return name_of(triangles[i]); });
+  for (std::uint32_t i = 0; i < shapes.size(); ++i)
+    for (const ScreenPiece& piece : shapes[i].pieces) append_exact(piece, i, frame, words);
+  count_wrong(
+      shapes, frame, trial.draw(c_exact_key, words), Wrong::any, [&](const Shape& shape, double count) {
+        trial.ours(count, 0, [&] { return name_of(shape.whole[0].points, shape.whole[0].unit_bits); });
+      });
+}
+
+// Of the shapes that lie in the frame.
+void cover_published(Trial& trial, const std::vector<Shape>& all, FrameSize frame, Wrong wrong) {
+  std::vector<Shape> shapes;
+  std::ranges::copy_if(all, std::back_inserter(shapes), [&](const Shape& shape) {
+    return std::ranges::all_of(shape.whole, [&](const ScreenPiece& whole) { return in_frame(whole, frame); });
+  });
+  std::vector<std::uint32_t> words;
+  for (std::uint32_t i = 0; i < shapes.size(); ++i)
+    for (const ScreenPiece& piece : shapes[i].pieces) append_published(piece, i, words);
+  count_wrong(
+      shapes, frame, trial.draw(c_published_key, words), wrong, [&](const Shape& shape, double count) {
+        trial.published(count, 0, [&] { return name_of(shape.whole[0].points, shape.whole[0].unit_bits); });
+      });
+}
+
+constexpr FrameSize c_frame{97, 61}, c_largest{4096, 4096};
+
+template <TriangleKind kind>
+std::vector<Shape> random_shapes(Trial& trial, FrameSize frame, int quick, int full) {
+  RandomTriangles random(static_cast<unsigned>(kind) + 1);
+  std::vector<Shape> shapes;
+  for (int i = 0; i < trial.rounds(quick, full); ++i)
+    shapes.push_back(shape_of(random.next(kind, c_subpixel_bits, frame)));
+  return shapes;
 }
 
 template <TriangleKind kind>
 void random_ones(Trial& trial) {
-  RandomTriangles random(1);
-  constexpr FrameSize c_frame{97, 61};
-  std::vector<Points> triangles;
-  for (int i = 0; i < trial.rounds(200, 20'000); ++i)
-    triangles.push_back(random.next(kind, c_unit_bits, c_frame));
-  cover(trial, triangles, c_frame);
+  const std::vector<Shape> shapes = random_shapes<kind>(trial, c_frame, 300, 20'000);
+  cover(trial, shapes, c_frame);
+  cover_published(trial, shapes, c_frame, Wrong::any);
 }
 
+// Within the frame, and out to the guard band's ends.
+void a_line_high(Trial& trial) {
+  std::vector<Shape> shapes = random_shapes<TriangleKind::one_line>(trial, c_frame, 300, 20'000);
+  RandomTriangles random(2);
+  for (int i = 0; i < trial.rounds(300, 20'000); ++i) {
+    const int line = random.within(0, 60);
+    const auto corner = [&] {
+      return ScreenPoint{random.within(0, 97 * 16 - 1), line * 16 + random.within(0, 15)};
+    };
+    shapes.push_back(shape_of({corner(), corner(), corner()}));
+  }
+  cover(trial, shapes, c_frame);
+  cover_published(trial, shapes, c_frame, Wrong::any);
+}
+
+// Over the guard band, and so over any frame.
+template <TriangleKind kind>
+void wide_ones(Trial& trial) {
+  cover(trial, random_shapes<kind>(trial, c_frame, 300, 20'000), c_frame);
+  cover(trial, random_shapes<kind>(trial, {4096, 3}, 40, 2'000), {4096, 3});
+  cover(trial, random_shapes<kind>(trial, {3, 4096}, 40, 2'000), {3, 4096});
+  if (!trial.quick()) cover(trial, random_shapes<kind>(trial, c_largest, 0, 6), c_largest);
+}
+
+// Both ends of the frame's 4096 pixels, and the third corner a sixteenth of a pixel off the edge between
+// them.
+void slivers(Trial& trial) {
+  RandomTriangles random(3);
+  std::vector<Shape> shapes;
+  const int side = 4096 * 16 - 1;
+  for (int i = 0; i < trial.rounds(60, 3'000); ++i) {
+    ScreenPoint a{random.within(0, 40), random.within(0, side)},
+        b{side - random.within(0, 40), i % 3 == 0 ? a.y + i % 2 : random.within(0, side)};
+    if (i % 4 == 1) std::swap(a.x, a.y), std::swap(b.x, b.y);
+    b.y = std::clamp(b.y, 0, side);
+    const std::int64_t t = random.within(0, 4096);
+    ScreenPoint c{static_cast<std::int32_t>(a.x + (b.x - a.x) * t / 4096),
+                  static_cast<std::int32_t>(a.y + (b.y - a.y) * t / 4096)};
+    (random.within(0, 1) == 0 ? c.x : c.y) += random.within(0, 1) == 0 ? 1 : -1;
+    c = {std::clamp(c.x, 0, side), std::clamp(c.y, 0, side)};
+    shapes.push_back(shape_of({a, b, c}));
+  }
+  cover(trial, shapes, c_largest);
+  cover_published(trial, shapes, c_largest, Wrong::any);
+}
+
+// Collinear corners, two that are one, all three.
+void no_area(Trial& trial) {
+  RandomTriangles random(4);
+  std::vector<Shape> shapes;
+  for (int i = 0; i < trial.rounds(500, 20'000); ++i) {
+    const int unit = i % 2 == 0 ? 1 : 8;  // on pixel centres' lines as well
+    const ScreenPoint a{8 * random.within(0, 120), 8 * random.within(0, 80)},
+        step{unit * random.within(-40, 40), unit * random.within(-40, 40)};
+    const auto at = [&](int n) { return ScreenPoint{a.x + n * step.x, a.y + n * step.y}; };
+    shapes.push_back(shape_of({a, at(random.within(0, 6)), at(random.within(-6, 6))}));
+  }
+  cover(trial, shapes, c_frame);
+  cover_published(trial, shapes, c_frame, Wrong::any);
+}
+
+// Two triangles on an edge, or several around a corner.
+void neighbours(Trial& trial) {
+  RandomTriangles random(5);
+  std::vector<Shape> shapes;
+  for (int i = 0; i < trial.rounds(200, 10'000); ++i) {
+    const int grid = i % 3 == 0 ? 16 : i % 3 == 1 ? 8 : 1;  // coarse ones meet pixel centres
+    const auto snapped = [&](double v) {
+      return static_cast<std::int32_t>(std::floor(v / grid)) * grid + (grid == 16 ? 8 : 0);
+    };
+    const double cx = random.within(480, 1000), cy = random.within(400, 560);
+    const int count = random.within(4, 9);
+    std::vector<ScreenPoint> ring;
+    for (int n = 0; n < count; ++n) {
+      const double turn = 2 * std::numbers::pi * (n + 0.3 * random.within(0, 100) / 100.0) / count,
+                   reach = random.within(60, 380);
+      ring.push_back({snapped(cx + reach * std::cos(turn)), snapped(cy + reach * std::sin(turn))});
+    }
+    const ScreenPoint middle{snapped(cx), snapped(cy)};
+    Shape shape;
+    for (int n = 0; n < count; ++n)
+      shape.whole.push_back({.points = {middle, ring[static_cast<std::size_t>(n)],
+                                        ring[static_cast<std::size_t>((n + 1) % count)]}});
+    shape.pieces = shape.whole;
+    shapes.push_back(std::move(shape));
+  }
+  cover(trial, shapes, c_frame);
+  cover_published(trial, shapes, c_frame, Wrong::any);
+}
+
+// Two triangles on an edge: one whole, the other split throughout.
+Shape half_split(const Points& whole, const Points& split, int level) {
+  Shape shape{{{.points = whole}, {.points = split}}, {{.points = whole}}};
+  std::vector<Points> pieces = {split}, deeper;
+  for (int n = 0; n < level; ++n, std::swap(pieces, deeper)) {
+    deeper.clear();
+    for (const Points& p : pieces) std::ranges::copy(quarters(p), std::back_inserter(deeper));
+  }
+  for (const Points& p : pieces) shape.pieces.push_back({.points = p, .unit_bits = c_subpixel_bits + level});
+  return shape;
+}
+
+void t_junctions(Trial& trial) {
+  RandomTriangles random(6);
+  // Corners anywhere; and, as vertices are pixels in the published form, on pixels' centres for that.
+  for (const bool on_centres : {false, true}) {
+    const auto corner = [&](int left, int right, int above, int below) {
+      const ScreenPoint p{random.within(left * 16, right * 16), random.within(above * 16, below * 16)};
+      return on_centres ? ScreenPoint{p.x / 16 * 16 + 8, p.y / 16 * 16 + 8} : p;
+    };
+    std::vector<Shape> shapes;
+    for (int i = 0; i < trial.rounds(60, 4'000); ++i) {
+      // The shared edge runs down the middle.
+      const ScreenPoint top = corner(40, 56, 0, 8), bottom = corner(40, 56, 50, 60);
+      shapes.push_back(
+          half_split({top, bottom, corner(0, 36, 0, 60)}, {top, bottom, corner(60, 96, 0, 60)}, 1 + i % 5));
+    }
+    cover(trial, shapes, c_frame);
+    if (on_centres) cover_published(trial, shapes, c_frame, Wrong::missing);
+  }
+}
+
+// Every triangle with its corners at, or a unit inside, the guard band's corners and the frame's.
+void guard_band(Trial& trial) {
+  std::vector<std::int32_t> places;
+  for (const int at : {c_guard_begin, 0, 61, 97, 4096, c_guard_end})
+    for (const int off : {0, 1, 8}) places.push_back(at * 16 + (at == c_guard_end ? -off : off));
+  RandomTriangles random(8);
+  const auto place = [&] {
+    return places[static_cast<std::size_t>(random.within(0, static_cast<int>(places.size()) - 1))];
+  };
+  const auto some = [&](int quick, int full) {
+    std::vector<Shape> shapes;
+    for (int i = 0; i < trial.rounds(quick, full); ++i)
+      shapes.push_back(shape_of({{{place(), place()}, {place(), place()}, {place(), place()}}}));
+    return shapes;
+  };
+  cover(trial, some(300, 20'000), c_frame);
+  cover(trial, some(20, 1'000), {4096, 4});
+  cover(trial, some(20, 1'000), {4, 4096});
+  if (!trial.quick()) cover(trial, some(0, 8), c_largest);
+}
+
+// A steep ramp of colour behind edges of every slope.
+void fractional_edges(Trial& trial) {
+  RandomTriangles random(9);
+  std::vector<ScreenPiece> pieces;
+  while (std::ssize(pieces) < trial.rounds(200, 10'000)) {
+    const Points p = random.next(TriangleKind::on_centres, c_subpixel_bits, c_frame);
+    ScreenPiece piece{.points = p};
+    if (!in_frame(piece, c_frame)) continue;
+    // Linear, in x and y, from dark to white over the triangle.
+    const auto ramp = [&](ScreenPoint a, ScreenPoint b) { return 255.0 * (a.x + b.x) / (2.0 * 97 * 16); };
+    piece.sample = {ramp(p[0], p[0]), ramp(p[1], p[1]), ramp(p[2], p[2]),
+                    ramp(p[0], p[1]), ramp(p[0], p[2]), ramp(p[1], p[2])};
+    double least = *std::ranges::min_element(piece.sample),
+           greatest = *std::ranges::max_element(piece.sample);
+    if (greatest == least) continue;
+    for (double& s : piece.sample) s = 255.0 * (s - least) / (greatest - least);
+    pieces.push_back(piece);
+  }
+  std::vector<std::uint32_t> words, published;
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    append_exact(pieces[i], i, c_frame, words);
+    append_published(pieces[i], i, published);
+  }
+  const auto each = [&](const HardwareKey& key, std::span<const std::uint32_t> of, int fraction_bits,
+                        auto&& figure) {
+    // At most 61 lines, a carry each, and 97 pixels: the formats' bound on second differences.
+    const double k = 61 + 61 + 97, bound = 0.5 + std::ldexp(1 + k + k * k / 2, -fraction_bits - 1);
+    for (const Fragment& f : trial.draw(key, of)) {
+      const ScreenPiece& piece = pieces[f.triangle];
+      const auto b =
+          barycentric(piece.points, centre(f.x, c_subpixel_bits), centre(f.y, c_subpixel_bits)).real();
+      std::array<long double, 6> sample;
+      std::ranges::copy(piece.sample, sample.begin());
+      const long double exact = std::clamp(quadratic(b, sample), 0.0L, 255.0L);
+      figure(static_cast<double>(std::abs(f.red - exact)), bound, [&] {
+        return fmt::format("pixel {},{} of {}", f.x, f.y, name_of(piece.points, piece.unit_bits));
+      });
+    }
+  };
+  each(c_exact_key, words, golden::Exact::c_intensity_fraction_bits,
+       [&](double figure, double bound, auto&& where) { trial.ours(figure, bound, where); });
+  each(c_published_key, published, golden::Published::c_intensity_fraction_bits,
+       [&](double figure, double bound, auto&& where) { trial.published(figure, bound, where); });
+}
+
+// A wide floor of random triangles under the eye and behind it.
+struct Floor {
+  Scene scene;
+  double half_side;
+};
+
+Floor random_floor(std::mt19937& random) {
+  const auto within = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
+  Floor floor;
+  floor.half_side = 50.0;
+  Scene& scene = floor.scene;
+  const int cells = std::uniform_int_distribution<int>(2, 9)(random);
+  const auto vertex = [&](int i, int j) { return static_cast<std::uint32_t>(i * (cells + 1) + j); };
+  for (int i = 0; i <= cells; ++i)
+    for (int j = 0; j <= cells; ++j) {
+      const double room = 0.3 * 2 * floor.half_side / cells;
+      const auto at = [&](int n) {
+        return floor.half_side * (2.0 * n / cells - 1) + (n > 0 && n < cells ? within(-room, room) : 0.0);
+      };
+      const double x = at(i), z = at(j);
+      scene.positions_world.push_back({x, 0, z});
+    }
+  scene.normals_world = {{0, 1, 0}};
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < cells; ++j) {
+      const std::uint32_t a = vertex(i, j), b = vertex(i, j + 1), c = vertex(i + 1, j + 1),
+                          d = vertex(i + 1, j);
+      // Counter-clockwise seen from above.
+      if (within(0, 1) < 0.5) {
+        scene.triangles.push_back({{a, b, c}, {0, 0, 0}, 0});
+        scene.triangles.push_back({{a, c, d}, {0, 0, 0}, 0});
+      } else {
+        scene.triangles.push_back({{a, b, d}, {0, 0, 0}, 0});
+        scene.triangles.push_back({{b, c, d}, {0, 0, 0}, 0});
+      }
+    }
+  scene.materials.push_back({.name = "floor"});
+  scene.directional.push_back({{0, 1, 0}, {1, 1, 1}});
+  Camera& camera = scene.camera;
+  camera.eye_world = {within(-3, 3), std::exp(within(std::log(0.01), std::log(3.0))), within(-3, 3)};
+  const double turn = within(0, 6.28), down = within(0.0, 1.4);
+  camera.target_world = camera.eye_world + glm::dvec3(std::cos(turn) * std::cos(down), -std::sin(down),
+                                                      std::sin(turn) * std::cos(down));
+  camera.near = camera.eye_world.y * within(0.2, 3.0);
+  camera.far = 400;
+  return floor;
+}
+
+// Pixels of the floor between near and far plane, by rays, that are not drawn exactly once; those within a
+// pixel of where it ends may be either.
+double holes(const Floor& floor, FrameSize frame, const std::vector<Fragment>& fragments) {
+  const Camera& camera = floor.scene.camera;
+  const LongVec eye(camera.eye_world), forward = glm::normalize(LongVec(camera.target_world) - eye),
+                                       right = glm::normalize(glm::cross(forward, LongVec(camera.up_world))),
+                                       up = glm::cross(right, forward);
+  const long double focal =
+      0.5L * frame.height /
+      std::tan(0.5L * (long double)camera.vertical_fov_degrees * std::numbers::pi_v<long double> / 180);
+  const auto seen = [&](long double x, long double y) {
+    const LongVec ray =
+        forward + (x - 0.5L * frame.width) / focal * right - (y - 0.5L * frame.height) / focal * up;
+    if (!(ray.y < 0)) return false;
+    const long double along = -eye.y / ray.y;
+    const LongVec at = eye + along * ray;
+    return along > camera.near && along < camera.far && std::abs(at.x) < floor.half_side &&
+           std::abs(at.z) < floor.half_side;
+  };
+  std::vector<int> drawn(std::size_t{frame.width} * frame.height);
+  for (const Fragment& f : fragments) ++drawn[std::size_t{f.y} * frame.width + f.x];
+  double wrong = 0;
+  for (std::uint32_t y = 0; y < frame.height; ++y)
+    for (std::uint32_t x = 0; x < frame.width; ++x) {
+      int corners = 0;
+      for (const int dx : {-1, 1})
+        for (const int dy : {-1, 1}) corners += seen(x + 0.5L + dx, y + 0.5L + dy);
+      const int count = drawn[std::size_t{y} * frame.width + x];
+      wrong += corners == 4 ? count != 1 : corners == 0 ? count != 0 : count > 1;
+    }
+  return wrong;
+}
+
+void near_plane(Trial& trial) {
+  std::mt19937 random(10);
+  for (int i = 0; i < trial.rounds(12, 600); ++i) {
+    const Floor floor = random_floor(random);
+    const auto where = [&] { return fmt::format("floor {}", i); };
+    DrawOptions options{.frame = c_frame};
+    // Split here and there as well.
+    options.setup.quadratic.threshold = i % 2 == 0 ? 2.0 : 0.05;
+    trial.ours(holes(floor, c_frame, trial.draw(floor.scene, options).fragments), 0, where);
+    options.plan.preset = Preset::published;
+    options.setup.quadratic.test = HighlightTest::none;
+    trial.published(holes(floor, c_frame, trial.draw(floor.scene, options).fragments), 0, where);
+  }
+}
+
+constexpr std::string_view c_ends =
+                               "quadratic, section 5: real slopes, spans and lines inclusive at both ends",
+                           c_integers = "edges by quotient and remainder, the top-left rule at pixel centres",
+                           c_once = "pixels drawn = pixels covered";
+
 constexpr HardCase c_cases[] = {
-    {"Vertices on pixel centres", "quadratic, section 5: spans inclusive at both ends",
-     "the top-left rule, by integers", "pixels drawn = pixels covered", "pixels", Published::silent,
+    {"Vertices on pixel centres", c_ends, c_integers, c_once, "pixels", Published::breaks,
      random_ones<TriangleKind::on_centres>},
+    {"Horizontal edges", "quadratic, section 5: slope A = dX/dY, 1/0 on a level edge", c_integers, c_once,
+     "pixels", Published::breaks, random_ones<TriangleKind::horizontal_edge>},
+    {"Triangles a line high", c_ends, c_integers, c_once, "pixels", Published::breaks, a_line_high},
+    {"Triangles within a pixel", "quadratic, section 5: vertices are pixels", "vertices in 1/16 pixel",
+     c_once, "pixels", Published::breaks, random_ones<TriangleKind::subpixel>},
+    {"Triangles of a few pixels", c_ends, c_integers, c_once, "pixels", Published::breaks,
+     random_ones<TriangleKind::small>},
+    {"Slivers 1/16 pixel thick over 4096", "quadratic, section 5: vertices are pixels; section 3: D near 0",
+     c_integers, c_once, "pixels", Published::breaks, slivers},
+    {"No area",
+     "quadratic, section 3: divides by D = X2 Y3 - Y2 X3 = 0; vertices are pixels: not of one line",
+     "no pixel's centre lies in it, and nothing is set up", c_once, "pixels", Published::breaks, no_area},
+    {"Triangles around a corner", c_ends, "a centre on an edge belongs to one side", "each pixel once",
+     "pixels", Published::breaks, neighbours},
+    {"A split triangle beside a whole one, levels 1 to 5",
+     "quadratic, section 4: midpoints become pixels, and leave the edge",
+     "a bit more for each level: midpoints stay on the edge", "each pixel once (published: no cracks)",
+     "pixels", Published::breaks, t_junctions},
+    {"Corners at the guard band", "quadratic, section 5: the frame cuts",
+     "13 bits of pixels, held at the frame's sides", c_once, "pixels", Published::silent, guard_band},
+    {"Triangles across the guard band", "quadratic, section 5: the frame cuts",
+     "at most three walks, each within the frame", c_once, "pixels", Published::silent,
+     wide_ones<TriangleKind::crossing>},
+    {"Slivers across the guard band", "quadratic, section 5: the frame cuts",
+     "at most three walks, each within the frame", c_once, "pixels", Published::silent,
+     wide_ones<TriangleKind::thin_across>},
+    {"Fractional edges", "quadratic, section 5: I steps by the real slope A, to X_start",
+     "differences for the edge's whole step and for its carry", "colour at the pixel's centre", "steps",
+     Published::breaks, fractional_edges},
+    {"A floor through the near plane", "x/w with w <= 0", "cut at the near plane, each edge in one order",
+     "each pixel of the floor once", "pixels", Published::breaks, near_plane},
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // halfway_stability [--quick] [--page FILE] SOURCE [PART]: tries every hard case of the registry in the
 // specification, in the golden model and in the RTL. SOURCE is the project's root; with PART only the
-// families whose names hold it, or the cases; --page: writes the table into that file, behind what stands
-// there before it.
+// families whose names hold it, or the cases; --page: writes a section for each of these families, whole,
+// into that file.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -17,8 +17,8 @@
 #include <thread>
 #include <vector>
 
-#include "common/file.hpp"
 #include "stability/hard_case.hpp"
+#include "stability/page.hpp"
 #include "stability/trial.hpp"
 
 namespace halfway::stability {
@@ -107,14 +107,6 @@ Outcome run(const Job& job, const Options& options) {
   return {failure_of(*job.hard_case, trial), false, row_of(*job.hard_case, trial)};
 }
 
-Status write_page(const std::filesystem::path& path, std::string_view tables) {
-  auto text = read_file(path);
-  if (!text) return text.error();
-  constexpr std::string_view c_first = "\n## ";
-  text->resize(std::min(text->find(c_first), text->size()));
-  return write_file(path, fmt::format("{}{}", *text, tables));
-}
-
 ExitCode run_all(const std::vector<Job>& jobs, const Options& options) {
   std::vector<Outcome> outcomes(jobs.size());
   std::atomic<std::size_t> next = 0;
@@ -147,17 +139,17 @@ ExitCode run_all(const std::vector<Job>& jobs, const Options& options) {
   fmt::print("{} of {} cases fail, {} could not be run\n", failed, jobs.size(), broken);
   if (broken > 0) return ExitCode::tool_failed;
   if (failed > 0) return ExitCode::differs;
-  std::string tables;
+  if (options.page.empty()) return ExitCode::equal;
+  std::vector<Section> sections;
   const Family* family = nullptr;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     if (jobs[i].family != family) {
       family = jobs[i].family;
-      tables += fmt::format("\n## {}\n\n{}", family->name, c_table);
+      sections.push_back({std::string(family->name), std::string(c_table)});
     }
-    tables += outcomes[i].row;
+    sections.back().body += outcomes[i].row;
   }
-  if (options.page.empty()) return ExitCode::equal;
-  const auto written = write_page(options.page, tables);
+  const auto written = write_sections(options.page, sections);
   if (written) return ExitCode::equal;
   fmt::print(stderr, "{}\n", written.error().message);
   return written.error().code;
@@ -178,7 +170,7 @@ int main(int argc, char** argv) {
   for (const Family* family : c_families)
     for (const HardCase& c : family->cases)
       if (family->name.find(options.part) != std::string_view::npos ||
-          c.name.find(options.part) != std::string_view::npos)
+          (options.page.empty() && c.name.find(options.part) != std::string_view::npos))
         jobs.push_back({family, &c});
   if (jobs.empty()) {
     fmt::print(stderr, "{}: no family and no case has a name like this\n", options.part);

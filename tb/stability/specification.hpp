@@ -69,18 +69,48 @@ inline bool covers(std::array<ScreenPoint, 3> p, int unit_bits, std::int64_t x, 
   return true;
 }
 
+/// Calls span(y, begin, end) for each line of the frame on which the triangle covers pixels: `covers` solved
+/// for x, edge by edge.
+template <class Span>
+void for_each_covered_span(std::array<ScreenPoint, 3> p, int unit_bits, FrameSize frame, Span&& span) {
+  ExactBarycentric origin = barycentric(p, centre(0, unit_bits), centre(0, unit_bits));
+  if (origin.sum == 0) return;
+  if (origin.sum < 0) {
+    std::swap(p[1], p[2]);
+    origin = barycentric(p, centre(0, unit_bits), centre(0, unit_bits));
+  }
+  const ExactBarycentric right = barycentric(p, centre(1, unit_bits), centre(0, unit_bits)),
+                         down = barycentric(p, centre(0, unit_bits), centre(1, unit_bits));
+  const auto floor_of = [](Wide n, Wide d) { return n / d - (n % d < 0 ? 1 : 0); };
+  const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
+  const std::int64_t first = std::max<std::int64_t>((top >> unit_bits) - 1, 0),
+                     last = std::min<std::int64_t>((bottom >> unit_bits) + 1, std::int64_t{frame.height} - 1);
+  for (std::int64_t y = first; y <= last; ++y) {
+    Wide begin = 0, end = frame.width;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const ScreenPoint from = p[(i + 1) % 3], to = p[(i + 2) % 3];
+      const bool owns_edge = to.y < from.y || (to.y == from.y && to.x > from.x);
+      // weight + x step >= 0 on a left or top edge, > 0 on another.
+      const Wide step = right.weight[i] - origin.weight[i],
+                 weight =
+                     origin.weight[i] + Wide{y} * (down.weight[i] - origin.weight[i]) - (owns_edge ? 0 : 1);
+      if (step > 0)
+        begin = std::max(begin, -floor_of(weight, step));
+      else if (step < 0)
+        end = std::min(end, floor_of(weight, -step) + 1);
+      else if (weight < 0)
+        end = 0;
+    }
+    if (begin < end) span(y, static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end));
+  }
+}
+
 /// Calls pixel(x, y) for each pixel of the frame that the triangle covers, line by line.
 template <class Pixel>
 void for_each_covered(const std::array<ScreenPoint, 3>& p, int unit_bits, FrameSize frame, Pixel&& pixel) {
-  const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
-  const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
-  const auto first = [&](std::int32_t v) { return std::max<std::int64_t>((v >> unit_bits) - 1, 0); };
-  const auto last = [&](std::int32_t v, std::uint32_t side) {
-    return std::min<std::int64_t>((v >> unit_bits) + 1, std::int64_t{side} - 1);
-  };
-  for (std::int64_t y = first(top); y <= last(bottom, frame.height); ++y)
-    for (std::int64_t x = first(left); x <= last(right, frame.width); ++x)
-      if (covers(p, unit_bits, x, y)) pixel(x, y);
+  for_each_covered_span(p, unit_bits, frame, [&](std::int64_t y, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t x = begin; x < end; ++x) pixel(x, y);
+  });
 }
 
 /// Through the values at three vertices.

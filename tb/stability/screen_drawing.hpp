@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Triangles given on the screen, drawn by the quadratic shader in both presets through the setup's own code.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "golden/formats.hpp"
+#include "setup/init_vector.hpp"
+#include "setup/quadratic_setup.hpp"
+#include "setup/random_triangles.hpp"
+#include "stability/trial.hpp"
+
+namespace halfway::stability {
+
+inline constexpr int c_subpixel_bits = 4;
+inline constexpr HardwareKey c_exact_key{.shader = Shader::quadratic, .preset = Preset::exact, .channels = 1};
+inline constexpr HardwareKey c_published_key{
+    .shader = Shader::quadratic, .preset = Preset::published, .channels = 1};
+
+/// A triangle or a piece of one, with samples of one channel in colour steps and depths in steps.
+struct ScreenPiece {
+  Points points{};  ///< in 1/2^unit_bits pixels
+  int unit_bits = c_subpixel_bits;
+  std::array<double, 6> sample{};
+  std::array<double, 3> depth{1, 1, 1};
+};
+
+std::string name_of(const Points& points, int unit_bits);
+
+inline void append_exact(const ScreenPiece& piece, std::uint32_t tag, FrameSize frame,
+                         std::vector<std::uint32_t>& words) {
+  const std::vector<Walk> walks = plan_walks(piece.points, piece.unit_bits, frame);
+  if (walks.empty()) return;
+  const auto depth = [&](std::size_t i) {
+    return fixed(piece.depth[i], golden::Exact::c_depth_sum_fraction_bits);
+  };
+  append_vectors(words, 1, tag, walks, piece.points, piece.unit_bits,
+                 DepthFit(piece.points, piece.unit_bits, {depth(0), depth(1), depth(2)}), {piece.sample});
+}
+
+/// The vertices of preset published: each names the pixel that it falls in.
+inline std::array<HalfVertex, 3> published_vertices(const ScreenPiece& piece) {
+  const auto vertex = [&](std::size_t i) {
+    const std::int32_t half_pixel = 1 << (piece.unit_bits - 1);
+    const ScreenPoint from_centre = {piece.points[i].x - half_pixel, piece.points[i].y - half_pixel};
+    return half_vertex(from_centre, piece.unit_bits, piece.depth[i]);
+  };
+  return {vertex(0), vertex(1), vertex(2)};
+}
+
+inline void append_published(const ScreenPiece& piece, std::uint32_t tag, std::vector<std::uint32_t>& words) {
+  append_vectors(words, 1, tag, published_vertices(piece), {piece.sample});
+}
+
+/// Whether preset published can draw it without cutting it at the frame.
+inline bool in_frame(const ScreenPiece& piece, FrameSize frame) {
+  return std::ranges::all_of(piece.points, [&](ScreenPoint p) {
+    return p.x >= 0 && p.y >= 0 && p.x < std::int64_t{frame.width} << piece.unit_bits &&
+           p.y < std::int64_t{frame.height} << piece.unit_bits;
+  });
+}
+
+/// The four quarters, each point in units of half the size, as the setup splits.
+inline std::array<Points, 4> quarters(const Points& p) {
+  const auto middle = [](ScreenPoint a, ScreenPoint b) { return ScreenPoint{a.x + b.x, a.y + b.y}; };
+  const ScreenPoint a = middle(p[0], p[0]), b = middle(p[1], p[1]), c = middle(p[2], p[2]),
+                    ab = middle(p[0], p[1]), ac = middle(p[0], p[2]), bc = middle(p[1], p[2]);
+  return {{{ab, bc, ac}, {a, ab, ac}, {ab, b, bc}, {ac, bc, c}}};
+}
+
+}  // namespace halfway::stability

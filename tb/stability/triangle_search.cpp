@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stability/triangle_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <tuple>
+
+#include "golden/formats.hpp"
+#include "run/golden_run.hpp"
+#include "setup/init_vector.hpp"
+#include "setup/project.hpp"
+#include "setup/quadratic_setup.hpp"
+#include "setup/random_triangles.hpp"
+#include "stability/specification.hpp"
+
+namespace halfway::stability {
+namespace {
+
+using golden::Exact;
+
+constexpr int c_subpixel_bits = 4;
+constexpr int c_sample_bits = Exact::c_intensity_fraction_bits;
+constexpr int c_depth_bits = Exact::c_depth_sum_fraction_bits;
+constexpr std::int64_t c_greatest_sample = std::int64_t{1023} << c_sample_bits;
+constexpr std::int64_t c_least_depth = std::int64_t{1} << c_depth_bits,
+                       c_greatest_depth = std::int64_t{(1 << 24) - 3} << c_depth_bits;
+constexpr std::int64_t c_least_place = c_guard_begin * 16, c_greatest_place = c_guard_end * 16;
+
+constexpr Parameter place(std::string_view name) {
+  return {name, 0, c_least_place, c_greatest_place};
+}
+constexpr Parameter depth(std::string_view name) {
+  return {name, c_least_depth, c_least_depth, c_greatest_depth};
+}
+constexpr Parameter sample(std::string_view name) {
+  return {name, 0, 0, c_greatest_sample};
+}
+
+// A triangle's corners in 1/16 pixel; how often it is split, and which quarter is taken each time, two bits
+// each; depths in 2^-15 steps, samples of that quarter in 2^-28 colour steps.
+constexpr Parameter c_parameters[] = {{"width", 1, 1, 4096},
+                                      {"height", 1, 1, 4096},
+                                      {"colours", 1, 1, 3},
+                                      {"level", 0, 0, 5},
+                                      {"quarters", 0, 0, 1023},
+                                      place("x1"),
+                                      place("y1"),
+                                      place("x2"),
+                                      place("y2"),
+                                      place("x3"),
+                                      place("y3"),
+                                      depth("depth1"),
+                                      depth("depth2"),
+                                      depth("depth3"),
+                                      sample("red1"),
+                                      sample("red2"),
+                                      sample("red3"),
+                                      sample("red12"),
+                                      sample("red13"),
+                                      sample("red23"),
+                                      sample("green1"),
+                                      sample("green2"),
+                                      sample("green3"),
+                                      sample("green12"),
+                                      sample("green13"),
+                                      sample("green23"),
+                                      sample("blue1"),
+                                      sample("blue2"),
+                                      sample("blue3"),
+                                      sample("blue12"),
+                                      sample("blue13"),
+                                      sample("blue23")};
+enum At : std::size_t { width, height, colours, level, quarters, corners, depths = 11, samples = 14 };
+static_assert(std::size(c_parameters) == samples + 18);
+
+HardwareKey key_of(unsigned channels) {
+  return {.shader = Shader::quadratic, .preset = Preset::exact, .channels = channels};
+}
+
+// An input in the units of the setup.
+struct Subject {
+  FrameSize frame;
+  unsigned channels;
+  int unit_bits;
+  Points whole, piece;  ///< in 1/2^unit_bits pixels
+  std::array<std::int64_t, 3> depth;
+  ChannelSamples sample;
+};
+
+Points quarter(const Points& p, std::int64_t which) {
+  const auto middle = [](ScreenPoint a, ScreenPoint b) { return ScreenPoint{a.x + b.x, a.y + b.y}; };
+  const ScreenPoint a = middle(p[0], p[0]), b = middle(p[1], p[1]), c = middle(p[2], p[2]),
+                    ab = middle(p[0], p[1]), ac = middle(p[0], p[2]), bc = middle(p[1], p[2]);
+  switch (which) {
+    case 0:
+      return {ab, bc, ac};
+    case 1:
+      return {a, ab, ac};
+    case 2:
+      return {ab, b, bc};
+    default:
+      return {ac, bc, c};
+  }
+}
+
+Subject subject_of(const Input& input) {
+  Subject s;
+  s.frame = {static_cast<std::uint32_t>(input[At::width]), static_cast<std::uint32_t>(input[At::height])};
+  s.channels = input[At::colours] == 1 ? 1 : 3;
+  s.unit_bits = c_subpixel_bits + static_cast<int>(input[At::level]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    s.whole[i] = {static_cast<std::int32_t>(input[At::corners + 2 * i]),
+                  static_cast<std::int32_t>(input[At::corners + 2 * i + 1])};
+    s.depth[i] = input[At::depths + i];
+  }
+  s.piece = s.whole;
+  for (std::int64_t i = 0; i < input[At::level]; ++i)
+    s.piece = quarter(s.piece, input[At::quarters] >> (2 * i) & 3);
+  for (ScreenPoint& p : s.whole) p = {p.x << input[At::level], p.y << input[At::level]};
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < 6; ++i)
+      s.sample[c][i] = std::ldexp(double(input[At::samples + 6 * c + i]), -c_sample_bits);
+  return s;
+}
+
+void append(const Subject& s, std::uint32_t triangle, std::vector<std::uint32_t>& words) {
+  const std::vector<Walk> walks = plan_walks(s.piece, s.unit_bits, s.frame);
+  if (walks.empty()) return;
+  append_vectors(words, static_cast<int>(s.channels), triangle, walks, s.piece, s.unit_bits,
+                 DepthFit(s.whole, s.unit_bits, s.depth), s.sample);
+}
+
+// How far past half a unit a figure is off, of how much it may be.
+struct Excess {
+  long double figure = 0, bound = 0;
+  std::int64_t x = 0, y = 0;
+  void take(long double off, long double most, std::int64_t at_x, std::int64_t at_y) {
+    const long double next = std::max(off - 0.5L, 0.0L);
+    if (bound > 0 && next * bound <= figure * most) return;
+    *this = {next, most, at_x, at_y};
+  }
+};
+
+class TriangleChecker final : public Checker {
+ public:
+  explicit TriangleChecker(SimulatorFolders folders)
+      : folders_(std::move(folders)),
+        golden_{make_golden_model(key_of(1)), make_golden_model(key_of(3))},
+        rtl_(folders_, true) {}
+
+  std::optional<Failure> check(const Input& input, Tally& tally) override {
+    const Subject s = subject_of(input);
+    ++tally.inputs;
+    words_.clear();
+    fragments_.clear();
+    append(s, c_tag, words_);
+    golden_[s.channels == 3]->draw(words_, fragments_);
+    tally.fragments += fragments_.size();
+    const auto place_of = [](const Fragment& f) { return std::tuple(f.y, f.x); };
+    if (!std::ranges::is_sorted(fragments_, {}, place_of)) std::ranges::sort(fragments_, {}, place_of);
+    std::string wrong;
+    std::uint64_t pixels = 0;  // too many and too few
+    const auto uncovered = [&](const Fragment& f) {
+      if (pixels++ == 0)
+        wrong = fmt::format("pixel {},{} is drawn, and is not covered or drawn before", f.x, f.y);
+    };
+    std::size_t at = 0;
+    std::int64_t first_y = -1;
+    Excess colour, z;
+    for_each_covered_span(s.piece, s.unit_bits, s.frame,
+                          [&](std::int64_t y, std::int64_t begin, std::int64_t end) {
+                            if (first_y < 0) first_y = y;
+                            const auto before = [&](std::int64_t x) {
+                              return at < fragments_.size() &&
+                                     std::tuple(fragments_[at].y, fragments_[at].x) < std::tuple(y, x);
+                            };
+                            Row row(s, y, begin, end - begin, y - first_y);
+                            for (std::int64_t x = begin; x < end; ++x) {
+                              while (before(x)) uncovered(fragments_[at++]);
+                              if (at == fragments_.size() || fragments_[at].y != y || fragments_[at].x != x) {
+                                if (pixels++ == 0)
+                                  wrong = fmt::format("pixel {},{} is covered, and is not drawn", x, y);
+                              } else {
+                                row.compare(fragments_[at++], x, colour, z);
+                              }
+                            }
+                          });
+    while (at < fragments_.size()) uncovered(fragments_[at++]);
+
+    std::optional<Failure> failure;
+    const auto add = [&](const char* quantity, double figure, double bound, const std::string& what) {
+      tally.worst[quantity].add(figure, bound, [&] { return what; });
+      if (!(figure <= bound) && !failure) failure = {quantity, what};
+    };
+    add("coverage", double(pixels), 0, wrong);
+    const auto add_excess = [&](const char* quantity, const Excess& e) {
+      add(quantity, double(e.figure), double(e.bound),
+          fmt::format("pixel {},{}: {:.3g} of {:.3g} steps past its rounding", e.x, e.y, double(e.figure),
+                      double(e.bound)));
+    };
+    if (colour.bound > 0) add_excess("colour", colour);
+    if (z.bound > 0) add_excess("depth", z);
+    if (!failure && std::ranges::any_of(fragments_, [](const Fragment& f) { return f.triangle != c_tag; }))
+      failure = {"tag", "a fragment has another triangle's number"};
+    return failure;
+  }
+
+  Result<std::optional<Failure>> check_rtl(std::span<const Input> inputs, Tally& tally) override {
+    for (const unsigned channels : {1u, 3u}) {
+      words_.clear();
+      for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const Subject s = subject_of(inputs[i]);
+        if (s.channels != channels) continue;
+        append(s, static_cast<std::uint32_t>(i), words_);
+        ++tally.rtl_inputs;
+      }
+      const std::uint64_t before = rtl_.rtl_fragments();
+      rtl_.draw(key_of(channels), words_);
+      tally.rtl_fragments += rtl_.rtl_fragments() - before;
+      if (!rtl_.tools()) return rtl_.tools().error();
+      if (rtl_.failure().empty()) continue;
+      const Failure failure{"rtl", rtl_.failure()};
+      rtl_ = Trial(folders_, true);
+      return std::optional(failure);
+    }
+    return std::optional<Failure>{};
+  }
+
+ private:
+  static constexpr std::uint32_t c_tag = 0xA5C3'0F96;
+
+  // One line of the specification: barycentrics stepped as whole numbers.
+  class Row {
+   public:
+    Row(const Subject& s, std::int64_t y, std::int64_t begin, std::int64_t pixels, std::int64_t lines)
+        : subject_(s),
+          y_(y),
+          begin_(begin),
+          piece_(s.piece, s.unit_bits, begin, y),
+          whole_(s.whole, s.unit_bits, begin, y) {
+      // A pixel is reached by at most so many steps: lines, a carry each, and the line's pixels, from
+      // whichever end. Each word is rounded to half its last place (formats: intensity, depth_sum); samples
+      // and depths are what they are here. And what long double itself may be off by.
+      const long double k = static_cast<long double>(2 * lines + pixels - 1);
+      colour_bound_ = std::ldexp(1 + k + k * (k - 1) / 2, -c_sample_bits - 1) + 0x1p-48L;
+      depth_bound_ = std::ldexp(1 + k, -c_depth_bits - 1) + 0x1p-34L;
+    }
+    void compare(const Fragment& f, std::int64_t x, Excess& colour, Excess& z) const {
+      const std::array<long double, 3> p = piece_.at(x - begin_), w = whole_.at(x - begin_);
+      const std::array<std::uint8_t, 3> drawn = {f.red, f.green, f.blue};
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto& sample = subject_.sample[subject_.channels == 3 ? c : 0];
+        const long double exact =
+            quadratic(p, {sample[0], sample[1], sample[2], sample[3], sample[4], sample[5]});
+        colour.take(std::abs(drawn[c] - std::clamp(exact, 0.0L, 255.0L)), colour_bound_, x, y_);
+      }
+      const auto& d = subject_.depth;
+      const long double exact =
+          std::ldexp(linear(w, {static_cast<long double>(d[0]), static_cast<long double>(d[1]),
+                                static_cast<long double>(d[2])}),
+                     -c_depth_bits);
+      z.take(std::abs(static_cast<long double>(f.z) - exact), depth_bound_, x, y_);
+    }
+
+   private:
+    struct Steps {
+      std::array<std::int64_t, 3> start, step;
+      long double reciprocal;
+      Steps(const Points& p, int unit_bits, std::int64_t x, std::int64_t y) {
+        // Below 2^50 each: the guard band has 2^22 units at the deepest level.
+        const ExactBarycentric here = barycentric(p, centre(x, unit_bits), centre(y, unit_bits)),
+                               next = barycentric(p, centre(x + 1, unit_bits), centre(y, unit_bits));
+        for (std::size_t i = 0; i < 3; ++i) {
+          start[i] = static_cast<std::int64_t>(here.weight[i]);
+          step[i] = static_cast<std::int64_t>(next.weight[i] - here.weight[i]);
+        }
+        reciprocal = 1.0L / static_cast<long double>(static_cast<std::int64_t>(here.sum));
+      }
+      std::array<long double, 3> at(std::int64_t i) const {
+        const auto weight = [&](std::size_t n) {
+          return static_cast<long double>(start[n] + i * step[n]) * reciprocal;
+        };
+        return {weight(0), weight(1), weight(2)};
+      }
+    };
+    const Subject& subject_;
+    std::int64_t y_, begin_;
+    Steps piece_, whole_;
+    long double colour_bound_, depth_bound_;
+  };
+
+  SimulatorFolders folders_;
+  std::array<std::unique_ptr<GoldenModel>, 2> golden_;
+  Trial rtl_;
+  std::vector<std::uint32_t> words_;
+  std::vector<Fragment> fragments_;
+};
+
+class TriangleSearch final : public Search {
+ public:
+  std::string_view name() const override { return "triangles"; }
+  std::string_view about() const override {
+    return "Triangles of every kind (slivers a unit thick, a line high, within a pixel, on pixel centres, "
+           "over "
+           "the whole guard band), a quarter of a quarter of them down to level 5, samples up to 1023 steps, "
+           "depths from the near to the far plane, frames of 1 to 4096 pixels either way.";
+  }
+  std::span<const Parameter> parameters() const override { return c_parameters; }
+  std::uint64_t full_count() const override { return 10'000'000; }
+  std::uint64_t quick_count() const override { return 40'000; }
+  std::uint64_t rtl_every() const override { return 100; }
+  std::unique_ptr<Checker> checker(const SimulatorFolders& folders) const override {
+    return std::make_unique<TriangleChecker>(folders);
+  }
+
+  Input make(std::uint32_t seed) const override {
+    RandomTriangles random(seed);
+    Input input(std::size(c_parameters));
+    const FrameSize frame = random_frame(random);
+    input[At::width] = frame.width;
+    input[At::height] = frame.height;
+    input[At::colours] = random.within(0, 3) == 0 ? 3 : 1;
+    input[At::level] = std::max(0, random.within(-5, 5));
+    input[At::quarters] = random.within(0, (1 << (2 * input[At::level])) - 1);
+    const TriangleKind kind =
+        c_triangle_kinds[static_cast<std::size_t>(random.within(0, c_triangle_kinds.size() - 1))];
+    const Points p = random.next(kind, c_subpixel_bits, frame);
+    for (std::size_t i = 0; i < 3; ++i) {
+      input[At::corners + 2 * i] = std::clamp<std::int64_t>(p[i].x, c_least_place, c_greatest_place);
+      input[At::corners + 2 * i + 1] = std::clamp<std::int64_t>(p[i].y, c_least_place, c_greatest_place);
+    }
+    if (random.within(0, 3) > 0) bring_into_frame(random, input);
+    const int deep = random.within(0, 2);
+    for (std::size_t i = 0; i < 3; ++i)
+      input[At::depths + i] = deep == 0 ? (random.within(0, 1) == 0 ? c_least_depth : c_greatest_depth)
+                                        : wide(random, c_least_depth, c_greatest_depth);
+    const int bright = random.within(0, 3);
+    for (std::size_t i = At::samples; i < input.size(); ++i) {
+      const std::int64_t any = wide(random, 0, c_greatest_sample);
+      input[i] = bright == 0   ? (any & 1) * any                        // nothing, or odd
+                 : bright == 1 ? (any & 1) * c_greatest_sample          // an end of the range
+                 : bright == 2 ? any >> c_sample_bits << c_sample_bits  // whole
+                               : any / 4;                               // within what a frame stores
+    }
+    if (input[At::colours] == 1) std::fill(input.begin() + At::samples + 6, input.end(), 0);
+    return input;
+  }
+
+  std::vector<Input> simpler(const Input& input) const override {
+    std::vector<Input> out;
+    const auto change = [&](auto&& how) {
+      out.push_back(input);
+      how(out.back());
+    };
+    change([](Input& i) { i[At::colours] = 1, std::fill(i.begin() + At::samples + 6, i.end(), 0); });
+    for (const std::size_t other : {6, 12})  // one colour alone, as red
+      change([&](Input& i) {
+        i[At::colours] = 1;
+        std::copy_n(input.begin() + At::samples + other, 6, i.begin() + At::samples);
+        std::fill(i.begin() + At::samples + 6, i.end(), 0);
+      });
+    // The piece as a triangle of its own, where its corners are of whole units.
+    if (input[At::level] > 0)
+      change([&](Input& i) {
+        const Subject s = subject_of(input);
+        for (std::size_t n = 0; n < 3; ++n) {
+          i[At::corners + 2 * n] = s.piece[n].x >> input[At::level];
+          i[At::corners + 2 * n + 1] = s.piece[n].y >> input[At::level];
+        }
+        i[At::level] = i[At::quarters] = 0;
+      });
+    for (const std::size_t axis : {0, 1}) {
+      std::array<std::int64_t, 3> at;
+      for (std::size_t n = 0; n < 3; ++n) at[n] = input[At::corners + 2 * n + axis];
+      for (const std::int64_t to : at)  // one corner at the frame's corner
+        change([&](Input& i) {
+          for (std::size_t n = 0; n < 3; ++n) i[At::corners + 2 * n + axis] -= to;
+        });
+      for (const std::int64_t by : {4096, 1024, 256, 64, 16, 1})
+        for (const std::int64_t sign : {-1, 1})
+          change([&](Input& i) {
+            for (std::size_t n = 0; n < 3; ++n) i[At::corners + 2 * n + axis] += sign * by;
+          });
+    }
+    change([](Input& i) {
+      for (std::size_t n = 0; n < 6; ++n) i[At::corners + n] /= 2;
+    });
+    return out;
+  }
+
+ private:
+  static std::int64_t wide(RandomTriangles& random, std::int64_t least, std::int64_t greatest) {
+    const std::int64_t any =
+        std::int64_t{random.within(0, (1 << 24) - 1)} << 24 | random.within(0, (1 << 24) - 1);
+    return least + any % (greatest - least + 1);
+  }
+  // Moves the triangle so that a place on its piece lies over the frame; as far as the guard band goes.
+  static void bring_into_frame(RandomTriangles& random, Input& input) {
+    const Subject s = subject_of(input);
+    const int share = random.within(0, 64), other = random.within(0, 64 - share);
+    for (const std::size_t axis : {0, 1}) {
+      const auto at = [&](std::size_t n) {
+        return std::int64_t{axis == 0 ? s.piece[n].x : s.piece[n].y} >> input[At::level];
+      };
+      const auto corner = [&](std::size_t n) -> std::int64_t& { return input[At::corners + 2 * n + axis]; };
+      const auto [least, greatest] = std::minmax({corner(0), corner(1), corner(2)});
+      const std::int64_t place = (share * at(0) + other * at(1) + (64 - share - other) * at(2)) / 64,
+                         to = random.within(0, static_cast<int>(input[axis]) * 16);
+      const std::int64_t by = std::clamp(to - place, c_least_place - least, c_greatest_place - greatest);
+      for (std::size_t n = 0; n < 3; ++n) corner(n) += by;
+    }
+  }
+  // Mostly small ones, so that many triangles fit into a minute; all sizes that there are.
+  static FrameSize random_frame(RandomTriangles& random) {
+    const auto side = [&](int most) { return static_cast<std::uint32_t>(random.within(1, most)); };
+    const int draw = random.within(0, 99'999);
+    if (draw < 10) return {4096, 4096};
+    if (draw < 500) return {4096, side(12)};
+    if (draw < 1'000) return {side(12), 4096};
+    if (draw < 9'000) return {side(320), side(240)};
+    return {side(64), side(64)};
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Search> make_triangle_search() {
+  return std::make_unique<TriangleSearch>();
+}
+
+}  // namespace halfway::stability
