@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
+#include <numbers>
 
 #include "frame/frame_size.hpp"
 #include "scene/scene.hpp"
@@ -154,34 +156,68 @@ inline ExactSurface surface(const ScreenTriangle& t, int unit_bits, std::int64_t
   return s;
 }
 
-/// Blinn's radiance, I_a k_a + sum of I (k_d N.L + k_s (N.H)^n) over the lights before the surface
-/// (spherical, equations 1 to 3; processors, section 2), unclamped; `normal` is unit. A light at the point
-/// itself has no direction and gives nothing.
+/// Of the surface behind a pixel; where the interpolated normal is rounding noise, the triangle's own.
+inline LongVec unit_normal(const ScreenTriangle& t, const ExactSurface& s) {
+  constexpr long double c_noise = 1e-8L;
+  const long double length = glm::length(s.normal_world);
+  if (length > c_noise) return s.normal_world / length;
+  const LongVec a(t.vertex[0].position_world), b(t.vertex[1].position_world), c(t.vertex[2].position_world);
+  return glm::normalize(glm::cross(c - a, b - a));
+}
+
+/// What stands beside k_s: (N.H)^n, (R.V)^n, or Cook and Torrance's P F G/(4 N.V), N.L having taken itself
+/// away (spherical, equations 4 to 7). All vectors unit; not bounded.
+inline long double specular(const Material& m, const LongVec& n, const LongVec& l, const LongVec& v) {
+  const auto power = [&](long double base) {
+    return base > 0 ? std::pow(std::min(base, 1.0L), (long double)m.exponent) : 0.0L;
+  };
+  const long double n_dot_l = glm::dot(n, l);
+  if (m.brdf == Brdf::phong) return power(2 * n_dot_l * glm::dot(n, v) - glm::dot(l, v));
+  const LongVec sum = l + v;
+  const long double length = glm::length(sum);
+  if (!(length > 0)) return 0;
+  const LongVec h = sum / length;
+  const long double n_dot_h = glm::dot(n, h);
+  if (m.brdf == Brdf::blinn) return power(n_dot_h);
+  const long double n_dot_v = glm::dot(n, v), v_dot_h = glm::dot(v, h);
+  if (!(n_dot_v > 0) || !(n_dot_h > 0)) return 0;
+  const LongVec across = glm::cross(n, h);
+  const long double cos2 = n_dot_h * n_dot_h, m2 = (long double)m.roughness * m.roughness;
+  const long double density = std::exp(-glm::dot(across, across) / (cos2 * m2)) /
+                              (std::numbers::pi_v<long double> * m2 * cos2 * cos2);
+  const long double fresnel =
+      m.reflectance + (1 - (long double)m.reflectance) * std::pow(1 - std::min(v_dot_h, 1.0L), 5.0L);
+  const long double shadowed = 2 * n_dot_h * std::min(n_dot_v, n_dot_l) / v_dot_h;
+  return density * fresnel * std::min(shadowed, 1.0L) / (4 * n_dot_v);
+}
+
+/// The radiance, I_a k_a + sum of I (k_d N.L + k_s specular) over the lights before the surface (spherical,
+/// equations 1 to 3; processors, section 2), unclamped; `normal` is unit. A light at the point, so near as
+/// doubles tell, has no direction and gives nothing.
 inline LongVec radiance(const Scene& scene, const Material& m, const LongVec& position,
                         const LongVec& normal) {
   LongVec sum = LongVec(scene.ambient) * LongVec(m.colour) * (long double)m.ambient;
   const LongVec to_eye = LongVec(scene.camera.eye_world) - position;
   const long double eye_distance = glm::length(to_eye);
   const LongVec v = eye_distance > 0 ? to_eye / eye_distance : normal;
-  const auto add = [&](const LongVec& to_light, const LongVec& intensity) {
+  const long double noise = 4 * std::numeric_limits<double>::epsilon() * glm::length(position);
+  const auto add = [&](const LongVec& to_light, const LongVec& intensity, long double least = 0) {
     const long double distance = glm::length(to_light);
-    if (!(distance > 0)) return;
-    const LongVec l = to_light / distance, h = l + v;
-    const long double n_dot_l = glm::dot(normal, l), h_length = glm::length(h);
+    if (!(distance > least)) return;
+    const LongVec l = to_light / distance;
+    const long double n_dot_l = glm::dot(normal, l);
     if (!(n_dot_l > 0)) return;
-    const long double n_dot_h = h_length > 0 ? std::min(glm::dot(normal, h) / h_length, 1.0L) : 0.0L;
-    const long double highlight = n_dot_h > 0 ? std::pow(n_dot_h, (long double)m.exponent) : 0.0L;
     sum += intensity * (LongVec(m.colour) * ((long double)m.diffuse * std::min(n_dot_l, 1.0L)) +
-                        LongVec(m.specular_colour) * ((long double)m.specular * highlight));
+                        LongVec(m.specular_colour) * ((long double)m.specular * specular(m, normal, l, v)));
   };
   for (const DirectionalLight& light : scene.directional)
     add(LongVec(light.to_light_world), LongVec(light.intensity));
   for (const PositionalLight& light : scene.positional)
-    add(LongVec(light.position_world) - position, LongVec(light.intensity));
+    add(LongVec(light.position_world) - position, LongVec(light.intensity), noise);
   for (const SpotLight& light : scene.spots) {
     const LongVec to_light = LongVec(light.position_world) - position;
     const long double distance = glm::length(to_light);
-    if (!(distance > 0)) continue;
+    if (!(distance > noise)) continue;
     const long double cosine = -glm::dot(to_light, LongVec(light.axis_world)) / distance,
                       inner = light.cos_inner, outer = light.cos_outer;
     long double share = cosine >= inner ? 1.0L : 0.0L;

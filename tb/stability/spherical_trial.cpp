@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stability/spherical_trial.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "golden/spherical_layout.hpp"
+#include "golden/triangle_walker.hpp"
+#include "run/golden_run.hpp"
+#include "setup/spherical_drawing.hpp"
+#include "stability/specification.hpp"
+
+namespace halfway::stability {
+namespace {
+
+using golden::Exact, golden::Published;
+
+std::vector<ScreenTriangle> projected(const Scene& scene, FrameSize frame) {
+  return Projector(scene, frame, {.subpixel_bits = c_exact_subpixel_bits}).project_all();
+}
+
+std::array<long double, 3> barycentric_of(const ScreenTriangle& t, std::int64_t x, std::int64_t y) {
+  return barycentric({{{t.vertex[0].x, t.vertex[0].y},
+                       {t.vertex[1].x, t.vertex[1].y},
+                       {t.vertex[2].x, t.vertex[2].y}}},
+                     centre(x, c_exact_subpixel_bits), centre(y, c_exact_subpixel_bits))
+      .real();
+}
+
+double error_of(const Fragment& f, const LongVec& radiance) {
+  const LongVec off = LongVec(f.red, f.green, f.blue) - 255.0L * glm::min(radiance, LongVec(1));
+  return static_cast<double>(std::max({std::fabs(off.x), std::fabs(off.y), std::fabs(off.z)}));
+}
+
+// Every record's words stay in their formats, on every pixel of its line.
+template <class P>
+void require_words_in_range(Trial& trial, const Drawing& drawing, const std::string& name) {
+  constexpr bool c_exact = std::is_same_v<P, Exact>;
+  const golden::SphericalConfig config = golden_config(drawing.key);
+  const golden::SphericalLayout<P> layout(config);
+  const auto model = make_golden_model(drawing.key);
+  const std::size_t vector_words = (drawing.init_bits + 31) / 32;
+  std::span<const std::uint32_t> rest = drawing.words;
+  while (!rest.empty()) {
+    const std::size_t vectors = model->group(rest);
+    golden::TriangleWalker<P> walker;
+    walker.line_load(rest);
+    const auto require_factor = [&](std::span<const std::uint32_t> words, const golden::Field& field,
+                                    int low) {
+      trial.require(golden::get_bits(words, field, low) <= (c_exact ? 65535U : 1023U)
+                                                               << P::c_factor_fraction_bits,
+                    [&] { return name + ": a factor is past the largest"; });
+    };
+    for (int c = 0; c < config.channels; ++c)
+      require_factor(rest, P::ambient_channel_at::ambient, layout.ambient_low(c));
+    for (std::size_t line = 1; vectors > 1; ++line) {
+      const auto record = rest.subspan(line * vector_words, vector_words);
+      using Angle = golden::Word<P::c_angle_bits>;
+      const std::int64_t steps = std::abs(walker.stop().value() - walker.start().value()) - 1;
+      const auto require_angle = [&](const golden::Field& angle, const golden::Field& slope, int low) {
+        if (!c_exact || walker.line_empty()) return;  // published wraps
+        const std::int64_t last = Angle::from_bits(golden::get_bits(record, angle, low)).value() +
+                                  steps * Angle::from_bits(golden::get_bits(record, slope, low)).value();
+        trial.require(std::abs(last) < std::int64_t{1} << (P::c_angle_bits - 1),
+                      [&] { return name + ": an angle wraps"; });
+      };
+      for (int l = 0; l < config.lights; ++l) {
+        if (layout.has_diffuse_part()) {
+          using At = typename P::diffuse_header_at;
+          require_angle(At::angle, At::slope, layout.diffuse_low(l));
+          for (int c = 0; c < layout.diffuse_channels(); ++c)
+            require_factor(record, P::diffuse_channel_at::factor,
+                           layout.diffuse_low(l) + P::c_diffuse_header_bits + c * P::c_diffuse_channel_bits);
+        }
+        using At = typename P::specular_header_at;
+        require_angle(At::angle, At::slope, layout.specular_low(l));
+        for (int c = 0; c < config.highlight_channels; ++c)
+          require_factor(record, P::specular_channel_at::factor,
+                         layout.specular_low(l) + P::c_specular_header_bits + c * P::c_specular_channel_bits);
+      }
+      if (walker.line_last()) break;
+      walker.line_step();
+    }
+    rest = rest.subspan(vectors * vector_words);
+  }
+}
+
+}  // namespace
+
+Scene stage(const std::array<glm::dvec3, 3>& normals) {
+  Scene scene;
+  scene.name = "stage";
+  scene.materials = {{.name = "m", .ambient = 0.0, .diffuse = 0.5, .specular = 0.5, .exponent = 20.0}};
+  scene.camera.eye_world = {0.0, 0.0, 4.0};
+  scene.positions_world = {{-1.6, -1.3, 0.0}, {1.7, -1.2, 0.0}, {-0.1, 1.4, 0.0}};
+  for (const glm::dvec3& n : normals) scene.normals_world.push_back(glm::normalize(n));
+  scene.triangles = {{{0, 1, 2}, {0, 1, 2}, 0}};
+  return scene;
+}
+
+void add_side_lights(Scene& scene) {
+  scene.directional.push_back({glm::normalize(glm::dvec3(0.3, 0.2, 1.0)), glm::dvec3(0.4)});
+  scene.positional.push_back({{0.4, -0.3, 2.0}, glm::dvec3(0.4)});
+  scene.spots.push_back(
+      {{-0.5, 0.3, 2.5}, glm::normalize(glm::dvec3(0.5, -0.2, -2.5)), 0.95, 0.9, glm::dvec3(0.4)});
+}
+
+void move_eye_away(Scene& scene) {
+  scene.camera.eye_world.z = 1e9;
+  scene.camera.vertical_fov_degrees = 1e-7;
+}
+
+SurfacePoint surface_at(const Scene& scene, FrameSize frame, std::int64_t x, std::int64_t y) {
+  const ScreenTriangle t = projected(scene, frame).at(0);
+  return surface_point(
+      t, barycentric_screen(t, (2 * x + 1) << c_exact_subpixel_bits, (2 * y + 1) << c_exact_subpixel_bits));
+}
+
+Truth::Truth(const Scene& scene, FrameSize frame) : scene_(scene) {
+  for (const ScreenTriangle& t : projected(scene, frame)) pieces_[t.source].push_back(t);
+}
+
+// Of a triangle that was clipped, the piece that has the pixel.
+const ScreenTriangle& Truth::piece_at(std::uint32_t source, std::int64_t x, std::int64_t y) const {
+  return *std::ranges::max_element(pieces_.at(source), {}, [&](const ScreenTriangle& piece) {
+    return std::ranges::min(barycentric_of(piece, x, y));
+  });
+}
+
+LongVec Truth::radiance_at(std::uint32_t source, std::int64_t x, std::int64_t y) const {
+  const ScreenTriangle& t = piece_at(source, x, y);
+  const ExactSurface s = surface(t, c_exact_subpixel_bits, x, y);
+  Material material = scene_.materials[t.material];
+  material.exponent = std::min(material.exponent, c_largest_exponent);
+  return radiance(scene_, material, s.position_world, unit_normal(t, s));
+}
+
+LongVec Truth::normal_at(std::uint32_t source, std::int64_t x, std::int64_t y) const {
+  const ScreenTriangle& t = piece_at(source, x, y);
+  return unit_normal(t, surface(t, c_exact_subpixel_bits, x, y));
+}
+
+Shown show(Trial& trial, const Scene& scene, const std::string& name, const ShowOptions& options) {
+  DrawOptions draw{.plan = {.shader = Shader::spherical, .all_effects = true, .lights = options.lights},
+                   .frame = options.frame};
+  draw.setup.spherical.threshold = options.threshold;
+  const Drawing exact = trial.draw(scene, draw);
+  require_words_in_range<Exact>(trial, exact, name);
+  trial.require(!exact.fragments.empty(), [&] { return name + ": nothing is drawn"; });
+  const double bound = promised_steps(scene, exact.key, options.threshold);
+  const Truth truth(scene, options.frame);
+
+  Shown shown{.fragments = exact.fragments.size(), .counts = exact.counts};
+  std::map<std::tuple<std::uint32_t, int, int>, LongVec> there;
+  const auto where = [&](const Fragment& f) { return fmt::format("{}, pixel {}, {}", name, f.x, f.y); };
+  for (const Fragment& f : exact.fragments) {
+    const LongVec radiance = there[{f.triangle, f.x, f.y}] = truth.radiance_at(f.triangle, f.x, f.y);
+    trial.ours(error_of(f, radiance), bound, [&] { return where(f); });
+    shown.brightest = std::max(shown.brightest, int{f.red});
+  }
+
+  draw.setup.spherical.ends = SpanEnds::slerped_along_edges;
+  const Drawing slerped = trial.draw(scene, draw);
+  require_words_in_range<Exact>(trial, slerped, name + ", ends by slerp");
+  trial.require(slerped.fragments.size() == exact.fragments.size(),
+                [&] { return name + ": ends by slerp cover other pixels"; });
+
+  if (!options.published) return shown;
+  draw.plan.preset = Preset::published;
+  draw.plan.tables = options.published_tables;
+  const Drawing published = trial.draw(scene, draw);
+  require_words_in_range<Published>(trial, published, name + ", published");
+  for (const Fragment& f : published.fragments) {
+    trial.require(f.x < options.frame.width && f.y < options.frame.height,
+                  [&] { return where(f) + ": published leaves the frame"; });
+    shown.published_brightest = std::max(shown.published_brightest, int{f.red});
+    // Vertices on whole pixels: not on the others' pixels all along the edges.
+    const auto found = there.find({f.triangle, f.x, f.y});
+    if (found != there.end()) trial.published(error_of(f, found->second), bound, [&] { return where(f); });
+  }
+  return shown;
+}
+
+}  // namespace halfway::stability
