@@ -35,5 +35,6 @@ struct Family {
 };
 
 extern const Family c_edges;
+extern const Family c_processors;
 
 }  // namespace halfway::stability

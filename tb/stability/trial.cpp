@@ -32,13 +32,10 @@ void Worst::add(double next, double next_bound, const std::function<std::string(
   where = where_of();
 }
 
-Drawing Trial::draw(const Scene& scene, const DrawOptions& options) {
-  Drawing drawing;
+Result<Drawing> draw_golden(const Scene& scene, const DrawOptions& options) {
   const auto plan = plan_scene(scene, options.plan);
-  if (!plan) {
-    require(false, [&] { return plan.error().message; });
-    return drawing;
-  }
+  if (!plan) return plan.error();
+  Drawing drawing;
   drawing.key = plan->key;
   const auto setup = make_setup(scene, options.frame, drawing.key, options.setup);
   drawing.init_bits = setup->init_bits();
@@ -49,8 +46,17 @@ Drawing Trial::draw(const Scene& scene, const DrawOptions& options) {
   const auto golden = make_golden_model(drawing.key);
   golden->draw(drawing.words, drawing.fragments);
   drawing.fault = golden->fault();
-  compare_rtl(drawing.key, drawing.init_bits, drawing.words, drawing.fragments, drawing.fault);
   return drawing;
+}
+
+Drawing Trial::draw(const Scene& scene, const DrawOptions& options) {
+  Result<Drawing> drawing = draw_golden(scene, options);
+  if (!drawing) {
+    require(false, [&] { return drawing.error().message; });
+    return {};
+  }
+  compare_rtl(drawing->key, drawing->init_bits, drawing->words, drawing->fragments, drawing->fault);
+  return std::move(*drawing);
 }
 
 std::vector<Fragment> Trial::draw(const HardwareKey& key, std::span<const std::uint32_t> words) {

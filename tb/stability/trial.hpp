@@ -49,6 +49,9 @@ struct Drawing {
   bool fault = false;
 };
 
+/// The scene through plan, setup and golden model.
+Result<Drawing> draw_golden(const Scene& scene, const DrawOptions& options);
+
 class Trial {
  public:
   /// A quick sweep takes part of a second, a full one up to a minute.
@@ -70,7 +73,7 @@ class Trial {
     if (!holds && failure_.empty()) failure_ = what();
   }
 
-  /// The scene through plan, setup and golden model; the RTL must emit the same fragments.
+  /// draw_golden; the RTL must emit the same fragments.
   Drawing draw(const Scene& scene, const DrawOptions& options);
   /// Vectors made by hand, whole triangles, of hardware that takes no prologue.
   std::vector<Fragment> draw(const HardwareKey& key, std::span<const std::uint32_t> words);
