@@ -289,12 +289,18 @@ Scene narrow_spot(double inner, double outer) {
   return scene;
 }
 
-void narrow_spots(Trial& trial) {
+void shade_spots(Trial& trial, std::initializer_list<double> inner_parts) {
   for (const double outer : {0.1, 0.3, 0.5, 0.63, 0.7, 1.0, 3.0, 10.0, 45.0})
-    for (const double inner : {0.0, 0.7, 1.0}) {
+    for (const double inner : inner_parts) {
       const Scene scene = narrow_spot(inner * outer, outer);
       shade(trial, scene, fmt::format("a cone of {} degrees within one of {}", inner * outer, outer));
     }
+}
+void narrow_spots(Trial& trial) {
+  shade_spots(trial, {0.0});
+}
+void hard_spots(Trial& trial) {
+  shade_spots(trial, {0.7, 1.0});
 }
 
 // Sixteen of them, 33 processors.
@@ -509,7 +515,7 @@ void not_numbers(Trial& trial) {
 
 constexpr HardCase c_cases[] = {
     {"A light's distance in the halfway vector",
-     "processors, table of terms: (E + P_p − P)/|E + P_p − P| adds a unit vector and one of the light's "
+     "processors, table of terms: (E + P_p − P)/abs(E + P_p − P) adds a unit vector and one of the light's "
      "distance",
      "L is made unit before V is added", "the illumination model within the units' errors", "colour steps",
      Published::breaks, halfway_vectors},
@@ -519,7 +525,7 @@ constexpr HardCase c_cases[] = {
     {"N and P across a floor", "processors, section 5: N and P straight across the screen",
      "N/w, the view ray and 1/w are interpolated", "the illumination model within the units' errors",
      "colour steps", Published::breaks, perspective},
-    {"A light at the surface's own point", "processors: (P_p − P)/|P_p − P|, 0/0",
+    {"A light at the surface's own point", "processors: (P_p − P)/abs(P_p − P), 0/0",
      "block shift before the square; a zero vector stays one",
      "the illumination model within the units' errors; at the point itself any colour of the light",
      "colour steps", Published::breaks, light_at_the_surface},
@@ -528,10 +534,10 @@ constexpr HardCase c_cases[] = {
      "the illumination model within the units' errors", "colour steps", Published::breaks, far_light},
     {"A light at the eye", "processors: a constant E", "V of each point, from the view ray",
      "the illumination model within the units' errors", "colour steps", Published::breaks, light_at_the_eye},
-    {"L = −V: the halfway vector 0/0", "processors and spherical, equation 1: (L + V)/|L + V|",
+    {"L = −V: the halfway vector 0/0", "processors and spherical, equation 1: (L + V)/abs(L + V)",
      "a zero vector stays one, without light", "the illumination model within the units' errors",
      "colour steps", Published::breaks, no_halfway},
-    {"Normals opposed, or zero", "processors: N/|N|, 0/0",
+    {"Normals opposed, or zero", "processors: N/abs(N), 0/0",
      "a zero vector stays one; a flat face's own normal",
      "the illumination model within the units' errors, which where N vanishes is any", "colour steps",
      Published::breaks, opposed_normals},
@@ -545,6 +551,10 @@ constexpr HardCase c_cases[] = {
      "a cosine within 2^-19, the edge's slope up to 2^18; cones of less than 0.63 degrees are noted",
      "the illumination model within the units' errors, which a narrow cone magnifies", "colour steps",
      Published::breaks, narrow_spots},
+    {"Spots with a hard edge", "processors: no spots; their units resolve a cosine to 2^-7",
+     "a cosine within 2^-19, the edge's slope up to 2^18",
+     "the illumination model within the units' errors: at the edge's own pixels any share of the light",
+     "colour steps", Published::breaks, hard_spots},
     {"Sums past white over 33 processors", "processors, section 2: I_out = I_in + k I (N.A)^x, integers",
      "22 bits of radiance, saturating", "the illumination model, at most white", "colour steps",
      Published::breaks, sums_past_white},
