@@ -36,5 +36,6 @@ struct Family {
 
 extern const Family c_edges;
 extern const Family c_spherical;
+extern const Family c_processors;
 
 }  // namespace halfway::stability

@@ -24,7 +24,7 @@
 namespace halfway::stability {
 namespace {
 
-constexpr const Family* c_families[] = {&c_edges, &c_spherical};
+constexpr const Family* c_families[] = {&c_edges, &c_spherical, &c_processors};
 
 constexpr std::string_view c_table =
     "| case | breaks | remedy | holds | published | ours | figures | fragments in golden, RTL |\n"
@@ -100,8 +100,8 @@ std::string row_of(const HardCase& c, const Trial& trial) {
                      trial.rtl_fragments());
 }
 
-Outcome run(const Job& job, const Options& options) {
-  Trial trial({options.source, options.source / "build" / "cache"}, options.quick);
+Outcome run(const Job& job, Simulators& rtl, const Options& options) {
+  Trial trial({options.source, options.source / "build" / "cache"}, rtl, options.quick);
   job.hard_case->run(trial);
   if (!trial.tools()) return {trial.tools().error().message, true, ""};
   return {failure_of(*job.hard_case, trial), false, row_of(*job.hard_case, trial)};
@@ -114,9 +114,10 @@ ExitCode run_all(const std::vector<Job>& jobs, const Options& options) {
   std::size_t done = 0, failed = 0, broken = 0;
   const bool terminal = isatty(STDERR_FILENO);
   const auto work = [&] {
+    Simulators rtl;
     for (std::size_t at; (at = next++) < jobs.size();) {
       const auto began = std::chrono::steady_clock::now();
-      outcomes[at] = run(jobs[at], options);
+      outcomes[at] = run(jobs[at], rtl, options);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
       const std::lock_guard lock(mutex);
       const Outcome& outcome = outcomes[at];

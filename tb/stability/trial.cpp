@@ -9,6 +9,7 @@
 #include "run/golden_run.hpp"
 #include "run/limits.hpp"
 #include "run/stream_comparator.hpp"
+#include "setup/init_vector.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
 
 namespace halfway::stability {
@@ -16,6 +17,22 @@ namespace {
 
 // What GHDL draws in a few seconds.
 constexpr std::size_t c_most_for_ghdl = 4000;
+
+// Of the shading processors, which keep lights from a stream to the next: as if it had just been reset.
+std::vector<std::uint32_t> forget_lights(const HardwareKey& key, unsigned words_each) {
+  using Request = golden::Exact::request_header_at;
+  static_assert(golden::Exact::c_request_header_bits == golden::Published::c_request_header_bits);
+  std::vector<std::uint32_t> words;
+  const auto command = [&](golden::Command c, std::uint32_t light) {
+    InitVector vector(words, 32 * words_each);
+    vector.put(Request::command, static_cast<std::uint32_t>(c));
+    vector.put(Request::light, light);
+  };
+  for (std::uint32_t light = 0; light <= key.processors.lights(); ++light)
+    command(golden::Command::remove, light);
+  command(golden::Command::new_frame, 0);
+  return words;
+}
 
 }  // namespace
 
@@ -32,13 +49,10 @@ void Worst::add(double next, double next_bound, const std::function<std::string(
   where = where_of();
 }
 
-Drawing Trial::draw(const Scene& scene, const DrawOptions& options) {
-  Drawing drawing;
+Result<Drawing> draw_golden(const Scene& scene, const DrawOptions& options) {
   const auto plan = plan_scene(scene, options.plan);
-  if (!plan) {
-    require(false, [&] { return plan.error().message; });
-    return drawing;
-  }
+  if (!plan) return plan.error();
+  Drawing drawing;
   drawing.key = plan->key;
   const auto setup = make_setup(scene, options.frame, drawing.key, options.setup);
   drawing.init_bits = setup->init_bits();
@@ -49,8 +63,17 @@ Drawing Trial::draw(const Scene& scene, const DrawOptions& options) {
   const auto golden = make_golden_model(drawing.key);
   golden->draw(drawing.words, drawing.fragments);
   drawing.fault = golden->fault();
-  compare_rtl(drawing.key, drawing.init_bits, drawing.words, drawing.fragments, drawing.fault);
   return drawing;
+}
+
+Drawing Trial::draw(const Scene& scene, const DrawOptions& options) {
+  Result<Drawing> drawing = draw_golden(scene, options);
+  if (!drawing) {
+    require(false, [&] { return drawing.error().message; });
+    return {};
+  }
+  compare_rtl(drawing->key, drawing->init_bits, drawing->words, drawing->fragments, drawing->fault);
+  return std::move(*drawing);
 }
 
 std::vector<Fragment> Trial::draw(const HardwareKey& key, std::span<const std::uint32_t> words) {
@@ -102,10 +125,15 @@ Status Trial::run_verilator(const HardwareKey& key, unsigned init_bits, std::spa
     found = rtl_.emplace(key.name(), std::move(*opened)).first;
   }
   VerilatorSimulator& rtl = found->second;
-  auto status = rtl.run(words, words.size() / ((init_bits + 31) / 32), drawn, most);
+  const unsigned words_each = (init_bits + 31) / 32;
+  const auto run = [&](std::span<const std::uint32_t> stream) {
+    return rtl.run(stream, stream.size() / words_each, drawn, most);
+  };
+  Status status = Ok{};
+  if (key.shader == Shader::processors) status = run(forget_lights(key, words_each));
+  if (status) status = run(words);
   if (status) status = rtl.finish(drawn, most);
-  // Hardware that keeps a prologue, or has gone astray, begins anew.
-  if (key.shader == Shader::processors || !status) rtl_.erase(found);
+  if (!status) rtl_.erase(found);  // it has gone astray
   return status;
 }
 

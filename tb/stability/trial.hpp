@@ -49,10 +49,17 @@ struct Drawing {
   bool fault = false;
 };
 
+/// The scene through plan, setup and golden model.
+Result<Drawing> draw_golden(const Scene& scene, const DrawOptions& options);
+
+/// RTL that runs in this process, by key; for one thread.
+using Simulators = std::map<std::string, VerilatorSimulator>;
+
 class Trial {
  public:
-  /// A quick sweep takes part of a second, a full one up to a minute.
-  Trial(SimulatorFolders folders, bool quick) : folders_(std::move(folders)), quick_(quick) {}
+  /// A quick sweep takes part of a second, a full one up to a minute. `rtl` goes from one case to the next.
+  Trial(SimulatorFolders folders, Simulators& rtl, bool quick)
+      : folders_(std::move(folders)), rtl_(rtl), quick_(quick) {}
 
   bool quick() const { return quick_; }
   /// Rounds of a random sweep.
@@ -70,7 +77,7 @@ class Trial {
     if (!holds && failure_.empty()) failure_ = what();
   }
 
-  /// The scene through plan, setup and golden model; the RTL must emit the same fragments.
+  /// draw_golden; the RTL must emit the same fragments.
   Drawing draw(const Scene& scene, const DrawOptions& options);
   /// Vectors made by hand, whole triangles, of hardware that takes no prologue.
   std::vector<Fragment> draw(const HardwareKey& key, std::span<const std::uint32_t> words);
@@ -93,12 +100,12 @@ class Trial {
                   std::vector<Fragment>& drawn, std::size_t most);
 
   SimulatorFolders folders_;
+  Simulators& rtl_;
   bool quick_;
   Worst ours_, published_;
   std::string failure_;
   Status tools_ = Ok{};
   std::uint64_t golden_fragments_ = 0, rtl_fragments_ = 0;
-  std::map<std::string, VerilatorSimulator> rtl_;  ///< by key; of hardware that takes no prologue
   std::set<std::string> through_ghdl_;             ///< keys of which GHDL has drawn something
 };
 

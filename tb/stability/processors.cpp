@@ -1,0 +1,584 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shading processors: halfway vectors, unit vectors, perspective, and what their words can hold. Every
+// scene goes through both forms of the processors, folded and unrolled, which must emit the same fragments.
+#include <fmt/format.h>
+
+#include <glm/trigonometric.hpp>
+#include <limits>
+#include <map>
+
+#include "golden/processors_layout.hpp"
+#include "golden/word.hpp"
+#include "run/golden_run.hpp"
+#include "scene/builtin_meshes.hpp"
+#include "setup/project.hpp"
+#include "setup/random_scenes.hpp"
+#include "stability/hard_case.hpp"
+#include "stability/shading_bound.hpp"
+#include "stability/trial.hpp"
+
+namespace halfway::stability {
+namespace {
+
+constexpr ProcessorForm c_forms[] = {ProcessorForm::folded, ProcessorForm::unrolled};
+constexpr int c_subpixel_bits = 4;
+
+struct Shade {
+  Preset preset = Preset::exact;
+  FrameSize frame{48, 36};
+  unsigned lights = 2;  ///< of the hardware
+  bool all_effects = true;
+};
+
+PlanRequest request_of(const Shade& how, ProcessorForm form) {
+  PlanRequest request{.shader = Shader::processors, .preset = how.preset, .form = form};
+  request.all_effects = how.all_effects;
+  if (how.all_effects) request.lights = how.lights;
+  return request;
+}
+
+Drawing draw(Trial& trial, const Scene& scene, const Shade& how) {
+  Drawing drawing;
+  for (const ProcessorForm form : c_forms)
+    drawing = trial.draw(scene, {.plan = request_of(how, form), .frame = how.frame});
+  return drawing;
+}
+
+// The scene's pieces on the screen, found again by a fragment.
+class Pieces {
+ public:
+  Pieces(const Scene& scene, FrameSize frame) {
+    for (const ScreenTriangle& t : Projector(scene, frame, {}).project_all()) pieces_.emplace(t.source, t);
+  }
+  const ScreenTriangle* behind(const Fragment& f) const {
+    const auto [first, last] = pieces_.equal_range(f.triangle);
+    for (auto at = first; at != last; ++at) {
+      const auto& v = at->second.vertex;
+      if (covers({{{v[0].x, v[0].y}, {v[1].x, v[1].y}, {v[2].x, v[2].y}}}, c_subpixel_bits, f.x, f.y))
+        return &at->second;
+    }
+    return nullptr;
+  }
+
+ private:
+  std::multimap<std::uint32_t, ScreenTriangle> pieces_;
+};
+
+// Each fragment against the illumination model at the pixel's centre.
+void measure(Trial& trial, const Scene& scene, const Shade& how, std::span<const Fragment> fragments,
+             std::string_view name) {
+  const ShadingBound bound(scene, how.frame);
+  const Pieces pieces(scene, how.frame);
+  for (const Fragment& f : fragments) {
+    const auto where = [&] {
+      return fmt::format("{}, {} by {}: pixel ({}, {}), triangle {}", name, how.frame.width, how.frame.height,
+                         f.x, f.y, f.triangle);
+    };
+    const ScreenTriangle* piece = pieces.behind(f);
+    trial.require(piece != nullptr, [&] { return where() + " is not covered"; });
+    if (piece == nullptr) continue;
+    const Promise promise = bound.at(*piece, f.x, f.y);
+    const std::array<std::uint8_t, 3> drawn = {f.red, f.green, f.blue};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto figure = static_cast<double>(std::abs(promise.exact[c] - drawn[c])),
+                 most = static_cast<double>(promise.bound(c));
+      if (how.preset == Preset::exact)
+        trial.ours(figure, most, where);
+      else
+        trial.published(figure, most, where);
+    }
+  }
+}
+
+void shade(Trial& trial, const Scene& scene, std::string_view name, Shade how = {}) {
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    how.preset = preset;
+    measure(trial, scene, how, draw(trial, scene, how).fragments, name);
+  }
+}
+
+Scene lit(Material material = {}) {
+  Scene scene;
+  scene.name = "case";
+  material.name = "m";
+  scene.materials = {material};
+  scene.camera.eye_world = {0.0, 0.0, 3.0};
+  return scene;
+}
+
+constexpr Material c_shiny{.colour = {0.9, 0.6, 0.3}, .diffuse = 0.5, .specular = 0.5, .exponent = 60.0};
+
+// Corners counter-clockwise, a normal each.
+void add_quad(Scene& scene, const std::array<glm::dvec3, 4>& corners,
+              const std::array<glm::dvec3, 4>& normals) {
+  const auto p = static_cast<std::uint32_t>(scene.positions_world.size());
+  scene.positions_world.insert(scene.positions_world.end(), corners.begin(), corners.end());
+  scene.normals_world.insert(scene.normals_world.end(), normals.begin(), normals.end());
+  for (const std::array<std::uint32_t, 3>& t : {std::array{p, p + 1, p + 2}, std::array{p, p + 2, p + 3}})
+    scene.triangles.push_back({t, t, 0});
+}
+
+void add_wall(Scene& scene, const std::array<glm::dvec3, 4>& normals, double z = 0.0) {
+  add_quad(scene, {glm::dvec3(-1, -1, z), {1, -1, z}, {1, 1, z}, {-1, 1, z}}, normals);
+}
+Scene wall(const Material& material) {
+  Scene scene = lit(material);
+  const glm::dvec3 n(0.0, 0.0, 1.0);
+  add_wall(scene, {n, n, n, n});
+  return scene;
+}
+
+// Normals that turn about the vertical by so many degrees from one side to the other.
+Scene bent(const Material& material, double degrees) {
+  Scene scene = lit(material);
+  const double half = glm::radians(degrees) / 2;
+  const glm::dvec3 left(-std::sin(half), 0.0, std::cos(half)), right(std::sin(half), 0.0, std::cos(half));
+  add_wall(scene, {left, right, right, left});
+  return scene;
+}
+
+glm::dvec3 unit(double x, double y, double z) {
+  return glm::normalize(glm::dvec3(x, y, z));
+}
+
+void halfway_vectors(Trial& trial) {
+  for (const double distance : {0.1, 1.0, 8.0, 100.0}) {
+    Scene scene = wall(c_shiny);
+    scene.positional = {{{0.2, 0.1, distance}, glm::dvec3(1.0)}};
+    shade(trial, scene, fmt::format("a light {} before a wall of 2", distance));
+  }
+}
+
+void unnormalized(Trial& trial) {
+  for (const double degrees : {10.0, 30.0, 60.0, 120.0, 170.0})
+    for (const double exponent : {5.0, 200.0}) {
+      Material material = c_shiny;
+      material.exponent = exponent;
+      Scene scene = bent(material, degrees);
+      scene.directional = {{unit(0.1, 0.1, 1.0), glm::dvec3(0.9)}};
+      shade(trial, scene, fmt::format("an edge of {} degrees, exponent {}", degrees, exponent));
+    }
+}
+
+void perspective(Trial& trial) {
+  for (const double length : {10.0, 100.0, 1000.0}) {
+    Scene scene = lit(c_shiny);
+    const glm::dvec3 near_normal = unit(0.2, 1.0, 0.3), far_normal = unit(-0.2, 1.0, -0.3);
+    add_quad(scene, {glm::dvec3(-3, -1, 2), {3, -1, 2}, {3, -1, 2 - length}, {-3, -1, 2 - length}},
+             {near_normal, near_normal, far_normal, far_normal});
+    scene.positional = {{{1.0, 0.5, -4.0}, glm::dvec3(0.9)}};
+    scene.spots = {{{0.0, 3.0, 0.0}, unit(0.0, -1.0, -0.5), 0.9, 0.7, glm::dvec3(0.8)}};
+    shade(trial, scene, fmt::format("a floor of {}", length));
+  }
+}
+
+// Onto a pixel's own point, and from there away.
+void light_at_the_surface(Trial& trial) {
+  constexpr FrameSize c_frame{48, 36};
+  Scene scene = bent(c_shiny, 40.0);
+  const auto pieces = Projector(scene, c_frame, {}).project_all();
+  const LongVec point = surface(pieces[0], c_subpixel_bits, 30, 20).position_world;
+  for (const double above : {0.0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4, 1e-2})
+    for (const bool spot : {false, true}) {
+      scene.positional.clear();
+      scene.spots.clear();
+      const glm::dvec3 place = glm::dvec3(point) + glm::dvec3(0.0, 0.0, above);
+      if (spot)
+        scene.spots = {{place, {0.0, 0.0, -1.0}, 0.9, 0.2, glm::dvec3(0.9)}};
+      else
+        scene.positional = {{place, glm::dvec3(0.9)}};
+      shade(trial, scene, fmt::format("a {} {} above a pixel's point", spot ? "spot" : "light", above),
+            {.frame = c_frame});
+    }
+}
+
+void far_light(Trial& trial) {
+  for (const double far : {1e3, 1e6, 1e9, 1e12, 1e30, 1e300})
+    for (const double z : {0.8, -0.1}) {
+      Scene scene = bent(c_shiny, 60.0);
+      scene.positional = {{far * glm::dvec3(0.3, 0.5, z), glm::dvec3(0.9)}};
+      shade(trial, scene, fmt::format("a light {} away", far));
+    }
+}
+
+void light_at_the_eye(Trial& trial) {
+  for (const double scale : {1e-12, 1.0, 1e12}) {
+    Scene scene = bent(c_shiny, 60.0);
+    for (glm::dvec3& p : scene.positions_world) p *= scale;
+    scene.camera.eye_world *= scale;
+    scene.positional = {{scene.camera.eye_world, glm::dvec3(0.9)}};
+    shade(trial, scene, fmt::format("scaled by {}", scale));
+  }
+}
+
+// Normals that the eye is behind: a light right behind the surface shines on them.
+void no_halfway(Trial& trial) {
+  for (const double turned : {95.0, 120.0, 179.0})
+    for (const double exponent : {1.0, 60.0, 8000.0}) {
+      Material material = c_shiny;
+      material.exponent = exponent;
+      Scene scene = lit(material);
+      const double angle = glm::radians(turned);
+      const glm::dvec3 n(std::sin(angle), 0.0, std::cos(angle));
+      add_wall(scene, {n, n, n, n});
+      // A pixel's middle, the eye and the sun in a line.
+      scene.camera.eye_world = {0.03, 0.02, 3.0};
+      scene.camera.target_world = {0.03, 0.02, 0.0};
+      scene.directional = {{{0.0, 0.0, -1.0}, glm::dvec3(0.9)}};
+      shade(trial, scene, fmt::format("normals turned by {} degrees, exponent {}", turned, exponent),
+            {.frame = {49, 37}});
+    }
+}
+
+void opposed_normals(Trial& trial) {
+  const glm::dvec3 n(0.0, 0.0, 1.0), zero(0.0);
+  const std::array<std::array<glm::dvec3, 4>, 5> all = {
+      {{n, -n, n, -n},
+       {n, n, -n, -n},
+       {n, -n, zero, n},
+       {zero, zero, zero, zero},
+       {unit(1, 0, 1e-6), unit(-1, 0, 1e-6), unit(-1, 0, 1e-6), unit(1, 0, 1e-6)}}};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Scene scene = lit(c_shiny);
+    add_wall(scene, all[i]);
+    scene.directional = {{unit(0.1, 0.2, 1.0), glm::dvec3(0.5)}};
+    scene.positional = {{{0.5, 0.5, 1.0}, glm::dvec3(0.5)}};
+    shade(trial, scene, fmt::format("normals {}", i));
+  }
+}
+
+void below_the_horizon(Trial& trial) {
+  for (const double over : {-0.5, -0.05, -1e-4, 0.0, 1e-4, 0.05})
+    for (const double exponent : {1.0, 3.0, 30.0}) {
+      Material material = c_shiny;
+      material.exponent = exponent;
+      Scene scene = bent(material, 20.0);
+      scene.directional = {{unit(0.7, 0.7, over), glm::dvec3(0.9)}};
+      scene.positional = {{{3.0, 0.0, over}, glm::dvec3(0.9)}};
+      shade(trial, scene, fmt::format("lights {} above the horizon, exponent {}", over, exponent));
+    }
+}
+
+void exponents(Trial& trial) {
+  for (const double exponent : {1.0, 1.5, 2.0, 7.0, 50.0, 1000.0, 8191.0, 8191.99, 8192.0, 1e4, 1e6}) {
+    Material material = c_shiny;
+    material.exponent = exponent;
+    Scene scene = bent(material, 3.0);
+    scene.directional = {{unit(0.002, 0.001, 1.0), glm::dvec3(0.9)}};
+    const std::string name = fmt::format("exponent {}", exponent);
+    shade(trial, scene, name);
+    const auto drawn = draw_golden(scene, {.plan = request_of({}, ProcessorForm::unrolled)});
+    trial.require(drawn && drawn->notes.empty() == (exponent < 8192.0),
+                  [&] { return name + ": a note of what is held is missing, or is there in vain"; });
+  }
+}
+
+// Onto the middle of a wall that the cone fills a good part of.
+Scene narrow_spot(double inner, double outer) {
+  const double radius = 3.0 * std::tan(glm::radians(outer));
+  Scene scene = lit({.ambient = 0.0, .diffuse = 1.0, .specular = 0.0});
+  const glm::dvec3 n(0.0, 0.0, 1.0);
+  add_quad(scene,
+           {radius * glm::dvec3(-2, -2, 0), radius * glm::dvec3(2, -2, 0), radius * glm::dvec3(2, 2, 0),
+            radius * glm::dvec3(-2, 2, 0)},
+           {n, n, n, n});
+  scene.camera.eye_world = radius * glm::dvec3(1.0, 0.5, 6.0);
+  const glm::dvec3 place(0.9, 1.2, 2.6);
+  scene.spots = {
+      {place, glm::normalize(-place), std::cos(glm::radians(inner)), std::cos(glm::radians(outer))}};
+  return scene;
+}
+
+void shade_spots(Trial& trial, std::initializer_list<double> inner_parts) {
+  for (const double outer : {0.1, 0.3, 0.5, 0.63, 0.7, 1.0, 3.0, 10.0, 45.0})
+    for (const double inner : inner_parts) {
+      const Scene scene = narrow_spot(inner * outer, outer);
+      shade(trial, scene, fmt::format("a cone of {} degrees within one of {}", inner * outer, outer));
+    }
+}
+void narrow_spots(Trial& trial) {
+  shade_spots(trial, {0.0});
+}
+void hard_spots(Trial& trial) {
+  shade_spots(trial, {0.7, 1.0});
+}
+
+// Sixteen of them, 33 processors.
+Scene many_lights(double each) {
+  Scene scene = bent(
+      {.colour = {1.0, 0.8, 0.5}, .ambient = 1.0, .diffuse = 0.7, .specular = 0.7, .exponent = 3.0}, 30.0);
+  scene.ambient = glm::dvec3(each);
+  for (int i = 0; i < 16; ++i) {
+    const double way = 0.3 * i;
+    const glm::dvec3 place(std::sin(way), std::cos(way), 1.5 + 0.1 * i);
+    if (i % 3 == 0)
+      scene.directional.push_back({glm::normalize(place), glm::dvec3(each)});
+    else if (i % 3 == 1)
+      scene.positional.push_back({place, glm::dvec3(each)});
+    else
+      scene.spots.push_back({place, glm::normalize(-place), 0.95, 0.6, glm::dvec3(each)});
+  }
+  return scene;
+}
+
+void sums_past_white(Trial& trial) {
+  for (const double each : {0.02, 0.06, 0.062, 0.2, 0.26, 1.0, 64.0})
+    shade(trial, many_lights(each), fmt::format("16 lights of {}", each), {.lights = 16});
+}
+
+void products_held(Trial& trial) {
+  for (const double k : {1.0, 4.0, 16.0, 100.0})
+    for (const double intensity : {1.0, 16.0, 64.0, 65.0, 1000.0}) {
+      Scene scene = bent(
+          {.colour = {1.0, 0.3, 0.01}, .ambient = 0.0, .diffuse = k, .specular = k, .exponent = 500.0}, 10.0);
+      // A hundredth of it, so that what is held shows.
+      scene.directional = {{unit(1.0, 0.0, 0.01), glm::dvec3(intensity)}};
+      shade(trial, scene, fmt::format("k {} of a light of {}", k, intensity));
+    }
+}
+
+void scales(Trial& trial) {
+  RandomScenes random(2);
+  for (int i = 0; i < trial.rounds(1, 10); ++i)
+    for (const double scale : {1e-30, 1e-9, 1e-3, 1e3, 1e9, 1e30}) {
+      Scene scene = lit(c_shiny);
+      RandomScenes::set_mesh(scene, make_uv_sphere(9, 7, 1.0));
+      scene.camera.eye_world = {0.0, 0.3, 3.4};
+      random.add_lights(scene, 2, RandomScenes::any, 1.0, false);
+      for (glm::dvec3& p : scene.positions_world) p *= scale;
+      for (PositionalLight& l : scene.positional) l.position_world *= scale;
+      for (SpotLight& l : scene.spots) l.position_world *= scale;
+      scene.camera.eye_world *= scale;
+      shade(trial, scene, fmt::format("scene {} scaled by {}", i, scale));
+    }
+}
+
+// Surfaces from a thousandth of the scene's size before the eye on, and lights as near.
+void near_the_eye(Trial& trial) {
+  RandomScenes random(4);
+  for (int i = 0; i < trial.rounds(6, 200); ++i) {
+    Scene scene = lit(c_shiny);
+    random.add_triangles(scene, 12, 0.8, 0.6);
+    random.add_lights(scene, 2, RandomScenes::any, 1.0, false);
+    scene.camera.eye_world = random.within(0.3, 1.2) * random.unit();
+    scene.camera.target_world = random.cube();
+    scene.camera.near = random.log_within(1e-3, 0.5);
+    scene.camera.far = 10.0;
+    if (!scene.positional.empty())
+      scene.positional[0].position_world =
+          scene.camera.eye_world + random.log_within(1e-6, 0.1) * random.unit();
+    shade(trial, scene, fmt::format("scene {}", i));
+  }
+}
+
+// Without shadows every object of a pixel is shaded.
+void objects_at_a_pixel(Trial& trial) {
+  for (const int layers : {1, 2, 64}) {
+    Scene scene = lit(c_shiny);
+    for (int i = 0; i < layers; ++i) {
+      const glm::dvec3 n = unit(std::sin(i), std::cos(i), 2.0);
+      add_wall(scene, {n, n, n, n}, -0.01 * (i % 7));
+    }
+    scene.directional = {{unit(0.1, 0.2, 1.0), glm::dvec3(0.9)}};
+    shade(trial, scene, fmt::format("{} objects at a pixel", layers),
+          {.frame = {12, 9}, .all_effects = false});
+  }
+}
+
+using Request = golden::Exact::request_header_at;
+
+// What the host sends.
+struct Stream {
+  HardwareKey key;
+  unsigned words_each;
+  std::vector<std::uint32_t> prologue, units;
+};
+
+Stream stream_of(const Scene& scene, FrameSize frame, Preset preset, ProcessorForm form) {
+  Stream stream{};
+  const auto plan = plan_scene(scene, request_of({.preset = preset}, form));
+  if (!plan) return stream;
+  stream.key = plan->key;
+  const auto setup = make_setup(scene, frame, stream.key, {});
+  stream.words_each = (setup->init_bits() + 31) / 32;
+  SetupCounts counts;
+  setup->append_prologue(stream.prologue, counts);
+  for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, stream.units, counts);
+  return stream;
+}
+
+std::span<std::uint32_t> vector_of(std::vector<std::uint32_t>& words, const Stream& stream, std::size_t i) {
+  return std::span(words).subspan(i * stream.words_each, stream.words_each);
+}
+
+bool same(std::span<const Fragment> a, std::span<const Fragment> b) {
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(), [](const Fragment& f, const Fragment& g) {
+           return f.triangle == g.triangle && f.x == g.x && f.y == g.y && f.z == g.z && f.red == g.red &&
+                  f.green == g.green && f.blue == g.blue;
+         });
+}
+
+// A frame after another frame must be what it is on its own, whatever the lights were.
+void lights_between_frames(Trial& trial) {
+  constexpr FrameSize c_frame{24, 18};
+  RandomScenes random(7);
+  const auto with_lights = [&](int count) {
+    Scene scene = bent(c_shiny, 60.0);
+    scene.ambient = random.colour(false);
+    random.add_lights(scene, count, RandomScenes::any, 1.0, false);
+    return scene;
+  };
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (const ProcessorForm form : c_forms)
+      for (int i = 0; i < trial.rounds(2, 20); ++i) {
+        Stream a = stream_of(with_lights(2), c_frame, preset, form),
+               b = stream_of(with_lights(2), c_frame, preset, form),
+               dark = stream_of(with_lights(0), c_frame, preset, form);
+        const auto alone = [&](const Stream& frame) {
+          std::vector<std::uint32_t> words = frame.prologue;
+          words.insert(words.end(), frame.units.begin(), frame.units.end());
+          return trial.draw(frame.key, words);
+        };
+        const auto command = [&](std::vector<std::uint32_t> words, golden::Command c) {
+          // Behind new_frame and the ambient light.
+          for (std::size_t v = 1; v < words.size() / a.words_each; ++v)
+            golden::set_bits(vector_of(words, a, v), Request::command, static_cast<std::uint32_t>(c));
+          return words;
+        };
+        std::vector<std::uint32_t> all;
+        std::vector<Fragment> wanted;
+        const auto frame = [&](const std::vector<std::uint32_t>& prologue, const Stream& units,
+                               const std::vector<Fragment>& fragments) {
+          all.insert(all.end(), prologue.begin(), prologue.end());
+          all.insert(all.end(), units.units.begin(), units.units.end());
+          wanted.insert(wanted.end(), fragments.begin(), fragments.end());
+        };
+        frame(a.prologue, a, alone(a));
+        frame(command(b.prologue, golden::Command::redefine), b, alone(b));
+        frame(b.prologue, b, alone(b));
+        // All but the ambient light go; a light that is gone is not redefined.
+        std::vector<std::uint32_t> gone = dark.prologue;
+        const std::vector<std::uint32_t> removed = command(a.prologue, golden::Command::remove),
+                                         redefined = command(a.prologue, golden::Command::redefine);
+        for (const auto* words : {&removed, &redefined})
+          gone.insert(gone.end(), words->begin() + 2 * a.words_each, words->end());
+        frame(gone, dark, alone(dark));
+        frame(a.prologue, a, alone(a));
+        const bool equal = same(trial.draw(a.key, all), wanted);
+        const auto where = [&] { return fmt::format("{}, scenes {}", a.key.name(), i); };
+        preset == Preset::exact ? trial.ours(!equal, 0, where) : trial.published(!equal, 0, where);
+      }
+}
+
+// Numbers that are none: what they reach may be anything of the format, and each pixel still comes once.
+void not_numbers(Trial& trial) {
+  constexpr FrameSize c_frame{48, 36};
+  constexpr double c_nan = std::numeric_limits<double>::quiet_NaN(),
+                   c_infinite = std::numeric_limits<double>::infinity();
+  for (const double bad : {c_nan, c_infinite, -c_infinite, 1e308, 5e-324, -1.0})
+    for (int place = 0; place < 12; ++place) {
+      Scene scene = bent(c_shiny, 60.0);
+      scene.positional = {{{0.3, 0.4, 2.0}, glm::dvec3(0.9)}};
+      scene.spots = {{{0.3, 0.4, 2.0}, unit(-0.3, -0.4, -2.0), 0.95, 0.8, glm::dvec3(0.9)}};
+      const std::array<double*, 12> places = {&scene.materials[0].diffuse,
+                                              &scene.materials[0].exponent,
+                                              &scene.materials[0].colour.g,
+                                              &scene.ambient.r,
+                                              &scene.positional[0].intensity.b,
+                                              &scene.positional[0].position_world.x,
+                                              &scene.positional[0].position_world.z,
+                                              &scene.spots[0].axis_world.y,
+                                              &scene.spots[0].cos_inner,
+                                              &scene.spots[0].cos_outer,
+                                              &scene.normals_world[1].x,
+                                              &scene.normals_world[2].z};
+      *places[static_cast<std::size_t>(place)] = bad;
+      for (const Preset preset : {Preset::exact, Preset::published}) {
+        const Drawing drawing = draw(trial, scene, {.preset = preset, .frame = c_frame});
+        std::map<std::pair<int, int>, int> drawn;
+        for (const Fragment& f : drawing.fragments) ++drawn[{f.x, f.y}];
+        for (const ScreenTriangle& t : Projector(scene, c_frame, {}).project_all())
+          for_each_covered({{{t.vertex[0].x, t.vertex[0].y},
+                             {t.vertex[1].x, t.vertex[1].y},
+                             {t.vertex[2].x, t.vertex[2].y}}},
+                           c_subpixel_bits, c_frame, [&](std::int64_t x, std::int64_t y) {
+                             --drawn[{static_cast<int>(x), static_cast<int>(y)}];
+                           });
+        int wrong = drawing.fault;
+        for (const auto& [at, count] : drawn) wrong += std::abs(count);
+        const auto where = [&] { return fmt::format("{} as number {}", bad, place); };
+        preset == Preset::exact ? trial.ours(wrong, 0, where) : trial.published(wrong, 0, where);
+      }
+    }
+}
+
+constexpr HardCase c_cases[] = {
+    {"A light's distance in the halfway vector",
+     "processors, table of terms: (E + P_p − P)/abs(E + P_p − P) adds a unit vector and one of the light's "
+     "distance",
+     "L is made unit before V is added", "the illumination model within the units' errors", "colour steps",
+     Published::breaks, halfway_vectors},
+    {"Normals not made unit", "processors, version I: N.H falls by cos(edge/2), its power by cos(edge/2)^m",
+     "N is normalized wherever it turns", "the illumination model within the units' errors", "colour steps",
+     Published::breaks, unnormalized},
+    {"N and P across a floor", "processors, section 5: N and P straight across the screen",
+     "N/w, the view ray and 1/w are interpolated", "the illumination model within the units' errors",
+     "colour steps", Published::breaks, perspective},
+    {"A light at the surface's own point", "processors: (P_p − P)/abs(P_p − P), 0/0",
+     "block shift before the square; a zero vector stays one",
+     "the illumination model within the units' errors; at the point itself any colour of the light",
+     "colour steps", Published::breaks, light_at_the_surface},
+    {"A light 10^3 to 10^300 of the scene's size away", "processors: P_p − P in words of one scale",
+     "a light's place has a power of two of its own; past 2^31 it is drawn as a direction, and noted",
+     "the illumination model within the units' errors", "colour steps", Published::breaks, far_light},
+    {"A light at the eye", "processors: a constant E", "V of each point, from the view ray",
+     "the illumination model within the units' errors", "colour steps", Published::breaks, light_at_the_eye},
+    {"L = −V: the halfway vector 0/0", "processors and spherical, equation 1: (L + V)/abs(L + V)",
+     "a zero vector stays one, without light", "the illumination model within the units' errors",
+     "colour steps", Published::breaks, no_halfway},
+    {"Normals opposed, or zero", "processors: N/abs(N), 0/0",
+     "a zero vector stays one; a flat face's own normal",
+     "the illumination model within the units' errors, which where N vanishes is any", "colour steps",
+     Published::breaks, opposed_normals},
+    {"Highlights below the horizon", "processors: I_out = I_in + k I (N.H)^m, whatever N.L is",
+     "no highlight where N.L <= 0", "the illumination model within the units' errors", "colour steps",
+     Published::breaks, below_the_horizon},
+    {"Exponents from 1 to 8191 and past them", "processors, section 4: the power by a table",
+     "log2 and 2^-x interpolated; held at 8192, and noted", "the illumination model within the units' errors",
+     "colour steps", Published::breaks, exponents},
+    {"Spots as narrow as 0.1 degrees", "processors: no spots; their units resolve a cosine to 2^-7",
+     "a cosine within 2^-19, the edge's slope up to 2^18; cones of less than 0.63 degrees are noted",
+     "the illumination model within the units' errors, which a narrow cone magnifies", "colour steps",
+     Published::breaks, narrow_spots},
+    {"Spots with a hard edge", "processors: no spots; their units resolve a cosine to 2^-7",
+     "a cosine within 2^-19, the edge's slope up to 2^18",
+     "the illumination model within the units' errors: at the edge's own pixels any share of the light",
+     "colour steps", Published::breaks, hard_spots},
+    {"Sums past white over 33 processors", "processors, section 2: I_out = I_in + k I (N.A)^x, integers",
+     "22 bits of radiance, saturating", "the illumination model, at most white", "colour steps",
+     Published::breaks, sums_past_white},
+    {"k and I past their formats", "processors: intensities and coefficients are integers",
+     "k up to 16, I and k I up to 64 times white; what is held is noted",
+     "the illumination model of what is held", "colour steps", Published::breaks, products_held},
+    {"Scenes from 10^-30 to 10^30", "processors: a unit E beside P_p − P", "every scale is a power of two",
+     "the illumination model within the units' errors", "colour steps", Published::breaks, scales},
+    {"Surfaces and lights right before the eye", "processors: N and P straight across the screen",
+     "the near plane cuts; planes hold 2^13 times what is drawn",
+     "the illumination model within the units' errors", "colour steps", Published::breaks, near_the_eye},
+    {"Many objects at one pixel", "processors, section 3: new object", "each carries its own N and material",
+     "the illumination model within the units' errors", "colour steps", Published::breaks,
+     objects_at_a_pixel},
+    {"Lights redefined and deleted between frames", "processors, section 3: redefine, delete",
+     "a register of validity beside each light's", "each frame as it is alone", "frames that differ",
+     Published::holds, lights_between_frames},
+    {"NaN, infinities and negative numbers", "the host's conversions to integers",
+     "held within the format; NaN is nothing", "each covered pixel once", "pixels", Published::holds,
+     not_numbers},
+};
+
+}  // namespace
+
+const Family c_processors{"processors", c_cases};
+
+}  // namespace halfway::stability
