@@ -275,18 +275,13 @@ void fractional_edges(Trial& trial) {
   }
   const auto each = [&](const HardwareKey& key, std::span<const std::uint32_t> of, int fraction_bits,
                         auto&& figure) {
-    // At most 61 lines, a carry each, and 97 pixels: the formats' bound on second differences.
-    const double k = 61 + 61 + 97, bound = 0.5 + std::ldexp(1 + k + k * k / 2, -fraction_bits - 1);
     for (const Fragment& f : trial.draw(key, of)) {
       const ScreenPiece& piece = pieces[f.triangle];
-      const auto b =
-          barycentric(piece.points, centre(f.x, c_subpixel_bits), centre(f.y, c_subpixel_bits)).real();
-      std::array<long double, 6> sample;
-      std::ranges::copy(piece.sample, sample.begin());
-      const long double exact = std::clamp(quadratic(b, sample), 0.0L, 255.0L);
-      figure(static_cast<double>(std::abs(f.red - exact)), bound, [&] {
-        return fmt::format("pixel {},{} of {}", f.x, f.y, name_of(piece.points, piece.unit_bits));
-      });
+      const long double exact = std::clamp(exact_colour(piece, f.x, f.y), 0.0L, 255.0L);
+      figure(static_cast<double>(std::abs(f.red - exact)),
+             colour_bound(most_steps(piece, c_frame), fraction_bits), [&] {
+               return fmt::format("pixel {},{} of {}", f.x, f.y, name_of(piece.points, piece.unit_bits));
+             });
     }
   };
   each(c_exact_key, words, golden::Exact::c_intensity_fraction_bits,
@@ -381,7 +376,7 @@ double holes(const Floor& floor, FrameSize frame, const std::vector<Fragment>& f
 
 void near_plane(Trial& trial) {
   std::mt19937 random(10);
-  for (int i = 0; i < trial.rounds(12, 600); ++i) {
+  for (int i = 0; i < trial.rounds(12, 5'000); ++i) {
     const Floor floor = random_floor(random);
     const auto where = [&] { return fmt::format("floor {}", i); };
     DrawOptions options{.frame = c_frame};

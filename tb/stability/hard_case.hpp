@@ -35,6 +35,7 @@ struct Family {
 };
 
 extern const Family c_edges;
+extern const Family c_quadratic;
 extern const Family c_spherical;
 extern const Family c_processors;
 
