@@ -148,9 +148,7 @@ struct Excess {
 class TriangleChecker final : public Checker {
  public:
   explicit TriangleChecker(SimulatorFolders folders)
-      : folders_(std::move(folders)),
-        golden_{make_golden_model(key_of(1)), make_golden_model(key_of(3))},
-        rtl_(folders_, true) {}
+      : folders_(std::move(folders)), golden_{make_golden_model(key_of(1)), make_golden_model(key_of(3))} {}
 
   std::optional<Failure> check(const Input& input, Tally& tally) override {
     const Subject s = subject_of(input);
@@ -218,14 +216,11 @@ class TriangleChecker final : public Checker {
         append(s, static_cast<std::uint32_t>(i), words_);
         ++tally.rtl_inputs;
       }
-      const std::uint64_t before = rtl_.rtl_fragments();
-      rtl_.draw(key_of(channels), words_);
-      tally.rtl_fragments += rtl_.rtl_fragments() - before;
-      if (!rtl_.tools()) return rtl_.tools().error();
-      if (rtl_.failure().empty()) continue;
-      const Failure failure{"rtl", rtl_.failure()};
-      rtl_ = Trial(folders_, true);
-      return std::optional(failure);
+      Trial trial(folders_, rtl_, true);
+      trial.draw(key_of(channels), words_);
+      tally.rtl_fragments += trial.rtl_fragments();
+      if (!trial.tools()) return trial.tools().error();
+      if (!trial.failure().empty()) return std::optional(Failure{"rtl", trial.failure()});
     }
     return std::optional<Failure>{};
   }
@@ -295,7 +290,7 @@ class TriangleChecker final : public Checker {
 
   SimulatorFolders folders_;
   std::array<std::unique_ptr<GoldenModel>, 2> golden_;
-  Trial rtl_;
+  Simulators rtl_;
   std::vector<std::uint32_t> words_;
   std::vector<Fragment> fragments_;
 };
