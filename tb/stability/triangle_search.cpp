@@ -306,8 +306,8 @@ class TriangleSearch final : public Search {
   }
   std::span<const Parameter> parameters() const override { return c_parameters; }
   std::uint64_t full_count() const override { return 10'000'000; }
-  std::uint64_t quick_count() const override { return 40'000; }
-  std::uint64_t rtl_every() const override { return 100; }
+  std::uint64_t quick_count() const override { return 20'000; }
+  std::uint64_t rtl_every() const override { return 25; }
   std::unique_ptr<Checker> checker(const SimulatorFolders& folders) const override {
     return std::make_unique<TriangleChecker>(folders);
   }
