@@ -31,13 +31,13 @@ constexpr std::int64_t c_least_depth = std::int64_t{1} << c_depth_bits,
 constexpr std::int64_t c_least_place = c_guard_begin * 16, c_greatest_place = c_guard_end * 16;
 
 constexpr Parameter place(std::string_view name) {
-  return {name, 0, c_least_place, c_greatest_place};
+  return {name, 0, c_least_place, c_greatest_place, 8};
 }
 constexpr Parameter depth(std::string_view name) {
-  return {name, c_least_depth, c_least_depth, c_greatest_depth};
+  return {name, c_least_depth, c_least_depth, c_greatest_depth, 1 << c_depth_bits};
 }
 constexpr Parameter sample(std::string_view name) {
-  return {name, 0, 0, c_greatest_sample};
+  return {name, 0, 0, c_greatest_sample, 1 << c_sample_bits};
 }
 
 // A triangle's corners in 1/16 pixel; how often it is split, and which quarter is taken each time, two bits
