@@ -37,5 +37,7 @@ struct Family {
 extern const Family c_edges;
 extern const Family c_spherical;
 extern const Family c_processors;
+extern const Family c_illumination;
+extern const Family c_conversions;
 
 }  // namespace halfway::stability
