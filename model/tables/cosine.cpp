@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "common/to_integer.hpp"
 #include "tables/wrapped_numbers.hpp"
 
 namespace halfway::tables {
@@ -57,7 +58,7 @@ std::uint32_t correctly_rounded(const CosineTable& table, int entry) {
     throw std::logic_error(fmt::format(
         "cosine table: entry {} of cos^{}, {}/{} bits, is too near a tie to be rounded in long double", entry,
         table.power, table.address_bits, table.data_bits));
-  return static_cast<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
+  return to_integer<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
 }
 
 constexpr std::string_view preset_name(bool exact) {

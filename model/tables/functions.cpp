@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "common/to_integer.hpp"
 #include "tables/wrapped_numbers.hpp"
 
 namespace halfway::tables {
@@ -45,7 +46,7 @@ std::uint32_t correctly_rounded(const FunctionTable& table, int index) {
   if (std::fabs(above_tie) <= doubt)
     throw std::logic_error(fmt::format("{}: value {} is too near a tie to be rounded in long double",
                                        name_of(table.function), index));
-  const auto rounded = static_cast<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
+  const auto rounded = to_integer<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
   // The value behind the last cell serves a difference alone.
   if (index == 1 << table.address_bits) return rounded;
   return std::min(rounded, (std::uint32_t{1} << table.value_bits) - 1);

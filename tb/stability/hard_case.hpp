@@ -38,5 +38,7 @@ extern const Family c_edges;
 extern const Family c_quadratic;
 extern const Family c_spherical;
 extern const Family c_processors;
+extern const Family c_illumination;
+extern const Family c_conversions;
 
 }  // namespace halfway::stability
