@@ -37,5 +37,6 @@ struct Family {
 extern const Family c_edges;
 extern const Family c_spherical;
 extern const Family c_processors;
+extern const Family c_shadows;
 
 }  // namespace halfway::stability
