@@ -41,9 +41,19 @@ class Rays {
   explicit Rays(const Scene& scene)
       : scene_(scene), corners_(all_corners(scene)), lights_(reflected_lights(scene)) {}
 
+  LongVec way_to(std::size_t light, const LongVec& point) const {
+    const LightPoint from = light_point(scene_, lights_[light]);
+    return LongVec(from.xyz_world) - (long double)from.w * point;
+  }
+  long double grazing(std::size_t light, const LongVec& point, std::uint32_t triangle) const {
+    const auto& [a, b, c] = corners_[triangle];
+    const LongVec normal = glm::cross(LongVec(b) - LongVec(a), LongVec(c) - LongVec(a));
+    return std::abs(glm::dot(glm::normalize(normal), glm::normalize(way_to(light, point))));
+  }
+
   bool reaches(std::size_t light, const LongVec& point, std::uint32_t triangle) const {
     const LightPoint from = light_point(scene_, lights_[light]);
-    const LongVec way = LongVec(from.xyz_world) - (long double)from.w * point;
+    const LongVec way = way_to(light, point);
     if (slope(triangle, way) < 0.0L) return false;
     for (std::uint32_t t = 0; t < corners_.size(); ++t)
       if (t != triangle && casts(t, point, way, from.w != 0.0)) return false;
@@ -77,7 +87,8 @@ class Rays {
 struct Seen {
   const ScreenTriangle* piece = nullptr;
   std::array<bool, c_lights> drawn{}, wanted{};
-  std::array<double, c_lights> steps{};  ///< that the light would add
+  std::array<double, c_lights> steps{};    ///< that the light would add
+  std::array<double, c_lights> grazing{};  ///< sine of its angle over the triangle
 };
 
 // All that a frame shows, by pixel.
@@ -100,6 +111,7 @@ std::vector<Seen> look(Trial& trial, const Scene& scene, FrameSize frame,
     for (std::size_t i = 0; i < c_lights; ++i) {
       pixel.wanted[i] = rays.reaches(i, point, f.triangle);
       pixel.steps[i] = static_cast<double>(promise.exact[i]);
+      pixel.grazing[i] = static_cast<double>(rays.grazing(i, point, f.triangle));
       const auto lit = static_cast<double>(std::abs(promise.exact[i] - drawn[i]));
       // Where a light would add less than a step there is nothing to be seen of it.
       const bool hidden = promise.range[i].low < 1.0L;
@@ -113,7 +125,7 @@ std::vector<Seen> look(Trial& trial, const Scene& scene, FrameSize frame,
 }
 
 struct Sum {
-  std::uint64_t pixels = 0, differ = 0, dark = 0, bright = 0;
+  std::uint64_t pixels = 0, at_edge = 0, differ = 0, dark = 0, bright = 0;
 };
 
 // Pixels that a light reaches or not, other than by rays, and whose neighbours' rays all agree with the
@@ -125,17 +137,20 @@ void off_the_edge(const std::vector<Seen>& seen, FrameSize frame, Sum& sum, Wron
       const Seen& pixel = seen[std::size_t{y} * frame.width + x];
       if (pixel.piece == nullptr) continue;
       for (std::size_t light = 0; light < c_lights; ++light) {
-        ++sum.pixels;
-        ++(pixel.wanted[light] ? sum.bright : sum.dark);
-        if (pixel.drawn[light] == pixel.wanted[light]) continue;
-        ++sum.differ;
         bool at_edge = false;
         for (std::uint32_t v = y > 0 ? y - 1 : 0; v < std::min(y + 2, frame.height); ++v)
           for (std::uint32_t u = x > 0 ? x - 1 : 0; u < std::min(x + 2, frame.width); ++u) {
             const Seen& beside = seen[std::size_t{v} * frame.width + u];
             at_edge = at_edge || beside.piece == nullptr || beside.wanted[light] != pixel.wanted[light];
           }
-        if (!at_edge) wrong(x, y, light, pixel);
+        ++sum.pixels;
+        sum.at_edge += at_edge;
+        ++(pixel.wanted[light] ? sum.bright : sum.dark);
+        if (pixel.drawn[light] == pixel.wanted[light]) continue;
+        if (at_edge)
+          ++sum.differ;
+        else
+          wrong(x, y, light, pixel);
       }
     }
 }
@@ -200,8 +215,15 @@ void set_colours(Scene& scene) {
   scene.spots.at(0).intensity = {0.0, 0.0, 1.0};
 }
 
-// Pixels off the shadows' edges, a figure a scene; and how many differ at all.
-void cast(Trial& trial, Scene scene, std::string_view name, Sum& sum) {
+// Off the shadows' edges light may be wrong where it grazes a triangle: a volume's side rises from it by the
+// light's angle there, a, and both are on the screen as their vertices are, each up to a 32nd of a pixel off
+// in x and in y. Seen under an angle b, d pixels from the side's foot their depths are d a / cos^2 b apart,
+// and off by tan b sqrt(2) / 16: the side is behind the triangle where d < sqrt(2) / 16 sin b cos b / a. So
+// a pixel off an edge, d >= 1, has a < sqrt(2) / 32, and as much again for the edge's own place.
+constexpr double c_grazing = 1.4143 / 16;
+
+// The light's angle over the triangle where a pixel is wrong off the shadows' edges.
+void cast(Trial& trial, Scene scene, std::string_view name, Sum& sum, bool with_published = true) {
   set_colours(scene);
   const FrameSize frame = frame_of(trial);
   Drawing drawing;
@@ -210,25 +232,30 @@ void cast(Trial& trial, Scene scene, std::string_view name, Sum& sum) {
   trial.require(!drawing.fault, [&] { return fmt::format("{}: fault", name); });
   const auto pieces = Projector(scene, frame, {}).project_all();
   const std::vector<Seen> seen = look(trial, scene, frame, drawing.fragments, pieces);
-  int wrong = 0;
-  std::string first{name};
+  const auto where = [&](std::uint32_t x, std::uint32_t y, std::size_t light, const Seen& pixel) {
+    return fmt::format("{}, {} by {}: pixel ({}, {}), light {} of {:.3g} steps", name, frame.width,
+                       frame.height, x, y, light + 1, pixel.steps[light]);
+  };
+  trial.ours(0, c_grazing, [&] { return std::string(name); });
   off_the_edge(seen, frame, sum, [&](std::uint32_t x, std::uint32_t y, std::size_t light, const Seen& pixel) {
-    if (wrong++ == 0)
-      first = fmt::format("{}, {} by {}: pixel ({}, {}), light {} of {:.3g} steps", name, frame.width,
-                          frame.height, x, y, light + 1, pixel.steps[light]);
+    ++sum.grazed;
+    sum.most_steps = std::max(sum.most_steps, pixel.steps[light]);
+    trial.ours(pixel.grazing[light], c_grazing, [&] { return where(x, y, light, pixel); });
   });
-  trial.ours(wrong, 0, [&] { return first; });
+  if (!with_published) return;
   Sum published;
-  int wrong_published = 0;
+  trial.published(0, c_grazing, [&] { return std::string(name); });
   off_the_edge(counted_as_published(scene, frame, seen, drawing.fragments), frame, published,
-               [&](std::uint32_t, std::uint32_t, std::size_t, const Seen&) { ++wrong_published; });
-  trial.published(wrong_published, 0, [&] { return std::string(name); });
+               [&](std::uint32_t x, std::uint32_t y, std::size_t light, const Seen& pixel) {
+                 trial.published(pixel.grazing[light], c_grazing, [&] { return where(x, y, light, pixel); });
+               });
 }
 
-// At the edges as well no more than one pixel in a thousand.
+// A vertex on the screen is up to a 32nd of a pixel off, so that an edge sweeps a 16th of its pixels at most.
 void finish(Trial& trial, const Sum& sum) {
-  trial.require(sum.differ * 1000 <= sum.pixels,
-                [&] { return fmt::format("{} of {} pixels differ", sum.differ, sum.pixels); });
+  trial.require(sum.differ * 16 <= sum.at_edge, [&] {
+    return fmt::format("{} pixels differ of {} along edges, {} in all", sum.differ, sum.at_edge, sum.pixels);
+  });
   trial.require(sum.dark * 20 > sum.pixels && sum.bright * 20 > sum.pixels, [&] {
     return fmt::format("{} pixels dark and {} bright are no trial", sum.dark, sum.bright);
   });
@@ -319,16 +346,15 @@ void terminators(Trial& trial) {
     scene.positional[0].position_world = {0.3, 2.0, 2.0};
     scene.spots[0].position_world = {0.5, -2.5, 1.0};
     scene.spots[0].axis_world = glm::normalize(-scene.spots[0].position_world);
-    cast(trial, scene, fmt::format("sphere {}", i), sum);
+    cast(trial, scene, fmt::format("sphere {}", i), sum, false);
   }
   finish(trial, sum);
 }
 
-// Plates that touch and lie on one another, the sun almost in their plane: which pixels are dark is then left
-// to the last bits of depths and rays, so the figure is how much light that moves.
+// Plates that touch and lie on one another, the lights almost in their plane.
 void plates(Trial& trial) {
   RandomSolids random(13);
-  const FrameSize frame = frame_of(trial);
+  Sum sum;
   for (int i = 0; i < trial.rounds(4, 40); ++i) {
     Scene scene = random.scene(0);
     double top = 0.0;
@@ -349,21 +375,19 @@ void plates(Trial& trial) {
     scene.positional[0].position_world = {3.0, top + 3.0 * over, random.within(-1, 1)};
     scene.spots[0].position_world = {-3.0, top + 3.0 * over, random.within(-1, 1)};
     scene.spots[0].axis_world = glm::normalize(-scene.spots[0].position_world);
-    set_colours(scene);
-    Drawing drawing;
-    for (const ProcessorForm form : c_forms)
-      drawing = trial.draw(scene, {.plan = request_of(form), .frame = frame});
-    trial.require(!drawing.fault, [&] { return fmt::format("scene {}: fault", i); });
-    const auto pieces = Projector(scene, frame, {}).project_all();
-    Sum sum;
-    off_the_edge(look(trial, scene, frame, drawing.fragments, pieces), frame, sum,
-                 [&](std::uint32_t x, std::uint32_t y, std::size_t light, const Seen& pixel) {
-                   trial.ours(pixel.steps[light], 12, [&] {
-                     return fmt::format("scene {}: pixel ({}, {}), light {}", i, x, y, light + 1);
-                   });
-                 });
-    trial.ours(0, 12, [&] { return fmt::format("scene {}", i); });
+    cast(trial, scene, fmt::format("scene {}", i), sum);
   }
+  finish(trial, sum);
+}
+
+// Of a wall, which casts nothing.
+void add_front(Scene& scene, double z) {
+  Mesh wall = make_box({40.0, 40.0, 0.1}, 1);
+  for (glm::dvec3& p : wall.positions) p.z += z;
+  std::erase_if(wall.triangles, [&](const SceneTriangle& t) {
+    return std::ranges::any_of(t.position, [&](std::uint32_t p) { return wall.positions[p].z < z; });
+  });
+  add_mesh(scene, wall);
 }
 
 using Request = golden::Exact::request_header_at;
@@ -394,6 +418,9 @@ std::vector<std::uint32_t> counted(const Scene& scene, FrameSize frame, Processo
       counted = true;
       for (int i = 0; i < opening + closing; ++i)
         for (std::size_t depth = 0; depth < at; depth += size) {
+          if (golden::get_bits(std::span(line).subspan(depth, size), Request::command) !=
+              static_cast<std::uint32_t>(golden::Command::depth))
+            continue;
           const std::size_t begin = words.size();
           words.insert(words.end(), line.begin() + static_cast<std::ptrdiff_t>(depth),
                        line.begin() + static_cast<std::ptrdiff_t>(depth + size));
@@ -415,8 +442,7 @@ void counters(Trial& trial) {
   constexpr FrameSize c_frame{8, 1};
   RandomSolids random(1);
   Scene scene = random.scene(0);
-  Mesh wall = make_box({30.0, 30.0, 0.5}, 1);
-  add_mesh(scene, wall);
+  add_front(scene, 0.0);
   scene.camera = {.eye_world = {0.0, 0.0, 5.0}};
   scene.directional[0].to_light_world = {0.0, 0.0, 1.0};
   set_colours(scene);
@@ -440,14 +466,16 @@ void counters(Trial& trial) {
                                {0, 0, c_most + 2}};
   for (const ProcessorForm form : c_forms)
     for (const auto& [around, opening, closing] : c_counts) {
+      const int count = around + opening - closing;
+      const bool fault = count < 0 || opening > c_most || opening - closing < -c_most - 1;
+      // Behind a fault the hardware is opened anew.
+      if (trial.quick() && fault && form == ProcessorForm::folded && opening > 0) continue;
       HardwareKey key;
       const auto words = counted(scene, c_frame, form, around, opening, closing, key);
       const auto golden = make_golden_model(key);
       std::vector<Fragment> fragments;
       golden->draw(words, fragments);
       trial.draw(key, words);
-      const int count = around + opening - closing;
-      const bool fault = count < 0 || opening > c_most || opening - closing < -c_most - 1;
       int wrong = golden->fault() != fault;
       for (const Fragment& f : fragments) wrong += !fault && (f.red > 200) != (count == 0);
       wrong += fragments.size() != c_frame.width;
@@ -464,13 +492,12 @@ Scene sheets(int count) {
   scene.directional.resize(1);
   scene.positional = {{{3.0, 3.0, 3.0}, glm::dvec3(1.0)}};
   scene.spots.resize(1);
-  for (int i = 0; i <= count; ++i) {
-    const bool wall = i == count;
-    Mesh sheet = make_box(wall ? glm::dvec3(40.0, 40.0, 0.1) : glm::dvec3(0.5, 0.5, 0.001), 1);
-    for (glm::dvec3& p : sheet.positions)
-      p += wall ? glm::dvec3(0.0, 0.0, -8.0) : glm::dvec3(1.0, 0.2, -0.003 * i);
+  for (int i = 0; i < count; ++i) {
+    Mesh sheet = make_box({0.5, 0.5, 0.001}, 1);
+    for (glm::dvec3& p : sheet.positions) p += glm::dvec3(1.0, 0.2, -0.003 * i);
     add_mesh(scene, sheet);
   }
+  add_front(scene, -8.0);
   set_colours(scene);
   scene.positional[0].intensity = scene.spots[0].intensity = glm::dvec3(0.0);
   scene.directional[0] = {glm::normalize(glm::dvec3(0.02, 0.01, 1.0)), glm::dvec3(1.0)};
@@ -480,17 +507,18 @@ Scene sheets(int count) {
 
 void deep_shadows(Trial& trial) {
   const FrameSize frame{24, 18};
-  for (const int count : {40, 511, 512, 600}) {
-    if (trial.quick() && count == 600) continue;
+  for (const int count : {40, 500, 511, 512, 600}) {
+    if (trial.quick() && (count == 500 || count == 512)) continue;
     const Scene scene = sheets(count);
     const Drawing drawing = trial.draw(scene, {.plan = request_of(ProcessorForm::unrolled), .frame = frame});
-    // Each sheet's volume begins before the wall's shadow, and none around the eye.
-    const bool past = count > static_cast<int>(c_most_shadows);
-    trial.ours(std::abs(static_cast<double>(drawing.counts.deepest_shadow) - count), 0, [&] {
-      return fmt::format("{} sheets: setup counts {}", count, drawing.counts.deepest_shadow);
-    });
-    trial.ours(drawing.fault != past, 0, [&] { return fmt::format("{} sheets: fault", count); });
-    if (past) continue;
+    // What setup counts may be more, by sides that are thinner than a pixel: never less.
+    const std::uint64_t deepest = drawing.counts.deepest_shadow;
+    const bool refused = deepest > c_most_shadows;
+    trial.ours(deepest < static_cast<std::uint64_t>(count) || (refused && count < 500), 0,
+               [&] { return fmt::format("{} sheets: setup counts {}", count, deepest); });
+    trial.ours(drawing.fault && !refused, 0, [&] { return fmt::format("{} sheets: fault", count); });
+    trial.ours(!drawing.fault && count > 520, 0, [&] { return fmt::format("{} sheets: no fault", count); });
+    if (drawing.fault) continue;
     const auto pieces = Projector(scene, frame, {}).project_all();
     const Rays rays(scene);
     for (const Fragment& f : drawing.fragments)
@@ -506,34 +534,30 @@ void deep_shadows(Trial& trial) {
 constexpr std::string_view c_published_walk =
     "quadratic, section 5: spans inclusive at both ends, which a count takes twice";
 
+constexpr std::string_view c_holds =
+    "off the shadows' edges light is wrong only where it grazes its triangle: up to this angle";
+
 constexpr HardCase c_cases[] = {
     {"Volumes' shared edges", c_published_walk, "shadow polygons are walked exactly in either preset",
-     "light where rays reach, but within a pixel of a shadow's edge", "pixels", Published::breaks,
-     shared_edges},
+     c_holds, "sine of the light's angle", Published::breaks, shared_edges},
     {"The eye within volumes", "processors, section 3: at zero the object is lit",
-     "a count starts at the volumes around the eye",
-     "light where rays reach, but within a pixel of a shadow's edge", "pixels", Published::breaks,
+     "a count starts at the volumes around the eye", c_holds, "sine of the light's angle", Published::breaks,
      within_volumes},
     {"Volumes that the near plane cuts", "processors, section 3: shadow polygons open and close",
-     "what is before the near plane is drawn at depth 0",
-     "light where rays reach, but within a pixel of a shadow's edge", "pixels", Published::breaks,
-     near_plane_cuts},
+     "what is before the near plane is drawn at depth 0", c_holds, "sine of the light's angle",
+     Published::breaks, near_plane_cuts},
     {"Open meshes", "processors, section 3: shadow polygons open and close",
-     "volumes of averted triangles, closed whatever the mesh is",
-     "light where rays reach, but within a pixel of a shadow's edge", "pixels", Published::breaks,
-     open_meshes},
+     "volumes of averted triangles, closed whatever the mesh is", c_holds, "sine of the light's angle",
+     Published::breaks, open_meshes},
     {"A light in a solid", "processors, section 3: shadow polygons open and close",
-     "casters are the triangles averted from the light",
-     "light where rays reach, but within a pixel of a shadow's edge", "pixels", Published::breaks,
-     light_inside},
+     "casters are the triangles averted from the light", c_holds, "sine of the light's angle",
+     Published::breaks, light_inside},
     {"Silhouettes at the terminator", "processors: N.L of an interpolated N, above zero on averted triangles",
-     "a triangle averted from the light lies in its own volume",
-     "light where rays reach, but within a pixel of a shadow's edge", "pixels", Published::breaks,
-     terminators},
+     "a triangle averted from the light lies in its own volume", c_holds, "sine of the light's angle",
+     Published::breaks, terminators},
     {"Plates that touch, in grazing light", "processors, section 3: shadow polygons in depths of 24 bits",
-     "none: sides that meet surfaces are left to the last bits",
-     "light that is wrong off the shadows' edges: no more than 12 steps", "colour steps", Published::silent,
-     plates},
+     "none: sides that meet surfaces are left to the last bits", c_holds, "sine of the light's angle",
+     Published::breaks, plates},
     {"A counter at its ends", "processors, figure 2: a shadow counter, without a width",
      "10 bits; past them, or below zero at an object, a fault that golden model and simulators see",
      "lit at zero, dark above it, fault past either end", "pixels", Published::silent, counters},
