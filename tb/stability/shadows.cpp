@@ -238,8 +238,6 @@ void cast(Trial& trial, Scene scene, std::string_view name, Sum& sum, bool with_
   };
   trial.ours(0, c_grazing, [&] { return std::string(name); });
   off_the_edge(seen, frame, sum, [&](std::uint32_t x, std::uint32_t y, std::size_t light, const Seen& pixel) {
-    ++sum.grazed;
-    sum.most_steps = std::max(sum.most_steps, pixel.steps[light]);
     trial.ours(pixel.grazing[light], c_grazing, [&] { return where(x, y, light, pixel); });
   });
   if (!with_published) return;
