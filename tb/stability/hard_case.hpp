@@ -38,5 +38,6 @@ extern const Family c_edges;
 extern const Family c_spherical;
 extern const Family c_processors;
 extern const Family c_shadows;
+extern const Family c_arithmetic;
 
 }  // namespace halfway::stability
