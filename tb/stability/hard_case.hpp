@@ -40,5 +40,7 @@ extern const Family c_spherical;
 extern const Family c_processors;
 extern const Family c_illumination;
 extern const Family c_conversions;
+extern const Family c_shadows;
+extern const Family c_arithmetic;
 
 }  // namespace halfway::stability

@@ -1,0 +1,571 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shadows by counted volumes, against rays in long double. Each light has a colour of its own, so that a
+// pixel's channels say which lights reach it.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+#include <map>
+
+#include "golden/processors_layout.hpp"
+#include "golden/word.hpp"
+#include "run/golden_run.hpp"
+#include "scene/builtin_meshes.hpp"
+#include "setup/init_vector.hpp"
+#include "setup/project.hpp"
+#include "setup/random_solids.hpp"
+#include "setup/shadow_volume.hpp"
+#include "stability/hard_case.hpp"
+#include "stability/shading_bound.hpp"
+#include "stability/trial.hpp"
+
+namespace halfway::stability {
+namespace {
+
+constexpr ProcessorForm c_forms[] = {ProcessorForm::folded, ProcessorForm::unrolled};
+constexpr unsigned c_lights = 3;
+
+PlanRequest request_of(ProcessorForm form) {
+  return {.shader = Shader::processors, .all_effects = true, .lights = c_lights, .form = form};
+}
+
+FrameSize frame_of(const Trial& trial) {
+  return trial.quick() ? FrameSize{64, 48} : FrameSize{160, 120};
+}
+
+// What lies on the ways to the lights. A triangle that turns its outside away from a light casts, and is dark
+// itself.
+class Rays {
+ public:
+  explicit Rays(const Scene& scene)
+      : scene_(scene), corners_(all_corners(scene)), lights_(reflected_lights(scene)) {}
+
+  LongVec way_to(std::size_t light, const LongVec& point) const {
+    const LightPoint from = light_point(scene_, lights_[light]);
+    return LongVec(from.xyz_world) - (long double)from.w * point;
+  }
+  long double grazing(std::size_t light, const LongVec& point, std::uint32_t triangle) const {
+    const auto& [a, b, c] = corners_[triangle];
+    const LongVec normal = glm::cross(LongVec(b) - LongVec(a), LongVec(c) - LongVec(a));
+    return std::abs(glm::dot(glm::normalize(normal), glm::normalize(way_to(light, point))));
+  }
+
+  bool reaches(std::size_t light, const LongVec& point, std::uint32_t triangle) const {
+    const LightPoint from = light_point(scene_, lights_[light]);
+    const LongVec way = way_to(light, point);
+    if (slope(triangle, way) < 0.0L) return false;
+    for (std::uint32_t t = 0; t < corners_.size(); ++t)
+      if (t != triangle && casts(t, point, way, from.w != 0.0)) return false;
+    return true;
+  }
+
+ private:
+  long double slope(std::uint32_t triangle, const LongVec& way) const {
+    const auto& [a, b, c] = corners_[triangle];
+    return glm::dot(glm::cross(LongVec(b) - LongVec(a), LongVec(c) - LongVec(a)), way);
+  }
+  bool casts(std::uint32_t triangle, const LongVec& from, const LongVec& way, bool has_place) const {
+    const LongVec a(corners_[triangle][0]), ab = LongVec(corners_[triangle][1]) - a,
+                                            ac = LongVec(corners_[triangle][2]) - a;
+    const LongVec normal = glm::cross(ab, ac);
+    const long double s = glm::dot(normal, way);
+    if (s >= 0.0L) return false;
+    const long double t = glm::dot(a - from, normal) / s;
+    if (t <= 1e-9L || (has_place && t >= 1.0L)) return false;
+    const LongVec offset = glm::cross(from - a, way);
+    const long double u = glm::dot(ac, offset) / -s, v = glm::dot(ab, offset) / s;
+    return u >= 0.0L && v >= 0.0L && u + v <= 1.0L;
+  }
+
+  const Scene& scene_;
+  std::vector<CornersWorld> corners_;
+  std::vector<LightRef> lights_;
+};
+
+// A pixel of the drawn frame.
+struct Seen {
+  const ScreenTriangle* piece = nullptr;
+  std::array<bool, c_lights> drawn{}, wanted{};
+  std::array<double, c_lights> steps{};    ///< that the light would add
+  std::array<double, c_lights> grazing{};  ///< sine of its angle over the triangle
+};
+
+// All that a frame shows, by pixel.
+std::vector<Seen> look(Trial& trial, const Scene& scene, FrameSize frame,
+                       const std::vector<Fragment>& fragments, const std::vector<ScreenTriangle>& pieces) {
+  const ShadingBound bound(scene, frame);
+  const Rays rays(scene);
+  std::multimap<std::uint32_t, const ScreenTriangle*> by_source;
+  for (const ScreenTriangle& t : pieces) by_source.emplace(t.source, &t);
+  std::vector<Seen> seen(std::size_t{frame.width} * frame.height);
+  for (const Fragment& f : fragments) {
+    Seen& pixel = seen[std::size_t{f.y} * frame.width + f.x];
+    const auto [first, last] = by_source.equal_range(f.triangle);
+    for (auto at = first; at != last; ++at)
+      if (covers(screen_points(*at->second), 4, f.x, f.y)) pixel.piece = at->second;
+    if (pixel.piece == nullptr) continue;
+    const LongVec point = surface(*pixel.piece, 4, f.x, f.y).position_world;
+    const Promise promise = bound.at(*pixel.piece, f.x, f.y);
+    const std::array<std::uint8_t, 3> drawn = {f.red, f.green, f.blue};
+    for (std::size_t i = 0; i < c_lights; ++i) {
+      pixel.wanted[i] = rays.reaches(i, point, f.triangle);
+      pixel.steps[i] = static_cast<double>(promise.exact[i]);
+      pixel.grazing[i] = static_cast<double>(rays.grazing(i, point, f.triangle));
+      const auto lit = static_cast<double>(std::abs(promise.exact[i] - drawn[i]));
+      // Where a light would add less than a step there is nothing to be seen of it.
+      const bool hidden = promise.range[i].low < 1.0L;
+      pixel.drawn[i] = hidden ? pixel.wanted[i] : lit <= static_cast<double>(promise.bound(i));
+      trial.require(hidden || pixel.drawn[i] || drawn[i] == 0, [&] {
+        return fmt::format("pixel ({}, {}): {} of a light's {} steps", f.x, f.y, drawn[i], pixel.steps[i]);
+      });
+    }
+  }
+  return seen;
+}
+
+struct Sum {
+  std::uint64_t pixels = 0, at_edge = 0, differ = 0, dark = 0, bright = 0;
+};
+
+// Pixels that a light reaches or not, other than by rays, and whose neighbours' rays all agree with the
+// pixel's own.
+template <class Wrong>
+void off_the_edge(const std::vector<Seen>& seen, FrameSize frame, Sum& sum, Wrong&& wrong) {
+  for (std::uint32_t y = 0; y < frame.height; ++y)
+    for (std::uint32_t x = 0; x < frame.width; ++x) {
+      const Seen& pixel = seen[std::size_t{y} * frame.width + x];
+      if (pixel.piece == nullptr) continue;
+      for (std::size_t light = 0; light < c_lights; ++light) {
+        bool at_edge = false;
+        for (std::uint32_t v = y > 0 ? y - 1 : 0; v < std::min(y + 2, frame.height); ++v)
+          for (std::uint32_t u = x > 0 ? x - 1 : 0; u < std::min(x + 2, frame.width); ++u) {
+            const Seen& beside = seen[std::size_t{v} * frame.width + u];
+            at_edge = at_edge || beside.piece == nullptr || beside.wanted[light] != pixel.wanted[light];
+          }
+        ++sum.pixels;
+        sum.at_edge += at_edge;
+        ++(pixel.wanted[light] ? sum.bright : sum.dark);
+        if (pixel.drawn[light] == pixel.wanted[light]) continue;
+        if (at_edge)
+          ++sum.differ;
+        else
+          wrong(x, y, light, pixel);
+      }
+    }
+}
+
+// As a published walk would count: vertices on whole pixels, lines and spans inclusive at both ends, so that
+// what polygons share is counted twice.
+template <class Pixel>
+void for_each_inclusive(const ScreenTriangle& t, FrameSize frame, Pixel&& pixel) {
+  std::array<std::int64_t, 3> x, y;
+  for (std::size_t i = 0; i < 3; ++i) x[i] = t.vertex[i].x >> 4, y[i] = t.vertex[i].y >> 4;
+  const auto [top, bottom] = std::minmax({y[0], y[1], y[2]});
+  for (std::int64_t line = std::max<std::int64_t>(top, 0);
+       line <= std::min<std::int64_t>(bottom, frame.height - 1); ++line) {
+    double left = 1e9, right = -1e9;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t k = (i + 1) % 3;
+      if (line < std::min(y[i], y[k]) || line > std::max(y[i], y[k])) continue;
+      const auto take = [&](double at) { left = std::min(left, at), right = std::max(right, at); };
+      if (y[i] == y[k])
+        take(static_cast<double>(x[i])), take(static_cast<double>(x[k]));
+      else
+        take(static_cast<double>(x[i]) +
+             static_cast<double>((x[k] - x[i]) * (line - y[i])) / static_cast<double>(y[k] - y[i]));
+    }
+    for (auto at = std::max<std::int64_t>(std::llround(left), 0);
+         at <= std::min<std::int64_t>(std::llround(right), frame.width - 1); ++at)
+      pixel(static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(line));
+  }
+}
+
+// The same pixels, with counts by the published walk.
+std::vector<Seen> counted_as_published(const Scene& scene, FrameSize frame, std::vector<Seen> seen,
+                                       const std::vector<Fragment>& fragments) {
+  const Projector projector(scene, frame, {});
+  const auto lights = reflected_lights(scene);
+  const auto volumes = make_shadow_volumes(scene, lights);
+  ProjectionCounts counts;
+  std::vector<std::array<int, c_lights>> count(seen.size());
+  for (auto& c : count)
+    for (std::size_t i = 0; i < c_lights; ++i) c[i] = static_cast<int>(volumes[i].around_eye);
+  std::vector<std::uint32_t> depth(seen.size());
+  for (const Fragment& f : fragments) depth[std::size_t{f.y} * frame.width + f.x] = f.z;
+  for (const ShadowPolygon& polygon : shadow_polygons(scene, projector, volumes, counts))
+    for_each_inclusive(polygon.triangle, frame, [&](std::uint32_t x, std::uint32_t y) {
+      const auto weight = barycentric(screen_points(polygon.triangle), centre(x, 4), centre(y, 4)).real();
+      long double z = 0.0L;
+      for (std::size_t i = 0; i < 3; ++i) z += weight[i] * (long double)polygon.triangle.vertex[i].z;
+      const std::size_t at = std::size_t{y} * frame.width + x;
+      if (z * c_depth_steps < depth[at]) count[at][polygon.light] += polygon.opens ? 1 : -1;
+    });
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    for (std::size_t light = 0; light < c_lights; ++light) seen[i].drawn[light] = count[i][light] == 0;
+  return seen;
+}
+
+void set_colours(Scene& scene) {
+  scene.shadows = true;
+  scene.ambient = glm::dvec3(0.0);
+  scene.materials = {{.name = "m", .ambient = 0.0, .diffuse = 1.0, .specular = 0.0}};
+  scene.directional.at(0).intensity = {1.0, 0.0, 0.0};
+  scene.positional.at(0).intensity = {0.0, 1.0, 0.0};
+  scene.spots.at(0).intensity = {0.0, 0.0, 1.0};
+}
+
+// Off the shadows' edges light may be wrong where it grazes a triangle: a volume's side rises from it by the
+// light's angle there, a, and both are on the screen as their vertices are, each up to a 32nd of a pixel off
+// in x and in y. Seen under an angle b, d pixels from the side's foot their depths are d a / cos^2 b apart,
+// and off by tan b sqrt(2) / 16: the side is behind the triangle where d < sqrt(2) / 16 sin b cos b / a. So
+// a pixel off an edge, d >= 1, has a < sqrt(2) / 32, and as much again for the edge's own place.
+constexpr double c_grazing = 1.4143 / 16;
+
+// The light's angle over the triangle where a pixel is wrong off the shadows' edges.
+void cast(Trial& trial, Scene scene, std::string_view name, Sum& sum, bool with_published = true) {
+  set_colours(scene);
+  const FrameSize frame = frame_of(trial);
+  Drawing drawing;
+  for (const ProcessorForm form : c_forms)
+    drawing = trial.draw(scene, {.plan = request_of(form), .frame = frame});
+  trial.require(!drawing.fault, [&] { return fmt::format("{}: fault", name); });
+  const auto pieces = Projector(scene, frame, {}).project_all();
+  const std::vector<Seen> seen = look(trial, scene, frame, drawing.fragments, pieces);
+  const auto where = [&](std::uint32_t x, std::uint32_t y, std::size_t light, const Seen& pixel) {
+    return fmt::format("{}, {} by {}: pixel ({}, {}), light {} of {:.3g} steps", name, frame.width,
+                       frame.height, x, y, light + 1, pixel.steps[light]);
+  };
+  trial.ours(0, c_grazing, [&] { return std::string(name); });
+  off_the_edge(seen, frame, sum, [&](std::uint32_t x, std::uint32_t y, std::size_t light, const Seen& pixel) {
+    trial.ours(pixel.grazing[light], c_grazing, [&] { return where(x, y, light, pixel); });
+  });
+  if (!with_published) return;
+  Sum published;
+  trial.published(0, c_grazing, [&] { return std::string(name); });
+  off_the_edge(counted_as_published(scene, frame, seen, drawing.fragments), frame, published,
+               [&](std::uint32_t x, std::uint32_t y, std::size_t light, const Seen& pixel) {
+                 trial.published(pixel.grazing[light], c_grazing, [&] { return where(x, y, light, pixel); });
+               });
+}
+
+// A vertex on the screen is up to a 32nd of a pixel off, so that an edge sweeps a 16th of its pixels at most.
+void finish(Trial& trial, const Sum& sum) {
+  trial.require(sum.differ * 16 <= sum.at_edge, [&] {
+    return fmt::format("{} pixels differ of {} along edges, {} in all", sum.differ, sum.at_edge, sum.pixels);
+  });
+  trial.require(sum.dark * 20 > sum.pixels && sum.bright * 20 > sum.pixels, [&] {
+    return fmt::format("{} pixels dark and {} bright are no trial", sum.dark, sum.bright);
+  });
+}
+
+/// A floor on which solids stand.
+Scene on_a_floor(RandomSolids& random, int solids) {
+  Scene scene = random.scene(solids);
+  Mesh floor = make_box({30.0, 0.5, 30.0}, 2);
+  for (glm::dvec3& p : floor.positions) p.y -= 1.5;
+  add_mesh(scene, floor);
+  glm::dvec3& sun = scene.directional[0].to_light_world;
+  sun.y = std::abs(sun.y) + 0.1;
+  sun = glm::normalize(sun);
+  scene.camera.up_world = {0.1, 1.0, 0.1};
+  return scene;
+}
+
+// Calls change(scene, round) on scenes that stand on a floor.
+template <class Change>
+void cast_on_floors(Trial& trial, unsigned seed, Change&& change) {
+  RandomSolids random(seed);
+  Sum sum;
+  for (int i = 0; i < trial.rounds(4, 30); ++i) {
+    Scene scene = on_a_floor(random, 4);
+    change(random, scene, i);
+    cast(trial, scene, fmt::format("scene {}", i), sum);
+  }
+  finish(trial, sum);
+}
+
+void shared_edges(Trial& trial) {
+  RandomSolids random(5);
+  Sum sum;
+  for (int i = 0; i < trial.rounds(4, 60); ++i)
+    cast(trial, random.scene(1 + i % 5), fmt::format("scene {}", i), sum);
+  finish(trial, sum);
+}
+
+void within_volumes(Trial& trial) {
+  cast_on_floors(trial, 8, [](RandomSolids& random, Scene& scene, int i) {
+    const LightPoint light = light_point(scene, {i % 2 ? LightKind::directional : LightKind::positional, 0});
+    const glm::dvec3 caster = scene.positions_world[i % 4 < 2 ? 0 : 5];
+    scene.camera.eye_world = caster - random.within(0.2, 1.0) * glm::normalize(light.way_from(caster)) +
+                             random.within(1e-4, 0.3) * random.unit();
+    scene.camera.eye_world.y = std::max(scene.camera.eye_world.y, -1.2);
+    scene.camera.target_world = random.cube(1.0);
+  });
+}
+
+void near_plane_cuts(Trial& trial) {
+  cast_on_floors(trial, 9, [](RandomSolids& random, Scene& scene, int) {
+    scene.camera.eye_world = 3.0 * random.unit();
+    scene.camera.eye_world.y = std::abs(scene.camera.eye_world.y) - 1.0;
+    scene.camera.near = random.within(1.0, 3.0);
+  });
+}
+
+void open_meshes(Trial& trial) {
+  cast_on_floors(trial, 10, [](RandomSolids& random, Scene& scene, int) {
+    for (int k = 0; k < 20; ++k) scene.triangles.erase(scene.triangles.begin() + random.whole(0, 30));
+  });
+}
+
+void light_inside(Trial& trial) {
+  cast_on_floors(trial, 11, [](RandomSolids& random, Scene& scene, int) {
+    // In the first solid, and the eye in the last but the floor's.
+    const auto middle = [&](std::size_t triangle) {
+      const CornersWorld c = corners_world(scene, scene.triangles[triangle]);
+      return glm::cross(c[1] - c[0], c[2] - c[0]);
+    };
+    const CornersWorld c = corners_world(scene, scene.triangles[0]);
+    scene.positional[0].position_world =
+        (c[0] + c[1] + c[2]) / 3.0 - random.within(1e-3, 0.1) * glm::normalize(middle(0));
+  });
+}
+
+// Smooth spheres: where the surface turns away from the light, triangles do so one by one.
+void terminators(Trial& trial) {
+  RandomSolids random(12);
+  Sum sum;
+  for (int i = 0; i < trial.rounds(4, 30); ++i) {
+    Scene scene = random.scene(0);
+    add_mesh(scene, make_uv_sphere(random.whole(5, 24), random.whole(4, 16), 1.3));
+    const double side = random.within(-0.3, 0.3);
+    scene.camera.eye_world = {3.5, 1.0, side};
+    scene.directional[0].to_light_world = glm::normalize(glm::dvec3(side, 0.2, 1.0));
+    scene.positional[0].position_world = {0.3, 2.0, 2.0};
+    scene.spots[0].position_world = {0.5, -2.5, 1.0};
+    scene.spots[0].axis_world = glm::normalize(-scene.spots[0].position_world);
+    cast(trial, scene, fmt::format("sphere {}", i), sum, false);
+  }
+  finish(trial, sum);
+}
+
+// Plates that touch and lie on one another, the lights almost in their plane.
+void plates(Trial& trial) {
+  RandomSolids random(13);
+  Sum sum;
+  for (int i = 0; i < trial.rounds(4, 40); ++i) {
+    Scene scene = random.scene(0);
+    double top = 0.0;
+    for (int plate = 0; plate < 6; ++plate) {
+      const double thick = random.within(0.002, 0.05);
+      Mesh mesh = make_box({random.within(0.6, 2.0), thick, random.within(0.6, 2.0)}, 1);
+      transform(mesh, glm::translate(glm::dmat4(1.0), {random.within(-0.3, 0.3), top + thick / 2, 0.0}));
+      top += thick;
+      add_mesh(scene, mesh);
+    }
+    Mesh floor = make_box({8.0, 0.5, 8.0}, 2);
+    for (glm::dvec3& p : floor.positions) p.y -= 0.25;
+    add_mesh(scene, floor);
+    scene.camera.up_world = {0.0, 1.0, 0.0};
+    scene.camera.eye_world = {random.within(-2.0, 2.0), random.within(0.5, 3.0), 3.5};
+    const double over = random.within(0.002, 0.08);
+    scene.directional[0].to_light_world = glm::normalize(glm::dvec3(random.within(-1, 1), over, 0.7));
+    scene.positional[0].position_world = {3.0, top + 3.0 * over, random.within(-1, 1)};
+    scene.spots[0].position_world = {-3.0, top + 3.0 * over, random.within(-1, 1)};
+    scene.spots[0].axis_world = glm::normalize(-scene.spots[0].position_world);
+    cast(trial, scene, fmt::format("scene {}", i), sum);
+  }
+  finish(trial, sum);
+}
+
+// Of a wall, which casts nothing.
+void add_front(Scene& scene, double z) {
+  Mesh wall = make_box({40.0, 40.0, 0.1}, 1);
+  for (glm::dvec3& p : wall.positions) p.z += z;
+  std::erase_if(wall.triangles, [&](const SceneTriangle& t) {
+    return std::ranges::any_of(t.position, [&](std::uint32_t p) { return wall.positions[p].z < z; });
+  });
+  add_mesh(scene, wall);
+}
+
+using Request = golden::Exact::request_header_at;
+using Axes = golden::Exact::light_axes_header_at;
+using Walked = golden::Exact::init_header_at;
+
+// A wall's stream, a line high, with so many polygons of light 1 before it that open and that close.
+std::vector<std::uint32_t> counted(const Scene& scene, FrameSize frame, ProcessorForm form, int around,
+                                   int opening, int closing, HardwareKey& key) {
+  std::vector<std::uint32_t> words;
+  const auto plan = plan_scene(scene, request_of(form));
+  if (!plan) return words;
+  key = plan->key;
+  const auto setup = make_setup(scene, frame, key, {});
+  const std::size_t size = (setup->init_bits() + 31) / 32;
+  SetupCounts counts;
+  setup->append_prologue(words, counts);
+  const int low = golden::ProcessorsLayout<golden::Exact>::light_axes_low();
+  golden::set_bits(std::span(words).subspan(2 * size, size), Axes::around_eye,
+                   static_cast<std::uint64_t>(around), low);
+  std::vector<std::uint32_t> line;
+  setup->append(0, line, counts);
+  bool counted = false;
+  for (std::size_t at = 0; at < line.size(); at += size) {
+    const auto vector = std::span(line).subspan(at, size);
+    if (!counted &&
+        golden::get_bits(vector, Request::command) == static_cast<std::uint32_t>(golden::Command::draw)) {
+      counted = true;
+      for (int i = 0; i < opening + closing; ++i)
+        for (std::size_t depth = 0; depth < at; depth += size) {
+          if (golden::get_bits(std::span(line).subspan(depth, size), Request::command) !=
+              static_cast<std::uint32_t>(golden::Command::depth))
+            continue;
+          const std::size_t begin = words.size();
+          words.insert(words.end(), line.begin() + static_cast<std::ptrdiff_t>(depth),
+                       line.begin() + static_cast<std::ptrdiff_t>(depth + size));
+          const auto polygon = std::span(words).subspan(begin, size);
+          const int walk = golden::ProcessorsLayout<golden::Exact>::walk_low();
+          golden::set_bits(polygon, Request::command, static_cast<std::uint32_t>(golden::Command::shadow));
+          golden::set_bits(polygon, Request::light, 1);
+          golden::set_bits(polygon, Request::opens, i < opening);
+          for (const golden::Field* z : {&Walked::z, &Walked::z_dx, &Walked::z_de0, &Walked::z_de1})
+            golden::set_bits(polygon, *z, 0, walk);
+        }
+    }
+    words.insert(words.end(), vector.begin(), vector.end());
+  }
+  return words;
+}
+
+void counters(Trial& trial) {
+  constexpr FrameSize c_frame{8, 1};
+  RandomSolids random(1);
+  Scene scene = random.scene(0);
+  add_front(scene, 0.0);
+  scene.camera = {.eye_world = {0.0, 0.0, 5.0}};
+  scene.directional[0].to_light_world = {0.0, 0.0, 1.0};
+  set_colours(scene);
+  struct Case {
+    int around, opening, closing;
+  };
+  constexpr int c_most = static_cast<int>(c_most_shadows);
+  constexpr Case c_counts[] = {{0, 0, 0},
+                               {0, c_most, c_most},
+                               {0, c_most, c_most - 1},
+                               {0, c_most + 1, c_most + 1},
+                               {c_most, 0, c_most},
+                               {c_most, 0, c_most - 1},
+                               {c_most, 0, c_most + 1},
+                               {c_most, c_most, 2 * c_most},
+                               {c_most, c_most, 2 * c_most - 1},
+                               {c_most, c_most, 0},
+                               {c_most, c_most + 1, 0},
+                               {0, 0, 1},
+                               {1, 0, 1},
+                               {0, 0, c_most + 2}};
+  for (const ProcessorForm form : c_forms)
+    for (const auto& [around, opening, closing] : c_counts) {
+      const int count = around + opening - closing;
+      const bool fault = count < 0 || opening > c_most || opening - closing < -c_most - 1;
+      // Behind a fault the hardware is opened anew.
+      if (trial.quick() && fault && form == ProcessorForm::folded && opening > 0) continue;
+      HardwareKey key;
+      const auto words = counted(scene, c_frame, form, around, opening, closing, key);
+      const auto golden = make_golden_model(key);
+      std::vector<Fragment> fragments;
+      golden->draw(words, fragments);
+      trial.draw(key, words);
+      int wrong = golden->fault() != fault;
+      for (const Fragment& f : fragments) wrong += !fault && (f.red > 200) != (count == 0);
+      wrong += fragments.size() != c_frame.width;
+      trial.ours(wrong, 0, [&] {
+        return fmt::format("{}: {} volumes around the eye, {} polygons that open and {} that close",
+                           key.name(), around, opening, closing);
+      });
+    }
+}
+
+// Sheets behind one another before a wall, the sun behind the eye.
+Scene sheets(int count) {
+  Scene scene;
+  scene.directional.resize(1);
+  scene.positional = {{{3.0, 3.0, 3.0}, glm::dvec3(1.0)}};
+  scene.spots.resize(1);
+  for (int i = 0; i < count; ++i) {
+    Mesh sheet = make_box({0.5, 0.5, 0.001}, 1);
+    for (glm::dvec3& p : sheet.positions) p += glm::dvec3(1.0, 0.2, -0.003 * i);
+    add_mesh(scene, sheet);
+  }
+  add_front(scene, -8.0);
+  set_colours(scene);
+  scene.positional[0].intensity = scene.spots[0].intensity = glm::dvec3(0.0);
+  scene.directional[0] = {glm::normalize(glm::dvec3(0.02, 0.01, 1.0)), glm::dvec3(1.0)};
+  scene.camera = {.eye_world = {-3.0, 0.2, 3.0}, .target_world = {0.0, 0.0, -6.0}};
+  return scene;
+}
+
+void deep_shadows(Trial& trial) {
+  const FrameSize frame{24, 18};
+  for (const int count : {40, 500, 511, 512, 600}) {
+    if (trial.quick() && (count == 500 || count == 512)) continue;
+    const Scene scene = sheets(count);
+    const Drawing drawing = trial.draw(scene, {.plan = request_of(ProcessorForm::unrolled), .frame = frame});
+    // What setup counts may be more, by sides that are thinner than a pixel: never less.
+    const std::uint64_t deepest = drawing.counts.deepest_shadow;
+    const bool refused = deepest > c_most_shadows;
+    trial.ours(deepest < static_cast<std::uint64_t>(count) || (refused && count < 500), 0,
+               [&] { return fmt::format("{} sheets: setup counts {}", count, deepest); });
+    trial.ours(drawing.fault && !refused, 0, [&] { return fmt::format("{} sheets: fault", count); });
+    trial.ours(!drawing.fault && count > 520, 0, [&] { return fmt::format("{} sheets: no fault", count); });
+    if (drawing.fault) continue;
+    const auto pieces = Projector(scene, frame, {}).project_all();
+    const Rays rays(scene);
+    for (const Fragment& f : drawing.fragments)
+      for (const ScreenTriangle& t : pieces) {
+        if (t.source != f.triangle || !covers(screen_points(t), 4, f.x, f.y)) continue;
+        const bool lit = rays.reaches(0, surface(t, 4, f.x, f.y).position_world, f.triangle);
+        trial.ours((f.red > 0) != lit, 0,
+                   [&] { return fmt::format("{} sheets: pixel ({}, {})", count, f.x, f.y); });
+      }
+  }
+}
+
+constexpr std::string_view c_published_walk =
+    "quadratic, section 5: spans inclusive at both ends, which a count takes twice";
+
+constexpr std::string_view c_holds =
+    "off the shadows' edges light is wrong only where it grazes its triangle: up to this angle";
+
+constexpr HardCase c_cases[] = {
+    {"Volumes' shared edges", c_published_walk, "shadow polygons are walked exactly in either preset",
+     c_holds, "sine of the light's angle", Published::breaks, shared_edges},
+    {"The eye within volumes", "processors, section 3: at zero the object is lit",
+     "a count starts at the volumes around the eye", c_holds, "sine of the light's angle", Published::breaks,
+     within_volumes},
+    {"Volumes that the near plane cuts", "processors, section 3: shadow polygons open and close",
+     "what is before the near plane is drawn at depth 0", c_holds, "sine of the light's angle",
+     Published::breaks, near_plane_cuts},
+    {"Open meshes", "processors, section 3: shadow polygons open and close",
+     "volumes of averted triangles, closed whatever the mesh is", c_holds, "sine of the light's angle",
+     Published::breaks, open_meshes},
+    {"A light in a solid", "processors, section 3: shadow polygons open and close",
+     "casters are the triangles averted from the light", c_holds, "sine of the light's angle",
+     Published::breaks, light_inside},
+    {"Silhouettes at the terminator", "processors: N.L of an interpolated N, above zero on averted triangles",
+     "a triangle averted from the light lies in its own volume", c_holds, "sine of the light's angle",
+     Published::silent, terminators},
+    {"Plates that touch, in grazing light", "processors, section 3: shadow polygons in depths of 24 bits",
+     "none: sides that meet surfaces are left to the last bits", c_holds, "sine of the light's angle",
+     Published::breaks, plates},
+    {"A counter at its ends", "processors, figure 2: a shadow counter, without a width",
+     "10 bits; past them, or below zero at an object, a fault that golden model and simulators see",
+     "lit at zero, dark above it, fault past either end", "pixels", Published::silent, counters},
+    {"511 volumes over one another, and 512", "processors, figure 2: a shadow counter, without a width",
+     "setup counts the deepest, and a scene past 511 is refused", "pixels, counts and faults as by rays",
+     "pixels", Published::silent, deep_shadows},
+};
+
+}  // namespace
+
+const Family c_shadows{"shadows", c_cases};
+
+}  // namespace halfway::stability
