@@ -131,7 +131,8 @@ std::vector<Proof> all_proofs() {
         {"raster/object_stage.vhd", "not r.valid and not r.clearing;", "not r.clearing;"}},
        {{"pixel_x", 2, 0}},
        false,
-       12});
+       12,
+       true});
   proofs.push_back(
       {"raster/object_stage",
        "raster/object_stage_column.psl",
@@ -175,7 +176,8 @@ std::vector<Proof> all_proofs() {
         {"illumination/shadow_counter.vhd", "r.takes = '1' and valid = '1' and", "r.takes = '1' and"}},
        {{"pixel_x", 1, 0}, {"shadow_count", 1, 0}},
        false,
-       12});
+       12,
+       true});
   proofs.push_back({"illumination/shadow_counter",
                     "illumination/shadow_counter_column.psl",
                     "A column's count is what was opened less what was closed, whatever columns come "
@@ -262,6 +264,19 @@ std::vector<Proof> all_proofs() {
        true});
 
   // Differences.
+  const std::vector<Fault> quadratic_faults = {
+      {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
+      {"interpolation/quadratic_interpolator.vhd", "increment => dx_step", "increment => dxx"},
+      {"interpolation/quadratic_interpolator.vhd", "start     => line_dx", "start     => dxx"},
+      {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
+  };
+  std::vector<Fault> carried_faults = quadratic_faults;
+  for (const auto& [from, to] : {std::pair{"de1_step   <= de1e1 when", "de1_step   <= de0e1 when"},
+                                 std::pair{"dx_step    <= dxe1 when", "dx_step    <= dxe0 when"},
+                                 std::pair{"line_de1 when line_carry", "line_de1 when not line_carry"},
+                                 std::pair{"de0_step   <= de0e1 when line_carry = '1' else de0e0;",
+                                           "de0_step   <= de0e0 when line_carry = '1' else de0e1;"}})
+    carried_faults.push_back({"interpolation/quadratic_interpolator.vhd", from, to});
   proofs.push_back(
       {"interpolation/line_interpolator",
        "interpolation/line_interpolator.psl",
@@ -290,6 +305,32 @@ std::vector<Proof> all_proofs() {
        {},
        false,
        6});
+  for (const bool exact : {true, false})
+    proofs.push_back({"interpolation/quadratic_interpolator",
+                      "interpolation/quadratic_interpolator.psl",
+                      exact ? "Every line's and every pixel's words are what the second differences make of the triangle's, "
+                              "bit for bit, full width"
+                            : "The same in preset `published`",
+                      Method::induction,
+                      2,
+                      true,
+                      {{"g_exact", exact ? "true" : "false"}},
+                      exact ? carried_faults : quadratic_faults,
+                      {},
+                      false,
+                      5});
+  proofs.push_back({"interpolation/quadratic_interpolator",
+                    "interpolation/quadratic_interpolator_error.psl",
+                    "Within (1 + L + L(L-1)/2 + K(1 + L) + K(K-1)/2)/2 units of a twin of 4 bits more after any L "
+                    "lines, whatever carries, and K steps: 12 bits",
+                    Method::induction,
+                    1,
+                    false,
+                    {},
+                    carried_faults,
+                    {{"intensity", 11, 0}},
+                    false,
+                    5});
   proofs.push_back(
       {"interpolation/quadratic_interpolator",
        "interpolation/intensity.gappa",

@@ -33,8 +33,9 @@ Result<ProcessEnd> run(const std::filesystem::path& folder, std::vector<std::str
 }
 
 Error failed(const Proof& proof, std::string_view tool, const ProcessEnd& end) {
+  constexpr std::size_t kMost = 1000;  // characters: the first message, not all that follow from it
   return tool_failed(fmt::format("{}: {} came to no verdict ({}):\n{}", proof.unit, tool, end.how(),
-                                 end.output.substr(0, end.output.find("\n\n"))));
+                                 end.output.substr(0, std::min(end.output.find("\n\n"), kMost))));
 }
 
 std::vector<tables::PresetFormats> narrowed(const std::vector<Width>& widths) {
@@ -52,7 +53,7 @@ std::vector<tables::PresetFormats> narrowed(const std::vector<Width>& widths) {
 }
 
 bool is_narrow(const Proof& proof, const Fault* fault) {
-  return !proof.widths.empty() && (fault != nullptr || proof.method != Method::induction);
+  return !proof.widths.empty() && (fault != nullptr || !proof.full_width);
 }
 
 Result<std::vector<VhdlSource>> sources_of(const Folders& folders, const Proof& proof, const Fault* fault) {
@@ -166,8 +167,15 @@ constexpr std::string_view kPrepared =
     "read_verilog -formal formal.v; prep -flatten -top {0}; {1}setundef -undriven -anyseq; opt -full; "
     "opt_clean -purge; async2sync; dffunmap; opt_clean; ";
 
-Status make_netlist(const Folders& folders, const std::filesystem::path& folder, const Proof& proof,
-                    const Fault* fault) {
+// A unit is bound to its entity, or an entity around it.
+std::string top_of(const Proof& proof, std::string_view unit) {
+  const std::string entity = std::filesystem::path(proof.entity).filename();
+  return is_in(unit, "\nentity ") ? entity + "_proof" : entity;
+}
+
+// Its result is the netlist's top.
+Result<std::string> make_netlist(const Folders& folders, const std::filesystem::path& folder,
+                                 const Proof& proof, const Fault* fault) {
   const auto sources = sources_of(folders, proof, fault);
   if (!sources) return sources.error();
   const auto unit = read_file(folders.source / "tb/proofs" / proof.unit);
@@ -180,9 +188,9 @@ Status make_netlist(const Folders& folders, const std::filesystem::path& folder,
     if (auto written = write_file(folder / source.name, source.content); !written) return written.error();
     command.push_back(source.name);
   }
-  const std::string entity = std::filesystem::path(proof.entity).filename();
   if (auto written = write_file(folder / "unit.psl", *unit); !written) return written.error();
-  command.insert(command.end(), {"unit.psl", "-e", entity});
+  const std::string top = top_of(proof, *unit);
+  command.insert(command.end(), {"unit.psl", "-e", top});
   const auto synthesized = run(folder, command, folder / "netlist.v");
   if (!synthesized) return synthesized.error();
   if (!synthesized->succeeded()) return failed(proof, "ghdl", *synthesized);
@@ -198,7 +206,8 @@ Status make_netlist(const Folders& folders, const std::filesystem::path& folder,
                                    proof.unit, asserts, assumes, prepared.asserts, prepared.assumes));
   const auto verilog = with_constants(prepared.verilog);
   if (!verilog) return verilog.error();
-  return write_file(folder / "formal.v", *verilog);
+  if (auto written = write_file(folder / "formal.v", *verilog); !written) return written.error();
+  return top;
 }
 
 std::string last_line_with(std::string_view text, std::string_view part) {
@@ -289,12 +298,12 @@ Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fa
   if (!scratch) return scratch.error();
   const std::filesystem::path& folder = scratch->path();
   if (proof.method == Method::gappa) return by_gappa(folders, folder, proof, fault);
-  if (auto made = make_netlist(folders, folder, proof, fault); !made) return made.error();
+  const auto top = make_netlist(folders, folder, proof, fault);
+  if (!top) return top.error();
 
   // A fault is refuted by clocks that show it, whatever proves that there are none without it.
   const bool pdr = proof.method == Method::pdr && fault == nullptr;
-  const std::string entity = std::filesystem::path(proof.entity).filename();
-  std::string script = fmt::format(kPrepared, entity, proof.any_products ? "cutpoint t:$mul; " : "");
+  std::string script = fmt::format(kPrepared, *top, proof.any_products ? "cutpoint t:$mul; " : "");
   script +=
       pdr ? "delete -output; techmap; opt -fast; memory_map; techmap; opt -full; dffunmap; abc -g AND -fast; "
             "opt_clean; write_aiger -I -B -zinit -no-startoffset model.aig"

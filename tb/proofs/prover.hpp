@@ -43,9 +43,10 @@ struct Proof {
   bool quick;  ///< a few seconds with its faults: in `make test` too
   std::vector<std::pair<std::string, std::string>> generics;
   std::vector<Fault> faults;
-  std::vector<Width> widths{};  ///< of both presets, for the faults alone where the method is induction
+  std::vector<Width> widths{};  ///< of both presets
   bool any_products = false;    ///< a product is anything at all: what is proved holds whatever is multiplied
   int fault_depth = 10;         ///< clocks in which a fault has to show
+  bool full_width = false;      ///< `widths` are the faults' alone
 };
 
 /// All of them, in the order of the page.
