@@ -109,10 +109,10 @@ struct Exact {
   //   off by at most 2^-29: u / 2
   static constexpr int c_vector_bits = 30;
   static constexpr int c_vector_fraction_bits = 28;
-  // s1.22: components of unit vectors; an exponent m multiplies the error of a cosine by m. Rounded where they are made; their length has the error of root, half that of a square of 1/4 or more, and of three components rounded; the direction that of a vector of 1/2 or more cut to half a unit, and of rounding
+  // s1.22: components of unit vectors; an exponent m multiplies the error of a cosine by m. Rounded where they are made; their length has the error of root, half that of a square of 1/4 or more, and of three components rounded; the angle has that of a vector of 1/2 or more whose components are cut by half a unit, 3.1 halves across it at most, and of rounding, 1.8
   //   component: off by at most 2^-23: u / 2
   //   length: off by at most 1.42e-06: 1.2 * 10^-6 + 2 * u_square + sqrt(3) * u / 2
-  //   angle: off by at most 5.2e-07 radians: (2 * sqrt(2) + sqrt(2) + 0.1) * u / 2
+  //   angle: off by at most 5.9e-07 radians: 4.9 * u / 2
   static constexpr int c_direction_bits = 24;
   static constexpr int c_direction_fraction_bits = 22;
   // s2.28: from a surface point to a light, before it is normalized: the light's place rounded, the point's cut
@@ -172,7 +172,7 @@ struct Exact {
   static constexpr int c_factor_bits = 24;
   static constexpr int c_factor_fraction_bits = 8;
   // u40.0: a factor times a table's entry, for the probe
-  //   at most 2^40: 2^24 * 2^16
+  //   at most 1099494785025: (2^24 - 1) * (2^16 - 1)
   static constexpr int c_product_word_bits = 40;
   static constexpr int c_product_word_fraction_bits = 0;
 
@@ -601,10 +601,10 @@ struct Published {
   //   off by at most 2^-15: u / 2
   static constexpr int c_vector_bits = 16;
   static constexpr int c_vector_fraction_bits = 14;
-  // s1.14: 16 bits, so that an N that is not normalized passes as it is; else as in preset exact, and of 17 bits one is cut
+  // s1.14: 16 bits, so that an N that is not normalized passes as it is; else as in preset exact, but vectors of 17 bits at most are cut, by a quarter of a unit
   //   component: off by at most 2^-15: u / 2
   //   length: off by at most 0.0094: 0.0092 + 2 * u_square + sqrt(3) * u / 2
-  //   angle: off by at most 9.3e-05 radians: (sqrt(2) + sqrt(2) + 0.1) * u / 2 * (1 + 0.0094)
+  //   angle: off by at most 0.000102 radians: 3.3 * u / 2 * (1 + 0.0094)
   static constexpr int c_direction_bits = 16;
   static constexpr int c_direction_fraction_bits = 14;
   // s2.14: from a surface point to a light, before it is normalized; with the eye's vector, held below 2, the sum of three words
@@ -637,8 +637,8 @@ struct Published {
   //   highlight: off by at most 0.184 of a highlight's peak: u / 2 / e
   static constexpr int c_exponent_bits = 10;
   static constexpr int c_exponent_fraction_bits = 0;
-  // u1.8: a power of a cosine, or of a spot's edge: cells of the logarithm are 1/64, so that its middle is 2^-8 off next to 1; a diffuse term's cosine is rounded
-  //   power: off by at most 1: 1 - e^(-m / 256) + 2^-7
+  // u1.8: a power of a cosine, or of a spot's edge: next to 1 the middle of a cell of the logarithm and its rounding are 0.0062 off, so that an m-th power falls by e^(-m / 232); 2^-x, the rounding and the product's cut come on top. A diffuse term's cosine is rounded
+  //   power: off by at most 1: 1 - e^(-m / 232) + 0.0074 + u / 2 + 2^-10
   //   spot: off by at most 2^-7: 3 / 2 * u + u / 2
   //   diffuse: off by at most 2^-9: u / 2
   static constexpr int c_weight_bits = 9;
@@ -664,7 +664,7 @@ struct Published {
   static constexpr int c_factor_bits = 18;
   static constexpr int c_factor_fraction_bits = 8;
   // u36.0: a factor times a table's entry, for the probe
-  //   at most 2^34: 2^18 * 2^16
+  //   at most 17179541505: (2^18 - 1) * (2^16 - 1)
   static constexpr int c_product_word_bits = 36;
   static constexpr int c_product_word_fraction_bits = 0;
 

@@ -134,10 +134,12 @@ std::vector<Format> exact_formats() {
        "are "
        "made; their length has the error of root, half that of a square of 1/4 or more, and of three "
        "components "
-       "rounded; the direction that of a vector of 1/2 or more cut to half a unit, and of rounding",
+       "rounded; the angle has that of a vector of 1/2 or more whose components are cut by half a unit, 3.1 "
+       "halves "
+       "across it at most, and of rounding, 1.8",
        {off_by(0x1p-23, "", "u / 2", "component"),
         off_by(1.42e-6, "", "1.2 * 10^-6 + 2 * u_square + sqrt(3) * u / 2", "length"),
-        off_by(5.2e-7, "radians", "(2 * sqrt(2) + sqrt(2) + 0.1) * u / 2", "angle")}},
+        off_by(5.9e-7, "radians", "4.9 * u / 2", "angle")}},
       {"offset",
        true,
        2,
@@ -220,7 +222,7 @@ std::vector<Format> exact_formats() {
        40,
        0,
        "a factor times a table's entry, for the probe",
-       {at_most(0x1p40, "2^24 * 2^16")}},
+       {at_most(16777215.0 * 65535.0, "(2^24 - 1) * (2^16 - 1)")}},
   };
 }
 
@@ -266,12 +268,12 @@ std::vector<Format> published_formats() {
        true,
        1,
        14,
-       "16 bits, so that an N that is not normalized passes as it is; else as in preset exact, and of 17 "
-       "bits "
-       "one is cut",
+       "16 bits, so that an N that is not normalized passes as it is; else as in preset exact, but vectors "
+       "of 17 bits "
+       "at most are cut, by a quarter of a unit",
        {off_by(0x1p-15, "", "u / 2", "component"),
         off_by(0.0094, "", "0.0092 + 2 * u_square + sqrt(3) * u / 2", "length"),
-        off_by(9.3e-5, "radians", "(sqrt(2) + sqrt(2) + 0.1) * u / 2 * (1 + 0.0094)", "angle")}},
+        off_by(1.02e-4, "radians", "3.3 * u / 2 * (1 + 0.0094)", "angle")}},
       {"offset",
        true,
        2,
@@ -301,11 +303,13 @@ std::vector<Format> published_formats() {
        false,
        1,
        8,
-       "a power of a cosine, or of a spot's edge: cells of the logarithm are 1/64, so that its middle is "
-       "2^-8 "
-       "off next to 1; a diffuse term's cosine is rounded",
-       {off_by(1, "", "1 - e^(-m / 256) + 2^-7", "power"), off_by(0x1p-7, "", "3 / 2 * u + u / 2", "spot"),
-        off_by(0x1p-9, "", "u / 2", "diffuse")}},
+       "a power of a cosine, or of a spot's edge: next to 1 the middle of a cell of the logarithm and its "
+       "rounding are "
+       "0.0062 off, so that an m-th power falls by e^(-m / 232); 2^-x, the rounding and the product's cut "
+       "come on top. "
+       "A diffuse term's cosine is rounded",
+       {off_by(1, "", "1 - e^(-m / 232) + 0.0074 + u / 2 + 2^-10", "power"),
+        off_by(0x1p-7, "", "3 / 2 * u + u / 2", "spot"), off_by(0x1p-9, "", "u / 2", "diffuse")}},
       {"coefficient", false, 1, 7, "an integer, in 1/128", {off_by(0x1p-8, "", "u / 2")}},
       {"light_intensity", false, 8, 0, "an integer, in colour steps", {off_by(0.5, "colour steps", "u / 2")}},
       {"reflected", false, 8, 0, "k I, an integer, rounded", {off_by(0.5, "colour steps", "u / 2")}},
@@ -321,7 +325,7 @@ std::vector<Format> published_formats() {
        36,
        0,
        "a factor times a table's entry, for the probe",
-       {at_most(0x1p34, "2^18 * 2^16")}},
+       {at_most(262143.0 * 65535.0, "(2^18 - 1) * (2^16 - 1)")}},
   };
 }
 

@@ -450,7 +450,8 @@ std::vector<Check> difference_checks() {
 std::vector<RuleRow> rule_rows(const Context& context) {
   std::vector<RuleRow> rows;
   for (int walked = 64; walked <= 4096; walked *= 2) {
-    const int side = walked / 2;  // lines and pixels together are M
+    // Lines and pixels together are M, and a divisor that is no power of two.
+    const int side = walked / 2 - 1;
     const std::int64_t stride = context.quick && side > 256 ? c_seldom : c_every;
     RuleRow row;
     row.walked = walked;

@@ -248,7 +248,7 @@ Finding factor(const Context& context, const tables::PresetFormats&, const table
   constexpr Preset c_preset = std::is_same_v<P, Exact> ? Preset::exact : Preset::published;
   Finding finding;
   const Seen seen{finding, format.fraction_bits};
-  for (int i = 0; i < (context.quick ? 40 : 2000); ++i) {
+  for (int i = 0; i < (context.quick ? 40 : 300); ++i) {
     const RandomScene random(static_cast<std::uint64_t>(i));
     const auto plan = plan_scene(random.scene, {.shader = Shader::spherical, .preset = c_preset});
     if (!plan) {
