@@ -447,6 +447,41 @@ std::vector<Check> difference_checks() {
   };
 }
 
+RuleCase published_rule_case() {
+  // Preset published has vertices at whole pixels, and draws the pixels on either end of an edge: (0, 0), (1,
+  // 4095), (0, 4095). The second differences add up down the edge.
+  constexpr int c_fraction = Published::c_intensity_fraction_bits,
+                c_x_fraction = Published::c_edge_x_fraction_bits;
+  constexpr std::int32_t c_middle = c_unit / 2, c_foot = (c_side - 1) * c_unit + c_middle;
+  const std::array<ScreenPoint, 3> points = {
+      {{c_middle, c_middle}, {c_unit + c_middle, c_foot}, {c_middle, c_foot}}};
+  const Walk walk{.upper_lines = c_side};
+  WalkLine last{walk, c_side - 1, 0};
+  last.walk.y = c_side - 1;
+  const Case worst = worst_case(points, walk, c_fraction, 3, 20'000, 11, last, 0);
+  using At = Published::init_header_at;
+  RuleCase rule;
+  rule.bound = newton_bound(c_side - 1 + 1, c_fraction);
+  InitVector init(rule.init, Published::c_init_header_bits + Published::c_init_channel_bits);
+  init.put(At::upper_lines, c_side);
+  init.put(At::start_x, half(c_x_fraction));
+  init.put(At::upper_x, half(c_x_fraction));
+  init.put(At::upper_slope, (std::int64_t{1} << c_x_fraction) / (c_side - 1));
+  using ChannelAt = Published::init_channel_at;
+  const QuadraticWords& w = worst.words;
+  for (const auto& [field, word] : {std::pair{ChannelAt::value, w.value + half(c_fraction)},
+                                    {ChannelAt::dx, w.dx},
+                                    {ChannelAt::de0, w.de0},
+                                    {ChannelAt::dxx, w.dxx},
+                                    {ChannelAt::dxe0, w.dxe0},
+                                    {ChannelAt::de0e0, w.de0e0}})
+    init.put(field, word, Published::c_init_header_bits);
+  rule.right = [truth = Truth::of(points, worst.samples)](std::int64_t x, std::int64_t y) {
+    return -std::ldexp(truth.error(0, x, y), -c_fraction);
+  };
+  return rule;
+}
+
 std::vector<RuleRow> rule_rows(const Context& context) {
   std::vector<RuleRow> rows;
   for (int walked = 64; walked <= 4096; walked *= 2) {

@@ -27,18 +27,6 @@ std::string number(double value) {
                                                              : fmt::format("{:.4g}", value);
 }
 
-std::optional<std::string> gappa(const Context& context, std::string_view script) {
-  if (context.quick) return std::nullopt;
-  const std::filesystem::path file = context.scratch / "bound.gappa";
-  if (const auto written = write_file(file, script); !written) return written.error().message;
-  const auto end = run_process({.arguments = {"gappa", file.string()}, .timeout = std::chrono::minutes(1)},
-                               "apt-get install gappa");
-  if (!end) return end.error().message;
-  // What it says last is what it could not show.
-  return end->succeeded() ? std::string()
-                          : end->output.substr(std::min(end->output.rfind("Error"), end->output.size()));
-}
-
 namespace {
 
 struct Options {

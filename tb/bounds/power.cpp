@@ -171,7 +171,7 @@ double share_error(std::int64_t over, std::uint32_t slope) {
 }
 
 template <class P>
-Finding spot(const Context& context, const tables::PresetFormats&, const tables::Format& format,
+Finding spot(const Context& context, const tables::PresetFormats&, const tables::Format&,
              const tables::Bound& bound) {
   constexpr int c_slope_bits = 12 + P::c_spot_slope_fraction_bits, c_sum = 2 * P::c_direction_fraction_bits;
   std::mt19937_64 random(2);
@@ -190,26 +190,24 @@ Finding spot(const Context& context, const tables::PresetFormats&, const tables:
     finding.where = fmt::format("slope word {}, cosine {} / 2^{} above the edge", slope, over, c_sum);
   }
   // t is within [0, 1] or held; beside that the cuts alone, and the rounding.
-  const int weight = P::c_weight_fraction_bits, over_bits = std::min(SpotCone<P>::c_over_fraction, c_sum);
-  // What is of second order in the cuts comes on top of what is stated: a part in 500.
-  const double stated = bound.value * (1 + 0x1p-9);
-  const auto said =
-      gappa(context,
-            fmt::format("o = fixed<-{},dn>(O); t = fixed<-{},dn>(o * s); T = O * s; d = T - t;\n"
-                        "g = t * t * (3 - 2 * t); f = fixed<-{},ne>(g); F = T * T * (3 - 2 * T);\n"
-                        "rise = 1.5 - 6 * ((t - 0.5) * (t - 0.5)) + d * (3 - 6 * t) - 2 * (d * d);\n"
-                        "{{ s in [0, 4096] /\\ T in [0, 1] /\\ t in [0, 1] -> |f - F| <= {} }}\n"
-                        "F - g -> d * rise;\nd -> (O - o) * s + (o * s - t);\nf - F -> (f - g) - (F - g);\n",
-                        over_bits, weight, weight, stated));
-  if (said && said->empty()) finding.proved = stated;
+  const int weight = P::c_weight_fraction_bits;
+  // The cubic's rise between t and T is at most its slope where it is steepest.
+  const auto said = gappa(
+      context,
+      fmt::format("O = fixed<-{},dn>(R); o = fixed<-{},dn>(O); t = fixed<-{},dn>(o * s); T = O * s;\n"
+                  "d = T - t; c = (T + t) / 2; rise = 1.5 - 6 * ((c - 0.5) * (c - 0.5)) - 0.5 * (d * d);\n"
+                  "g = t * t * (3 - 2 * t); f = fixed<-{},ne>(g); F = T * T * (3 - 2 * T);\n"
+                  "{{ s in [0, 4096] /\\ T in [0, 1] /\\ t in [0, 1] -> |f - F| <= {} }}\n"
+                  "F - g -> d * rise;\nd -> (O - o) * s + (o * s - t);\nf - F -> (f - g) - (F - g);\n",
+                  c_sum, SpotCone<P>::c_over_fraction, weight, weight, bound.value));
+  if (said && said->empty()) finding.proved = bound.value;
   if (said && !said->empty()) finding.failure = "Gappa cannot show it: " + *said;
   return finding;
 }
 
 // A diffuse term's weight is its cosine, rounded: every cosine of preset published, a stride of exact's.
 template <class P>
-Finding diffuse(const Context&, const tables::PresetFormats&, const tables::Format& format,
-                const tables::Bound&) {
+Finding diffuse(const Context&, const tables::PresetFormats&, const tables::Format&, const tables::Bound&) {
   constexpr int c_drop = P::c_direction_fraction_bits - P::c_weight_fraction_bits;
   Finding finding;
   for (std::int64_t cosine = 0; cosine <= std::int64_t{1} << P::c_direction_fraction_bits; ++cosine) {

@@ -2,8 +2,10 @@
 // What is checked of a bound: how, the worst that was found, and where.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,6 +72,15 @@ struct RuleRow {
   std::string triangle;  ///< its samples
 };
 std::vector<RuleRow> rule_rows(const Context& context);
+
+/// An init vector of the published shader, one channel: a triangle of 4096 lines, drawn with figure 7's 20
+/// fraction bits, which the published rule takes to be more than enough.
+struct RuleCase {
+  std::vector<std::uint32_t> init;
+  std::function<double(std::int64_t x, std::int64_t y)> right;  ///< colour steps, at a pixel's centre
+  double bound;                                                 ///< colour steps: what its words may be off
+};
+RuleCase published_rule_case();
 
 /// How far the spherical paper's angle drifts with so many bits below the table's address.
 struct DriftRow {
