@@ -182,7 +182,8 @@ class Report {
 
   void all_tables(std::string_view title, const std::vector<TableFinding>& findings) {
     page_ += fmt::format(
-        "\n### {}\n\n| table | bound | found | of the bound | where |\n| --- | --- | --- | --- | --- |\n",
+        "\n### {}\n\n| table | bound | found | of the bound | Sollya | where |\n| --- | --- | --- | --- | "
+        "--- | --- |\n",
         std::string(1, static_cast<char>(title[0] - 'a' + 'A')) + std::string(title.substr(1)));
     for (const TableFinding& f : findings) {
       const double ratio = f.worst / f.bound;
@@ -190,8 +191,9 @@ class Report {
       if (ratio > 1 || f.derived > f.bound * (1 + c_rounding) || ratio < c_tight)
         fail(fmt::format("{}: {} of its bound {}, derived {}", f.table, number(ratio), number(f.bound),
                          number(f.derived)));
-      page_ += fmt::format("| {} | {} | {} | {:.2f} | {} |\n", f.table, number(f.bound), number(f.worst),
-                           ratio, f.where);
+      if (!f.failure.empty()) fail(fmt::format("{}: {}", f.table, f.failure));
+      page_ += fmt::format("| {} | {} | {} | {:.2f} | {} | {} |\n", f.table, number(f.bound), number(f.worst),
+                           ratio, f.sollya > 0 ? number(f.sollya) : "–", f.where);
     }
   }
 
@@ -255,8 +257,9 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "usage: halfway_bounds [--quick] [--page FILE] SCRATCH [PART]\n");
     return static_cast<int>(ExitCode::bad_input);
   }
-  if (!options.quick && find_program("gappa").empty()) {
-    fmt::print(stderr, "gappa: is missing; install it with: apt-get install gappa\n");
+  for (const char* tool : {"gappa", "sollya"}) {
+    if (options.quick || !find_program(tool).empty()) continue;
+    fmt::print(stderr, "{0}: is missing; install it with: apt-get install {0}\n", tool);
     return static_cast<int>(ExitCode::tool_failed);
   }
   bounds::Report report(options);

@@ -52,7 +52,10 @@ std::vector<Check> sum_checks();
 struct TableFinding {
   std::string table;
   double bound = 0, derived = 0, worst = 0;
-  std::string where, failure{};
+  std::string where;
+  /// Sollya's answer for the same cells, of its own arithmetic; of a chord without what is cut. 0: not asked.
+  double sollya = 0;
+  std::string failure{};
 };
 
 /// Over whole cells, by intervals with outward rounding: the generated tables, and all sizes of cosine tables
@@ -93,6 +96,9 @@ std::vector<DriftRow> drift_rows();
 /// Gappa's answer to a script; an empty string where it proves all of it, else what it says. Empty optional:
 /// there is no Gappa.
 std::optional<std::string> gappa(const Context& context, std::string_view script);
+
+/// What Sollya prints for a script; an empty optional where it is not asked: --quick.
+std::optional<std::string> sollya(const Context& context, std::string_view script);
 
 /// x.y as it is worth.
 std::string number(double value);

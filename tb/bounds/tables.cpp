@@ -4,6 +4,8 @@
 // point between, bounded by the tangents at the two ends.
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 #include "interval.hpp"
 #include "registry.hpp"
 #include "tables/cosine.hpp"
@@ -13,6 +15,32 @@ namespace halfway::bounds {
 namespace {
 
 using tables::CosineTable, tables::Function, tables::FunctionTable;
+
+// Asks Sollya for the largest distance between f and each cell's constant or chord.
+class SollyaScript {
+ public:
+  explicit SollyaScript(std::string f)
+      : text_(fmt::format("prec = 120!;\nverbosity = 0!;\nf = {};\nm = 0;\n", f)) {}
+  /// On [low, high] / 2^shift. (supnorm knows no polynomial that is zero, infnorm takes long for chords.)
+  void constant(const std::string& value, long low, long high, int shift) {
+    text_ += fmt::format("m = max(m, sup(infnorm({} - f, [{} * 2^-{}; {} * 2^-{}])));\n", value, low, shift,
+                         high, shift);
+  }
+  void chord(const std::string& polynomial, long low, long high, int shift) {
+    text_ += fmt::format("m = max(m, sup(supnorm({}, f, [{} * 2^-{}; {} * 2^-{}], absolute, 2^-20)));\n",
+                         polynomial, low, shift, high, shift);
+  }
+  void run(const Context& context, TableFinding& finding) const {
+    const auto said = sollya(context, text_ + "print(m);\nquit;\n");
+    if (!said) return;
+    char* end = nullptr;
+    finding.sollya = std::strtod(said->c_str(), &end);
+    if (end == said->c_str() || !(finding.sollya > 0)) finding.failure = "Sollya says " + *said;
+  }
+
+ private:
+  std::string text_;
+};
 
 // |entry - cos^power| over the cell of each entry.
 TableFinding cosine_finding(const CosineTable& table) {
@@ -103,13 +131,59 @@ TableFinding chord_finding(const FunctionTable& table, TableFinding finding) {
   return finding;
 }
 
+void ask_sollya(const Context& context, const CosineTable& table, TableFinding& finding) {
+  const int cells = 1 << table.address_bits, full = (1 << table.data_bits) - 1;
+  const int shift = table.address_bits - (table.exact ? 0 : table.power == 1 ? 2 : 1);
+  SollyaScript script(fmt::format("cos(pi / 2 * x)^{}", table.power));
+  for (int entry = 0; entry < cells; ++entry) {
+    const int low = table.exact || entry < cells / 2 ? entry : entry - cells;
+    if (low < -(1 << shift) || low >= 1 << shift) continue;  // zero in table and function
+    script.constant(fmt::format("{} / {}", table.entries[static_cast<std::size_t>(entry)], full), low,
+                    low + 1, shift);
+  }
+  script.run(context, finding);
+  if (finding.sollya > 0 && std::fabs(finding.sollya / finding.worst - 1) > 0x1p-18)
+    finding.failure = fmt::format("Sollya has {}", finding.sollya);
+}
+
+void ask_sollya(const Context& context, const FunctionTable& table, TableFinding& finding) {
+  SollyaScript script(table.function == Function::logarithm ? "log2(x)"
+                      : table.function == Function::decay   ? "2^(-x)"
+                                                            : "1 / sqrt(x)");
+  for (int i = 0; i < 1 << table.address_bits; ++i) {
+    Dyadic from = argument(table, i), to = argument(table, i + 1);
+    // Up to 2 a cell is half as wide, where it ends at 2 as well.
+    if (table.function == Function::reciprocal_root && i + 1 == 1 << (table.address_bits - 1))
+      to = {2L << table.address_bits, table.address_bits};
+    const std::uint32_t value = table.values[static_cast<std::size_t>(i)];
+    const std::string begins = fmt::format("{} * 2^-{}", value, table.fraction_bits);
+    if (table.slope_bits == 0) {
+      script.constant(begins, from.number, to.number, from.shift);
+    } else {
+      const std::int64_t slope = std::int64_t{table.values[static_cast<std::size_t>(i) + 1]} - value;
+      script.chord(fmt::format("{} + ({}) * 2^{} * (x - {} * 2^-{})", begins, slope,
+                               table.address_bits - table.fraction_bits, from.number, from.shift),
+                   from.number, to.number, from.shift);
+    }
+  }
+  script.run(context, finding);
+  // Ours has what is cut besides, along a chord, and the bend of its parts.
+  const double cut = table.slope_bits > 0 ? std::ldexp(1.0, -table.fraction_bits) : 0;
+  if (finding.sollya > finding.worst * (1 + 0x1p-18) ||
+      (finding.sollya > 0 && finding.sollya + cut < finding.worst * (1 - 0x1p-10)))
+    finding.failure = fmt::format("Sollya has {}", finding.sollya);
+}
+
 constexpr const char* c_functions[] = {"1/sqrt(x)", "log2(x)", "2^-x"};
 
 }  // namespace
 
 std::vector<TableFinding> cosine_tables(const Context& context) {
   std::vector<TableFinding> findings;
-  for (const CosineTable& table : tables::cosine_tables()) findings.push_back(cosine_finding(table));
+  for (const CosineTable& table : tables::cosine_tables()) {
+    findings.push_back(cosine_finding(table));
+    ask_sollya(context, table, findings.back());
+  }
   // Any other size that `make tables` may be asked for.
   TableFinding others{.table = "the other sizes, 3/2 to 12/12"};
   double nearest = 0, farthest_away = 1;
@@ -135,7 +209,7 @@ std::vector<TableFinding> cosine_tables(const Context& context) {
   return findings;
 }
 
-std::vector<TableFinding> function_tables(const Context&) {
+std::vector<TableFinding> function_tables(const Context& context) {
   std::vector<TableFinding> findings;
   for (const FunctionTable& table : tables::function_tables()) {
     TableFinding finding;
@@ -144,6 +218,7 @@ std::vector<TableFinding> function_tables(const Context&) {
     finding.bound = table.error.value;
     finding.derived = tables::derived(table);
     findings.push_back(table.slope_bits > 0 ? chord_finding(table, finding) : step_finding(table, finding));
+    ask_sollya(context, table, findings.back());
   }
   return findings;
 }
