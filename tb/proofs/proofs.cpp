@@ -457,6 +457,29 @@ std::vector<Proof> all_proofs() {
        {},
        true});
 
+  // The pipeline of three processors.
+  for (const bool unrolled : {true, false})
+    proofs.push_back(
+        {"shaders/shading_pipeline",
+         "shaders/shading_pipeline.psl",
+         unrolled ? "Numbered objects run through three processors and come out with every number, in order, and "
+                    "nothing else does; any products"
+                  : "The same of folded processors",
+         Method::pdr,
+         18,
+         false,
+         {{"g_exact", "false"},
+          {"g_channels", "1"},
+          {"g_directional", "2"},
+          {"g_specular", "false"},
+          {"g_normalize", "false"},
+          {"g_unrolled", unrolled ? "true" : "false"}},
+         {{"shaders/shading_pipeline.vhd", "valid(c_processors) and object", "valid(c_processors)"},
+          {"shaders/shading_pipeline.vhd", "out_ready or not object", "'1'"},
+          {"shaders/shading_pipeline.vhd", "busy  <= or works", "busy  <= works(0)"}},
+         {{"triangle", 4, 0}},
+         true});
+
   // Differences.
   const std::vector<Fault> quadratic_faults = {
       {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
@@ -557,7 +580,8 @@ std::vector<Proof> all_proofs() {
       {"shaders/quadratic_shader",
        "shaders/quadratic_shader.psl",
        "Each pixel of the walker comes out once, with its own depth and colours, and stands still while it "
-       "waits",
+       "waits; double buffer: the next triangle is taken while one is drawn, and goes to the walker once, as it "
+       "came",
        Method::induction,
        3,
        true,
@@ -566,27 +590,39 @@ std::vector<Proof> all_proofs() {
         {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => colours",
          "load  => drawn,\n      start => colours"},
         {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => whole_z",
-         "load  => span_load,\n      start => whole_z"}},
+         "load  => span_load,\n      start => whole_z"},
+        {"shaders/quadratic_shader.vhd", "out_ready => taken", "out_ready => taken and not walking"},
+        {"shaders/quadratic_shader.vhd", "init_valid     => waiting", "init_valid     => init_valid"},
+        {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= not r.valid"}},
        {},
        false,
        8});
   proofs.push_back({"shaders/spherical_shader",
                     "shaders/spherical_shader.psl",
-                    "The same through both stages behind the walker, in order; any products",
+                    "The same through both stages behind the walker, in order, each with its own depth, ambient "
+                    "light and colour; a record goes to its line; any products",
                     Method::induction,
                     3,
                     false,
                     {{"g_channels", "1"}, {"g_highlight_channels", "1"}},
                     {{"shaders/spherical_shader.vhd", "walking or sample_valid or product_valid",
                       "walking or product_valid"},
-                     {"shaders/spherical_shader.vhd", "product_valid and product_ready", "product_valid"}},
+                     {"shaders/spherical_shader.vhd", "product_valid and product_ready", "product_valid"},
+                     {"shaders/spherical_shader.vhd", "load  => sample_step,\n      start => sample_depth",
+                      "load  => span_step,\n      start => sample_depth"},
+                     {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
+                      "load  => line_load,\n      start => line_ambient"},
+                     {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
+                     {"shaders/spherical_shader.vhd", "line_step or not line_held", "line_step or not waiting"}},
                     {},
                     true,
                     10});
   proofs.push_back(
       {"shaders/processors_shader",
        "shaders/processors_shader.psl",
-       "Each object of the pipeline comes out once and stands still while it waits; any products",
+       "Each object of the pipeline comes out once, with its own depth and colour, and stands still while it waits; "
+       "double buffer; a load goes past the walker as it came, when nothing is before it, and an object to the "
+       "pipeline with what belongs to it and says where it lies; any products",
        Method::induction,
        2,
        false,
@@ -597,7 +633,17 @@ std::vector<Proof> all_proofs() {
         {"g_normalize", "false"}},
        {{"shaders/processors_shader.vhd", "or objects_busy or shading", "or objects_busy"},
         {"shaders/processors_shader.vhd", "shaded_step  <= shaded_valid and shaded_ready",
-         "shaded_step  <= shaded_valid"}},
+         "shaded_step  <= shaded_valid"},
+        {"shaders/processors_shader.vhd", "walk_valid <= waiting and not loads;", "walk_valid <= waiting;"},
+        {"shaders/processors_shader.vhd", "waiting and loads and not walking and objects_idle",
+         "waiting and loads and objects_idle"},
+        {"shaders/processors_shader.vhd", "token_ready and load_valid when", "load_valid when"},
+        {"shaders/processors_shader.vhd", "command_word(c_new_object) when", "command_word(c_new_pixel) when"},
+        {"shaders/processors_shader.vhd", "if reset = '1' or objects_clear = '1' then", "if reset = '1' then"},
+        {"shaders/processors_shader.vhd", "start => line_material",
+         "start => init(init_material_low(c_config) + material_t'high downto init_material_low(c_config))"},
+        {"shaders/processors_shader.vhd", "command = command_word(c_define) or",
+         "command = command_word(c_shadow) or"}},
        {},
        true,
        11});
