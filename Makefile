@@ -23,7 +23,7 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim compare why plan figure17 gallery tables check-tables test mutants prove stability search bench build program generator \
+.PHONY: help sim compare why plan figure17 gallery tables check-tables test mutants prove stability search bench build program generator bounds \
   configure setup doctor format check-format clean
 
 help: ## this list
@@ -95,6 +95,10 @@ search: configure ## random triangles in golden model and RTL; what fails is shr
 	@build/tb/halfway_search $(call option,TRIANGLES,--triangles) $(call option,SEED,--seed) \
 	  --page tb/stability/README.md --keep tb/stability/regressions .
 
+bounds: configure ## every bound of formats and tables: derived, proved, and how near the worst found comes
+	@cmake --build build -j "$(jobs)" --target halfway_bounds
+	@build/tb/halfway_bounds --page tb/bounds/README.md build/bounds
+
 bench: program ## speed, as ratios within one run
 	@cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench
 
@@ -115,9 +119,9 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf '%s\n' "$$key" >build/configure.stamp
 
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs one package more, and so
-# do `make plan MEASURE=1` and `make prove`.
+# do `make plan MEASURE=1`, `make prove` and `make bounds`.
 setup:
-	@scripts/setup.sh $(filter bench prove,$(MAKECMDGOALS)) \
+	@scripts/setup.sh $(filter bench prove bounds,$(MAKECMDGOALS)) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth))
 
 doctor: ## tools and libraries found, and the command that mends what is missing

@@ -120,11 +120,11 @@ void expect_unit(double length_bits, double angle_bits) {
 }
 
 TEST(UnitVector, LengthAndDirection) {
-  expect_unit<Exact, Exact::c_vector_bits>(-19.5, -20.8);
-  expect_unit<Exact, Exact::c_offset_bits>(-19.5, -20.8);
-  expect_unit<Exact, Exact::c_direction_bits + 1>(-19.5, -20.8);
-  expect_unit<Published, Published::c_vector_bits>(-6.88, -13.4);
-  expect_unit<Published, Published::c_vector_bits + 1>(-6.88, -13.4);
+  expect_unit<Exact, Exact::c_vector_bits>(-19.5, -20.7);
+  expect_unit<Exact, Exact::c_offset_bits>(-19.5, -20.7);
+  expect_unit<Exact, Exact::c_direction_bits + 1>(-19.5, -20.7);
+  expect_unit<Published, Published::c_vector_bits>(-6.86, -13.2);
+  expect_unit<Published, Published::c_vector_bits + 1>(-6.86, -13.2);
 }
 
 TEST(UnitVector, NoneOfAZeroVector) {

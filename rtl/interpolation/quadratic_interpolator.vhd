@@ -9,7 +9,7 @@
 -- Formats     formats_pkg: intensity; sums wrap, the value at a covered pixel fits
 -- Latency     1 clock from a load or step to its value
 -- Throughput  1 line and 1 pixel a clock
--- Error       0.15 of a colour step at most in preset exact: see intensity in formats_pkg
+-- Error       0.15 of a colour step at most in preset exact, 16 in published: see intensity in formats_pkg
 -- Source      quadratic paper, section 5 (the nested loops) and figure 6
 -- Golden twin model/golden/quadratic_interpolator.hpp
 

@@ -6,7 +6,7 @@
 -- Formats     sample: unsigned, of 2**g_data_bits - 1; table: cosine_pkg
 -- Latency     1 clock from an address with enable to its sample
 -- Throughput  1 sample a clock
--- Error       half a step of the sample, and the width of a cell of the angle: `halfway tables` states both
+-- Error       half a step of the sample, and half a cell of the angle where the power is steepest: see cosine_pkg
 -- Source      spherical paper, section 5 and figure 11
 -- Golden twin model/golden/cosine_rom.hpp
 

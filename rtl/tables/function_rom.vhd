@@ -6,7 +6,7 @@
 -- Formats     sample: slope_bits above value_bits, both unsigned; function_pkg
 -- Latency     1 clock from an address with enable to its sample
 -- Throughput  1 sample a clock
--- Error       half a step of the value
+-- Error       half a step of the value where it stands; over its cell: see function_pkg
 -- Source      processors paper, figures 1 and 2: its tables of x**m and of 1/sqrt(x)
 -- Golden twin model/golden/function_rom.hpp
 

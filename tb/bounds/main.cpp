@@ -22,7 +22,7 @@
 namespace halfway::bounds {
 
 std::string number(double value) {
-  if (value == 0) return "0";
+  if (value == std::floor(value) && std::fabs(value) < 0x1p53) return fmt::format("{:.0f}", value);
   return std::fabs(value) >= 0.001 && std::fabs(value) < 1e6 ? fmt::format("{:.5g}", value)
                                                              : fmt::format("{:.4g}", value);
 }

@@ -149,12 +149,17 @@ void climb(bool of_length, int starts, Finding& finding) {
 }
 
 template <class P>
-Finding length(const Context& context, const tables::PresetFormats&, const tables::Format&,
-               const tables::Bound&) {
+Finding length(const Context& context, const tables::PresetFormats& preset, const tables::Format& format,
+               const tables::Bound& bound) {
   Finding finding;
   const int starts = context.quick ? 3'000 : 200'000;
   climb<P, P::c_vector_bits>(true, starts, finding);
   climb<P, P::c_offset_bits>(true, starts, finding);
+  // The derivation with the root's error as it is over every x.
+  const double all_roots = root<P>(context, preset, format, bound).proved;
+  if (all_roots > 0)
+    finding.proved =
+        all_roots + 2 * std::ldexp(1.0, -P::c_square_fraction_bits) + std::sqrt(3.0) * format.unit() / 2;
   return finding;
 }
 
@@ -270,8 +275,9 @@ std::vector<Check> root_checks() {
        component<Exact>},
       {"published", "direction", "component", "cosines of dot products; a rounding leaves half a unit",
        component<Published>},
-      {"exact", "direction", "length", "derivation; a search uphill", length<Exact>},
-      {"published", "direction", "length", "derivation; a search uphill", length<Published>},
+      {"exact", "direction", "length", "every root, and a derivation; a search uphill", length<Exact>},
+      {"published", "direction", "length", "every root, and a derivation; a search uphill",
+       length<Published>},
       {"exact", "direction", "angle", "boxes of directions; a search uphill", angle<Exact>},
       {"published", "direction", "angle", "boxes of directions; a search uphill", angle<Published>},
       {"exact", "offset", "", "random places; a rounding and a cut", offset},
