@@ -110,7 +110,9 @@ Input shrink(std::span<const Parameter> parameters, Input input,
 
 std::string write_regression(std::string_view search, std::span<const Parameter> parameters,
                              const Input& input, std::string_view comment) {
-  std::string text = fmt::format("# {}\nsearch {}\n", comment, search);
+  std::string text = "# ";
+  for (const char c : comment) text += c == '\n' ? "\n# " : std::string(1, c);
+  text += fmt::format("\nsearch {}\n", search);
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (input[i] != parameters[i].simplest) text += fmt::format("{} {}\n", parameters[i].name, input[i]);
   return text;

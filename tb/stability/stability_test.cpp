@@ -86,8 +86,8 @@ Result<Regression> read(std::string_view text) {
 
 TEST(Regression, ComesBackAsItWasWritten) {
   const Input input = {-1000, 0, 77, 9};
-  const std::string text = write_regression("things", c_abcd, input, "why");
-  EXPECT_EQ(text, "# why\nsearch things\na -1000\nc 77\nd 9\n");
+  const std::string text = write_regression("things", c_abcd, input, "why\nand how");
+  EXPECT_EQ(text, "# why\n# and how\nsearch things\na -1000\nc 77\nd 9\n");
   const auto back = read(text);
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(back->search, "things");

@@ -154,7 +154,10 @@ class TriangleChecker final : public Checker {
     const Subject s = subject_of(input);
     ++tally.inputs;
     words_.clear();
-    fragments_.clear();
+    if (fragments_.capacity() > c_most_kept)
+      fragments_ = {};
+    else
+      fragments_.clear();
     append(s, c_tag, words_);
     golden_[s.channels == 3]->draw(words_, fragments_);
     tally.fragments += fragments_.size();
@@ -227,6 +230,8 @@ class TriangleChecker final : public Checker {
 
  private:
   static constexpr std::uint32_t c_tag = 0xA5C3'0F96;
+  // The largest frames have 256 MB of fragments; few threads hold as many at once.
+  static constexpr std::size_t c_most_kept = 1 << 20;
 
   // One line of the specification: barycentrics stepped as whole numbers.
   class Row {
