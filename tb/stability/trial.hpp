@@ -108,7 +108,7 @@ class Trial {
   std::string failure_;
   Status tools_ = Ok{};
   std::uint64_t golden_fragments_ = 0, rtl_fragments_ = 0;
-  std::set<std::string> through_ghdl_;             ///< keys of which GHDL has drawn something
+  std::set<std::string> through_ghdl_;  ///< keys of which GHDL has drawn something
 };
 
 }  // namespace halfway::stability
