@@ -7,7 +7,8 @@
 
 namespace halfway {
 
-/// Towards zero, held within Integer; 0 for what is no number. tb/stability/conversions.cpp lists the callers.
+/// Towards zero, held within Integer; 0 for what is no number. tb/stability/conversions.cpp lists the
+/// callers.
 template <class Integer, std::floating_point Real>
 constexpr Integer to_integer(Real value) {
   using Range = std::numeric_limits<Integer>;
