@@ -13,6 +13,7 @@
 #include <thread>
 #include <tuple>
 
+#include "common/to_integer.hpp"
 #include "frame/frame.hpp"
 #include "tables/cosine.hpp"
 
@@ -240,7 +241,7 @@ Progress::~Progress() {
 }
 
 void Progress::show(double done) {
-  const int percent = static_cast<int>(100.0 * done);
+  const int percent = to_integer<int>(100.0 * done);
   if (percent == last_percent_) return;
   last_percent_ = percent;
   show(fmt::format("{} %", percent));

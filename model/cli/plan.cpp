@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "cli/options.hpp"
+#include "common/to_integer.hpp"
 #include "plan/cells.hpp"
 #include "plan/hardware_units.hpp"
 #include "plan/processor_clocks.hpp"
@@ -76,7 +77,7 @@ void print_effects(const Plan& plan, const CellsByKey& cells) {
 
 std::string saved(double called_for, double everything) {
   if (everything <= 0.0) return {};
-  return fmt::format("{} %", std::lround(100.0 * (1.0 - called_for / everything)));
+  return fmt::format("{} %", to_integer<int>(std::round(100.0 * (1.0 - called_for / everything))));
 }
 
 void print_row(const std::string& name, const std::string& called_for, const std::string& everything,

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "cli/options.hpp"
+#include "common/to_integer.hpp"
 #include "run/simulate.hpp"
 #include "scene/load_scene.hpp"
 #include "tables/compiled_sizes.hpp"
@@ -64,7 +65,7 @@ Outcome draw_scene(const std::string& name, std::size_t number, const Folders& f
   const auto scene = load_scene(name, folders.scenes());
   if (!scene) return scene.error();
   settings.on_progress = [&](const std::string& what, double done) {
-    board.show(number, done < 0.0 ? what : fmt::format("{} {} %", what, static_cast<int>(100.0 * done)));
+    board.show(number, done < 0.0 ? what : fmt::format("{} {} %", what, to_integer<int>(100.0 * done)));
   };
   settings.on_wait = [&](const std::filesystem::path& folder) {
     board.clear();

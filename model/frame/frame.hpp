@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/to_integer.hpp"
 #include "frame/frame_size.hpp"
 
 namespace halfway {
@@ -28,7 +29,7 @@ struct Frame {
 
 /// Linear radiance to a channel: round(255 clamp(v, 0, 1)), halves up; NaN gives 0.
 constexpr std::uint8_t to_byte(double v) {
-  return v >= 1 ? std::uint8_t{255} : v > 0 ? static_cast<std::uint8_t>(255 * v + 0.5) : std::uint8_t{0};
+  return v >= 1 ? std::uint8_t{255} : v > 0 ? to_integer<std::uint8_t>(255 * v + 0.5) : std::uint8_t{0};
 }
 
 }  // namespace halfway

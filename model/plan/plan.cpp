@@ -3,6 +3,7 @@
 
 #include "plan/hardware_units.hpp"
 #include "plan/shader_plans.hpp"
+#include "scene/check_numbers.hpp"
 
 namespace halfway {
 
@@ -29,6 +30,7 @@ void set_other(PlannedEffect& effect, const HardwareKey& key, const HardwareKey&
 }
 
 Result<Plan> plan_scene(const Scene& scene, const PlanRequest& request) {
+  if (const Status numbers = check_numbers(scene); !numbers) return numbers.error();
   const SceneCalls calls = calls_of(scene);
   switch (request.shader) {
     case Shader::quadratic:

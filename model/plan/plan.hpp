@@ -52,7 +52,7 @@ struct PlanRequest {
 
 inline constexpr std::size_t c_most_lights = 16;  ///< of the spherical shader, and of the processors
 
-/// An error where the shader cannot draw the scene.
+/// An error where the shader cannot draw the scene, or the scene's numbers are not what scene.hpp says.
 Result<Plan> plan_scene(const Scene& scene, const PlanRequest& request);
 
 }  // namespace halfway

@@ -5,9 +5,10 @@
 #include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
-#include <numeric>
 
+#include "common/to_integer.hpp"
 #include "scene/camera.hpp"
 
 namespace halfway {
@@ -37,7 +38,12 @@ struct Box {
     const glm::dvec3 size = high - low;
     return size.x * size.y + size.y * size.z + size.z * size.x;
   }
-  glm::dvec3 centre() const { return 0.5 * (low + high); }
+  glm::dvec3 centre() const { return 0.5 * low + 0.5 * high; }
+  bool is_finite() const {
+    constexpr double c_largest = std::numeric_limits<double>::max();
+    return glm::all(glm::lessThanEqual(glm::abs(low), glm::dvec3(c_largest))) &&
+           glm::all(glm::lessThanEqual(glm::abs(high), glm::dvec3(c_largest)));
+  }
 };
 
 }  // namespace
@@ -52,8 +58,9 @@ class ShadowRays::Builder {
       for (const glm::dvec3& corner : corners_world(*rays.scene_, triangle)) box.add(corner);
       boxes_.push_back(box);
     }
-    rays.order_.resize(boxes_.size());
-    std::iota(rays.order_.begin(), rays.order_.end(), 0u);
+    // Without a finite box a triangle has no place in the tree, and no ray meets it.
+    for (std::uint32_t i = 0; i < boxes_.size(); ++i)
+      if (boxes_[i].is_finite()) rays.order_.push_back(i);
   }
 
   void build() {
@@ -62,7 +69,7 @@ class ShadowRays::Builder {
       int depth;
     };
     rays_.nodes_.emplace_back();
-    std::vector<Task> tasks{{0, 0, static_cast<std::uint32_t>(boxes_.size()), 0}};
+    std::vector<Task> tasks{{0, 0, static_cast<std::uint32_t>(rays_.order_.size()), 0}};
     while (!tasks.empty()) {
       const Task task = tasks.back();
       tasks.pop_back();
@@ -99,7 +106,7 @@ class ShadowRays::Builder {
       const double scale = c_bins / size[axis];
       const auto bin_of = [&](std::uint32_t triangle) {
         const double place = (boxes_[triangle].centre()[axis] - centres.low[axis]) * scale;
-        return std::min(static_cast<int>(place), c_bins - 1);
+        return std::min(to_integer<int>(place), c_bins - 1);
       };
       struct Bin {
         Box box;
@@ -150,7 +157,8 @@ class ShadowRays::Builder {
 ShadowRays::ShadowRays(const Scene& scene) : scene_(&scene) {
   const double radius = bounding_sphere(scene).radius;
   touching_distance_ = c_touching * radius;
-  if (!scene.triangles.empty()) Builder(*this, c_box_margin * radius).build();
+  Builder builder(*this, c_box_margin * radius);
+  if (!order_.empty()) builder.build();
 }
 
 bool ShadowRays::reaches(LightRef light, const glm::dvec3& point_world, std::uint32_t triangle) const {

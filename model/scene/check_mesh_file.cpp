@@ -17,6 +17,7 @@
 #include <tuple>
 #include <utility>
 
+#include "common/to_integer.hpp"
 #include "scene/scene.hpp"
 
 namespace halfway {
@@ -447,7 +448,7 @@ class PlyCheck {
   void count_polygon(double corners) {
     if (corners < 3.0) return;
     ++polygons_;
-    triangles_ += static_cast<std::uint64_t>(corners) - 2;
+    triangles_ += to_integer<std::uint64_t>(corners) - 2;
   }
 
   Status walk_ascii(const PlyElement& element) {

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "common/to_integer.hpp"
+
 namespace halfway {
 
 using Int128 = __int128;
@@ -23,7 +25,7 @@ class ExactDivider {
     Int128 remainder = numerator + divisor_ / 2;  // an odd divisor's dropped half cannot move the floor
     // Each turn leaves about 2^-50 of the remainder.
     while (remainder < 0 || remainder >= divisor_) {
-      Int128 part = static_cast<Int128>(static_cast<double>(remainder) * reciprocal_);
+      Int128 part = to_integer<Int128>(static_cast<double>(remainder) * reciprocal_);
       if (part == 0) part = remainder < 0 ? -1 : 1;
       quotient += part;
       remainder -= part * divisor_;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/to_integer.hpp"
+
 namespace halfway {
 
 HalfVertex half_vertex(ScreenPoint corner, int level, double depth_steps) {
@@ -32,8 +34,8 @@ std::vector<HalfTriangle> half_triangles(const std::array<HalfVertex, 3>& p) {
     // The long edge runs past both halves.
     const long double x_long = p[top].x + (p[from].y - p[top].y) * along;
     const long double slope_short = (p[to].x - p[from].x) / (p[to].y - p[from].y);
-    HalfTriangle half{static_cast<std::int64_t>(p[from].y),
-                      static_cast<std::int64_t>(p[to].y - p[from].y) + 1,
+    HalfTriangle half{to_integer<std::int64_t>(p[from].y),
+                      to_integer<std::int64_t>(p[to].y - p[from].y) + 1,
                       {top, bottom},
                       {from, to},
                       x_long,

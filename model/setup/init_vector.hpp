@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "common/to_integer.hpp"
 #include "golden/word.hpp"
 #include "setup/exact_division.hpp"
 #include "setup/quadratic_fit.hpp"
@@ -38,7 +39,7 @@ class InitVector {
 
 /// value * 2^fraction_bits, rounded.
 inline std::int64_t fixed(double value, int fraction_bits) {
-  return std::llround(std::ldexp(value, fraction_bits));
+  return to_integer<std::int64_t>(std::round(std::ldexp(value, fraction_bits)));
 }
 
 constexpr std::int64_t half(int fraction_bits) {
@@ -48,7 +49,7 @@ constexpr std::int64_t half(int fraction_bits) {
 /// Word of a real number modulo 2^bits; a sliver's differences may be far past any integer type.
 inline std::int64_t wrapped_word(long double value, int fraction_bits, int bits) {
   const long double modulus = std::ldexp(1.0L, bits);
-  return static_cast<std::int64_t>(std::fmod(std::rint(std::ldexp(value, fraction_bits)), modulus));
+  return to_integer<std::int64_t>(std::fmod(std::rint(std::ldexp(value, fraction_bits)), modulus));
 }
 
 inline constexpr double c_depth_steps = double((1 << golden::Exact::c_depth_bits) - 1);

@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/to_integer.hpp"
 #include "golden/processors_layout.hpp"
 #include "plan/effects.hpp"
 #include "setup/init_vector.hpp"
@@ -49,7 +50,7 @@ double largest_value(const golden::Field& f) {
 std::int64_t held(double value, const golden::Field& f) {
   const double most = static_cast<double>(largest(f)), least = f.is_signed ? -most - 1.0 : 0.0;
   const double rounded = std::floor(std::ldexp(value, f.fraction_bits) + 0.5);
-  return std::isnan(rounded) ? 0 : static_cast<std::int64_t>(std::clamp(rounded, least, most));
+  return to_integer<std::int64_t>(std::clamp(rounded, least, most));
 }
 bool holds(double value, const golden::Field& f) {
   return std::floor(std::ldexp(value, f.fraction_bits) + 0.5) <= static_cast<double>(largest(f));

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "common/to_integer.hpp"
+
 namespace halfway {
 namespace {
 
@@ -77,7 +79,7 @@ Projector::Projector(const Scene& scene, FrameSize frame, ProjectionOptions opti
   // side.
   const int last = to_frame && options_.subpixel_bits == 0 ? 1 : 0;
   const auto units = [&](double pixels) {
-    return static_cast<std::int32_t>(pixels) * (1 << options_.subpixel_bits);
+    return to_integer<std::int32_t>(pixels) * (1 << options_.subpixel_bits);
   };
   snapped_range_ = {units(left), units(right) - last, units(top), units(bottom) - last};
 }
@@ -128,7 +130,7 @@ ScreenVertex Projector::snap(const ClipVertex& v, double near) const {
   const double to_pixel = options_.subpixel_bits == 0 ? 0.5 : 0.0;
   const auto round_into = [&](double pixels, std::int32_t least, std::int32_t greatest) {
     const double rounded = std::floor((pixels - to_pixel) * scale + 0.5);
-    return static_cast<std::int32_t>(
+    return to_integer<std::int32_t>(
         std::clamp(rounded, static_cast<double>(least), static_cast<double>(greatest)));
   };
   return {round_into(v.x / w, snapped_range_[0], snapped_range_[1]),

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: what the golden model draws of a scene, and what preset exact promises of it.
+// For tests: a stage, what the golden model draws of a scene, and what preset exact promises of it.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "plan/effects.hpp"
@@ -18,6 +20,35 @@
 namespace halfway {
 
 inline constexpr int c_exact_subpixel_bits = 4;
+
+/// Odd: a pixel lies in the very middle.
+inline constexpr FrameSize c_stage_frame{65, 49};
+
+/// A triangle across the view of an eye straight above it, not lit yet.
+inline Scene stage(const std::array<glm::dvec3, 3>& normals = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}}) {
+  Scene scene;
+  scene.name = "stage";
+  scene.materials = {{.name = "m", .ambient = 0.0, .diffuse = 0.5, .specular = 0.5, .exponent = 20.0}};
+  scene.camera.eye_world = {0.0, 0.0, 4.0};
+  scene.positions_world = {{-1.6, -1.3, 0.0}, {1.7, -1.2, 0.0}, {-0.1, 1.4, 0.0}};
+  for (const glm::dvec3& n : normals) scene.normals_world.push_back(glm::normalize(n));
+  scene.triangles = {{{0, 1, 2}, {0, 1, 2}, 0}};
+  return scene;
+}
+
+/// A light of each kind, to the side.
+inline void add_side_lights(Scene& scene) {
+  scene.directional.push_back({glm::normalize(glm::dvec3(0.3, 0.2, 1.0)), glm::dvec3(0.4)});
+  scene.positional.push_back({{0.4, -0.3, 2.0}, glm::dvec3(0.4)});
+  scene.spots.push_back(
+      {{-0.5, 0.3, 2.5}, glm::normalize(glm::dvec3(0.5, -0.2, -2.5)), 0.95, 0.9, glm::dvec3(0.4)});
+}
+
+/// The eye so far away that its rays are parallel, and the stage fills the view still.
+inline void move_eye_away(Scene& scene) {
+  scene.camera.eye_world.z = 1e9;
+  scene.camera.vertical_fov_degrees = 1e-7;
+}
 
 inline HardwareKey spherical_key(const Scene& scene, Preset preset = Preset::exact) {
   const auto plan = plan_scene(scene, {.shader = Shader::spherical, .preset = preset});

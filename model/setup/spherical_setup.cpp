@@ -10,6 +10,7 @@
 #include <ranges>
 #include <span>
 
+#include "common/to_integer.hpp"
 #include "golden/triangle_walker.hpp"
 #include "reference/shade.hpp"
 #include "setup/arc.hpp"
@@ -459,7 +460,7 @@ class SphericalSetup::ExactTriangle {
     }
     const auto add_about = [&](double t) {
       if (!(t > 0.0 && t < 1.0)) return;
-      const auto before = static_cast<std::int64_t>(t * static_cast<double>(steps));
+      const auto before = to_integer<std::int64_t>(t * static_cast<double>(steps));
       places.insert(places.end(), {before, std::min(steps, before + 1)});
     };
     double half_bells = 0.0;
@@ -476,7 +477,7 @@ class SphericalSetup::ExactTriangle {
         add_about((light.diffuse.phase + x) / light.diffuse.sweep);
     }
     add_places_of_the_surface(chord(at), steps, places);
-    auto looks = std::max(c_least_looks, static_cast<std::int64_t>(c_looks_a_half_bell * half_bells) + 1);
+    auto looks = std::max(c_least_looks, to_integer<std::int64_t>(c_looks_a_half_bell * half_bells) + 1);
     looks = std::min(looks, steps - 1);
     for (std::int64_t look = 1; look <= looks; ++look) places.push_back(look * steps / (looks + 1));
     std::ranges::sort(places);
@@ -490,7 +491,7 @@ class SphericalSetup::ExactTriangle {
     const auto pixels = static_cast<double>(steps);
     const auto add_about = [&](double s) {
       if (!(s > 0.0 && s < 1.0)) return;
-      const auto before = static_cast<std::int64_t>(c.on_screen(s) * pixels);
+      const auto before = to_integer<std::int64_t>(c.on_screen(s) * pixels);
       places.insert(places.end(), {before, std::min(steps, before + 1)});
     };
     // The direction of start + s * ahead turns fastest where this is shortest, and most of its turn lies
@@ -550,7 +551,7 @@ class SphericalSetup::ExactTriangle {
                    to = std::ceil(c.on_screen(turns[i + 1]) * pixels),
                    way = std::max(1.0, (to - from) / static_cast<double>(c_spot_looks));
       for (double place = from; place < to + way; place += way)
-        places.push_back(std::min(steps, static_cast<std::int64_t>(place)));
+        places.push_back(std::min(steps, to_integer<std::int64_t>(place)));
     }
   }
 

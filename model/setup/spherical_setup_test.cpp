@@ -17,9 +17,12 @@
 
 #include "frame/assemble.hpp"
 #include "golden/diffuse_slice.hpp"
+#include "golden/multiplier.hpp"
+#include "golden/saturating_sum.hpp"
 #include "golden/specular_slice.hpp"
 #include "golden/triangle_walker.hpp"
 #include "reference/renderer.hpp"
+#include "run/simulate.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "setup/random_scenes.hpp"
 #include "setup/random_triangles.hpp"
@@ -926,6 +929,86 @@ TEST(SphericalSetup, WithoutLightsThereAreNoRecords) {
       ASSERT_EQ(f.green, to_byte(0.09));
       ASSERT_EQ(f.blue, to_byte(0.0225));
     }
+  }
+}
+
+TEST(SphericalSetup, WhereTheEyeIsTheNormalStandsForItsDirection) {
+  Scene scene = stage();
+  add_side_lights(scene);
+  const SphericalSetup setup(scene, c_stage_frame, spherical_key(scene), {});
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.1, 1.0));
+  const PointVectors at = setup.vectors_at(scene.materials[0], {scene.camera.eye_world, normal, 0.0});
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(glm::length(at.light[i].v), 1.0, 1e-15);
+    EXPECT_NEAR(glm::length(glm::cross(at.light[i].v, at.light[i].to_light + normal)), 0.0, 1e-15);
+  }
+}
+
+// What `halfway sim` says of a scene, golden model alone.
+std::string notes(const Scene& scene, Preset preset = Preset::exact) {
+  SimulateSettings settings;
+  settings.plan.shader = Shader::spherical;
+  settings.plan.preset = preset;
+  settings.size = {161, 121};
+  settings.ghdl = settings.verilator = false;
+  settings.out = testing::TempDir();
+  const auto summary = simulate(scene, settings);
+  EXPECT_TRUE(summary) << summary.error().message;
+  std::string all;
+  if (summary)
+    for (const std::string& note : summary->notes) all += note + '\n';
+  return all;
+}
+
+TEST(SphericalSetup, ExponentsPastTheLargestAreHeldAndNoted) {
+  Scene steep = stage({{{0.003, 0.001, 1}, {-0.003, 0.002, 1}, {0, -0.003, 1}}});
+  move_eye_away(steep);
+  steep.directional.push_back({{0, 0, 1}, glm::dvec3(0.9)});
+  Scene held = steep;
+  steep.materials[0].exponent = 1e9;
+  held.materials[0].exponent = c_largest_exponent;
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    const SphericalSetupOptions whole{.threshold = 1e9};
+    EXPECT_EQ(draw(steep, c_stage_frame, spherical_key(steep, preset), whole).words,
+              draw(held, c_stage_frame, spherical_key(held, preset), whole).words);
+  }
+  EXPECT_NE(notes(steep).find("exponent 1e+09 was held at 1e+06"), std::string::npos) << notes(steep);
+  EXPECT_EQ(notes(held).find("exponent"), std::string::npos);
+}
+
+TEST(SphericalSetup, NotesSayWhereThePictureIsWorse) {
+  Scene scene = stage();
+  scene.directional.push_back({{0, 0, 1}, glm::dvec3(1.0)});
+  for (const double exponent : {1.0, 2.0, 20.0}) {
+    scene.materials[0].exponent = exponent;
+    EXPECT_EQ(notes(scene), "");
+  }
+  scene.materials[0].exponent = 1.3;
+  EXPECT_NE(notes(scene).find("that of 1.3 is off by up to 8.6 colour steps"), std::string::npos)
+      << notes(scene);
+  EXPECT_EQ(notes(scene, Preset::published).find("fits"), std::string::npos);
+  // Not worn, or without a highlight.
+  scene.materials.push_back({.name = "not worn", .exponent = 1.3});
+  scene.materials[0].specular = 0.0;
+  EXPECT_EQ(notes(scene), "");
+
+  scene.directional[0].intensity = glm::dvec3(10.0);
+  EXPECT_NE(notes(scene).find("a light is reflected 5 times as bright as white"), std::string::npos)
+      << notes(scene);
+  EXPECT_EQ(notes(scene).find("held"), std::string::npos) << "there is room for this";
+  EXPECT_NE(notes(scene, Preset::published).find("over-exposed more than 4 times and were held there: all"),
+            std::string::npos)
+      << notes(scene, Preset::published);
+  scene.directional[0].intensity = glm::dvec3(1e6);
+  EXPECT_EQ(notes(scene).find("held"), std::string::npos) << "white all the same";
+}
+
+// What is held in preset exact would be white anyway.
+TEST(SphericalSetup, TheLargestFactorTimesTheLeastEntryIsWhite) {
+  for (int data_bits = 2; data_bits <= c_white_data_bits; ++data_bits) {
+    golden::SaturatingSum sum;
+    sum.add(golden::multiply(1, 65535U << Exact::c_factor_fraction_bits));
+    EXPECT_EQ(sum.result(Exact::c_factor_fraction_bits + data_bits, Exact::c_colour_bits), 255U) << data_bits;
   }
 }
 

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "common/to_integer.hpp"
 #include "tables/wrapped_numbers.hpp"
 
 namespace halfway::tables {
@@ -31,12 +32,16 @@ int low_of_cell(const CosineTable& table, int entry) {
   return table.exact || entry < cells / 2 ? entry : entry - cells;
 }
 
+// A quarter turn has 2^(address_bits - shift) cells.
+int shift_of_cells(const CosineTable& table) {
+  return table.exact ? 0 : table.power == 1 ? 2 : 1;
+}
+
 // The table's function, `position` cells from angle 0. Off by at most 8 * power * epsilon: the cosine by 4
 // epsilon, its angle's rounding included; a squaring doubles that and rounds once.
 long double bell(const CosineTable& table, long double position) {
   // Cells in a quarter turn: powers of two, so the quotient is exact.
-  const int shift = table.exact ? 0 : table.power == 1 ? 2 : 1;
-  const long double cells = std::ldexp(1.0L, table.address_bits - shift);
+  const long double cells = std::ldexp(1.0L, table.address_bits - shift_of_cells(table));
   const long double quarters = position / cells;
   if (std::fabs(quarters) >= 1.0L) return 0.0L;
   long double value = std::cos(std::numbers::pi_v<long double> / 2 * quarters);
@@ -57,7 +62,7 @@ std::uint32_t correctly_rounded(const CosineTable& table, int entry) {
     throw std::logic_error(fmt::format(
         "cosine table: entry {} of cos^{}, {}/{} bits, is too near a tie to be rounded in long double", entry,
         table.power, table.address_bits, table.data_bits));
-  return static_cast<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
+  return to_integer<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
 }
 
 constexpr std::string_view preset_name(bool exact) {
@@ -67,6 +72,11 @@ constexpr std::string_view preset_name(bool exact) {
 std::string constant_name(const CosineTable& table) {
   return fmt::format("c_{}_cosine_{}_{}_{}", preset_name(table.exact), table.power, table.address_bits,
                      table.data_bits);
+}
+
+std::string bound_comment(const CosineTable& table, std::string_view mark) {
+  return fmt::format("{} off by at most {:.3g}: half a step, and half a cell where cos^{} is steepest", mark,
+                     error_bound(table), table.power);
 }
 
 constexpr std::string_view c_notice = "Made by `make tables` from model/tables/cosine.cpp; edit that.";
@@ -113,6 +123,13 @@ double table_error(const CosineTable& table) {
   return static_cast<double>(largest);
 }
 
+double error_bound(const CosineTable& table) {
+  // cos^m x is steepest where tan^2 x = 1/(m - 1): sqrt(m) (1 - 1/m)^((m - 1)/2).
+  const double m = table.power, steepest = std::sqrt(m) * std::pow(1.0 - 1.0 / m, (m - 1.0) / 2);
+  const double cell = std::numbers::pi / 2 * std::ldexp(1.0, shift_of_cells(table) - table.address_bits);
+  return 0.5 / static_cast<double>(largest_word(table)) + steepest * cell / 2;
+}
+
 std::string cosine_vhdl_package(const CosineSizes& sizes) {
   const std::vector<CosineTable> tables = cosine_tables(sizes);
   std::string out = fmt::format(
@@ -132,8 +149,9 @@ std::string cosine_vhdl_package(const CosineSizes& sizes) {
       c_notice);
   auto to = std::back_inserter(out);
   for (const CosineTable& table : tables)  // 120 columns with the bracket that closes
-    fmt::format_to(to, "  constant {} : cosine_table_t(0 to {}) := (\n{});\n\n", constant_name(table),
-                   table.entries.size() - 1, wrapped_numbers(table.entries, "    ", 118));
+    fmt::format_to(to, "  {}\n  constant {} : cosine_table_t(0 to {}) := (\n{});\n\n",
+                   bound_comment(table, "--"), constant_name(table), table.entries.size() - 1,
+                   wrapped_numbers(table.entries, "    ", 118));
   out +=
       "  function cosine_table (exact : boolean; power, address_bits, data_bits : positive) return "
       "cosine_table_t is\n"
@@ -186,8 +204,9 @@ std::string cosine_cpp_header(const CosineSizes& sizes) {
                    size.address_bits, size.data_bits);
   }
   for (const CosineTable& table : tables)
-    fmt::format_to(to, "\ninline constexpr std::array<std::uint16_t, {}> {} = {{\n{}\n}};\n",
-                   table.entries.size(), constant_name(table), wrapped_numbers(table.entries, "    ", 110));
+    fmt::format_to(to, "\n{}\ninline constexpr std::array<std::uint16_t, {}> {} = {{\n{}\n}};\n",
+                   bound_comment(table, "//"), table.entries.size(), constant_name(table),
+                   wrapped_numbers(table.entries, "    ", 110));
   fmt::format_to(to, "\ninline constexpr std::array<CosineTable, {}> c_cosine_tables = {{{{\n",
                  tables.size());
   for (const CosineTable& table : tables)

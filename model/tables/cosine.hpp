@@ -47,6 +47,9 @@ std::vector<CosineTable> cosine_tables(const CosineSizes& sizes = {});
 /// Largest |entry / (2^data_bits - 1) - cos^power| over all angles of the table, in units of 1.
 double table_error(const CosineTable& table);
 
+/// What table_error stays below: half a step of an entry, and half a cell where cos^power is steepest.
+double error_bound(const CosineTable& table);
+
 std::string cosine_vhdl_package(const CosineSizes& sizes = {});
 std::string cosine_cpp_header(const CosineSizes& sizes = {});
 

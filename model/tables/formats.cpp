@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <numbers>
 #include <stdexcept>
 
 namespace halfway::tables {
@@ -13,24 +15,317 @@ namespace {
 // Formats that both presets share.
 std::vector<Format> common_formats() {
   return {
-      {"flag", false, 1, 0, "one bit"},
-      {"triangle", false, 32, 0, "number of the scene's triangle, carried through as a tag"},
-      {"pixel_x", false, 12, 0, "frames up to 4096 pixels wide"},
-      {"pixel_y", false, 12, 0, "frames up to 4096 lines high"},
-      {"lines", false, 13, 0, "0 to 4096 lines"},
-      {"span_x", true, 13, 0, "-1 to 4096: a span's end is exclusive on either side"},
-      {"colour", false, 8, 0, "what the frame stores"},
-      {"depth", false, 24, 0, "what the z test compares"},
-      {"depth_sum", true, 24, 15,
-       "first differences, each rounded to 2^-16, at most 4095 lines and 8190 steps: "
-       "off by at most (1 + 4095 + 8190) 2^-16 = 0.19 of a depth step"},
-      {"sample_word", false, 16, 0, "a cosine table's entry, of whatever size, for the probe"},
-      {"command", false, 3, 0, "of a vector or token of the shading processors"},
-      {"light", false, 5, 0, "a light's number from 1; 0 is the ambient light"},
-      {"shadow_count", true, 9, 0, "shadow volumes opened less those closed, up to 511 either way"},
-      {"spot_slope", false, 18, 6,
-       "one over the width of a spot's soft edge, in cosines; a harder edge has one of 2^-18, so that a "
-       "cone of a tenth of a degree still comes to its full light"},
+      {"flag", false, 1, 0, "one bit", {at_most(1, "1")}},
+      {"triangle",
+       false,
+       32,
+       0,
+       "number of the scene's triangle, carried through as a tag",
+       {at_most(0x1p32 - 1, "2^32 - 1")}},
+      {"pixel_x", false, 12, 0, "frames up to 4096 pixels wide", {at_most(4095, "frame - 1")}},
+      {"pixel_y", false, 12, 0, "frames up to 4096 lines high", {at_most(4095, "frame - 1")}},
+      {"lines", false, 13, 0, "0 to 4096 lines", {at_most(4096, "frame")}},
+      {"span_x",
+       true,
+       13,
+       0,
+       "-1 to 4096: a span's end is exclusive on either side",
+       {at_most(4096, "frame")}},
+      {"colour",
+       false,
+       8,
+       0,
+       "what the frame stores: the sum before it, rounded once and held",
+       {at_most(255, "2^8 - 1"), off_by(0.5, "colour steps", "u / 2", "rounded")}},
+      {"depth",
+       false,
+       24,
+       0,
+       "what the z test compares: the sum before it, rounded once",
+       {at_most(0x1p24 - 1, "2^24 - 1"), off_by(0.5, "depth steps", "u / 2", "rounded")}},
+      {"depth_sum",
+       true,
+       24,
+       15,
+       "first differences, each rounded to half a unit",
+       {off_by(0.19, "depth steps", "(1 + k) * u / 2")}},
+      {"sample_word",
+       false,
+       16,
+       0,
+       "a cosine table's entry, of whatever size, for the probe",
+       {at_most(4095, "2^12 - 1")}},
+      {"command", false, 3, 0, "of a vector or token of the shading processors", {at_most(7, "7")}},
+      {"light", false, 5, 0, "a light's number from 1; 0 is the ambient light", {at_most(16, "lights")}},
+      {"shadow_count",
+       true,
+       9,
+       0,
+       "shadow volumes opened less those closed, up to 511 either way, and held past that",
+       {at_most(512, "2^9")}},
+      {"spot_slope",
+       false,
+       18,
+       6,
+       "one over the width of a spot's soft edge, in cosines, 1/2 at least; a harder edge has one of 2^18, "
+       "so "
+       "that a cone of a tenth of a degree still comes to its full light. The share is t^2 (3 - 2t), t the "
+       "slope times what the cosine is above the edge: it moves by 6 t^2 (1 - t), 8/9 at most, times the "
+       "slope's relative error",
+       {off_by(0x1p-7, "", "u / 2"),
+        off_by(0.014, "of the spot's light", "8 / 9 * u / 2 / (1 / 2)", "share")}},
+  };
+}
+
+// What the derivations name. An edge of preset exact goes `lines` lines down with a pixel more on each, and a
+// span runs back over all of them: 4095 + 4095 `steps`, which carry words of their own. In preset published
+// there are no carries: a span is `pixels` steps at most, and so is a line record of either preset.
+constexpr double c_frame = 4096, c_lines = c_frame - 1, c_pixels = c_frame - 1, c_steps = c_lines + c_pixels;
+constexpr Quantity c_quantities[] = {
+    {"frame", c_frame},     {"lines", c_lines},       {"pixels", c_pixels},
+    {"steps", c_steps},     {"k", c_lines + c_steps}, {"k_published", c_lines + c_pixels},
+    {"lights", 16},         {"terms", 2 * 16},  // that are cut: a diffuse and a specular one for each light
+    {"e", std::numbers::e},
+};
+
+std::vector<Format> exact_formats() {
+  return {
+      {"edge_error",
+       false,
+       18,
+       0,
+       "up to the edge's height in subpixels, 16 a pixel from -2048 to 6143, doubled at no level of "
+       "subdivision",
+       {at_most(131056, "(6143 + 2048) * 16")}},
+      {"edge_x", true, 13, 0, "an edge is a whole pixel and a remainder", {at_most(4096, "frame")}},
+      {"intensity",
+       true,
+       11,
+       28,
+       "second differences, each word rounded to half a unit; the samples are, too, and what the quadratic "
+       "takes of them adds up to 5/3 at most. Samples up to 1023 stay within +-2046",
+       {off_by(0.15, "colour steps", "(1 + k + k * (k - 1) / 2) * u / 2"),
+        off_by(3.2e-9, "colour steps", "5 / 3 * u / 2", "samples")}},
+      {"angle",
+       true,
+       10,
+       22,
+       "half bells; start and slope each rounded to half a unit: a quarter of a 2^-9 cell; exponents up to "
+       "10^6 stay within +-1024",
+       {off_by(0x1p-11, "half bells", "(1 + pixels) * u / 2")}},
+      {"power", false, 3, 0, "which table: cosine to the power 2^word", {at_most(4, "4")}},
+      {"plane_sum",
+       true,
+       1,
+       42,
+       "first differences, each rounded to half a unit",
+       {off_by(0.4, "steps of vector", "(1 + k) * u / 2 / u_vector")}},
+      {"vector",
+       true,
+       1,
+       28,
+       "interpolated N/w, view ray and 1/w, the largest scaled to 1/2 to 1; plane_sum rounded",
+       {off_by(0x1p-29, "", "u / 2")}},
+      {"direction",
+       true,
+       1,
+       22,
+       "components of unit vectors; an exponent m multiplies the error of a cosine by m. Rounded where they "
+       "are "
+       "made; their length has the error of root, half that of a square of 1/4 or more, and of three "
+       "components "
+       "rounded; the angle has that of a vector of 1/2 or more whose components are cut by half a unit, 3.1 "
+       "halves "
+       "across it at most, and of rounding, 1.8",
+       {off_by(0x1p-23, "", "u / 2", "component"),
+        off_by(1.42e-6, "", "1.2 * 10^-6 + 2 * u_square + sqrt(3) * u / 2", "length"),
+        off_by(5.9e-7, "radians", "4.9 * u / 2", "angle")}},
+      {"offset",
+       true,
+       2,
+       28,
+       "from a surface point to a light, before it is normalized: the light's place rounded, the point's cut",
+       {off_by(0x1.8p-28, "", "(1 / 2 + 1) * u")}},
+      {"light_place",
+       true,
+       1,
+       26,
+       "a light's direction, or its place with 2^light_shift taken off",
+       {off_by(0x1p-27, "", "u / 2")}},
+      {"light_shift",
+       false,
+       5,
+       0,
+       "how much farther a light may be than the nearest surface: 2^31",
+       {at_most(31, "31")}},
+      {"square", false, 2, 28, "of a vector's length, 1/4 to 3; cut", {off_by(0x1p-28, "", "u")}},
+      {"root_entry",
+       false,
+       0,
+       12,
+       "table of 1/sqrt(x), 512 entries: half a step, and half a cell of 2^-8 where it falls by 1/2 to 1",
+       {off_by(0.0011, "", "u / 2 + 2^-8 / 2 / 2"),
+        off_by(0.00115, "of it", "sqrt(2) * u / 2 + 2^-8 / 2 / 2", "relative")}},
+      {"root",
+       false,
+       1,
+       23,
+       "after a Newton step from an entry r off, which is 3/2 r^2 short; raised by 17/2 units, cut by half "
+       "of "
+       "one and by one, sqrt(2) of it at x = 2 where r is largest",
+       {off_by(1.2e-6, "of it", "3 / 2 * 0.00115^2 - (17 - 1) / 2 * u + sqrt(2) * u")}},
+      {"exponent",
+       false,
+       13,
+       8,
+       "up to 8191; x^n falls by x^n ln(1/x) dn, dn/(e n) at most",
+       {off_by(0x1p-9, "", "u / 2"), off_by(0.0008, "of a highlight's peak", "u / 2 / e", "highlight")}},
+      {"weight",
+       false,
+       1,
+       16,
+       "a power of a cosine, or of a spot's edge, for slopes up to 2^12: t is cut by a unit and by 2^-28 of "
+       "the "
+       "slope, and the share rises by 3/2 of t at most; a diffuse term's cosine is rounded",
+       {off_by(0.00101, "", "2^-15 + m * 2^-23", "power"),
+        off_by(0x1.cp-15, "", "3 / 2 * (u + 2^12 * 2^-28) + u / 2", "spot"),
+        off_by(0x1p-17, "", "u / 2", "diffuse")}},
+      {"coefficient", false, 4, 16, "k of a material, up to 15", {off_by(0x1p-17, "", "u / 2")}},
+      {"light_intensity",
+       false,
+       14,
+       4,
+       "colour steps, 64 times white",
+       {off_by(0x1p-5, "colour steps", "u / 2")}},
+      {"reflected",
+       false,
+       14,
+       8,
+       "k I in colour steps, rounded; held at 64 times white",
+       {off_by(0x1p-9, "colour steps", "u / 2")}},
+      {"radiance",
+       false,
+       10,
+       12,
+       "sum of the terms in colour steps, each but the ambient one cut; held at four times white",
+       {off_by(0x1p-7, "colour steps", "terms * u")}},
+      {"factor",
+       false,
+       16,
+       8,
+       "colour steps; the largest times the least entry of up to 8 bits is white, so what is brighter needs "
+       "no "
+       "more",
+       {off_by(0x1p-9, "colour steps", "u / 2")}},
+      {"product_word",
+       false,
+       40,
+       0,
+       "a factor times a table's entry, for the probe",
+       {at_most(16777215.0 * 65535.0, "(2^24 - 1) * (2^16 - 1)")}},
+  };
+}
+
+std::vector<Format> published_formats() {
+  return {
+      {"edge_error", false, 0, 0, "edges are stepped by a real slope", {at_most(0, "0")}},
+      {"edge_x",
+       true,
+       13,
+       18,
+       "32 bits, as the quadratic paper's other registers; start and slope each rounded to half a unit",
+       {off_by(0x1p-7, "pixels", "(1 + lines) * u / 2")}},
+      {"intensity",
+       true,
+       11,
+       20,
+       "32 bits, 20 of them fraction: the quadratic paper's figure 7; second differences, each word rounded "
+       "to "
+       "half a unit: 4 colour steps after 4095 steps in all; where an edge leaves whole pixels comes on top",
+       {off_by(16, "colour steps", "(1 + k_published + k_published * (k_published - 1) / 2) * u / 2"),
+        off_by(8e-7, "colour steps", "5 / 3 * u / 2", "samples")}},
+      {"angle",
+       true,
+       0,
+       11,
+       "12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the "
+       "bell's ends. Start and slope each rounded to half a unit: 8 addresses after 1023 steps",
+       {off_by(1, "half bells", "(1 + pixels) * u / 2")}},
+      {"power", false, 0, 0, "cosine squared alone", {at_most(0, "0")}},
+      {"plane_sum",
+       true,
+       1,
+       26,
+       "first differences, each rounded to half a unit",
+       {off_by(1.5, "steps of vector", "(1 + k) * u / 2 / u_vector")}},
+      {"vector",
+       true,
+       1,
+       14,
+       "16 bits: the processors paper names no width; interpolated N and P, plane_sum rounded",
+       {off_by(0x1p-15, "", "u / 2")}},
+      {"direction",
+       true,
+       1,
+       14,
+       "16 bits, so that an N that is not normalized passes as it is; else as in preset exact, but vectors "
+       "of 17 bits "
+       "at most are cut, by a quarter of a unit",
+       {off_by(0x1p-15, "", "u / 2", "component"),
+        off_by(0.0094, "", "0.0092 + 2 * u_square + sqrt(3) * u / 2", "length"),
+        off_by(1.02e-4, "radians", "3.3 * u / 2 * (1 + 0.0094)", "angle")}},
+      {"offset",
+       true,
+       2,
+       14,
+       "from a surface point to a light, before it is normalized; with the eye's vector, held below 2, the "
+       "sum of "
+       "three words",
+       {at_most(4, "(2 - u) + 1 + 1")}},
+      {"light_place", true, 1, 14, "as vector", {off_by(0x1p-15, "", "u / 2")}},
+      {"light_shift", false, 0, 0, "places share one scale", {at_most(0, "0")}},
+      {"square", false, 2, 14, "of a vector's length, 1/4 to 3; cut", {off_by(0x1p-14, "", "u")}},
+      {"root_entry",
+       false,
+       0,
+       9,
+       "table of 1/sqrt(x), 64 entries: half a step, and half a cell of 2^-5 where it falls by 1/2 to 1",
+       {off_by(0.0088, "", "u / 2 + 2^-5 / 2 / 2"),
+        off_by(0.0092, "of it", "sqrt(2) * u / 2 + 2^-5 / 2 / 2", "relative")}},
+      {"root", false, 0, 9, "the table's entry", {off_by(0.0092, "of it", "sqrt(2) * u / 2 + 2^-5 / 2 / 2")}},
+      {"exponent",
+       false,
+       10,
+       0,
+       "integers up to 1023",
+       {off_by(0.5, "", "u / 2"), off_by(0.184, "of a highlight's peak", "u / 2 / e", "highlight")}},
+      {"weight",
+       false,
+       1,
+       8,
+       "a power of a cosine, or of a spot's edge: next to 1 the middle of a cell of the logarithm and its "
+       "rounding are "
+       "0.0062 off, so that an m-th power falls by e^(-m / 232); 2^-x, the rounding and the product's cut "
+       "come on top. "
+       "A diffuse term's cosine is rounded",
+       {off_by(1, "", "1 - e^(-m / 232) + 0.0074 + u / 2 + 2^-10", "power"),
+        off_by(0x1p-7, "", "3 / 2 * u + u / 2", "spot"), off_by(0x1p-9, "", "u / 2", "diffuse")}},
+      {"coefficient", false, 1, 7, "an integer, in 1/128", {off_by(0x1p-8, "", "u / 2")}},
+      {"light_intensity", false, 8, 0, "an integer, in colour steps", {off_by(0.5, "colour steps", "u / 2")}},
+      {"reflected", false, 8, 0, "k I, an integer, rounded", {off_by(0.5, "colour steps", "u / 2")}},
+      {"radiance",
+       false,
+       8,
+       0,
+       "an integer: each term but the ambient one is cut; held at white",
+       {off_by(32, "colour steps", "terms * u")}},
+      {"factor", false, 10, 8, "colour steps up to 1023", {off_by(0x1p-9, "colour steps", "u / 2")}},
+      {"product_word",
+       false,
+       36,
+       0,
+       "a factor times a table's entry, for the probe",
+       {at_most(262143.0 * 65535.0, "(2^18 - 1) * (2^16 - 1)")}},
   };
 }
 
@@ -239,79 +534,56 @@ std::string upper_first(std::string_view name) {
   return text;
 }
 
+// Why a format is as it is, and what it promises, a line each.
+std::string commented(const Format& format, std::string_view indent) {
+  std::string text = fmt::format("{}{}{}.{}: {}\n", indent, format.is_signed ? 's' : 'u', format.integer_bits,
+                                 format.fraction_bits, format.why);
+  for (const Bound& bound : format.bounds)
+    fmt::format_to(std::back_inserter(text), "{}  {}\n", indent, to_string(bound));
+  return text;
+}
+
+// Lines of a comment: what the formulas name.
+constexpr std::string_view c_names_in_bounds[] = {
+    "In bounds u is the format's unit, u_x that of format x. Frames have up to 4096 lines and pixels, so",
+    "lines = pixels = 4095; steps = 8190: a pixel a line along the edge, and then the span; k = lines + "
+    "steps,",
+    "k_published = lines + pixels. There are up to 16 lights with 32 terms; m is an exponent, e Euler's "
+    "number.",
+};
+
+std::string names_in_bounds(std::string_view indent) {
+  std::string text;
+  for (const std::string_view line : c_names_in_bounds)
+    fmt::format_to(std::back_inserter(text), "{}{}\n", indent, line);
+  return text;
+}
+
 constexpr std::string_view c_notice = "Made by `make tables` from model/tables/formats.cpp; edit that.";
 
 }  // namespace
 
 std::vector<PresetFormats> preset_formats() {
   return {
-      {"exact",
-       joined(
-           common_formats(),
-           {{"edge_error", false, 18, 0,
-             "below the edge's height in subpixels: 8192 pixels of 16, doubled at no level of subdivision"},
-            {"edge_x", true, 13, 0, "an edge is a whole pixel and a remainder"},
-            {"intensity", true, 11, 28,
-             "second differences, each word rounded to 2^-29, k = 4095 lines + 8190 steps: off by at most "
-             "(1 + k + k^2/2) 2^-29 = 0.15 of a colour step; samples up to 1023 stay within +-2046"},
-            {"angle", true, 10, 22,
-             "half bells; start and slope each rounded to 2^-23, at most 4095 steps: off by at most 2^-11, a "
-             "quarter "
-             "of a 2^-9 cell; exponents up to 10^6 stay within +-1024"},
-            {"power", false, 3, 0, "which table: cosine to the power 2^word"},
-            {"plane_sum", true, 1, 42,
-             "first differences, each rounded to 2^-43, at most 4095 lines and 8190 steps: off by at most "
-             "12286 2^-43 = 0.4 of a step of vector"},
-            {"vector", true, 1, 28, "interpolated N/w, view ray and 1/w, the largest scaled to 1/2 to 1"},
-            {"direction", true, 1, 22,
-             "components of unit vectors; an exponent m multiplies the error of a cosine by m"},
-            {"offset", true, 2, 28, "from a surface point to a light, before it is normalized"},
-            {"light_place", true, 1, 26, "a light's direction, or its place with 2^light_shift taken off"},
-            {"light_shift", false, 5, 0, "how much farther a light may be than the nearest surface: 2^31"},
-            {"square", false, 2, 28, "of a vector's length, 1/4 to 3"},
-            {"root_entry", false, 0, 12, "table of 1/sqrt(x), 512 entries: within 2^-9.8 of it"},
-            {"root", false, 1, 23, "after a Newton step: within 2^-19 of 1/sqrt(x)"},
-            {"exponent", false, 13, 8, "up to 8191; off by 2^-9: 0.0008 of a highlight's peak at most"},
-            {"weight", false, 1, 16, "a power of a cosine, or of a spot's edge"},
-            {"coefficient", false, 4, 16, "k of a material, up to 15"},
-            {"light_intensity", false, 14, 4, "colour steps, 64 times white"},
-            {"reflected", false, 14, 8, "k I in colour steps; held at 64 times white"},
-            {"radiance", false, 10, 12, "sum of the terms in colour steps; held at four times white"},
-            {"factor", false, 16, 8,
-             "off by at most 2^-9 of a step; the largest times the least entry of up to 8 bits is white, so "
-             "what is brighter needs no more"},
-            {"product_word", false, 40, 0, "a factor times a table's entry, for the probe"}}),
+      {"exact", joined(common_formats(), exact_formats()),
        joined(joined(exact_layouts(), spherical_layouts(true)), processors_layouts(true))},
-      {"published",
-       joined(
-           common_formats(),
-           {{"edge_error", false, 0, 0, "edges are stepped by a real slope"},
-            {"edge_x", true, 13, 18, "32 bits, as the quadratic paper's other registers"},
-            {"intensity", true, 11, 20, "32 bits, 20 of them fraction: the quadratic paper's figure 7"},
-            {"angle", true, 0, 11,
-             "12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at "
-             "the "
-             "bell's ends"},
-            {"power", false, 0, 0, "cosine squared alone"},
-            {"plane_sum", true, 1, 26, "first differences: off by at most 12286 2^-27 = 1.5 steps of vector"},
-            {"vector", true, 1, 14, "16 bits: the processors paper names no width; interpolated N and P"},
-            {"direction", true, 1, 14, "16 bits, so that an N that is not normalized passes as it is"},
-            {"offset", true, 2, 14, "from a surface point to a light, before it is normalized"},
-            {"light_place", true, 1, 14, "as vector"},
-            {"light_shift", false, 0, 0, "places share one scale"},
-            {"square", false, 2, 14, "of a vector's length, 1/4 to 3"},
-            {"root_entry", false, 0, 9, "table of 1/sqrt(x), 64 entries: within 2^-6.4 of it"},
-            {"root", false, 0, 9, "the table's entry"},
-            {"exponent", false, 10, 0, "integers up to 1023"},
-            {"weight", false, 1, 8, "a power of a cosine, or of a spot's edge"},
-            {"coefficient", false, 1, 7, "an integer, in 1/128"},
-            {"light_intensity", false, 8, 0, "an integer, in colour steps"},
-            {"reflected", false, 8, 0, "k I, an integer"},
-            {"radiance", false, 8, 0, "an integer; held at white"},
-            {"factor", false, 10, 8, "colour steps up to 1023; off by at most 2^-9 of a step"},
-            {"product_word", false, 36, 0, "a factor times a table's entry, for the probe"}}),
+      {"published", joined(common_formats(), published_formats()),
        joined(joined(published_layouts(), spherical_layouts(false)), processors_layouts(false))},
   };
+}
+
+double derived(const PresetFormats& preset, const Format& format, const Bound& bound,
+               std::optional<double> exponent) {
+  // Units of other formats by their names.
+  std::vector<std::string> names;
+  for (const Format& other : preset.formats) names.push_back(fmt::format("u_{}", other.name));
+  std::vector<Quantity> quantities(std::begin(c_quantities), std::end(c_quantities));
+  quantities.push_back({"u", format.unit()});
+  // A bound that grows with the exponent is stated for the largest.
+  const Format& exponents = format_of(preset, "exponent");
+  quantities.push_back({"m", exponent.value_or(std::ldexp(1.0, exponents.integer_bits) - exponents.unit())});
+  for (std::size_t i = 0; i < names.size(); ++i) quantities.push_back({names[i], preset.formats[i].unit()});
+  return evaluated(bound.derivation, quantities);
 }
 
 std::string vhdl_package(const std::vector<PresetFormats>& presets) {
@@ -319,9 +591,10 @@ std::string vhdl_package(const std::vector<PresetFormats>& presets) {
       "-- SPDX-License-Identifier: Apache-2.0\n-- {}\n"
       "-- Number formats and the layouts of the flat vectors, for both presets. A slice of (-1, 0) is a "
       "field that\n"
-      "-- the preset does not have.\n\nlibrary ieee;\n  use ieee.std_logic_1164.all;\n\npackage formats_pkg "
+      "-- the preset does not have.\n{}\nlibrary ieee;\n  use ieee.std_logic_1164.all;\n\npackage "
+      "formats_pkg "
       "is\n\n",
-      c_notice);
+      c_notice, names_in_bounds("-- "));
   auto to = std::back_inserter(out);
   out += "  type format_t is record\n    bits     : natural;\n    fraction : natural;\n  end record;\n\n";
   out += "  type slice_t is record\n    high : integer;\n    low  : natural;\n  end record;\n\n";
@@ -331,8 +604,7 @@ std::string vhdl_package(const std::vector<PresetFormats>& presets) {
   for (const PresetFormats& preset : presets) {
     fmt::format_to(to, "  constant c_{}_formats : formats_t := (\n", preset.name);
     for (const Format& format : preset.formats)
-      fmt::format_to(to, "    -- {}{}.{}: {}\n    {} => ({}, {}){}\n", format.is_signed ? 's' : 'u',
-                     format.integer_bits, format.fraction_bits, format.why, format.name, format.bits(),
+      fmt::format_to(to, "{}    {} => ({}, {}){}\n", commented(format, "    -- "), format.name, format.bits(),
                      format.fraction_bits, &format == &preset.formats.back() ? "" : ",");
     out += "  );\n\n";
   }
@@ -393,23 +665,23 @@ std::string cpp_header(const std::vector<PresetFormats>& presets) {
   std::string out = fmt::format(
       "// SPDX-License-Identifier: Apache-2.0\n// {}\n// Number formats and the layouts of the flat vectors, "
       "for both "
-      "presets.\n#pragma once\n\n#include <array>\n#include <string_view>\n\n"
+      "presets.\n{}#pragma once\n\n#include <array>\n#include <string_view>\n\n"
       "namespace halfway::golden {{\n\n"
       "/// A named word in a flat vector, bit 0 first; in a channel's block `low` counts from the block's "
       "start.\n"
       "struct Field {{\n  std::string_view name;\n  int low, bits;\n  bool is_signed;\n  int "
       "fraction_bits;\n}};\n\n",
-      c_notice);
+      c_notice, names_in_bounds("// "));
   auto to = std::back_inserter(out);
   for (const PresetFormats& preset : presets) {
     fmt::format_to(to, "struct {} {{\n  static constexpr std::string_view c_name = \"{}\";\n",
                    upper_first(preset.name), preset.name);
     for (const Format& format : preset.formats)
       fmt::format_to(to,
-                     "  // {}{}.{}: {}\n  static constexpr int c_{}_bits = {};\n"
+                     "{}  static constexpr int c_{}_bits = {};\n"
                      "  static constexpr int c_{}_fraction_bits = {};\n",
-                     format.is_signed ? 's' : 'u', format.integer_bits, format.fraction_bits, format.why,
-                     format.name, format.bits(), format.name, format.fraction_bits);
+                     commented(format, "  // "), format.name, format.bits(), format.name,
+                     format.fraction_bits);
     for (const Layout& layout : preset.layouts)
       for (const auto& [part, fields] :
            {std::pair{"header", &layout.header}, std::pair{"channel", &layout.channel}}) {

@@ -3,9 +3,13 @@
 // and of model/golden/formats.hpp.
 #pragma once
 
+#include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "tables/bound.hpp"
 
 namespace halfway::tables {
 
@@ -15,8 +19,10 @@ struct Format {
   bool is_signed;
   int integer_bits;  ///< without the sign
   int fraction_bits;
-  std::string_view why;  ///< what the widths follow from
+  std::string_view why;       ///< what the widths follow from
+  std::vector<Bound> bounds;  ///< what its words promise; tb/bounds checks each
 
+  double unit() const { return std::ldexp(1.0, -fraction_bits); }
   int bits() const { return (is_signed ? 1 : 0) + integer_bits + fraction_bits; }
 };
 
@@ -40,6 +46,11 @@ struct PresetFormats {
 
 /// Both presets; every format name occurs in both.
 std::vector<PresetFormats> preset_formats();
+
+/// What a bound's derivation comes to with the preset's formats; where it grows with the exponent, at the one
+/// given, else at the largest.
+double derived(const PresetFormats& preset, const Format& format, const Bound& bound,
+               std::optional<double> exponent = {});
 
 std::string vhdl_package(const std::vector<PresetFormats>& presets);
 std::string cpp_header(const std::vector<PresetFormats>& presets);

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string_view>
 
+#include "common/to_integer.hpp"
 #include "tables/wrapped_numbers.hpp"
 
 namespace halfway::tables {
@@ -45,7 +47,7 @@ std::uint32_t correctly_rounded(const FunctionTable& table, int index) {
   if (std::fabs(above_tie) <= doubt)
     throw std::logic_error(fmt::format("{}: value {} is too near a tie to be rounded in long double",
                                        name_of(table.function), index));
-  const auto rounded = static_cast<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
+  const auto rounded = to_integer<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
   // The value behind the last cell serves a difference alone.
   if (index == 1 << table.address_bits) return rounded;
   return std::min(rounded, (std::uint32_t{1} << table.value_bits) - 1);
@@ -71,13 +73,38 @@ constexpr Function c_functions[] = {Function::reciprocal_root, Function::logarit
 
 }  // namespace
 
+// u is a value's unit, w a cell's width (of 1/sqrt up to 2 it is 2w, and its slope 1/2 at most; from there
+// 4w, and 2^-2.5). Rounded, a value is u/2 off. At a cell's middle it is off by half a cell's slope besides;
+// along a chord by w^2/8 of the second derivative, and by u, to which what is added is cut.
 std::vector<FunctionTable> function_tables() {
-  return {made({true, Function::reciprocal_root, 9, 12, 12, 0, {}}),
-          made({true, Function::logarithm, 9, 24, 24, 16, {}}),
-          made({true, Function::decay, 6, 19, 18, 12, {}}),
-          made({false, Function::reciprocal_root, 6, 9, 9, 0, {}}),
-          made({false, Function::logarithm, 6, 10, 10, 0, {}}),
-          made({false, Function::decay, 6, 8, 8, 0, {}})};
+  return {
+      made({true,
+            Function::reciprocal_root,
+            9,
+            12,
+            12,
+            0,
+            off_by(0.0011, "", "u / 2 + 2 * w / 2 * (1 / 2)"),
+            {}}),
+      made({true, Function::logarithm, 9, 24, 24, 16, off_by(7.8e-7, "", "u / 2 + w^2 / 8 / ln2 + u"), {}}),
+      made({true, Function::decay, 6, 19, 18, 12, off_by(2.04e-5, "", "u / 2 + w^2 / 8 * ln2^2 + u"), {}}),
+      made({false,
+            Function::reciprocal_root,
+            6,
+            9,
+            9,
+            0,
+            off_by(0.0088, "", "u / 2 + 2 * w / 2 * (1 / 2)"),
+            {}}),
+      made({false, Function::logarithm, 6, 10, 10, 0, off_by(0.0118, "", "u / 2 + w / 2 / ln2"), {}}),
+      made({false, Function::decay, 6, 8, 8, 0, off_by(0.0074, "", "u / 2 + w / 2 * ln2"), {}})};
+}
+
+double derived(const FunctionTable& table) {
+  const Quantity quantities[] = {{"u", std::ldexp(1.0, -table.fraction_bits)},
+                                 {"w", std::ldexp(1.0, -table.address_bits)},
+                                 {"ln2", std::numbers::ln2}};
+  return evaluated(table.error.derivation, quantities);
 }
 
 std::string function_vhdl_package() {
@@ -101,8 +128,9 @@ std::string function_vhdl_package() {
       "  function function_table (exact : boolean; which : natural) return function_table_t;\n\n"
       "end package;\n\npackage body function_pkg is\n\n";
   for (const FunctionTable& table : tables)
-    fmt::format_to(to, "  constant {} : function_table_t(0 to {}) := (\n{});\n\n", constant_name(table),
-                   table.values.size() - 1, wrapped_numbers(table.values, "    ", 118));
+    fmt::format_to(to, "  -- {}, w a cell\n  constant {} : function_table_t(0 to {}) := (\n{});\n\n",
+                   to_string(table.error), constant_name(table), table.values.size() - 1,
+                   wrapped_numbers(table.values, "    ", 118));
   const auto choose = [&](std::string_view name, std::string_view type, const auto& text_of) {
     fmt::format_to(to, "  function {} (exact : boolean; which : natural) return {} is\n  begin\n", name,
                    type);
@@ -142,8 +170,10 @@ std::string function_cpp_header() {
       "  int slope_bits;  // of the difference of neighbours\n"
       "  std::span<const std::uint32_t> values;\n};\n";
   for (const FunctionTable& table : tables)
-    fmt::format_to(to, "\ninline constexpr std::array<std::uint32_t, {}> {}_values = {{\n{}\n}};\n",
-                   table.values.size(), constant_name(table), wrapped_numbers(table.values, "    ", 110));
+    fmt::format_to(
+        to, "\n// {}, w a cell\ninline constexpr std::array<std::uint32_t, {}> {}_values = {{\n{}\n}};\n",
+        to_string(table.error), table.values.size(), constant_name(table),
+        wrapped_numbers(table.values, "    ", 110));
   // By preset, then by function.
   for (const bool exact : {true, false}) {
     fmt::format_to(to, "\ninline constexpr std::array<FunctionTable, {}> c_{}_functions = {{{{\n",

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tables/bound.hpp"
+
 namespace halfway::tables {
 
 enum class Function {
@@ -24,11 +26,15 @@ struct FunctionTable {
   Function function;
   int address_bits, value_bits, fraction_bits;
   int slope_bits;  ///< of the difference of neighbours; 0: none
+  Bound error;     ///< of the table over whole cells; with slopes along the chord, the product cut to a unit
   std::vector<std::uint32_t> values;
 };
 
 /// The three of preset exact, then of published.
 std::vector<FunctionTable> function_tables();
+
+/// What the derivation of its bound comes to.
+double derived(const FunctionTable& table);
 
 std::string function_vhdl_package();
 std::string function_cpp_header();

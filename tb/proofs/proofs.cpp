@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is proved, and the faults that each proof refutes.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "golden/cosine_tables.hpp"
+#include "golden/function_rom.hpp"
 #include "prover.hpp"
 
 namespace halfway::proofs {
@@ -33,6 +39,17 @@ std::vector<Proof> all_proofs() {
                      {"stream/delay_line.vhd", "delayed                   <= memory(to_integer(index));",
                       "delayed                   <= word;"}}});
 
+  proofs.push_back(
+      {"stream/parameter_register",
+       "stream/parameter_register.psl",
+       "The word of the last load, and it stands still till the next",
+       Method::induction,
+       1,
+       true,
+       {{"g_bits", "40"}},
+       {{"stream/parameter_register.vhd", "if load = '1' then", "if load = '0' then"},
+        {"stream/parameter_register.vhd", "if load = '1' then", "if load = '1' and start(0) = '1' then"}}});
+
   // Arithmetic.
   proofs.push_back(
       {"arithmetic/saturate",
@@ -58,6 +75,91 @@ std::vector<Proof> all_proofs() {
          "positive := g_term_bits + 2"},
         {"arithmetic/saturating_sum.vhd", "for i in 1 to g_terms - 1 loop",
          "for i in 1 to g_terms - 2 loop"}}});
+
+  proofs.push_back(
+      {"arithmetic/multiplier",
+       "arithmetic/multiplier.psl",
+       "The sum of a's multiples that b's bits ask for, a clock later, and it stands still without enable: 6 by 6 "
+       "bits",
+       Method::induction,
+       1,
+       true,
+       {{"g_a_bits", "6"}, {"g_b_bits", "6"}},
+       {{"arithmetic/multiplier.vhd", "unsigned(a) * unsigned(b)", "unsigned(a) * unsigned(b) + 1"},
+        {"arithmetic/multiplier.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"}}});
+  proofs.push_back(
+      {"arithmetic/angle_address",
+       "arithmetic/angle_address.psl",
+       "Every angle: whether it is inside the bell, and its cell, counted from the top on either side",
+       Method::induction,
+       1,
+       true,
+       {{"g_address_bits", "9"}},
+       {{"arithmetic/angle_address.vhd", "not angle when angle(c_sign)", "angle when angle(c_sign)"},
+        {"arithmetic/angle_address.vhd", "magnitude(c_sign downto c_fraction) = c_inside",
+         "magnitude(c_sign downto c_fraction + 1) = c_inside(c_sign downto c_fraction + 1)"},
+        {"arithmetic/angle_address.vhd", "magnitude(c_fraction - 1 downto c_fraction - g_address_bits)",
+         "magnitude(c_fraction downto c_fraction - g_address_bits + 1)"}}});
+  proofs.push_back(
+      {"arithmetic/angle_address",
+       "arithmetic/angle_address_published.psl",
+       "Preset `published`: every angle's upper bits",
+       Method::induction,
+       1,
+       true,
+       {{"g_address_bits", "6"}},
+       {{"arithmetic/angle_address.vhd", "angle(c_sign downto c_sign - g_address_bits + 1)",
+         "angle(c_sign - 1 downto c_sign - g_address_bits)"}}});
+
+  // Tables.
+  const auto flag = [](bool value) { return std::string(value ? "true" : "false"); };
+  const auto rom_faults = [](const char* file) {
+    return std::vector<Fault>{
+        {file, "to_integer(unsigned(address))", "to_integer(unsigned(address(address'high - 1 downto 0)))"},
+        {file, "if enable = '1' then", "if enable = '1' or address(0) = '1' then"}};
+  };
+  for (const golden::CosineTable& table : golden::c_cosine_tables) {
+    proofs.push_back(
+        {"tables/cosine_rom",
+         "tables/cosine_rom.psl",
+         fmt::format("Every address gives the golden model's entry: cos^{} in 2^{} entries of {} bits, `{}`",
+                     table.power, table.address_bits, table.data_bits, table.exact ? "exact" : "published"),
+         Method::induction,
+         1,
+         table.power == 2,
+         {{"g_exact", flag(table.exact)},
+          {"g_power", std::to_string(table.power)},
+          {"g_address_bits", std::to_string(table.address_bits)},
+          {"g_data_bits", std::to_string(table.data_bits)}},
+         rom_faults("tables/cosine_rom.vhd")});
+    proofs.back().fault_depth = 4;
+    proofs.back().entries.assign(table.entries.begin(), table.entries.end());
+    proofs.back().entry_bits = table.data_bits;
+  }
+  for (const bool exact : {true, false})
+    for (int which = 0; which < 3; ++which) {
+      constexpr const char* names[] = {"1/sqrt", "log2", "2^-x"};
+      const auto function = static_cast<golden::Function>(which);
+      const golden::FunctionTable& table = exact ? golden::function_table<golden::Exact>(function)
+                                                 : golden::function_table<golden::Published>(function);
+      proofs.push_back(
+          {"tables/function_rom",
+           "tables/function_rom.psl",
+           fmt::format("Every address gives the golden model's value{}: {}, `{}`",
+                       table.slope_bits > 0 ? " and slope" : "", names[which], exact ? "exact" : "published"),
+           Method::induction,
+           1,
+           !exact,
+           {{"g_exact", flag(exact)}, {"g_which", std::to_string(which)}},
+           rom_faults("tables/function_rom.vhd")});
+      proofs.back().fault_depth = 4;
+      for (std::uint32_t at = 0; at < 1U << table.address_bits; ++at) {
+        const auto sample = exact ? golden::function_rom<golden::Exact>(function, at)
+                                  : golden::function_rom<golden::Published>(function, at);
+        proofs.back().entries.push_back(std::uint64_t{sample.slope} << table.value_bits | sample.value);
+      }
+      proofs.back().entry_bits = table.value_bits + table.slope_bits;
+    }
 
   // Walkers.
   proofs.push_back(
@@ -96,6 +198,18 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "section_last = '1' and r.line.lower_lines = 0", "section_last = '1'"});
   exact_faults.push_back({"raster/triangle_walker.vhd", "when r.span.backward = '1' else r.span.x + 1",
                           "when r.line.backward = '1' else r.span.x + 1"});
+  const std::vector<Fault> box_faults = {
+      {"raster/triangle_walker.vhd", "stop_load <= line_load or (line_step and to_lower)",
+       "stop_load <= line_load or (line_step and line_last)"},
+      {"raster/triangle_walker.vhd", "section   <= upper when line_load = '1' else held_lower",
+       "section   <= upper when line_load = '1' else lower"},
+      {"raster/triangle_walker.vhd", "load_carry     => section(c_section_bits - 1)",
+       "load_carry     => upper(c_section_bits - 1)"},
+      {"raster/triangle_walker.vhd", "r.line.backward = '0' and start >= stop",
+       "r.line.backward = '0' and start = stop"},
+      {"raster/triangle_walker.vhd", "v.line.y     := r.line.y + 1", "v.line.y     := r.line.y + 2"},
+      {"raster/edge_walker.vhd", "r.error - r.remainder + r.divisor", "r.error - r.remainder"},
+  };
   for (const bool exact : {true, false})
     proofs.push_back(
         {"raster/triangle_walker",
@@ -116,6 +230,18 @@ std::vector<Proof> all_proofs() {
          8});
 
   proofs.push_back(
+      {"raster/triangle_walker",
+       "raster/triangle_walker_box.psl",
+       "No fragment outside its triangle's box, and every line's start, stop and carry those of exact edges: any "
+       "edges that begin and end in the box, 6 lines, 8 columns, divisors up to 3",
+       Method::pdr,
+       10,
+       false,
+       {},
+       box_faults,
+       {{"span_x", 3, 0}, {"edge_error", 2, 0}, {"lines", 2, 0}, {"pixel_y", 3, 0}, {"triangle", 1, 0}}});
+
+  proofs.push_back(
       {"raster/object_stage",
        "raster/object_stage.psl",
        "A token that waits stands still; none is overwritten or leaves twice, whatever the memory holds",
@@ -131,7 +257,8 @@ std::vector<Proof> all_proofs() {
         {"raster/object_stage.vhd", "not r.valid and not r.clearing;", "not r.clearing;"}},
        {{"pixel_x", 2, 0}},
        false,
-       12});
+       12,
+       true});
   proofs.push_back(
       {"raster/object_stage",
        "raster/object_stage_column.psl",
@@ -175,7 +302,8 @@ std::vector<Proof> all_proofs() {
         {"illumination/shadow_counter.vhd", "r.takes = '1' and valid = '1' and", "r.takes = '1' and"}},
        {{"pixel_x", 1, 0}, {"shadow_count", 1, 0}},
        false,
-       12});
+       12,
+       true});
   proofs.push_back({"illumination/shadow_counter",
                     "illumination/shadow_counter_column.psl",
                     "A column's count is what was opened less what was closed, whatever columns come "
@@ -223,25 +351,93 @@ std::vector<Proof> all_proofs() {
          true,
          12});
   }
+  const std::vector<Fault> folded_faults = {
+      {"illumination/shading_processor.vhd", "if out_ready = '1' then",
+       "if out_ready = '1' or in_valid = '1' then"},
+      {"illumination/shading_processor.vhd", "v.cycle := r.cycle + 1;", "v.cycle := r.cycle;"},
+      {"illumination/shading_processor.vhd", "take    <= in_valid and free", "take    <= in_valid"},
+      {"illumination/shading_processor.vhd", "if r.cycle = c_at.add and r.valid = '1' then",
+       "if r.cycle = c_at.leave and r.valid = '1' then"},
+      {"illumination/shading_processor.vhd", "(g_kind = c_ambient or r.valid = '1')",
+       "(g_kind = c_ambient or r.valid = r.valid)"},
+      {"illumination/terms_pkg.vhd", "held(sum, radiance'length)", "sum(radiance'length - 1 downto 0)"},
+  };
+  std::vector<Fault> shadow_faults = folded_faults;
+  shadow_faults.push_back(
+      {"illumination/shading_processor.vhd", "r.taken = '1' and lit = '0'", "r.taken = '1' and lit = '1'"});
+  std::vector<Fault> horizon_faults = folded_faults;
+  horizon_faults.push_back({"illumination/shading_processor.vhd",
+                            "r.cycle = c_at.horizon and positive_dot = '0'",
+                            "r.cycle = c_at.cosine and positive_dot = '0'"});
+  horizon_faults.push_back({"arithmetic/shading_pkg.vhd", "dot(dot'left) = '0' and dot /= c_zero",
+                            "dot(dot'left) = '0'"});
+  std::vector<Fault> ambient_faults(folded_faults.begin(), folded_faults.begin() + 3);
+  ambient_faults.push_back({"illumination/shading_processor.vhd",
+                            "g_kind = c_ambient and comes = '1' and\n          not",
+                            "g_kind = c_ambient and\n          not"});
+  const auto with = [](Generics generics, const Generics& others) {
+    for (const auto& [name, value] : others) {
+      const auto at =
+          std::find_if(generics.begin(), generics.end(), [&](const auto& pair) { return pair.first == name; });
+      if (at == generics.end())
+        generics.emplace_back(name, value);
+      else
+        at->second = value;
+    }
+    return generics;
+  };
   proofs.push_back(
       {"illumination/shading_processor",
        "illumination/shading_processor.psl",
-       "A token comes out once, with its header, in the clocks of table 4 at most, and stands still while it "
-       "waits; "
-       "any products",
+       "A token comes out once, in the clocks of table 4 at most, and stands still while it waits; nothing of it "
+       "changes but an object's colour, and that by one term, held at its largest, where the light is there; any "
+       "products",
        Method::induction,
        3,
        true,
        diffuse,
-       {{"illumination/shading_processor.vhd", "if out_ready = '1' then",
-         "if out_ready = '1' or in_valid = '1' then"},
-        {"illumination/shading_processor.vhd", "v.cycle := r.cycle + 1;", "v.cycle := r.cycle;"},
-        {"illumination/shading_processor.vhd", "take    <= in_valid and free", "take    <= in_valid"},
-        {"illumination/shading_processor.vhd", "if r.cycle = c_at.add and r.valid = '1' then",
-         "if r.cycle = c_at.leave and r.valid = '1' then"}},
+       folded_faults,
        {},
        true,
        14});
+  proofs.push_back({"illumination/shading_processor",
+                    "illumination/shading_processor.psl",
+                    "The same with shadows: none of the light where volumes are around the point",
+                    Method::induction,
+                    3,
+                    false,
+                    with(diffuse, {{"g_shadows", "true"}}),
+                    shadow_faults,
+                    {{"pixel_x", 2, 0}},
+                    true,
+                    14});
+  proofs.push_back({"illumination/shading_processor",
+                    "illumination/shading_processor.psl",
+                    "The same of a highlight, preset `exact`: none behind the light's horizon",
+                    Method::induction,
+                    3,
+                    false,
+                    with(diffuse, {{"g_exact", "true"},
+                                   {"g_directional", "1"},
+                                   {"g_diffuse", "false"},
+                                   {"g_specular", "true"},
+                                   {"g_kind", "2"},
+                                   {"g_light", "1"}}),
+                    horizon_faults,
+                    {},
+                    true,
+                    26});
+  proofs.push_back({"illumination/shading_processor",
+                    "illumination/shading_processor.psl",
+                    "The same of the ambient light: of an object, N alone besides the colour",
+                    Method::induction,
+                    3,
+                    false,
+                    with(diffuse, {{"g_normalize", "true"}, {"g_kind", "0"}, {"g_light", "0"}}),
+                    ambient_faults,
+                    {},
+                    true,
+                    14});
   proofs.push_back(
       {"illumination/unrolled_shading_processor",
        "illumination/unrolled_shading_processor.psl",
@@ -262,6 +458,19 @@ std::vector<Proof> all_proofs() {
        true});
 
   // Differences.
+  const std::vector<Fault> quadratic_faults = {
+      {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
+      {"interpolation/quadratic_interpolator.vhd", "increment => dx_step", "increment => dxx"},
+      {"interpolation/quadratic_interpolator.vhd", "start     => line_dx", "start     => dxx"},
+      {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
+  };
+  std::vector<Fault> carried_faults = quadratic_faults;
+  for (const auto& [from, to] : {std::pair{"de1_step   <= de1e1 when", "de1_step   <= de0e1 when"},
+                                 std::pair{"dx_step    <= dxe1 when", "dx_step    <= dxe0 when"},
+                                 std::pair{"line_de1 when line_carry", "line_de1 when not line_carry"},
+                                 std::pair{"de0_step   <= de0e1 when line_carry = '1' else de0e0;",
+                                           "de0_step   <= de0e0 when line_carry = '1' else de0e1;"}})
+    carried_faults.push_back({"interpolation/quadratic_interpolator.vhd", from, to});
   proofs.push_back(
       {"interpolation/line_interpolator",
        "interpolation/line_interpolator.psl",
@@ -290,6 +499,32 @@ std::vector<Proof> all_proofs() {
        {},
        false,
        6});
+  for (const bool exact : {true, false})
+    proofs.push_back({"interpolation/quadratic_interpolator",
+                      "interpolation/quadratic_interpolator.psl",
+                      exact ? "Every line's and every pixel's words are what the second differences make of the triangle's, "
+                              "bit for bit, full width"
+                            : "The same in preset `published`",
+                      Method::induction,
+                      2,
+                      true,
+                      {{"g_exact", exact ? "true" : "false"}},
+                      exact ? carried_faults : quadratic_faults,
+                      {},
+                      false,
+                      5});
+  proofs.push_back({"interpolation/quadratic_interpolator",
+                    "interpolation/quadratic_interpolator_error.psl",
+                    "Within (1 + L + L(L-1)/2 + K(1 + L) + K(K-1)/2)/2 units of a twin of 4 bits more after any L "
+                    "lines, whatever carries, and K steps: 8 bits",
+                    Method::induction,
+                    1,
+                    false,
+                    {},
+                    carried_faults,
+                    {{"intensity", 7, 0}},
+                    false,
+                    5});
   proofs.push_back(
       {"interpolation/quadratic_interpolator",
        "interpolation/intensity.gappa",

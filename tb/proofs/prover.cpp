@@ -33,8 +33,9 @@ Result<ProcessEnd> run(const std::filesystem::path& folder, std::vector<std::str
 }
 
 Error failed(const Proof& proof, std::string_view tool, const ProcessEnd& end) {
+  constexpr std::size_t kMost = 1000;  // characters: the first message, not all that follow from it
   return tool_failed(fmt::format("{}: {} came to no verdict ({}):\n{}", proof.unit, tool, end.how(),
-                                 end.output.substr(0, end.output.find("\n\n"))));
+                                 end.output.substr(0, std::min(end.output.find("\n\n"), kMost))));
 }
 
 std::vector<tables::PresetFormats> narrowed(const std::vector<Width>& widths) {
@@ -52,7 +53,7 @@ std::vector<tables::PresetFormats> narrowed(const std::vector<Width>& widths) {
 }
 
 bool is_narrow(const Proof& proof, const Fault* fault) {
-  return !proof.widths.empty() && (fault != nullptr || proof.method != Method::induction);
+  return !proof.widths.empty() && (fault != nullptr || !proof.full_width);
 }
 
 Result<std::vector<VhdlSource>> sources_of(const Folders& folders, const Proof& proof, const Fault* fault) {
@@ -166,12 +167,34 @@ constexpr std::string_view kPrepared =
     "read_verilog -formal formal.v; prep -flatten -top {0}; {1}setundef -undriven -anyseq; opt -full; "
     "opt_clean -purge; async2sync; dffunmap; opt_clean; ";
 
-Status make_netlist(const Folders& folders, const std::filesystem::path& folder, const Proof& proof,
-                    const Fault* fault) {
+// A unit is bound to its entity, or an entity around it.
+std::string top_of(const Proof& proof, std::string_view unit) {
+  const std::string entity = std::filesystem::path(proof.entity).filename();
+  return is_in(unit, "\nentity ") ? entity + "_proof" : entity;
+}
+
+// Declarations and statements of a process that gives `entry` of `address`: a constant for each bit of the entries.
+std::string vhdl_of_entries(const Proof& proof) {
+  std::string constants, assignments;
+  for (int bit = 0; bit < proof.entry_bits; ++bit) {
+    std::string word;
+    for (const std::uint64_t entry : proof.entries) word.insert(word.begin(), (entry >> bit & 1) != 0 ? '1' : '0');
+    constants += fmt::format("    constant c_{} : std_logic_vector({} downto 0) := \"{}\";\n", bit,
+                             proof.entries.size() - 1, word);
+    assignments += fmt::format("    entry({0}) <= c_{0}(to_integer(unsigned(address)));\n", bit);
+  }
+  return fmt::format("{}  begin\n{}", constants, assignments);
+}
+
+// Its result is the netlist's top.
+Result<std::string> make_netlist(const Folders& folders, const std::filesystem::path& folder,
+                                 const Proof& proof, const Fault* fault) {
   const auto sources = sources_of(folders, proof, fault);
   if (!sources) return sources.error();
-  const auto unit = read_file(folders.source / "tb/proofs" / proof.unit);
+  auto unit = read_file(folders.source / "tb/proofs" / proof.unit);
   if (!unit) return tool_failed(unit.error().message);
+  if (const std::size_t at = unit->find("\n$entries\n"); at != std::string::npos)
+    unit->replace(at + 1, std::string_view("$entries\n").size(), vhdl_of_entries(proof));
   // GHDL drops what stands under `when others`.
   if (is_in(*unit, " case ")) return bad_input(fmt::format("{}: a case; write if and elsif", proof.unit));
   std::vector<std::string> command = {"ghdl", "--synth", "--std=08", "--no-assert-cover", "--out=verilog"};
@@ -180,9 +203,9 @@ Status make_netlist(const Folders& folders, const std::filesystem::path& folder,
     if (auto written = write_file(folder / source.name, source.content); !written) return written.error();
     command.push_back(source.name);
   }
-  const std::string entity = std::filesystem::path(proof.entity).filename();
   if (auto written = write_file(folder / "unit.psl", *unit); !written) return written.error();
-  command.insert(command.end(), {"unit.psl", "-e", entity});
+  const std::string top = top_of(proof, *unit);
+  command.insert(command.end(), {"unit.psl", "-e", top});
   const auto synthesized = run(folder, command, folder / "netlist.v");
   if (!synthesized) return synthesized.error();
   if (!synthesized->succeeded()) return failed(proof, "ghdl", *synthesized);
@@ -198,7 +221,8 @@ Status make_netlist(const Folders& folders, const std::filesystem::path& folder,
                                    proof.unit, asserts, assumes, prepared.asserts, prepared.assumes));
   const auto verilog = with_constants(prepared.verilog);
   if (!verilog) return verilog.error();
-  return write_file(folder / "formal.v", *verilog);
+  if (auto written = write_file(folder / "formal.v", *verilog); !written) return written.error();
+  return top;
 }
 
 std::string last_line_with(std::string_view text, std::string_view part) {
@@ -219,15 +243,19 @@ Result<Answer> by_solver(const std::filesystem::path& folder, const Proof& proof
   if (end->exit_status == 1 && is_in(end->output, "Status: FAILED") &&
       (step || is_in(end->output, "Assert failed")))
     return Answer{step ? Verdict::open : Verdict::refuted,
-                  step ? "the induction step fails" : last_line_with(end->output, "Assert failed")};
+                  (step ? "the induction step fails: " : "") + last_line_with(end->output, "Assert failed")};
   return failed(proof, "yosys-smtbmc", *end);
 }
 
-Result<Answer> by_pdr(const std::filesystem::path& folder, const Proof& proof) {
-  const auto end = run(folder, {"yosys-abc", "-c", "read_aiger model.aig; fold; strash; pdr"});
+// `depth` of 0: over all clocks; else no way to break it in so many is as good.
+Result<Answer> by_abc(const std::filesystem::path& folder, const Proof& proof, int depth) {
+  const auto end = run(folder, {"yosys-abc", "-c",
+                                fmt::format("read_aiger model.aig; fold; strash; orpos; {}",
+                                            depth == 0 ? "pdr" : fmt::format("bmc3 -F {}", depth))});
   if (!end) return end.error();
   if (end->timed_out) return Answer{Verdict::open, "no answer within 10 minutes"};
-  if (is_in(end->output, "Property proved.")) return Answer{Verdict::holds, ""};
+  if (is_in(end->output, "Property proved.") || is_in(end->output, "No output asserted in"))
+    return Answer{Verdict::holds, ""};
   if (is_in(end->output, "was asserted in frame"))
     return Answer{Verdict::refuted, last_line_with(end->output, "was asserted")};
   return failed(proof, "yosys-abc", *end);
@@ -289,23 +317,23 @@ Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fa
   if (!scratch) return scratch.error();
   const std::filesystem::path& folder = scratch->path();
   if (proof.method == Method::gappa) return by_gappa(folders, folder, proof, fault);
-  if (auto made = make_netlist(folders, folder, proof, fault); !made) return made.error();
+  const auto top = make_netlist(folders, folder, proof, fault);
+  if (!top) return top.error();
 
   // A fault is refuted by clocks that show it, whatever proves that there are none without it.
-  const bool pdr = proof.method == Method::pdr && fault == nullptr;
-  const std::string entity = std::filesystem::path(proof.entity).filename();
-  std::string script = fmt::format(kPrepared, entity, proof.any_products ? "cutpoint t:$mul; " : "");
+  const bool bits = proof.method == Method::pdr;
+  std::string script = fmt::format(kPrepared, *top, proof.any_products ? "cutpoint t:$mul; " : "");
   script +=
-      pdr ? "delete -output; techmap; opt -fast; memory_map; techmap; opt -full; dffunmap; abc -g AND -fast; "
+      bits ? "delete -output; techmap; opt -fast; memory_map; techmap; opt -full; dffunmap; abc -g AND -fast; "
             "opt_clean; write_aiger -I -B -zinit -no-startoffset model.aig"
-      : is_narrow(proof, fault) ? "memory_map; opt -full; dffunmap; opt_clean; write_smt2 -wires model.smt2"
+      : is_narrow(proof, fault) || !proof.entries.empty() ? "memory_map; opt -full; dffunmap; opt_clean; write_smt2 -wires model.smt2"
                                 : "write_smt2 -wires model.smt2";
   const auto prepared = run(folder, {"yosys", "-q", "-p", script});
   if (!prepared) return prepared.error();
   if (!prepared->succeeded()) return failed(proof, "yosys", *prepared);
-  if (pdr) return by_pdr(folder, proof);
-  const auto first = by_solver(
-      folder, proof, fault == nullptr ? proof.depth : std::max(proof.depth, proof.fault_depth), false);
+  const int fault_depth = std::max(proof.depth, proof.fault_depth);
+  if (bits) return by_abc(folder, proof, fault == nullptr ? 0 : fault_depth);
+  const auto first = by_solver(folder, proof, fault == nullptr ? proof.depth : fault_depth, false);
   if (!first || first->verdict != Verdict::holds || fault != nullptr || proof.method == Method::bounded)
     return first;
   return by_solver(folder, proof, proof.depth, true);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -37,15 +38,18 @@ struct Width {
 struct Proof {
   const char* entity;    ///< in rtl/, with its folder
   const char* unit;      ///< in tb/proofs/, beside the entity's folder: PSL, or Gappa's text
-  const char* property;  ///< for the page
+  std::string property;  ///< for the page
   Method method;
   int depth;   ///< clocks
   bool quick;  ///< a few seconds with its faults: in `make test` too
   std::vector<std::pair<std::string, std::string>> generics;
   std::vector<Fault> faults;
-  std::vector<Width> widths{};  ///< of both presets, for the faults alone where the method is induction
+  std::vector<Width> widths{};  ///< of both presets
   bool any_products = false;    ///< a product is anything at all: what is proved holds whatever is multiplied
   int fault_depth = 10;         ///< clocks in which a fault has to show
+  bool full_width = false;      ///< `widths` are the faults' alone
+  std::vector<std::uint64_t> entries{};  ///< of the golden model's table, for `$entries` in the unit
+  int entry_bits = 0;
 };
 
 /// All of them, in the order of the page.

@@ -35,8 +35,11 @@ struct Family {
 };
 
 extern const Family c_edges;
+extern const Family c_quadratic;
 extern const Family c_spherical;
 extern const Family c_processors;
+extern const Family c_illumination;
+extern const Family c_conversions;
 extern const Family c_shadows;
 extern const Family c_arithmetic;
 

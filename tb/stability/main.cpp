@@ -24,7 +24,8 @@
 namespace halfway::stability {
 namespace {
 
-constexpr const Family* c_families[] = {&c_edges, &c_spherical, &c_processors, &c_shadows, &c_arithmetic};
+constexpr const Family* c_families[] = {&c_edges,   &c_quadratic,    &c_spherical,  &c_processors,
+                                        &c_shadows, &c_illumination, &c_arithmetic, &c_conversions};
 
 constexpr std::string_view c_table =
     "| case | breaks | remedy | holds | published | ours | figures | fragments in golden, RTL |\n"

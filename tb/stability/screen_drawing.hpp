@@ -2,6 +2,7 @@
 // Triangles given on the screen, drawn by the quadratic shader in both presets through the setup's own code.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "setup/init_vector.hpp"
 #include "setup/quadratic_setup.hpp"
 #include "setup/random_triangles.hpp"
+#include "stability/specification.hpp"
 #include "stability/trial.hpp"
 
 namespace halfway::stability {
@@ -60,6 +62,41 @@ inline bool in_frame(const ScreenPiece& piece, FrameSize frame) {
     return p.x >= 0 && p.y >= 0 && p.x < std::int64_t{frame.width} << piece.unit_bits &&
            p.y < std::int64_t{frame.height} << piece.unit_bits;
   });
+}
+
+/// How many steps of forward differences come before a pixel of the piece at most: a line each, a carry each,
+/// and the pixels of a span.
+inline double most_steps(const ScreenPiece& piece, FrameSize frame) {
+  const auto pixels = [&](std::int32_t ScreenPoint::*axis, std::uint32_t side) {
+    const auto [least, greatest] =
+        std::minmax({piece.points[0].*axis, piece.points[1].*axis, piece.points[2].*axis});
+    return std::min<std::int64_t>(((greatest - least) >> piece.unit_bits) + 1, std::int64_t{side} - 1);
+  };
+  return static_cast<double>(2 * pixels(&ScreenPoint::y, frame.height) +
+                             pixels(&ScreenPoint::x, frame.width));
+}
+
+/// How far a colour may be off: rounding, and what k steps of second differences add whose words are rounded
+/// to half of 2^-fraction_bits each: (1 + k + k (k - 1) / 2) of that. Samples are rounded alike; the
+/// quadratic takes 5/3 of that from them at most.
+inline double colour_bound(double k, int fraction_bits) {
+  return 0.5 + std::ldexp(1 + k + k * (k - 1) / 2 + 5.0 / 3, -fraction_bits - 1);
+}
+/// The same of a depth, which has first differences alone.
+inline double depth_bound(double k) {
+  return 0.5 + std::ldexp(1 + k + 1, -golden::Exact::c_depth_sum_fraction_bits - 1);
+}
+
+/// The quadratic through a piece's samples at a pixel's centre, and the plane through its depths.
+inline long double exact_colour(const ScreenPiece& piece, std::int64_t x, std::int64_t y) {
+  std::array<long double, 6> sample;
+  std::ranges::copy(piece.sample, sample.begin());
+  return quadratic(barycentric(piece.points, centre(x, piece.unit_bits), centre(y, piece.unit_bits)).real(),
+                   sample);
+}
+inline long double exact_depth(const ScreenPiece& piece, std::int64_t x, std::int64_t y) {
+  return linear(barycentric(piece.points, centre(x, piece.unit_bits), centre(y, piece.unit_bits)).real(),
+                {piece.depth[0], piece.depth[1], piece.depth[2]});
 }
 
 /// The four quarters, each point in units of half the size, as the setup splits.

@@ -26,6 +26,7 @@ namespace halfway::stability {
 struct Parameter {
   std::string_view name;  ///< in the regressions' files
   std::int64_t simplest, least, greatest;
+  std::int64_t grain = 1;  ///< multiples of it off the simplest are simpler than what lies between
 };
 
 /// A value for each parameter.

@@ -18,21 +18,22 @@ std::uint64_t distance(std::int64_t a, std::int64_t b) {
                : static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b);
 }
 
-// How many parameters are not at their simplest, how long these are to write in bits, how far off they are:
-// every step makes this smaller, so that shrinking ends.
-using Complexity = std::tuple<std::size_t, int, unsigned __int128>;
+// How many parameters are not at their simplest, how many are between grains, how long they are to write in
+// bits, how far off they are: every step makes this smaller, so that shrinking ends.
+using Complexity = std::tuple<std::size_t, std::size_t, int, unsigned __int128>;
 
 Complexity complexity(std::span<const Parameter> parameters, const Input& input) {
-  std::size_t others = 0;
+  std::size_t others = 0, between = 0;
   int bits = 0;
   unsigned __int128 off = 0;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const std::uint64_t by = distance(input[i], parameters[i].simplest);
     others += by != 0;
+    between += by % static_cast<std::uint64_t>(parameters[i].grain) != 0;
     bits += static_cast<int>(std::bit_width(by));
     off += by;
   }
-  return {others, bits, off};
+  return {others, between, bits, off};
 }
 
 bool in_range(std::span<const Parameter> parameters, const Input& input) {
@@ -41,19 +42,21 @@ bool in_range(std::span<const Parameter> parameters, const Input& input) {
   return input.size() == parameters.size();
 }
 
-// Nearer to the simplest: all the way, rounded to ever fewer zeros, by ever smaller steps.
-std::vector<std::int64_t> nearer(std::int64_t value, std::int64_t simplest) {
+// Towards the simplest: all the way, to the grains beside it, to ever fewer zeros, by ever smaller steps.
+std::vector<std::int64_t> simpler_values(std::int64_t value, const Parameter& p) {
   std::vector<std::int64_t> values;
-  const std::uint64_t by = distance(value, simplest);
+  const std::uint64_t by = distance(value, p.simplest), grain = static_cast<std::uint64_t>(p.grain);
   if (by == 0) return values;
   const auto at = [&](std::uint64_t off) {
-    values.push_back(value < simplest ? simplest - static_cast<std::int64_t>(off)
-                                      : simplest + static_cast<std::int64_t>(off));
+    values.push_back(value < p.simplest ? p.simplest - static_cast<std::int64_t>(off)
+                                        : p.simplest + static_cast<std::int64_t>(off));
   };
   at(0);
+  if (by % grain != 0) at(by - by % grain), at(by - by % grain + grain);
   for (int low = static_cast<int>(std::bit_width(by)) - 1; low > 0; --low)
     if (const std::uint64_t rounded = by >> low << low; rounded != by) at(rounded);
-  for (std::uint64_t step = by / 2; step > 0; step /= 2) at(by - step);
+  for (std::uint64_t step = by / grain / 2; step > 0; step /= 2) at(by - step * grain);
+  for (std::uint64_t step = std::min(by - 1, grain); step > 0; step /= 2) at(by - step);
   return values;
 }
 
@@ -92,7 +95,7 @@ Input shrink(std::span<const Parameter> parameters, Input input,
     for (std::size_t i = 0; i < parameters.size(); ++i)
       for (bool again = true; again;) {
         again = false;
-        for (const std::int64_t value : nearer(input[i], parameters[i].simplest)) {
+        for (const std::int64_t value : simpler_values(input[i], parameters[i])) {
           Input next = input;
           next[i] = value;
           if (take(next)) {

@@ -94,29 +94,6 @@ void require_words_in_range(Trial& trial, const Drawing& drawing, const std::str
 
 }  // namespace
 
-Scene stage(const std::array<glm::dvec3, 3>& normals) {
-  Scene scene;
-  scene.name = "stage";
-  scene.materials = {{.name = "m", .ambient = 0.0, .diffuse = 0.5, .specular = 0.5, .exponent = 20.0}};
-  scene.camera.eye_world = {0.0, 0.0, 4.0};
-  scene.positions_world = {{-1.6, -1.3, 0.0}, {1.7, -1.2, 0.0}, {-0.1, 1.4, 0.0}};
-  for (const glm::dvec3& n : normals) scene.normals_world.push_back(glm::normalize(n));
-  scene.triangles = {{{0, 1, 2}, {0, 1, 2}, 0}};
-  return scene;
-}
-
-void add_side_lights(Scene& scene) {
-  scene.directional.push_back({glm::normalize(glm::dvec3(0.3, 0.2, 1.0)), glm::dvec3(0.4)});
-  scene.positional.push_back({{0.4, -0.3, 2.0}, glm::dvec3(0.4)});
-  scene.spots.push_back(
-      {{-0.5, 0.3, 2.5}, glm::normalize(glm::dvec3(0.5, -0.2, -2.5)), 0.95, 0.9, glm::dvec3(0.4)});
-}
-
-void move_eye_away(Scene& scene) {
-  scene.camera.eye_world.z = 1e9;
-  scene.camera.vertical_fov_degrees = 1e-7;
-}
-
 SurfacePoint surface_at(const Scene& scene, FrameSize frame, std::int64_t x, std::int64_t y) {
   const ScreenTriangle t = projected(scene, frame).at(0);
   return surface_point(

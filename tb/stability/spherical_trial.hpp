@@ -10,20 +10,11 @@
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "setup/spherical_drawing.hpp"
 #include "stability/specification.hpp"
 #include "stability/trial.hpp"
 
 namespace halfway::stability {
-
-/// Odd: a pixel lies in the very middle.
-inline constexpr FrameSize c_stage_frame{65, 49};
-
-/// A triangle across the view of an eye straight above it, not lit yet.
-Scene stage(const std::array<glm::dvec3, 3>& normals = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}});
-/// A light of each kind, to the side.
-void add_side_lights(Scene& scene);
-/// The eye so far away that its rays are parallel, and the stage fills the view still.
-void move_eye_away(Scene& scene);
 
 /// The first triangle's surface behind a pixel's centre, as setup has it.
 SurfacePoint surface_at(const Scene& scene, FrameSize frame, std::int64_t x, std::int64_t y);

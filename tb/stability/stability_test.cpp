@@ -26,6 +26,20 @@ TEST(Shrink, FindsTheSmallestInputThatFails) {
   }
 }
 
+TEST(Shrink, PrefersWholeGrains) {
+  constexpr Parameter c_grained[] = {{"a", 0, -1000, 1000, 16}, {"b", 3, 0, 1000, 10}, {"c", 0, 0, 1000, 16}};
+  // Up to the next grain where the one below passes; where no grain will do, the least that fails.
+  const auto fails = [](const Input& i) { return i[0] <= -37 && i[1] > 25 && i[2] % 16 == 5; };
+  EXPECT_EQ(shrink(c_grained,
+                   {
+                       -999,
+                       888,
+                       501,
+                   },
+                   fails, {}),
+            (Input{-48, 33, 5}));
+}
+
 TEST(Shrink, PrefersFewAndShortParameters) {
   // Either will do; rounding comes before small steps.
   const auto fails = [](const Input& i) { return i[0] + i[1] >= 100; };

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "common/file.hpp"
 #include "frame/init_file.hpp"
 #include "frame/trace.hpp"
@@ -40,6 +42,7 @@ void Worst::add(double next, double next_bound, const std::function<std::string(
   ++count;
   // By how much of the bound, without dividing by a bound of nothing.
   const auto nearer = [&] {
+    if (!std::isfinite(figure)) return false;
     if (within() != (next <= next_bound)) return within();
     return !(next * bound <= figure * next_bound) || (bound == 0.0 && !(next <= figure));
   };

@@ -62,6 +62,8 @@ class Trial {
       : folders_(std::move(folders)), rtl_(rtl), quick_(quick) {}
 
   bool quick() const { return quick_; }
+  /// The project's root.
+  const std::filesystem::path& source() const { return folders_.source; }
   /// Rounds of a random sweep.
   int rounds(int quick, int full) const { return quick_ ? quick : full; }
 

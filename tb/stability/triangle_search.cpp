@@ -31,13 +31,13 @@ constexpr std::int64_t c_least_depth = std::int64_t{1} << c_depth_bits,
 constexpr std::int64_t c_least_place = c_guard_begin * 16, c_greatest_place = c_guard_end * 16;
 
 constexpr Parameter place(std::string_view name) {
-  return {name, 0, c_least_place, c_greatest_place};
+  return {name, 0, c_least_place, c_greatest_place, 8};
 }
 constexpr Parameter depth(std::string_view name) {
-  return {name, c_least_depth, c_least_depth, c_greatest_depth};
+  return {name, c_least_depth, c_least_depth, c_greatest_depth, 1 << c_depth_bits};
 }
 constexpr Parameter sample(std::string_view name) {
-  return {name, 0, 0, c_greatest_sample};
+  return {name, 0, 0, c_greatest_sample, 1 << c_sample_bits};
 }
 
 // A triangle's corners in 1/16 pixel; how often it is split, and which quarter is taken each time, two bits
@@ -148,9 +148,7 @@ struct Excess {
 class TriangleChecker final : public Checker {
  public:
   explicit TriangleChecker(SimulatorFolders folders)
-      : folders_(std::move(folders)),
-        golden_{make_golden_model(key_of(1)), make_golden_model(key_of(3))},
-        rtl_(folders_, true) {}
+      : folders_(std::move(folders)), golden_{make_golden_model(key_of(1)), make_golden_model(key_of(3))} {}
 
   std::optional<Failure> check(const Input& input, Tally& tally) override {
     const Subject s = subject_of(input);
@@ -218,14 +216,11 @@ class TriangleChecker final : public Checker {
         append(s, static_cast<std::uint32_t>(i), words_);
         ++tally.rtl_inputs;
       }
-      const std::uint64_t before = rtl_.rtl_fragments();
-      rtl_.draw(key_of(channels), words_);
-      tally.rtl_fragments += rtl_.rtl_fragments() - before;
-      if (!rtl_.tools()) return rtl_.tools().error();
-      if (rtl_.failure().empty()) continue;
-      const Failure failure{"rtl", rtl_.failure()};
-      rtl_ = Trial(folders_, true);
-      return std::optional(failure);
+      Trial trial(folders_, rtl_, true);
+      trial.draw(key_of(channels), words_);
+      tally.rtl_fragments += trial.rtl_fragments();
+      if (!trial.tools()) return trial.tools().error();
+      if (!trial.failure().empty()) return std::optional(Failure{"rtl", trial.failure()});
     }
     return std::optional<Failure>{};
   }
@@ -295,7 +290,7 @@ class TriangleChecker final : public Checker {
 
   SimulatorFolders folders_;
   std::array<std::unique_ptr<GoldenModel>, 2> golden_;
-  Trial rtl_;
+  Simulators rtl_;
   std::vector<std::uint32_t> words_;
   std::vector<Fragment> fragments_;
 };
@@ -311,8 +306,8 @@ class TriangleSearch final : public Search {
   }
   std::span<const Parameter> parameters() const override { return c_parameters; }
   std::uint64_t full_count() const override { return 10'000'000; }
-  std::uint64_t quick_count() const override { return 40'000; }
-  std::uint64_t rtl_every() const override { return 100; }
+  std::uint64_t quick_count() const override { return 20'000; }
+  std::uint64_t rtl_every() const override { return 25; }
   std::unique_ptr<Checker> checker(const SimulatorFolders& folders) const override {
     return std::make_unique<TriangleChecker>(folders);
   }

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far an angle drifts along a span: start and slope are rounded, and the slope's rounding adds up.
+#include <fmt/format.h>
+
+#include <random>
+
+#include "golden/line_interpolator.hpp"
+#include "registry.hpp"
+#include "setup/init_vector.hpp"
+
+namespace halfway::bounds {
+namespace {
+
+using golden::Exact, golden::Published;
+
+// The largest difference between a golden interpolator and start + k slope over so many steps, for real
+// starts and slopes rounded as setup rounds them; the angles that wrap are taken modulo the word.
+template <int Bits>
+Finding drift(int fraction, std::int64_t steps, int tries) {
+  std::mt19937_64 random(2);
+  Finding finding;
+  const long double wrap = std::ldexp(1.0L, Bits - fraction);
+  for (int i = 0; i < tries; ++i) {
+    // From -1 to 1 over the span, as a bell has it.
+    const auto real = [&] { return std::ldexp(static_cast<long double>(random()), -63) - 1.0L; };
+    long double start = real(), slope = (real() - start) / static_cast<long double>(steps);
+    if (i == 0) {
+      // Nearly half a unit up, both.
+      start = std::ldexp(-0.4999L, -fraction);
+      slope = std::ldexp(-0.4999L, -fraction);
+    }
+    using Word = golden::Word<Bits>;
+    const auto word = [&](long double v) {
+      return Word::from_bits(static_cast<std::uint64_t>(wrapped_word(v, fraction, Bits)));
+    };
+    golden::LineInterpolator<Bits> angle;
+    angle.load(word(start));
+    const Word step = word(slope);
+    for (std::int64_t k = 0; k <= steps; ++k) {
+      const long double away = std::ldexp(static_cast<long double>(angle.value().value()), -fraction) -
+                               (start + static_cast<long double>(k) * slope);
+      const auto error = static_cast<double>(std::fabs(std::remainder(away, wrap)));
+      if (error > finding.worst) {
+        finding.worst = error;
+        finding.where = fmt::format("pixel {} of start {:.9f}, slope {:.12f}", k, static_cast<double>(start),
+                                    static_cast<double>(slope));
+      }
+      angle.step(step);
+    }
+  }
+  return finding;
+}
+
+template <class P>
+Finding angle(const Context& context, const tables::PresetFormats&, const tables::Format& format,
+              const tables::Bound& bound) {
+  constexpr std::int64_t c_steps = 4095;
+  Finding finding = drift<P::c_angle_bits>(P::c_angle_fraction_bits, c_steps, context.quick ? 20 : 2000);
+  const auto said = gappa(context, fmt::format("@fx = fixed<-{},ne>;\na = fx(A); s = fx(S);\n"
+                                               "{{ K in [0, {}] -> |(a + K * s) - (A + K * S)| <= {} }}\n"
+                                               "(a + K * s) - (A + K * S) -> (a - A) + K * (s - S);\n",
+                                               format.fraction_bits, c_steps, bound.value));
+  if (said && !said->empty()) finding.failure = "Gappa cannot show it: " + *said;
+  if (said && said->empty()) finding.proved = bound.value;
+  return finding;
+}
+
+template <int... BitsBelow>
+std::vector<DriftRow> rows_of(std::integer_sequence<int, BitsBelow...>) {
+  constexpr int c_address_bits = 6;
+  std::vector<DriftRow> rows;
+  for (const int steps : {1023, 4095})
+    (rows.push_back(
+         {BitsBelow, steps,
+          std::ldexp(drift<c_address_bits + BitsBelow>(c_address_bits + BitsBelow - 1, steps, 10).worst,
+                     c_address_bits - 1),
+          (1 + steps) * std::ldexp(0.5, -BitsBelow)}),
+     ...);
+  return rows;
+}
+
+}  // namespace
+
+std::vector<Check> angle_checks() {
+  return {{"exact", "angle", "", "Gappa; angles along a span by the golden adder", angle<Exact>},
+          {"published", "angle", "", "Gappa; angles along a span by the golden adder", angle<Published>}};
+}
+
+std::vector<DriftRow> drift_rows() {
+  return rows_of(std::integer_sequence<int, 6, 8, 10, 12, 14>{});
+}
+
+}  // namespace halfway::bounds

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Real functions at rational places between two doubles, by MPFR rounded outwards.
+#pragma once
+
+#include <mpfr.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfway::bounds {
+
+/// A real number that lies in [low, high].
+struct Enclosure {
+  double low, high;
+};
+
+/// The farthest that a number may be from `value`, rounded up.
+inline double farthest(double value, Enclosure e) {
+  const double away = std::max(std::fabs(value - e.low), std::fabs(value - e.high));
+  return std::nextafter(away, HUGE_VAL);
+}
+
+class Real {
+ public:
+  Real() { mpfr_init2(value_, 96); }
+  ~Real() { mpfr_clear(value_); }
+  Real(const Real&) = delete;
+  Real& operator=(const Real&) = delete;
+  operator mpfr_ptr() { return value_; }
+
+ private:
+  mpfr_t value_;
+};
+
+/// number / 2^shift, exact.
+struct Dyadic {
+  long number;
+  int shift;
+};
+
+/// cos(pi/2 * x)^power for x in [0, 1]: falls with x.
+inline Enclosure cosine_power(Dyadic x, int power) {
+  const auto one_side = [&](mpfr_rnd_t outward, mpfr_rnd_t inward) {
+    Real v;
+    mpfr_const_pi(v, inward);  // a larger angle, a smaller cosine
+    mpfr_mul_si(v, v, x.number, inward);
+    mpfr_div_2si(v, v, x.shift + 1, inward);
+    mpfr_cos(v, v, outward);
+    if (mpfr_sgn(static_cast<mpfr_ptr>(v)) < 0) mpfr_set_zero(v, 1);
+    mpfr_pow_ui(v, v, static_cast<unsigned long>(power), outward);
+    return mpfr_get_d(v, outward);
+  };
+  return {one_side(MPFR_RNDD, MPFR_RNDU), one_side(MPFR_RNDU, MPFR_RNDD)};
+}
+
+/// f(x) by one of MPFR's functions, which rounds correctly.
+template <class Function>
+Enclosure enclosed(Dyadic x, Function&& f) {
+  const auto one_side = [&](mpfr_rnd_t outward) {
+    Real v;
+    mpfr_set_si_2exp(v, x.number, -x.shift, outward);  // exact
+    f(static_cast<mpfr_ptr>(v), outward);
+    return mpfr_get_d(v, outward);
+  };
+  return {one_side(MPFR_RNDD), one_side(MPFR_RNDU)};
+}
+inline Enclosure reciprocal_root(Dyadic x) {
+  return enclosed(x, [](mpfr_ptr v, mpfr_rnd_t r) { mpfr_rec_sqrt(v, v, r); });
+}
+inline Enclosure logarithm(Dyadic x) {
+  return enclosed(x, [](mpfr_ptr v, mpfr_rnd_t r) { mpfr_log2(v, v, r); });
+}
+/// 2^-x
+inline Enclosure decay(Dyadic x) {
+  return enclosed({-x.number, x.shift}, [](mpfr_ptr v, mpfr_rnd_t r) { mpfr_exp2(v, v, r); });
+}
+
+}  // namespace halfway::bounds

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+#include "registry.hpp"
+
+namespace halfway::bounds {
+
+std::optional<std::string> gappa(const Context& context, std::string_view script) {
+  if (context.quick) return std::nullopt;
+  const std::filesystem::path file = context.scratch / "bound.gappa";
+  if (const auto written = write_file(file, script); !written) return written.error().message;
+  const auto end = run_process({.arguments = {"gappa", file.string()}, .timeout = std::chrono::minutes(1)},
+                               "apt-get install gappa");
+  if (!end) return end.error().message;
+  // What it says last is what it could not show.
+  return end->succeeded() ? std::string()
+                          : end->output.substr(std::min(end->output.rfind("Error"), end->output.size()));
+}
+
+std::optional<std::string> sollya(const Context& context, std::string_view script) {
+  if (context.quick) return std::nullopt;
+  const std::filesystem::path file = context.scratch / "bound.sollya";
+  if (const auto written = write_file(file, script); !written) return written.error().message;
+  const auto end = run_process({.arguments = {"sollya", file.string()}, .timeout = std::chrono::minutes(2)},
+                               "apt-get install sollya");
+  if (!end) return end.error().message;
+  return end->succeeded() ? end->output : "it ended with " + end->how();
+}
+
+}  // namespace halfway::bounds

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1/sqrt(x) over every x, and what becomes of vectors that are made unit ones by it.
+#include <fmt/format.h>
+
+#include <numbers>
+#include <random>
+
+#include "golden/unit_vector.hpp"
+#include "interval.hpp"
+#include "registry.hpp"
+
+namespace halfway::bounds {
+namespace {
+
+using golden::Axes, golden::Exact, golden::Published, golden::ReciprocalRoot;
+
+// Of the table alone: each entry over its whole cell.
+template <class P>
+Finding entry(const Context&, const tables::PresetFormats&, const tables::Format&,
+              const tables::Bound& bound) {
+  const golden::FunctionTable& table = golden::function_table<P>(golden::Function::reciprocal_root);
+  const int cells = 1 << table.address_bits;
+  Finding finding;
+  for (int i = 0; i < cells; ++i) {
+    const double value = std::ldexp(table.values[static_cast<std::size_t>(i)], -table.fraction_bits);
+    for (const int end : {i, i + 1}) {
+      const Dyadic x = end < cells / 2 || (end == cells / 2 && i < end)
+                           ? Dyadic{cells + 2 * end, table.address_bits}
+                           : Dyadic{4 * end, table.address_bits};
+      const Enclosure truth = reciprocal_root(x);
+      // Relative to the root; as x^-1/2 falls, both are largest at an end.
+      const double error = bound.of == "relative" ? farthest(value, truth) / truth.low * (1 + 0x1p-51)
+                                                  : farthest(value, truth);
+      if (error <= finding.worst) continue;
+      finding.worst = error;
+      finding.where = fmt::format("entry {} at x = {}", i, std::ldexp(x.number, -x.shift));
+    }
+  }
+  finding.proved = finding.worst;
+  return finding;
+}
+
+// y sqrt(x) - 1 without the cancellation: (y^2 x - 1) / (y sqrt(x) + 1), y^2 x a whole number.
+template <class P>
+double relative_error(std::uint32_t x) {
+  constexpr int c_root = P::c_root_fraction_bits, c_square = P::c_square_fraction_bits;
+  const auto y = static_cast<unsigned __int128>(ReciprocalRoot<P>::root(x));
+  const auto off = static_cast<__int128>(y * y * x) - (static_cast<__int128>(1) << (2 * c_root + c_square));
+  const double away = std::ldexp(static_cast<double>(off), -2 * c_root - c_square);
+  return away / (std::sqrt(1.0 + away) + 1.0);
+}
+
+template <class P>
+Finding root(const Context& context, const tables::PresetFormats&, const tables::Format&,
+             const tables::Bound&) {
+  constexpr std::uint32_t c_one = std::uint32_t{1} << P::c_square_fraction_bits;
+  constexpr bool c_newton = P::c_root_fraction_bits > P::c_root_entry_fraction_bits;
+  // The Newton step cuts x to 22 bits of fraction: its error is largest at an end of each stretch cut alike.
+  constexpr std::uint32_t c_stretch = c_newton ? 1U << (P::c_square_fraction_bits - 22) : 1;
+  const std::uint32_t stride = c_newton && context.quick ? 41 * c_stretch : c_stretch;
+  Finding finding;
+  const auto see = [&](std::uint32_t x) {
+    const double error = std::fabs(relative_error<P>(x)) + 0x1p-50;
+    if (error <= finding.worst) return;
+    finding.worst = error;
+    finding.where = fmt::format("x = {:.9f}, word {}", std::ldexp(x, -P::c_square_fraction_bits), x);
+  };
+  for (std::uint64_t x = c_one; x < std::uint64_t{4} * c_one; x += stride) {
+    see(static_cast<std::uint32_t>(x));
+    if (c_newton) see(static_cast<std::uint32_t>(x) + c_stretch - 1);
+  }
+  if (stride == c_stretch) finding.proved = finding.worst;
+  return finding;
+}
+
+// The square is the exact one's upper bits.
+template <class P>
+Finding square(const Context&, const tables::PresetFormats&, const tables::Format& format,
+               const tables::Bound&) {
+  constexpr int c_bits = P::c_direction_bits, c_drop = 2 * (c_bits - 1) - P::c_square_fraction_bits;
+  std::mt19937_64 random(4);
+  Finding finding;
+  for (int i = 0; i < 100'000; ++i) {
+    Axes u;
+    for (std::int64_t& c : u) c = static_cast<std::int64_t>(random()) >> (64 - c_bits);
+    const std::int64_t exact = golden::dot_product(u, u);
+    const double error =
+        std::ldexp(static_cast<double>(exact - (exact >> c_drop << c_drop)), -2 * (c_bits - 1));
+    if (error <= finding.worst) continue;
+    finding.worst = error;
+    finding.where = fmt::format("({}, {}, {}) in units", u[0], u[1], u[2]);
+  }
+  finding.proved = format.unit() * (1 - std::ldexp(1.0, -c_drop));
+  return finding;
+}
+
+struct Unit {
+  double length = 0, angle = 0;
+};
+template <class P, int VectorBits>
+Unit errors_of(const Axes& v) {
+  const Axes w = golden::normalized<P, VectorBits>(v);
+  long double x[3], u[3], square = 0, unit_square = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    x[i] = static_cast<long double>(v[i]);
+    u[i] = std::ldexp(static_cast<long double>(w[i]), -P::c_direction_fraction_bits);
+    square += x[i] * x[i];
+    unit_square += u[i] * u[i];
+  }
+  const long double a = u[1] * x[2] - u[2] * x[1], b = u[2] * x[0] - u[0] * x[2],
+                    c = u[0] * x[1] - u[1] * x[0];
+  const long double length = std::sqrt(unit_square);
+  return {static_cast<double>(std::fabs(length - 1)),
+          static_cast<double>(std::asin(std::sqrt(a * a + b * b + c * c) / std::sqrt(square) / length))};
+}
+
+// From random vectors uphill: a few units of one component or of all, up or down.
+template <class P, int VectorBits>
+void climb(bool of_length, int starts, Finding& finding) {
+  std::mt19937_64 random(VectorBits + (of_length ? 100 : 0));
+  const auto value = [&](const Axes& v) {
+    const Unit e = errors_of<P, VectorBits>(v);
+    return of_length ? e.length : e.angle;
+  };
+  constexpr std::int64_t c_largest = (std::int64_t{1} << (VectorBits - 1)) - 1;
+  for (int i = 0; i < starts; ++i) {
+    Axes v;
+    for (std::int64_t& c : v)
+      c = (static_cast<std::int64_t>(random()) >> (64 - VectorBits)) >> random() % (VectorBits - 1);
+    // Many are worst next to an axis, just above a half.
+    if (i % 2 == 0)
+      v[random() % 3] = (c_largest >> random() % 3 >> 1) + static_cast<std::int64_t>(random() % 4096);
+    if (v == Axes{}) continue;
+    double best = value(v);
+    for (int step = 0; step < 60; ++step) {
+      Axes next = v;
+      for (std::int64_t& c : next)
+        if (random() % 2 == 0)
+          c = std::clamp(
+              c + ((static_cast<std::int64_t>(random()) >> (64 - VectorBits)) >> random() % VectorBits),
+              -c_largest - 1, c_largest);
+      if (next == Axes{}) continue;
+      if (const double e = value(next); e > best) best = e, v = next;
+    }
+    if (best <= finding.worst) continue;
+    finding.worst = best;
+    finding.where = fmt::format("({}, {}, {}) of {} bits", v[0], v[1], v[2], VectorBits);
+  }
+}
+
+template <class P>
+Finding length(const Context& context, const tables::PresetFormats&, const tables::Format&,
+               const tables::Bound&) {
+  Finding finding;
+  const int starts = context.quick ? 3'000 : 200'000;
+  climb<P, P::c_vector_bits>(true, starts, finding);
+  climb<P, P::c_offset_bits>(true, starts, finding);
+  return finding;
+}
+
+// The largest angle between v and what is made of it, by the shape of the two roundings alone: v is cut by e
+// in [0, cut)^3 from where its largest component is 1/2 or more, then rounded by r in [-half, half]^3.
+// Bounded on boxes of directions (1, p, q) with interval steps, for every corner of the cut and of the
+// rounding.
+double angle_bound(double cut, double half) {
+  constexpr int c_cells = 1000;
+  double most = 0;
+  const auto corner = [](int i, int axis) { return i >> axis & 1 ? 1.0 : 0.0; };
+  for (int i = -c_cells; i < c_cells; ++i)
+    for (int j = i < 0 ? -c_cells : 0; j < c_cells; ++j) {
+      const double p = (i + 0.5) / c_cells, q = (j + 0.5) / c_cells;
+      // What moves by at most this from the box's middle, in angle.
+      const double slack = std::numbers::sqrt2 / 2 / c_cells;
+      const double square = 1 + p * p + q * q, size = std::sqrt(square);
+      const auto across = [&](double a, double b, double c) {
+        const double along = (a + b * p + c * q) / size;
+        return std::sqrt(std::max(0.0, a * a + b * b + c * c - along * along)) +
+               slack * std::sqrt(a * a + b * b + c * c);
+      };
+      double by_cut = 0, by_rounding = 0;
+      for (int k = 0; k < 8; ++k) {
+        const double a = corner(k, 0), b = corner(k, 1), c = corner(k, 2);
+        by_cut = std::max(by_cut, across(a, b, c));
+        by_rounding = std::max(by_rounding, across(2 * a - 1, 2 * b - 1, 2 * c - 1));
+      }
+      // The shortest vector of the box's directions whose largest component is a half.
+      const double shortest = 0.5 * (size - slack);
+      most = std::max(most, cut * by_cut / shortest + half * by_rounding);
+    }
+  return most;
+}
+
+template <class P>
+Finding angle(const Context& context, const tables::PresetFormats&, const tables::Format& format,
+              const tables::Bound&) {
+  Finding finding;
+  const int starts = context.quick ? 3'000 : 200'000;
+  climb<P, P::c_vector_bits>(false, starts, finding);
+  climb<P, P::c_offset_bits>(false, starts, finding);
+  // Of the longest vectors, whose lowest bits are the ones cut.
+  constexpr int c_cut = std::max(0, P::c_offset_bits - P::c_direction_bits);
+  const double unit = format.unit() / 2;  // of a vector that is shifted
+  const double shrunk = std::is_same_v<P, Exact> ? 1.42e-6 : 0.0094;
+  const double across = angle_bound(unit * (1 - std::ldexp(1.0, -c_cut)), format.unit() / 2 / (1 - shrunk));
+  finding.proved = std::asin(across);
+  return finding;
+}
+
+// A cosine, rounded to a direction's fraction: of what the processors make of a dot product; and any
+// component that is rounded where a vector is made.
+template <class P>
+Finding component(const Context&, const tables::PresetFormats&, const tables::Format& format,
+                  const tables::Bound&) {
+  constexpr int c_fraction = P::c_direction_fraction_bits;
+  const std::int64_t most = std::int64_t{1} << c_fraction;
+  Finding finding;
+  for (std::int64_t low = 0; low<std::min<std::int64_t>(most, 1 << 20); low += c_fraction> 20 ? 1021 : 1) {
+    const std::int64_t dot = most * (most / 3) + low * (most >> std::min(20, c_fraction));
+    const double error =
+        std::fabs(static_cast<double>((std::int64_t{golden::cosine<P>(dot)} << c_fraction) - dot)) *
+        format.unit() * format.unit();
+    if (error <= finding.worst) continue;
+    finding.worst = error;
+    finding.where = fmt::format("a dot product of {}", dot);
+  }
+  finding.proved = format.unit() / 2;
+  return finding;
+}
+
+// From the surface to a light: place times 1/w, rounded, less a place that is shifted, as shading_processor
+// has it.
+Finding offset(const Context&, const tables::PresetFormats&, const tables::Format& format,
+               const tables::Bound&) {
+  using P = Exact;
+  constexpr int c_drop =
+      P::c_light_place_fraction_bits + P::c_vector_fraction_bits - P::c_offset_fraction_bits;
+  std::mt19937_64 random(6);
+  Finding finding;
+  for (int i = 0; i < 2'000'000; ++i) {
+    const auto word = [&](int bits) { return static_cast<std::int64_t>(random()) >> (64 - bits); };
+    const std::int64_t place = word(P::c_light_place_bits), point = word(P::c_vector_bits),
+                       distance = word(P::c_vector_bits) & ((std::int64_t{1} << (P::c_vector_bits - 1)) - 1);
+    const auto shift = static_cast<int>(random() % 32);
+    const std::int64_t made = golden::round_half_up(place * distance, c_drop) - (point >> shift);
+    const long double truth =
+        std::ldexp(static_cast<long double>(place) * static_cast<long double>(distance), -c_drop) -
+        std::ldexp(static_cast<long double>(point), -shift);
+    const auto error = static_cast<double>(std::fabs(static_cast<long double>(made) - truth)) * format.unit();
+    if (error <= finding.worst) continue;
+    finding.worst = error;
+    finding.where = fmt::format("place {}, 1/w {}, point {}, shift {}", place, distance, point, shift);
+  }
+  finding.proved = 1.5 * format.unit();
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Check> root_checks() {
+  return {
+      {"exact", "root_entry", "", "intervals over whole cells", entry<Exact>},
+      {"published", "root_entry", "", "intervals over whole cells", entry<Published>},
+      {"exact", "root_entry", "relative", "intervals over whole cells", entry<Exact>},
+      {"published", "root_entry", "relative", "intervals over whole cells", entry<Published>},
+      {"exact", "root", "", "every x, in whole numbers", root<Exact>},
+      {"published", "root", "", "every x, in whole numbers", root<Published>},
+      {"exact", "square", "", "random vectors; a cut leaves less than a unit", square<Exact>},
+      {"published", "square", "", "random vectors; a cut leaves less than a unit", square<Published>},
+      {"exact", "direction", "component", "cosines of dot products; a rounding leaves half a unit",
+       component<Exact>},
+      {"published", "direction", "component", "cosines of dot products; a rounding leaves half a unit",
+       component<Published>},
+      {"exact", "direction", "length", "derivation; a search uphill", length<Exact>},
+      {"published", "direction", "length", "derivation; a search uphill", length<Published>},
+      {"exact", "direction", "angle", "boxes of directions; a search uphill", angle<Exact>},
+      {"published", "direction", "angle", "boxes of directions; a search uphill", angle<Published>},
+      {"exact", "offset", "", "random places; a rounding and a cut", offset},
+  };
+}
+
+}  // namespace halfway::bounds

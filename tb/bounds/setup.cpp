@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers of a scene that setup rounds into words: random scenes, each word against the number that it stands
+// for. Each is rounded once, to half a unit at most.
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <numbers>
+#include <random>
+
+#include "golden/shading_token.hpp"
+#include "plan/plan.hpp"
+#include "registry.hpp"
+#include "setup/init_vector.hpp"
+#include "setup/processors_setup.hpp"
+#include "setup/spherical_setup.hpp"
+
+namespace halfway::bounds {
+namespace {
+
+using golden::Exact, golden::Published;
+
+constexpr FrameSize c_small{64, 64};
+
+// Seen from (0, 0, 5) view space is the world's but for the eye.
+struct RandomScene {
+  Scene scene;
+  std::mt19937_64 random;
+
+  explicit RandomScene(std::uint64_t seed) : random(seed) {
+    scene.ambient = colour(1.0);
+    scene.positions_world = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+    scene.normals_world = {{0, 0, 1}};
+    scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}};
+    Material m;
+    m.colour = colour(1.0);
+    m.specular_colour = colour(1.0);
+    m.ambient = real(0.1, 0.9);
+    m.diffuse = real(0.1, 0.9);
+    m.specular = real(0.1, 0.9);
+    m.exponent = std::exp(real(0.01, 6.5));
+    scene.materials = {m};
+    for (int i = 0; i < 4; ++i) scene.directional.push_back({unit(), colour(0.9)});
+    for (int i = 0; i < 4; ++i)
+      scene.positional.push_back({{real(-3, 3), real(-3, 3), real(-2, 4)}, colour(0.9)});
+    for (int i = 0; i < 4; ++i) {
+      const double outer = real(-0.9, 0.9), inner = outer + (1 - outer) * real(0.01, 0.9);
+      scene.spots.push_back({{real(-3, 3), real(-3, 3), real(-2, 4)}, unit(), inner, outer, colour(0.9)});
+    }
+  }
+  double real(double low, double high) {
+    return low + (high - low) * std::ldexp(static_cast<double>(random() >> 11), -53);
+  }
+  glm::dvec3 colour(double most) { return {real(0, most), real(0, most), real(0, most)}; }
+  glm::dvec3 unit() {
+    for (;;) {
+      const glm::dvec3 v{real(-1, 1), real(-1, 1), real(-1, 1)};
+      if (glm::dot(v, v) > 0.01) return glm::normalize(v);
+    }
+  }
+};
+
+// The worst word of some, of `fraction` bits, against its number.
+struct Seen {
+  Finding& finding;
+  int fraction;
+  void word(std::int64_t is, double number, std::string_view what) const {
+    const double error = std::fabs(std::ldexp(static_cast<double>(is), -fraction) - number);
+    if (error <= finding.worst) return;
+    finding.worst = error;
+    finding.where = fmt::format("{} of {:.12g}", what, number);
+  }
+};
+
+// What a scene's words tell, of the processors.
+template <class P>
+struct Told {
+  std::vector<golden::ShadingLight> lights;  // 0: ambient
+  golden::ProcessorsConfig config;
+  std::vector<std::uint32_t> draw;
+};
+template <class P>
+Told<P> told(const Scene& scene) {
+  constexpr Preset c_preset = std::is_same_v<P, Exact> ? Preset::exact : Preset::published;
+  Told<P> out;
+  const auto plan = plan_scene(scene, {.shader = Shader::processors, .preset = c_preset});
+  if (!plan) return out;
+  out.config = processors_config(plan->key);
+  const auto setup = make_processors_setup(scene, c_small, plan->key);
+  const std::size_t words = (setup->init_bits() + 31) / 32;
+  std::vector<std::uint32_t> prologue;
+  SetupCounts counts;
+  setup->append_prologue(prologue, counts);
+  for (std::size_t at = words; at + words <= prologue.size(); at += words)  // behind new_frame
+    out.lights.push_back(
+        golden::ShadingToken<P>::decode_light(out.config, std::span(prologue).subspan(at, words)));
+  setup->append(0, out.draw, counts);
+  return out;
+}
+
+template <class P, class See>
+Finding over_scenes(const Context& context, const tables::Format& format, See&& see) {
+  Finding finding;
+  const Seen seen{finding, format.fraction_bits};
+  for (int i = 0; i < (context.quick ? 40 : 2000); ++i) {
+    const RandomScene random(static_cast<std::uint64_t>(i));
+    const Told<P> words = told<P>(random.scene);
+    if (words.lights.size() != 13) {
+      finding.failure = "the scene's lights did not come out";
+      return finding;
+    }
+    see(seen, random.scene, words);
+  }
+  finding.proved = format.unit() / 2;  // of one rounding
+  return finding;
+}
+
+// Lights follow in the order directional, positional, spots.
+template <class P>
+Finding light_intensity(const Context& context, const tables::PresetFormats&, const tables::Format& format,
+                        const tables::Bound&) {
+  return over_scenes<P>(context, format, [](const Seen& seen, const Scene& scene, const Told<P>& words) {
+    for (int c = 0; c < 3; ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      seen.word(words.lights[0].intensity[channel], 255 * scene.ambient[c], "an ambient light");
+      for (std::size_t i = 0; i < 4; ++i)
+        seen.word(words.lights[1 + i].intensity[channel], 255 * scene.directional[i].intensity[c], "a light");
+    }
+  });
+}
+
+template <class P>
+Finding light_place(const Context& context, const tables::PresetFormats&, const tables::Format& format,
+                    const tables::Bound&) {
+  return over_scenes<P>(context, format, [&](const Seen& seen, const Scene& scene, const Told<P>& words) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const glm::dvec3 place = scene.positional[i].position_world - scene.camera.eye_world;
+      // Its power of two is the setup's: what brings the largest component nearest.
+      const golden::Axes& axes = words.lights[5 + i].place;
+      int largest = 0;
+      for (int axis = 1; axis < 3; ++axis)
+        if (std::fabs(place[axis]) > std::fabs(place[largest])) largest = axis;
+      const double word =
+          std::ldexp(static_cast<double>(axes[static_cast<std::size_t>(largest)]), -format.fraction_bits);
+      const double scale = std::exp2(std::round(std::log2(word / place[largest])));
+      for (int axis = 0; axis < 3; ++axis)
+        seen.word(axes[static_cast<std::size_t>(axis)], scale * place[axis], "a light's place");
+    }
+  });
+}
+
+template <class P>
+Finding spot_slope(const Context& context, const tables::PresetFormats&, const tables::Format& format,
+                   const tables::Bound& bound) {
+  const bool share = bound.of == "share";
+  Finding finding =
+      over_scenes<P>(context, format, [&](const Seen& seen, const Scene& scene, const Told<P>& words) {
+        for (std::size_t i = 0; i < 4; ++i) {
+          const double slope = 1 / (scene.spots[i].cos_inner - scene.spots[i].cos_outer);
+          if (!share) {
+            seen.word(words.lights[9 + i].slope, slope, "a slope");
+            continue;
+          }
+          // The share at the edge's two thirds, by the word and by the number.
+          const auto cubic = [](double t) { return t * t * (3 - 2 * t); };
+          const double is = std::ldexp(words.lights[9 + i].slope, -format.fraction_bits), t = 2.0 / 3;
+          const double error = std::fabs(cubic(std::min(1.0, t * is / slope)) - cubic(t));
+          if (error <= seen.finding.worst) continue;
+          seen.finding.worst = error;
+          seen.finding.where = fmt::format("a slope of {:.9f}, two thirds into its edge", slope);
+        }
+      });
+  if (share) {
+    // The least slopes there are, next to the middle between two words.
+    for (int word = 32; word < 40; ++word) {
+      const double slope = (word + 0.5 - 1e-9) * format.unit(), is = word * format.unit(), t = 2.0 / 3;
+      const auto cubic = [](double x) { return x * x * (3 - 2 * x); };
+      const double error = std::fabs(cubic(t * is / slope) - cubic(t));
+      if (error <= finding.worst) continue;
+      finding.worst = error;
+      finding.where = fmt::format("a slope of {:.9f}, two thirds into its edge", slope);
+    }
+    finding.proved = 0;
+  }
+  return finding;
+}
+
+template <class P>
+Finding coefficient(const Context& context, const tables::PresetFormats&, const tables::Format& format,
+                    const tables::Bound&) {
+  return over_scenes<P>(context, format, [](const Seen& seen, const Scene& scene, const Told<P>& words) {
+    const golden::ProcessorsLayout<P> layout(words.config);
+    const Material& m = scene.materials[0];
+    const auto word = [&](int low) {
+      return static_cast<std::int64_t>(golden::get_bits(words.draw, {"", 0, P::c_coefficient_bits, false, 0},
+                                                        layout.init_material_low() + low));
+    };
+    for (int c = 0; c < 3; ++c) {
+      seen.word(word(layout.ambient_low(c)), m.ambient * m.colour[c], "a k_a");
+      seen.word(word(layout.diffuse_low(c)), m.diffuse * m.colour[c], "a k_d");
+      seen.word(word(layout.specular_low(c)), m.specular * m.specular_colour[c], "a k_s");
+    }
+  });
+}
+
+template <class P>
+Finding exponent(const Context& context, const tables::PresetFormats&, const tables::Format& format,
+                 const tables::Bound& bound) {
+  if (bound.of == "highlight") {
+    // x^n falls most where x = 1/e^(1/n): from the least exponent on, next to the middle between two words.
+    Finding finding;
+    for (double n = 1; n < 4; n += format.unit()) {
+      const double word = n, real = n + format.unit() / 2 - 1e-9, x = std::exp(-1 / real);
+      const double error = std::fabs(std::pow(x, word) - std::pow(x, real));
+      if (error <= finding.worst) continue;
+      finding.worst = error;
+      finding.where = fmt::format("an exponent of {:.9f} at a cosine of {:.6f}", real, x);
+    }
+    return finding;
+  }
+  return over_scenes<P>(context, format, [](const Seen& seen, const Scene& scene, const Told<P>& words) {
+    const golden::ProcessorsLayout<P> layout(words.config);
+    const auto word =
+        static_cast<std::int64_t>(golden::get_bits(words.draw, {"", 0, P::c_exponent_bits, false, 0},
+                                                   layout.init_material_low() + layout.exponent_low()));
+    seen.word(word, scene.materials[0].exponent, "an exponent");
+  });
+}
+
+// A plane's value with half a step of vector in it, cut to a vector, as processors_shader has it.
+template <class P>
+Finding vector(const Context&, const tables::PresetFormats&, const tables::Format& format,
+               const tables::Bound&) {
+  constexpr int c_drop = P::c_plane_sum_fraction_bits - P::c_vector_fraction_bits;
+  Finding finding;
+  const Seen seen{finding, format.fraction_bits};
+  for (std::int64_t value = -(std::int64_t{1} << c_drop); value <= std::int64_t{1} << c_drop; ++value)
+    seen.word((value + half(c_drop)) >> c_drop,
+              std::ldexp(static_cast<double>(value), -P::c_plane_sum_fraction_bits), "a plane's value");
+  finding.proved = finding.worst;
+  return finding;
+}
+
+template <class P>
+Finding factor(const Context& context, const tables::PresetFormats&, const tables::Format& format,
+               const tables::Bound&) {
+  constexpr Preset c_preset = std::is_same_v<P, Exact> ? Preset::exact : Preset::published;
+  Finding finding;
+  const Seen seen{finding, format.fraction_bits};
+  for (int i = 0; i < (context.quick ? 40 : 300); ++i) {
+    const RandomScene random(static_cast<std::uint64_t>(i));
+    const auto plan = plan_scene(random.scene, {.shader = Shader::spherical, .preset = c_preset});
+    if (!plan) {
+      finding.failure = plan.error().message;
+      return finding;
+    }
+    const SphericalSetup setup(random.scene, c_small, plan->key, {});
+    std::vector<std::uint32_t> words;
+    SetupCounts counts;
+    setup.append(0, words, counts);
+    const golden::SphericalLayout<P> layout(golden_config(plan->key));
+    const Material& m = random.scene.materials[0];
+    for (int c = 0; c < 3; ++c)
+      seen.word(static_cast<std::int64_t>(
+                    golden::get_bits(words, P::ambient_channel_at::ambient, layout.ambient_low(c))),
+                255 * random.scene.ambient[c] * m.ambient * m.colour[c] + 0.5, "an ambient factor");
+  }
+  finding.proved = format.unit() / 2;
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Check> setup_checks() {
+  constexpr std::string_view c_scenes = "random scenes through setup; a rounding leaves half a unit";
+  return {
+      {"exact", "light_intensity", "", c_scenes, light_intensity<Exact>},
+      {"published", "light_intensity", "", c_scenes, light_intensity<Published>},
+      {"exact", "light_place", "", c_scenes, light_place<Exact>},
+      {"published", "light_place", "", c_scenes, light_place<Published>},
+      {"exact", "spot_slope", "", c_scenes, spot_slope<Exact>},
+      {"published", "spot_slope", "", c_scenes, spot_slope<Published>},
+      {"exact", "spot_slope", "share", "derivation; the least slopes", spot_slope<Exact>},
+      {"published", "spot_slope", "share", "derivation; the least slopes", spot_slope<Published>},
+      {"exact", "coefficient", "", c_scenes, coefficient<Exact>},
+      {"published", "coefficient", "", c_scenes, coefficient<Published>},
+      {"exact", "exponent", "", c_scenes, exponent<Exact>},
+      {"published", "exponent", "", c_scenes, exponent<Published>},
+      {"exact", "exponent", "highlight", "derivation; the least exponents", exponent<Exact>},
+      {"published", "exponent", "highlight", "derivation; the least exponents", exponent<Published>},
+      {"exact", "vector", "", "every rest that is cut", vector<Exact>},
+      {"published", "vector", "", "every rest that is cut", vector<Published>},
+      {"exact", "factor", "", c_scenes, factor<Exact>},
+      {"published", "factor", "", c_scenes, factor<Published>},
+  };
+}
+
+}  // namespace halfway::bounds

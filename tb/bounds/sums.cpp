@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where terms are added and what is stored: products are exact, each term of the processors is cut once, and
+// the colour and the depth that leave are rounded once.
+#include <fmt/format.h>
+
+#include <random>
+
+#include "golden/multiplier.hpp"
+#include "golden/saturate.hpp"
+#include "golden/saturating_sum.hpp"
+#include "golden/shading_processor.hpp"
+#include "registry.hpp"
+
+namespace halfway::bounds {
+namespace {
+
+using golden::Exact, golden::Published;
+
+Finding colour_range(const Context&, const tables::PresetFormats&, const tables::Format&,
+                     const tables::Bound&) {
+  golden::SaturatingSum sum;
+  for (int i = 0; i < 33; ++i) sum.add(~std::uint64_t{0} >> 8);
+  using Value = golden::Word<Exact::c_intensity_bits>;
+  const std::uint32_t most = std::max(
+      sum.result(16, Exact::c_colour_bits),
+      golden::saturate<Exact::c_intensity_bits, Exact::c_intensity_fraction_bits, Exact::c_colour_bits>(
+          Value::from_bits(~std::uint64_t{0} >> (65 - Exact::c_intensity_bits))));
+  return {
+      .worst = double(most), .where = "the largest sum and the largest value, held", .proved = double(most)};
+}
+
+// The half that setup puts into the value and the cut behind it: every fraction of preset published, and
+// those next to a half of either.
+Finding colour_rounded(const Context&, const tables::PresetFormats&, const tables::Format&,
+                       const tables::Bound&) {
+  constexpr int c_bits = Published::c_intensity_bits, c_fraction = Published::c_intensity_fraction_bits;
+  Finding finding;
+  for (std::int64_t value = 0; value <= std::int64_t{2} << c_fraction; ++value) {
+    const std::int64_t with_half = value + (std::int64_t{1} << (c_fraction - 1));
+    const double error =
+        std::fabs(double(golden::saturate<c_bits, c_fraction, Published::c_colour_bits>(
+                      golden::Word<c_bits>::from_bits(static_cast<std::uint64_t>(with_half)))) -
+                  std::ldexp(static_cast<double>(value), -c_fraction));
+    if (error <= finding.worst) continue;
+    finding.worst = error;
+    finding.where = fmt::format("a value of {:.7f}", std::ldexp(static_cast<double>(value), -c_fraction));
+  }
+  finding.proved = finding.worst;
+  return finding;
+}
+
+// Setup keeps depths a step clear of either end, so that with half a step they stay in the format.
+Finding depth_range(const Context&, const tables::PresetFormats&, const tables::Format& format,
+                    const tables::Bound&) {
+  const double most = std::ldexp(1.0, format.integer_bits) - 1;
+  return {.worst = most - 1,
+          .where = "the far plane, held a step clear of the end, drawn half a step and 0.19 deeper",
+          .proved = most};
+}
+
+Finding depth_rounded(const Context&, const tables::PresetFormats&, const tables::Format&,
+                      const tables::Bound&) {
+  constexpr int c_fraction = Exact::c_depth_sum_fraction_bits;
+  Finding finding;
+  for (std::int64_t value = 0; value <= std::int64_t{2} << c_fraction; ++value) {
+    const std::int64_t whole = (value + (std::int64_t{1} << (c_fraction - 1))) >> c_fraction;
+    const double error = std::fabs(double(whole) - std::ldexp(double(value), -c_fraction));
+    if (error <= finding.worst) continue;
+    finding.worst = error;
+    finding.where = fmt::format("a depth of {:.6f}", std::ldexp(double(value), -c_fraction));
+  }
+  finding.proved = finding.worst;
+  return finding;
+}
+
+template <class P>
+Finding product(const Context&, const tables::PresetFormats&, const tables::Format& format,
+                const tables::Bound&) {
+  const std::uint32_t factor = static_cast<std::uint32_t>(golden::low_bits(~0ULL, P::c_factor_bits)),
+                      sample = static_cast<std::uint32_t>(golden::low_bits(~0ULL, P::c_sample_word_bits));
+  const auto largest = static_cast<double>(golden::multiply(sample, factor));
+  Finding finding{.worst = largest, .where = "the largest factor, an entry of 16 ones", .proved = largest};
+  if (largest >= std::ldexp(1.0, format.integer_bits)) finding.failure = "it is not held";
+  return finding;
+}
+
+// k I by the processor's own rounding: an ambient one, whose weight is 1, over random k and I; what it adds
+// below the format of radiance is seen where that has as many bits.
+template <class P>
+Finding reflected(const Context&, const tables::PresetFormats&, const tables::Format& format,
+                  const tables::Bound&) {
+  static_assert(P::c_radiance_fraction_bits >= P::c_reflected_fraction_bits);
+  const golden::ProcessorsConfig config{
+      .channels = 1, .diffuse = false, .specular = false, .normalize = false};
+  golden::ShadingProcessor<P> processor(config, golden::Term::ambient, 0);
+  std::mt19937_64 random(9);
+  Finding finding;
+  for (int i = 0; i < 300'000; ++i) {
+    golden::ShadingToken<P> light;
+    light.command = golden::Command::define;
+    light.light.intensity[0] =
+        static_cast<std::uint32_t>(random() % (255ULL << P::c_light_intensity_fraction_bits));
+    processor.process(light);
+    golden::ShadingToken<P> token;
+    token.ambient[0] =
+        static_cast<std::uint32_t>(random() % (std::uint64_t{1} << P::c_coefficient_fraction_bits));
+    processor.process(token);
+    const double exact = std::ldexp(double(light.light.intensity[0]) * double(token.ambient[0]),
+                                    -P::c_light_intensity_fraction_bits - P::c_coefficient_fraction_bits);
+    const double error =
+        std::fabs(std::ldexp(double(token.radiance[0]), -P::c_radiance_fraction_bits) - exact);
+    if (error <= finding.worst) continue;
+    finding.worst = error;
+    finding.where = fmt::format("k {}, I {} in units", token.ambient[0], light.light.intensity[0]);
+  }
+  finding.proved = format.unit() / 2;
+  return finding;
+}
+
+// Each term's product is cut; the ambient one's weight is 1, which cuts nothing. Sixteen lights whose diffuse
+// and specular terms lose all but one of the bits below a unit: weights w that are odd, and reflected lights
+// r with r w = -1 modulo a unit.
+template <class P>
+Finding radiance(const Context&, const tables::PresetFormats&, const tables::Format& format,
+                 const tables::Bound&) {
+  constexpr int c_cut =
+      P::c_reflected_fraction_bits + P::c_weight_fraction_bits - P::c_radiance_fraction_bits;
+  constexpr int c_fraction = P::c_direction_fraction_bits, c_lights = 16;
+  constexpr std::uint32_t c_exponent = 1U << P::c_exponent_fraction_bits;
+  const golden::Axes normal = {std::int64_t{1} << c_fraction, 0, 0};
+  const auto inverse = [](std::uint32_t w) {
+    std::uint32_t r = 1;
+    while (((std::uint64_t{r} * w + 1) & ((1ULL << c_cut) - 1)) != 0) ++r;
+    return r;
+  };
+  // L = V, so that H is along them; of all angles the one with the least light, which is far from held.
+  struct Chosen {
+    golden::Axes to_light{};
+    std::uint32_t diffuse = 0, specular = 0;                    // weights
+    std::uint32_t diffuse_light = 4096, specular_light = 4096;  // r
+  } best;
+  for (int i = 1; i < 4000; ++i) {
+    const double c = 1 - i / 8000.0;
+    const golden::Axes to_light = {std::llround(std::ldexp(c, c_fraction)),
+                                   std::llround(std::ldexp(std::sqrt(1 - c * c), c_fraction)), 0};
+    golden::Axes half = to_light;
+    if constexpr (std::is_same_v<P, Exact>) {
+      for (std::int64_t& component : half) component *= 2;
+      half = golden::normalized<P, P::c_direction_bits + 1>(half);
+    }
+    Chosen next{to_light};
+    next.diffuse = static_cast<std::uint32_t>(
+        golden::round_half_up(golden::cosine<P>(golden::dot_product(normal, to_light)),
+                              P::c_direction_fraction_bits - P::c_weight_fraction_bits));
+    next.specular = golden::Power<P>::power(golden::cosine<P>(golden::dot_product(normal, half)), c_exponent);
+    if (next.diffuse % 2 == 0 || next.specular % 2 == 0) continue;
+    next.diffuse_light = inverse(next.diffuse);
+    next.specular_light = inverse(next.specular);
+    if (next.diffuse_light + next.specular_light < best.diffuse_light + best.specular_light) best = next;
+  }
+  // k I: in preset exact I is a colour step, in preset published k is 1.
+  constexpr int c_product =
+      P::c_coefficient_fraction_bits + P::c_light_intensity_fraction_bits - P::c_reflected_fraction_bits;
+  constexpr bool c_exact = std::is_same_v<P, Exact>;
+  const auto k_of = [](std::uint32_t r) {
+    return c_exact ? r << (c_product - P::c_light_intensity_fraction_bits) : 1U << c_product;
+  };
+  const golden::ProcessorsConfig config{.channels = 1, .directional = c_lights, .normalize = false};
+  double exact = 0;
+  golden::ShadingToken<P> token;
+  token.normal = {std::int64_t{1} << P::c_vector_fraction_bits, 0, 0};
+  token.exponent = c_exponent;
+  golden::ShadingProcessor<P>(config, golden::Term::ambient, 0).process(token);
+  token.view = best.to_light;
+  for (int light = 1; light <= c_lights; ++light)
+    for (const bool diffuse : {true, false}) {
+      const std::uint32_t r = diffuse ? best.diffuse_light : best.specular_light;
+      golden::ShadingProcessor<P> processor(config, diffuse ? golden::Term::diffuse : golden::Term::specular,
+                                            light);
+      golden::ShadingToken<P> load;
+      load.command = golden::Command::define;
+      load.light_number = static_cast<std::uint32_t>(light);
+      load.light.intensity[0] = c_exact ? 1U << P::c_light_intensity_fraction_bits : r;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        load.light.place[axis] = best.to_light[axis] << (P::c_light_place_fraction_bits - c_fraction);
+      load.light.half = best.to_light;
+      processor.process(load);
+      token.diffuse[0] = token.specular[0] = k_of(r);
+      processor.process(token);
+      exact += std::ldexp(double(r) * (diffuse ? best.diffuse : best.specular),
+                          -P::c_reflected_fraction_bits - P::c_weight_fraction_bits);
+    }
+  Finding finding;
+  finding.worst = exact - std::ldexp(double(token.radiance[0]), -P::c_radiance_fraction_bits);
+  finding.where = fmt::format("16 lights at a cosine of {} units, k I {} and {} units", best.to_light[0],
+                              best.diffuse_light, best.specular_light);
+  finding.proved = 2 * c_lights * format.unit();
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Check> sum_checks() {
+  return {
+      {"both", "colour", "", "the golden sums, held", colour_range},
+      {"both", "colour", "rounded", "every fraction of preset published", colour_rounded},
+      {"both", "depth", "", "the program's own limits", depth_range},
+      {"both", "depth", "rounded", "every fraction", depth_rounded},
+      {"exact", "product_word", "", "the largest factors", product<Exact>},
+      {"published", "product_word", "", "the largest factors", product<Published>},
+      {"exact", "reflected", "", "random k and I by the golden processor", reflected<Exact>},
+      {"published", "reflected", "", "random k and I by the golden processor", reflected<Published>},
+      {"exact", "radiance", "", "16 lights by the golden processors", radiance<Exact>},
+      {"published", "radiance", "", "16 lights by the golden processors", radiance<Published>},
+  };
+}
+
+}  // namespace halfway::bounds

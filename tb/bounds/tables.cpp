@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables over whole cells, not at samples of them: a function that falls or rises over a cell is farthest
+// from a value at one of its ends; and a chord's distance from a concave or convex one is largest at one
+// point between, bounded by the tangents at the two ends.
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "interval.hpp"
+#include "registry.hpp"
+#include "tables/cosine.hpp"
+#include "tables/functions.hpp"
+
+namespace halfway::bounds {
+namespace {
+
+using tables::CosineTable, tables::Function, tables::FunctionTable;
+
+// Asks Sollya for the largest distance between f and each cell's constant or chord.
+class SollyaScript {
+ public:
+  explicit SollyaScript(std::string f)
+      : text_(fmt::format("prec = 120!;\nverbosity = 0!;\nf = {};\nm = 0;\n", f)) {}
+  /// On [low, high] / 2^shift. (supnorm knows no polynomial that is zero, infnorm takes long for chords.)
+  void constant(const std::string& value, long low, long high, int shift) {
+    text_ += fmt::format("m = max(m, sup(infnorm({} - f, [{} * 2^-{}; {} * 2^-{}])));\n", value, low, shift,
+                         high, shift);
+  }
+  void chord(const std::string& polynomial, long low, long high, int shift) {
+    text_ += fmt::format("m = max(m, sup(supnorm({}, f, [{} * 2^-{}; {} * 2^-{}], absolute, 2^-20)));\n",
+                         polynomial, low, shift, high, shift);
+  }
+  void run(const Context& context, TableFinding& finding) const {
+    const auto said = sollya(context, text_ + "print(m);\nquit;\n");
+    if (!said) return;
+    char* end = nullptr;
+    finding.sollya = std::strtod(said->c_str(), &end);
+    if (end == said->c_str() || !(finding.sollya > 0)) finding.failure = "Sollya says " + *said;
+  }
+
+ private:
+  std::string text_;
+};
+
+// |entry - cos^power| over the cell of each entry.
+TableFinding cosine_finding(const CosineTable& table) {
+  TableFinding finding;
+  finding.table = fmt::format("{} cos^{} {}/{}", table.exact ? "exact" : "published", table.power,
+                              table.address_bits, table.data_bits);
+  finding.bound = finding.derived = tables::error_bound(table);
+  const int cells = 1 << table.address_bits, full = (1 << table.data_bits) - 1;
+  const int shift = table.address_bits - (table.exact ? 0 : table.power == 1 ? 2 : 1);
+  const int quarter = 1 << shift;  // cells
+  for (int entry = 0; entry < cells; ++entry) {
+    const int low = table.exact || entry < cells / 2 ? entry : entry - cells;
+    const double value = static_cast<double>(table.entries[static_cast<std::size_t>(entry)]) / full;
+    for (const int end : {low, low + 1}) {
+      const int away = std::abs(end);
+      const Enclosure truth = away >= quarter ? Enclosure{0, 0} : cosine_power({away, shift}, table.power);
+      // The quotient is rounded as well.
+      const double error = farthest(value, truth) + 0x1p-52;
+      if (error <= finding.worst) continue;
+      finding.worst = error;
+      finding.where = fmt::format("entry {} at {}/{} of a quarter turn", entry, end, quarter);
+    }
+  }
+  return finding;
+}
+
+// Argument `index` cells from the first cell's beginning.
+Dyadic argument(const FunctionTable& table, int index) {
+  const int cells = 1 << table.address_bits;
+  if (table.function == Function::logarithm) return {cells + index, table.address_bits};
+  if (table.function == Function::decay) return {index, table.address_bits};
+  return index < cells / 2 ? Dyadic{cells + 2 * index, table.address_bits}
+                           : Dyadic{4 * index, table.address_bits};
+}
+Enclosure value_at(const FunctionTable& table, Dyadic x) {
+  if (table.function == Function::logarithm) return logarithm(x);
+  if (table.function == Function::decay) return decay(x);
+  return reciprocal_root(x);
+}
+
+// A value at a cell's middle.
+TableFinding step_finding(const FunctionTable& table, TableFinding finding) {
+  for (int i = 0; i < 1 << table.address_bits; ++i) {
+    const double value = std::ldexp(table.values[static_cast<std::size_t>(i)], -table.fraction_bits);
+    for (const int end : {i, i + 1}) {
+      const Dyadic x = argument(table, end);
+      const double error = farthest(value, value_at(table, x));
+      if (error <= finding.worst) continue;
+      finding.worst = error;
+      finding.where = fmt::format("value {} at x = {}", i, std::ldexp(x.number, -x.shift));
+    }
+  }
+  return finding;
+}
+
+// Values at a cell's ends and the chord between them, cut to a unit below towards the first value. On each of
+// many parts of a cell all three are monotonic.
+TableFinding chord_finding(const FunctionTable& table, TableFinding finding) {
+  constexpr int c_part_bits = 6, c_parts = 1 << c_part_bits;
+  const double unit = std::ldexp(1.0, -table.fraction_bits);
+  const bool rises = table.function == Function::logarithm;
+  for (int i = 0; i < 1 << table.address_bits; ++i) {
+    const double first = table.values[static_cast<std::size_t>(i)] * unit,
+                 last = table.values[static_cast<std::size_t>(i) + 1] * unit;
+    const Dyadic x = argument(table, i);
+    const auto at = [&](int part) {
+      return value_at(table, {(x.number << c_part_bits) + part, x.shift + c_part_bits});
+    };
+    const auto chord = [&](int part) { return first + (last - first) * part / c_parts; };
+    Enclosure from = at(0);
+    for (int part = 0; part < c_parts; ++part) {
+      const Enclosure to = at(part + 1);
+      // At the parts' ends the distance is that of doubles; between them it is off by the part's own bend.
+      const double bend = std::ldexp(1.0, -2 * (table.address_bits + c_part_bits) - 3) * 1.4427;
+      double high = -1, low = 1;  // chord - truth
+      for (const auto& [p, truth] : {std::pair{part, from}, std::pair{part + 1, to}}) {
+        high = std::max(high, chord(p) - truth.low);
+        low = std::min(low, chord(p) - truth.high);
+      }
+      const double error =
+          std::max(high + bend + (rises ? 0 : unit), -low + bend + (rises ? unit : 0)) + 0x1p-52;
+      from = to;
+      if (error <= finding.worst) continue;
+      finding.worst = error;
+      finding.where = fmt::format("cell {}, part {} of {}", i, part, c_parts);
+    }
+  }
+  return finding;
+}
+
+void ask_sollya(const Context& context, const CosineTable& table, TableFinding& finding) {
+  const int cells = 1 << table.address_bits, full = (1 << table.data_bits) - 1;
+  const int shift = table.address_bits - (table.exact ? 0 : table.power == 1 ? 2 : 1);
+  SollyaScript script(fmt::format("cos(pi / 2 * x)^{}", table.power));
+  for (int entry = 0; entry < cells; ++entry) {
+    const int low = table.exact || entry < cells / 2 ? entry : entry - cells;
+    if (low < -(1 << shift) || low >= 1 << shift) continue;  // zero in table and function
+    script.constant(fmt::format("{} / {}", table.entries[static_cast<std::size_t>(entry)], full), low,
+                    low + 1, shift);
+  }
+  script.run(context, finding);
+  if (finding.sollya > 0 && std::fabs(finding.sollya / finding.worst - 1) > 0x1p-18)
+    finding.failure = fmt::format("Sollya has {}", finding.sollya);
+}
+
+void ask_sollya(const Context& context, const FunctionTable& table, TableFinding& finding) {
+  SollyaScript script(table.function == Function::logarithm ? "log2(x)"
+                      : table.function == Function::decay   ? "2^(-x)"
+                                                            : "1 / sqrt(x)");
+  for (int i = 0; i < 1 << table.address_bits; ++i) {
+    Dyadic from = argument(table, i), to = argument(table, i + 1);
+    // Up to 2 a cell is half as wide, where it ends at 2 as well.
+    if (table.function == Function::reciprocal_root && i + 1 == 1 << (table.address_bits - 1))
+      to = {2L << table.address_bits, table.address_bits};
+    const std::uint32_t value = table.values[static_cast<std::size_t>(i)];
+    const std::string begins = fmt::format("{} * 2^-{}", value, table.fraction_bits);
+    if (table.slope_bits == 0) {
+      script.constant(begins, from.number, to.number, from.shift);
+    } else {
+      const std::int64_t slope = std::int64_t{table.values[static_cast<std::size_t>(i) + 1]} - value;
+      script.chord(fmt::format("{} + ({}) * 2^{} * (x - {} * 2^-{})", begins, slope,
+                               table.address_bits - table.fraction_bits, from.number, from.shift),
+                   from.number, to.number, from.shift);
+    }
+  }
+  script.run(context, finding);
+  // Ours has what is cut besides, along a chord, and the bend of its parts.
+  const double cut = table.slope_bits > 0 ? std::ldexp(1.0, -table.fraction_bits) : 0;
+  if (finding.sollya > finding.worst * (1 + 0x1p-18) ||
+      (finding.sollya > 0 && finding.sollya + cut < finding.worst * (1 - 0x1p-10)))
+    finding.failure = fmt::format("Sollya has {}", finding.sollya);
+}
+
+constexpr const char* c_functions[] = {"1/sqrt(x)", "log2(x)", "2^-x"};
+
+}  // namespace
+
+std::vector<TableFinding> cosine_tables(const Context& context) {
+  std::vector<TableFinding> findings;
+  for (const CosineTable& table : tables::cosine_tables()) {
+    findings.push_back(cosine_finding(table));
+    ask_sollya(context, table, findings.back());
+  }
+  // Any other size that `make tables` may be asked for.
+  TableFinding others{.table = "the other sizes, 3/2 to 12/12"};
+  double nearest = 0, farthest_away = 1;
+  int count = 0;
+  const int step = context.quick ? 3 : 1;
+  for (int address = 3; address <= 12; address += step)
+    for (int data = 2; data <= 12; data += step)
+      for (const auto& [exact, power] :
+           {std::pair{true, 1}, {true, 2}, {true, 4}, {true, 8}, {true, 16}, {false, 1}, {false, 2}}) {
+        const TableFinding finding = cosine_finding(tables::cosine_table(exact, power, address, data));
+        ++count;
+        const double ratio = finding.worst / finding.bound;
+        farthest_away = std::min(farthest_away, ratio);
+        if (ratio <= nearest) continue;
+        nearest = ratio;
+        others.bound = others.derived = finding.bound;
+        others.worst = finding.worst;
+        others.where = finding.table + ", " + finding.where;
+      }
+  others.table = fmt::format("{} sizes and powers, 3/2 to 12/12 bits", count);
+  others.where += fmt::format("; in none less than {:.2f}", farthest_away);
+  findings.push_back(others);
+  return findings;
+}
+
+std::vector<TableFinding> function_tables(const Context& context) {
+  std::vector<TableFinding> findings;
+  for (const FunctionTable& table : tables::function_tables()) {
+    TableFinding finding;
+    finding.table = fmt::format("{} {}", table.exact ? "exact" : "published",
+                                c_functions[static_cast<int>(table.function)]);
+    finding.bound = table.error.value;
+    finding.derived = tables::derived(table);
+    findings.push_back(table.slope_bits > 0 ? chord_finding(table, finding) : step_finding(table, finding));
+    ask_sollya(context, table, findings.back());
+  }
+  return findings;
+}
+
+}  // namespace halfway::bounds

@@ -1,0 +1,684 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers that are none, infinite, huge, denormal or -0 at every conversion from real to integer: in the
+// functions that convert, in scenes made in memory, in scene files and in mesh files.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <random>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+#include "common/to_integer.hpp"
+#include "frame/frame.hpp"
+#include "reference/ray_cast.hpp"
+#include "reference/renderer.hpp"
+#include "run/golden_run.hpp"
+#include "scene/check_numbers.hpp"
+#include "scene/load_scene.hpp"
+#include "setup/gmp_numbers.hpp"
+#include "setup/init_vector.hpp"
+#include "setup/random_scenes.hpp"
+#include "stability/hard_case.hpp"
+#include "stability/spherical_trial.hpp"
+#include "stability/trial.hpp"
+
+namespace halfway::stability {
+namespace {
+
+constexpr double c_nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double c_infinity = std::numeric_limits<double>::infinity();
+
+constexpr double c_no_numbers[] = {c_nan, -c_nan, c_infinity, -c_infinity};
+constexpr double c_extremes[] = {1.7976931348623157e308,
+                                 -1.7976931348623157e308,
+                                 1e308,
+                                 -1e308,
+                                 1e155,
+                                 -1e155,
+                                 1e100,
+                                 -1e100,
+                                 1e15,
+                                 -1e15,
+                                 0x1p64,
+                                 0x1p63,
+                                 -0x1p63,
+                                 0x1p32,
+                                 0x1p31,
+                                 -0x1p31,
+                                 5e-324,
+                                 -5e-324,
+                                 1e-310,
+                                 -1e-310,
+                                 0.0,
+                                 -0.0,
+                                 0.5,
+                                 -0.5};
+
+// ---- Where they stand
+
+// Calls of to_integer: every conversion from real to integer of the code that ships, but for those of
+// integer-valued words in the golden model, which has no real numbers. The functions that hold them, and the
+// case here that brings hostile numbers to them.
+struct Site {
+  std::string_view file;
+  int calls;
+  std::string_view where;
+};
+constexpr Site c_sites[] = {
+    {"model/cli/options.cpp", 1, "Progress::show: a percentage; any part of the work done"},
+    {"model/cli/plan.cpp", 1, "saved: a percentage of cells"},
+    {"model/cli/sim.cpp", 1, "run: a percentage"},
+    {"model/frame/frame.hpp", 1, "to_byte: Channels of a picture"},
+    {"model/reference/ray_cast.cpp", 1, "ShadowRays: bins of a tree; Extreme numbers, the reference picture"},
+    {"model/scene/check_mesh_file.cpp", 1, "corners of a PLY polygon; Numbers of a mesh file"},
+    {"model/setup/exact_division.hpp", 1, "an estimate that exact remainders mend; exact_division_test"},
+    {"model/setup/half_triangle.cpp", 2, "whole pixels of preset published; Extreme numbers"},
+    {"model/setup/init_vector.hpp", 2, "fixed, wrapped_word: Words of any real"},
+    {"model/setup/processors_setup.cpp", 1, "held; Extreme numbers"},
+    {"model/setup/project.cpp", 2, "Projector: guard band and snap; Snapped vertices"},
+    {"model/setup/spherical_setup.cpp", 4, "places to look at along a span; Extreme numbers"},
+    {"model/tables/cosine.cpp", 1, "entries, checked sizes; cosine_test"},
+    {"model/tables/functions.cpp", 1, "entries; functions_test"},
+};
+
+std::size_t closing(const std::string& text, std::size_t open) {
+  int depth = 0;
+  for (std::size_t i = open; i < text.size(); ++i) {
+    depth += (text[i] == '(') - (text[i] == ')');
+    if (depth == 0) return i;
+  }
+  return text.size();
+}
+
+// Casts to integers of what is, by its words, a real number; and the library's roundings to integers.
+int other_conversions(const std::string& text) {
+  static const std::regex c_rounding(R"(\bl?l(round|rint)\w*\s*\()");
+  static const std::regex c_cast(
+      R"(static_cast<[^<>]*\b(int|long|short|char|unsigned|size_t|ptrdiff_t|u?int\d+_t|Int128)\b[^<>]*>\s*\()");
+  static const std::regex c_real(
+      R"(\b(floor|ceil|round|rint|nearbyint|trunc|fmod|ldexp|sqrt|double|float)\b|\d\.\d)");
+  int count = static_cast<int>(std::distance(std::sregex_iterator(text.begin(), text.end(), c_rounding), {}));
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), c_cast); it != std::sregex_iterator(); ++it) {
+    const auto open = static_cast<std::size_t>(it->position() + it->length()) - 1;
+    count += std::regex_search(text.substr(open, closing(text, open) - open), c_real);
+  }
+  return count;
+}
+
+std::vector<std::filesystem::path> shipped_sources(const std::filesystem::path& root) {
+  std::vector<std::filesystem::path> files;
+  for (const char* folder : {"model", "sim"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+      const std::string name = entry.path().filename().string();
+      const bool is_source = name.ends_with(".cpp") || name.ends_with(".hpp");
+      if (is_source && !name.ends_with("_test.cpp")) files.push_back(entry.path());
+    }
+  std::ranges::sort(files);
+  return files;
+}
+
+// The compiler's word for it, in the full sweep, where clang-query is there.
+void ask_clang(Trial& trial, const std::filesystem::path& file, const std::string& name) {
+  const auto end = run_process(
+      {.arguments =
+           {"clang-query", "-c", "set output diag", "-c",
+            R"(match castExpr(hasCastKind("CK_FloatingToIntegral"), isExpansionInFileMatching("/(model|sim)/")))",
+            file.string(), "--", "-std=gnu++20", "-w", "-I", (trial.source() / "model").string(), "-I",
+            trial.source().string(), "-DHALFWAY_SOURCE_DIR=\"\"", "-DHALFWAY_VERSION=\"\""}},
+      "apt-get install clang-tools");
+  if (!end) return;
+  static const std::regex c_place(R"(([^\s:]+):(\d+):\d+: note: "root")");
+  for (auto it = std::sregex_iterator(end->output.begin(), end->output.end(), c_place);
+       it != std::sregex_iterator(); ++it)
+    trial.ours((*it)[1].str().ends_with("common/to_integer.hpp") ? 0 : 1, 0,
+               [&] { return fmt::format("{}:{}, a cast", (*it)[1].str(), (*it)[2].str()); });
+  trial.ours(0, 0, [&] { return name; });
+}
+
+void sites(Trial& trial) {
+  std::map<std::string, int> listed;
+  for (const Site& site : c_sites) listed[std::string(site.file)] = site.calls;
+  const bool clang = !trial.quick() && !find_program("clang-query").empty();
+  static const std::regex c_call(R"(\bto_integer<)");
+  for (const std::filesystem::path& path : shipped_sources(trial.source())) {
+    const std::string name = std::filesystem::relative(path, trial.source()).generic_string();
+    const auto text = read_file(path);
+    trial.require(bool(text), [&] { return name + ": cannot be read"; });
+    if (!text) continue;
+    const int calls =
+        static_cast<int>(std::distance(std::sregex_iterator(text->begin(), text->end(), c_call), {}));
+    const int wanted = listed.contains(name) ? listed[name] : 0;
+    listed.erase(name);
+    trial.ours(std::abs(calls - wanted), 0, [&] {
+      return fmt::format("{}: {} calls of to_integer, {} listed in tb/stability/conversions.cpp", name, calls,
+                         wanted);
+    });
+    if (name != "model/common/to_integer.hpp")
+      trial.ours(other_conversions(*text), 0, [&] { return name + ": converts without to_integer"; });
+    if (clang && name.ends_with(".cpp") && !name.ends_with("harness.cpp")) ask_clang(trial, path, name);
+  }
+  trial.require(listed.empty(), [&] { return listed.begin()->first + " is listed and not there"; });
+}
+
+// ---- The functions
+
+// A double of any bits.
+class AnyDouble {
+ public:
+  double next() { return std::bit_cast<double>(random_()); }
+  template <class F>
+  void sweep(int rounds, F&& f) {
+    for (const double v : c_no_numbers) f(v);
+    for (const double v : c_extremes) f(v);
+    for (int i = 0; i < rounds; ++i) f(next());
+  }
+
+ private:
+  std::mt19937_64 random_{31};
+};
+
+template <class Integer>
+mpz_class as_mpz(Integer v) {
+  return to_mpz(Int128{v});
+}
+mpz_class as_mpz(std::uint64_t v) {
+  return to_mpz(static_cast<Int128>(v));
+}
+
+// The integer part, held; exactly.
+template <class Integer>
+mpz_class held_part(double v) {
+  const mpz_class least = as_mpz(std::numeric_limits<Integer>::min()),
+                  most = as_mpz(std::numeric_limits<Integer>::max());
+  if (std::isnan(v)) return 0;
+  if (std::isinf(v)) return v > 0 ? most : least;
+  return std::clamp(mpz_class(v), least, most);
+}
+
+template <class Integer>
+void integers_of(Trial& trial, const char* name) {
+  AnyDouble any;
+  any.sweep(trial.rounds(5000, 1'000'000), [&](double v) {
+    const mpz_class off = abs(as_mpz(to_integer<Integer>(v)) - held_part<Integer>(v));
+    trial.ours(off.get_d(), 0, [&] { return fmt::format("{} to {}", v, name); });
+  });
+}
+
+void integers(Trial& trial) {
+  integers_of<int>(trial, "int");
+  integers_of<std::uint8_t>(trial, "uint8");
+  integers_of<std::uint32_t>(trial, "uint32");
+  integers_of<std::int64_t>(trial, "int64");
+  integers_of<std::uint64_t>(trial, "uint64");
+  integers_of<Int128>(trial, "int128");
+}
+
+// fixed() is held within 64 bits, ties away from zero; wrapped_word() modulo its width, ties to even.
+void words(Trial& trial) {
+  AnyDouble any;
+  any.sweep(trial.rounds(5000, 1'000'000), [&](double v) {
+    for (const int fraction : {0, 8, 20, 22}) {
+      const double scaled = std::ldexp(v, fraction);
+      const auto where = [&] { return fmt::format("{} with {} fraction bits", v, fraction); };
+      const mpz_class truth = held_part<std::int64_t>(std::round(scaled));
+      trial.ours(mpz_class(abs(as_mpz(fixed(v, fraction)) - truth)).get_d(), 0, where);
+      for (const int bits : {12, 32, 40}) {
+        mpz_class word = 0;  // of what is no number
+        if (std::isfinite(scaled)) word = mpz_class(std::nearbyint(scaled));
+        // Past 2^1023 a multiple of every modulus.
+        mpz_class off = as_mpz(wrapped_word(v, fraction, bits)) - word;
+        mpz_fdiv_r_2exp(off.get_mpz_t(), off.get_mpz_t(), static_cast<mp_bitcnt_t>(bits));
+        trial.ours(off.get_d(), 0, where);
+      }
+    }
+  });
+}
+
+// Half a step, and what 255 v + 0.5 rounds: 2^-45 below 256.
+void channels(Trial& trial) {
+  AnyDouble any;
+  const auto measure = [&](double v) {
+    const long double truth = std::isnan(v) ? 0.0L : 255.0L * std::clamp((long double)v, 0.0L, 1.0L);
+    trial.ours(static_cast<double>(std::fabs(to_byte(v) - truth)), 0.5 + 0x1p-44,
+               [&] { return fmt::format("{}", v); });
+  };
+  any.sweep(trial.rounds(20'000, 4'000'000), measure);
+  for (int step = 0; step <= 510; ++step)  // whole steps and ties
+    for (const double v :
+         {step / 510.0, std::nextafter(step / 510.0, 2.0), std::nextafter(step / 510.0, -1.0)})
+      measure(v);
+}
+
+// ---- Scenes in memory
+
+Scene base_scene() {
+  Scene scene = stage({{{0.3, 0.1, 1}, {-0.3, 0.2, 1}, {0, -0.3, 1}}});
+  scene.materials[0].ambient = 0.1;
+  scene.camera.near = 1.0;
+  scene.camera.far = 100.0;
+  add_side_lights(scene);
+  return scene;
+}
+
+struct Number {
+  std::string name;
+  double* value;
+};
+std::vector<Number> numbers_of(Scene& scene) {
+  std::vector<Number> all;
+  const auto vector = [&](const std::string& name, glm::dvec3& v) {
+    for (int i = 0; i < 3; ++i) all.push_back({fmt::format("{}.{}", name, "xyz"[i]), &v[i]});
+  };
+  vector("eye", scene.camera.eye_world);
+  vector("target", scene.camera.target_world);
+  vector("up", scene.camera.up_world);
+  all.push_back({"fov", &scene.camera.vertical_fov_degrees});
+  all.push_back({"near", &scene.camera.near});
+  all.push_back({"far", &scene.camera.far});
+  vector("ambient", scene.ambient);
+  vector("background", scene.background);
+  vector("to_light", scene.directional[0].to_light_world);
+  vector("directional intensity", scene.directional[0].intensity);
+  vector("position", scene.positional[0].position_world);
+  vector("positional intensity", scene.positional[0].intensity);
+  vector("spot position", scene.spots[0].position_world);
+  vector("spot axis", scene.spots[0].axis_world);
+  vector("spot intensity", scene.spots[0].intensity);
+  all.push_back({"cos_inner", &scene.spots[0].cos_inner});
+  all.push_back({"cos_outer", &scene.spots[0].cos_outer});
+  Material& m = scene.materials[0];
+  vector("colour", m.colour);
+  vector("specular_colour", m.specular_colour);
+  all.push_back({"k_a", &m.ambient});
+  all.push_back({"k_d", &m.diffuse});
+  all.push_back({"k_s", &m.specular});
+  all.push_back({"exponent", &m.exponent});
+  all.push_back({"roughness", &m.roughness});
+  all.push_back({"reflectance", &m.reflectance});
+  vector("vertex", scene.positions_world[1]);
+  vector("normal", scene.normals_world[1]);
+  return all;
+}
+
+// Calls f(scene, name) for the base scene with each of its numbers replaced by each value.
+template <class F>
+void with_each_number(std::span<const double> values, F&& f) {
+  Scene counted = base_scene();
+  const std::size_t count = numbers_of(counted).size();
+  for (std::size_t i = 0; i < count; ++i)
+    for (const double v : values) {
+      Scene scene = base_scene();
+      const Number number = numbers_of(scene)[i];
+      *number.value = v;
+      f(scene, fmt::format("{} {:g}", number.name, v));
+    }
+}
+
+struct ShaderAndPreset {
+  Shader shader;
+  Preset preset;
+  PlanRequest plan() const {
+    PlanRequest request{.shader = shader, .preset = preset, .all_effects = true};
+    if (shader != Shader::quadratic) request.lights = 3;
+    return request;
+  }
+  std::string name() const { return fmt::format("{}, {}", to_string(shader), to_string(preset)); }
+};
+constexpr ShaderAndPreset c_shaders_and_presets[] = {
+    {Shader::spherical, Preset::exact},  {Shader::spherical, Preset::published},
+    {Shader::quadratic, Preset::exact},  {Shader::quadratic, Preset::published},
+    {Shader::processors, Preset::exact}, {Shader::processors, Preset::published}};
+
+// Setup and golden model alone, whatever the plan would say; fragments outside of the frame.
+double fragments_outside(const Scene& scene, const HardwareKey& key) {
+  const auto setup = make_setup(scene, c_stage_frame, key, {});
+  std::vector<std::uint32_t> words;
+  SetupCounts counts;
+  setup->append_prologue(words, counts);
+  for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, words, counts);
+  std::vector<Fragment> fragments;
+  make_golden_model(key)->draw(words, fragments);
+  return static_cast<double>(std::ranges::count_if(fragments, [](const Fragment& f) {
+    return f.x >= c_stage_frame.width || f.y >= c_stage_frame.height;
+  }));
+}
+
+// Refused by the plan; and whoever sets it up all the same stays in the frame.
+void no_numbers(Trial& trial) {
+  const Scene base = base_scene();
+  for (const ShaderAndPreset& s : c_shaders_and_presets) {
+    const auto plan = plan_scene(base, s.plan());
+    trial.require(bool(plan), [&] { return plan.error().message; });
+    if (!plan) continue;
+    with_each_number(c_no_numbers, [&](const Scene& scene, const std::string& name) {
+      const auto where = [&] { return fmt::format("{}: {}", s.name(), name); };
+      const auto refused = plan_scene(scene, s.plan());
+      const bool well = !refused && refused.error().code == ExitCode::bad_input &&
+                        refused.error().message.starts_with("stage: ");
+      trial.ours(well ? 0 : 1, 0, where);
+      trial.ours(fragments_outside(scene, plan->key), 0, where);
+    });
+  }
+}
+
+std::uint64_t left_out(const ProjectionCounts& c) {
+  return c.back_facing + c.behind_near + c.outside + c.degenerate + c.unrepresentable;
+}
+
+// Refused, left out and counted, or drawn as the illumination model has it. Light past white is held, and
+// counted; then a bound says nothing.
+void extremes(Trial& trial) {
+  with_each_number(c_extremes, [&](const Scene& scene, const std::string& name) {
+    if (!check_numbers(scene)) {
+      trial.ours(0, 0, [&] { return name; });
+      return;
+    }
+    const ShaderAndPreset s = c_shaders_and_presets[0];
+    const Drawing drawing = trial.draw(scene, {.plan = s.plan(), .frame = c_stage_frame});
+    if (drawing.fragments.empty()) {
+      trial.ours(left_out(drawing.counts.projection) > 0 ? 0 : 1, 0,
+                 [&] { return name + ": lost in silence"; });
+      return;
+    }
+    const double bound = promised_steps(scene, drawing.key, 2.0);
+    if (drawing.counts.overexposed > 0 || !std::isfinite(bound)) {
+      trial.require(drawing.counts.overexposed > 0, [&] { return name + ": past white in silence"; });
+      return;
+    }
+    const Truth truth(scene, c_stage_frame);
+    for (const Fragment& f : drawing.fragments) {
+      const LongVec off = LongVec(f.red, f.green, f.blue) -
+                          255.0L * glm::min(truth.radiance_at(f.triangle, f.x, f.y), LongVec(1));
+      trial.ours(static_cast<double>(std::max({std::fabs(off.x), std::fabs(off.y), std::fabs(off.z)})), bound,
+                 [&] { return fmt::format("{}, pixel {}, {}", name, f.x, f.y); });
+    }
+  });
+}
+
+// The other shaders and presets: what is accepted stays in the frame, in the RTL too.
+void extremes_elsewhere(Trial& trial) {
+  int turn = 0;
+  for (const ShaderAndPreset& s : std::span(c_shaders_and_presets).subspan(1))
+    with_each_number(c_extremes, [&](const Scene& scene, const std::string& name) {
+      if (!check_numbers(scene)) return;
+      const auto where = [&] { return fmt::format("{}: {}", s.name(), name); };
+      const auto plan = plan_scene(scene, s.plan());
+      if (!plan) {
+        trial.ours(plan.error().code == ExitCode::bad_input ? 0 : 1, 0, where);
+        return;
+      }
+      // The RTL in turns: a build for each shader is for the full sweep.
+      if (s.shader == Shader::spherical ? ++turn % 16 == 0 : !trial.quick() && ++turn % 8 == 0) {
+        double outside = 0;
+        for (const Fragment& f : trial.draw(scene, {.plan = s.plan(), .frame = c_stage_frame}).fragments)
+          outside += f.x >= c_stage_frame.width || f.y >= c_stage_frame.height;
+        trial.ours(outside, 0, where);
+        return;
+      }
+      trial.ours(fragments_outside(scene, plan->key), 0, where);
+    });
+}
+
+// The reference picture, shadows and all; and the tree that its shadow rays go through, with bins for many
+// triangles, against every triangle in turn.
+void extremes_in_the_reference(Trial& trial) {
+  std::vector<double> values(std::begin(c_no_numbers), std::end(c_no_numbers));
+  values.insert(values.end(), std::begin(c_extremes), std::end(c_extremes));
+  with_each_number(values, [&](Scene& scene, const std::string& name) {
+    scene.shadows = true;
+    const auto triangles = Projector(scene, c_stage_frame, {.subpixel_bits = 4}).project_all();
+    const ReferenceImage image = render_reference(scene, triangles, {.frame = c_stage_frame, .threads = 1});
+    std::size_t covered = 0, drawn = 0;
+    for (const ScreenTriangle& t : triangles)
+      for_each_covered(screen_points(t), 4, c_stage_frame, [&](auto, auto) { ++covered; });
+    for (const std::uint8_t there : image.mask) drawn += there;
+    trial.ours(covered == drawn ? 0 : 1, 0, [&] { return name; });
+  });
+  RandomScenes random(32);
+  for (const double value : values)
+    for (int axis = 0; axis < 3; ++axis) {
+      Scene scene;
+      random.add_triangles(scene, 60, 0.5, 0.1);
+      for (const std::size_t vertex : {0U, 1U, 5U, 60U}) scene.positions_world[vertex][axis] = value;
+      for (std::size_t corner = 9; corner < 12; ++corner) scene.positions_world[corner][axis] = value;
+      scene.directional.push_back({random.unit(), glm::dvec3(1.0)});
+      const ShadowRays rays(scene);
+      const LightPoint light = light_point(scene, {LightKind::directional, 0});
+      for (int i = 0; i < trial.rounds(10, 1000); ++i) {
+        const LightRay ray(2.0 * random.cube(), light);
+        const bool blocked = std::ranges::any_of(scene.triangles, [&](const SceneTriangle& t) {
+          const CornersWorld corners = corners_world(scene, t);
+          return ray.hit(corners, 1e-6).crossing == Crossing::enters;
+        });
+        trial.ours(rays.is_blocked(ray, 1e-6) == blocked ? 0 : 1, 0,
+                   [&] { return fmt::format("a shadow ray among vertices with {:g}", value); });
+      }
+    }
+}
+
+// Every snapped vertex within the guard band, its depth in [0, 1], its distance in front of the eye; what
+// does not come so far is counted.
+void snapped(Trial& trial) {
+  std::vector<double> values(std::begin(c_no_numbers), std::end(c_no_numbers));
+  values.insert(values.end(), std::begin(c_extremes), std::end(c_extremes));
+  with_each_number(values, [&](const Scene& scene, const std::string& name) {
+    for (const int bits : {0, 4, c_max_subpixel_bits})
+      for (const bool to_frame : {false, true}) {
+        ProjectionCounts counts;
+        const auto pieces =
+            Projector(scene, c_stage_frame, {.subpixel_bits = bits, .clip_to_frame = to_frame})
+                .project_all(&counts);
+        const auto where = [&] { return fmt::format("{}, {} subpixel bits", name, bits); };
+        int wrong = counts.visible + left_out(counts) != 1;
+        for (const ScreenTriangle& t : pieces)
+          for (const ScreenVertex& v : t.vertex) {
+            const auto inside = [&](std::int32_t c) {
+              return c >= c_guard_begin * (1 << bits) && c <= c_guard_end * (1 << bits);
+            };
+            wrong += !inside(v.x) || !inside(v.y) || !(v.z >= 0.0 && v.z <= 1.0) || !(v.inverse_w > 0.0) ||
+                     !std::isfinite(v.inverse_w);
+          }
+        trial.ours(wrong, 0, where);
+      }
+  });
+}
+
+// ---- Files
+
+constexpr std::string_view c_words[] = {"nan",    "-nan",   "inf",   "+inf",   "-inf",
+                                        "1e308",  "-1e308", "1e999", "-1e999", "1e-310",
+                                        "5e-324", "-0.0",   "1e16",  "-1e16",  "1e15"};
+
+constexpr std::string_view c_scene_file = R"(ambient = 0.2
+background = [0.1, 0.2, 0.3]
+[camera]
+eye = [0.0, 0.5, 4.0]
+target = [0.0, 0.1, 0.2]
+up = [0.0, 1.0, 0.0]
+fov = 40.0
+near = 1.0
+far = 50.0
+[[directional]]
+to_light = [0.3, 0.2, 1.0]
+intensity = [0.4, 0.3, 0.2]
+[[positional]]
+position = [0.4, -0.3, 2.0]
+intensity = 0.4
+[[spot]]
+position = [-0.5, 0.3, 2.5]
+axis = [0.5, -0.2, -2.5]
+inner = 10.0
+outer = 20.0
+[[material]]
+name = "m"
+colour = [0.9, 0.8, 0.7]
+specular_colour = 0.5
+k_a = 0.1
+k_d = 0.6
+k_s = 0.4
+exponent = 20.0
+roughness = 0.3
+reflectance = 0.05
+[[mesh]]
+kind = "box"
+size = [1.0, 1.5, 0.5]
+material = "m"
+scale = 1.5
+rotate = { degrees = 30.0, axis = [0.0, 1.0, 0.3] }
+translate = [0.1, 0.2, 0.3]
+)";
+
+// Every number of the text, replaced by every word: f(text, line, what).
+template <class F>
+void with_each_word(std::string_view text, const std::regex& number, F&& f) {
+  const std::string whole(text);
+  for (auto it = std::sregex_iterator(whole.begin(), whole.end(), number); it != std::sregex_iterator();
+       ++it) {
+    const auto at = static_cast<std::size_t>(it->position());
+    const auto line = 1 + std::count(whole.begin(), whole.begin() + it->position(), '\n');
+    for (const std::string_view word : c_words)
+      f(whole.substr(0, at) + std::string(word) + whole.substr(at + static_cast<std::size_t>(it->length())),
+        static_cast<std::size_t>(line), fmt::format("line {}: {} for {}", line, word, it->str()));
+  }
+}
+
+// Whether a file's scene is refused with file and line, or is one to be drawn.
+bool is_refused_or_sound(const std::filesystem::path& path, std::size_t line, bool exact_line) {
+  const auto scene = load_scene(path.string(), path.parent_path());
+  if (scene) return bool(check_numbers(*scene));
+  const std::string& message = scene.error().message;
+  if (scene.error().code != ExitCode::bad_input || message.find(path.string()) == std::string::npos)
+    return false;
+  if (!exact_line) return true;
+  // Of the number itself, or of the table that it stands in.
+  static const std::regex c_line(R"(:(\d+): )");
+  std::smatch match;
+  return std::regex_search(message, match, c_line) && std::stoul(match[1].str()) <= line;
+}
+
+void files_of(Trial& trial, const std::string& file_name, std::string_view text, const std::regex& number,
+              bool exact_line) {
+  const auto folder = TemporaryFolder::make(trial.source() / "build");
+  trial.require(bool(folder), [&] { return folder.error().message; });
+  if (!folder) return;
+  const std::filesystem::path path = folder->path() / file_name;
+  const auto write = [&](const std::string& changed) { std::ofstream(path, std::ios::binary) << changed; };
+  write(std::string(text));
+  trial.require(bool(load_scene(path.string(), folder->path())),
+                [&] { return file_name + ": the file itself is refused"; });
+  with_each_word(text, number, [&](const std::string& changed, std::size_t line, const std::string& what) {
+    write(changed);
+    trial.ours(is_refused_or_sound(path, line, exact_line) ? 0 : 1, 0,
+               [&] { return file_name + ", " + what; });
+  });
+}
+
+void scene_files(Trial& trial) {
+  files_of(trial, "hostile.toml", c_scene_file, std::regex(R"(-?\d+\.\d+)"), true);
+}
+
+constexpr std::string_view c_obj = R"(v -1.0 -1.0 0.5
+v 1.0 -1.0 0.5
+v 0.0 1.0 0.5
+v 0.0 1.5 -0.5
+vn 0.0 0.1 1.0
+vn 0.2 0.1 1.0
+f 1//1 2//2 3//1
+f 1//1 3//2 4//1
+)";
+constexpr std::string_view c_ply = R"(ply
+format ascii 1.0
+element vertex 4
+property double x
+property double y
+property double z
+property double nx
+property double ny
+property double nz
+element face 2
+property list uint int vertex_indices
+end_header
+-1.0 -1.0 0.5 0.0 0.1 1.0
+1.0 -1.0 0.5 0.1 0.1 1.0
+0.0 1.0 0.5 0.2 0.1 1.0
+0.0 1.5 -0.5 0.3 0.1 1.0
+3 0 1 2
+3 0 2 3
+)";
+constexpr std::string_view c_stl = R"(solid s
+facet normal 0.0 0.0 1.0
+outer loop
+vertex -1.0 -1.0 0.5
+vertex 1.0 -1.0 0.5
+vertex 0.0 1.0 0.5
+endloop
+endfacet
+endsolid s
+)";
+
+void mesh_files(Trial& trial) {
+  const std::regex number(R"(-?\d+\.\d+(?= |\n))");
+  files_of(trial, "hostile.obj", c_obj, number, false);
+  files_of(trial, "hostile.stl", c_stl, number, false);
+  // The version in the header is no number of the mesh.
+  files_of(trial, "hostile.ply", c_ply, std::regex(R"(-?\d+\.\d+(?= |\n(?!element)))"), false);
+
+  // Lengths of lists that no double, and no index, holds.
+  const auto folder = TemporaryFolder::make(trial.source() / "build");
+  if (!folder) return;
+  const std::filesystem::path path = folder->path() / "polygon.ply";
+  for (const char* length : {"18446744073709551615", "18446744073709551614", "9223372036854775808",
+                             "4294967296", "-1", "nan", "1e300", "0", "2"}) {
+    std::string text(c_ply);
+    text.replace(text.rfind("3 0 2 3"), 1, length);
+    std::ofstream(path, std::ios::binary) << text;
+    trial.ours(is_refused_or_sound(path, 0, false) ? 0 : 1, 0,
+               [&] { return fmt::format("a polygon of {} corners", length); });
+  }
+}
+
+constexpr HardCase c_cases[] = {
+    {"Where reals become integers", "a cast of what does not fit is undefined",
+     "one function, listed callers", "no other conversion in the sources", "conversions", Published::silent,
+     sites},
+    {"Any double to an integer", "a cast", "to_integer: held, 0 for what is no number", "against GMP", "of 1",
+     Published::silent, integers},
+    {"Words of any real", "ldexp past every integer", "held, or modulo the word", "against GMP", "of 1",
+     Published::silent, words},
+    {"Channels of a picture", "255 v + 0.5", "0 and 255 by comparisons", "half a step from 255 v", "steps",
+     Published::silent, channels},
+    {"Snapped vertices", "x/w of any scene", "what no double holds is left out and counted",
+     "in the guard band, or counted", "vertices", Published::silent, snapped},
+    {"No number in a scene", "NaN and infinity, past the loader", "the plan refuses the scene by name",
+     "refused; setup alone stays in the frame", "scenes", Published::silent, no_numbers},
+    {"Extreme numbers in a scene", "±1.8·10³⁰⁸, denormals, −0, past the loader",
+     "refused, or left out and counted", "else the illumination model, but for threshold, fit and table",
+     "colour steps", Published::silent, extremes},
+    {"Extreme numbers, other shaders", "the same", "the same", "in the frame", "fragments", Published::silent,
+     extremes_elsewhere},
+    {"Extreme numbers, the reference picture", "NaN too: places in the tree of boxes",
+     "no box, no place in it", "each covered pixel; shadows as without the tree", "pictures and rays",
+     Published::silent, extremes_in_the_reference},
+    {"Numbers of a scene file", "nan, inf, 1e999, ±1e308 in a file", "refused with file and line",
+     "or a sound scene", "scenes", Published::silent, scene_files},
+    {"Numbers of a mesh file", "the same in OBJ, PLY and STL; polygons of 2⁶⁴ corners",
+     "refused with the file's name", "or a sound scene", "scenes", Published::silent, mesh_files},
+};
+
+}  // namespace
+
+const Family c_conversions{"conversions", c_cases};
+
+}  // namespace halfway::stability

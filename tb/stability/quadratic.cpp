@@ -1,0 +1,527 @@
+// SPDX-License-Identifier: Apache-2.0
+// Colour and depth behind a triangle's pixels: by one division and forward differences that wrap, against the
+// published five divisions and 20 fraction bits.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "setup/project.hpp"
+#include "setup/quadratic_fit.hpp"
+#include "stability/hard_case.hpp"
+#include "stability/screen_drawing.hpp"
+#include "stability/specification.hpp"
+#include "stability/trial.hpp"
+
+namespace halfway::stability {
+namespace {
+
+using golden::Exact;
+
+constexpr FrameSize c_frame{97, 61}, c_largest{4096, 4096};
+constexpr double c_nearest = 1, c_farthest = (1 << 24) - 3;  // steps, as setup keeps them
+
+std::string at(const Fragment& f, const ScreenPiece& piece) {
+  return fmt::format("pixel {},{} of {}", f.x, f.y, name_of(piece.points, piece.unit_bits));
+}
+
+// Calls figure(fragment, piece) for each fragment that the golden model draws of the pieces.
+template <class Figure>
+void draw_exact(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame, Figure&& figure) {
+  std::vector<std::uint32_t> words;
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) append_exact(pieces[i], i, frame, words);
+  for (const Fragment& f : trial.draw(c_exact_key, words)) figure(f, pieces[f.triangle]);
+}
+template <class Figure>
+void draw_published(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame, Figure&& figure) {
+  std::vector<std::uint32_t> words;
+  for (std::uint32_t i = 0; i < pieces.size(); ++i)
+    if (in_frame(pieces[i], frame)) append_published(pieces[i], i, words);
+  for (const Fragment& f : trial.draw(c_published_key, words)) figure(f, pieces[f.triangle]);
+}
+
+double colour_off(const Fragment& f, const ScreenPiece& piece) {
+  return static_cast<double>(std::abs(f.red - std::clamp(exact_colour(piece, f.x, f.y), 0.0L, 255.0L)));
+}
+double depth_off(const Fragment& f, const ScreenPiece& piece) {
+  return static_cast<double>(std::abs(f.z - exact_depth(piece, f.x, f.y)));
+}
+
+void our_colours(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame) {
+  draw_exact(trial, pieces, frame, [&](const Fragment& f, const ScreenPiece& piece) {
+    trial.ours(colour_off(f, piece), colour_bound(most_steps(piece, frame), Exact::c_intensity_fraction_bits),
+               [&] { return at(f, piece); });
+  });
+}
+void our_depths(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame) {
+  draw_exact(trial, pieces, frame, [&](const Fragment& f, const ScreenPiece& piece) {
+    trial.ours(depth_off(f, piece), depth_bound(most_steps(piece, frame)), [&] { return at(f, piece); });
+  });
+}
+void published_depths(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame) {
+  draw_published(trial, pieces, frame, [&](const Fragment& f, const ScreenPiece& piece) {
+    trial.published(depth_off(f, piece), depth_bound(most_steps(piece, frame)), [&] { return at(f, piece); });
+  });
+}
+
+std::array<double, 6> random_samples(RandomTriangles& random, double most = 255.0) {
+  std::array<double, 6> sample;
+  for (double& s : sample) s = most * random.within(0, 1 << 20) / (1 << 20);
+  return sample;
+}
+
+// Section 3 as printed, in double: T0 to T5 by five divisions, then equation 4. (X1, Y1) is the origin, where
+// drawing starts.
+double five_divisions(const ScreenPiece& piece, std::int64_t x, std::int64_t y) {
+  const double unit = 1 << piece.unit_bits;
+  std::array<std::size_t, 3> n = {0, 1, 2};
+  const std::size_t top = static_cast<std::size_t>(
+      std::ranges::min_element(piece.points, {}, &ScreenPoint::y) - piece.points.begin());
+  std::swap(n[0], n[top]);
+  const auto px = [&](std::size_t i) { return piece.points[n[i]].x / unit; };
+  const auto py = [&](std::size_t i) { return piece.points[n[i]].y / unit; };
+  const auto vertex = [&](std::size_t i) { return piece.sample[n[i]]; };
+  const auto middle = [&](std::size_t i, std::size_t j) { return piece.sample[2 + n[i] + n[j]]; };
+  const double i1 = vertex(0), i2 = vertex(1), i3 = vertex(2), i12 = middle(0, 1), i13 = middle(0, 2),
+               i23 = middle(1, 2);
+  const double x2 = px(1) - px(0), y2 = py(1) - py(0), x3 = px(2) - px(0), y3 = py(2) - py(0);
+  const double c2 = 4 * i12 - 3 * i1 - i2, c12 = i1 + i2 - 2 * i12, c3 = 4 * i13 - 3 * i1 - i3,
+               c13 = i1 + i3 - 2 * i13, c23 = 4 * i1 - 4 * i12 - 4 * i13 + 4 * i23;
+  const double t0 = i1, t1 = (c3 * x2 - c2 * x3) / (x2 * y3 - y2 * x3),
+               t2 = (c2 * y3 - c3 * y2) / (x2 * y3 - y2 * x3);
+  const double a = 2 * x2 * x2 * y3 - 2 * x2 * y2 * x3, b = y2 * x3 * y3 - x2 * y3 * y3,
+               c = x2 * y2 * y3 - y2 * y2 * x3, d = 2 * y2 * x3 * x3 - 2 * x2 * x3 * y3;
+  const double t4 = ((4 * c13 * y2 - c23 * y3) * a - (4 * c12 * y3 - c23 * y2) * d) / (a * b - c * d);
+  const double t5 = ((4 * c12 * y3 - c23 * y2) * b - (4 * c13 * y2 - c23 * y3) * c) / (a * b - c * d);
+  const double t3 = (2 * c12 - t5 * x2 * x2 - t4 * x2 * y2) / (y2 * y2);
+  const double u = static_cast<double>(x) + 0.5 - px(0), v = static_cast<double>(y) + 0.5 - py(0);
+  return t5 * u * u + t4 * u * v + t3 * v * v + t2 * u + t1 * v + t0;
+}
+
+void five_division_colours(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame) {
+  for (const ScreenPiece& piece : pieces)
+    for_each_covered(piece.points, piece.unit_bits, frame, [&](std::int64_t x, std::int64_t y) {
+      const double value = five_divisions(piece, x, y);
+      const double off =
+          std::isfinite(value)
+              ? std::abs(std::clamp(value, 0.0, 255.0) -
+                         static_cast<double>(std::clamp(exact_colour(piece, x, y), 0.0L, 255.0L)))
+              : std::numeric_limits<double>::infinity();
+      trial.published(off, 0.5, [&] {
+        return fmt::format("pixel {},{} of {}", x, y, name_of(piece.points, piece.unit_bits));
+      });
+    });
+}
+
+// An edge from the first vertex that is level, or nearly.
+void level_edge(Trial& trial) {
+  RandomTriangles random(1);
+  std::vector<ScreenPiece> pieces;
+  for (int i = 0; i < trial.rounds(200, 5'000); ++i) {
+    Points p = random.next(TriangleKind::any, c_subpixel_bits, c_frame);
+    std::ranges::sort(p, {}, &ScreenPoint::y);
+    p[1].y = p[0].y + i % 3;
+    pieces.push_back({.points = p, .sample = random_samples(random)});
+  }
+  our_colours(trial, pieces, c_frame);
+  five_division_colours(trial, pieces, c_frame);
+}
+
+// Twice their area is below `most`, in units of 1/256 pixel.
+std::vector<ScreenPiece> slivers(RandomTriangles& random, int count, FrameSize frame, Wide most = 1 << 30) {
+  std::vector<ScreenPiece> pieces;
+  while (std::ssize(pieces) < count) {
+    const Points p = random.next(TriangleKind::sliver, c_subpixel_bits, frame);
+    // A level edge is a case of its own.
+    if (p[0].y == p[1].y || p[0].y == p[2].y || p[1].y == p[2].y) continue;
+    const Wide area = barycentric(p, 0, 0).sum / 4;
+    if (area > most || -area > most || plan_walks(p, c_subpixel_bits, frame).empty()) continue;
+    pieces.push_back({.points = p,
+                      .sample = random_samples(random),
+                      .depth = {random.within(0, 1) != 0 ? c_nearest : c_farthest,
+                                random.within(0, 1) != 0 ? c_nearest : c_farthest,
+                                double(random.within(1, (1 << 24) - 3))}});
+  }
+  return pieces;
+}
+
+constexpr std::array c_words = {&QuadraticWords::value, &QuadraticWords::dx,    &QuadraticWords::de0,
+                                &QuadraticWords::de1,   &QuadraticWords::dxx,   &QuadraticWords::dxe0,
+                                &QuadraticWords::dxe1,  &QuadraticWords::de0e0, &QuadraticWords::de0e1,
+                                &QuadraticWords::de1e1};
+
+// The same vectors with each word held at its format's ends instead of wrapping. Returns how many were held.
+int hold_words(const ScreenPiece& piece, FrameSize frame, std::vector<std::uint32_t>& words) {
+  constexpr std::size_t c_vector_words = (Exact::c_init_header_bits + Exact::c_init_channel_bits + 31) / 32;
+  constexpr Int128 c_most = Int128{1} << (Exact::c_intensity_bits - 1);
+  int held = 0;
+  std::size_t low = words.size();
+  append_exact(piece, 0, frame, words);
+  const auto sample = [&](std::size_t i) { return fixed(piece.sample[i], Exact::c_intensity_fraction_bits); };
+  for (const Walk& walk : plan_walks(piece.points, piece.unit_bits, frame)) {
+    const QuadraticWords w = QuadraticFit(piece.points, piece.unit_bits)
+                                 .words({{sample(0), sample(1), sample(2)}, sample(3), sample(4), sample(5)},
+                                        difference_start(walk), half(Exact::c_intensity_fraction_bits));
+    for (std::size_t i = 0; i < c_words.size(); ++i) {
+      const Int128 word = w.*c_words[i], kept = std::clamp(word, -c_most, c_most - 1);
+      held += kept != word;
+      golden::set_bits(std::span(words).subspan(low, c_vector_words), Exact::c_init_channel[i],
+                       static_cast<std::uint64_t>(kept), Exact::c_init_header_bits);
+    }
+    low += c_vector_words;
+  }
+  return held;
+}
+
+void sliver_colours(Trial& trial) {
+  RandomTriangles random(2);
+  const int count = trial.rounds(200, 10'000);
+  for (const FrameSize frame : {c_frame, c_largest}) {
+    const std::vector<ScreenPiece> pieces = slivers(random, frame.width > 1000 ? count / 4 : count, frame);
+    our_colours(trial, pieces, frame);
+  }
+  five_division_colours(trial, slivers(random, trial.rounds(800, 10'000), c_largest, 4096), c_largest);
+  // Held at their format's ends, words that wrap would be wrong wherever they are stepped with.
+  int wrapped = 0, wrong = 0;
+  for (const ScreenPiece& piece : slivers(random, 1'000, c_largest)) {
+    std::vector<std::uint32_t> words;
+    if (hold_words(piece, c_largest, words) == 0) continue;
+    const std::vector<Fragment> fragments = trial.draw(c_exact_key, words);
+    if (fragments.size() < 10) continue;
+    ++wrapped;
+    wrong += std::ranges::any_of(fragments, [&](const Fragment& f) { return colour_off(f, piece) > 1; });
+    if (wrapped == 10) break;
+  }
+  trial.require(wrong > 0, [&] {
+    return fmt::format("{} slivers have words that wrap, {} of them come out wrong when held", wrapped,
+                       wrong);
+  });
+}
+
+void sliver_depths(Trial& trial) {
+  RandomTriangles random(3);
+  const int count = trial.rounds(200, 10'000);
+  for (const FrameSize frame : {c_frame, c_largest}) {
+    const std::vector<ScreenPiece> pieces = slivers(random, frame.width > 1000 ? count / 4 : count, frame);
+    our_depths(trial, pieces, frame);
+    published_depths(trial, pieces, frame);
+  }
+}
+
+// Corners at the near and at the far plane, in any combination.
+void depth_ends(Trial& trial) {
+  RandomTriangles random(4);
+  std::vector<ScreenPiece> pieces;
+  for (int i = 0; i < trial.rounds(240, 8'000); ++i) {
+    const auto end = [&](int corner) { return i >> corner & 1 ? c_farthest : c_nearest; };
+    pieces.push_back({.points = random.next(i % 2 == 0 ? TriangleKind::any : TriangleKind::on_centres,
+                                            c_subpixel_bits, c_frame),
+                      .depth = {end(1), end(2), end(3)}});
+  }
+  our_depths(trial, pieces, c_frame);
+  published_depths(trial, pieces, c_frame);
+}
+
+// Upright start edges on pixel centres, where the published form has no fault but its rounding: so many
+// pixels wide, so many lines high.
+std::vector<ScreenPiece> upright(RandomTriangles& random, int count, int width, int height) {
+  std::vector<ScreenPiece> pieces;
+  for (int i = 0; i < count; ++i) {
+    const auto centred = [](int pixel) { return 16 * pixel + 8; };
+    const ScreenPoint top{centred(0), centred(0)}, bottom{centred(0), centred(height - 1)},
+        right{centred(width - 1), centred(random.within(0, height - 1))};
+    pieces.push_back({.points = {top, right, bottom}, .sample = random_samples(random)});
+  }
+  return pieces;
+}
+
+// The paper's own bound of the published form: M steps, off by 2^-b each.
+void published_drift(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame) {
+  draw_published(trial, pieces, frame, [&](const Fragment& f, const ScreenPiece& piece) {
+    const double m = most_steps(piece, frame);
+    trial.published(colour_off(f, piece), 0.5 + std::ldexp(m, -golden::Published::c_intensity_fraction_bits),
+                    [&] { return at(f, piece); });
+  });
+}
+
+void long_spans(Trial& trial) {
+  RandomTriangles random(5);
+  const FrameSize frame{4096, 8};
+  const auto pieces = upright(random, trial.rounds(30, 1'500), 4096, 8);
+  our_colours(trial, pieces, frame);
+  published_drift(trial, pieces, frame);
+}
+
+void tall_triangles(Trial& trial) {
+  RandomTriangles random(6);
+  const FrameSize frame{8, 4096};
+  auto pieces = upright(random, trial.rounds(30, 1'500), 8, 4096);
+  published_drift(trial, pieces, frame);
+  // And leaning either way: a carry on most lines.
+  for (ScreenPiece& piece : pieces) {
+    piece.points[0].x = random.within(0, 8 * 16);
+    piece.points[2].x = random.within(0, 8 * 16);
+    if (random.within(0, 1) == 0)
+      for (ScreenPoint& p : piece.points) p.x = 8 * 16 - p.x;
+  }
+  our_colours(trial, pieces, frame);
+}
+
+void largest_triangles(Trial& trial) {
+  RandomTriangles random(7);
+  if (trial.quick()) {
+    const FrameSize frame{1000, 1000};
+    const auto pieces = upright(random, 1, 1000, 1000);
+    our_colours(trial, pieces, frame);
+    published_drift(trial, pieces, frame);
+    return;
+  }
+  for (int i = 0; i < 4; ++i) {
+    auto pieces = upright(random, 1, 4096, 4096);
+    published_drift(trial, pieces, c_largest);
+    const auto anywhere = [&] { return ScreenPoint{random.within(0, 65536), random.within(0, 65536)}; };
+    pieces.push_back({.points = {anywhere(), anywhere(), anywhere()}, .sample = random_samples(random)});
+    our_colours(trial, pieces, c_largest);
+  }
+}
+
+// Dark and white samples in every combination.
+void overshoot(Trial& trial) {
+  RandomTriangles random(8);
+  std::vector<ScreenPiece> pieces;
+  bool below = false, above = false;
+  for (int bits = 0; bits < 64; ++bits)
+    for (ScreenPiece& piece :
+         upright(random, trial.rounds(2, 60), random.within(20, 97), random.within(20, 61))) {
+      for (std::size_t i = 0; i < 6; ++i) piece.sample[i] = bits >> i & 1 ? 255 : 0;
+      pieces.push_back(piece);
+    }
+  draw_published(trial, pieces, c_frame, [&](const Fragment& f, const ScreenPiece& piece) {
+    trial.published(colour_off(f, piece),
+                    colour_bound(most_steps(piece, c_frame), golden::Published::c_intensity_fraction_bits),
+                    [&] { return at(f, piece); });
+  });
+  // And the brightest that setup lets pass.
+  for (std::size_t i = pieces.size(); i-- > 0;) {
+    pieces.push_back(pieces[i]);
+    for (double& s : pieces.back().sample) s *= c_largest_sample / 255;
+    pieces.back().points = random.next(TriangleKind::any, c_subpixel_bits, c_frame);
+  }
+  draw_exact(trial, pieces, c_frame, [&](const Fragment& f, const ScreenPiece& piece) {
+    const long double exact = exact_colour(piece, f.x, f.y);
+    below |= exact < -100;
+    above |= exact > 355;
+    trial.ours(colour_off(f, piece),
+               colour_bound(most_steps(piece, c_frame), Exact::c_intensity_fraction_bits),
+               [&] { return at(f, piece); });
+  });
+  trial.require(below && above, [] { return std::string("nothing overshoots"); });
+}
+
+// A triangle of a surface as the eye sees it, and light from somewhere.
+struct Patch {
+  Scene scene;
+  ScreenTriangle seen;
+};
+
+class RandomPatches {
+ public:
+  explicit RandomPatches(unsigned seed) : random_(seed) {}
+  double within(double a, double b) { return std::uniform_real_distribution<double>(a, b)(random_); }
+
+  /// Normals up to 40 degrees apart, and a highlight somewhere on it.
+  Patch highlighted(FrameSize frame) {
+    for (;;) {
+      Patch patch;
+      Scene& scene = patch.scene;
+      const glm::dvec3 to_eye(0, 0, 1);
+      for (int i = 0; i < 3; ++i) {
+        const double turn = 2.0 * std::numbers::pi * (i + within(0, 0.5)) / 3, lean = within(0.05, 0.4);
+        scene.positions_world.push_back(
+            {within(0.5, 1) * std::cos(turn), within(0.5, 1) * std::sin(turn), within(-0.2, 0.2)});
+        scene.normals_world.push_back(
+            glm::normalize(glm::dvec3(lean * std::cos(turn), lean * std::sin(turn), 1)));
+      }
+      scene.triangles.push_back({{0, 1, 2}, {0, 1, 2}, 0});
+      scene.materials.push_back({.name = "m",
+                                 .diffuse = within(0, 0.5),
+                                 .specular = within(0.5, 1),
+                                 .exponent = std::exp(within(std::log(20.0), std::log(500.0)))});
+      scene.ambient = glm::dvec3(0.05);
+      scene.camera.eye_world = {0, 0, within(3, 10)};
+      scene.camera.vertical_fov_degrees = 2 * 57.3 * std::atan(1.1 / scene.camera.eye_world.z);
+      glm::dvec3 weight(within(0, 1), within(0, 1), within(0, 1));
+      weight /= weight.x + weight.y + weight.z;
+      glm::dvec3 normal(0);
+      for (int i = 0; i < 3; ++i) normal += weight[i] * scene.normals_world[static_cast<std::size_t>(i)];
+      normal = glm::normalize(normal);
+      scene.directional.push_back(
+          {2 * glm::dot(normal, to_eye) * normal - to_eye, glm::dvec3(within(0.5, 1))});
+      const auto seen = Projector(scene, frame, {.subpixel_bits = c_subpixel_bits}).project_all();
+      if (seen.size() != 1) continue;
+      patch.seen = seen[0];
+      return patch;
+    }
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+void between_samples(Trial& trial) {
+  constexpr FrameSize c_patch_frame{80, 80};
+  RandomPatches random(9);
+  std::uint64_t split = 0;
+  for (int i = 0; i < trial.rounds(60, 4'000); ++i) {
+    const Patch patch = random.highlighted(c_patch_frame);
+    const auto off = [&](const Fragment& f) {
+      const ExactSurface s = surface(patch.seen, c_subpixel_bits, f.x, f.y);
+      const LongVec exact = 255.0L * radiance(patch.scene, patch.scene.materials[0], s.position_world,
+                                              glm::normalize(s.normal_world));
+      long double most = 0;
+      for (int c = 0; c < 3; ++c) {
+        const long double drawn = c == 0 ? f.red : c == 1 ? f.green : f.blue;
+        most = std::max(most, std::abs(drawn - std::clamp(exact[c], 0.0L, 255.0L)));
+      }
+      return static_cast<double>(most);
+    };
+    DrawOptions options{.frame = c_patch_frame};
+    // Twice the threshold is what the test is calibrated to (setup/highlight_bound.hpp), and rounding.
+    const double bound =
+        2 * options.setup.quadratic.threshold + colour_bound(3 * 80, Exact::c_intensity_fraction_bits);
+    const Drawing ours = trial.draw(patch.scene, options);
+    split += ours.counts.subdivided;
+    if (ours.counts.unresolved == 0)
+      for (const Fragment& f : ours.fragments)
+        trial.ours(off(f), bound, [&] { return fmt::format("patch {}, pixel {},{}", i, f.x, f.y); });
+    options.setup.quadratic.test = HighlightTest::centroid;
+    for (const Fragment& f : trial.draw(patch.scene, options).fragments)
+      trial.published(off(f), bound, [&] { return fmt::format("patch {}, pixel {},{}", i, f.x, f.y); });
+  }
+  trial.require(split > 10, [] { return std::string("nothing is split"); });
+}
+
+// Light without measure, on part of a patch or on all of it. Where the quadratic through the samples, held at
+// four times white, is past white everywhere, the frame must be white.
+void overexposed(Trial& trial) {
+  constexpr FrameSize c_patch_frame{80, 80};
+  RandomPatches random(10);
+  std::uint64_t held = 0;
+  for (int i = 0; i < trial.rounds(10, 600); ++i) {
+    Patch patch = random.highlighted(c_patch_frame);
+    const double bright = std::exp(random.within(std::log(4.1), std::log(1e12)));
+    patch.scene.ambient = glm::dvec3(bright / patch.scene.materials[0].ambient);
+    patch.scene.materials[0].colour = glm::dvec3(1.0);
+    for (const Preset preset : {Preset::exact, Preset::published}) {
+      DrawOptions options{.plan = {.preset = preset}, .frame = c_patch_frame};
+      const Drawing drawing = trial.draw(patch.scene, options);
+      held += drawing.counts.overexposed;
+      for (const Fragment& f : drawing.fragments) {
+        const double off = 255.0 - std::min({f.red, f.green, f.blue});
+        const auto where = [&] { return fmt::format("patch {}, pixel {},{}", i, f.x, f.y); };
+        if (preset == Preset::exact)
+          trial.ours(off, 0, where);
+        else
+          trial.published(off, 0, where);
+      }
+    }
+  }
+  trial.require(held > 0, [] { return std::string("no sample is held"); });
+}
+
+// Pieces of all levels whose samples lie on one quadratic: they must draw that quadratic, split or not.
+void split_alike(Trial& trial) {
+  RandomTriangles random(11);
+  std::vector<ScreenPiece> whole, pieces;
+  std::vector<std::size_t> whole_of;
+  for (int i = 0; i < trial.rounds(25, 1'500); ++i) {
+    const int level = 1 + i % 5;
+    // As published vertices are pixels: on their centres, no form has to move them.
+    ScreenPiece parent{.points = random.next(TriangleKind::on_centres, c_subpixel_bits, c_frame),
+                       .sample = random_samples(random)};
+    if (!in_frame(parent, c_frame)) continue;
+    whole.push_back(parent);
+    std::vector<Points> split = {parent.points}, deeper;
+    for (int n = 0; n < level; ++n, std::swap(split, deeper)) {
+      deeper.clear();
+      for (const Points& p : split) std::ranges::copy(quarters(p), std::back_inserter(deeper));
+    }
+    for (ScreenPoint& p : parent.points) p = {p.x << level, p.y << level};
+    for (const Points& p : split) {
+      ScreenPiece piece{.points = p, .unit_bits = c_subpixel_bits + level};
+      for (std::size_t n = 0; n < 6; ++n) {
+        constexpr std::array<std::array<std::size_t, 2>, 6> c_ends = {
+            {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+        const ScreenPoint &a = p[c_ends[n][0]], &b = p[c_ends[n][1]];
+        const ExactBarycentric at_sample = barycentric(parent.points, Wide{a.x} + b.x, Wide{a.y} + b.y);
+        if (at_sample.sum == 0) break;  // of no area: nothing is drawn
+        std::array<long double, 6> sample;
+        std::ranges::copy(parent.sample, sample.begin());
+        piece.sample[n] = static_cast<double>(quadratic(at_sample.real(), sample));
+      }
+      // Setup never has samples below nothing.
+      if (std::ranges::any_of(piece.sample, [](double s) { return s < 0; })) continue;
+      pieces.push_back(piece);
+      whole_of.push_back(whole.size() - 1);
+    }
+  }
+  const auto figures = [&](const HardwareKey& key, std::span<const std::uint32_t> words, int fraction_bits,
+                           auto&& figure) {
+    for (const Fragment& f : trial.draw(key, words))
+      figure(colour_off(f, whole[whole_of[f.triangle]]),
+             colour_bound(most_steps(pieces[f.triangle], c_frame), fraction_bits),
+             [&] { return at(f, pieces[f.triangle]); });
+  };
+  std::vector<std::uint32_t> words, published;
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    append_exact(pieces[i], i, c_frame, words);
+    append_published(pieces[i], i, published);
+  }
+  figures(c_exact_key, words, Exact::c_intensity_fraction_bits,
+          [&](double figure, double bound, auto&& where) { trial.ours(figure, bound, where); });
+  figures(c_published_key, published, golden::Published::c_intensity_fraction_bits,
+          [&](double figure, double bound, auto&& where) { trial.published(figure, bound, where); });
+}
+
+constexpr std::string_view c_colour = "the quadratic at the pixel's centre, rounding and drift",
+                           c_bits =
+                               "quadratic, section 5: b > log2 M, as if second differences did not add up";
+
+constexpr HardCase c_cases[] = {
+    {"Y2 = 0", "quadratic, section 3: T3 = (2 C12 - T5 X2^2 - T4 X2 Y2) / Y2^2",
+     "T3 to T5 over D^2, one division", c_colour, "steps", Published::breaks, level_edge},
+    {"Slivers", "quadratic, section 3: five divisions in double, D near 0",
+     "exact rationals, rounded once; sums wrap modulo 2^39, only the value at a covered pixel has to fit",
+     c_colour, "steps", Published::breaks, sliver_colours},
+    {"Spans of 4096 pixels", c_bits, "b = 28, about 2 log2 M", c_colour, "steps", Published::breaks,
+     long_spans},
+    {"4096 lines", c_bits, "b = 28, about 2 log2 M", c_colour, "steps", Published::breaks, tall_triangles},
+    {"4096 lines of 4096 pixels", c_bits, "b = 28, about 2 log2 M", c_colour, "steps", Published::breaks,
+     largest_triangles},
+    {"Overshoot below 0 and past 255", "quadratic, equation 4: leaves the samples' range",
+     "three bits above white, and saturation after the last sum", c_colour, "steps", Published::holds,
+     overshoot},
+    {"Overexposed samples", "quadratic, equation 4: samples have no end",
+     "samples are held at four times white", "white stays white", "steps", Published::holds, overexposed},
+    {"A highlight between the samples", "quadratic, section 4: the test at the centroid",
+     "a bound on N.H over the triangle", "Phong shading, within two thresholds", "steps", Published::breaks,
+     between_samples},
+    {"Pieces of one quadratic", "quadratic, section 4: midpoints become pixels, samples do not move",
+     "midpoints stay where they are sampled", c_colour, "steps", Published::breaks, split_alike},
+    {"Depth of slivers", "quadratic, section 5: stepped by the real slope, off the pixel's centre",
+     "exact rationals, rounded once; sums wrap", "the plane at the pixel's centre, rounding and drift",
+     "depth steps", Published::breaks, sliver_depths},
+    {"Depth at near and far plane", "quadratic, section 5: pixels beside the triangle, whose depth wraps",
+     "no pixel beside it; depths a step clear of the ends",
+     "the plane at the pixel's centre, rounding and drift", "depth steps", Published::breaks, depth_ends},
+};
+
+}  // namespace
+
+const Family c_quadratic{"quadratic", c_cases};
+
+}  // namespace halfway::stability
