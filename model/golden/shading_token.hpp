@@ -19,7 +19,7 @@ using Channels = std::array<std::uint32_t, 3>;
 /// light_colour.
 struct ShadingLight {
   bool positional = false, spot = false;
-  int shift = 0;  ///< of the places of surfaces, exact
+  std::uint32_t shift = 0;  ///< of the places of surfaces, exact
   std::int64_t outer = 0;
   std::uint32_t slope = 0;
   int around_eye = 0;  ///< shadow volumes that hold the eye

@@ -26,7 +26,7 @@ constexpr int c_subpixel_bits = 4;
 struct Shade {
   Preset preset = Preset::exact;
   FrameSize frame{48, 36};
-  unsigned lights = 2;  ///< of the hardware
+  unsigned lights = 3;  ///< of the hardware
   bool all_effects = true;
 };
 

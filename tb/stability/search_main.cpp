@@ -20,6 +20,7 @@
 
 #include "common/file.hpp"
 #include "stability/page.hpp"
+#include "stability/scene_search.hpp"
 #include "stability/search.hpp"
 #include "stability/shrink.hpp"
 #include "stability/triangle_search.hpp"
@@ -44,6 +45,8 @@ namespace {
 std::vector<std::unique_ptr<Search>> all_searches() {
   std::vector<std::unique_ptr<Search>> searches;
   searches.push_back(make_triangle_search());
+  searches.push_back(make_spherical_search());
+  searches.push_back(make_processors_search());
   return searches;
 }
 

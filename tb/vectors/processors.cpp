@@ -48,7 +48,7 @@ class TokenMaker {
     to.positional = !random_.one_in(4);
     to.spot = !random_.one_in(4);
     if constexpr (Preset::c_light_shift_bits > 0)
-      if (random_.one_in(4)) to.shift = static_cast<int>(random_.bits(Preset::c_light_shift_bits));
+      if (random_.one_in(4)) to.shift = static_cast<std::uint32_t>(random_.bits(Preset::c_light_shift_bits));
     to.outer = static_cast<std::int64_t>(one_direction() * 0.1 * static_cast<double>(random_.between(-3, 9)));
     to.slope = static_cast<std::uint32_t>(random_.one_in(4) ? random_.word(Preset::c_spot_slope_bits)
                                                             : random_.between(64, 640));

@@ -176,7 +176,7 @@ class Host {
       golden::ShadingLight l;
       l.positional = random_.one_in(2);
       l.spot = random_.one_in(2);
-      l.shift = Preset::c_light_shift_bits > 0 ? static_cast<int>(random_.between(0, 4)) : 0;
+      l.shift = Preset::c_light_shift_bits > 0 ? static_cast<std::uint32_t>(random_.between(0, 4)) : 0;
       l.outer = fixed(uniform(-1, 0.5), Preset::c_direction_fraction_bits);
       l.slope = static_cast<std::uint32_t>(random_.word(Preset::c_spot_slope_bits));
       l.around_eye = static_cast<int>(random_.between(0, 3) / 3);
