@@ -202,7 +202,7 @@ std::vector<const Test*> testbenches_of(const Judge& judge, const Mutant& mutant
   return tests;
 }
 
-Result<Outcome> judged(const Judge& judge, const Mutant& mutant) {
+Result<Outcome> judged(const Judge& judge, Equivalence& equivalence, const Mutant& mutant) {
   auto bench = judge.bench({mutant.file, mutant.content});
   const std::string own = std::filesystem::path(mutant.file).stem();
   const auto try_one = [&](const Test& test, End end) -> Result<std::optional<Outcome>> {
@@ -225,7 +225,7 @@ Result<Outcome> judged(const Judge& judge, const Mutant& mutant) {
   }
   // What its own testbench has to find is found by that one, or counts as not found.
   if (!mutant.tested.empty()) return Outcome{};
-  const auto proved = proved_equivalent(judge, {mutant.file, mutant.content});
+  const auto proved = equivalence.proved({mutant.file, mutant.content});
   if (!proved) return proved.error();
   if (*proved) return Outcome{End::equivalent, false, ""};
   for (; i < unit_tests.size(); ++i) {
@@ -260,7 +260,7 @@ struct Judged {
 
 class Run {
  public:
-  Run(const Judge& judge, const Options& options) : judge_(judge), options_(options) {}
+  Run(const Judge& judge, const Options& options) : judge_(judge), equivalence_(judge), options_(options) {}
 
   Status all() {
     if (auto ready = gather(); !ready) return ready;
@@ -319,7 +319,7 @@ class Run {
         continue;
       }
       lock.unlock();
-      const auto outcome = judged(judge_, *mutant);
+      const auto outcome = judged(judge_, equivalence_, *mutant);
       lock.lock();
       settle(std::move(*mutant), outcome);
       changed_.notify_all();
@@ -357,6 +357,7 @@ class Run {
   }
 
   const Judge& judge_;
+  Equivalence equivalence_;
   const Options& options_;
   std::mutex mutex_;
   std::condition_variable changed_;
