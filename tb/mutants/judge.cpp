@@ -217,6 +217,7 @@ Status Judge::prepare(unsigned workers, bool with_frames, const std::function<vo
       if (source->name.starts_with("rtl/")) test.uses.insert(source->name.substr(4));
   }
 
+  testbench_sources_.assign(sources.begin() + static_cast<std::ptrdiff_t>(rtl_.size()), sources.end());
   told("analysis");
   const auto tool = GhdlTool::find();
   if (!tool) return tool.error();

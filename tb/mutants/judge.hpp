@@ -75,6 +75,8 @@ class Judge {
                             const std::function<void(const std::string&)>& told);
 
   const std::vector<VhdlSource>& rtl() const { return rtl_; }
+  /// What testbenches and frames are made of, in compile order, the RTL left out.
+  const std::vector<VhdlSource>& testbench_sources() const { return testbench_sources_; }
   const std::vector<Test>& testbenches() const { return testbenches_; }
   const std::vector<Test>& frames() const { return frames_; }
   const Folders& folders() const { return folders_; }
@@ -104,7 +106,7 @@ class Judge {
   Status add_frames(std::vector<VhdlSource>& sources);
 
   Folders folders_;
-  std::vector<VhdlSource> rtl_;
+  std::vector<VhdlSource> rtl_, testbench_sources_;
   std::vector<Test> testbenches_, frames_;
   std::filesystem::path library_;
   std::unique_ptr<Remembered> remembered_;

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "common/file.hpp"
+#include "coverage.hpp"
 #include "equivalence.hpp"
 #include "judge.hpp"
 #include "listed.hpp"
@@ -36,7 +37,7 @@ constexpr int c_least_of_file = 6;  // mutants, where it has so many places
 constexpr double c_quick = 5.0;     // seconds that testbenches of other entities may take before a proof is tried
 
 struct Options {
-  bool quick = false;
+  bool quick = false, coverage = false;
   unsigned count = 400, seed = 1, jobs = std::max(1U, std::thread::hardware_concurrency());
   std::filesystem::path page{};
   Folders folders{};
@@ -54,6 +55,8 @@ bool read_options(const std::vector<std::string>& arguments, Options& options) {
     const bool more = i + 1 < arguments.size();
     if (arguments[i] == "--quick") {
       options.quick = true;
+    } else if (arguments[i] == "--coverage") {
+      options.coverage = true;
     } else if (arguments[i] == "--page" && more) {
       options.page = arguments[++i];
     } else if (arguments[i] == "--count" && more) {
@@ -218,7 +221,7 @@ Result<Outcome> judged(const Judge& judge, Equivalence& equivalence, const Mutan
   for (; i < unit_tests.size(); ++i) {
     if (!mutant.tested.empty() && unit_tests[i]->name != mutant.tested) continue;
     if (unit_tests[i]->name != own) seconds += unit_tests[i]->seconds;
-    if (seconds > c_quick) break;
+    if (seconds > c_quick && mutant.tested.empty()) break;
     const auto ended = try_one(*unit_tests[i], unit_tests[i]->name == own || !mutant.tested.empty() ? End::own : End::other);
     if (!ended) return ended.error();
     if (*ended) return **ended;
@@ -387,6 +390,17 @@ int main(int argc, char** argv) {
   if (!judge) {
     fmt::print(stderr, "{}\n", judge.error().message);
     return static_cast<int>(judge.error().code);
+  }
+  if (options.coverage) {
+    const auto files = measure_coverage(*judge, options.jobs, [](const std::string& what) { fmt::print("{}\n", what); std::fflush(stdout); });
+    if (!files) { fmt::print("{}\n", files.error().message); return 3; }
+    for (const FileCoverage& f : *files) {
+      fmt::print("{} lines {}/{} outcomes {}/{} bits {}/{}\n", f.file, f.lines_run, f.lines, f.outcomes_seen, f.outcomes, f.bits_toggled, f.bits);
+      for (const auto& m : f.missed_lines) fmt::print("   L {}: {}\n", m.line, m.text);
+      for (const auto& m : f.missed_outcomes) fmt::print("   O {}: {}\n", m.line, m.text);
+      for (const auto& m : f.missed_signals) fmt::print("   S {}: {}\n", m.line, m.text);
+    }
+    return 0;
   }
   Run run(*judge, options);
   if (const auto ended = run.all(); !ended) {

@@ -289,6 +289,12 @@ class Reader {
         } else {
           skip_to_semicolon();
         }
+      } else if (is("subtype")) {
+        next();
+        const std::string name(next().text);
+        expect("is");
+        subtypes_[name] = std::string(at(0).text);
+        skip_to_semicolon();
       } else if (is("alias")) {
         next();
         std::string type;
@@ -326,7 +332,12 @@ class Reader {
       for (const auto& [field, field_type] : fields->second) watch(place, name + "." + field, field_type);
       return;
     }
-    outline_.watched.push_back({place, name});
+    static const std::set<std::string_view> c_bits = {"std_logic", "std_logic_vector", "unsigned", "signed"};
+    const auto subtype = subtypes_.find(std::string(base));
+    if (c_bits.contains(subtype == subtypes_.end() ? base : subtype->second))
+      outline_.watched.push_back({place, name});
+    else
+      outline_.unwatched.push_back(name);
   }
   void watch_signals() {
     for (const auto& [name, type] : signals_) watch(at(-1).end, name, type);
@@ -335,19 +346,19 @@ class Reader {
 
   // ---- statements
 
-  void statement(bool sequential) {
-    if (!at(0).simulated_only) outline_.statements.push_back({at(0).begin, sequential});
+  void statement(std::size_t begin) {
+    if (!at(0).simulated_only) outline_.statements.push_back({begin, true});
   }
 
   void sequence() {
     while (!is("end") && !is("elsif") && !is("else") && !is("when") && !is(Kind::end) && error_.empty()) {
-      const std::size_t label = at(1).text == ":" ? 2 : 0;
-      if (label != 0) {
+      const std::size_t begin = at(0).begin;
+      if (at(1).text == ":") {
         next();
         next();
       }
       if (is("if")) {
-        statement(true);
+        statement(begin);
         next();
         condition({"then"});
         expect("then");
@@ -364,7 +375,7 @@ class Reader {
         }
         end_of("if");
       } else if (is("case")) {
-        statement(true);
+        statement(begin);
         next();
         expression({"is"});
         expect("is");
@@ -375,7 +386,7 @@ class Reader {
         }
         end_of("case");
       } else if (is("for")) {
-        statement(true);
+        statement(begin);
         next();
         next();
         expect("in");
@@ -384,24 +395,24 @@ class Reader {
         sequence();
         end_of("loop");
       } else if (is("while")) {
-        statement(true);
+        statement(begin);
         next();
         condition({"loop"});
         expect("loop");
         sequence();
         end_of("loop");
       } else if (is("return")) {
-        statement(true);
+        statement(begin);
         next();
         expression({";"});
         expect(";");
       } else if (is("null")) {
-        statement(true);
+        statement(begin);
         skip_to_semicolon();
       } else if (is("assert") || is("report")) {
         skip_to_semicolon();
       } else if (is(Kind::word)) {
-        statement(true);
+        statement(begin);
         assignment(true);
       } else {
         fail("statement");
@@ -659,6 +670,7 @@ class Reader {
   std::multimap<std::string, Named> named_;
   std::map<std::string, std::vector<std::pair<std::string, std::string>>> records_;
   std::vector<std::vector<std::pair<std::string, std::string>>> all_records_;
+  std::map<std::string, std::string> subtypes_;
   std::vector<std::pair<std::string, std::string>> ports_, signals_;
   std::vector<Use> uses_;
   bool in_table_ = false;

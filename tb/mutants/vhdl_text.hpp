@@ -57,6 +57,7 @@ struct Outline {
   std::vector<Statement> statements;
   std::vector<Condition> conditions;
   std::vector<Watched> watched;
+  std::vector<std::string> unwatched;  ///< signals that are neither bits nor records of bits
   std::vector<Change> changes;                ///< every one there is, in the order of the text
 };
 
