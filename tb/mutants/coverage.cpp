@@ -59,7 +59,7 @@ Result<std::vector<VhdlSource>> instrumented(const std::vector<VhdlSource>& rtl,
       insertions.push_back({c.end, ")"});
     }
     for (const Watched& w : outline->watched)
-      insertions.push_back({w.at, fmt::format(" assert work.coverage_pkg.saw(coverage_instance, {}, {});",
+      insertions.push_back({w.at, fmt::format(" work.coverage_pkg.saw(coverage_instance, {}, {});",
                                               count(Counts::signal, w.at, w.name), w.name)});
     if (!outline->architecture_of.empty())
       insertions.push_back({outline->declarations,

@@ -18,13 +18,13 @@ package coverage_pkg is
   function saw_word (instance, id : natural; word : std_logic_vector) return boolean;
   attribute foreign of saw_word : function is "VHPIDIRECT halfway_saw";
 
-  function saw (instance, id : natural; word : std_logic_vector) return boolean;
+  procedure saw (instance, id : in natural; word : in std_logic_vector);
 
-  function saw (instance, id : natural; word : unsigned) return boolean;
+  procedure saw (instance, id : in natural; word : in unsigned);
 
-  function saw (instance, id : natural; word : signed) return boolean;
+  procedure saw (instance, id : in natural; word : in signed);
 
-  function saw (instance, id : natural; word : std_logic) return boolean;
+  procedure saw (instance, id : in natural; word : in std_logic);
 
 end package;
 
@@ -54,26 +54,26 @@ package body coverage_pkg is
     return true;
   end function;
 
-  function saw (instance, id : natural; word : std_logic_vector) return boolean is
+  procedure saw (instance, id : in natural; word : in std_logic_vector) is
   begin
-    return saw_word(instance, id, word);
-  end function;
+    assert saw_word(instance, id, word);
+  end procedure;
 
-  function saw (instance, id : natural; word : unsigned) return boolean is
+  procedure saw (instance, id : in natural; word : in unsigned) is
   begin
-    return saw_word(instance, id, std_logic_vector(word));
-  end function;
+    assert saw_word(instance, id, std_logic_vector(word));
+  end procedure;
 
-  function saw (instance, id : natural; word : signed) return boolean is
+  procedure saw (instance, id : in natural; word : in signed) is
   begin
-    return saw_word(instance, id, std_logic_vector(word));
-  end function;
+    assert saw_word(instance, id, std_logic_vector(word));
+  end procedure;
 
-  function saw (instance, id : natural; word : std_logic) return boolean is
+  procedure saw (instance, id : in natural; word : in std_logic) is
     variable bits : std_logic_vector(0 downto 0);
   begin
     bits(0) := word;
-    return saw_word(instance, id, bits);
-  end function;
+    assert saw_word(instance, id, bits);
+  end procedure;
 
 end package body;

@@ -1,28 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_mutants [--quick] [--count N] [--seed N] [--jobs N] [--page FILE] SOURCE VECTORS SCRATCH [PART]:
-// puts one small fault after the other into a copy of the RTL; the project's tests must find each. SOURCE is
-// the project's root, VECTORS what halfway_vectors wrote; with PART only faults in files whose names hold it.
-//   --quick   the listed faults and a few generated ones, each by its own entity's testbench, but for the
-//             slowest ones
-//   --count   so many generated faults, over all files
-//   --seed    other ones
-//   --page    writes the tables into that file, behind what stands there before them
+// halfway_mutants [--quick] [--count N] [--seed N] [--jobs N] [--no-coverage] [--page FILE] SOURCE VECTORS
+// SCRATCH [PART]: puts one small fault after the other into a copy of the RTL, which the project's tests must
+// find, and counts what of the RTL those tests reach. SOURCE is the project's root, VECTORS what
+// halfway_vectors wrote, SCRATCH holds what is remembered of runs before; with PART only faults in files whose
+// names hold it.
+//   --quick        the listed faults and a generated one for each file that has a testbench, each by that
+//                  testbench; without the slowest
+//   --count        so many generated faults, over all files
+//   --seed         other ones: those of the page are of seed 1
+//   --no-coverage  mutants alone
+//   --page         writes the tables into that file, behind what stands there before them
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <condition_variable>
 #include <cstdio>
 #include <deque>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "common/file.hpp"
+#include "common/subprocess.hpp"
 #include "coverage.hpp"
 #include "equivalence.hpp"
 #include "judge.hpp"
@@ -33,12 +40,15 @@
 namespace halfway::mutants {
 namespace {
 
+constexpr unsigned c_count = 400, c_seed = 1;
+constexpr double c_share = 0.98;  // of the mutants not proved equivalent, what has to be killed
+constexpr int c_quick_passes = 3;  // generated mutants that may pass --quick, which proves nothing equivalent
 constexpr int c_least_of_file = 6;  // mutants, where it has so many places
-constexpr double c_quick = 5.0;     // seconds that testbenches of other entities may take before a proof is tried
+constexpr double c_quick = 8.0;     // seconds that tests other than its own may take before a proof is tried
 
 struct Options {
-  bool quick = false, coverage = false;
-  unsigned count = 400, seed = 1, jobs = std::max(1U, std::thread::hardware_concurrency());
+  bool quick = false, coverage = true;
+  unsigned count = c_count, seed = c_seed, jobs = std::max(1U, std::thread::hardware_concurrency());
   std::filesystem::path page{};
   Folders folders{};
   std::string part{};
@@ -55,8 +65,8 @@ bool read_options(const std::vector<std::string>& arguments, Options& options) {
     const bool more = i + 1 < arguments.size();
     if (arguments[i] == "--quick") {
       options.quick = true;
-    } else if (arguments[i] == "--coverage") {
-      options.coverage = true;
+    } else if (arguments[i] == "--no-coverage") {
+      options.coverage = false;
     } else if (arguments[i] == "--page" && more) {
       options.page = arguments[++i];
     } else if (arguments[i] == "--count" && more) {
@@ -192,11 +202,13 @@ Result<std::vector<Mutant>> listed(const Judge& judge) {
   return all;
 }
 
-// The testbenches that see the file: its own first, then those of the entities that use it, the quickest first.
-std::vector<const Test*> testbenches_of(const Judge& judge, const Mutant& mutant) {
+// The tests that see the file: its own testbench first, then those of the entities that use it and the frames,
+// the quickest first.
+std::vector<const Test*> tests_of(const Judge& judge, const Mutant& mutant) {
   std::vector<const Test*> tests;
-  for (const Test& test : judge.testbenches())
-    if (test.uses.contains(mutant.file)) tests.push_back(&test);
+  for (const auto* kind : {&judge.testbenches(), &judge.frames()})
+    for (const Test& test : *kind)
+      if (test.uses.contains(mutant.file)) tests.push_back(&test);
   const std::string own = std::filesystem::path(mutant.file).stem();
   std::stable_sort(tests.begin(), tests.end(), [&](const Test* a, const Test* b) {
     if ((a->name == own) != (b->name == own)) return a->name == own;
@@ -205,53 +217,47 @@ std::vector<const Test*> testbenches_of(const Judge& judge, const Mutant& mutant
   return tests;
 }
 
-Result<Outcome> judged(const Judge& judge, Equivalence& equivalence, const Mutant& mutant) {
-  auto bench = judge.bench({mutant.file, mutant.content});
+// By the testbench that has to find it, and no other.
+Result<Outcome> judged_by_its_own(const Judge& judge, const Mutant& mutant, const std::string& own) {
+  const auto test = std::find_if(judge.testbenches().begin(), judge.testbenches().end(),
+                                 [&](const Test& t) { return t.name == own; });
+  if (test == judge.testbenches().end()) return bad_input(fmt::format("{}: there is no such testbench", own));
+  const auto verdict = judge.bench({mutant.file, mutant.content}).run(*test);
+  if (!verdict) return verdict.error();
+  if (*verdict == Verdict::survived) return Outcome{};
+  return Outcome{*verdict == Verdict::stillborn ? End::stillborn : End::own, *verdict == Verdict::killed_by_time, own};
+}
+
+Result<Outcome> judged(const Judge& judge, Equivalence& equivalence, bool quick, const Mutant& mutant) {
   const std::string own = std::filesystem::path(mutant.file).stem();
-  const auto try_one = [&](const Test& test, End end) -> Result<std::optional<Outcome>> {
-    const auto verdict = bench.run(test);
-    if (!verdict) return verdict.error();
-    if (*verdict == Verdict::survived) return std::optional<Outcome>();
-    if (*verdict == Verdict::stillborn) return std::optional(Outcome{End::stillborn, false, test.name});
-    return std::optional(Outcome{end, *verdict == Verdict::killed_by_time, test.name});
-  };
-  const auto unit_tests = testbenches_of(judge, mutant);
-  std::size_t i = 0;
+  if (!mutant.tested.empty()) return judged_by_its_own(judge, mutant, mutant.tested);
+  if (quick) return judged_by_its_own(judge, mutant, own);
+  auto bench = judge.bench({mutant.file, mutant.content});
+  bool tried_to_prove = false;
   double seconds = 0;
-  for (; i < unit_tests.size(); ++i) {
-    if (!mutant.tested.empty() && unit_tests[i]->name != mutant.tested) continue;
-    if (unit_tests[i]->name != own) seconds += unit_tests[i]->seconds;
-    if (seconds > c_quick && mutant.tested.empty()) break;
-    const auto ended = try_one(*unit_tests[i], unit_tests[i]->name == own || !mutant.tested.empty() ? End::own : End::other);
-    if (!ended) return ended.error();
-    if (*ended) return **ended;
-  }
-  // What its own testbench has to find is found by that one, or counts as not found.
-  if (!mutant.tested.empty()) return Outcome{};
-  const auto proved = equivalence.proved({mutant.file, mutant.content});
-  if (!proved) return proved.error();
-  if (*proved) return Outcome{End::equivalent, false, ""};
-  for (; i < unit_tests.size(); ++i) {
-    const auto ended = try_one(*unit_tests[i], End::other);
-    if (!ended) return ended.error();
-    if (*ended) return **ended;
-  }
-  std::vector<const Test*> frames;
-  for (const Test& frame : judge.frames())
-    if (frame.uses.contains(mutant.file)) frames.push_back(&frame);
-  std::stable_sort(frames.begin(), frames.end(), [](const Test* a, const Test* b) { return a->seconds < b->seconds; });
-  for (const Test* frame : frames) {
-    const auto ended = try_one(*frame, End::frame);
-    if (!ended) return ended.error();
-    if (*ended) return **ended;
+  const auto tests = tests_of(judge, mutant);
+  for (const Test* test : tests) {
+    if (test->name != own) seconds += test->seconds;
+    if (seconds > c_quick && !tried_to_prove) {
+      tried_to_prove = true;
+      const auto proved = equivalence.proved({mutant.file, mutant.content});
+      if (!proved) return proved.error();
+      if (*proved) return Outcome{End::equivalent, false, ""};
+    }
+    const auto verdict = bench.run(*test);
+    if (!verdict) return verdict.error();
+    if (*verdict == Verdict::survived) continue;
+    if (*verdict == Verdict::stillborn) return Outcome{End::stillborn, false, test->name};
+    const End end = test->name == own ? End::own : test->golden.empty() ? End::other : End::frame;
+    return Outcome{end, *verdict == Verdict::killed_by_time, test->name};
   }
   // GHDL passes over what hardware alone has. One frame of each shader is enough for that.
   std::set<Shader> seen;
-  for (auto frame = frames.rbegin(); frame != frames.rend(); ++frame) {
-    if (!seen.insert((*frame)->key.shader).second) continue;
-    const auto verdict = judge.run_verilated(**frame, {mutant.file, mutant.content});
+  for (auto test = tests.rbegin(); test != tests.rend(); ++test) {
+    if ((*test)->golden.empty() || !seen.insert((*test)->key.shader).second) continue;
+    const auto verdict = judge.run_verilated(**test, {mutant.file, mutant.content});
     if (!verdict) return verdict.error();
-    if (*verdict != Verdict::survived) return Outcome{End::netlist, false, (*frame)->name};
+    if (*verdict != Verdict::survived) return Outcome{End::netlist, false, (*test)->name};
   }
   return Outcome{};
 }
@@ -280,7 +286,8 @@ class Run {
     auto from_list = listed(judge_);
     if (!from_list) return from_list.error();
     for (Mutant& mutant : *from_list)
-      if (mutant.file.find(options_.part) != std::string::npos) listed_.push_back(std::move(mutant));
+      if (mutant.file.find(options_.part) != std::string::npos && !(options_.quick && is_slow(mutant.tested)))
+        listed_.push_back(std::move(mutant));
     for (const VhdlSource& source : judge_.rtl()) {
       auto file = candidates_of(source, options_.seed);
       if (!file) return file.error();
@@ -288,10 +295,23 @@ class Run {
     }
     share_out(files_, options_.count);
     std::erase_if(files_, [&](const Candidates& file) { return file.file.find(options_.part) == std::string::npos; });
+    if (options_.quick) {
+      std::erase_if(files_, [&](const Candidates& file) {
+        const std::string own = std::filesystem::path(file.file).stem();
+        return is_slow(own) || std::none_of(judge_.testbenches().begin(), judge_.testbenches().end(),
+                                            [&](const Test& test) { return test.name == own; });
+      });
+      for (Candidates& file : files_) file.wanted = 1;
+    }
     if (files_.empty()) return bad_input(fmt::format("{}: no file of the RTL has this in its name", options_.part));
     for (const Candidates& file : files_) wanted_ += file.wanted;
     wanted_ += listed_.size();
     return Ok{};
+  }
+
+  // Testbenches of minutes.
+  static bool is_slow(std::string_view testbench) {
+    return testbench == "processors_shader" || testbench == "spherical_shader";
   }
 
   // The next one, or none while enough are under way; `over` once no more can come.
@@ -322,7 +342,7 @@ class Run {
         continue;
       }
       lock.unlock();
-      const auto outcome = judged(judge_, equivalence_, *mutant);
+      const auto outcome = judged(judge_, equivalence_, options_.quick, *mutant);
       lock.lock();
       settle(std::move(*mutant), outcome);
       changed_.notify_all();
@@ -372,6 +392,221 @@ class Run {
   Status failed_ = Ok{};
 };
 
+// One row of the table of entities.
+struct Row {
+  std::size_t mutants = 0;
+  std::array<std::size_t, c_ends> ends{};
+  std::size_t by_time = 0;
+};
+
+std::string row_text(std::string_view name, const Row& row) {
+  const auto n = [&](End end) { return row.ends[static_cast<std::size_t>(end)]; };
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, row.mutants, n(End::own), n(End::other),
+                     n(End::frame) + n(End::netlist), n(End::equivalent), n(End::survived));
+}
+
+void add(Row& row, const Outcome& outcome) {
+  ++row.mutants;
+  ++row.ends[static_cast<std::size_t>(outcome.end)];
+  row.by_time += outcome.by_time ? 1 : 0;
+}
+
+std::string in_code(std::string_view text) {
+  std::string code = one_line(text);
+  for (std::size_t at = 0; (at = code.find('|', at)) != std::string::npos; at += 2) code.insert(at, "\\");
+  return "`" + (code.empty() ? " " : code) + "`";
+}
+
+double percent(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 100.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::string share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? "–" : fmt::format("{} of {}", part, whole);
+}
+
+// What a run came to; its text is the page's second half.
+struct Report {
+  std::string text;
+  std::vector<std::string> faults;  ///< why the run is no success
+};
+
+constexpr std::string_view kTable =
+    "| entity | mutants | killed by its testbench | by another | by a frame | equivalent | survived |\n"
+    "| --- | --- | --- | --- | --- | --- | --- |\n";
+
+Report report_of(const Options& options, const Judge& judge, std::vector<Judged> all) {
+  Report report;
+  std::map<std::string, std::size_t> order;
+  for (std::size_t i = 0; i < judge.rtl().size(); ++i) order[judge.rtl()[i].name.substr(4)] = i;
+  std::stable_sort(all.begin(), all.end(), [&](const Judged& a, const Judged& b) {
+    const auto key = [&](const Judged& j) {
+      return std::tuple(order[j.mutant.file], j.mutant.line, j.mutant.by, j.mutant.from, j.mutant.to);
+    };
+    return key(a) < key(b);
+  });
+  std::map<std::size_t, Row> files;
+  std::map<std::string, Row> operators;
+  Row total, from_list;
+  for (const Judged& j : all) {
+    if (j.mutant.by == "listed") {
+      add(from_list, j.outcome);
+    } else {
+      add(files[order[j.mutant.file]], j.outcome);
+      add(operators[j.mutant.by], j.outcome);
+      add(total, j.outcome);
+    }
+  }
+  report.text += kTable;
+  for (const auto& [file, row] : files) report.text += row_text("`" + judge.rtl()[file].name.substr(4) + "`", row);
+  report.text += row_text("**all generated**", total);
+  if (from_list.mutants > 0) report.text += row_text("listed", from_list);
+
+  const std::size_t equivalent = total.ends[static_cast<std::size_t>(End::equivalent)];
+  const std::size_t survived = total.ends[static_cast<std::size_t>(End::survived)];
+  const std::size_t counted = total.mutants - equivalent, killed = counted - survived;
+  report.text += fmt::format(
+      "\nOf {} generated mutants {} are proved equivalent; of the {} others {} were killed: {:.1f} %. {} of all ran past "
+      "ten times a test's time, and count as killed.\n",
+      total.mutants, equivalent, counted, killed, percent(killed, counted), total.by_time + from_list.by_time);
+  if (static_cast<double>(killed) < c_share * static_cast<double>(counted))
+    report.faults.push_back(fmt::format("{:.1f} % of the mutants were killed, {:.0f} % have to be",
+                                        percent(killed, counted), 100.0 * c_share));
+
+  report.text += "\n| operator | mutants | killed by its testbench | by another | by a frame | equivalent | survived |\n"
+                 "| --- | --- | --- | --- | --- | --- | --- |\n";
+  for (int i = 0; i < c_operators; ++i)
+    if (const auto row = operators.find(to_string(static_cast<Operator>(i))); row != operators.end())
+      report.text += row_text(row->first, row->second);
+
+  report.text += "\n## Survivors\n\n";
+  std::size_t listed_survivors = 0;
+  std::set<const KnownSurvivor*> met;
+  std::string rows;
+  for (const Judged& j : all) {
+    if (j.outcome.end != End::survived) continue;
+    if (j.mutant.by == "listed") {
+      report.faults.push_back(fmt::format("{}: not found by {}", name_of(j.mutant), j.mutant.tested));
+      continue;
+    }
+    ++listed_survivors;
+    const auto known = std::find_if(known_survivors().begin(), known_survivors().end(), [&](const KnownSurvivor& k) {
+      return k.file == j.mutant.file && k.in_line == j.mutant.in_line && k.from == one_line(j.mutant.from) &&
+             k.to == one_line(j.mutant.to);
+    });
+    if (known == known_survivors().end())
+      report.faults.push_back(fmt::format("{}: survives, and survivors.cpp has no reason; in the line {}",
+                                          name_of(j.mutant), j.mutant.in_line));
+    else
+      met.insert(&*known);
+    rows += fmt::format("| `{}`, line {} | {} for {} in {} | {} |\n", j.mutant.file, j.mutant.line, in_code(j.mutant.to),
+                        in_code(j.mutant.from), in_code(j.mutant.in_line),
+                        known == known_survivors().end() ? "" : known->reason);
+  }
+  report.text += listed_survivors == 0 ? "None.\n" : "| where | fault | why no test sees it |\n| --- | --- | --- |\n" + rows;
+  if (options.part.empty() && options.count == c_count && options.seed == c_seed)
+    for (const KnownSurvivor& known : known_survivors())
+      if (!met.contains(&known))
+        report.faults.push_back(fmt::format("survivors.cpp: {}: `{}` for `{}` survives no more, or is not made; take it off",
+                                            known.file, known.to, known.from));
+  return report;
+}
+
+void add_coverage(Report& report, const std::vector<FileCoverage>& files) {
+  report.text += "\n## Coverage\n\n| entity | lines | outcomes | bits |\n| --- | --- | --- | --- |\n";
+  FileCoverage all;
+  std::string rows;
+  std::set<const KnownGap*> met;
+  for (const FileCoverage& f : files) {
+    report.text += fmt::format("| `{}` | {} | {} | {} |\n", f.file, share(f.lines_run, f.lines),
+                               share(f.outcomes_seen, f.outcomes), share(f.bits_toggled, f.bits));
+    all.lines += f.lines;
+    all.lines_run += f.lines_run;
+    all.outcomes += f.outcomes;
+    all.outcomes_seen += f.outcomes_seen;
+    all.bits += f.bits;
+    all.bits_toggled += f.bits_toggled;
+    for (const auto* missed : {&f.missed_lines, &f.missed_outcomes})
+      for (const Missed& m : *missed) {
+        const std::string text = one_line(m.text);
+        const auto known = std::find_if(known_gaps().begin(), known_gaps().end(),
+                                        [&](const KnownGap& gap) { return gap.file == f.file && gap.text == text; });
+        if (known == known_gaps().end())
+          report.faults.push_back(
+              fmt::format("rtl/{}:{}: {}: reached by no test, and survivors.cpp has no reason", f.file, m.line, text));
+        else
+          met.insert(&*known);
+        rows += fmt::format("| `{}`, line {} | {} | {} |\n", f.file, m.line,
+                            missed == &f.missed_lines ? in_code(text) : text,
+                            known == known_gaps().end() ? "" : known->reason);
+      }
+  }
+  for (const KnownGap& known : known_gaps())
+    if (!met.contains(&known))
+      report.faults.push_back(fmt::format("survivors.cpp: {}: `{}` is reached; take it off", known.file, known.text));
+  report.text += fmt::format("| **all** | {}: {:.1f} % | {}: {:.1f} % | {}: {:.1f} % |\n", share(all.lines_run, all.lines),
+                             percent(all.lines_run, all.lines), share(all.outcomes_seen, all.outcomes),
+                             percent(all.outcomes_seen, all.outcomes), share(all.bits_toggled, all.bits),
+                             percent(all.bits_toggled, all.bits));
+  report.text += "\nLines and outcomes that no test reaches:\n\n";
+  report.text += rows.empty() ? "None.\n" : "| where | what | why |\n| --- | --- | --- |\n" + rows;
+}
+
+Status write_page(const std::filesystem::path& path, const std::string& tables) {
+  auto text = read_file(path);
+  if (!text) return text.error();
+  text->resize(std::min(text->find(kTable.substr(0, kTable.find('\n'))), text->size()));
+  return write_file(path, *text + tables);
+}
+
+ExitCode fail(const Error& error) {
+  fmt::print(stderr, "{}\n", error.message);
+  return error.code;
+}
+
+ExitCode run_quick(const std::vector<Judged>& all) {
+  int missed = 0, passed = 0;
+  for (const Judged& j : all) {
+    if (j.outcome.end != End::survived) continue;
+    if (j.mutant.by == "listed")
+      ++missed;
+    else
+      ++passed;
+  }
+  fmt::print("{} of {} mutants not found: {} listed ones, of which none may pass, {} generated ones, of which {} may be "
+             "equivalent\n",
+             missed + passed, all.size(), missed, passed, c_quick_passes);
+  return missed > 0 || passed > c_quick_passes ? ExitCode::differs : ExitCode::equal;
+}
+
+ExitCode run(const Options& options) {
+  const auto told = [](const std::string& what) {
+    fmt::print("{}\n", what);
+    std::fflush(stdout);
+  };
+  if (!options.quick)
+    for (const char* tool : {"yosys", "yosys-abc"})
+      if (find_program(tool).empty())
+        return fail(tool_failed(fmt::format("{}: is missing; install it with: apt-get install yosys", tool)));
+  const auto judge = Judge::open(options.folders, options.jobs, !options.quick, told);
+  if (!judge) return fail(judge.error());
+  Run run(*judge, options);
+  if (const auto ended = run.all(); !ended) return fail(ended.error());
+  if (options.quick) return run_quick(run.judged_mutants());
+  Report report = report_of(options, *judge, run.judged_mutants());
+  if (options.coverage) {
+    const auto files = measure_coverage(*judge, options.jobs, told);
+    if (!files) return fail(files.error());
+    add_coverage(report, *files);
+  }
+  fmt::print("\n{}\n", report.text);
+  for (const std::string& fault : report.faults) fmt::print("{}\n", fault);
+  if (!report.faults.empty()) return ExitCode::differs;
+  if (options.page.empty()) return ExitCode::equal;
+  const auto written = write_page(options.page, report.text);
+  return written ? ExitCode::equal : fail(written.error());
+}
+
 }  // namespace
 }  // namespace halfway::mutants
 
@@ -381,34 +616,9 @@ int main(int argc, char** argv) {
   Options options;
   if (!read_options(std::vector<std::string>(argv + 1, argv + argc), options)) {
     fmt::print(stderr,
-               "usage: halfway_mutants [--quick] [--count N] [--seed N] [--jobs N] [--page FILE] SOURCE VECTORS SCRATCH "
-               "[PART]\n");
+               "usage: halfway_mutants [--quick] [--count N] [--seed N] [--jobs N] [--no-coverage] [--page FILE] SOURCE "
+               "VECTORS SCRATCH [PART]\n");
     return static_cast<int>(ExitCode::bad_input);
   }
-  const auto judge = Judge::open(options.folders, options.jobs, !options.quick,
-                                 [](const std::string& what) { fmt::print("{}\n", what); std::fflush(stdout); });
-  if (!judge) {
-    fmt::print(stderr, "{}\n", judge.error().message);
-    return static_cast<int>(judge.error().code);
-  }
-  if (options.coverage) {
-    const auto files = measure_coverage(*judge, options.jobs, [](const std::string& what) { fmt::print("{}\n", what); std::fflush(stdout); });
-    if (!files) { fmt::print("{}\n", files.error().message); return 3; }
-    for (const FileCoverage& f : *files) {
-      fmt::print("{} lines {}/{} outcomes {}/{} bits {}/{}\n", f.file, f.lines_run, f.lines, f.outcomes_seen, f.outcomes, f.bits_toggled, f.bits);
-      for (const auto& m : f.missed_lines) fmt::print("   L {}: {}\n", m.line, m.text);
-      for (const auto& m : f.missed_outcomes) fmt::print("   O {}: {}\n", m.line, m.text);
-      for (const auto& m : f.missed_signals) fmt::print("   S {}: {}\n", m.line, m.text);
-    }
-    return 0;
-  }
-  Run run(*judge, options);
-  if (const auto ended = run.all(); !ended) {
-    fmt::print(stderr, "{}\n", ended.error().message);
-    return static_cast<int>(ended.error().code);
-  }
-  std::map<End, int> count;
-  for (const Judged& j : run.judged_mutants()) ++count[j.outcome.end];
-  for (const auto& [end, n] : count) fmt::print("{} {}\n", static_cast<int>(end), n);
-  return 0;
+  return static_cast<int>(run(options));
 }
