@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <thread>
@@ -25,8 +26,9 @@ namespace halfway::mutants {
 namespace {
 
 constexpr FrameSize c_frame{32, 24};
-constexpr std::chrono::seconds c_least_time{20};
-constexpr int c_times_as_long = 10;
+constexpr double c_least_seconds = 20.0;  // of a processor
+constexpr double c_times_as_long = 4.0;
+constexpr std::chrono::hours c_hung{1};
 constexpr std::chrono::minutes c_analysis{10};
 
 struct FrameOf {
@@ -224,6 +226,7 @@ Status Judge::prepare(unsigned workers, bool with_frames, const std::function<vo
   const auto library = GhdlLibrary::open(*tool, sources, "", folders_.scratch / "cache");
   if (!library) return library.error();
   library_ = library->folder();
+  back_end_ = tool->back_end;
   std::map<std::string, const VhdlSource*> rtl_files;
   for (const VhdlSource& source : rtl_) rtl_files[source.name.substr(4)] = &source;
   for (std::size_t i = 0; i < testbenches_.size() + frames_.size(); ++i) {
@@ -309,16 +312,24 @@ Result<Verdict> Judge::Bench::run_anew(const Test& test) {
   if (made->timed_out) return tool_failed(fmt::format("{}: GHDL's analysis takes too long", test.top));
   if (!made->succeeded()) return Verdict::stillborn;
 
-  Command command{.arguments = {"ghdl", "-r", "--std=08", test.top}, .working_folder = folder_->path()};
+  // Processor time, which does not hang on what else the machine does.
+  const int seconds = static_cast<int>(c_least_seconds + c_times_as_long * test.seconds);
+  Command command{.arguments = {"sh", "-c", "ulimit -t \"$0\" && exec \"$@\"", std::to_string(seconds)},
+                  .working_folder = folder_->path(),
+                  .timeout = c_hung};
+  // `ghdl -r` hides what ended a program that it linked.
+  if (judge_.back_end_ == GhdlBackEnd::mcode)
+    command.arguments.insert(command.arguments.end(), {"ghdl", "-r", "--std=08", test.top});
+  else
+    command.arguments.push_back("./" + test.top);
   command.arguments.insert(command.arguments.end(), test.arguments.begin(), test.arguments.end());
   const std::filesystem::path trace = folder_->path() / (test.top + ".trace");
   if (!test.golden.empty()) command.arguments.push_back("-gg_trace_file=" + trace.string());
   command.arguments.insert(command.arguments.end(), {"--ieee-asserts=disable", "--assert-level=error"});
-  command.timeout = std::max<std::chrono::milliseconds>(
-      c_least_time, std::chrono::milliseconds(static_cast<long>(1000.0 * c_times_as_long * test.seconds)));
   const auto end = run_process(command, kInstallGhdl);
   if (!end) return end.error();
-  if (end->timed_out) return Verdict::killed_by_time;
+  if (end->timed_out || end->signal == SIGXCPU || end->signal == SIGKILL)
+    return Verdict::killed_by_time;
   if (!end->succeeded()) {
     if (is_in(end->output, ": cannot open") || is_in(end->output, ": cannot write"))
       return tool_failed(fmt::format("{}: {}", test.top, said_failure(end->output)));

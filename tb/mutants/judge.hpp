@@ -36,7 +36,7 @@ struct Exchanged {
 enum class Verdict {
   stillborn,  ///< cannot be analysed or elaborated: no hardware at all
   killed,
-  killed_by_time,  ///< ran ten times as long as it should
+  killed_by_time,  ///< took four times the processor time that it should, and 20 s
   survived,
 };
 
@@ -109,6 +109,7 @@ class Judge {
   std::vector<VhdlSource> rtl_, testbench_sources_;
   std::vector<Test> testbenches_, frames_;
   std::filesystem::path library_;
+  GhdlBackEnd back_end_ = GhdlBackEnd::mcode;
   std::unique_ptr<Remembered> remembered_;
 };
 

@@ -466,8 +466,8 @@ Report report_of(const Options& options, const Judge& judge, std::vector<Judged>
   const std::size_t survived = total.ends[static_cast<std::size_t>(End::survived)];
   const std::size_t counted = total.mutants - equivalent, killed = counted - survived;
   report.text += fmt::format(
-      "\nOf {} generated mutants {} are proved equivalent; of the {} others {} were killed: {:.1f} %. {} of all ran past "
-      "ten times a test's time, and count as killed.\n",
+      "\nOf {} generated mutants {} are proved equivalent; of the {} others {} were killed: {:.1f} %. {} of all made a "
+      "test take four times its time, and count as killed.\n",
       total.mutants, equivalent, counted, killed, percent(killed, counted), total.by_time + from_list.by_time);
   if (static_cast<double>(killed) < c_share * static_cast<double>(counted))
     report.faults.push_back(fmt::format("{:.1f} % of the mutants were killed, {:.0f} % have to be",
