@@ -23,7 +23,8 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim compare why plan figure17 gallery tables check-tables test mutants prove stability search bench build program generator bounds \
+.PHONY: help sim compare why plan figure17 gallery tables check-tables test mutate prove stability search bounds \
+  bench build program generator \
   configure setup doctor format check-format clean
 
 help: ## this list
@@ -78,9 +79,10 @@ check-tables: generator ## fail if make tables would change anything
 test: build ## every test
 	@ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
 
-mutants: build ## small faults in the RTL, one after the other: a testbench must find each
-	@ctest --test-dir build -Q -R '^tb[.](ghdl|vectors)$$' && \
-	  build/tb/halfway_mutants . build/tb/vectors build/tb/mutants
+mutate: configure ## small faults in the RTL, which the tests must find, and what those tests reach
+	@cmake --build build -j "$(jobs)" --target halfway_mutants halfway_vectors
+	@build/tb/halfway_vectors all build/tb/vectors
+	@build/tb/halfway_mutants --jobs "$(jobs)" --page tb/mutants/README.md . build/tb/vectors build/tb/mutants
 
 prove: configure ## formal proofs on the RTL, each with faults that it must refute
 	@cmake --build build -j "$(jobs)" --target halfway_proofs
@@ -119,9 +121,9 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf '%s\n' "$$key" >build/configure.stamp
 
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs one package more, and so
-# do `make plan MEASURE=1`, `make prove` and `make bounds`.
+# do `make plan MEASURE=1`, `make prove`, `make bounds` and `make mutate`.
 setup:
-	@scripts/setup.sh $(filter bench prove bounds,$(MAKECMDGOALS)) \
+	@scripts/setup.sh $(filter bench prove bounds mutate,$(MAKECMDGOALS)) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth))
 
 doctor: ## tools and libraries found, and the command that mends what is missing

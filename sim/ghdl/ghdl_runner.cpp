@@ -82,12 +82,9 @@ std::string reported_failure(const std::string& output) {
 
 }  // namespace
 
-Result<GhdlRunner> GhdlRunner::open(const HardwareKey& key, const SimulatorFolders& folders) {
-  const auto tool = GhdlTool::find();
-  if (!tool) return tool.error();
-  auto sources = read_rtl_sources(folders.source);
-  if (!sources) return sources.error();
-  auto testbench = read_vhdl_source(folders.source, kTestbenchFile);
+Result<VhdlSource> GhdlRunner::testbench(const HardwareKey& key,
+                                         const std::filesystem::path& source_folder) {
+  auto testbench = read_vhdl_source(source_folder, kTestbenchFile);
   if (!testbench) return testbench.error();
   // All shaders have the same ports: one testbench, into which the entity, its generics and the ports' widths
   // are put.
@@ -105,7 +102,17 @@ Result<GhdlRunner> GhdlRunner::open(const HardwareKey& key, const SimulatorFolde
        {put(kTestbenchShader, "entity work." + key.entity()), put(kTestbenchGenerics, generics),
         put(kTestbenchInitBits, key.vhdl_init_bits()), put(kTestbenchProbeBits, key.vhdl_probe_bits())})
     if (!status) return status.error();
-  sources->push_back(std::move(*testbench));
+  return testbench;
+}
+
+Result<GhdlRunner> GhdlRunner::open(const HardwareKey& key, const SimulatorFolders& folders) {
+  const auto tool = GhdlTool::find();
+  if (!tool) return tool.error();
+  auto sources = read_rtl_sources(folders.source);
+  if (!sources) return sources.error();
+  auto with_shader = testbench(key, folders.source);
+  if (!with_shader) return with_shader.error();
+  sources->push_back(std::move(*with_shader));
   auto library = GhdlLibrary::open(*tool, *sources, kTestbench, folders.cache);
   if (!library) return library.error();
   return GhdlRunner(key, std::move(*library));

@@ -31,6 +31,9 @@ struct GhdlRun {
 
 class GhdlRunner {
  public:
+  /// tb/frame_tb.vhd with the key's shader in it.
+  static Result<VhdlSource> testbench(const HardwareKey& key, const std::filesystem::path& source_folder);
+
   /// Analyses the RTL and the testbench, or takes them from the cache.
   static Result<GhdlRunner> open(const HardwareKey& key, const SimulatorFolders& folders);
 

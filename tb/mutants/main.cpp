@@ -1,372 +1,624 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_mutants SOURCE VECTORS SCRATCH [PART]: puts one small fault after the other into a copy of the RTL
-// and runs the entity's testbench on it; each must be found. SOURCE is the project's root, VECTORS what
-// halfway_vectors wrote; with PART only the faults in files whose names hold it.
+// halfway_mutants [--quick] [--count N] [--seed N] [--jobs N] [--no-coverage] [--page FILE] SOURCE VECTORS
+// SCRATCH [PART]: puts one small fault after the other into a copy of the RTL, which the project's tests must
+// find, and counts what of the RTL those tests reach. SOURCE is the project's root, VECTORS what
+// halfway_vectors wrote, SCRATCH holds what is remembered of runs before; with PART only faults in files whose
+// names hold it.
+//   --quick        the listed faults and a generated one for each file that has a testbench, each by that
+//                  testbench; without the slowest
+//   --count        so many generated faults, over all files
+//   --seed         other ones: those of the page are of seed 1
+//   --no-coverage  mutants alone
+//   --page         writes the tables into that file, behind what stands there before them
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <atomic>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <condition_variable>
 #include <cstdio>
+#include <deque>
+#include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
+#include "coverage.hpp"
+#include "equivalence.hpp"
+#include "judge.hpp"
+#include "listed.hpp"
+#include "survivors.hpp"
+#include "vhdl_text.hpp"
 
-namespace halfway {
+namespace halfway::mutants {
 namespace {
 
-struct Mutant {
-  const char* file;       ///< in rtl/
-  std::string_view from;  ///< occurs once
-  std::string_view to;
-  const char* tested = file;  ///< in rtl/: the entity whose testbench has to find the fault
+constexpr unsigned c_count = 400, c_seed = 1;
+constexpr double c_share = 0.98;  // of the mutants not proved equivalent, what has to be killed
+constexpr int c_quick_passes = 3;  // generated mutants that may pass --quick, which proves nothing equivalent
+constexpr int c_least_of_file = 6;  // mutants, where it has so many places
+constexpr double c_quick = 8.0;     // seconds that tests other than its own may take before a proof is tried
+
+struct Options {
+  bool quick = false, coverage = true;
+  unsigned count = c_count, seed = c_seed, jobs = std::max(1U, std::thread::hardware_concurrency());
+  std::filesystem::path page{};
+  Folders folders{};
+  std::string part{};
 };
 
-constexpr Mutant c_mutants[] = {
-    // An entry of a table with one bit the other way; one more than it says; a sample that does not stand
-    // still.
-    {"tables/cosine_pkg.vhd", "15, 14, 12, 9, 6, 3, 1, 0, 0,", "15, 14, 12, 9, 6, 3, 1, 0, 1,",
-     "tables/cosine_rom.vhd"},
-    {"tables/cosine_rom.vhd", "to_unsigned(c_table(i), g_data_bits)",
-     "to_unsigned(c_table(i) + boolean'pos(i = 511 and g_power = 16), g_data_bits)"},
-    {"tables/cosine_rom.vhd", "if enable = '1' then", "if enable = '1' or address(0) = '1' then"},
-    // The top bit does not saturate; negative values give white.
-    {"arithmetic/saturate.vhd", "value(c_sign - 1 downto c_result_high + 1) & '0'",
-     "value(c_sign - 2 downto c_result_high + 1) & \"00\""},
-    {"arithmetic/saturate.vhd", "result <= (others => '0')", "result <= (others => '1')"},
-    // Signed operands; a product that does not stand still.
-    {"arithmetic/multiplier.vhd", "unsigned(a) * unsigned(b)", "unsigned(signed(a) * signed(b))"},
-    {"arithmetic/multiplier.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
-    // The bell is not folded; it has a second one beside it; preset published takes the lower bits.
-    {"arithmetic/angle_address.vhd", "magnitude <= not angle when", "magnitude <= angle when"},
-    {"arithmetic/angle_address.vhd", "magnitude(c_sign downto c_fraction) = c_inside",
-     "magnitude(c_sign downto c_fraction + 1) = c_inside(c_sign downto c_fraction + 1)"},
-    {"arithmetic/angle_address.vhd", "angle(c_sign downto c_sign - g_address_bits + 1)",
-     "angle(g_address_bits - 1 downto 0)"},
-    // A sum that wraps; the last term forgotten.
-    {"arithmetic/saturating_sum.vhd", "positive := g_term_bits + carry_bits", "positive := g_term_bits + 1"},
-    {"arithmetic/saturating_sum.vhd", "for i in 1 to g_terms - 1 loop", "for i in 1 to g_terms - 2 loop"},
-    // A slope that ends at the cell before; a table for another; a bit of an entry.
-    {"tables/function_rom.vhd", "c_table(i + 1) - c_table(i)",
-     "c_table(i + 1) - c_table(i) - boolean'pos(i = 7)"},
-    {"tables/function_pkg.vhd", "508, 500,", "508, 501,", "tables/function_rom.vhd"},
-    {"tables/function_rom.vhd", "if enable = '1' then", "if enable = '1' or address(0) = '1' then"},
-    // A digit's carry lost; the sign forgotten; a tie rounded down; light from the horizon; a cosine above 1.
-    {"arithmetic/shading_pkg.vhd", "half := half - 1;", "half := half;"},
-    {"arithmetic/shading_pkg.vhd", "digits(place) := digits(place) - weight;",
-     "digits(place) := digits(place) + weight;"},
-    {"arithmetic/shading_pkg.vhd", "half := '0' & word(bits - 1);", "half := \"00\";"},
-    {"arithmetic/shading_pkg.vhd", "dot(dot'left) = '0' and dot /= c_zero", "dot(dot'left) = '0'"},
-    {"arithmetic/shading_pkg.vhd", "one(c_fraction) := '1';", "one(c_fraction) := '0';"},
-    // A component left out; one clock late where enable is '0'; the wrong axis.
-    {"arithmetic/dot_product.vhd", "sum_of_products(a, b)",
-     "sum_of_products(a, b(3 * g_bits - 1 downto g_bits) & (g_bits - 1 downto 0 => '0'))"},
-    {"arithmetic/dot_product.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
-    {"arithmetic/vector_multiply.vhd", "axis_of(b, axis)", "axis_of(b, 2 - axis)"},
-    {"arithmetic/vector_multiply.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
-    // The sign counted as a bit that moves; a zero vector's search without an end; the largest shift left
-    // out.
-    {"arithmetic/vector_shift.vhd", "words(axis) xor signs", "words(axis)"},
-    {"arithmetic/vector_shift.vhd", "moving(c_high - 1 downto 0) & '1'", "moving(c_high - 1 downto 0) & '0'"},
-    {"arithmetic/vector_shift.vhd", "for stage in stages - 1 downto 0 loop",
-     "for stage in stages - 2 downto 0 loop"},
-    // Roots of 1/4 to 1 not doubled; the cell of 2 to 4 off by its half; an x of the clock before; no rise.
-    {"arithmetic/reciprocal_root.vhd", "r.root & '0' when r.below_one = '1'",
-     "r.root & '0' when r.rest_below_one = '1'"},
-    {"arithmetic/reciprocal_root.vhd", "'0' & x(c_high - 2 downto c_high - c_address)",
-     "'0' & x(c_high - 1 downto c_high - c_address + 1)"},
-    {"arithmetic/reciprocal_root.vhd", "product(r.square_x, r.entry_square)",
-     "product(r.table_x, r.entry_square)"},
-    {"arithmetic/reciprocal_root.vhd", "c_rest_fraction + 17", "c_rest_fraction + 16"},
-    {"arithmetic/reciprocal_root.vhd", "entry & '0' when r.below_one = '1'",
-     "entry & '0' when below_one = '1'"},
-    // 0 to a power; 1 not quite 1; a stage's exponent for another's; a product's high bits; rounding.
-    {"arithmetic/power.vhd", "if r.zeros(5) = '1' then", "if r.zeros(4) = '1' then"},
-    {"arithmetic/power.vhd", "r.log_one      <= base(c_fraction);", "r.log_one      <= '0';"},
-    {"arithmetic/power.vhd", "product(r.loss, r.loss_exponent)", "product(r.loss, r.log_exponent)"},
-    {"arithmetic/power.vhd",
-     "if whole(c_whole_bits - 1 downto c_shifts) /= c_zeros(c_whole_bits - 1 downto c_shifts) then",
-     "if whole(c_shifts) = '1' then"},
-    {"arithmetic/power.vhd", "shifted(c_guard - 1 downto c_guard - 1)",
-     "shifted(c_guard - 2 downto c_guard - 2)"},
-    {"arithmetic/power.vhd", "for stage in 0 to c_shifts - 1 loop", "for stage in 0 to c_shifts - 2 loop"},
-    {"arithmetic/power.vhd", "elsif r.one = '1' then", "elsif r.log_one = '1' then"},
-    // Light behind the outer edge; t above 1; a t of the clock before; 3 - t; a slope that does not wait.
-    {"illumination/spot_cone.vhd", "if over(over'high) = '0' then",
-     "if over(over'high) = '0' or over(0) = '1' then"},
-    {"illumination/spot_cone.vhd", "t(t'high downto c_weight - 1)", "t(t'high downto c_weight)"},
-    {"illumination/spot_cone.vhd", "- (r.square_t & '0')", "- (r.t & '0')"},
-    {"illumination/spot_cone.vhd", "- (r.square_t & '0')", "- ('0' & r.square_t)"},
-    {"illumination/spot_cone.vhd", "product(r.over, r.slope)", "product(r.over, unsigned(slope))"},
-    // A place too many; a word taken while the line stands still; the last word of two.
-    {"stream/delay_line.vhd", "if index = c_places - 1 then", "if index = c_places then"},
-    {"stream/delay_line.vhd", "elsif enable = '1' then", "else"},
-    {"stream/delay_line.vhd", "delayed <= before;", "delayed <= word;"},
-    // Loads without being told to.
-    {"stream/parameter_register.vhd", "if load = '1' then", "if load = '1' or start(0) = '1' then"},
-    // Overwrites a word that waits; survives reset.
-    {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= '1'"},
-    {"stream/stream_register.vhd", "v.valid := '0'", "v.valid := r.valid"},
-    // The wrong sign; step wins over load.
-    {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
-    {"interpolation/line_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '0' then"},
-    // Carry turned round; the span takes the next triangle's step.
-    {"interpolation/plane_interpolator.vhd", "de <= de1 when line_carry = '1' else de0",
-     "de <= de0 when line_carry = '1' else de1"},
-    {"interpolation/plane_interpolator.vhd", "increment => span_dx", "increment => dx"},
-    // Depth that never takes the carry.
-    {"interpolation/z_interpolator.vhd", "line_carry => line_carry", "line_carry => line_load"},
-    // Carry ignored in one register; the span takes the next triangle's step.
-    {"interpolation/quadratic_interpolator.vhd", "de0_step   <= de0e1 when", "de0_step   <= de0e0 when"},
-    {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
-    // No carry into x; a carry too early.
-    {"raster/edge_walker.vhd", "r.x + r.quotient + 1", "r.x + r.quotient"},
-    {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
-    // A clock lost between triangles, and between lines; a line lost to a stall; the stop edge never bends.
-    {"raster/triangle_walker.vhd", "not r.line.valid or (line_step and line_last)", "not r.line.valid"},
-    {"raster/triangle_walker.vhd", "not r.span.valid or (fragment_ready and span_last)", "not r.span.valid"},
-    {"raster/triangle_walker.vhd", "(fragment_ready and span_last)", "span_last"},
-    {"raster/triangle_walker.vhd", "line_load or (line_step and to_lower)", "line_load"},
-    // A line, or a span, that does not wait for what it needs.
-    {"raster/triangle_walker.vhd", "r.line.valid and line_ready and (", "r.line.valid and ("},
-    {"raster/triangle_walker.vhd", "r.line.valid and line_ready and not", "r.line.valid and not"},
-    // Of equal depths the last; a polygon on the surface is before it; a pixel shaded twice; a column that
-    // the
-    // token before has just changed; its change that does not go on with it; columns that a clear leaves; a
-    // token overwritten while it waits.
-    {"raster/object_stage.vhd", "keeps <= nearer or", "keeps <= nearer or not (kept(0) xor token(0)) or"},
-    {"raster/object_stage.vhd", "passes <= nearer and present", "passes <= present"},
-    {"raster/object_stage.vhd", "z < kept_z", "z <= kept_z"},
-    {"raster/object_stage.vhd", "      changed <= c_nothing;", "      changed <= kept;"},
-    {"raster/object_stage.vhd", "if changes = '1' and in_column = column then",
-     "if changes = '1' and z < 0 then"},
-    {"raster/object_stage.vhd", "if changes = '1' and in_column = column then",
-     "if r.valid = '1' and in_column = column then"},
-    {"raster/object_stage.vhd", "and column > r.last then", "and column > r.last and column(0) = '1' then"},
-    {"raster/object_stage.vhd", "not r.valid or not passes or out_ready",
-     "not r.valid or out_ready or not passes or r.forwarded"},
-    // Idle with a token.
-    {"raster/object_stage.vhd", "not r.valid and not r.clearing;", "not r.clearing;"},
-    // The next line's slope; the next pixel's horizon; light behind the horizon.
-    {"illumination/diffuse_slice.vhd", "increment => slope",
-     "increment => part(c_part.slope.high downto c_part.slope.low)"},
-    {"illumination/diffuse_slice.vhd", "sample when in_range = '1'", "sample when lit = '1'"},
-    {"illumination/diffuse_slice.vhd", "a       => gated", "a       => sample"},
-    // A highlight behind the horizon; the next line's power; a power without a table; the span's factors a
-    // stage early.
-    {"illumination/specular_slice.vhd", "near and lit", "near"},
-    {"illumination/specular_slice.vhd", "start => span_power",
-     "start => part(c_part.power.high downto c_part.power.low)"},
-    {"illumination/specular_slice.vhd", "sample <= (others => '0');", "sample <= samples(1);"},
-    {"illumination/specular_slice.vhd", "b       => carried(", "b       => carried_in("},
-    // A column that comes again at once is read from memory; a count wraps; a clear ends too early; an object
-    // leaves its count; lit where volumes are missing; no fault where they are, and one without a light.
-    {"illumination/shadow_counter.vhd", "v.forwarded := '1'", "v.forwarded := '0'"},
-    {"illumination/shadow_counter.vhd", "if held = c_most then", "if held = c_least then"},
-    {"illumination/shadow_counter.vhd", "v.last := unsigned(x)", "v.last := r.last"},
-    {"illumination/shadow_counter.vhd", "if r.takes = '1' then", "if r.takes = '1' and r.opens = '1' then"},
-    {"illumination/shadow_counter.vhd", "'1' when around = 0", "'1' when around <= 0"},
-    {"illumination/shadow_counter.vhd", "and around < 0", "and around < -1"},
-    {"illumination/shadow_counter.vhd", "r.takes = '1' and valid = '1' and", "r.takes = '1' and"},
-    // Redefines what is not there; a highlight below the horizon; a spot's
-    // light
-    // everywhere; the far light's shift forgotten.
-    {"illumination/shading_processor.vhd", "(command = c_redefine and r.valid = '1')",
-     "command = c_redefine"},
-    {"illumination/shading_processor.vhd", "r.cycle = c_at.horizon and positive_dot = '0'",
-     "r.cycle = c_at.horizon and positive_dot = 'Z'"},
-    {"illumination/shading_processor.vhd", "r.cycle = c_at.weigh_in - 1 and spotted = '0'",
-     "r.cycle = c_at.weigh_in - 1"},
-    {"illumination/terms_pkg.vhd", "near     := arithmetic_shift(near, shift)", "near     := near",
-     "illumination/shading_processor.vhd"},
-    // A clock more than the paper's; the vector product a clock early.
-    {"illumination/shading_processor.vhd", "s.weigh_in := s.angle + 1", "s.weigh_in := s.angle + 2",
-     "illumination/table4.vhd"},
-    {"illumination/shading_processor.vhd", "s.round_1  := s.scale_1 + c_mul_clocks",
-     "s.round_1  := s.scale_1"},
-    // A light that changes under the tokens before; the first token's shadow for the next; stages that stand
-    // still without need, and that do not while a token waits.
-    {"illumination/unrolled_shading_processor.vhd", "not (in_valid and changes and (or r.filled))", "'1'"},
-    {"illumination/unrolled_shading_processor.vhd", "g_depth => c_at.term - 1\n", "g_depth => c_at.term\n"},
-    {"illumination/unrolled_shading_processor.vhd", "flows <= out_ready or not r.filled(c_at.leave)",
-     "flows <= out_ready"},
-    {"illumination/unrolled_shading_processor.vhd", "flows <= out_ready or not r.filled(c_at.leave)",
-     "flows <= '1'"},
-    {"arithmetic/unit_vector.vhd", "c_dot_product_latency + reciprocal_root_latency(g_exact)",
-     "reciprocal_root_latency(g_exact)"},
-    {"arithmetic/unit_vector.vhd", "factor <= '0' & root;",
-     "factor <= \"00\" & root(root'high - 1 downto 0);"},
-    // What loads leaves; a light's processors changed about; a fault unseen.
-    {"shaders/shading_pipeline.vhd", "valid(c_processors) and object", "valid(c_processors)"},
-    {"shaders/shading_pipeline.vhd", "(processor - 1) / c_terms + 1",
-     "(processor - 1) / c_terms + 2 - c_terms"},
-    {"shaders/shading_pipeline.vhd", "or faults", "faults(0)"},
-    // Not busy while only the buffer in front holds a triangle; the colour of a fragment that waits moves on.
-    {"shaders/quadratic_shader.vhd", "waiting or walking or out_valid", "walking or out_valid"},
-    {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => colours",
-     "load  => drawn,\n      start => colours"},
-    // A record taken as a header; an empty line's record taken for the next line's; the ambient light of the
-    // triangle behind; not busy while only the sample
-    // stage holds a pixel; a sample that moves on without its pixel; white highlights all red.
-    {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
-    {"shaders/spherical_shader.vhd", "line_step or not line_held", "line_load or span_load"},
-    {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
-     "load  => line_load,\n      start => line_ambient"},
-    {"shaders/spherical_shader.vhd", "walking or sample_valid or product_valid", "walking or product_valid"},
-    {"shaders/spherical_shader.vhd", "sample_valid and sample_ready", "sample_valid"},
-    {"shaders/spherical_shader.vhd", "channel * boolean'pos(g_highlight_channels > 1)",
-     "channel * boolean'pos(g_highlight_channels > 3)"},
-    // A load taken for a triangle, one that overtakes objects in the walker or in the object stage, one that
-    // is
-    // dropped; a frame that leaves objects behind, or whose first object is not on a new line; a pixel's next
-    // object taken for a new pixel; the next triangle's request or material; a shadow polygon that counts as
-    // an
-    // object; a first colour that is not rounded; a colour that moves on; not busy with an object in the
-    // pipeline; grey that is red.
-    {"shaders/processors_shader.vhd", "walk_valid <= waiting and not loads;", "walk_valid <= waiting;"},
-    {"shaders/processors_shader.vhd", "waiting and loads and not walking and objects_idle",
-     "waiting and loads and objects_idle"},
-    {"shaders/processors_shader.vhd", "token_ready and load_valid when", "load_valid when"},
-    {"shaders/processors_shader.vhd", "clear     => objects_clear", "clear     => '0'"},
-    {"shaders/processors_shader.vhd", "if reset = '1' or objects_clear = '1' then", "if reset = '1' then"},
-    {"shaders/processors_shader.vhd", "command_word(c_new_object) when", "command_word(c_new_pixel) when"},
-    {"shaders/processors_shader.vhd", "start => line_request", "start => init(request_t'range)"},
-    {"shaders/processors_shader.vhd", "start => line_material",
-     "start => init(init_material_low(c_config) + material_t'high downto init_material_low(c_config))"},
-    {"shaders/processors_shader.vhd",
-     "object_token(c_pixel.command.high downto c_pixel.command.low)\n      /= command_word(c_shadow) then",
-     "object_token(c_pixel.command.high downto c_pixel.command.low)\n      /= command_word(c_delete) then"},
-    {"shaders/processors_shader.vhd", "value(c_formats.radiance.fraction - 1) := '1'",
-     "value(c_formats.radiance.fraction - 1) := '0'"},
-    {"shaders/processors_shader.vhd", "load  => shaded_step,\n      start => colours",
-     "load  => shaded_valid,\n      start => colours"},
-    {"shaders/processors_shader.vhd", "or objects_busy or shading", "or objects_busy"},
-    {"shaders/processors_shader.vhd", "colour * boolean'pos(g_channels > 1)",
-     "colour * boolean'pos(g_channels > 3)"},
-};
-
-struct Folders {
-  std::filesystem::path source, vectors, scratch;
-};
-
-std::string entity_of(const char* file) {
-  return std::filesystem::path(file).stem();
+bool read_number(const std::string& text, unsigned& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
 }
 
-// What the run of a testbench came to.
-enum class Outcome { passed, found };
-
-Result<ProcessEnd> ghdl(std::vector<std::string> arguments, const std::filesystem::path& folder) {
-  arguments.insert(arguments.begin(), "ghdl");
-  return run_process(
-      {.arguments = std::move(arguments), .working_folder = folder, .timeout = std::chrono::minutes(5)},
-      kInstallGhdl);
-}
-
-// The testbench of the entity in `file`. `mutant` null: the RTL as it is.
-Result<Outcome> run(const Folders& folders, const char* file, const Mutant* mutant) {
-  auto folder = TemporaryFolder::make(folders.scratch);
-  if (!folder) return folder.error();
-  auto sources = read_rtl_sources(folders.source);
-  if (!sources) return sources.error();
-  const std::string entity = entity_of(file), top = entity + "_tb";
-  for (const std::string& name :
-       {std::string("tb/tb_pkg.vhd"), std::string("tb/shaders/shader_checker.vhd"),
-        std::string("tb/illumination/processor_checker.vhd"),
-        "tb/" + (std::filesystem::path(file).parent_path() / (top + ".vhd")).string()}) {
-    auto source = read_vhdl_source(folders.source, name);
-    if (!source) return source.error();
-    sources->push_back(std::move(*source));
-  }
-  std::vector<std::string> names = {"-i", "--std=08"};
-  for (VhdlSource& source : *sources) {
-    if (mutant != nullptr && source.name == std::string("rtl/") + mutant->file) {
-      const std::size_t at = source.content.find(mutant->from);
-      if (at == std::string::npos || source.content.find(mutant->from, at + 1) != std::string::npos)
-        return bad_input(
-            fmt::format("{}: `{}` does not occur once; mend the list of mutants", source.name, mutant->from));
-      source.content.replace(at, mutant->from.size(), mutant->to);
+bool read_options(const std::vector<std::string>& arguments, Options& options) {
+  std::vector<std::string> places;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const bool more = i + 1 < arguments.size();
+    if (arguments[i] == "--quick") {
+      options.quick = true;
+    } else if (arguments[i] == "--no-coverage") {
+      options.coverage = false;
+    } else if (arguments[i] == "--page" && more) {
+      options.page = arguments[++i];
+    } else if (arguments[i] == "--count" && more) {
+      if (!read_number(arguments[++i], options.count)) return false;
+    } else if (arguments[i] == "--seed" && more) {
+      if (!read_number(arguments[++i], options.seed)) return false;
+    } else if (arguments[i] == "--jobs" && more) {
+      if (!read_number(arguments[++i], options.jobs) || options.jobs == 0) return false;
+    } else if (arguments[i].starts_with("--")) {
+      return false;
+    } else {
+      places.push_back(arguments[i]);
     }
-    if (auto written = write_file(folder->path() / source.name, source.content); !written)
-      return written.error();
-    names.push_back(source.name);
   }
-  // Analyses what the testbench needs, no more.
-  for (const auto& arguments : {names, std::vector<std::string>{"-m", "--std=08", top}}) {
-    const auto end = ghdl(arguments, folder->path());
-    if (!end) return end.error();
-    if (!end->succeeded())
-      return tool_failed(fmt::format("{}: GHDL cannot analyse it:\n{}", file, end->output));
+  if (places.size() != 3 && places.size() != 4) return false;
+  options.folders = {std::filesystem::absolute(places[0]), std::filesystem::absolute(places[1]),
+                     std::filesystem::absolute(places[2])};
+  if (places.size() == 4) options.part = places[3];
+  return true;
+}
+
+struct Mutant {
+  std::string file;     ///< in rtl/
+  std::string by;       ///< the operator's name, or "listed"
+  std::size_t line;
+  std::string from, to, in_line;
+  std::string content;  ///< of the whole file
+  std::string tested;   ///< the testbench that has to find a listed one; empty: any may
+};
+
+enum class End { stillborn, own, other, frame, netlist, equivalent, survived };
+constexpr int c_ends = static_cast<int>(End::survived) + 1;
+
+struct Outcome {
+  End end = End::survived;
+  bool by_time = false;
+  std::string by;  ///< the test that found it
+};
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    if (c != '\n' && c != ' ') line.push_back(c);
+    else if (!line.empty() && line.back() != ' ') line.push_back(' ');
   }
-  const auto end = ghdl({"-r", "--std=08", top, "-gg_folder=" + (folders.vectors / entity).string(),
-                         "--ieee-asserts=disable", "--assert-level=error"},
-                        folder->path());
-  if (!end) return end.error();
-  if (end->succeeded() && end->output.find(top + ": passed") != std::string::npos) return Outcome::passed;
-  // Only a testbench's own verdict counts, not whatever else may end a run.
-  if (end->succeeded() || end->output.find(" failure): ") == std::string::npos ||
-      end->output.find("cannot open") != std::string::npos)
-    return tool_failed(
-        fmt::format("{}: the testbench came to no verdict ({}):\n{}", top, end->how(), end->output));
-  return Outcome::found;
+  return line;
+}
+
+std::string name_of(const Mutant& m) {
+  return fmt::format("rtl/{}:{}: {}: `{}` for `{}`", m.file, m.line, m.by, one_line(m.to), one_line(m.from));
+}
+
+Mutant mutant_of(const std::string& file, const std::string& content, std::string by, std::size_t begin,
+                 std::size_t end, std::string to) {
+  Mutant m{.file = file, .by = std::move(by), .line = line_of(content, begin), .from = content.substr(begin, end - begin),
+           .to = std::move(to), .in_line = {}, .content = content, .tested = {}};
+  const std::size_t from = content.rfind('\n', begin) + 1;
+  m.in_line = one_line(content.substr(from, content.find('\n', begin) - from));
+  while (m.in_line.starts_with(' ')) m.in_line.erase(0, 1);
+  m.content.replace(begin, end - begin, m.to);
+  return m;
+}
+
+// splitmix64
+std::uint64_t next_random(std::uint64_t& state) {
+  std::uint64_t z = (state += 0x9e3779b97f4a7c15);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return z ^ (z >> 31);
+}
+
+// What a file can be changed into, in the order in which it is tried: the operators in turn, places at random.
+struct Candidates {
+  std::string file, content;
+  std::vector<Change> order;
+  std::size_t places = 0;  ///< a table's entries count as one
+  std::size_t wanted = 0, taken = 0, found = 0, under_way = 0;
+};
+
+Result<Candidates> candidates_of(const VhdlSource& source, unsigned seed) {
+  const auto outline = outline_of(source.name, source.content);
+  if (!outline) return outline.error();
+  Candidates all{.file = source.name.substr(4), .content = source.content, .order = {}};
+  std::vector<std::deque<Change>> by_operator(c_operators);
+  for (const Change& change : outline->changes) by_operator[static_cast<std::size_t>(change.by)].push_back(change);
+  std::uint64_t state = seed;
+  for (const char c : all.file) state = state * 31 + static_cast<unsigned char>(c);
+  bool table = false;
+  for (auto& changes : by_operator) {
+    for (std::size_t i = changes.size(); i > 1; --i) std::swap(changes[i - 1], changes[next_random(state) % i]);
+    if (!changes.empty() && changes.front().by == Operator::rom) {
+      table = true;
+    } else {
+      all.places += changes.size();
+    }
+  }
+  // The numbers of formats_pkg are widths and places in vectors.
+  if (table || all.places > 1200) all.places = 60;
+  while (true) {
+    bool any = false;
+    for (auto& changes : by_operator) {
+      if (changes.empty()) continue;
+      any = true;
+      all.order.push_back(changes.front());
+      changes.pop_front();
+    }
+    if (!any) return all;
+  }
+}
+
+void share_out(std::vector<Candidates>& files, unsigned count) {
+  std::size_t places = 0;
+  for (const Candidates& file : files) places += file.places;
+  for (Candidates& file : files) {
+    const std::size_t share = (count * file.places + places / 2) / std::max<std::size_t>(places, 1);
+    file.wanted = std::min(file.order.size(), std::max<std::size_t>(share, c_least_of_file));
+  }
+}
+
+Result<std::vector<Mutant>> listed(const Judge& judge) {
+  std::vector<Mutant> all;
+  for (const Listed& fault : listed_mutants()) {
+    const auto source = std::find_if(judge.rtl().begin(), judge.rtl().end(), [&](const VhdlSource& s) {
+      return s.name == std::string("rtl/") + fault.file;
+    });
+    const std::size_t at = source == judge.rtl().end() ? std::string::npos : source->content.find(fault.from);
+    if (at == std::string::npos || source->content.find(fault.from, at + 1) != std::string::npos)
+      return bad_input(
+          fmt::format("rtl/{}: `{}` does not occur once; mend the list of mutants", fault.file, fault.from));
+    all.push_back(mutant_of(fault.file, source->content, "listed", at, at + fault.from.size(), std::string(fault.to)));
+    all.back().tested = std::filesystem::path(fault.tested).stem();
+  }
+  return all;
+}
+
+// The tests that see the file: its own testbench first, then those of the entities that use it and the frames,
+// the quickest first.
+std::vector<const Test*> tests_of(const Judge& judge, const Mutant& mutant) {
+  std::vector<const Test*> tests;
+  for (const auto* kind : {&judge.testbenches(), &judge.frames()})
+    for (const Test& test : *kind)
+      if (test.uses.contains(mutant.file)) tests.push_back(&test);
+  const std::string own = std::filesystem::path(mutant.file).stem();
+  std::stable_sort(tests.begin(), tests.end(), [&](const Test* a, const Test* b) {
+    if ((a->name == own) != (b->name == own)) return a->name == own;
+    return a->seconds < b->seconds;
+  });
+  return tests;
+}
+
+// By the testbench that has to find it, and no other.
+Result<Outcome> judged_by_its_own(const Judge& judge, const Mutant& mutant, const std::string& own) {
+  const auto test = std::find_if(judge.testbenches().begin(), judge.testbenches().end(),
+                                 [&](const Test& t) { return t.name == own; });
+  if (test == judge.testbenches().end()) return bad_input(fmt::format("{}: there is no such testbench", own));
+  const auto verdict = judge.bench({mutant.file, mutant.content}).run(*test);
+  if (!verdict) return verdict.error();
+  if (*verdict == Verdict::survived) return Outcome{};
+  return Outcome{*verdict == Verdict::stillborn ? End::stillborn : End::own, *verdict == Verdict::killed_by_time, own};
+}
+
+Result<Outcome> judged(const Judge& judge, Equivalence& equivalence, bool quick, const Mutant& mutant) {
+  const std::string own = std::filesystem::path(mutant.file).stem();
+  if (!mutant.tested.empty()) return judged_by_its_own(judge, mutant, mutant.tested);
+  if (quick) return judged_by_its_own(judge, mutant, own);
+  auto bench = judge.bench({mutant.file, mutant.content});
+  bool tried_to_prove = false;
+  double seconds = 0;
+  const auto tests = tests_of(judge, mutant);
+  for (const Test* test : tests) {
+    if (test->name != own) seconds += test->seconds;
+    if (seconds > c_quick && !tried_to_prove) {
+      tried_to_prove = true;
+      const auto proved = equivalence.proved({mutant.file, mutant.content});
+      if (!proved) return proved.error();
+      if (*proved) return Outcome{End::equivalent, false, ""};
+    }
+    const auto verdict = bench.run(*test);
+    if (!verdict) return verdict.error();
+    if (*verdict == Verdict::survived) continue;
+    if (*verdict == Verdict::stillborn) return Outcome{End::stillborn, false, test->name};
+    const End end = test->name == own ? End::own : test->golden.empty() ? End::other : End::frame;
+    return Outcome{end, *verdict == Verdict::killed_by_time, test->name};
+  }
+  // GHDL passes over what hardware alone has. One frame of each shader is enough for that.
+  std::set<Shader> seen;
+  for (auto test = tests.rbegin(); test != tests.rend(); ++test) {
+    if ((*test)->golden.empty() || !seen.insert((*test)->key.shader).second) continue;
+    const auto verdict = judge.run_verilated(**test, {mutant.file, mutant.content});
+    if (!verdict) return verdict.error();
+    if (*verdict != Verdict::survived) return Outcome{End::netlist, false, (*test)->name};
+  }
+  return Outcome{};
+}
+
+struct Judged {
+  Mutant mutant;
+  Outcome outcome;
+};
+
+class Run {
+ public:
+  Run(const Judge& judge, const Options& options) : judge_(judge), equivalence_(judge), options_(options) {}
+
+  Status all() {
+    if (auto ready = gather(); !ready) return ready;
+    std::vector<std::jthread> workers;
+    for (unsigned i = 0; i < options_.jobs; ++i) workers.emplace_back([this] { work(); });
+    workers.clear();
+    return failed_;
+  }
+  std::vector<Judged>& judged_mutants() { return done_; }
+  const std::map<std::string, int>& stillborn() const { return stillborn_; }
+
+ private:
+  Status gather() {
+    auto from_list = listed(judge_);
+    if (!from_list) return from_list.error();
+    for (Mutant& mutant : *from_list)
+      if (mutant.file.find(options_.part) != std::string::npos && !(options_.quick && is_slow(mutant.tested)))
+        listed_.push_back(std::move(mutant));
+    for (const VhdlSource& source : judge_.rtl()) {
+      auto file = candidates_of(source, options_.seed);
+      if (!file) return file.error();
+      files_.push_back(std::move(*file));
+    }
+    share_out(files_, options_.count);
+    std::erase_if(files_, [&](const Candidates& file) { return file.file.find(options_.part) == std::string::npos; });
+    if (options_.quick) {
+      std::erase_if(files_, [&](const Candidates& file) {
+        const std::string own = std::filesystem::path(file.file).stem();
+        return is_slow(own) || std::none_of(judge_.testbenches().begin(), judge_.testbenches().end(),
+                                            [&](const Test& test) { return test.name == own; });
+      });
+      for (Candidates& file : files_) file.wanted = 1;
+    }
+    if (files_.empty()) return bad_input(fmt::format("{}: no file of the RTL has this in its name", options_.part));
+    for (const Candidates& file : files_) wanted_ += file.wanted;
+    wanted_ += listed_.size();
+    return Ok{};
+  }
+
+  // Testbenches of minutes.
+  static bool is_slow(std::string_view testbench) {
+    return testbench == "processors_shader" || testbench == "spherical_shader";
+  }
+
+  // The next one, or none while enough are under way; `over` once no more can come.
+  std::optional<Mutant> take(bool& over) {
+    if (next_listed_ < listed_.size()) return listed_[next_listed_++];
+    over = true;
+    for (std::size_t k = 0; k < files_.size(); ++k) {
+      Candidates& file = files_[(turn_ + k) % files_.size()];
+      if (file.under_way > 0) over = false;
+      if (file.found + file.under_way >= file.wanted || file.taken == file.order.size()) continue;
+      turn_ = (turn_ + k + 1) % files_.size();
+      ++file.under_way;
+      const Change& change = file.order[file.taken++];
+      over = false;
+      return mutant_of(file.file, file.content, to_string(change.by), change.begin, change.end, change.to);
+    }
+    return std::nullopt;
+  }
+
+  void work() {
+    std::unique_lock lock(mutex_);
+    while (failed_) {
+      bool over = false;
+      auto mutant = take(over);
+      if (!mutant) {
+        if (over) return;
+        changed_.wait(lock);
+        continue;
+      }
+      lock.unlock();
+      const auto outcome = judged(judge_, equivalence_, options_.quick, *mutant);
+      lock.lock();
+      settle(std::move(*mutant), outcome);
+      changed_.notify_all();
+    }
+    changed_.notify_all();
+  }
+
+  void settle(Mutant mutant, const Result<Outcome>& outcome) {
+    const auto file = std::find_if(files_.begin(), files_.end(), [&](const Candidates& f) { return f.file == mutant.file; });
+    const bool generated = mutant.tested.empty();
+    if (generated) --file->under_way;
+    if (!outcome) {
+      failed_ = Error{outcome.error().code, fmt::format("{}: {}", name_of(mutant), outcome.error().message)};
+      return;
+    }
+    if (outcome->end == End::stillborn) {
+      if (!generated)
+        failed_ = bad_input(fmt::format("{}: GHDL refuses it; mend the list of mutants", name_of(mutant)));
+      ++stillborn_[mutant.file];
+      return;
+    }
+    if (generated) ++file->found;
+    static constexpr const char* c_names[c_ends] = {"",
+                                                    "killed by its testbench",
+                                                    "killed by",
+                                                    "killed by the frame",
+                                                    "killed by Verilator's frame",
+                                                    "equivalent, proved",
+                                                    "SURVIVED"};
+    const bool own = outcome->by == std::filesystem::path(mutant.file).stem().string();
+    fmt::print("[{}/{}] {}: {}{}{}\n", done_.size() + 1, wanted_, name_of(mutant), c_names[static_cast<int>(outcome->end)],
+               own || outcome->by.empty() ? "" : " " + outcome->by, outcome->by_time ? ", by its time" : "");
+    std::fflush(stdout);
+    done_.push_back({std::move(mutant), *outcome});
+  }
+
+  const Judge& judge_;
+  Equivalence equivalence_;
+  const Options& options_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Mutant> listed_;
+  std::vector<Candidates> files_;
+  std::size_t next_listed_ = 0, turn_ = 0, wanted_ = 0;
+  std::vector<Judged> done_;
+  std::map<std::string, int> stillborn_;
+  Status failed_ = Ok{};
+};
+
+// One row of the table of entities.
+struct Row {
+  std::size_t mutants = 0;
+  std::array<std::size_t, c_ends> ends{};
+  std::size_t by_time = 0;
+};
+
+std::string row_text(std::string_view name, const Row& row) {
+  const auto n = [&](End end) { return row.ends[static_cast<std::size_t>(end)]; };
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, row.mutants, n(End::own), n(End::other),
+                     n(End::frame) + n(End::netlist), n(End::equivalent), n(End::survived));
+}
+
+void add(Row& row, const Outcome& outcome) {
+  ++row.mutants;
+  ++row.ends[static_cast<std::size_t>(outcome.end)];
+  row.by_time += outcome.by_time ? 1 : 0;
+}
+
+std::string in_code(std::string_view text) {
+  std::string code = one_line(text);
+  for (std::size_t at = 0; (at = code.find('|', at)) != std::string::npos; at += 2) code.insert(at, "\\");
+  return "`" + (code.empty() ? " " : code) + "`";
+}
+
+double percent(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 100.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::string share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? "–" : fmt::format("{} of {}", part, whole);
+}
+
+// What a run came to; its text is the page's second half.
+struct Report {
+  std::string text;
+  std::vector<std::string> faults;  ///< why the run is no success
+};
+
+constexpr std::string_view kTable =
+    "| entity | mutants | killed by its testbench | by another | by a frame | equivalent | survived |\n"
+    "| --- | --- | --- | --- | --- | --- | --- |\n";
+
+Report report_of(const Options& options, const Judge& judge, std::vector<Judged> all) {
+  Report report;
+  std::map<std::string, std::size_t> order;
+  for (std::size_t i = 0; i < judge.rtl().size(); ++i) order[judge.rtl()[i].name.substr(4)] = i;
+  std::stable_sort(all.begin(), all.end(), [&](const Judged& a, const Judged& b) {
+    const auto key = [&](const Judged& j) {
+      return std::tuple(order[j.mutant.file], j.mutant.line, j.mutant.by, j.mutant.from, j.mutant.to);
+    };
+    return key(a) < key(b);
+  });
+  std::map<std::size_t, Row> files;
+  std::map<std::string, Row> operators;
+  Row total, from_list;
+  for (const Judged& j : all) {
+    if (j.mutant.by == "listed") {
+      add(from_list, j.outcome);
+    } else {
+      add(files[order[j.mutant.file]], j.outcome);
+      add(operators[j.mutant.by], j.outcome);
+      add(total, j.outcome);
+    }
+  }
+  report.text += kTable;
+  for (const auto& [file, row] : files) report.text += row_text("`" + judge.rtl()[file].name.substr(4) + "`", row);
+  report.text += row_text("**all generated**", total);
+  if (from_list.mutants > 0) report.text += row_text("listed", from_list);
+
+  const std::size_t equivalent = total.ends[static_cast<std::size_t>(End::equivalent)];
+  const std::size_t survived = total.ends[static_cast<std::size_t>(End::survived)];
+  const std::size_t counted = total.mutants - equivalent, killed = counted - survived;
+  report.text += fmt::format(
+      "\nOf {} generated mutants {} are proved equivalent; of the {} others {} were killed: {:.1f} %. {} of all made a "
+      "test take four times its time, and count as killed.\n",
+      total.mutants, equivalent, counted, killed, percent(killed, counted), total.by_time + from_list.by_time);
+  if (static_cast<double>(killed) < c_share * static_cast<double>(counted))
+    report.faults.push_back(fmt::format("{:.1f} % of the mutants were killed, {:.0f} % have to be",
+                                        percent(killed, counted), 100.0 * c_share));
+
+  report.text += "\n| operator | mutants | killed by its testbench | by another | by a frame | equivalent | survived |\n"
+                 "| --- | --- | --- | --- | --- | --- | --- |\n";
+  for (int i = 0; i < c_operators; ++i)
+    if (const auto row = operators.find(to_string(static_cast<Operator>(i))); row != operators.end())
+      report.text += row_text(row->first, row->second);
+
+  report.text += "\n## Survivors\n\n";
+  std::size_t listed_survivors = 0;
+  std::set<const KnownSurvivor*> met;
+  std::string rows;
+  for (const Judged& j : all) {
+    if (j.outcome.end != End::survived) continue;
+    if (j.mutant.by == "listed") {
+      report.faults.push_back(fmt::format("{}: not found by {}", name_of(j.mutant), j.mutant.tested));
+      continue;
+    }
+    ++listed_survivors;
+    const auto known = std::find_if(known_survivors().begin(), known_survivors().end(), [&](const KnownSurvivor& k) {
+      return k.file == j.mutant.file && k.in_line == j.mutant.in_line && k.from == one_line(j.mutant.from) &&
+             k.to == one_line(j.mutant.to);
+    });
+    if (known == known_survivors().end())
+      report.faults.push_back(fmt::format("{}: survives, and survivors.cpp has no reason; in the line {}",
+                                          name_of(j.mutant), j.mutant.in_line));
+    else
+      met.insert(&*known);
+    rows += fmt::format("| `{}`, line {} | {} for {} in {} | {} |\n", j.mutant.file, j.mutant.line, in_code(j.mutant.to),
+                        in_code(j.mutant.from), in_code(j.mutant.in_line),
+                        known == known_survivors().end() ? "" : known->reason);
+  }
+  report.text += listed_survivors == 0 ? "None.\n" : "| where | fault | why no test sees it |\n| --- | --- | --- |\n" + rows;
+  if (options.part.empty() && options.count == c_count && options.seed == c_seed)
+    for (const KnownSurvivor& known : known_survivors())
+      if (!met.contains(&known))
+        report.faults.push_back(fmt::format("survivors.cpp: {}: `{}` for `{}` survives no more, or is not made; take it off",
+                                            known.file, known.to, known.from));
+  return report;
+}
+
+void add_coverage(Report& report, const std::vector<FileCoverage>& files) {
+  report.text += "\n## Coverage\n\n| entity | lines | outcomes | bits |\n| --- | --- | --- | --- |\n";
+  FileCoverage all;
+  std::string rows;
+  std::set<const KnownGap*> met;
+  for (const FileCoverage& f : files) {
+    report.text += fmt::format("| `{}` | {} | {} | {} |\n", f.file, share(f.lines_run, f.lines),
+                               share(f.outcomes_seen, f.outcomes), share(f.bits_toggled, f.bits));
+    all.lines += f.lines;
+    all.lines_run += f.lines_run;
+    all.outcomes += f.outcomes;
+    all.outcomes_seen += f.outcomes_seen;
+    all.bits += f.bits;
+    all.bits_toggled += f.bits_toggled;
+    for (const auto* missed : {&f.missed_lines, &f.missed_outcomes})
+      for (const Missed& m : *missed) {
+        const std::string text = one_line(m.text);
+        const auto known = std::find_if(known_gaps().begin(), known_gaps().end(),
+                                        [&](const KnownGap& gap) { return gap.file == f.file && gap.text == text; });
+        if (known == known_gaps().end())
+          report.faults.push_back(
+              fmt::format("rtl/{}:{}: {}: reached by no test, and survivors.cpp has no reason", f.file, m.line, text));
+        else
+          met.insert(&*known);
+        rows += fmt::format("| `{}`, line {} | {} | {} |\n", f.file, m.line,
+                            missed == &f.missed_lines ? in_code(text) : text,
+                            known == known_gaps().end() ? "" : known->reason);
+      }
+  }
+  for (const KnownGap& known : known_gaps())
+    if (!met.contains(&known))
+      report.faults.push_back(fmt::format("survivors.cpp: {}: `{}` is reached; take it off", known.file, known.text));
+  report.text += fmt::format("| **all** | {}: {:.1f} % | {}: {:.1f} % | {}: {:.1f} % |\n", share(all.lines_run, all.lines),
+                             percent(all.lines_run, all.lines), share(all.outcomes_seen, all.outcomes),
+                             percent(all.outcomes_seen, all.outcomes), share(all.bits_toggled, all.bits),
+                             percent(all.bits_toggled, all.bits));
+  report.text += "\nLines and outcomes that no test reaches:\n\n";
+  report.text += rows.empty() ? "None.\n" : "| where | what | why |\n| --- | --- | --- |\n" + rows;
+}
+
+Status write_page(const std::filesystem::path& path, const std::string& tables) {
+  auto text = read_file(path);
+  if (!text) return text.error();
+  text->resize(std::min(text->find(kTable.substr(0, kTable.find('\n'))), text->size()));
+  return write_file(path, *text + tables);
+}
+
+ExitCode fail(const Error& error) {
+  fmt::print(stderr, "{}\n", error.message);
+  return error.code;
+}
+
+ExitCode run_quick(const std::vector<Judged>& all) {
+  int missed = 0, passed = 0;
+  for (const Judged& j : all) {
+    if (j.outcome.end != End::survived) continue;
+    if (j.mutant.by == "listed")
+      ++missed;
+    else
+      ++passed;
+  }
+  fmt::print("{} of {} mutants not found: {} listed ones, of which none may pass, {} generated ones, of which {} may be "
+             "equivalent\n",
+             missed + passed, all.size(), missed, passed, c_quick_passes);
+  return missed > 0 || passed > c_quick_passes ? ExitCode::differs : ExitCode::equal;
+}
+
+ExitCode run(const Options& options) {
+  const auto told = [](const std::string& what) {
+    fmt::print("{}\n", what);
+    std::fflush(stdout);
+  };
+  if (!options.quick)
+    for (const char* tool : {"yosys", "yosys-abc"})
+      if (find_program(tool).empty())
+        return fail(tool_failed(fmt::format("{}: is missing; install it with: apt-get install yosys", tool)));
+  const auto judge = Judge::open(options.folders, options.jobs, !options.quick, told);
+  if (!judge) return fail(judge.error());
+  Run run(*judge, options);
+  if (const auto ended = run.all(); !ended) return fail(ended.error());
+  if (options.quick) return run_quick(run.judged_mutants());
+  Report report = report_of(options, *judge, run.judged_mutants());
+  if (options.coverage) {
+    const auto files = measure_coverage(*judge, options.jobs, told);
+    if (!files) return fail(files.error());
+    add_coverage(report, *files);
+  }
+  fmt::print("\n{}\n", report.text);
+  for (const std::string& fault : report.faults) fmt::print("{}\n", fault);
+  if (!report.faults.empty()) return ExitCode::differs;
+  if (options.page.empty()) return ExitCode::equal;
+  const auto written = write_page(options.page, report.text);
+  return written ? ExitCode::equal : fail(written.error());
 }
 
 }  // namespace
-}  // namespace halfway
+}  // namespace halfway::mutants
 
 int main(int argc, char** argv) {
   using namespace halfway;
-  if (argc != 4 && argc != 5) {
-    fmt::print(stderr, "usage: halfway_mutants SOURCE VECTORS SCRATCH [PART]\n");
+  using namespace halfway::mutants;
+  Options options;
+  if (!read_options(std::vector<std::string>(argv + 1, argv + argc), options)) {
+    fmt::print(stderr,
+               "usage: halfway_mutants [--quick] [--count N] [--seed N] [--jobs N] [--no-coverage] [--page FILE] SOURCE "
+               "VECTORS SCRATCH [PART]\n");
     return static_cast<int>(ExitCode::bad_input);
   }
-  const Folders folders{std::filesystem::absolute(argv[1]), std::filesystem::absolute(argv[2]),
-                        std::filesystem::absolute(argv[3])};
-  std::string_view part = argc == 4 ? "" : argv[4];
-  const bool without = part.starts_with('-');
-  if (without) part.remove_prefix(1);
-  std::vector<const Mutant*> mutants;
-  for (const Mutant& mutant : c_mutants)
-    if ((std::string_view(mutant.file).find(part) != std::string_view::npos) != without)
-      mutants.push_back(&mutant);
-  if (mutants.empty()) {
-    fmt::print(stderr, "{}: no fault is in a file of this name\n", argv[4]);
-    return static_cast<int>(ExitCode::bad_input);
-  }
-  // The first job has no fault in it, and must pass.
-  std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  int missed = 0, broken = 0;
-  const auto work = [&] {
-    for (std::size_t job; (job = next++) <= mutants.size();) {
-      const Mutant* mutant = job == 0 ? nullptr : mutants[job - 1];
-      const char* file = mutant == nullptr ? mutants[0]->tested : mutant->tested;
-      const auto outcome = run(folders, file, mutant);
-      const std::lock_guard lock(mutex);
-      if (!outcome) {
-        ++broken;
-        fmt::print("{}\n", outcome.error().message);
-      } else if (mutant == nullptr && *outcome == Outcome::found) {
-        ++missed;
-        fmt::print("{}: its testbench fails without any fault\n", file);
-      } else if (mutant != nullptr && *outcome == Outcome::passed) {
-        ++missed;
-        fmt::print("{}: its testbench passes with `{}` for `{}`\n", file, mutant->to, mutant->from);
-      } else if (mutant != nullptr) {
-        fmt::print("{}: found `{}`\n", file, mutant->to);
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (int i = 0; i < 2; ++i) workers.emplace_back(work);
-  }
-  fmt::print("{} of {} mutants not found, {} could not be run\n", missed, mutants.size(), broken);
-  return static_cast<int>(broken > 0   ? ExitCode::tool_failed
-                          : missed > 0 ? ExitCode::differs
-                                       : ExitCode::equal);
+  return static_cast<int>(run(options));
 }
