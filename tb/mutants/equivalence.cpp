@@ -125,6 +125,10 @@ Equivalence::Equivalence(const Judge& judge) : judge_(judge) {
                         .normalize = true, .shadows = false, .form = form};
       keys_.push_back(key);
     }
+  // The smaller tables that the paper names.
+  HardwareKey small{.shader = Shader::spherical, .preset = Preset::published, .spherical = {}, .processors = {}};
+  small.spherical = {.lights = 1, .diffuse = true, .specular = true, .highlight_channels = 3, .powers = 2, .tables = {4, 4}};
+  keys_.push_back(small);
   const std::size_t without = keys_.size();
   for (std::size_t i = 0; i < without; ++i) {
     keys_.push_back(keys_[i]);
