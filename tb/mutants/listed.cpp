@@ -37,7 +37,7 @@ constexpr Listed c_listed[] = {
     {"arithmetic/shading_pkg.vhd", "half := half - 1;", "half := half;"},
     {"arithmetic/shading_pkg.vhd", "digits(place) := digits(place) - weight;",
      "digits(place) := digits(place) + weight;"},
-    {"arithmetic/shading_pkg.vhd", "half := '0' & word(bits - 1);", "half := \"00\";"},
+    {"arithmetic/shading_pkg.vhd", "+ ('0' & word(bits - 1 downto bits - 1))", "+ 0"},
     {"arithmetic/shading_pkg.vhd", "dot(dot'left) = '0' and dot /= c_zero", "dot(dot'left) = '0'"},
     {"arithmetic/shading_pkg.vhd", "one(c_fraction) := '1';", "one(c_fraction) := '0';"},
     // A component left out; one clock late where enable is '0'; the wrong axis.
