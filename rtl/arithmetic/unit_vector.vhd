@@ -5,7 +5,8 @@
 -- Formats     components: of g_vector_bits each, signed, of any scale, x lowest; unit: format direction
 -- Latency     unit_vector_latency of terms_pkg, clocks with enable
 -- Throughput  1 vector a clock
--- Error       its length see reciprocal_root; its direction 2**-20.7 exact, 2**-13.2 published: see direction in formats_pkg
+-- Error       its length: see reciprocal_root; its direction: 2**-20.7 exact, 2**-13.2 published, see direction in
+--             formats_pkg
 -- Source      processors paper, figure 2
 -- Golden twin model/golden/unit_vector.hpp (normalized)
 

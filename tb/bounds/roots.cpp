@@ -24,9 +24,8 @@ Finding entry(const Context&, const tables::PresetFormats&, const tables::Format
   for (int i = 0; i < cells; ++i) {
     const double value = std::ldexp(table.values[static_cast<std::size_t>(i)], -table.fraction_bits);
     for (const int end : {i, i + 1}) {
-      const Dyadic x = end < cells / 2 || (end == cells / 2 && i < end)
-                           ? Dyadic{cells + 2 * end, table.address_bits}
-                           : Dyadic{4 * end, table.address_bits};
+      const Dyadic x =
+          end < cells / 2 ? Dyadic{cells + 2 * end, table.address_bits} : Dyadic{4 * end, table.address_bits};
       const Enclosure truth = reciprocal_root(x);
       // Relative to the root; as x^-1/2 falls, both are largest at an end.
       const double error = bound.of == "relative" ? farthest(value, truth) / truth.low * (1 + 0x1p-51)
