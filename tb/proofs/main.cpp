@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_proofs [--quick] [--no-faults] [--page FILE] SOURCE SCRATCH [PART]: proves every property of the list on the RTL,
-// and puts each of its faults into a copy, which must refute it. SOURCE is the project's root; with PART only
-// the proofs of entities whose names hold it; --quick: those of a few seconds, and exit code 77 where a tool
-// is missing; --page: writes the table into that file, behind what stands there before it.
+// halfway_proofs [--quick] [--no-faults] [--page FILE] SOURCE SCRATCH [PART]: proves every property of the
+// list on the RTL, and puts each of its faults into a copy, which must refute it. SOURCE is the project's
+// root; with PART only the proofs of entities whose names hold it; --quick: those of a few seconds, and exit
+// code 77 where a tool is missing; --page: writes the table into that file, behind what stands there before
+// it.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -61,8 +62,8 @@ struct Outcome {
 };
 
 std::string in_page(const Proof& proof, const Outcome& outcome) {
-  constexpr const char* names[] = {"induction", "BMC", "PDR", "Gappa"};
-  const bool clocks = proof.method == Method::induction || proof.method == Method::bounded;
+  constexpr const char* names[] = {"induction", "BMC", "BMC", "PDR", "Gappa"};
+  const bool clocks = proof.method != Method::pdr && proof.method != Method::gappa;
   return fmt::format(
       "| {} | `{}` | {} | {} | {:.1f} | {} |\n", proof.property, proof.entity,
       names[static_cast<int>(proof.method)], clocks ? std::to_string(proof.depth) : "all", outcome.seconds,

@@ -79,7 +79,8 @@ std::vector<Proof> all_proofs() {
   proofs.push_back(
       {"arithmetic/multiplier",
        "arithmetic/multiplier.psl",
-       "The sum of a's multiples that b's bits ask for, a clock later, and it stands still without enable: 6 by 6 "
+       "The sum of a's multiples that b's bits ask for, a clock later, and it stands still without enable: 6 "
+       "by 6 "
        "bits",
        Method::induction,
        1,
@@ -100,16 +101,15 @@ std::vector<Proof> all_proofs() {
          "magnitude(c_sign downto c_fraction + 1) = c_inside(c_sign downto c_fraction + 1)"},
         {"arithmetic/angle_address.vhd", "magnitude(c_fraction - 1 downto c_fraction - g_address_bits)",
          "magnitude(c_fraction downto c_fraction - g_address_bits + 1)"}}});
-  proofs.push_back(
-      {"arithmetic/angle_address",
-       "arithmetic/angle_address_published.psl",
-       "Preset `published`: every angle's upper bits",
-       Method::induction,
-       1,
-       true,
-       {{"g_address_bits", "6"}},
-       {{"arithmetic/angle_address.vhd", "angle(c_sign downto c_sign - g_address_bits + 1)",
-         "angle(c_sign - 1 downto c_sign - g_address_bits)"}}});
+  proofs.push_back({"arithmetic/angle_address",
+                    "arithmetic/angle_address_published.psl",
+                    "Preset `published`: every angle's upper bits",
+                    Method::induction,
+                    1,
+                    true,
+                    {{"g_address_bits", "6"}},
+                    {{"arithmetic/angle_address.vhd", "angle(c_sign downto c_sign - g_address_bits + 1)",
+                      "angle(c_sign - 1 downto c_sign - g_address_bits)"}}});
 
   // Tables.
   const auto flag = [](bool value) { return std::string(value ? "true" : "false"); };
@@ -232,7 +232,8 @@ std::vector<Proof> all_proofs() {
   proofs.push_back(
       {"raster/triangle_walker",
        "raster/triangle_walker_box.psl",
-       "No fragment outside its triangle's box, and every line's start, stop and carry those of exact edges: any "
+       "No fragment outside its triangle's box, and every line's start, stop and carry those of exact edges: "
+       "any "
        "edges that begin and end in the box, 6 lines, 8 columns, divisors up to 3",
        Method::pdr,
        10,
@@ -369,16 +370,16 @@ std::vector<Proof> all_proofs() {
   horizon_faults.push_back({"illumination/shading_processor.vhd",
                             "r.cycle = c_at.horizon and positive_dot = '0'",
                             "r.cycle = c_at.cosine and positive_dot = '0'"});
-  horizon_faults.push_back({"arithmetic/shading_pkg.vhd", "dot(dot'left) = '0' and dot /= c_zero",
-                            "dot(dot'left) = '0'"});
+  horizon_faults.push_back(
+      {"arithmetic/shading_pkg.vhd", "dot(dot'left) = '0' and dot /= c_zero", "dot(dot'left) = '0'"});
   std::vector<Fault> ambient_faults(folded_faults.begin(), folded_faults.begin() + 3);
   ambient_faults.push_back({"illumination/shading_processor.vhd",
                             "g_kind = c_ambient and comes = '1' and\n          not",
                             "g_kind = c_ambient and\n          not"});
   const auto with = [](Generics generics, const Generics& others) {
     for (const auto& [name, value] : others) {
-      const auto at =
-          std::find_if(generics.begin(), generics.end(), [&](const auto& pair) { return pair.first == name; });
+      const auto at = std::find_if(generics.begin(), generics.end(),
+                                   [&](const auto& pair) { return pair.first == name; });
       if (at == generics.end())
         generics.emplace_back(name, value);
       else
@@ -386,20 +387,21 @@ std::vector<Proof> all_proofs() {
     }
     return generics;
   };
-  proofs.push_back(
-      {"illumination/shading_processor",
-       "illumination/shading_processor.psl",
-       "A token comes out once, in the clocks of table 4 at most, and stands still while it waits; nothing of it "
-       "changes but an object's colour, and that by one term, held at its largest, where the light is there; any "
-       "products",
-       Method::induction,
-       3,
-       true,
-       diffuse,
-       folded_faults,
-       {},
-       true,
-       14});
+  proofs.push_back({"illumination/shading_processor",
+                    "illumination/shading_processor.psl",
+                    "A token comes out once, in the clocks of table 4 at most, and stands still while it "
+                    "waits; nothing of it "
+                    "changes but an object's colour, and that by one term, held at its largest, where the "
+                    "light is there; any "
+                    "products",
+                    Method::induction,
+                    3,
+                    true,
+                    diffuse,
+                    folded_faults,
+                    {},
+                    true,
+                    14});
   proofs.push_back({"illumination/shading_processor",
                     "illumination/shading_processor.psl",
                     "The same with shadows: none of the light where volumes are around the point",
@@ -457,15 +459,35 @@ std::vector<Proof> all_proofs() {
        {},
        true});
 
+  proofs.push_back(
+      {"illumination/unrolled_shading_processor",
+       "illumination/unrolled_shading_processor_token.psl",
+       "What comes out is what was taken but for an object's colour, and that has the light's term, once, "
+       "held at "
+       "its largest, where the light is there; any products",
+       Method::unrolled,
+       9,
+       false,
+       diffuse,
+       {{"illumination/unrolled_shading_processor.vhd", "shaded <= r.valid and lit_now and before_horizon",
+         "shaded <= lit_now and before_horizon"},
+        {"illumination/unrolled_shading_processor.vhd",
+         "shaded = '1' and (now = c_new_pixel or now = c_new_object or now = c_new_scanline)",
+         "shaded = '1'"},
+        {"illumination/terms_pkg.vhd", "held(sum, radiance'length)", "sum(radiance'length - 1 downto 0)"}},
+       {},
+       true});
+
   // The pipeline of three processors.
   for (const bool unrolled : {true, false})
     proofs.push_back(
         {"shaders/shading_pipeline",
          "shaders/shading_pipeline.psl",
-         unrolled ? "Numbered objects run through three processors and come out with every number, in order, and "
-                    "nothing else does; any products"
-                  : "The same of folded processors",
-         Method::pdr,
+         unrolled
+             ? "Numbered objects run through three processors and come out with every number, in order, and "
+               "nothing else does; any products"
+             : "The same of folded processors",
+         unrolled ? Method::unrolled : Method::pdr,
          18,
          false,
          {{"g_exact", "false"},
@@ -523,31 +545,34 @@ std::vector<Proof> all_proofs() {
        false,
        6});
   for (const bool exact : {true, false})
-    proofs.push_back({"interpolation/quadratic_interpolator",
-                      "interpolation/quadratic_interpolator.psl",
-                      exact ? "Every line's and every pixel's words are what the second differences make of the triangle's, "
-                              "bit for bit, full width"
-                            : "The same in preset `published`",
-                      Method::induction,
-                      2,
-                      true,
-                      {{"g_exact", exact ? "true" : "false"}},
-                      exact ? carried_faults : quadratic_faults,
-                      {},
-                      false,
-                      5});
-  proofs.push_back({"interpolation/quadratic_interpolator",
-                    "interpolation/quadratic_interpolator_error.psl",
-                    "Within (1 + L + L(L-1)/2 + K(1 + L) + K(K-1)/2)/2 units of a twin of 4 bits more after any L "
-                    "lines, whatever carries, and K steps: 8 bits",
-                    Method::induction,
-                    1,
-                    false,
-                    {},
-                    carried_faults,
-                    {{"intensity", 7, 0}},
-                    false,
-                    5});
+    proofs.push_back(
+        {"interpolation/quadratic_interpolator",
+         "interpolation/quadratic_interpolator.psl",
+         exact
+             ? "Every line's and every pixel's words are what the second differences make of the triangle's, "
+               "bit for bit, full width"
+             : "The same in preset `published`",
+         Method::induction,
+         2,
+         true,
+         {{"g_exact", exact ? "true" : "false"}},
+         exact ? carried_faults : quadratic_faults,
+         {},
+         false,
+         5});
+  proofs.push_back(
+      {"interpolation/quadratic_interpolator",
+       "interpolation/quadratic_interpolator_error.psl",
+       "Within (1 + L + L(L-1)/2 + K(1 + L) + K(K-1)/2)/2 units of a twin of 4 bits more after any L "
+       "lines, whatever carries, and K steps: 8 bits",
+       Method::induction,
+       1,
+       false,
+       {},
+       carried_faults,
+       {{"intensity", 7, 0}},
+       false,
+       5});
   proofs.push_back(
       {"interpolation/quadratic_interpolator",
        "interpolation/intensity.gappa",
@@ -580,7 +605,8 @@ std::vector<Proof> all_proofs() {
       {"shaders/quadratic_shader",
        "shaders/quadratic_shader.psl",
        "Each pixel of the walker comes out once, with its own depth and colours, and stands still while it "
-       "waits; double buffer: the next triangle is taken while one is drawn, and goes to the walker once, as it "
+       "waits; double buffer: the next triangle is taken while one is drawn, and goes to the walker once, as "
+       "it "
        "came",
        Method::induction,
        3,
@@ -597,31 +623,34 @@ std::vector<Proof> all_proofs() {
        {},
        false,
        8});
-  proofs.push_back({"shaders/spherical_shader",
-                    "shaders/spherical_shader.psl",
-                    "The same through both stages behind the walker, in order, each with its own depth, ambient "
-                    "light and colour; a record goes to its line; any products",
-                    Method::induction,
-                    3,
-                    false,
-                    {{"g_channels", "1"}, {"g_highlight_channels", "1"}},
-                    {{"shaders/spherical_shader.vhd", "walking or sample_valid or product_valid",
-                      "walking or product_valid"},
-                     {"shaders/spherical_shader.vhd", "product_valid and product_ready", "product_valid"},
-                     {"shaders/spherical_shader.vhd", "load  => sample_step,\n      start => sample_depth",
-                      "load  => span_step,\n      start => sample_depth"},
-                     {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
-                      "load  => line_load,\n      start => line_ambient"},
-                     {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
-                     {"shaders/spherical_shader.vhd", "line_step or not line_held", "line_step or not waiting"}},
-                    {},
-                    true,
-                    10});
+  proofs.push_back(
+      {"shaders/spherical_shader",
+       "shaders/spherical_shader.psl",
+       "The same through both stages behind the walker, in order, each with its own depth, ambient "
+       "light and colour; a record goes to its line; any products",
+       Method::induction,
+       3,
+       false,
+       {{"g_channels", "1"}, {"g_highlight_channels", "1"}},
+       {{"shaders/spherical_shader.vhd", "walking or sample_valid or product_valid",
+         "walking or product_valid"},
+        {"shaders/spherical_shader.vhd", "product_valid and product_ready", "product_valid"},
+        {"shaders/spherical_shader.vhd", "load  => sample_step,\n      start => sample_depth",
+         "load  => span_step,\n      start => sample_depth"},
+        {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
+         "load  => line_load,\n      start => line_ambient"},
+        {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
+        {"shaders/spherical_shader.vhd", "line_step or not line_held", "line_step or not waiting"}},
+       {},
+       true,
+       10});
   proofs.push_back(
       {"shaders/processors_shader",
        "shaders/processors_shader.psl",
-       "Each object of the pipeline comes out once, with its own depth and colour, and stands still while it waits; "
-       "double buffer; a load goes past the walker as it came, when nothing is before it, and an object to the "
+       "Each object of the pipeline comes out once, with its own depth and colour, and stands still while it "
+       "waits; "
+       "double buffer; a load goes past the walker as it came, when nothing is before it, and an object to "
+       "the "
        "pipeline with what belongs to it and says where it lies; any products",
        Method::induction,
        2,
@@ -638,8 +667,10 @@ std::vector<Proof> all_proofs() {
         {"shaders/processors_shader.vhd", "waiting and loads and not walking and objects_idle",
          "waiting and loads and objects_idle"},
         {"shaders/processors_shader.vhd", "token_ready and load_valid when", "load_valid when"},
-        {"shaders/processors_shader.vhd", "command_word(c_new_object) when", "command_word(c_new_pixel) when"},
-        {"shaders/processors_shader.vhd", "if reset = '1' or objects_clear = '1' then", "if reset = '1' then"},
+        {"shaders/processors_shader.vhd", "command_word(c_new_object) when",
+         "command_word(c_new_pixel) when"},
+        {"shaders/processors_shader.vhd", "if reset = '1' or objects_clear = '1' then",
+         "if reset = '1' then"},
         {"shaders/processors_shader.vhd", "start => line_material",
          "start => init(init_material_low(c_config) + material_t'high downto init_material_low(c_config))"},
         {"shaders/processors_shader.vhd", "command = command_word(c_define) or",

@@ -173,12 +173,14 @@ std::string top_of(const Proof& proof, std::string_view unit) {
   return is_in(unit, "\nentity ") ? entity + "_proof" : entity;
 }
 
-// Declarations and statements of a process that gives `entry` of `address`: a constant for each bit of the entries.
+// Declarations and statements of a process that gives `entry` of `address`: a constant for each bit of the
+// entries.
 std::string vhdl_of_entries(const Proof& proof) {
   std::string constants, assignments;
   for (int bit = 0; bit < proof.entry_bits; ++bit) {
     std::string word;
-    for (const std::uint64_t entry : proof.entries) word.insert(word.begin(), (entry >> bit & 1) != 0 ? '1' : '0');
+    for (const std::uint64_t entry : proof.entries)
+      word.insert(word.begin(), (entry >> bit & 1) != 0 ? '1' : '0');
     constants += fmt::format("    constant c_{} : std_logic_vector({} downto 0) := \"{}\";\n", bit,
                              proof.entries.size() - 1, word);
     assignments += fmt::format("    entry({0}) <= c_{0}(to_integer(unsigned(address)));\n", bit);
@@ -321,18 +323,24 @@ Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fa
   if (!top) return top.error();
 
   // A fault is refuted by clocks that show it, whatever proves that there are none without it.
-  const bool bits = proof.method == Method::pdr;
+  const bool bits = proof.method == Method::pdr || proof.method == Method::unrolled;
   std::string script = fmt::format(kPrepared, *top, proof.any_products ? "cutpoint t:$mul; " : "");
   script +=
-      bits ? "delete -output; techmap; opt -fast; memory_map; techmap; opt -full; dffunmap; abc -g AND -fast; "
+      bits
+          ? "delete -output; techmap; opt -fast; memory_map; techmap; opt -full; dffunmap; abc -g AND -fast; "
             "opt_clean; write_aiger -I -B -zinit -no-startoffset model.aig"
-      : is_narrow(proof, fault) || !proof.entries.empty() ? "memory_map; opt -full; dffunmap; opt_clean; write_smt2 -wires model.smt2"
-                                : "write_smt2 -wires model.smt2";
+      : is_narrow(proof, fault) || !proof.entries.empty()
+          ? "memory_map; opt -full; dffunmap; opt_clean; write_smt2 -wires model.smt2"
+          : "write_smt2 -wires model.smt2";
   const auto prepared = run(folder, {"yosys", "-q", "-p", script});
   if (!prepared) return prepared.error();
   if (!prepared->succeeded()) return failed(proof, "yosys", *prepared);
   const int fault_depth = std::max(proof.depth, proof.fault_depth);
-  if (bits) return by_abc(folder, proof, fault == nullptr ? 0 : fault_depth);
+  if (bits)
+    return by_abc(folder, proof,
+                  fault != nullptr              ? fault_depth
+                  : proof.method == Method::pdr ? 0
+                                                : proof.depth);
   const auto first = by_solver(folder, proof, fault == nullptr ? proof.depth : fault_depth, false);
   if (!first || first->verdict != Verdict::holds || fault != nullptr || proof.method == Method::bounded)
     return first;

@@ -24,6 +24,7 @@ struct Fault {
 enum class Method {
   induction,  ///< true in the first `depth` clocks, and after any `depth` clocks in which it was
   bounded,    ///< true in the first `depth` clocks
+  unrolled,   ///< the same, bit by bit by ABC: for what has many registers and little arithmetic
   pdr,    ///< a set of states around all that can be reached, found by ABC; `depth` serves the faults alone
   gappa,  ///< bounds of real expressions; `unit` is Gappa's text with names of formats_pkg in it
 };
