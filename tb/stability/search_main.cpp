@@ -11,6 +11,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -209,14 +210,15 @@ Status report(const Search& search, const Options& options, const Found& found) 
   return Ok{};
 }
 
-std::string section_body(const Search& search, const Options& options, const Tally& tally, double seconds) {
+std::string section_body(const Search& search, const Options& options, const Tally& tally, double seconds,
+                         double processor_seconds) {
   std::string body = fmt::format(
       "{}\n\n`make search` with seed {}: {} inputs and {} fragments through the golden model against the "
       "specification, {} inputs and {} fragments through the RTL (Verilator) against the golden model; "
-      "{:.0f} s.\n\n"
+      "{:.0f} s, {:.0f} s of a processor.\n\n"
       "| quantity | inputs | worst | of |\n| --- | --- | --- | --- |\n",
       search.about(), options.seed, tally.inputs, tally.fragments, tally.rtl_inputs, tally.rtl_fragments,
-      seconds);
+      seconds, processor_seconds);
   for (const auto& [quantity, worst] : tally.worst)
     body += fmt::format("| {} | {} | {:.3g} | {:.3g} |\n", quantity, worst.count, worst.figure, worst.bound);
   return body;
@@ -225,6 +227,7 @@ std::string section_body(const Search& search, const Options& options, const Tal
 ExitCode run_search(const Search& search, const Options& options, std::uint64_t count,
                     std::vector<Section>& sections) {
   const auto began = std::chrono::steady_clock::now();
+  const std::clock_t processor_began = std::clock();
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   };
@@ -257,8 +260,9 @@ ExitCode run_search(const Search& search, const Options& options, std::uint64_t 
     fmt::print(stderr, "{}\n", run.tools().error().message);
     return run.tools().error().code;
   }
-  sections.push_back(
-      {fmt::format("Search: {}", search.name()), section_body(search, options, tally, seconds())});
+  sections.push_back({fmt::format("Search: {}", search.name()),
+                      section_body(search, options, tally, seconds(),
+                                   double(std::clock() - processor_began) / CLOCKS_PER_SEC)});
   return ExitCode::equal;
 }
 

@@ -307,7 +307,9 @@ class TriangleSearch final : public Search {
     return "Triangles of every kind (slivers a unit thick, a line high, within a pixel, on pixel centres, "
            "over "
            "the whole guard band), a quarter of a quarter of them down to level 5, samples up to 1023 steps, "
-           "depths from the near to the far plane, frames of 1 to 4096 pixels either way.";
+           "depths from the near to the far plane, frames of 1 to 4096 pixels either way. Colour and depth "
+           "are in "
+           "steps past the half of one that rounding takes, of what the pixel's forward differences may add.";
   }
   std::span<const Parameter> parameters() const override { return c_parameters; }
   std::uint64_t full_count() const override { return 10'000'000; }
