@@ -53,25 +53,6 @@ TEST(Power, ExactOverAllBases) {
   }
 }
 
-template <class Preset>
-void expect_ends() {
-  using P = Power<Preset>;
-  constexpr std::uint32_t c_weight_one = 1U << Preset::c_weight_fraction_bits;
-  const std::uint32_t largest = (1U << Preset::c_exponent_bits) - 1;
-  for (const std::uint32_t m : {0U, 1U, largest / 3, largest}) {
-    EXPECT_EQ(P::power(P::c_one, m), c_weight_one) << m;
-    EXPECT_EQ(P::power(0, m), 0U) << m;
-  }
-  for (const std::uint32_t base : {1U, 77U, P::c_one / 2, P::c_one - 1})
-    EXPECT_EQ(P::power(base, 0), c_weight_one) << base;
-  EXPECT_EQ(P::power(1, largest), 0U);
-}
-
-TEST(Power, Ends) {
-  expect_ends<Exact>();
-  expect_ends<Published>();
-}
-
 // A power never rises where its base falls: no rings about a highlight.
 TEST(Power, RisesWithItsBase) {
   for (const std::uint32_t m : {1U, 5U, 50U, 500U}) {

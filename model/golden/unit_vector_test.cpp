@@ -127,26 +127,5 @@ TEST(UnitVector, LengthAndDirection) {
   expect_unit<Published, Published::c_vector_bits + 1>(-6.86, -13.2);
 }
 
-TEST(UnitVector, NoneOfAZeroVector) {
-  EXPECT_EQ((normalized<Exact, 30>({0, 0, 0})), (Axes{0, 0, 0}));
-  EXPECT_EQ((normalized<Published, 16>({0, 0, 0})), (Axes{0, 0, 0}));
-}
-
-TEST(UnitVector, CosinesFromZeroToOne) {
-  constexpr std::int64_t c_one = std::int64_t{1} << 44, c_half_step = 1 << 21;
-  EXPECT_EQ(cosine<Exact>(-1), 0U);
-  EXPECT_EQ(cosine<Exact>(-c_one), 0U);
-  EXPECT_EQ(cosine<Exact>(0), 0U);
-  EXPECT_EQ(cosine<Exact>(c_half_step - 1), 0U);
-  EXPECT_EQ(cosine<Exact>(c_half_step), 1U);
-  EXPECT_EQ(cosine<Exact>(c_one / 2), 1U << 21);
-  EXPECT_EQ(cosine<Exact>(c_one - c_half_step - 1), (1U << 22) - 1);
-  EXPECT_EQ(cosine<Exact>(c_one), 1U << 22);
-  EXPECT_EQ(cosine<Exact>(3 * c_one), 1U << 22);
-  EXPECT_TRUE(positive(1));
-  EXPECT_FALSE(positive(0));
-  EXPECT_FALSE(positive(-1));
-}
-
 }  // namespace
 }  // namespace halfway::golden

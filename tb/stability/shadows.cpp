@@ -31,7 +31,7 @@ PlanRequest request_of(ProcessorForm form) {
 }
 
 FrameSize frame_of(const Trial& trial) {
-  return trial.quick() ? FrameSize{64, 48} : FrameSize{160, 120};
+  return trial.quick() ? FrameSize{64, 48} : FrameSize{120, 90};
 }
 
 // What lies on the ways to the lights. A triangle that turns its outside away from a light casts, and is dark
@@ -277,7 +277,7 @@ template <class Change>
 void cast_on_floors(Trial& trial, unsigned seed, Change&& change) {
   RandomSolids random(seed);
   Sum sum;
-  for (int i = 0; i < trial.rounds(4, 30); ++i) {
+  for (int i = 0; i < trial.rounds(4, 20); ++i) {
     Scene scene = on_a_floor(random, 4);
     change(random, scene, i);
     cast(trial, scene, fmt::format("scene {}", i), sum);
@@ -288,7 +288,7 @@ void cast_on_floors(Trial& trial, unsigned seed, Change&& change) {
 void shared_edges(Trial& trial) {
   RandomSolids random(5);
   Sum sum;
-  for (int i = 0; i < trial.rounds(4, 60); ++i)
+  for (int i = 0; i < trial.rounds(4, 20); ++i)
     cast(trial, random.scene(1 + i % 5), fmt::format("scene {}", i), sum);
   finish(trial, sum);
 }
@@ -335,7 +335,7 @@ void light_inside(Trial& trial) {
 void terminators(Trial& trial) {
   RandomSolids random(12);
   Sum sum;
-  for (int i = 0; i < trial.rounds(4, 30); ++i) {
+  for (int i = 0; i < trial.rounds(4, 20); ++i) {
     Scene scene = random.scene(0);
     add_mesh(scene, make_uv_sphere(random.whole(5, 24), random.whole(4, 16), 1.3));
     const double side = random.within(-0.3, 0.3);
@@ -353,7 +353,7 @@ void terminators(Trial& trial) {
 void plates(Trial& trial) {
   RandomSolids random(13);
   Sum sum;
-  for (int i = 0; i < trial.rounds(4, 40); ++i) {
+  for (int i = 0; i < trial.rounds(4, 20); ++i) {
     Scene scene = random.scene(0);
     double top = 0.0;
     for (int plate = 0; plate < 6; ++plate) {

@@ -113,7 +113,7 @@ void Trial::compare_rtl(const HardwareKey& key, unsigned init_bits, std::span<co
   const std::size_t most = golden.size() + c_most_surplus;
   const Status verilated = run_verilator(key, init_bits, words, drawn, most);
   compare("Verilator", verilated, drawn);
-  if (quick_ || golden.size() > c_most_for_ghdl || !through_ghdl_.insert(key.name()).second) return;
+  if (quick_ || golden.size() > c_most_for_ghdl || !rtl_.through_ghdl.insert(key.name()).second) return;
   drawn.clear();
   const Status simulated = run_ghdl(key, init_bits, words, drawn, most);
   compare("GHDL", simulated, drawn);
@@ -121,11 +121,11 @@ void Trial::compare_rtl(const HardwareKey& key, unsigned init_bits, std::span<co
 
 Status Trial::run_verilator(const HardwareKey& key, unsigned init_bits, std::span<const std::uint32_t> words,
                             std::vector<Fragment>& drawn, std::size_t most) {
-  auto found = rtl_.find(key.name());
-  if (found == rtl_.end()) {
+  auto found = rtl_.verilated.find(key.name());
+  if (found == rtl_.verilated.end()) {
     auto opened = VerilatorSimulator::open(key, folders_);
     if (!opened) return opened.error();
-    found = rtl_.emplace(key.name(), std::move(*opened)).first;
+    found = rtl_.verilated.emplace(key.name(), std::move(*opened)).first;
   }
   VerilatorSimulator& rtl = found->second;
   const unsigned words_each = (init_bits + 31) / 32;
@@ -136,7 +136,7 @@ Status Trial::run_verilator(const HardwareKey& key, unsigned init_bits, std::spa
   if (key.shader == Shader::processors) status = run(forget_lights(key, words_each));
   if (status) status = run(words);
   if (status) status = rtl.finish(drawn, most);
-  if (!status) rtl_.erase(found);  // it has gone astray
+  if (!status) rtl_.verilated.erase(found);  // it has gone astray
   return status;
 }
 

@@ -52,8 +52,11 @@ struct Drawing {
 /// The scene through plan, setup and golden model.
 Result<Drawing> draw_golden(const Scene& scene, const DrawOptions& options);
 
-/// RTL that runs in this process, by key; for one thread.
-using Simulators = std::map<std::string, VerilatorSimulator>;
+/// What goes from one case to the next; for one thread.
+struct Simulators {
+  std::map<std::string, VerilatorSimulator> verilated{};  ///< RTL that runs in this process, by key
+  std::set<std::string> through_ghdl{};                   ///< keys of which GHDL has drawn something
+};
 
 class Trial {
  public:
@@ -108,7 +111,6 @@ class Trial {
   std::string failure_;
   Status tools_ = Ok{};
   std::uint64_t golden_fragments_ = 0, rtl_fragments_ = 0;
-  std::set<std::string> through_ghdl_;  ///< keys of which GHDL has drawn something
 };
 
 }  // namespace halfway::stability
