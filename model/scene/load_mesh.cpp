@@ -38,6 +38,14 @@ constexpr std::array<std::string_view, 5> c_endings = {".obj", ".ply", ".stl", "
 
 // What the child may take. A million triangles of OBJ take assimp 240 MiB.
 constexpr rlim_t c_child_memory_bytes = rlim_t{8} << 30;
+// Sanitizers reserve terabytes of addresses. GCC tells of itself by these names, Clang by __has_feature.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool c_limits_addresses = false;
+#elif defined(__has_feature)
+constexpr bool c_limits_addresses = !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer);
+#else
+constexpr bool c_limits_addresses = true;
+#endif
 constexpr rlim_t c_child_cpu_seconds = 300;
 constexpr std::uintmax_t c_max_file_bytes = std::uintmax_t{4} << 30;
 
@@ -338,9 +346,7 @@ void limit(int resource, rlim_t value) {
                             int descriptor) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, c_child_cpu_seconds);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // those reserve terabytes
-  limit(RLIMIT_AS, c_child_memory_bytes);
-#endif
+  if (c_limits_addresses) limit(RLIMIT_AS, c_child_memory_bytes);
   // What a dying library prints would stand before our own message.
   const int null = ::open("/dev/null", O_WRONLY);
   if (null >= 0) {
