@@ -68,6 +68,8 @@ std::string make_sim(const std::string& scene, const CompareCommand& command) {
 
 // Whether all that a run left of a scene is equal.
 Result<bool> compare_scene(const std::string& scene, const CompareCommand& command) {
+  if (const std::string name = result_name(scene); name.empty() || name == "." || name == "..")
+    return bad_input(fmt::format("'{}' is no scene's name", scene));
   const ResultFiles files =
       ResultFiles::of(command.out, result_name(scene), command.shader, command.all_effects);
   const auto none = [&](const char* what) {

@@ -490,7 +490,8 @@ std::string to_json(const SceneSummary& s) {
       {"setup_seconds", s.setup_seconds},
       {"golden_seconds", s.golden_seconds},
       {"seconds", s.seconds}};
-  return json.dump(2) + "\n";
+  // A scene's name is a file's, and any bytes.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string to_line(const SceneSummary& s) {

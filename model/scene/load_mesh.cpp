@@ -2,6 +2,7 @@
 #include "scene/load_mesh.hpp"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/importerdesc.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -123,6 +124,19 @@ void keep_four_readers(Assimp::Importer& importer) {
   }
 }
 
+/// Opens regular files alone, whatever a mesh file names as its materials or buffers: a pipe or a device may
+/// never end.
+class RegularFiles final : public Assimp::DefaultIOSystem {
+ public:
+  bool Exists(const char* file) const override {
+    std::error_code fault;
+    return std::filesystem::is_regular_file(file, fault);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return Exists(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+};
+
 struct Instance {
   const aiMesh* mesh;
   aiMatrix4x4 to_file;
@@ -232,6 +246,7 @@ Material get_material(Source& source) {
 /// Does the child's whole work; throws Refused with the reason, without the file's name.
 void import_file(const std::filesystem::path& path, const MeshFileSummary& summary, Sink& sink) {
   Assimp::Importer importer;
+  importer.SetIOHandler(new RegularFiles);  // which the importer owns
   keep_four_readers(importer);
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
   if (scene == nullptr) throw Refused(importer.GetErrorString());

@@ -55,7 +55,8 @@ void draw_by(Shader shader, const Scene& scene, FrameSize size, unsigned choice)
     const Status added = assembler.add(batch.golden);
     demand(bool(added), added ? "" : added.error().message);
   }
-  demand(assembler.frame().rgb.size() == 3 * std::size_t{size.width} * size.height, "a frame of another size");
+  demand(assembler.frame().rgb.size() == 3 * std::size_t{size.width} * size.height,
+         "a frame of another size");
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 #include "common/result.hpp"
 
-/// What libFuzzer calls for each input; replay.cpp calls it for each file. Gives 0, or -1 for an input that is
-/// not worth keeping.
+/// What libFuzzer calls for each input; replay.cpp calls it for each file. Gives 0, or -1 for an input that
+/// is not worth keeping.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace halfway::fuzz {

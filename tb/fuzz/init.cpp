@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Init vectors: read whole or refused; what was read writes back to what reads the same; and whatever bits a
 // vector holds, the golden model of its hardware draws it and ends, with probes as without.
-#include "frame/init_file.hpp"
-
 #include <algorithm>
 #include <memory>
 #include <vector>
 
+#include "frame/init_file.hpp"
 #include "fuzz/draw.hpp"
 #include "fuzz/fuzz.hpp"
 #include "golden/processors_layout.hpp"
@@ -33,8 +32,7 @@ Scene scene_with_all() {
   scene.materials = {{.name = "grey"}, {.name = "red", .colour = {1.0, 0.0, 0.0}, .exponent = 7.0}};
   scene.positions_world = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   scene.normals_world = {{0, 0, 1}};
-  for (const std::uint32_t material : {0U, 1U})
-    scene.triangles.push_back({{0, 1, 2}, {0, 0, 0}, material});
+  for (const std::uint32_t material : {0U, 1U}) scene.triangles.push_back({{0, 1, 2}, {0, 0, 0}, material});
   return scene;
 }
 

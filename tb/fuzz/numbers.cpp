@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mutations that bytes alone seldom hit, for text formats: a number becomes another, of any size; a line goes,
-// comes twice, or changes places.
+// Mutations that bytes alone seldom hit, for text formats: a number becomes another, of any size; a line
+// goes, comes twice, or changes places.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,13 +14,54 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 
 namespace {
 
-constexpr std::array<std::string_view, 48> c_numbers = {
-    "0",        "-0.0",     "1",         "-1",        "0.5",      "2",         "3",        "4",
-    "1e-3",     "1e-8",     "1e-16",     "1e-30",     "1e-45",    "1e-100",    "1e-160",   "5e-324",
-    "2.3e-308", "1e3",      "1e6",       "1e8",       "1e12",     "1e15",      "-1e15",    "1e16",
-    "1e30",     "1e38",     "3.5e38",    "1e154",     "1e200",    "1e308",     "1e309",    "-1e308",
-    "nan",      "inf",      "-inf",      "89.999999", "90",       "180",       "179.9999", "0.1",
-    "255",      "65535",    "2147483647", "-2147483648", "4294967296", "9223372036854775807", "18446744073709551616", "0x7f"};
+constexpr std::array<std::string_view, 48> c_numbers = {"0",
+                                                        "-0.0",
+                                                        "1",
+                                                        "-1",
+                                                        "0.5",
+                                                        "2",
+                                                        "3",
+                                                        "4",
+                                                        "1e-3",
+                                                        "1e-8",
+                                                        "1e-16",
+                                                        "1e-30",
+                                                        "1e-45",
+                                                        "1e-100",
+                                                        "1e-160",
+                                                        "5e-324",
+                                                        "2.3e-308",
+                                                        "1e3",
+                                                        "1e6",
+                                                        "1e8",
+                                                        "1e12",
+                                                        "1e15",
+                                                        "-1e15",
+                                                        "1e16",
+                                                        "1e30",
+                                                        "1e38",
+                                                        "3.5e38",
+                                                        "1e154",
+                                                        "1e200",
+                                                        "1e308",
+                                                        "1e309",
+                                                        "-1e308",
+                                                        "nan",
+                                                        "inf",
+                                                        "-inf",
+                                                        "89.999999",
+                                                        "90",
+                                                        "180",
+                                                        "179.9999",
+                                                        "0.1",
+                                                        "255",
+                                                        "65535",
+                                                        "2147483647",
+                                                        "-2147483648",
+                                                        "4294967296",
+                                                        "9223372036854775807",
+                                                        "18446744073709551616",
+                                                        "0x7f"};
 
 bool is_number_part(char c) {
   return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
@@ -35,8 +76,8 @@ std::vector<Piece> numbers_in(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     std::size_t end = i;
     bool digit = false;
-    while (end < text.size() && is_number_part(text[end])) digit |= text[end] >= '0' && text[end++] <= '9';
-    while (end < text.size() && is_number_part(text[end])) ++end;
+    for (; end < text.size() && is_number_part(text[end]); ++end)
+      digit = digit || (text[end] >= '0' && text[end] <= '9');
     if (digit) found.push_back({i, end - i});
     i = end > i ? end : i + 1;
   }

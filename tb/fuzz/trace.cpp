@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traces: read whole or refused; what was read writes back to what reads the same, compares equal with itself,
-// and assembles to a frame of its size.
+// Traces: read whole or refused; what was read writes back to what reads the same, compares equal with
+// itself, and assembles to a frame of its size.
 #include "frame/trace.hpp"
 
 #include "frame/assemble.hpp"
@@ -15,7 +15,8 @@ void assemble(const Trace& trace, FrameSize size) {
   FrameAssembler assembler(size, {0.5, 0.0, 1.0});
   const Status added = assembler.add(trace.fragments);
   if (!added) demand(added.error().code == ExitCode::differs, added.error().message);
-  demand(assembler.frame().rgb.size() == 3 * std::size_t{size.width} * size.height, "a frame of another size");
+  demand(assembler.frame().rgb.size() == 3 * std::size_t{size.width} * size.height,
+         "a frame of another size");
   demand(assembler.covered_pixels() <= assembler.mask().size(), "more covered pixels than there are");
 }
 
