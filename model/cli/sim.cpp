@@ -136,6 +136,13 @@ int run(const Folders& folders, const SimOptions& options) {
                                   "into another --out",
                                   scenes[i], scenes[j])));
 
+  for (const std::string& scene : scenes) {
+    const auto files = ResultFiles::of(settings.out, result_name(scene), to_string(settings.plan.shader),
+                                       settings.plan.all_effects);
+    if (const Status status = forget_summary(files, [&] { say_waiting(files.folder); }); !status)
+      return report(status.error());
+  }
+
   // Scenes side by side: GHDL runs on one core, and it is what takes the time.
   const unsigned workers = std::clamp<unsigned>(static_cast<unsigned>(scenes.size()), 1, draw->threads);
   settings.threads = std::max(1U, draw->threads / workers);

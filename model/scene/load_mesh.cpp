@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -359,6 +360,7 @@ void limit(int resource, rlim_t value) {
 
 [[noreturn]] void run_child(const std::filesystem::path& path, const MeshFileSummary& summary,
                             int descriptor) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing runs on after us, whatever kills us
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, c_child_cpu_seconds);
   if (c_limits_addresses) limit(RLIMIT_AS, c_child_memory_bytes);
