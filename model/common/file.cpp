@@ -24,6 +24,11 @@ Error cannot(ExitCode code, const std::filesystem::path& path, std::string_view 
   return {code, fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(error))};
 }
 
+// A full or failing disk is no fault of who named the file.
+ExitCode code_of(int error) {
+  return error == ENOSPC || error == EDQUOT || error == EIO ? ExitCode::tool_failed : ExitCode::bad_input;
+}
+
 int write_all(int descriptor, const char* bytes, std::size_t count) {
   while (count > 0) {
     const ssize_t written = ::write(descriptor, bytes, count);
@@ -115,9 +120,7 @@ Status make_folders(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (!error) return Ok{};
-  // A full or failing disk is no fault of who named the folder.
-  const bool disk = error == std::errc::no_space_on_device || error == std::errc::io_error;
-  return Error{disk ? ExitCode::tool_failed : ExitCode::bad_input,
+  return Error{code_of(error.value()),
                fmt::format("{}: cannot make the folder: {}", folder.string(), error.message())};
 }
 
@@ -143,8 +146,7 @@ Result<TemporaryFolder> TemporaryFolder::make(const std::filesystem::path& paren
   if (auto made = make_folders(parent); !made) return made.error();
   remove_stale(parent, kFolderPrefix);
   std::string name = (parent / kFolderPrefix).string() + "XXXXXX";
-  if (::mkdtemp(name.data()) == nullptr)
-    return cannot(ExitCode::tool_failed, parent, "make a folder in it", errno);
+  if (::mkdtemp(name.data()) == nullptr) return cannot(code_of(errno), parent, "make a folder in it", errno);
   ::chmod(name.c_str(), 0755);
   const int descriptor = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor >= 0) mark_in_use(descriptor);
@@ -186,7 +188,7 @@ Result<LineWriter> LineWriter::open(const std::filesystem::path& path) {
   remove_stale_parts(path);
   std::string temporary = path.string() + ".part-XXXXXX";
   const int descriptor = ::mkostemp(temporary.data(), O_CLOEXEC);
-  if (descriptor < 0) return cannot(ExitCode::tool_failed, path, "write", errno);
+  if (descriptor < 0) return cannot(code_of(errno), path, "write", errno);
   mark_in_use(descriptor);
   ::fchmod(descriptor, 0644);
   return LineWriter(path, temporary, descriptor);
