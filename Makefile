@@ -19,6 +19,9 @@ flag = $$(case "$${$(1)}" in ('' | 0) ;; (*) echo $(2) ;; esac)
 # What is started does not inherit the lock: it would outlive this make in whatever that leaves running.
 lock = mkdir -p build && { flock -n build/make.lock true || echo 'waiting for another make in this checkout' >&2; } \
   && flock -o build/make.lock
+# What is built with sanitizers: make sanitize and make fuzz share it.
+sanitized = $(lock) sh -c 'cmake --log-level=NOTICE -S . -B build/sanitize -G Ninja -DHALFWAY_SANITIZE=ON \
+  -DCMAKE_CXX_COMPILER=clang++ && cmake --build build/sanitize -j "$$@"' make "$(jobs)"
 scene := $${SCENE:+-- "$$SCENE"}
 run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size) \
   $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights)
@@ -82,15 +85,13 @@ check-tables: generator ## fail if make tables would change anything
 test: build ## every test
 	@flock -o build/test.lock ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
 
-sanitize: configure ## every test with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitize
-	@$(lock) sh -c 'cmake --log-level=NOTICE -S . -B build/sanitize -G Ninja -DHALFWAY_SANITIZE=ON \
-	  -DCMAKE_CXX_FLAGS_RELEASE=-O1 && cmake --build build/sanitize -j "$$0"' "$(jobs)"
+sanitize: setup ## every test with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitize
+	@$(sanitized)
 	@flock -o build/test.lock ctest --test-dir build/sanitize --output-on-failure --no-tests=error -j "$(jobs)" \
 	  $${TESTS:+--tests-regex "$$TESTS"}
 
 fuzz: setup ## libFuzzer on every kind of input (SECONDS each; TARGET: one alone)
-	@$(lock) sh -c 'cmake --log-level=NOTICE -S . -B build/fuzz -G Ninja -DHALFWAY_FUZZ=ON \
-	  -DCMAKE_CXX_COMPILER=clang++ && cmake --build build/fuzz -j "$$0"' "$(jobs)"
+	@$(sanitized) --target halfway_fuzz_targets
 	@scripts/fuzz.sh "$${SECONDS:-60}" "$(jobs)" $${TARGET:+"$$TARGET"}
 
 kills: build ## the long form of the tests with kill -9: 60 moments in place of a few
@@ -126,7 +127,7 @@ configure: setup
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs one package more, and so
 # do `make plan MEASURE=1` and `make prove`.
 setup:
-	@$(lock) scripts/setup.sh $(filter bench prove fuzz,$(MAKECMDGOALS)) \
+	@$(lock) scripts/setup.sh $(filter bench prove,$(MAKECMDGOALS)) $(if $(filter fuzz sanitize,$(MAKECMDGOALS)),fuzz) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth))
 
 doctor: ## tools and libraries found, and the command that mends what is missing

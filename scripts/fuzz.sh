@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Runs libFuzzer's targets of build/fuzz and prints a table of what they found.
+# Runs libFuzzer's targets of build/sanitize and prints a table of what they found.
 #
 #   scripts/fuzz.sh SECONDS JOBS [TARGET...]   none named: all, each for that many seconds, JOBS at a time
 #
@@ -25,7 +25,7 @@ if [ "${1-}" = --one ]; then
   status=0
   TMPDIR=$PWD/$build/tmp/$target ASAN_OPTIONS="log_path=$log_path:detect_leaks=1" \
     UBSAN_OPTIONS="print_stacktrace=1:log_path=$log_path" \
-    "$build/tb/fuzz/fuzz_$target" "-max_total_time=$seconds" -timeout=20 -report_slow_units=10 -rss_limit_mb=3000 \
+    "build/sanitize/tb/fuzz/fuzz_$target" "-max_total_time=$seconds" -timeout=20 -report_slow_units=10 -rss_limit_mb=3000 \
     -max_len=8192 -len_control=20 -print_final_stats=1 "-artifact_prefix=$build/crashes/$target-" \
     $([ ! -f "$dictionary" ] || echo "-dict=$dictionary") \
     "$build/corpus/$target" "$inputs/seeds/$target" "$inputs/regressions/$target" \
