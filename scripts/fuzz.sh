@@ -57,9 +57,11 @@ for target in "$@"; do
   status=$(cat "$build/logs/$target.status" 2>/dev/null || echo 3)
   last() { sed -n "s/.*$1 *\([0-9][0-9]*\).*/\1/p" "$log" | tail -n 1; }
   crashes=$(find "$build/crashes" -name "$target-*" ! -name "$target-slow-unit-*" | wc -l)
+  # Of the process that reads meshes: what our own code did, not what assimp did.
+  reports=$(cat "$build/logs/$target.report."* 2>/dev/null | grep -cE 'runtime error:|^ *#0 .* in halfway::') || true
   state=clean
-  if [ "$crashes" != 0 ]; then
-    state="see $build/crashes/$target-*"
+  if [ "$crashes" != 0 ] || [ "$reports" != 0 ]; then
+    state="see $build/crashes/$target-* and $build/logs/$target.*"
     [ "$worst" != 0 ] || worst=1
   elif [ "$status" != 0 ]; then
     state="ended with $status, see $log"
