@@ -7,7 +7,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 # What a target hands to the program. Values travel through the environment and are quoted where they are
 # used: neither make nor a shell ever reads them as code.
 variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS \
-  ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE TRIANGLES SEED
+  ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE TRIANGLES SEED SECONDS TARGET
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
 
@@ -15,6 +15,13 @@ jobs := $${JOBS:-$$(nproc)}
 option = $${$(1):+$(2)="$$$(1)"}
 # A flag is given where its variable is neither empty nor 0.
 flag = $$(case "$${$(1)}" in ('' | 0) ;; (*) echo $(2) ;; esac)
+# One set-up, configuration or build at a time in this checkout: ninja would write into the other's files.
+# What is started does not inherit the lock: it would outlive this make in whatever that leaves running.
+lock = mkdir -p build && { flock -n build/make.lock true || echo 'waiting for another make in this checkout' >&2; } \
+  && flock -o build/make.lock
+# What is built with sanitizers: make sanitize and make fuzz share it.
+sanitized = $(lock) sh -c 'cmake --log-level=NOTICE -S . -B build/sanitize -G Ninja -DHALFWAY_SANITIZE=ON \
+  -DCMAKE_CXX_COMPILER=clang++ && cmake --build build/sanitize -j "$$@"' make "$(jobs)"
 scene := $${SCENE:+-- "$$SCENE"}
 run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size) \
   $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights)
@@ -23,9 +30,8 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim compare why plan figure17 gallery tables check-tables test mutate prove stability search bounds \
-  bench build program generator \
-  configure setup doctor format check-format clean
+.PHONY: help sim compare why plan figure17 gallery tables check-tables test sanitize fuzz kills mutate prove \
+  stability search bounds bench build program generator configure setup doctor format check-format clean
 
 help: ## this list
 	@echo 'Halfway: shading hardware in VHDL, checked bit for bit against C++'
@@ -48,7 +54,8 @@ help: ## this list
 	@echo '  PIXEL      x,y of the pixel that make why explains'
 	@echo '  ADDRESS_BITS, DATA_BITS   make tables: size of cosine tables  (default: 9, 8; published 6, 6)'
 	@echo '  TESTS      a regular expression: make test runs only the tests that match'
-	@echo '  JOBS       parallel compilations and tests                (default: all cores)'
+	@echo '  JOBS       parallel compilations, tests and fuzzers       (default: all cores)'
+	@echo '  SECONDS, TARGET   make fuzz: for how long each (default: 60), and one target alone'
 
 sim: program ## scenes through golden model, GHDL and Verilator: compare, write frames
 	@build/halfway sim $(sim_options) $(scene)
@@ -77,53 +84,66 @@ check-tables: generator ## fail if make tables would change anything
 	@build/halfway_generator tables --check $(table_options)
 
 test: build ## every test
-	@ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
+	@flock -o build/test.lock ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
+
+sanitize: setup ## every test with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitize
+	@$(sanitized)
+	@flock -o build/test.lock ctest --test-dir build/sanitize --output-on-failure --no-tests=error -j "$(jobs)" \
+	  $${TESTS:+--tests-regex "$$TESTS"}
+
+fuzz: setup ## libFuzzer on every kind of input (SECONDS each; TARGET: one alone)
+	@$(sanitized) --target halfway_fuzz_targets
+	@scripts/fuzz.sh "$${SECONDS:-60}" "$(jobs)" $${TARGET:+"$$TARGET"}
+
+kills: build ## the long form of the tests with kill -9: 60 moments in place of a few
+	@tb/robustness/kill.sh build/halfway build/halfway_generator . build/tb/kills 60
 
 mutate: configure ## small faults in the RTL, which the tests must find, and what those tests reach
-	@cmake --build build -j "$(jobs)" --target halfway_mutants halfway_vectors
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_mutants halfway_vectors
 	@build/tb/halfway_vectors all build/tb/vectors
 	@build/tb/halfway_mutants --jobs "$(jobs)" --page tb/mutants/README.md . build/tb/vectors build/tb/mutants
 
 prove: configure ## formal proofs on the RTL, each with faults that it must refute
-	@cmake --build build -j "$(jobs)" --target halfway_proofs
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_proofs
 	@build/tb/halfway_proofs --page tb/proofs/README.md . build/proofs
 
 stability: configure ## hard cases, in specification, golden model and RTL: what breaks, and what holds
-	@cmake --build build -j "$(jobs)" --target halfway_stability
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_stability
 	@build/tb/halfway_stability --page tb/stability/README.md .
 
 search: configure ## random triangles in golden model and RTL; what fails is shrunk and kept (TRIANGLES, SEED)
-	@cmake --build build -j "$(jobs)" --target halfway_search
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_search
 	@build/tb/halfway_search $(call option,TRIANGLES,--triangles) $(call option,SEED,--seed) \
 	  --page tb/stability/README.md --keep tb/stability/regressions .
 
 bounds: configure ## every bound of formats and tables: derived, proved, and how near the worst found comes
-	@cmake --build build -j "$(jobs)" --target halfway_bounds
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds
 	@build/tb/halfway_bounds --page tb/bounds/README.md build/bounds
 
 bench: program ## speed, as ratios within one run
-	@cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench
 
 build: program ## program and tests
-	@cmake --build build -j "$(jobs)"
+	@$(lock) cmake --build build -j "$(jobs)"
 
 program: configure
-	@cmake --build build -j "$(jobs)" --target halfway
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway
 
 generator: configure
-	@cmake --build build -j "$(jobs)" --target halfway_generator
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_generator
 
 # Again when set-up found a change on the machine; from scratch when the checkout has moved.
 configure: setup
-	@here=$$(pwd -P); key=$$(cat build/setup*.stamp); fresh=; cd "$$here"; \
+	@$(lock) sh -c 'here=$$(pwd -P); key=$$(cat build/setup*.stamp); fresh=; cd "$$here"; \
 	if ! grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$$here" build/CMakeCache.txt; then fresh=--fresh; \
 	elif [ -f build/configure.stamp ] && [ "$$(cat build/configure.stamp)" = "$$key" ]; then exit 0; fi; \
-	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf '%s\n' "$$key" >build/configure.stamp
+	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs one package more, and so
-# do `make plan MEASURE=1`, `make prove`, `make bounds` and `make mutate`.
+# do `make plan MEASURE=1`, `make prove`, `make bounds`, `make mutate`, `make fuzz` and `make sanitize`.
 setup:
-	@scripts/setup.sh $(filter bench prove bounds mutate,$(MAKECMDGOALS)) \
+	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate,$(MAKECMDGOALS)) \
+	  $(if $(filter fuzz sanitize,$(MAKECMDGOALS)),fuzz) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth))
 
 doctor: ## tools and libraries found, and the command that mends what is missing

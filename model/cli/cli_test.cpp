@@ -384,7 +384,9 @@ TEST_F(CliTest, CompareSaysWhatIsNotThere) {
   std::filesystem::remove(folder / "summary.json");
   const Outcome broken_off = run(compare);
   EXPECT_EQ(broken_off.exit_code, 2) << broken_off.output;
-  EXPECT_THAT(broken_off.output, HasSubstr("a run here was broken off; run `make sim SCENE=one OUT="));
+  EXPECT_THAT(
+      broken_off.output,
+      HasSubstr("a run here was broken off, or has not come to it yet; run `make sim SCENE=one OUT="));
   auto json = nlohmann::json::parse(*summary);
   json["runs"][0]["fault"] = "it hangs";
   ASSERT_TRUE(write_file(folder / "summary.json", json.dump()));
@@ -468,6 +470,37 @@ TEST_F(CliTest, AFullDiskExitsThreeAndLeavesNothingHalfWritten) {
   EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
   for (const char* file : {"summary.json", "init.txt", "golden.trace", "verilator.trace"})
     EXPECT_FALSE(std::filesystem::exists(out() / "spheres" / "quadratic" / file)) << file;
+}
+
+// A scene's name is a file's: any bytes. It goes into summary.json, whose texts are UTF-8.
+TEST_F(CliTest, AScenesNameMayBeAnyBytes) {
+  const auto scene = write("caf\xe9.toml", "[[mesh]]\nkind = \"box\"\n");
+  const Outcome outcome = run({"sim", scene, "--size", "20x15", "--simulator", "verilator", "--out", out()});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  const auto summary = read_file(out() / "caf\xe9" / "quadratic" / "summary.json");
+  ASSERT_TRUE(summary);
+  EXPECT_EQ(nlohmann::json::parse(*summary).at("scene"), "caf\xef\xbf\xbd");
+}
+
+TEST_F(CliTest, WhatAFileSaysDoesNotReachTheTerminalRaw) {
+  const auto scene = write("red.toml", "\"\\u001b[31mred\" = 1\n");
+  const Outcome outcome = run({"sim", scene, "--out", out()});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("unknown key '?[31mred'"), Not(HasSubstr("\x1b"))));
+}
+
+TEST_F(CliTest, TooLittleMemoryExitsThree) {
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+  GTEST_SKIP() << "AddressSanitizer reserves terabytes of addresses";
+#endif
+#endif
+  // What loading the libraries takes, and some.
+  const Outcome outcome = run_as({"bash", "-c",
+                                  std::string("ulimit -c 0; ulimit -v 700000; exec '") + HALFWAY_PROGRAM +
+                                      "' sim spheres --size 4096x4096 --simulator verilator --out out"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("out of memory"));
 }
 
 TEST_F(CliTest, AnUnwritableFolderIsBadInput) {

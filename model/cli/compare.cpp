@@ -68,6 +68,8 @@ std::string make_sim(const std::string& scene, const CompareCommand& command) {
 
 // Whether all that a run left of a scene is equal.
 Result<bool> compare_scene(const std::string& scene, const CompareCommand& command) {
+  if (const std::string name = result_name(scene); name.empty() || name == "." || name == "..")
+    return bad_input(fmt::format("'{}' is no scene's name", scene));
   const ResultFiles files =
       ResultFiles::of(command.out, result_name(scene), command.shader, command.all_effects);
   const auto none = [&](const char* what) {
@@ -78,7 +80,8 @@ Result<bool> compare_scene(const std::string& scene, const CompareCommand& comma
   if (!std::filesystem::is_directory(files.folder, error)) return none("no results here");
   const auto lock = FolderLock::take(files.folder, [&] { say_waiting(files.folder); });
   if (!lock) return lock.error();
-  if (!std::filesystem::exists(files.summary(), error)) return none("a run here was broken off");
+  if (!std::filesystem::exists(files.summary(), error))
+    return none("a run here was broken off, or has not come to it yet");
   const auto faults = faults_of(files.summary());
   if (!faults) return faults.error();
 

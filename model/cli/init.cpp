@@ -22,7 +22,7 @@ int run(const Folders& folders, const InitCommand& command) {
   if (!draw) return report(draw.error());
   const auto scene = load_scene(command.scene, folders.scenes());
   if (!scene) return report(scene.error());
-  for (const std::string& note : scene->notes) fmt::print(stderr, "{}\n", note);
+  for (const std::string& note : scene->notes) say(note);
   const auto plan = plan_scene(*scene, draw->plan);
   if (!plan) return report(plan.error());
   const HardwareKey& key = plan->key;
@@ -37,7 +37,7 @@ int run(const Folders& folders, const InitCommand& command) {
     file->write(batch.init_words);
   }
   progress.clear();
-  for (const std::string& note : setup->notes()) fmt::print(stderr, "{}: {}\n", scene->name, note);
+  for (const std::string& note : setup->notes()) say(fmt::format("{}: {}", scene->name, note));
   if (const Status status = file->commit(); !status) return report(status.error());
   const SetupCounts& n = stream.counts();
   fmt::print("{}: {} init vectors and {} line records, of {} bits, for {}\n", command.file, n.vectors,

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -193,6 +194,8 @@ Result<DrawSettings> checked(const DrawOptions& o) {
   if (o.threads > 1024) return bad_input(fmt::format("--threads: {} is more than 1024", o.threads));
   s.threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
   if (o.out.empty()) return bad_input("--out: the folder has no name");
+  if (std::ranges::any_of(o.out, [](unsigned char c) { return std::iscntrl(c); }))
+    return bad_input("--out: the folder's name holds a control character");
   s.out = o.out;
   return s;
 }

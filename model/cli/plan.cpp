@@ -11,10 +11,11 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <thread>
 #include <tuple>
 
 #include "cli/options.hpp"
+#include "common/printable.hpp"
+#include "common/threads.hpp"
 #include "common/to_integer.hpp"
 #include "plan/cells.hpp"
 #include "plan/hardware_units.hpp"
@@ -67,8 +68,8 @@ void print_effects(const Plan& plan, const CellsByKey& cells) {
   for (const PlannedEffect& e : plan.effects) {
     const char* by = e.by == DoneBy::hardware ? "hardware" : e.by == DoneBy::host ? "host" : "-";
     const bool done = e.called_for || e.elaborated || e.by == DoneBy::nobody;
-    fmt::print("{:<23} {:<4} {:<9} {}{}{}\n", to_string(e.effect), e.called_for ? "yes" : "no", by, e.why,
-               done && !e.how.empty() ? "; " : "", done ? e.how : "");
+    fmt::print("{:<23} {:<4} {:<9} {}{}{}\n", to_string(e.effect), e.called_for ? "yes" : "no", by,
+               printable(e.why), done && !e.how.empty() ? "; " : "", done ? e.how : "");
     if (e.units.empty()) continue;
     const char* there = !e.elaborated ? "left out: " : e.called_for ? "" : "there all the same: ";
     fmt::print("{:<38} {}{}{}\n", "", there, units_text(e.units), cells_text(e, plan.key, cells));
@@ -117,13 +118,9 @@ Result<CellsByKey> count_all(const Plan& plan, const SimulatorFolders& folders, 
   std::vector<std::optional<Result<Cells>>> counted(keys.size());
   std::atomic<std::size_t> next = 0;
   progress.show(fmt::format("Yosys synthesizes {} netlists", keys.size()));
-  {
-    std::vector<std::jthread> pool;
-    for (std::size_t i = 0; i < std::min<std::size_t>(threads, keys.size()); ++i)
-      pool.emplace_back([&] {
-        for (std::size_t n = next++; n < keys.size(); n = next++) counted[n] = counter->count(keys[n]);
-      });
-  }
+  work_on_threads(static_cast<unsigned>(std::min<std::size_t>(threads, keys.size())), [&] {
+    for (std::size_t n = next++; n < keys.size(); n = next++) counted[n] = counter->count(keys[n]);
+  });
   CellsByKey cells;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     if (!*counted[i]) return counted[i]->error();
@@ -264,9 +261,9 @@ int run(const Folders& folders, const PlanCommand& command) {
     }
   }
 
-  fmt::print("scene {}, shader {}, preset {}\n  as called for  {}\n  all effects    {}\n\n", scene->name,
-             to_string(plan.key.shader), to_string(plan.key.preset), plan.called_for.name(),
-             plan.everything.name());
+  fmt::print("scene {}, shader {}, preset {}\n  as called for  {}\n  all effects    {}\n\n",
+             printable(scene->name), to_string(plan.key.shader), to_string(plan.key.preset),
+             plan.called_for.name(), plan.everything.name());
   print_effects(plan, cells);
   fmt::print("\n");
   print_units(plan);

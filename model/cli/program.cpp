@@ -7,10 +7,16 @@
 #include <exception>
 #include <new>
 
+#include "common/printable.hpp"
+
 namespace halfway::cli {
 
+void say(std::string_view line) {
+  fmt::print(stderr, "{}\n", printable(line));
+}
+
 int report(const Error& error) {
-  fmt::print(stderr, "{}\n", error.message);
+  say(error.message);
   return static_cast<int>(error.code);
 }
 
@@ -20,13 +26,13 @@ int run_program(CLI::App& app, int argc, char** argv, const int& exit_code) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help and version, on stdout
-    fmt::print(stderr, "{0}: {1}; see {0} --help\n", name, error.what());
+    say(fmt::format("{0}: {1}; see {0} --help", name, error.what()));
     return static_cast<int>(ExitCode::bad_input);
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "{}: out of memory; a smaller frame or mesh, or fewer threads, may fit\n", name);
     return static_cast<int>(ExitCode::tool_failed);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}; this should not happen, please report it\n", name, error.what());
+    say(fmt::format("{}: {}; this should not happen, please report it", name, error.what()));
     return static_cast<int>(ExitCode::tool_failed);
   }
   return exit_code;

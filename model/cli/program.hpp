@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <string_view>
 
 #include "common/result.hpp"
 
@@ -19,6 +20,9 @@ struct Folders {
 
 /// Prints the error on stderr and gives its exit code.
 int report(const Error& error);
+
+/// Prints a line on stderr, without control characters.
+void say(std::string_view line);
 
 /// Parses, and so runs, what was asked for: the program's exit code. The command's callback sets `exit_code`.
 int run_program(CLI::App& app, int argc, char** argv, const int& exit_code);

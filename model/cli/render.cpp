@@ -34,7 +34,7 @@ Result<Frame> golden_frame(const Scene& scene, const DrawSettings& draw) {
   const auto plan = plan_scene(scene, draw.plan);
   if (!plan) return plan.error();
   const std::unique_ptr<Setup> setup = make_setup(scene, draw.size, plan->key, draw.setup);
-  for (const std::string& note : setup->notes()) fmt::print(stderr, "{}: {}\n", scene.name, note);
+  for (const std::string& note : setup->notes()) say(fmt::format("{}: {}", scene.name, note));
   SceneStream stream(*setup, plan->key, draw.threads);
   FrameAssembler assembler(draw.size, scene.background);
   Progress progress(scene.name);
@@ -57,7 +57,7 @@ int run(const Folders& folders, const RenderCommand& command) {
         fmt::format("--method: '{}' is not a method; take {}", command.method, fmt::join(c_methods, ", "))));
   const auto scene = load_scene(command.scene, folders.scenes());
   if (!scene) return report(scene.error());
-  for (const std::string& note : scene->notes) fmt::print(stderr, "{}\n", note);
+  for (const std::string& note : scene->notes) say(note);
 
   const std::vector<ScreenTriangle> triangles = Projector(*scene, draw->size, {}).project_all();
   const RenderOptions options{.frame = draw->size, .subpixel_bits = 4, .threads = draw->threads};

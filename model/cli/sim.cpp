@@ -7,9 +7,11 @@
 #include <cstdio>
 #include <future>
 #include <mutex>
+#include <new>
 #include <thread>
 
 #include "cli/options.hpp"
+#include "common/printable.hpp"
 #include "common/to_integer.hpp"
 #include "run/simulate.hpp"
 #include "scene/load_scene.hpp"
@@ -77,18 +79,29 @@ Outcome draw_scene(const std::string& name, std::size_t number, const Folders& f
   return Drawn{std::move(*summary), scene->notes};
 }
 
+Outcome outcome_of(std::promise<Outcome>& promise) {
+  try {
+    return promise.get_future().get();
+  } catch (const std::bad_alloc&) {
+    return tool_failed(
+        "halfway: out of memory; a smaller frame or mesh, fewer scenes at once, or fewer threads, may fit");
+  } catch (const std::exception& error) {
+    return tool_failed(fmt::format("halfway: {}; this should not happen, please report it", error.what()));
+  }
+}
+
 // Whether all was equal.
 bool print(const Drawn& drawn) {
   for (const auto* notes : {&drawn.notes, &drawn.summary.notes})
-    for (const std::string& note : *notes) fmt::print(stderr, "{}\n", note);
-  fmt::print("{}\n", to_line(drawn.summary));
+    for (const std::string& note : *notes) say(note);
+  fmt::print("{}\n", printable(to_line(drawn.summary)));
   std::fflush(stdout);
   for (const SimulatorRun& run : drawn.summary.runs) {
     if (run.equal()) continue;
-    fmt::print(stderr, "{}: {} differs from the golden model\n", drawn.summary.scene, run.simulator);
-    if (!run.fault.empty()) fmt::print(stderr, "  {}\n", run.fault);
+    say(fmt::format("{}: {} differs from the golden model", drawn.summary.scene, run.simulator));
+    if (!run.fault.empty()) say("  " + run.fault);
     fmt::print(stderr, "{}", run.description);
-    for (const auto& path : run.evidence) fmt::print(stderr, "  see {}\n", path.string());
+    for (const auto& path : run.evidence) say("  see " + path.string());
   }
   return drawn.summary.equal();
 }
@@ -124,6 +137,13 @@ int run(const Folders& folders, const SimOptions& options) {
                                   "into another --out",
                                   scenes[i], scenes[j])));
 
+  for (const std::string& scene : scenes) {
+    const auto files = ResultFiles::of(settings.out, result_name(scene), to_string(settings.plan.shader),
+                                       settings.plan.all_effects);
+    if (const Status status = forget_summary(files, [&] { say_waiting(files.folder); }); !status)
+      return report(status.error());
+  }
+
   // Scenes side by side: GHDL runs on one core, and it is what takes the time.
   const unsigned workers = std::clamp<unsigned>(static_cast<unsigned>(scenes.size()), 1, draw->threads);
   settings.threads = std::max(1U, draw->threads / workers);
@@ -134,9 +154,12 @@ int run(const Folders& folders, const SimOptions& options) {
   std::vector<std::jthread> pool;
   for (unsigned i = 0; i < workers; ++i)
     pool.emplace_back([&] {
-      for (std::size_t n = next++; n < scenes.size(); n = next++)
-        outcomes[n].set_value(stop ? Outcome(tool_failed("not run"))
-                                   : draw_scene(scenes[n], n, folders, settings, board));
+      for (std::size_t n = next++; n < scenes.size(); n = next++) try {
+          outcomes[n].set_value(stop ? Outcome(tool_failed("not run"))
+                                     : draw_scene(scenes[n], n, folders, settings, board));
+        } catch (...) {
+          outcomes[n].set_exception(std::current_exception());  // such as out of memory
+        }
     });
 
   // Frames are equal wherever no fragment needs what was changed: a wrong entry of a table, say, at an angle
@@ -148,7 +171,7 @@ int run(const Folders& folders, const SimOptions& options) {
     equal = false;
   }
   for (std::size_t n = 0; n < scenes.size(); ++n) {
-    const Outcome outcome = outcomes[n].get_future().get();
+    const Outcome outcome = outcome_of(outcomes[n]);
     board.clear();
     if (!outcome) {
       stop = true;

@@ -4,12 +4,15 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <stdlib.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <system_error>
 
 namespace halfway {
@@ -19,6 +22,11 @@ constexpr std::size_t kBufferBytes = 1U << 20;
 
 Error cannot(ExitCode code, const std::filesystem::path& path, std::string_view what, int error) {
   return {code, fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(error))};
+}
+
+// A full or failing disk is no fault of who named the file.
+ExitCode code_of(int error) {
+  return error == ENOSPC || error == EDQUOT || error == EIO ? ExitCode::tool_failed : ExitCode::bad_input;
 }
 
 int write_all(int descriptor, const char* bytes, std::size_t count) {
@@ -34,7 +42,50 @@ int write_all(int descriptor, const char* bytes, std::size_t count) {
   return 0;
 }
 
+constexpr const char* kFolderPrefix = ".halfway-";
+// Between a temporary's making and its lock lies less.
+constexpr time_t kYoungSeconds = 60;
+// A tool that found no room may have given some back as it ended.
+constexpr unsigned long kLittleRoom = 4UL << 20;
+
+// Of the folder's entries whose names begin so: those that no process holds.
+void remove_stale(const std::filesystem::path& folder, const std::string& prefix) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (!entry->path().filename().string().starts_with(prefix)) continue;
+    const int descriptor = ::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) continue;
+    struct stat status {};
+    std::error_code ignored;
+    if (::fstat(descriptor, &status) == 0 && ::time(nullptr) - status.st_mtime >= kYoungSeconds &&
+        ::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+      std::filesystem::remove_all(entry->path(), ignored);
+    ::close(descriptor);
+  }
+}
+
 }  // namespace
+
+void mark_in_use(int descriptor) {
+  ::flock(descriptor, LOCK_EX | LOCK_NB);
+}
+
+void remove_stale_parts(const std::filesystem::path& path) {
+  const auto folder = path.parent_path();
+  remove_stale(folder.empty() ? "." : folder, path.filename().string() + ".part-");
+}
+
+std::string room_note(const std::vector<std::filesystem::path>& folders) {
+  std::string note;
+  for (const auto& folder : folders) {
+    struct statvfs disk {};
+    if (::statvfs(folder.c_str(), &disk) != 0) continue;
+    if (disk.f_bavail * disk.f_frsize < kLittleRoom || (disk.f_files != 0 && disk.f_favail == 0))
+      note += fmt::format("\n{}: {}; make room and try again", folder.string(), std::strerror(ENOSPC));
+  }
+  return note;
+}
 
 Result<std::string> read_file(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -69,9 +120,7 @@ Status make_folders(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (!error) return Ok{};
-  // A full or failing disk is no fault of who named the folder.
-  const bool disk = error == std::errc::no_space_on_device || error == std::errc::io_error;
-  return Error{disk ? ExitCode::tool_failed : ExitCode::bad_input,
+  return Error{code_of(error.value()),
                fmt::format("{}: cannot make the folder: {}", folder.string(), error.message())};
 }
 
@@ -95,25 +144,30 @@ std::string ContentHash::hex() const {
 
 Result<TemporaryFolder> TemporaryFolder::make(const std::filesystem::path& parent) {
   if (auto made = make_folders(parent); !made) return made.error();
-  std::string name = (parent / ".new-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr)
-    return cannot(ExitCode::tool_failed, parent, "make a folder in it", errno);
+  remove_stale(parent, kFolderPrefix);
+  std::string name = (parent / kFolderPrefix).string() + "XXXXXX";
+  if (::mkdtemp(name.data()) == nullptr) return cannot(code_of(errno), parent, "make a folder in it", errno);
   ::chmod(name.c_str(), 0755);
-  return TemporaryFolder(std::filesystem::path(name));
+  const int descriptor = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor >= 0) mark_in_use(descriptor);
+  return TemporaryFolder(std::filesystem::path(name), descriptor);
 }
 
-TemporaryFolder::TemporaryFolder(TemporaryFolder&& other) noexcept : path_(std::move(other.path_)) {
+TemporaryFolder::TemporaryFolder(TemporaryFolder&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {
   other.path_.clear();
 }
 
 TemporaryFolder& TemporaryFolder::operator=(TemporaryFolder&& other) noexcept {
   std::swap(path_, other.path_);
+  std::swap(descriptor_, other.descriptor_);
   return *this;
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 Status TemporaryFolder::move_to(const std::filesystem::path& target) {
@@ -131,9 +185,11 @@ Result<LineWriter> LineWriter::open(const std::filesystem::path& path) {
   if (path.has_parent_path()) {
     if (auto made = make_folders(path.parent_path()); !made) return made.error();
   }
+  remove_stale_parts(path);
   std::string temporary = path.string() + ".part-XXXXXX";
   const int descriptor = ::mkostemp(temporary.data(), O_CLOEXEC);
-  if (descriptor < 0) return cannot(ExitCode::tool_failed, path, "write", errno);
+  if (descriptor < 0) return cannot(code_of(errno), path, "write", errno);
+  mark_in_use(descriptor);
   ::fchmod(descriptor, 0644);
   return LineWriter(path, temporary, descriptor);
 }

@@ -34,7 +34,18 @@ class ContentHash {
   unsigned __int128 state_ = (static_cast<unsigned __int128>(0x6c62272e07bb0142) << 64) | 0x62b821756295c58d;
 };
 
-/// A new folder under `parent`, removed with all that is in it unless `move_to` succeeds.
+/// Where one of the folders' disks has next to no room left: "FOLDER: No space left on device; make room and
+/// try again", for the message of a tool that failed there and may not have said why. Else empty.
+std::string room_note(const std::vector<std::filesystem::path>& folders);
+
+/// Locks a temporary file or folder for as long as the descriptor is open, so that others can tell it from
+/// what a killed run left.
+void mark_in_use(int descriptor);
+/// Removes what killed runs left of unfinished files for `path`: `path`.part-*, and nobody's.
+void remove_stale_parts(const std::filesystem::path& path);
+
+/// A new folder under `parent`, removed with all that is in it unless `move_to` succeeds. Those that killed
+/// runs left in `parent` are removed first.
 class TemporaryFolder {
  public:
   static Result<TemporaryFolder> make(const std::filesystem::path& parent);
@@ -48,8 +59,10 @@ class TemporaryFolder {
   Status move_to(const std::filesystem::path& target);
 
  private:
-  explicit TemporaryFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  TemporaryFolder(std::filesystem::path path, int descriptor)
+      : path_(std::move(path)), descriptor_(descriptor) {}
   std::filesystem::path path_;  ///< empty: nothing to remove
+  int descriptor_ = -1;         ///< of the folder: mark_in_use
 };
 
 /// A file of many lines, written through a large buffer under a temporary name; `commit` makes it the

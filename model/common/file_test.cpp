@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <fstream>
 #include <optional>
 
 namespace halfway {
@@ -114,6 +116,42 @@ TEST_F(File, TemporaryFolderGoesUnlessMoved) {
   ASSERT_TRUE(first->move_to(*this / "kept"));
   ASSERT_TRUE(second->move_to(*this / "kept"));
   EXPECT_EQ(*read_file(*this / "kept/f"), "1");
+}
+
+// Old enough to be nobody's, were it not locked.
+void age(const std::filesystem::path& path) {
+  std::filesystem::last_write_time(path,
+                                   std::filesystem::file_time_type::clock::now() - std::chrono::minutes(5));
+}
+
+TEST_F(File, WhatKilledRunsLeftGoesAndWhatIsInUseStays) {
+  for (const char* name : {"x/.halfway-old", "x/.halfway-new", "x/other"})
+    ASSERT_TRUE(make_folders(*this / name));
+  ASSERT_TRUE(write_file(*this / "x/.halfway-old/f", "1"));
+  std::filesystem::create_directory_symlink(*this / "x/other", *this / "x/.halfway-link");
+  for (const char* name : {"f.part-old", "f.part-new", "g.part-old", "f"}) std::ofstream(*this / name) << "x";
+  for (const char* name : {"x/.halfway-old", "x/other", "f.part-old", "g.part-old", "f"}) age(*this / name);
+  const auto used = TemporaryFolder::make(*this / "x");
+  ASSERT_TRUE(used);
+  EXPECT_FALSE(std::filesystem::exists(*this / "x/.halfway-old"));
+  for (const char* name : {"x/.halfway-new", "x/other", "x/.halfway-link"})
+    EXPECT_TRUE(std::filesystem::exists(*this / name)) << name;
+  age(used->path());
+  const auto next = TemporaryFolder::make(*this / "x");
+  EXPECT_TRUE(std::filesystem::exists(used->path()));
+
+  auto writer = LineWriter::open(*this / "f");
+  ASSERT_TRUE(writer);
+  EXPECT_FALSE(std::filesystem::exists(*this / "f.part-old"));
+  for (const char* name : {"f.part-new", "g.part-old", "f"})
+    EXPECT_TRUE(std::filesystem::exists(*this / name)) << name;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_->path()))
+    if (entry.path().filename().string().starts_with("f.part-")) age(entry.path());
+  writer->append("whole");
+  ASSERT_TRUE(write_file(*this / "f", "another"));
+  ASSERT_TRUE(writer->commit());
+  EXPECT_EQ(*read_file(*this / "f"), "whole");
+  EXPECT_FALSE(std::filesystem::exists(*this / "f.part-new"));
 }
 
 }  // namespace

@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "common/file.hpp"
+
 namespace halfway {
 namespace {
 
@@ -57,13 +59,15 @@ Status write_whole(const std::string& path, std::span<const unsigned char> bytes
     if (const int error = write_and_close(file, bytes); error != 0) return cannot_write(path, error);
     return Ok{};
   }
+  remove_stale_parts(path);
   std::string temporary;
   int file = -1;
   for (int attempt = 0; file < 0; ++attempt) {
-    temporary = fmt::format("{}.{}-{}.part", path, ::getpid(), attempt);
+    temporary = fmt::format("{}.part-{}-{}", path, ::getpid(), attempt);
     file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0 && (errno != EEXIST || attempt == 1000)) return cannot_open(path, errno);
   }
+  mark_in_use(file);
   int error = write_and_close(file, bytes);
   if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
   if (error == 0) return Ok{};

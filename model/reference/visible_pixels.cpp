@@ -5,10 +5,10 @@
 #include <atomic>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <system_error>
 #include <thread>
 #include <vector>
 
+#include "common/threads.hpp"
 #include "setup/edge.hpp"
 #include "setup/project.hpp"
 
@@ -100,15 +100,7 @@ ReferenceImage render_visible(const Scene& scene, std::span<const ScreenTriangle
   };
   const unsigned wanted =
       options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
-  {
-    std::vector<std::jthread> helpers;
-    try {
-      for (unsigned i = 1; i < std::min<unsigned>(wanted, bands); ++i) helpers.emplace_back(work);
-    } catch (const std::system_error&) {
-      // Fewer threads than wanted draw the same picture.
-    }
-    work();
-  }
+  work_on_threads(std::min<unsigned>(wanted, bands), work);
   return image;
 }
 

@@ -7,8 +7,8 @@
 #include <atomic>
 #include <chrono>
 #include <span>
-#include <thread>
 
+#include "common/threads.hpp"
 #include "run/golden_run.hpp"
 
 namespace halfway {
@@ -92,11 +92,7 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) cons
       part.golden_seconds = seconds_since(golden_start);
     }
   };
-  {
-    std::vector<std::jthread> pool;
-    for (unsigned i = 1; i < std::min<std::size_t>(threads_, chunks); ++i) pool.emplace_back(work);
-    work();
-  }
+  work_on_threads(static_cast<unsigned>(std::min<std::size_t>(threads_, chunks)), work);
   Work all = std::move(parts[0]);
   for (std::size_t i = 1; i < chunks; ++i) {
     Work& part = parts[i];

@@ -139,14 +139,16 @@ class Simulation {
     if (Status status = forget(files_.init()); !status) return status;
     // Unfinished files: with the folder locked, of runs that were killed.
     std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(files_.folder, error))
-      if (entry.path().filename().string().find(".part") != std::string::npos)
+    for (const auto& entry : std::filesystem::directory_iterator(files_.folder, error)) {
+      const std::string name = entry.path().filename().string();
+      if (name.find(".part") != std::string::npos || name.starts_with(".halfway-"))
         if (Status status = forget(entry.path()); !status) return status;
+    }
     return forget(files_.summary());
   }
   static Status forget(const std::filesystem::path& path) {
     std::error_code error;
-    std::filesystem::remove(path, error);
+    std::filesystem::remove_all(path, error);
     if (error) return tool_failed(fmt::format("{}: cannot remove: {}", path.string(), error.message()));
     return Ok{};
   }
@@ -418,6 +420,17 @@ bool SceneSummary::equal() const {
   return std::ranges::all_of(runs, [](const SimulatorRun& run) { return run.equal(); });
 }
 
+Status forget_summary(const ResultFiles& files, const std::function<void()>& on_wait) {
+  std::error_code error;
+  if (!std::filesystem::exists(files.summary(), error)) return Ok{};
+  const auto lock = FolderLock::take(files.folder, on_wait);
+  if (!lock) return lock.error();
+  std::filesystem::remove(files.summary(), error);
+  if (error)
+    return tool_failed(fmt::format("{}: cannot remove: {}", files.summary().string(), error.message()));
+  return Ok{};
+}
+
 Result<SceneSummary> simulate(const Scene& scene, const SimulateSettings& settings) {
   return Simulation(scene, settings).run();
 }
@@ -490,7 +503,8 @@ std::string to_json(const SceneSummary& s) {
       {"setup_seconds", s.setup_seconds},
       {"golden_seconds", s.golden_seconds},
       {"seconds", s.seconds}};
-  return json.dump(2) + "\n";
+  // A scene's name is a file's, and any bytes.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string to_line(const SceneSummary& s) {

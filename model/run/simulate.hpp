@@ -63,6 +63,10 @@ struct SceneSummary {
   bool equal() const;
 };
 
+/// Removes the summary that an earlier run left, which says that its results are whole: of a scene that is
+/// yet to be drawn they must not pass for this run's. Waits while another run holds the folder.
+Status forget_summary(const ResultFiles& files, const std::function<void()>& on_wait);
+
 /// Results lie in ResultFiles::of(out, scene, shader, all_effects). Hardware that differs is no error: see
 /// SceneSummary::equal.
 Result<SceneSummary> simulate(const Scene& scene, const SimulateSettings& settings);

@@ -23,6 +23,17 @@ namespace {
 
 constexpr std::size_t c_vectors_a_read = 64;
 
+// The simulators write waveforms under the name given, and do not tell of a full disk.
+Result<std::filesystem::path> put_in_place(const std::filesystem::path& written,
+                                           const std::filesystem::path& path) {
+  if (const std::string note = room_note({path.parent_path()}); !note.empty())
+    return tool_failed(path.string() + ": may be cut off" + note);
+  std::error_code error;
+  std::filesystem::rename(written, path, error);
+  if (error) return tool_failed(fmt::format("{}: cannot write: {}", path.string(), error.message()));
+  return path;
+}
+
 // Runs the init file until `fragments` have come, or to the end.
 Status run_until(VerilatorSimulator& simulator, const ResultFiles& files, const std::string& key_name,
                  std::uint64_t fragments) {
@@ -127,10 +138,10 @@ Result<std::filesystem::path> write_ghdl_waveform(const HardwareKey& key, const 
   options.idle_limit = static_cast<std::uint32_t>(c_waveform_before);
   options.stall_seed = stall_seed;
   options.max_fragments = c_idle_limit;
-  options.wave_file = path;
+  options.wave_file = scratch->path() / path.filename();
   const auto run = runner->run(init, scratch->path() / "trace", options);
   if (!run && run.error().code != ExitCode::differs) return run.error();
-  return path;
+  return put_in_place(options.wave_file, path);
 }
 
 }  // namespace
@@ -150,15 +161,19 @@ Result<std::filesystem::path> write_mismatch_waveform(const HardwareKey& key, co
     if (const Status status = run_until(*first, files, key.name(), fragments); !status) return status.error();
     at = first->cycles();
   }
-  options.wave_file = path;
+  const auto scratch = TemporaryFolder::make(files.folder);
+  if (!scratch) return scratch.error();
+  options.wave_file = scratch->path() / path.filename();
   options.waves_from = at > c_waveform_before ? at - c_waveform_before : 0;
   options.waves_to = at + c_waveform_after;
-  auto second = VerilatorSimulator::open(key, folders, options);
-  if (!second) return second.error();
-  const std::uint64_t past =
-      fragments > UINT64_MAX - c_waveform_after ? fragments : fragments + c_waveform_after;
-  if (const Status status = run_until(*second, files, key.name(), past); !status) return status.error();
-  return path;
+  {
+    auto second = VerilatorSimulator::open(key, folders, options);
+    if (!second) return second.error();
+    const std::uint64_t past =
+        fragments > UINT64_MAX - c_waveform_after ? fragments : fragments + c_waveform_after;
+    if (const Status status = run_until(*second, files, key.name(), past); !status) return status.error();
+  }
+  return put_in_place(options.wave_file, path);
 }
 
 }  // namespace halfway

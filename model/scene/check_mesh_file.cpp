@@ -25,6 +25,13 @@ namespace halfway {
 namespace {
 
 constexpr std::string_view c_blank = " \t\r\v\f";
+/// A face of 32767 corners, the most that assimp takes, is far shorter.
+constexpr std::size_t c_longest_line = std::size_t{16} << 20;
+
+/// Ends the look through a file; check_mesh_file turns it into its error.
+struct OverlongLine {
+  Error error;
+};
 
 /// The lines of a text file, without their ends, with their numbers.
 class Lines {
@@ -33,7 +40,7 @@ class Lines {
 
   bool next() {
     ++number_;
-    return static_cast<bool>(std::getline(file_, line_));
+    return get_line(line_);
   }
   /// Takes the next word of the line; empty at its end.
   std::string_view word() {
@@ -51,9 +58,10 @@ class Lines {
       if (line_.empty() || line_.back() != '\\') return true;
       line_.back() = ' ';
       std::string more;
-      if (!std::getline(file_, more)) return true;
+      if (!get_line(more)) return true;
       ++number_;
       line_ += more;
+      if (line_.size() > c_longest_line) throw OverlongLine{overlong()};
     }
   }
   std::string_view rest() {
@@ -71,8 +79,31 @@ class Lines {
   }
 
  private:
+  /// std::getline that does not take all memory for a file without line ends.
+  bool get_line(std::string& line) {
+    line.clear();
+    for (;;) {
+      file_.getline(chunk_.data(), chunk_.size());
+      const auto got = static_cast<std::size_t>(file_.gcount());
+      if (file_.good()) {  // the line's end is counted, and not in the chunk
+        line.append(chunk_.data(), got - 1);
+        return true;
+      }
+      line.append(chunk_.data(), got);
+      if (line.size() > c_longest_line) throw OverlongLine{overlong()};
+      if (file_.eof() || file_.bad()) return !line.empty();
+      if (got == 0) return false;
+      file_.clear();  // the chunk was too short
+    }
+  }
+  Error overlong() const {
+    return bad_input(fmt::format("{}:{}: a line of more than {} MiB; the file is damaged", name_, number_,
+                                 c_longest_line >> 20));
+  }
+
   std::string name_;
   std::ifstream file_;
+  std::array<char, 4096> chunk_;
   std::string line_;
   std::size_t at_ = 0;
   std::uint64_t number_ = 0;
@@ -143,7 +174,9 @@ class ObjCheck {
         uses_material_ = true;
       } else if (keyword == "mtllib") {
         const std::filesystem::path library = path_.parent_path() / std::string(lines_.rest());
-        if (std::ifstream(library)) {
+        // A pipe or a device may never end; the reader leaves them out too.
+        std::error_code fault;
+        if (std::filesystem::is_regular_file(library, fault) && std::ifstream(library)) {
           ++libraries_;
         } else {
           summary_.missing_libraries.push_back(library.string());
@@ -372,6 +405,11 @@ class PlyCheck {
       if (element.count > size) {
         return bad_input(fmt::format("{}: its header calls for {} items of '{}', more than the file can hold",
                                      path_.string(), element.count, element.name));
+      }
+      // Of none the file could call for any number.
+      if (element.properties.empty() && element.count > 0) {
+        return bad_input(fmt::format("{}: its header gives the {} items of {} no property", path_.string(),
+                                     element.count, quoted(std::string_view(element.name))));
       }
       if (element.name == "vertex") vertices_ = element.count;
     }
@@ -637,10 +675,14 @@ Result<MeshFileSummary> check_mesh_file(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  if (ending == ".obj") return ObjCheck(path).run();
-  if (ending == ".stl") return check_stl(path);
-  if (ending == ".ply") return PlyCheck(path).run();
-  return check_gltf(path);
+  try {
+    if (ending == ".obj") return ObjCheck(path).run();
+    if (ending == ".stl") return check_stl(path);
+    if (ending == ".ply") return PlyCheck(path).run();
+    return check_gltf(path);
+  } catch (const OverlongLine& overlong) {
+    return overlong.error;
+  }
 }
 
 }  // namespace halfway

@@ -2,6 +2,7 @@
 #include "scene/load_mesh.hpp"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/importerdesc.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -9,6 +10,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -38,6 +40,14 @@ constexpr std::array<std::string_view, 5> c_endings = {".obj", ".ply", ".stl", "
 
 // What the child may take. A million triangles of OBJ take assimp 240 MiB.
 constexpr rlim_t c_child_memory_bytes = rlim_t{8} << 30;
+// Sanitizers reserve terabytes of addresses. GCC tells of itself by these names, Clang by __has_feature.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool c_limits_addresses = false;
+#elif defined(__has_feature)
+constexpr bool c_limits_addresses = !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer);
+#else
+constexpr bool c_limits_addresses = true;
+#endif
 constexpr rlim_t c_child_cpu_seconds = 300;
 constexpr std::uintmax_t c_max_file_bytes = std::uintmax_t{4} << 30;
 
@@ -114,6 +124,19 @@ void keep_four_readers(Assimp::Importer& importer) {
     importer.UnregisterLoader(unused.get());
   }
 }
+
+/// Opens regular files alone, whatever a mesh file names as its materials or buffers: a pipe or a device may
+/// never end.
+class RegularFiles final : public Assimp::DefaultIOSystem {
+ public:
+  bool Exists(const char* file) const override {
+    std::error_code fault;
+    return std::filesystem::is_regular_file(file, fault);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return Exists(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+};
 
 struct Instance {
   const aiMesh* mesh;
@@ -224,6 +247,7 @@ Material get_material(Source& source) {
 /// Does the child's whole work; throws Refused with the reason, without the file's name.
 void import_file(const std::filesystem::path& path, const MeshFileSummary& summary, Sink& sink) {
   Assimp::Importer importer;
+  importer.SetIOHandler(new RegularFiles);  // which the importer owns
   keep_four_readers(importer);
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
   if (scene == nullptr) throw Refused(importer.GetErrorString());
@@ -336,11 +360,10 @@ void limit(int resource, rlim_t value) {
 
 [[noreturn]] void run_child(const std::filesystem::path& path, const MeshFileSummary& summary,
                             int descriptor) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing runs on after us, whatever kills us
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, c_child_cpu_seconds);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // those reserve terabytes
-  limit(RLIMIT_AS, c_child_memory_bytes);
-#endif
+  if (c_limits_addresses) limit(RLIMIT_AS, c_child_memory_bytes);
   // What a dying library prints would stand before our own message.
   const int null = ::open("/dev/null", O_WRONLY);
   if (null >= 0) {

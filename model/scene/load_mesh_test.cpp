@@ -2,6 +2,7 @@
 #include "scene/load_mesh.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -225,6 +226,28 @@ TEST_F(LoadMesh, AMissingMaterialLibraryIsNoted) {
   EXPECT_NE(loaded->notes[0].find("gone.mtl cannot be read"), std::string::npos);
 }
 
+// Opening a pipe waits for a writer, and a device may never end: neither may be waited for.
+TEST_F(LoadMesh, PipesAndDevicesAreNeitherLibrariesNorBuffers) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  for (const std::string name : {"pipe", "/dev/zero"}) {
+    const Result<LoadedMesh> loaded = load("m.obj", "mtllib " + name + "\nusemtl a\n" + c_obj);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    ASSERT_EQ(loaded->notes.size(), 1u);
+    EXPECT_NE(loaded->notes[0].find(name + " cannot be read"), std::string::npos);
+    expect_error("m.gltf", gltf_json(R"(,"uri":")" + name + '"'), "could not open");
+  }
+}
+
+TEST_F(LoadMesh, LinesEndSomewhere) {
+  const std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3";
+  EXPECT_EQ(error("m.obj", faces + std::string(std::size_t{15} << 20, ' ')), "loaded");
+  expect_error("m.obj", faces + std::string(std::size_t{17} << 20, ' '),
+               "m.obj:4: a line of more than 16 MiB");
+  std::string joined = faces;
+  for (int i = 0; i < 17; ++i) joined += std::string(std::size_t{1} << 20, ' ') + "\\\n";
+  expect_error("m.obj", joined, "a line of more than 16 MiB");
+}
+
 TEST_F(LoadMesh, KeepsTheFilesNormalsAndMendsZeroOnes) {
   Result<LoadedMesh> loaded =
       load("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 1 0\nvn 0 0 0\nf 1//1 2//1 3//2\n");
@@ -303,6 +326,11 @@ TEST_F(LoadMesh, PlyFaultsAreErrors) {
   expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nend_header\n",
                "calls for 99999999999 items");
   expect_error("a.ply", "nonsense\n", "a.ply:1: not a PLY file");
+  // Items without a property take no byte: any number of them could be called for.
+  expect_error("e.ply",
+               "ply\nformat binary_little_endian 1.0\nelement nothing 50\nelement vertex 0\n"
+               "property float x\nend_header\n",
+               "gives the 50 items of 'nothing' no property");
 }
 
 TEST_F(LoadMesh, StlFaultsAreErrors) {

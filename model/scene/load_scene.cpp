@@ -6,6 +6,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -14,9 +15,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "common/file.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
 #include "scene/load_mesh.hpp"
@@ -28,7 +31,11 @@ namespace {
 
 /// Beyond it, squares and products of a few numbers would leave the double's range.
 constexpr double c_max_number = 1e15;
+/// Many may be left over that no triangle uses.
+constexpr std::size_t c_max_positions = 3 * std::size_t{c_max_triangles};
 constexpr std::uintmax_t c_max_scene_file_bytes = std::uintmax_t{16} << 20;
+/// A key has two parts at most, as `rotate.axis`; toml++ walks down its tables by recursion.
+constexpr int c_max_key_dots = 16;
 const glm::dvec3 c_default_to_eye{0.4, 0.3, 1.0};
 
 /// Ends the reading of a scene file; `load_scene` turns it into its error.
@@ -46,6 +53,41 @@ std::string lower_ending(const std::filesystem::path& path) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   return ending;
+}
+
+/// The line of a key of too many parts, or 0. toml++ bounds how deep values nest, but not keys, and their
+/// tables would overflow the stack. Where the text is no TOML the search may end early: so does toml++.
+std::size_t line_of_deep_key(std::string_view text) {
+  std::size_t line = 1;
+  int dots = 0;  // since the last character that ends a key
+  const auto at = [&](std::size_t i) { return i < text.size() ? text[i] : '\n'; };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      const bool many_lines = at(i + 1) == c && at(i + 2) == c;
+      i += many_lines ? 3 : 1;
+      const auto ends = [&] { return at(i) == c && (!many_lines || (at(i + 1) == c && at(i + 2) == c)); };
+      for (; i < text.size() && !ends(); ++i) {
+        if (text[i] == '\\' && c == '"') ++i;
+        if (at(i) != '\n') continue;
+        if (!many_lines) return 0;
+        ++line;
+      }
+      if (many_lines) {
+        i += 2;
+        // Up to two more belong to the text.
+        for (int more = 0; more < 2 && at(i + 1) == c; ++more) ++i;
+      }
+    } else if (c == '#') {
+      while (at(i + 1) != '\n') ++i;
+    } else if (c == '.') {
+      if (++dots > c_max_key_dots) return line;
+    } else if (c == '\n' || c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}') {
+      dots = 0;
+      line += c == '\n' ? 1 : 0;
+    }
+  }
+  return 0;
 }
 
 /// What a number may be.
@@ -210,9 +252,15 @@ class SceneReader {
 
   /// Throws BadScene.
   Scene read() {
+    const Result<std::string> text = read_file(path_);
+    if (!text) throw BadScene(text.error());
+    if (const std::size_t line = line_of_deep_key(*text); line != 0) {
+      throw BadScene(bad_input(
+          fmt::format("{}:{}: bad TOML: a key of more than {} parts", file_, line, c_max_key_dots)));
+    }
     toml::table root_table;
     try {
-      root_table = toml::parse_file(path_.string());
+      root_table = toml::parse(*text, file_);
     } catch (const toml::parse_error& error) {
       throw BadScene(bad_input(
           fmt::format("{}:{}: bad TOML: {}", file_, error.source().begin.line, error.description())));
@@ -237,6 +285,7 @@ class SceneReader {
       scene_.notes.push_back(file_ + ": no light; only the ambient term is drawn");
     }
     if (fit.has_value()) scene_.camera = fit->camera(scene_);
+    if (Status ok = check_view(scene_, file_); !ok) throw BadScene(ok.error());
     return std::move(scene_);
   }
 
@@ -354,16 +403,14 @@ class SceneReader {
     material.roughness =
         table.number("roughness", material.roughness, {.low = 0.0, .high = 1.0, .low_excluded = true});
     material.reflectance = table.number("reflectance", material.reflectance, {.low = 0.0, .high = 1.0});
+    named_materials_.emplace(material.name, static_cast<std::uint32_t>(scene_.materials.size()));
     scene_.materials.push_back(std::move(material));
-    ++named_materials_;
   }
 
   /// Only among the scene file's own: a mesh file's materials follow them in the list and may share names.
   std::optional<std::uint32_t> named_material(const std::string& name) const {
-    for (std::uint32_t i = 0; i < named_materials_; ++i) {
-      if (scene_.materials[i].name == name) return i;
-    }
-    return std::nullopt;
+    const auto found = named_materials_.find(name);
+    return found == named_materials_.end() ? std::nullopt : std::optional(found->second);
   }
 
   void read_mesh(const toml::table& node) {
@@ -492,10 +539,24 @@ class SceneReader {
   }
 
  public:
+  /// A fitted camera has no view of what is tiny and far from the origin: rounding puts its eye on its
+  /// target.
+  static Status check_view(const Scene& scene, const std::string& what) {
+    if (has_view(scene.camera)) return Ok{};
+    return bad_input(
+        what +
+        ": the scene is too small for where it lies, or too large, to fit a camera to; move it to the "
+        "origin, or scale it");
+  }
+
   /// Adds a mesh in world space to a scene, with its normals and materials in order. `what` begins its
   /// messages.
   static Status add_mesh(Scene& scene, Mesh& mesh, const std::string& what, std::uint32_t first_material,
                          double crease_degrees, bool replace_normals) {
+    if (scene.positions_world.size() + mesh.positions.size() > c_max_positions) {
+      return bad_input(
+          fmt::format("{}: more than {} vertices up to this mesh; use coarser ones", what, c_max_positions));
+    }
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       const glm::dvec3 size = glm::abs(mesh.positions[i]);
       if (size.x <= c_max_number && size.y <= c_max_number && size.z <= c_max_number) continue;
@@ -521,7 +582,6 @@ class SceneReader {
       scene.normals_world.push_back(normal == glm::dvec3(0.0) ? glm::dvec3(0.0, 0.0, 1.0) : normal);
     }
     scene.materials.insert(scene.materials.end(), mesh.materials.begin(), mesh.materials.end());
-    scene.triangles.reserve(scene.triangles.size() + mesh.triangles.size());
     for (SceneTriangle triangle : mesh.triangles) {
       for (int corner = 0; corner < 3; ++corner) {
         triangle.position[corner] += first_position;
@@ -537,7 +597,7 @@ class SceneReader {
   std::filesystem::path path_;
   std::string file_;
   Scene scene_;
-  std::uint32_t named_materials_ = 0;
+  std::unordered_map<std::string, std::uint32_t> named_materials_;
 };
 
 Result<Scene> load_scene_file(const std::filesystem::path& path) {
@@ -567,6 +627,7 @@ Result<Scene> load_mesh_as_scene(const std::filesystem::path& path) {
     return ok.error();
   }
   scene.camera = Fit{}.camera(scene);
+  if (Status ok = SceneReader::check_view(scene, path.string()); !ok) return ok.error();
   const ViewBasis view = view_basis(scene.camera);
   scene.directional.push_back(
       {glm::normalize(-0.6 * view.right_world + 0.7 * view.up_world + view.backward_world), glm::dvec3(1.0)});
@@ -593,6 +654,11 @@ Result<Scene> load_scene(std::string_view name_or_path, const std::filesystem::p
   if (name_or_path.find('\0') != std::string_view::npos)
     return bad_input("the scene's name holds a zero byte");
   const std::filesystem::path path(name_or_path);
+  // Results lie in a folder of the scene's name.
+  const std::string name = path.stem().string();
+  if (name == "." || name == ".." ||
+      std::ranges::any_of(name, [](unsigned char c) { return std::iscntrl(c); }))
+    return bad_input(fmt::format("{}: a scene cannot be called '{}'; rename the file", name_or_path, name));
   try {
     if (lower_ending(path) == ".toml") return load_scene_file(path);
     if (is_mesh_file_name(path)) return load_mesh_as_scene(path);

@@ -450,5 +450,43 @@ TEST_F(LoadScene, AMeshFileLiesBesideItsScene) {
             0u);
 }
 
+// toml++ goes down its tables by recursion, and up again to free them.
+TEST_F(LoadScene, KeysOfManyPartsAreRefused) {
+  const std::string mesh = "[[mesh]]\nkind = \"box\"\n";
+  std::string deep = "a";
+  for (int i = 0; i < 200'000; ++i) deep += ".a";
+  EXPECT_EQ(error(mesh + deep + " = 1\n"), "s.toml:3: bad TOML: a key of more than 16 parts");
+  EXPECT_EQ(error("[" + deep + "]\n"), "s.toml:1: bad TOML: a key of more than 16 parts");
+  EXPECT_EQ(error("a = [\n{ b = '''\n''', " + deep + " = 1 }]\n"),
+            "s.toml:3: bad TOML: a key of more than 16 parts");
+  // Behind what only looks like a text's or a comment's begin or end.
+  for (const std::string before :
+       {R"(b = "\"")", R"(b = '\')", R"(b = """x""""")", R"(b = '''x''''')", R"(b = "")", R"(b = '')",
+        R"(# ")", R"(b = "#")", R"(b = """\"""")", R"(b = """"""")", R"(b = """""")"})
+    EXPECT_NE(error(before + "\n" + deep + " = 1\n").find("a key of more than 16 parts"), std::string::npos)
+        << before;
+  // In texts and comments dots are no more than that.
+  const std::string dots(40, '.');
+  for (const std::string text :
+       {'"' + dots + '"', "'" + dots + "'", "\"\"\"\n" + dots + "\"\"\"", "'''" + dots + "'''"})
+    EXPECT_EQ(error("[[material]] # " + dots + "\nname = " + text + "\n" + mesh), "loaded") << text;
+}
+
+TEST_F(LoadScene, NamesThatCannotBeFoldersAreRefused) {
+  for (const std::string name : {"..toml", "...toml", "a\nb.toml", "\x1b[31m.toml"}) {
+    const Result<Scene> scene = load_scene(write(name, "[[mesh]]\nkind = \"box\"\n"), c_scenes);
+    ASSERT_FALSE(scene) << name;
+    EXPECT_NE(scene.error().message.find("a scene cannot be called"), std::string::npos)
+        << scene.error().message;
+  }
+}
+
+TEST_F(LoadScene, AFittedCameraHasAViewOrTheSceneIsRefused) {
+  EXPECT_NE(
+      error("[[mesh]]\nkind = \"box\"\nsize = 1e-9\ntranslate = [1e6, 0, 0]\n").find("to fit a camera to"),
+      std::string::npos);
+  EXPECT_EQ(error("[[mesh]]\nkind = \"box\"\nsize = 1e-3\ntranslate = [1e6, 0, 0]\n"), "loaded");
+}
+
 }  // namespace
 }  // namespace halfway

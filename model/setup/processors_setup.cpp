@@ -524,7 +524,8 @@ class ProcessorsSetup final : public Setup {
                       SetupCounts& counts) const {
     std::vector<Overlap> over(volumes_.size(), Overlap(frame_.width));
     for (const std::uint32_t item : shadows_by_line_->near(y)) {
-      const auto& [polygon, before_near] = shadows_[item];
+      const ShadowPolygon& polygon = shadows_[item].polygon;
+      const bool before_near = shadows_[item].before_near;
       if (polygon.opens != opens) continue;
       for_each_part(polygon.triangle, y, [&](const Walk& walk, const WalkLine& line) {
         ++counts.shadows;

@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
-#include <ranges>
 #include <span>
 
 #include "common/to_integer.hpp"
@@ -452,7 +451,7 @@ class SphericalSetup::ExactTriangle {
   std::vector<std::int64_t> places_to_look_at(const SpanArcs& arcs, const Span& at) const {
     const std::int64_t steps = at.steps();
     std::vector<std::int64_t> places;
-    if (!std::ranges::all_of(arcs.light | std::views::take(setup_.lights_.size()), &LightArcs::exact_at_ends))
+    if (!std::ranges::all_of(std::span(arcs.light).first(setup_.lights_.size()), &LightArcs::exact_at_ends))
       places.insert(places.end(), {0, steps});
     if (steps <= c_short_span) {
       for (std::int64_t i = 1; i < steps; ++i) places.push_back(i);
@@ -481,7 +480,7 @@ class SphericalSetup::ExactTriangle {
     looks = std::min(looks, steps - 1);
     for (std::int64_t look = 1; look <= looks; ++look) places.push_back(look * steps / (looks + 1));
     std::ranges::sort(places);
-    places.erase(std::ranges::unique(places).begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
     return places;
   }
 

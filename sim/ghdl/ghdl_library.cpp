@@ -24,8 +24,9 @@ Result<std::string> run_ghdl(Command command, const std::string& doing) {
   const auto end = run_process(command, kInstallGhdl);
   if (!end) return end.error();
   if (end->succeeded()) return end->output;
-  return tool_failed(fmt::format("{}: ghdl failed ({}):\n{}\n  while running: {}", doing, end->how(),
-                                 end->output, to_string(command)));
+  return tool_failed(fmt::format(
+      "{}: ghdl failed ({}):\n{}\n  while running: {}{}", doing, end->how(), end->output, to_string(command),
+      room_note({command.working_folder, std::filesystem::temp_directory_path()})));
 }
 
 /// GHDL 2.0.0 leaves out of a Verilog `case` what the VHDL has under `when others`, and nothing in the

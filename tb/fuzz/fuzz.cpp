@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/fuzz.hpp"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include "common/file.hpp"
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#include <pthread.h>
+#include <sanitizer/common_interface_defs.h>
+#define HALFWAY_FUZZ_CHILDREN
+#endif
+#endif
+
+namespace halfway::fuzz {
+namespace {
+
+/// assimp may break in the child process that reads a mesh file: the child's end is then an error like any
+/// other, and no crash of the target's, as libFuzzer, which the child inherits, would have it.
+void leave_children_alone() {
+#ifdef HALFWAY_FUZZ_CHILDREN
+  ::pthread_atfork(nullptr, nullptr, [] {
+    __sanitizer_set_death_callback(nullptr);
+    for (const int signal : {SIGABRT, SIGILL, SIGFPE, SIGTERM, SIGXFSZ}) ::signal(signal, SIG_DFL);
+  });
+#endif
+}
+
+}  // namespace
+
+const std::filesystem::path& folder() {
+  static const TemporaryFolder temporary = [] {
+    auto made = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    if (!made) demand(false, made.error().message);
+    leave_children_alone();
+    return std::move(*made);
+  }();
+  return temporary.path();
+}
+
+std::filesystem::path write_input(std::string_view name, std::string_view bytes) {
+  const std::filesystem::path path = folder() / name;
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  demand(!file.fail(), "the input cannot be written to " + path.string());
+  return path;
+}
+
+void demand(bool holds, std::string_view what) {
+  if (holds) return;
+  fmt::print(stderr, "broken promise: {}\n", what);
+  std::fflush(stderr);
+  std::abort();
+}
+
+void demand_refusal(const Error& error) {
+  const std::string begin = folder().string() + "/";
+  demand(error.code == ExitCode::bad_input, "a bad file must end with exit code 2: " + error.message);
+  demand(error.message.starts_with(begin) && error.message.size() > begin.size(),
+         "the message must begin with the file's name: " + error.message);
+}
+
+}  // namespace halfway::fuzz

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mesh files, one target a format (HALFWAY_FUZZ_ENDING): each loads as a fit scene or is refused, and assimp,
+// in its child process, takes nobody down with it. What loads is drawn.
+#include "fuzz/draw.hpp"
+#include "fuzz/fuzz.hpp"
+#include "scene/check_mesh_file.hpp"
+#include "scene/load_scene.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace halfway;
+  using namespace halfway::fuzz;
+  constexpr std::size_t c_most_drawn = 100;
+  const std::string_view bytes = text_of(data, size);
+  // What it names besides (materials, buffers) must lie beside it.
+  if (bytes.find("../") != std::string_view::npos || bytes.find(" /") != std::string_view::npos ||
+      bytes.find("\"/") != std::string_view::npos)
+    return -1;
+  const auto path = write_input("input" HALFWAY_FUZZ_ENDING, bytes);
+  if (size > 0) {
+    const auto checked = check_mesh_file(path);
+    if (!checked) {
+      demand_refusal(checked.error());
+      return 0;
+    }
+  }
+  const auto loaded = load_scene(path.string(), folder());
+  if (!loaded) {
+    demand_refusal(loaded.error());
+    return 0;
+  }
+  demand_fit(*loaded);
+  if (loaded->triangles.size() <= c_most_drawn) draw(*loaded, choice_of(bytes));
+  return 0;
+}
