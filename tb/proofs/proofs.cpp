@@ -235,8 +235,8 @@ std::vector<Proof> all_proofs() {
        "No fragment outside its triangle's box, and every line's start, stop and carry those of exact edges: "
        "any "
        "edges that begin and end in the box, 6 lines, 8 columns, divisors up to 3",
-       Method::pdr,
-       10,
+       Method::unrolled,
+       12,
        false,
        {},
        box_faults,
