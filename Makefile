@@ -93,7 +93,7 @@ stability: configure ## hard cases, in specification, golden model and RTL: what
 search: configure ## random triangles in golden model and RTL; what fails is shrunk and kept (TRIANGLES, SEED)
 	@cmake --build build -j "$(jobs)" --target halfway_search
 	@build/tb/halfway_search $(call option,TRIANGLES,--triangles) $(call option,SEED,--seed) \
-	  --page tb/stability/README.md --keep tb/stability/regressions .
+	  --page=tb/stability/README.md --keep=tb/stability/regressions .
 
 bench: program ## speed, as ratios within one run
 	@cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench
