@@ -114,7 +114,7 @@ stability: configure ## hard cases, in specification, golden model and RTL: what
 search: configure ## random triangles in golden model and RTL; what fails is shrunk and kept (TRIANGLES, SEED)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_search
 	@build/tb/halfway_search $(call option,TRIANGLES,--triangles) $(call option,SEED,--seed) \
-	  --page tb/stability/README.md --keep tb/stability/regressions .
+	  --page=tb/stability/README.md --keep=tb/stability/regressions .
 
 bounds: configure ## every bound of formats and tables: derived, proved, and how near the worst found comes
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds

@@ -184,5 +184,16 @@ TEST(HalfTriangle, TheHardwareWalksFromEdgeToEdge) {
   EXPECT_GT(worst_depth, 0.3);
 }
 
+TEST(HalfTriangle, ACornerBetweenPixelsTakesTheNearestOne) {
+  for (int level = 0; level <= 5; ++level)
+    for (std::int32_t v = -70; v <= 70; ++v) {
+      const HalfVertex vertex = half_vertex({v, -v}, level, 7.5);
+      const auto nearest = [&](std::int32_t w) { return std::floor(std::ldexp(w, -level) + 0.5L); };
+      ASSERT_EQ(vertex.x, nearest(v)) << level;
+      ASSERT_EQ(vertex.y, nearest(-v)) << level;
+      ASSERT_EQ(vertex.z, 7.5L);
+    }
+}
+
 }  // namespace
 }  // namespace halfway

@@ -71,31 +71,31 @@ bool read_number(std::string_view text, Number& number) {
 bool read_options(const std::vector<std::string>& arguments,
                   const std::vector<std::unique_ptr<Search>>& searches, Options& options) {
   std::vector<std::string> places;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& name = arguments[i];
-    if (!name.starts_with("--")) {
-      places.push_back(name);
+  for (const std::string& argument : arguments) {
+    if (!argument.starts_with("--")) {
+      places.push_back(argument);
       continue;
     }
-    if (name == "--quick") {
+    if (argument == "--quick") {
       options.quick = true;
       continue;
     }
-    if (++i == arguments.size()) return false;
-    const std::string& value = arguments[i];
-    if (name == "--seed") {
+    const std::size_t equals = argument.find('=');
+    if (equals == std::string::npos) return false;
+    const std::string name = argument.substr(2, equals - 2), value = argument.substr(equals + 1);
+    if (name == "seed") {
       if (!read_number(value, options.seed)) return false;
-    } else if (name == "--page") {
+    } else if (name == "page") {
       options.page = value;
-    } else if (name == "--keep") {
+    } else if (name == "keep") {
       options.keep = value;
-    } else if (name == "--replay") {
+    } else if (name == "replay") {
       options.replay = value;
     } else {
-      const auto same = [&](const auto& search) { return search->name() == name.substr(2); };
       std::uint64_t count = 0;
+      const auto same = [&](const auto& search) { return search->name() == name; };
       if (std::ranges::none_of(searches, same) || !read_number(value, count)) return false;
-      options.counts.emplace_back(name.substr(2), count);
+      options.counts.emplace_back(name, count);
     }
   }
   if (places.size() != 1) return false;
@@ -340,8 +340,8 @@ int main(int argc, char** argv) {
   if (!read_options(std::vector<std::string>(argv + 1, argv + argc), searches, options)) {
     fmt::print(
         stderr,
-        "usage: halfway_search [--quick] [--seed N] [--NAME N]... [--page FILE] [--keep FOLDER] SOURCE\n"
-        "       halfway_search --replay FOLDER SOURCE\n");
+        "usage: halfway_search [--quick] [--seed=N] [--NAME=N]... [--page=FILE] [--keep=FOLDER] SOURCE\n"
+        "       halfway_search --replay=FOLDER SOURCE\n");
     return static_cast<int>(ExitCode::bad_input);
   }
   return static_cast<int>(options.replay.empty() ? run_all(searches, options) : replay(searches, options));
