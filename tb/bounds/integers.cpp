@@ -19,7 +19,7 @@ namespace {
 
 // The largest is a limit that other code has by its own name.
 Check limit(std::string_view preset, std::string_view name, double largest, std::string where,
-            std::string_view loose = {}) {
+            std::string_view roomy = {}) {
   return {preset,
           name,
           "",
@@ -27,7 +27,7 @@ Check limit(std::string_view preset, std::string_view name, double largest, std:
           [=](const Context&, const tables::PresetFormats&, const tables::Format&, const tables::Bound&) {
             return Finding{.worst = largest, .where = where, .proved = largest};
           },
-          loose};
+          roomy};
 }
 
 constexpr std::int32_t c_unit = 16, c_side = static_cast<std::int32_t>(c_max_frame_side);
@@ -97,11 +97,11 @@ std::vector<Check> integer_checks() {
       limit("both", "lines", c_side, "c_max_frame_side"),
       {"both", "span_x", "", "triangles about the guard band, walked", largest_pixel},
       limit("both", "sample_word", std::ldexp(1.0, tables::c_largest_cosine_size.data_bits) - 1,
-            "c_largest_cosine_size"),
+            "c_largest_cosine_size", "the probe's field is the same for all sizes"),
       limit("both", "command", static_cast<double>(golden::Command::shadow), "Command::shadow"),
       limit("both", "light", c_most_lights, "c_most_lights"),
       {"both", "shadow_count", "", "the golden counter past its ends", deepest_count},
-      {"exact", "edge_error", "", "an edge as high as the guard band", largest_divisor},
+      {"exact", "edge_error", "", "an edge as high as the guard band", largest_divisor, "17 bits would do"},
       {"exact", "edge_x", "", "triangles about the guard band, walked", largest_pixel},
       limit("exact", "power", std::countr_zero(16U), "cos^16 is word 4"),
       limit("exact", "light_shift",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // halfway_bounds [--quick] [--page FILE] SCRATCH [PART]: checks every bound that model/tables states of a
 // format or a table: that its derivation comes to no more, that nothing found or proved exceeds it, and that
-// something comes within a factor of two of it, or why nothing does. --quick: strides in place of exhaustion,
+// something comes within a factor of two of it. --quick: strides in place of exhaustion,
 // without Gappa, in seconds; --page: writes the tables into that file, behind what stands there before them;
 // PART: only entries whose names hold it. Exit codes: 0 all hold, 1 one does not, 2 bad usage, 3 a tool is
 // missing.
@@ -71,7 +71,7 @@ constexpr double c_tight = 0.5;      // of a bound that means something
 constexpr double c_rounding = 1e-9;  // of the doubles that both sides are computed in, relative
 
 Verdict judged(const tables::Bound& bound, double derived, double capacity, const Finding& finding,
-               std::string_view loose) {
+               std::string_view roomy) {
   Verdict v;
   const auto wrong = [&](const std::string& why) { v.wrong += (v.wrong.empty() ? "" : "; ") + why; };
   if (!finding.failure.empty()) wrong(finding.failure);
@@ -86,7 +86,9 @@ Verdict judged(const tables::Bound& bound, double derived, double capacity, cons
     wrong(fmt::format("no less than {} is proved", number(finding.proved)));
   if (bound.kind == tables::Bound::Kind::range && bound.value > capacity)
     wrong(fmt::format("the format holds {} at most", number(capacity)));
-  if (v.ratio < c_tight && loose.empty())
+  if (bound.kind == tables::Bound::Kind::range && 2 * bound.value < capacity && roomy.empty())
+    wrong(fmt::format("the format holds {}, more than twice as much", number(capacity)));
+  if (v.ratio < c_tight)
     wrong(fmt::format("nothing comes within a factor of two of it: {} of it at {}", number(v.ratio),
                       finding.where));
   return v;
@@ -162,7 +164,7 @@ class Report {
         const double derived = tables::derived(preset, format, bound);
         // A signed format holds one more below zero.
         const double capacity = std::ldexp(1.0, format.integer_bits) - (format.is_signed ? 0 : format.unit());
-        const Verdict verdict = judged(bound, derived, capacity, finding, check->loose);
+        const Verdict verdict = judged(bound, derived, capacity, finding, check->roomy);
         ++bounds_;
         if (!verdict.wrong.empty()) fail(fmt::format("{}: {}", name, verdict.wrong));
         const std::string text =
@@ -171,7 +173,7 @@ class Report {
                         bound.kind == tables::Bound::Kind::range ? "range" : or_dash(std::string(bound.of)),
                         tables::shown(bound.value), bound.unit.empty() ? "" : " ", bound.unit,
                         bound.derivation, number(derived), number(finding.worst), verdict.ratio,
-                        finding.where, check->loose.empty() ? "" : fmt::format("; loose: {}", check->loose),
+                        finding.where, check->roomy.empty() ? "" : fmt::format("; {}", check->roomy),
                         check->how, finding.proved > 0 ? number(finding.proved) : "–");
         page_ += text;
         fmt::print("{}: {:.2f} of {} ({:.1f} s)\n", name, verdict.ratio, tables::shown(bound.value), seconds);

@@ -36,7 +36,8 @@ struct Check {
   std::function<Finding(const Context&, const tables::PresetFormats&, const tables::Format&,
                         const tables::Bound&)>
       run;
-  std::string_view loose{};  ///< why nothing comes within a factor of two of it; empty: something must
+  /// Why the format holds twice the largest number that comes and more; empty: it must not.
+  std::string_view roomy{};
 };
 
 // A family each, in a file of its name.

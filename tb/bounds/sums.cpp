@@ -207,7 +207,7 @@ std::vector<Check> sum_checks() {
       {"both", "depth", "", "the program's own limits", depth_range},
       {"both", "depth", "rounded", "every fraction", depth_rounded},
       {"exact", "product_word", "", "the largest factors", product<Exact>},
-      {"published", "product_word", "", "the largest factors", product<Published>},
+      {"published", "product_word", "", "the largest factors", product<Published>, "34 bits would do"},
       {"exact", "reflected", "", "random k and I by the golden processor", reflected<Exact>},
       {"published", "reflected", "", "random k and I by the golden processor", reflected<Published>},
       {"exact", "radiance", "", "16 lights by the golden processors", radiance<Exact>},
