@@ -266,6 +266,9 @@ class SceneChecker : public Checker {
 
   Result<std::optional<Failure>> check_rtl(std::span<const Input> inputs, Tally& tally) override {
     for (const Input& input : inputs) {
+      // Sixteen lights take a minute to build: in one form of the hardware.
+      const bool many = input[At::lights] > 3;
+      if (many && (preset_of(input) == Preset::published || input[At::form] == 0)) continue;
       Trial trial(folders_, rtl_, true);
       trial.draw(scene_of(input), {.plan = request_of(shader_, input), .frame = frame_of(input)});
       if (!trial.tools()) return trial.tools().error();
@@ -367,7 +370,7 @@ class SceneSearch final : public Search {
     input[At::height] = random.whole(8, 48);
     input[At::preset] = random.one_in(4);
     input[At::shadows] = processors && random.one_in(3);
-    input[At::form] = processors && random.one_in(2);
+    input[At::form] = !processors || random.one_in(2);
     Scene scene;
     const int count = random.one_in(20) ? 16 : random.whole(0, 3);
     random.add_triangles(scene, random.whole(1, int{c_triangles}), random.log_within(0.05, 1.0),
