@@ -80,7 +80,7 @@ Finding deepest_count(const Context&, const tables::PresetFormats&, const tables
   golden::ShadowCounter counter;
   for (int i = 0; i < 1000; ++i) counter.count(0, false);
   for (int i = 0; i < 1000; ++i) counter.count(1, true);
-  const int least = counter.take(0), most = counter.take(1);
+  const int least = counter.held(0), most = counter.held(1);
   return {.worst = static_cast<double>(std::max(-least, most)),
           .where = fmt::format("1000 volumes closed: {}; opened: {}", least, most),
           .proved = static_cast<double>(std::max(-least, most))};
