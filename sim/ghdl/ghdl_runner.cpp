@@ -82,8 +82,7 @@ std::string reported_failure(const std::string& output) {
 
 }  // namespace
 
-Result<VhdlSource> GhdlRunner::testbench(const HardwareKey& key,
-                                         const std::filesystem::path& source_folder) {
+Result<VhdlSource> GhdlRunner::testbench(const HardwareKey& key, const std::filesystem::path& source_folder) {
   auto testbench = read_vhdl_source(source_folder, kTestbenchFile);
   if (!testbench) return testbench.error();
   // All shaders have the same ports: one testbench, into which the entity, its generics and the ports' widths

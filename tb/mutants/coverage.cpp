@@ -51,8 +51,8 @@ Result<std::vector<VhdlSource>> instrumented(const std::vector<VhdlSource>& rtl,
       return places.size() - 1;
     };
     for (const Statement& s : outline->statements)
-      insertions.push_back(
-          {s.at, fmt::format("assert work.coverage_pkg.ran({}); ", count(Counts::statement, s.at, line_text(text, s.at)))});
+      insertions.push_back({s.at, fmt::format("assert work.coverage_pkg.ran({}); ",
+                                              count(Counts::statement, s.at, line_text(text, s.at)))});
     for (const Condition& c : outline->conditions) {
       const std::size_t id = count(Counts::condition, c.begin, text.substr(c.begin, c.end - c.begin));
       insertions.push_back({c.begin, fmt::format("work.coverage_pkg.was({}, ", id)});
@@ -62,9 +62,12 @@ Result<std::vector<VhdlSource>> instrumented(const std::vector<VhdlSource>& rtl,
       insertions.push_back({w.at, fmt::format(" work.coverage_pkg.saw(coverage_instance, {}, {});",
                                               count(Counts::signal, w.at, w.name), w.name)});
     if (!outline->architecture_of.empty())
-      insertions.push_back({outline->declarations,
-                            fmt::format(" constant coverage_instance : natural := work.coverage_pkg.new_instance({});", file)});
-    std::stable_sort(insertions.begin(), insertions.end(), [](const Insertion& a, const Insertion& b) { return a.at < b.at; });
+      insertions.push_back(
+          {outline->declarations,
+           fmt::format(" constant coverage_instance : natural := work.coverage_pkg.new_instance({});",
+                       file)});
+    std::stable_sort(insertions.begin(), insertions.end(),
+                     [](const Insertion& a, const Insertion& b) { return a.at < b.at; });
     std::string result;
     std::size_t from = 0;
     for (const Insertion& insertion : insertions) {
@@ -96,8 +99,10 @@ Status add_counts(const std::string& written, std::vector<Place>& places) {
     if (what == "true") place.was_true = true;
     if (what == "false") place.was_false = true;
     if (what == "saw") {
-      const std::string_view bits(parsed.ptr + 1, static_cast<std::size_t>(line.data() + line.size() - parsed.ptr - 1));
-      if (place.toggled.size() < bits.size()) place.toggled.insert(0, bits.size() - place.toggled.size(), '0');
+      const std::string_view bits(parsed.ptr + 1,
+                                  static_cast<std::size_t>(line.data() + line.size() - parsed.ptr - 1));
+      if (place.toggled.size() < bits.size())
+        place.toggled.insert(0, bits.size() - place.toggled.size(), '0');
       for (std::size_t k = 1; k <= bits.size(); ++k)
         if (bits[bits.size() - k] == '1') place.toggled[place.toggled.size() - k] = '1';
     }
@@ -116,18 +121,21 @@ std::vector<FileCoverage> summed(const std::vector<VhdlSource>& rtl, const std::
       line.first = line.first && place.ran;
     } else if (place.counts == Counts::condition) {
       file.outcomes += 2;
-      for (const auto& [seen, what] : {std::pair{place.was_true, "true"}, std::pair{place.was_false, "false"}}) {
+      for (const auto& [seen, what] :
+           {std::pair{place.was_true, "true"}, std::pair{place.was_false, "false"}}) {
         if (seen)
           ++file.outcomes_seen;
         else
           file.missed_outcomes.push_back({place.line, fmt::format("`{}` never {}", place.text, what)});
       }
     } else {
-      const std::size_t toggled = static_cast<std::size_t>(std::count(place.toggled.begin(), place.toggled.end(), '1'));
+      const std::size_t toggled =
+          static_cast<std::size_t>(std::count(place.toggled.begin(), place.toggled.end(), '1'));
       file.bits += place.toggled.size();
       file.bits_toggled += toggled;
       if (toggled < place.toggled.size())
-        file.missed_signals.push_back({place.line, fmt::format("`{}` {} of {}: {}", place.text, toggled, place.toggled.size(), place.toggled)});
+        file.missed_signals.push_back({place.line, fmt::format("`{}` {} of {}: {}", place.text, toggled,
+                                                               place.toggled.size(), place.toggled)});
     }
   }
   for (const auto& [where, line] : lines) {
@@ -147,7 +155,8 @@ Result<std::vector<FileCoverage>> measure_coverage(const Judge& judge, unsigned 
   const auto tool = GhdlTool::find();
   if (!tool) return tool.error();
   if (tool->back_end == GhdlBackEnd::mcode)
-    return tool_failed(fmt::format("ghdl: coverage needs a back end that links; install it with: {}", kInstallGhdl));
+    return tool_failed(
+        fmt::format("ghdl: coverage needs a back end that links; install it with: {}", kInstallGhdl));
   std::vector<Place> places;
   auto sources = instrumented(judge.rtl(), places);
   if (!sources) return sources.error();
@@ -159,20 +168,23 @@ Result<std::vector<FileCoverage>> measure_coverage(const Judge& judge, unsigned 
   auto folder = TemporaryFolder::make(judge.folders().scratch / "benches");
   if (!folder) return folder.error();
   const auto call = [&](std::vector<std::string> arguments, const char* install) -> Status {
-    const auto end = run_process({.arguments = arguments, .working_folder = folder->path(), .timeout = c_time}, install);
+    const auto end =
+        run_process({.arguments = arguments, .working_folder = folder->path(), .timeout = c_time}, install);
     if (!end) return end.error();
     if (end->succeeded()) return Ok{};
     return tool_failed(fmt::format("coverage: {} failed ({}):\n{}", arguments[0], end->how(), end->output));
   };
   told("coverage: analysis");
-  if (auto made = call({"cc", "-O2", "-c", (judge.folders().source / "tb/mutants/coverage_counters.c").string(), "-o",
-                        "counters.o"},
-                       kInstall);
+  if (auto made =
+          call({"cc", "-O2", "-c", (judge.folders().source / "tb/mutants/coverage_counters.c").string(), "-o",
+                "counters.o"},
+               kInstall);
       !made)
     return made.error();
   std::vector<std::string> analyse = {"ghdl", "-a", "--std=08"};
   for (const VhdlSource& source : *sources) {
-    if (auto written = write_file(folder->path() / source.name, source.content); !written) return written.error();
+    if (auto written = write_file(folder->path() / source.name, source.content); !written)
+      return written.error();
     analyse.push_back(source.name);
   }
   if (auto made = call(std::move(analyse), kInstallGhdl); !made) return made.error();
@@ -185,7 +197,8 @@ Result<std::vector<FileCoverage>> measure_coverage(const Judge& judge, unsigned 
   for (const Test& test : judge.testbenches()) tests.push_back(&test);
   for (const Test& test : judge.frames()) tests.push_back(&test);
   // The longest first.
-  std::stable_sort(tests.begin(), tests.end(), [](const Test* a, const Test* b) { return a->seconds > b->seconds; });
+  std::stable_sort(tests.begin(), tests.end(),
+                   [](const Test* a, const Test* b) { return a->seconds > b->seconds; });
   std::mutex mutex;
   Status failed = Ok{};
   in_parallel(workers, tests.size(), [&](std::size_t i) {
@@ -200,9 +213,11 @@ Result<std::vector<FileCoverage>> measure_coverage(const Judge& judge, unsigned 
           return made.error();
         told("coverage: " + test.name);
       }
-      Command command{.arguments = {folder->path() / test.top}, .working_folder = folder->path(), .timeout = c_time};
+      Command command{
+          .arguments = {folder->path() / test.top}, .working_folder = folder->path(), .timeout = c_time};
       command.arguments.insert(command.arguments.end(), test.arguments.begin(), test.arguments.end());
-      if (!test.golden.empty()) command.arguments.push_back("-gg_trace_file=" + (folder->path() / (test.top + ".trace")).string());
+      if (!test.golden.empty())
+        command.arguments.push_back("-gg_trace_file=" + (folder->path() / (test.top + ".trace")).string());
       command.arguments.insert(command.arguments.end(), {"--ieee-asserts=disable", "--assert-level=error"});
       const std::filesystem::path counted = folder->path() / (test.top + ".counted");
       command.environment = {{"HALFWAY_COVERAGE", counted.string()}};

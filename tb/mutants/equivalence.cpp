@@ -18,7 +18,9 @@ constexpr const char* kInstall = "apt-get install yosys";
 constexpr std::chrono::seconds c_time{60};
 constexpr int c_levels = 2;  // of modules around the change
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool is_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
 
 std::string without_comments(std::string_view text) {
   std::string result;
@@ -48,7 +50,8 @@ std::string renumbered(std::string_view text) {
     const std::string_view word = text.substr(i, end - i);
     const std::size_t digits = std::min(word.find_first_not_of("0123456789", 1), word.size());
     if (word.size() > 1 && word[0] == 'n' && digits > 1 && (digits == word.size() || word[digits] == '_')) {
-      const auto number = numbers.try_emplace(std::string(word.substr(0, digits)), fmt::format("n{}", numbers.size()));
+      const auto number =
+          numbers.try_emplace(std::string(word.substr(0, digits)), fmt::format("n{}", numbers.size()));
       result += number.first->second;
       result += word.substr(digits);
     } else {
@@ -60,19 +63,24 @@ std::string renumbered(std::string_view text) {
 }
 
 // The module and all that it is made of, each once.
-void add_modules(const Netlist& netlist, const std::string& name, std::set<std::string>& done, std::string& text) {
+void add_modules(const Netlist& netlist, const std::string& name, std::set<std::string>& done,
+                 std::string& text) {
   const auto module = netlist.modules.find(name);
   if (module == netlist.modules.end() || !done.insert(name).second) return;
   for (const auto& [other, its_text] : netlist.modules)
-    if (module->second.find("\n  " + other + " ") != std::string::npos) add_modules(netlist, other, done, text);
+    if (module->second.find("\n  " + other + " ") != std::string::npos)
+      add_modules(netlist, other, done, text);
   text += module->second;
 }
 
-bool is_in(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
+bool is_in(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
 
 // {0}: the file, {1}: the top, {2}: gold or gate
 constexpr std::string_view kRead =
-    "read_verilog {0}; prep -flatten -top {1}; expose -input w:*_read__; expose w:*_told__; opt_clean; rename {1} {2}; ";
+    "read_verilog {0}; prep -flatten -top {1}; expose -input w:*_read__; expose w:*_told__; opt_clean; "
+    "rename {1} {2}; ";
 
 }  // namespace
 
@@ -121,13 +129,21 @@ Equivalence::Equivalence(const Judge& judge) : judge_(judge) {
   for (const Preset preset : {Preset::exact, Preset::published})
     for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
       HardwareKey key{.shader = Shader::processors, .preset = preset, .spherical = {}, .processors = {}};
-      key.processors = {.directional = 1, .positional = 1, .spots = 1, .diffuse = true, .specular = true,
-                        .normalize = true, .shadows = false, .form = form};
+      key.processors = {.directional = 1,
+                        .positional = 1,
+                        .spots = 1,
+                        .diffuse = true,
+                        .specular = true,
+                        .normalize = true,
+                        .shadows = false,
+                        .form = form};
       keys_.push_back(key);
     }
   // The smaller tables that the paper names.
-  HardwareKey small{.shader = Shader::spherical, .preset = Preset::published, .spherical = {}, .processors = {}};
-  small.spherical = {.lights = 1, .diffuse = true, .specular = true, .highlight_channels = 3, .powers = 2, .tables = {4, 4}};
+  HardwareKey small{
+      .shader = Shader::spherical, .preset = Preset::published, .spherical = {}, .processors = {}};
+  small.spherical = {
+      .lights = 1, .diffuse = true, .specular = true, .highlight_channels = 3, .powers = 2, .tables = {4, 4}};
   keys_.push_back(small);
   const std::size_t without = keys_.size();
   for (std::size_t i = 0; i < without; ++i) {
@@ -146,7 +162,8 @@ Result<Netlist> Equivalence::synthesize(const HardwareKey& key, const Exchanged&
   for (const auto& [name, value] : key.generics()) command.arguments.push_back("-g" + name + '=' + value);
   for (const VhdlSource& source : judge_.rtl()) {
     const bool other = source.name == "rtl/" + exchanged.file;
-    if (auto written = write_file(folder->path() / source.name, other ? exchanged.content : source.content); !written)
+    if (auto written = write_file(folder->path() / source.name, other ? exchanged.content : source.content);
+        !written)
       return written.error();
     command.arguments.push_back(source.name);
   }
@@ -175,25 +192,30 @@ Result<bool> Equivalence::same(const Netlist& gold, const Netlist& gate, const s
   const char* names[] = {"gold", "gate"};
   std::string script;
   for (int i = 0; i < 2; ++i) {
-    if (auto written = write_file(folder->path() / fmt::format("{}.v", names[i]), with_open_memories(texts[static_cast<std::size_t>(i)]));
+    if (auto written = write_file(folder->path() / fmt::format("{}.v", names[i]),
+                                  with_open_memories(texts[static_cast<std::size_t>(i)]));
         !written)
       return written.error();
     script += fmt::format(kRead, fmt::format("{}.v", names[i]), module, names[i]);
     if (i == 0) script += "design -stash gold; ";
   }
   script +=
-      "design -copy-from gold -as gold gold; miter -equiv -flatten gold gate miter; hierarchy -top miter; memory_map; "
-      "setundef -undriven -zero; setundef -init -zero; opt -full; async2sync; techmap; opt -full; dffunmap; opt_clean; "
+      "design -copy-from gold -as gold gold; miter -equiv -flatten gold gate miter; hierarchy -top miter; "
+      "memory_map; "
+      "setundef -undriven -zero; setundef -init -zero; opt -full; async2sync; techmap; opt -full; dffunmap; "
+      "opt_clean; "
       "abc -g AND -fast; opt_clean; write_aiger -zinit miter.aig";
-  const auto made = run_process({.arguments = {"yosys", "-q", "-p", script}, .working_folder = folder->path(), .timeout = c_time},
-                                kInstall);
+  const auto made = run_process(
+      {.arguments = {"yosys", "-q", "-p", script}, .working_folder = folder->path(), .timeout = c_time},
+      kInstall);
   if (!made) return made.error();
   bool proved = false;
   // Where the ports differ there is no miter, and nothing is proved.
   if (made->succeeded()) {
-    const auto end = run_process(
-        {.arguments = {"yosys-abc", "-c", "read_aiger miter.aig; scorr; pdr -T 30"}, .working_folder = folder->path(), .timeout = c_time},
-        kInstall);
+    const auto end = run_process({.arguments = {"yosys-abc", "-c", "read_aiger miter.aig; scorr; pdr -T 30"},
+                                  .working_folder = folder->path(),
+                                  .timeout = c_time},
+                                 kInstall);
     if (!end) return end.error();
     proved = end->succeeded() && is_in(end->output, "Property proved.");
   }
@@ -204,7 +226,8 @@ Result<bool> Equivalence::same(const Netlist& gold, const Netlist& gate, const s
 Result<bool> Equivalence::same_within(const Netlist& gold, const Netlist& gate) {
   std::set<std::string> differing;
   for (const auto& [name, text] : gate.modules)
-    if (const auto own = gold.modules.find(name); own == gold.modules.end() || own->second != text) differing.insert(name);
+    if (const auto own = gold.modules.find(name); own == gold.modules.end() || own->second != text)
+      differing.insert(name);
   for (int level = 0; !differing.empty(); ++level) {
     std::set<std::string> around;
     for (const std::string& name : differing) {

@@ -20,7 +20,8 @@ struct Netlist {
   std::map<std::string, std::string> modules;
 };
 
-/// Without comments, and with GHDL's numbers of nets in the order of the text: equal texts are equal hardware.
+/// Without comments, and with GHDL's numbers of nets in the order of the text: equal texts are equal
+/// hardware.
 Netlist netlist_of(std::string_view verilog, const std::string& top);
 
 /// A memory's ports in place of the memory, so that a miter need not hold its words: what is read comes from

@@ -64,15 +64,21 @@ void add_used(const VhdlSource& source, const std::map<std::string, const VhdlSo
   constexpr std::string_view mark = "work.";
   for (std::size_t at = text.find(mark); at != std::string_view::npos; at = text.find(mark, at + 1)) {
     std::size_t end = at + mark.size();
-    while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) != 0 || text[end] == '_')) ++end;
+    while (end < text.size() &&
+           (std::isalnum(static_cast<unsigned char>(text[end])) != 0 || text[end] == '_'))
+      ++end;
     const auto unit = units.find(std::string(text.substr(at + mark.size(), end - at - mark.size())));
     if (unit != units.end()) add_used(*unit->second, units, used);
   }
 }
 
-std::string said_failure(const std::string& output) { return output.substr(0, 2000); }
+std::string said_failure(const std::string& output) {
+  return output.substr(0, 2000);
+}
 
-bool is_in(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
+bool is_in(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
 
 // Without the line that says how many clocks it took.
 std::string fragments_of(std::string trace) {
@@ -156,7 +162,8 @@ Status Judge::add_frames(std::vector<VhdlSource>& sources) {
     for (std::size_t at; (at = testbench->content.find("frame_tb")) != std::string::npos;)
       testbench->content.replace(at, 8, test.top);
     testbench->name = fmt::format("tb/{}.vhd", test.top);
-    for (const auto& [name, value] : plan->key.generics()) test.arguments.push_back(fmt::format("-g{}={}", name, value));
+    for (const auto& [name, value] : plan->key.generics())
+      test.arguments.push_back(fmt::format("-g{}={}", name, value));
     test.arguments.push_back("-gg_init_file=" + test.init.string());
     // Every clock of it stalls or not at random: what a stall disturbs is seen too.
     test.arguments.push_back("-gg_stall_seed=1");
@@ -167,22 +174,26 @@ Status Judge::add_frames(std::vector<VhdlSource>& sources) {
   return Ok{};
 }
 
-Status Judge::prepare(unsigned workers, bool with_frames, const std::function<void(const std::string&)>& told) {
+Status Judge::prepare(unsigned workers, bool with_frames,
+                      const std::function<void(const std::string&)>& told) {
   auto rtl = read_rtl_sources(folders_.source);
   if (!rtl) return rtl.error();
   rtl_ = std::move(*rtl);
   std::vector<VhdlSource> sources = rtl_;
-  for (const char* shared : {"tb/tb_pkg.vhd", "tb/shaders/shader_checker.vhd", "tb/illumination/processor_checker.vhd"}) {
+  for (const char* shared :
+       {"tb/tb_pkg.vhd", "tb/shaders/shader_checker.vhd", "tb/illumination/processor_checker.vhd"}) {
     auto source = read_vhdl_source(folders_.source, shared);
     if (!source) return source.error();
     sources.push_back(std::move(*source));
   }
   const std::size_t first_testbench = sources.size();
-  for (const char* stage : {"tables", "arithmetic", "stream", "interpolation", "raster", "illumination", "shaders"}) {
+  for (const char* stage :
+       {"tables", "arithmetic", "stream", "interpolation", "raster", "illumination", "shaders"}) {
     std::vector<std::string> names;
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folders_.source / "tb" / stage, error))
-      if (entry.path().filename().string().ends_with("_tb.vhd")) names.push_back(entry.path().filename().string());
+      if (entry.path().filename().string().ends_with("_tb.vhd"))
+        names.push_back(entry.path().filename().string());
     if (names.empty()) return tool_failed(fmt::format("tb/{}: holds no testbench", stage));
     std::sort(names.begin(), names.end());
     for (const std::string& name : names) {
@@ -207,7 +218,8 @@ Status Judge::prepare(unsigned workers, bool with_frames, const std::function<vo
   std::map<std::string, const VhdlSource*> units;
   for (const VhdlSource& source : sources)
     for (const std::string_view mark : {"\nentity ", "\npackage "})
-      for (std::size_t at = source.content.find(mark); at != std::string::npos; at = source.content.find(mark, at + 1)) {
+      for (std::size_t at = source.content.find(mark); at != std::string::npos;
+           at = source.content.find(mark, at + 1)) {
         const std::size_t name = at + mark.size();
         units.emplace(source.content.substr(name, source.content.find(' ', name) - name), &source);
       }
@@ -233,7 +245,8 @@ Status Judge::prepare(unsigned workers, bool with_frames, const std::function<vo
     Test& test = i < testbenches_.size() ? testbenches_[i] : frames_[i - testbenches_.size()];
     ContentHash hash;
     hash.add("test 1").add(tool->version).add(sources[first_testbench + i].content);
-    for (std::size_t shared = rtl_.size(); shared < first_testbench; ++shared) hash.add(sources[shared].content);
+    for (std::size_t shared = rtl_.size(); shared < first_testbench; ++shared)
+      hash.add(sources[shared].content);
     for (const std::string& file : test.uses) hash.add(file).add(rtl_files.at(file)->content);
     std::set<std::filesystem::path> data = {test.init, test.golden};
     if (test.golden.empty()) {
@@ -254,6 +267,14 @@ Status Judge::prepare(unsigned workers, bool with_frames, const std::function<vo
   std::vector<Test*> tests;
   for (Test& test : testbenches_) tests.push_back(&test);
   for (Test& test : frames_) tests.push_back(&test);
+  // The longest first, as far as that is known.
+  const auto key_of = [](const std::string& what) { return ContentHash().add("seconds").add(what).hex(); };
+  for (Test* test : tests) {
+    const auto before = remembered_->find(key_of(test->name));
+    test->seconds = before ? std::strtod(before->c_str(), nullptr) : 0;
+  }
+  std::stable_sort(tests.begin(), tests.end(),
+                   [](const Test* a, const Test* b) { return a->seconds > b->seconds; });
   std::mutex mutex;
   Status failed = Ok{};
   in_parallel(workers, tests.size(), [&](std::size_t i) {
@@ -264,11 +285,12 @@ Status Judge::prepare(unsigned workers, bool with_frames, const std::function<vo
     const std::lock_guard lock(mutex);
     tests[i]->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     // From an earlier run, where this one did not need it.
-    const std::string key = ContentHash().add("seconds").add(tests[i]->hash).hex();
+    const std::string key = key_of(tests[i]->hash);
     if (const auto before = remembered_->find(key))
       tests[i]->seconds = std::max(tests[i]->seconds, std::strtod(before->c_str(), nullptr));
     else
-      remembered_->add(key, fmt::format("{}", tests[i]->seconds));
+      for (const std::string& of : {key, key_of(tests[i]->name)})
+        remembered_->add(of, fmt::format("{}", tests[i]->seconds));
     told(fmt::format("{} without a fault: {:.1f} s", tests[i]->name, tests[i]->seconds));
     if (!verdict) failed = verdict.error();
     if (verdict && *verdict != Verdict::survived)
@@ -282,10 +304,11 @@ Status Judge::Bench::make() {
   auto folder = TemporaryFolder::make(judge_.folders_.scratch / "benches");
   if (!folder) return folder.error();
   std::error_code error;
-  std::filesystem::copy(judge_.library_, folder->path(),
-                        std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing,
-                        error);
-  if (error) return tool_failed(fmt::format("{}: cannot copy: {}", judge_.library_.string(), error.message()));
+  std::filesystem::copy(
+      judge_.library_, folder->path(),
+      std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing, error);
+  if (error)
+    return tool_failed(fmt::format("{}: cannot copy: {}", judge_.library_.string(), error.message()));
   if (!exchanged_.file.empty())
     if (auto written = write_file(folder->path() / "rtl" / exchanged_.file, exchanged_.content); !written)
       return written.error();
@@ -328,8 +351,7 @@ Result<Verdict> Judge::Bench::run_anew(const Test& test) {
   command.arguments.insert(command.arguments.end(), {"--ieee-asserts=disable", "--assert-level=error"});
   const auto end = run_process(command, kInstallGhdl);
   if (!end) return end.error();
-  if (end->timed_out || end->signal == SIGXCPU || end->signal == SIGKILL)
-    return Verdict::killed_by_time;
+  if (end->timed_out || end->signal == SIGXCPU || end->signal == SIGKILL) return Verdict::killed_by_time;
   if (!end->succeeded()) {
     if (is_in(end->output, ": cannot open") || is_in(end->output, ": cannot write"))
       return tool_failed(fmt::format("{}: {}", test.top, said_failure(end->output)));

@@ -42,15 +42,15 @@ enum class Verdict {
 
 /// A testbench, or a frame.
 struct Test {
-  std::string name;               ///< saturate; or the frame's scene and hardware
-  std::string top;                ///< the entity that GHDL elaborates
+  std::string name;  ///< saturate; or the frame's scene and hardware
+  std::string top;   ///< the entity that GHDL elaborates
   std::vector<std::string> arguments;
-  std::set<std::string> uses;     ///< files of rtl/, through all levels
+  std::set<std::string> uses;      ///< files of rtl/, through all levels
   std::filesystem::path golden{};  ///< the trace that a frame must have; empty: a testbench
-  HardwareKey key{};              ///< of a frame
-  std::filesystem::path init{};   ///< of a frame
-  double seconds = 0;             ///< that it takes without a fault
-  std::string hash{};             ///< of all that it reads
+  HardwareKey key{};               ///< of a frame
+  std::filesystem::path init{};    ///< of a frame
+  double seconds = 0;              ///< that it takes without a fault
+  std::string hash{};              ///< of all that it reads
 };
 
 /// Answers by the hash of what was asked, in a file that grows.

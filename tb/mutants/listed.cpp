@@ -145,6 +145,7 @@ constexpr Listed c_listed[] = {
     // leaves its count; lit where volumes are missing; no fault where they are, and one without a light.
     {"illumination/shadow_counter.vhd", "v.forwarded := '1'", "v.forwarded := '0'"},
     {"illumination/shadow_counter.vhd", "if held = c_most then", "if held = c_least then"},
+    {"illumination/shadow_counter.vhd", "if held = c_least then", "if held = c_least and held(0) = '1' then"},
     {"illumination/shadow_counter.vhd", "v.last := unsigned(x)", "v.last := r.last"},
     {"illumination/shadow_counter.vhd", "if r.takes = '1' then", "if r.takes = '1' and r.opens = '1' then"},
     {"illumination/shadow_counter.vhd", "'1' when around = 0", "'1' when around <= 0"},
@@ -229,6 +230,8 @@ constexpr Listed c_listed[] = {
 
 }  // namespace
 
-std::span<const Listed> listed_mutants() { return c_listed; }
+std::span<const Listed> listed_mutants() {
+  return c_listed;
+}
 
 }  // namespace halfway::mutants

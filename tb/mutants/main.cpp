@@ -2,8 +2,8 @@
 // halfway_mutants [--quick] [--count N] [--seed N] [--jobs N] [--no-coverage] [--page FILE] SOURCE VECTORS
 // SCRATCH [PART]: puts one small fault after the other into a copy of the RTL, which the project's tests must
 // find, and counts what of the RTL those tests reach. SOURCE is the project's root, VECTORS what
-// halfway_vectors wrote, SCRATCH holds what is remembered of runs before; with PART only faults in files whose
-// names hold it.
+// halfway_vectors wrote, SCRATCH holds what is remembered of runs before; with PART only faults in files
+// whose names hold it.
 //   --quick        the listed faults and a generated one for each file that has a testbench, each by that
 //                  testbench; without the slowest
 //   --count        so many generated faults, over all files
@@ -41,7 +41,7 @@ namespace halfway::mutants {
 namespace {
 
 constexpr unsigned c_count = 400, c_seed = 1;
-constexpr double c_share = 0.98;  // of the mutants not proved equivalent, what has to be killed
+constexpr double c_share = 0.98;   // of the mutants not proved equivalent, what has to be killed
 constexpr int c_quick_passes = 3;  // generated mutants that may pass --quick, which proves nothing equivalent
 constexpr int c_least_of_file = 6;  // mutants, where it has so many places
 constexpr double c_quick = 8.0;     // seconds that tests other than its own may take before a proof is tried
@@ -89,8 +89,8 @@ bool read_options(const std::vector<std::string>& arguments, Options& options) {
 }
 
 struct Mutant {
-  std::string file;     ///< in rtl/
-  std::string by;       ///< the operator's name, or "listed"
+  std::string file;  ///< in rtl/
+  std::string by;    ///< the operator's name, or "listed"
   std::size_t line;
   std::string from, to, in_line;
   std::string content;  ///< of the whole file
@@ -109,8 +109,10 @@ struct Outcome {
 std::string one_line(std::string_view text) {
   std::string line;
   for (const char c : text) {
-    if (c != '\n' && c != ' ') line.push_back(c);
-    else if (!line.empty() && line.back() != ' ') line.push_back(' ');
+    if (c != '\n' && c != ' ')
+      line.push_back(c);
+    else if (!line.empty() && line.back() != ' ')
+      line.push_back(' ');
   }
   return line;
 }
@@ -121,8 +123,14 @@ std::string name_of(const Mutant& m) {
 
 Mutant mutant_of(const std::string& file, const std::string& content, std::string by, std::size_t begin,
                  std::size_t end, std::string to) {
-  Mutant m{.file = file, .by = std::move(by), .line = line_of(content, begin), .from = content.substr(begin, end - begin),
-           .to = std::move(to), .in_line = {}, .content = content, .tested = {}};
+  Mutant m{.file = file,
+           .by = std::move(by),
+           .line = line_of(content, begin),
+           .from = content.substr(begin, end - begin),
+           .to = std::move(to),
+           .in_line = {},
+           .content = content,
+           .tested = {}};
   const std::size_t from = content.rfind('\n', begin) + 1;
   m.in_line = one_line(content.substr(from, content.find('\n', begin) - from));
   while (m.in_line.starts_with(' ')) m.in_line.erase(0, 1);
@@ -138,7 +146,8 @@ std::uint64_t next_random(std::uint64_t& state) {
   return z ^ (z >> 31);
 }
 
-// What a file can be changed into, in the order in which it is tried: the operators in turn, places at random.
+// What a file can be changed into, in the order in which it is tried: the operators in turn, places at
+// random.
 struct Candidates {
   std::string file, content;
   std::vector<Change> order;
@@ -151,12 +160,14 @@ Result<Candidates> candidates_of(const VhdlSource& source, unsigned seed) {
   if (!outline) return outline.error();
   Candidates all{.file = source.name.substr(4), .content = source.content, .order = {}};
   std::vector<std::deque<Change>> by_operator(c_operators);
-  for (const Change& change : outline->changes) by_operator[static_cast<std::size_t>(change.by)].push_back(change);
+  for (const Change& change : outline->changes)
+    by_operator[static_cast<std::size_t>(change.by)].push_back(change);
   std::uint64_t state = seed;
   for (const char c : all.file) state = state * 31 + static_cast<unsigned char>(c);
   bool table = false;
   for (auto& changes : by_operator) {
-    for (std::size_t i = changes.size(); i > 1; --i) std::swap(changes[i - 1], changes[next_random(state) % i]);
+    for (std::size_t i = changes.size(); i > 1; --i)
+      std::swap(changes[i - 1], changes[next_random(state) % i]);
     if (!changes.empty() && changes.front().by == Operator::rom) {
       table = true;
     } else {
@@ -196,14 +207,15 @@ Result<std::vector<Mutant>> listed(const Judge& judge) {
     if (at == std::string::npos || source->content.find(fault.from, at + 1) != std::string::npos)
       return bad_input(
           fmt::format("rtl/{}: `{}` does not occur once; mend the list of mutants", fault.file, fault.from));
-    all.push_back(mutant_of(fault.file, source->content, "listed", at, at + fault.from.size(), std::string(fault.to)));
+    all.push_back(
+        mutant_of(fault.file, source->content, "listed", at, at + fault.from.size(), std::string(fault.to)));
     all.back().tested = std::filesystem::path(fault.tested).stem();
   }
   return all;
 }
 
-// The tests that see the file: its own testbench first, then those of the entities that use it and the frames,
-// the quickest first.
+// The tests that see the file: its own testbench first, then those of the entities that use it and the
+// frames, the quickest first.
 std::vector<const Test*> tests_of(const Judge& judge, const Mutant& mutant) {
   std::vector<const Test*> tests;
   for (const auto* kind : {&judge.testbenches(), &judge.frames()})
@@ -225,7 +237,8 @@ Result<Outcome> judged_by_its_own(const Judge& judge, const Mutant& mutant, cons
   const auto verdict = judge.bench({mutant.file, mutant.content}).run(*test);
   if (!verdict) return verdict.error();
   if (*verdict == Verdict::survived) return Outcome{};
-  return Outcome{*verdict == Verdict::stillborn ? End::stillborn : End::own, *verdict == Verdict::killed_by_time, own};
+  return Outcome{*verdict == Verdict::stillborn ? End::stillborn : End::own,
+                 *verdict == Verdict::killed_by_time, own};
 }
 
 Result<Outcome> judged(const Judge& judge, Equivalence& equivalence, bool quick, const Mutant& mutant) {
@@ -294,7 +307,8 @@ class Run {
       files_.push_back(std::move(*file));
     }
     share_out(files_, options_.count);
-    std::erase_if(files_, [&](const Candidates& file) { return file.file.find(options_.part) == std::string::npos; });
+    std::erase_if(files_,
+                  [&](const Candidates& file) { return file.file.find(options_.part) == std::string::npos; });
     if (options_.quick) {
       std::erase_if(files_, [&](const Candidates& file) {
         const std::string own = std::filesystem::path(file.file).stem();
@@ -303,7 +317,8 @@ class Run {
       });
       for (Candidates& file : files_) file.wanted = 1;
     }
-    if (files_.empty()) return bad_input(fmt::format("{}: no file of the RTL has this in its name", options_.part));
+    if (files_.empty())
+      return bad_input(fmt::format("{}: no file of the RTL has this in its name", options_.part));
     for (const Candidates& file : files_) wanted_ += file.wanted;
     wanted_ += listed_.size();
     return Ok{};
@@ -351,7 +366,8 @@ class Run {
   }
 
   void settle(Mutant mutant, const Result<Outcome>& outcome) {
-    const auto file = std::find_if(files_.begin(), files_.end(), [&](const Candidates& f) { return f.file == mutant.file; });
+    const auto file = std::find_if(files_.begin(), files_.end(),
+                                   [&](const Candidates& f) { return f.file == mutant.file; });
     const bool generated = mutant.tested.empty();
     if (generated) --file->under_way;
     if (!outcome) {
@@ -373,8 +389,9 @@ class Run {
                                                     "equivalent, proved",
                                                     "SURVIVED"};
     const bool own = outcome->by == std::filesystem::path(mutant.file).stem().string();
-    fmt::print("[{}/{}] {}: {}{}{}\n", done_.size() + 1, wanted_, name_of(mutant), c_names[static_cast<int>(outcome->end)],
-               own || outcome->by.empty() ? "" : " " + outcome->by, outcome->by_time ? ", by its time" : "");
+    fmt::print("[{}/{}] {}: {}{}{}\n", done_.size() + 1, wanted_, name_of(mutant),
+               c_names[static_cast<int>(outcome->end)], own || outcome->by.empty() ? "" : " " + outcome->by,
+               outcome->by_time ? ", by its time" : "");
     std::fflush(stdout);
     done_.push_back({std::move(mutant), *outcome});
   }
@@ -458,7 +475,8 @@ Report report_of(const Options& options, const Judge& judge, std::vector<Judged>
     }
   }
   report.text += kTable;
-  for (const auto& [file, row] : files) report.text += row_text("`" + judge.rtl()[file].name.substr(4) + "`", row);
+  for (const auto& [file, row] : files)
+    report.text += row_text("`" + judge.rtl()[file].name.substr(4) + "`", row);
   report.text += row_text("**all generated**", total);
   if (from_list.mutants > 0) report.text += row_text("listed", from_list);
 
@@ -466,15 +484,18 @@ Report report_of(const Options& options, const Judge& judge, std::vector<Judged>
   const std::size_t survived = total.ends[static_cast<std::size_t>(End::survived)];
   const std::size_t counted = total.mutants - equivalent, killed = counted - survived;
   report.text += fmt::format(
-      "\nOf {} generated mutants {} are proved equivalent; of the {} others {} were killed: {:.1f} %. {} of all made a "
+      "\nOf {} generated mutants {} are proved equivalent; of the {} others {} were killed: {:.1f} %. {} of "
+      "all made a "
       "test take four times its time, and count as killed.\n",
-      total.mutants, equivalent, counted, killed, percent(killed, counted), total.by_time + from_list.by_time);
+      total.mutants, equivalent, counted, killed, percent(killed, counted),
+      total.by_time + from_list.by_time);
   if (static_cast<double>(killed) < c_share * static_cast<double>(counted))
     report.faults.push_back(fmt::format("{:.1f} % of the mutants were killed, {:.0f} % have to be",
                                         percent(killed, counted), 100.0 * c_share));
 
-  report.text += "\n| operator | mutants | killed by its testbench | by another | by a frame | equivalent | survived |\n"
-                 "| --- | --- | --- | --- | --- | --- | --- |\n";
+  report.text +=
+      "\n| operator | mutants | killed by its testbench | by another | by a frame | equivalent | survived |\n"
+      "| --- | --- | --- | --- | --- | --- | --- |\n";
   for (int i = 0; i < c_operators; ++i)
     if (const auto row = operators.find(to_string(static_cast<Operator>(i))); row != operators.end())
       report.text += row_text(row->first, row->second);
@@ -490,25 +511,29 @@ Report report_of(const Options& options, const Judge& judge, std::vector<Judged>
       continue;
     }
     ++listed_survivors;
-    const auto known = std::find_if(known_survivors().begin(), known_survivors().end(), [&](const KnownSurvivor& k) {
-      return k.file == j.mutant.file && k.in_line == j.mutant.in_line && k.from == one_line(j.mutant.from) &&
-             k.to == one_line(j.mutant.to);
-    });
+    const auto known =
+        std::find_if(known_survivors().begin(), known_survivors().end(), [&](const KnownSurvivor& k) {
+          return k.file == j.mutant.file && k.in_line == j.mutant.in_line &&
+                 k.from == one_line(j.mutant.from) && k.to == one_line(j.mutant.to);
+        });
     if (known == known_survivors().end())
       report.faults.push_back(fmt::format("{}: survives, and survivors.cpp has no reason; in the line {}",
                                           name_of(j.mutant), j.mutant.in_line));
     else
       met.insert(&*known);
-    rows += fmt::format("| `{}`, line {} | {} for {} in {} | {} |\n", j.mutant.file, j.mutant.line, in_code(j.mutant.to),
-                        in_code(j.mutant.from), in_code(j.mutant.in_line),
+    rows += fmt::format("| `{}`, line {} | {} for {} in {} | {} |\n", j.mutant.file, j.mutant.line,
+                        in_code(j.mutant.to), in_code(j.mutant.from), in_code(j.mutant.in_line),
                         known == known_survivors().end() ? "" : known->reason);
   }
-  report.text += listed_survivors == 0 ? "None.\n" : "| where | fault | why no test sees it |\n| --- | --- | --- |\n" + rows;
+  report.text += listed_survivors == 0
+                     ? "None.\n"
+                     : "| where | fault | why no test sees it |\n| --- | --- | --- |\n" + rows;
   if (options.part.empty() && options.count == c_count && options.seed == c_seed)
     for (const KnownSurvivor& known : known_survivors())
       if (!met.contains(&known))
-        report.faults.push_back(fmt::format("survivors.cpp: {}: `{}` for `{}` survives no more, or is not made; take it off",
-                                            known.file, known.to, known.from));
+        report.faults.push_back(
+            fmt::format("survivors.cpp: {}: `{}` for `{}` survives no more, or is not made; take it off",
+                        known.file, known.to, known.from));
   return report;
 }
 
@@ -529,11 +554,12 @@ void add_coverage(Report& report, const std::vector<FileCoverage>& files) {
     for (const auto* missed : {&f.missed_lines, &f.missed_outcomes})
       for (const Missed& m : *missed) {
         const std::string text = one_line(m.text);
-        const auto known = std::find_if(known_gaps().begin(), known_gaps().end(),
-                                        [&](const KnownGap& gap) { return gap.file == f.file && gap.text == text; });
+        const auto known = std::find_if(known_gaps().begin(), known_gaps().end(), [&](const KnownGap& gap) {
+          return gap.file == f.file && gap.text == text;
+        });
         if (known == known_gaps().end())
-          report.faults.push_back(
-              fmt::format("rtl/{}:{}: {}: reached by no test, and survivors.cpp has no reason", f.file, m.line, text));
+          report.faults.push_back(fmt::format(
+              "rtl/{}:{}: {}: reached by no test, and survivors.cpp has no reason", f.file, m.line, text));
         else
           met.insert(&*known);
         rows += fmt::format("| `{}`, line {} | {} | {} |\n", f.file, m.line,
@@ -543,11 +569,12 @@ void add_coverage(Report& report, const std::vector<FileCoverage>& files) {
   }
   for (const KnownGap& known : known_gaps())
     if (!met.contains(&known))
-      report.faults.push_back(fmt::format("survivors.cpp: {}: `{}` is reached; take it off", known.file, known.text));
-  report.text += fmt::format("| **all** | {}: {:.1f} % | {}: {:.1f} % | {}: {:.1f} % |\n", share(all.lines_run, all.lines),
-                             percent(all.lines_run, all.lines), share(all.outcomes_seen, all.outcomes),
-                             percent(all.outcomes_seen, all.outcomes), share(all.bits_toggled, all.bits),
-                             percent(all.bits_toggled, all.bits));
+      report.faults.push_back(
+          fmt::format("survivors.cpp: {}: `{}` is reached; take it off", known.file, known.text));
+  report.text += fmt::format("| **all** | {}: {:.1f} % | {}: {:.1f} % | {}: {:.1f} % |\n",
+                             share(all.lines_run, all.lines), percent(all.lines_run, all.lines),
+                             share(all.outcomes_seen, all.outcomes), percent(all.outcomes_seen, all.outcomes),
+                             share(all.bits_toggled, all.bits), percent(all.bits_toggled, all.bits));
   report.text += "\nLines and outcomes that no test reaches:\n\n";
   report.text += rows.empty() ? "None.\n" : "| where | what | why |\n| --- | --- | --- |\n" + rows;
 }
@@ -573,9 +600,11 @@ ExitCode run_quick(const std::vector<Judged>& all) {
     else
       ++passed;
   }
-  fmt::print("{} of {} mutants not found: {} listed ones, of which none may pass, {} generated ones, of which {} may be "
-             "equivalent\n",
-             missed + passed, all.size(), missed, passed, c_quick_passes);
+  fmt::print(
+      "{} of {} mutants not found: {} listed ones, of which none may pass, {} generated ones, of which {} "
+      "may be "
+      "equivalent\n",
+      missed + passed, all.size(), missed, passed, c_quick_passes);
   return missed > 0 || passed > c_quick_passes ? ExitCode::differs : ExitCode::equal;
 }
 
@@ -616,7 +645,8 @@ int main(int argc, char** argv) {
   Options options;
   if (!read_options(std::vector<std::string>(argv + 1, argv + argc), options)) {
     fmt::print(stderr,
-               "usage: halfway_mutants [--quick] [--count N] [--seed N] [--jobs N] [--no-coverage] [--page FILE] SOURCE "
+               "usage: halfway_mutants [--quick] [--count N] [--seed N] [--jobs N] [--no-coverage] [--page "
+               "FILE] SOURCE "
                "VECTORS SCRATCH [PART]\n");
     return static_cast<int>(ExitCode::bad_input);
   }

@@ -3,8 +3,12 @@
 
 namespace halfway::mutants {
 
-std::span<const KnownSurvivor> known_survivors() { return {}; }
+std::span<const KnownSurvivor> known_survivors() {
+  return {};
+}
 
-std::span<const KnownGap> known_gaps() { return {}; }
+std::span<const KnownGap> known_gaps() {
+  return {};
+}
 
 }  // namespace halfway::mutants

@@ -21,16 +21,18 @@ struct Token {
 };
 
 const std::set<std::string_view> c_keywords = {
-    "abs",    "alias",     "all",      "and",     "architecture", "array",  "assert",   "attribute",  "begin",
-    "block",  "body",   "case",      "constant", "downto",  "else",         "elsif",  "end",      "entity",     "exit",
-    "for",    "function",  "generate", "generic", "if",           "impure", "in",       "is",         "library",
-    "loop",   "map",       "mod",      "nand",    "next",         "nor",    "not",      "null",       "of",
-    "open",   "or",        "others",   "out",     "package",      "port",   "process",  "procedure",  "pure",
-    "range",  "record",    "rem",      "report",  "return",       "select", "severity", "signal",     "sll",
-    "srl",    "subtype",   "then",     "to",      "type",         "use",    "variable", "wait",       "when",
-    "while",  "with",      "xnor",     "xor"};
+    "abs",     "alias", "all",      "and",      "architecture", "array",   "assert", "attribute", "begin",
+    "block",   "body",  "case",     "constant", "downto",       "else",    "elsif",  "end",       "entity",
+    "exit",    "for",   "function", "generate", "generic",      "if",      "impure", "in",        "is",
+    "library", "loop",  "map",      "mod",      "nand",         "next",    "nor",    "not",       "null",
+    "of",      "open",  "or",       "others",   "out",          "package", "port",   "process",   "procedure",
+    "pure",    "range", "record",   "rem",      "report",       "return",  "select", "severity",  "signal",
+    "sll",     "srl",   "subtype",  "then",     "to",           "type",    "use",    "variable",  "wait",
+    "when",    "while", "with",     "xnor",     "xor"};
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool is_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
 
 std::vector<Token> tokens_of(std::string_view text) {
   std::vector<Token> tokens;
@@ -57,9 +59,9 @@ std::vector<Token> tokens_of(std::string_view text) {
       std::size_t end = i;
       while (end < text.size() && is_word(text[end])) ++end;
       const bool attribute = !tokens.empty() && tokens.back().text == "'";
-      add(attribute                                          ? Kind::attribute
+      add(attribute                                      ? Kind::attribute
           : c_keywords.contains(text.substr(i, end - i)) ? Kind::keyword
-                                                             : Kind::word,
+                                                         : Kind::word,
           i, end);
       i = end;
     } else if (c == '"') {
@@ -90,7 +92,8 @@ struct Named {
 
 class Reader {
  public:
-  Reader(std::string name, std::string_view text) : name_(std::move(name)), text_(text), tokens_(tokens_of(text)) {}
+  Reader(std::string name, std::string_view text)
+      : name_(std::move(name)), text_(text), tokens_(tokens_of(text)) {}
 
   Result<Outline> read() {
     while (!is(Kind::end) && error_.empty()) {
@@ -134,8 +137,12 @@ class Reader {
     bool field;
   };
 
-  const Token& at(int offset) const { return tokens_[std::min(i_ + static_cast<std::size_t>(offset), tokens_.size() - 1)]; }
-  bool is(std::string_view text) const { return at(0).text == text && at(0).kind != Kind::string && error_.empty(); }
+  const Token& at(int offset) const {
+    return tokens_[std::min(i_ + static_cast<std::size_t>(offset), tokens_.size() - 1)];
+  }
+  bool is(std::string_view text) const {
+    return at(0).text == text && at(0).kind != Kind::string && error_.empty();
+  }
   bool is(Kind kind) const { return at(0).kind == kind; }
   const Token& next() {
     const Token& token = at(0);
@@ -144,8 +151,8 @@ class Reader {
   }
   void fail(std::string_view what) {
     if (error_.empty())
-      error_ = fmt::format("{}:{}: {} at `{}`: more VHDL than vhdl_text.cpp knows", name_, line_of(text_, at(0).begin),
-                           what, at(0).text);
+      error_ = fmt::format("{}:{}: {} at `{}`: more VHDL than vhdl_text.cpp knows", name_,
+                           line_of(text_, at(0).begin), what, at(0).text);
     i_ = tokens_.size() - 1;
   }
   void expect(std::string_view text) {
@@ -205,7 +212,8 @@ class Reader {
       const bool in = text_.substr(at(0).begin, text_.find(';', at(0).begin) - at(0).begin).find(" out ") ==
                       std::string_view::npos;
       std::string type;
-      for (const std::string& name : names_and_type(ports ? (in ? "in" : "out") : what, type, {";", ")", ":="}))
+      for (const std::string& name :
+           names_and_type(ports ? (in ? "in" : "out") : what, type, {";", ")", ":="}))
         if (ports) ports_.emplace_back(name, type);
       if (is(":="))
         for (int depth = 0; !is(Kind::end) && (depth > 0 || (!is(";") && !is(")"))); next()) {
@@ -258,9 +266,9 @@ class Reader {
   }
 
   bool at_declaration() const {
-    static const std::set<std::string_view> c_begins = {"signal", "constant", "variable",  "type", "subtype",
-                                                        "alias",  "function", "procedure", "pure", "impure",
-                                                        "use",    "attribute"};
+    static const std::set<std::string_view> c_begins = {"signal",  "constant", "variable", "type",
+                                                        "subtype", "alias",    "function", "procedure",
+                                                        "pure",    "impure",   "use",      "attribute"};
     return c_begins.contains(at(0).text);
   }
 
@@ -592,13 +600,13 @@ class Reader {
     const Token& t = at(0);
     const auto exchange = [&](Operator by, std::string to) { change(by, t.begin, t.end, std::move(to)); };
     static const std::map<std::string_view, std::pair<Operator, const char*>> c_others = {
-        {"and", {Operator::logic, "or"}},    {"or", {Operator::logic, "and"}},
-        {"xor", {Operator::logic, "xnor"}},  {"not", {Operator::logic, ""}},
-        {"=", {Operator::relation, "/="}},   {"/=", {Operator::relation, "="}},
-        {"<", {Operator::relation, "<="}},   {"<=", {Operator::relation, "<"}},
-        {">", {Operator::relation, ">="}},   {">=", {Operator::relation, ">"}},
-        {"+", {Operator::sum, "-"}},         {"-", {Operator::sum, "+"}},
-        {"true", {Operator::bit, "false"}},  {"false", {Operator::bit, "true"}}};
+        {"and", {Operator::logic, "or"}},   {"or", {Operator::logic, "and"}},
+        {"xor", {Operator::logic, "xnor"}}, {"not", {Operator::logic, ""}},
+        {"=", {Operator::relation, "/="}},  {"/=", {Operator::relation, "="}},
+        {"<", {Operator::relation, "<="}},  {"<=", {Operator::relation, "<"}},
+        {">", {Operator::relation, ">="}},  {">=", {Operator::relation, ">"}},
+        {"+", {Operator::sum, "-"}},        {"-", {Operator::sum, "+"}},
+        {"true", {Operator::bit, "false"}}, {"false", {Operator::bit, "true"}}};
     switch (t.kind) {
       case Kind::number: {
         if (t.text.find_first_not_of("0123456789") != std::string_view::npos) return;
@@ -643,8 +651,8 @@ class Reader {
     std::vector<std::string> others;
     if (use.field) {
       for (const auto& fields : all_records_) {
-        const auto own =
-            std::find_if(fields.begin(), fields.end(), [&](const auto& field) { return field.first == t.text; });
+        const auto own = std::find_if(fields.begin(), fields.end(),
+                                      [&](const auto& field) { return field.first == t.text; });
         if (own == fields.end()) continue;
         for (const auto& [field, type] : fields)
           if (type == own->second && field != t.text) others.push_back(field);
@@ -680,15 +688,18 @@ class Reader {
 }  // namespace
 
 const char* to_string(Operator which) {
-  static constexpr const char* c_names[c_operators] = {"logic", "relation", "sum",    "bit",  "number",
+  static constexpr const char* c_names[c_operators] = {"logic", "relation",  "sum",    "bit",  "number",
                                                        "table", "condition", "enable", "name", "drop"};
   return c_names[static_cast<int>(which)];
 }
 
-Result<Outline> outline_of(const std::string& name, std::string_view text) { return Reader(name, text).read(); }
+Result<Outline> outline_of(const std::string& name, std::string_view text) {
+  return Reader(name, text).read();
+}
 
 std::size_t line_of(std::string_view text, std::size_t at) {
-  return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+  return 1 + static_cast<std::size_t>(
+                 std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
 }  // namespace halfway::mutants

@@ -52,13 +52,13 @@ struct Watched {
 };
 
 struct Outline {
-  std::string architecture_of;                ///< the entity; empty: a package
-  std::size_t declarations = 0;               ///< where the architecture's begin
+  std::string architecture_of;   ///< the entity; empty: a package
+  std::size_t declarations = 0;  ///< where the architecture's begin
   std::vector<Statement> statements;
   std::vector<Condition> conditions;
   std::vector<Watched> watched;
   std::vector<std::string> unwatched;  ///< signals that are neither bits nor records of bits
-  std::vector<Change> changes;                ///< every one there is, in the order of the text
+  std::vector<Change> changes;         ///< every one there is, in the order of the text
 };
 
 /// Of one file: one entity and its architecture, or one package and its body. Comments, strings, what stands

@@ -71,7 +71,8 @@ Outline outline(std::string_view text = c_entity) {
 std::vector<std::string> made(Operator by, std::string_view text = c_entity) {
   std::vector<std::string> all;
   for (const Change& change : outline(text).changes)
-    if (change.by == by) all.push_back(std::string(text.substr(change.begin, change.end - change.begin)) + " -> " + change.to);
+    if (change.by == by)
+      all.push_back(std::string(text.substr(change.begin, change.end - change.begin)) + " -> " + change.to);
   return all;
 }
 
@@ -110,16 +111,18 @@ TEST(VhdlText, KnowsStatementsConditionsAndSignals) {
   for (const Statement& s : all.statements) lines.push_back(line_of(c_entity, s.at));
   EXPECT_THAT(lines, ElementsAre(29, 30, 33, 35, 36, 37));
   ASSERT_EQ(all.conditions.size(), 2U);
-  EXPECT_EQ(c_entity.substr(all.conditions[0].begin, all.conditions[0].end - all.conditions[0].begin), "a = b");
+  EXPECT_EQ(c_entity.substr(all.conditions[0].begin, all.conditions[0].end - all.conditions[0].begin),
+            "a = b");
   std::vector<std::string> names;
   for (const Watched& w : all.watched) names.push_back(w.name);
-  EXPECT_THAT(names, ElementsAre("clk", "step", "a", "b", "c", "r.valid", "r.pair.low", "r.pair.high", "r_next.valid",
-                                 "r_next.pair.low", "r_next.pair.high"));
+  EXPECT_THAT(names, ElementsAre("clk", "step", "a", "b", "c", "r.valid", "r.pair.low", "r.pair.high",
+                                 "r_next.valid", "r_next.pair.low", "r_next.pair.high"));
   EXPECT_THAT(all.unwatched, ElementsAre("r.count", "r_next.count"));
 }
 
 TEST(VhdlText, RefusesWhatItDoesNotKnow) {
-  const auto read = outline_of("e.vhd", "architecture rtl of e is\nbegin\n  with a select b <= '1' when others;\nend;\n");
+  const auto read =
+      outline_of("e.vhd", "architecture rtl of e is\nbegin\n  with a select b <= '1' when others;\nend;\n");
   ASSERT_FALSE(read);
   EXPECT_THAT(read.error().message, ::testing::HasSubstr("e.vhd:3"));
 }

@@ -323,9 +323,10 @@ Status write_shadow_counter(const std::filesystem::path& folder) {
       line(true, random.one_in(2), false, true, true, false, 0);
       continue;
     }
-    // Few columns, so that they come again at once; two that count past either end.
+    // Few columns, so that they come again at once; two that count past either end, each for a part alone.
+    const int first = part < 4 ? 100 : 101;
     const auto x = static_cast<std::uint32_t>(random.one_in(8) ? random.between(0, c_columns - 1)
-                                                               : random.between(100, 100 + part % 3));
+                                                               : random.between(first, first + part % 3));
     const bool step = part % 2 == 0 || !random.one_in(3);
     const bool far = part % 4 >= 2;
     const bool opens = far ? (x % 2 == 0) == (random.between(0, 15) != 0) : random.one_in(2);
