@@ -500,7 +500,7 @@ TEST(SurfacePoint, IsWhereTheRayMeetsTheTriangle) {
   std::mt19937 random(17);
   for (int round = 0; round < 200; ++round) {
     const Unprojected u = unprojected(random);
-    const auto& [a, b, c] = u.triangle.vertex;
+    const auto &a = u.triangle.vertex[0], &b = u.triangle.vertex[1], &c = u.triangle.vertex[2];
     const glm::dvec3 normal =
         glm::cross(b.position_world - a.position_world, c.position_world - a.position_world);
     for_each_span({ScreenPoint{a.x, a.y}, ScreenPoint{b.x, b.y}, ScreenPoint{c.x, c.y}}, 4, {64, 64},

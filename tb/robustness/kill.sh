@@ -35,6 +35,17 @@ kill_after() { # milliseconds command...
   wait "$group" 2>/dev/null
 }
 
+# The same as soon as the folder holds a file of that name, finished or not.
+kill_at() { # file command...
+  local file=$1
+  shift
+  setsid "$@" >"$scratch/log" 2>&1 &
+  local group=$!
+  while kill -0 "$group" 2>/dev/null && ! compgen -G "$file*" >/dev/null; do sleep 0.002; done
+  kill -KILL -- "-$group" 2>/dev/null
+  wait "$group" 2>/dev/null
+}
+
 # A text file of ours is whole with its last line, a PNG with its last chunk.
 check_files() { # folder
   local file
@@ -53,7 +64,7 @@ results() { # folder
   (cd "$1" && cksum init.txt ./*.trace ./*.png)
 }
 
-draw=(sim matte --size 64x48 --threads 1)
+draw=(sim matte --size 320x240 --threads 1)
 
 # ---- make sim, its caches too
 rm -rf "$scratch/source" "$scratch/out" "$scratch/calm"
@@ -62,21 +73,33 @@ for part in rtl tb sim model; do ln -s "$checkout/$part" "$scratch/source/$part"
 "$halfway" "${draw[@]}" --out "$scratch/calm" >/dev/null || fail "the undisturbed run"
 folder=$scratch/out/matte/quadratic
 run=("$halfway" --source "$scratch/source" "${draw[@]}" --out "$scratch/out")
-for ((i = 0; i < kills; ++i)); do
-  # The first half falls into the building of caches, which is done at once where they are whole.
-  if ((2 * i < kills)); then moment=$((RANDOM % 6000 + 100)); else moment=$((RANDOM % 900 + 20)); fi
-  printf 'sim: killed after %d ms\n' "$moment"
-  kill_after "$moment" "${run[@]}"
-  if ((2 * i + 2 == kills)) || ((2 * i + 1 == kills)); then "${run[@]}" >"$scratch/log" 2>&1 || fail "the run between: $(cat "$scratch/log")"; fi
-  [ -d "$folder" ] || continue
+check_run() {
+  [ -d "$folder" ] || return
   check_files "$folder"
   "$halfway" compare matte --out "$scratch/out" >"$scratch/log" 2>&1
-  status=$?
+  local status=$?
   if [ -f "$folder/summary.json" ]; then
     [ "$status" = 0 ] || fail "a run that left its summary is not whole: $(cat "$scratch/log")"
   else
     [ "$status" = 2 ] || fail "compare takes a broken run for whole: exit code $status"
   fi
+}
+for ((i = 0; i < kills; ++i)); do
+  # The first half falls into the building of caches, which is done at once where they are whole.
+  if ((2 * i < kills)); then moment=$((RANDOM % 6000 + 100)); else moment=$((RANDOM % 900 + 20)); fi
+  printf 'sim: killed after %d ms\n' "$moment"
+  kill_after "$moment" "${run[@]}"
+  check_run
+  if ((2 * i + 2 == kills)) || ((2 * i + 1 == kills)); then
+    "${run[@]}" >"$scratch/log" 2>&1 || fail "the run between: $(cat "$scratch/log")"
+    check_run
+  fi
+done
+for file in init.txt golden.trace verilator.trace golden.png ghdl.trace reference.png; do
+  rm -rf "$scratch/out"
+  printf 'sim: killed at %s\n' "$file"
+  kill_at "$folder/$file" "${run[@]}"
+  check_run
 done
 "${run[@]}" >"$scratch/log" 2>&1 || fail "the last run: $(cat "$scratch/log")"
 cmp <(results "$scratch/calm/matte/quadratic") <(results "$folder") || fail "results differ from the undisturbed run's"
