@@ -2,13 +2,60 @@
 #include "survivors.hpp"
 
 namespace halfway::mutants {
+namespace {
+
+constexpr std::string_view c_layout =
+    "the generator writes the same functions for every layout; nothing asks for this one";
+constexpr std::string_view c_size =
+    "for who instantiates a shader without a size of its own; `make sim` names the size always";
+constexpr std::string_view c_no_such =
+    "behind it only the report that there is no such table, which ends the run";
+constexpr std::string_view c_hardware =
+    "hardware alone: a simulation takes the product through integers; `tb/netlist` holds one against the "
+    "other";
+constexpr std::string_view c_wider =
+    "with the formats that there are a triangle's vector is always the wider one";
+
+constexpr KnownGap c_gaps[] = {
+    {"tables/formats_pkg.vhd", "return request_channel_low(exact, channels);", c_layout},
+    {"tables/formats_pkg.vhd", "return plane_channel_low(exact, channels);", c_layout},
+    {"tables/formats_pkg.vhd", "return pixel_channel_low(exact, channels);", c_layout},
+    {"tables/formats_pkg.vhd", "if exact then", c_layout},
+    {"tables/formats_pkg.vhd", "return c_exact_plane_header;", c_layout},
+    {"tables/formats_pkg.vhd", "return c_published_plane_header;", c_layout},
+    {"tables/formats_pkg.vhd", "return c_exact_light_colour_channel;", c_layout},
+    {"tables/formats_pkg.vhd", "return c_published_light_colour_channel;", c_layout},
+    {"tables/formats_pkg.vhd", "`exact` never true", c_layout},
+    {"tables/formats_pkg.vhd", "`exact` never false", c_layout},
+    {"tables/cosine_pkg.vhd", "return (0 to 2 ** address_bits - 1 => 0);", c_no_such},
+    {"tables/cosine_pkg.vhd", "`not exact and power = 2 and address_bits = 4 and data_bits = 4` never false",
+     c_no_such},
+    {"tables/cosine_pkg.vhd", "if exact then", c_size},
+    {"tables/cosine_pkg.vhd", "return 9;", c_size},
+    {"tables/cosine_pkg.vhd", "return 8;", c_size},
+    {"tables/cosine_pkg.vhd", "return 6;", c_size},
+    {"tables/cosine_pkg.vhd", "`exact` never true", c_size},
+    {"tables/cosine_pkg.vhd", "`exact` never false", c_size},
+    {"tables/function_pkg.vhd", "return (9, 12, 12, 0);", c_no_such},
+    {"tables/function_pkg.vhd", "return c_exact_reciprocal_root;", c_no_such},
+    {"tables/function_pkg.vhd", "`not exact and which = c_decay` never false", c_no_such},
+    {"shaders/processors_pkg.vhd", "return load_bits(c);", c_wider},
+    {"shaders/processors_pkg.vhd", "`load_bits(c) > c_draw_bits` never true", c_wider},
+    {"arithmetic/shading_pkg.vhd", "return a * b;", c_hardware},
+    {"arithmetic/shading_pkg.vhd", "sum := (others => '0');", c_hardware},
+    {"arithmetic/shading_pkg.vhd", "for axis in 0 to c_axes - 1 loop", c_hardware},
+    {"arithmetic/shading_pkg.vhd", "sum := sum + axis_of(a, axis) * axis_of(b, axis);", c_hardware},
+    {"arithmetic/shading_pkg.vhd", "return sum;", c_hardware},
+};
+
+}  // namespace
 
 std::span<const KnownSurvivor> known_survivors() {
   return {};
 }
 
 std::span<const KnownGap> known_gaps() {
-  return {};
+  return c_gaps;
 }
 
 }  // namespace halfway::mutants
