@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "golden/power.hpp"
@@ -75,7 +76,8 @@ struct Pixel {
 // Each a pixel of its own, with a light from the eye: what the hardware makes of the words.
 template <class Preset>
 std::vector<Fragment> draw_pixels(Trial& trial, const Scene& scene, ProcessorForm form,
-                                  const std::vector<Pixel>& pixels) {
+                                  const std::vector<Pixel>& pixels,
+                                  std::optional<Axes> to_light = std::nullopt) {
   using Request = typename Preset::request_header_at;
   using Plane = typename Preset::plane_header_at;
   constexpr FrameSize c_frame{1, 1};
@@ -90,6 +92,12 @@ std::vector<Fragment> draw_pixels(Trial& trial, const Scene& scene, ProcessorFor
   std::vector<std::uint32_t> words, draw;
   SetupCounts counts;
   setup->append_prologue(words, counts);
+  // Behind new_frame and the ambient light, whatever the scene says.
+  const auto light = std::span(words).subspan(2 * ((setup->init_bits() + 31) / 32));
+  for (int axis = 0; to_light && axis < golden::c_axes; ++axis)
+    golden::set_bits(light, Preset::light_axes_channel_at::place,
+                     static_cast<std::uint64_t>((*to_light)[static_cast<std::size_t>(axis)]),
+                     golden::ProcessorsLayout<Preset>::light_axis_low(axis));
   for (std::uint32_t unit = 0; draw.empty() && unit < setup->units(); ++unit)
     setup->append(unit, draw, counts);
   for (const Pixel& pixel : pixels) {
@@ -305,8 +313,8 @@ void products(Trial& trial) {
   products_of<Exact::c_direction_bits + 1>(trial);
   products_of<golden::Published::c_direction_bits>(trial);
   // N.L of the least words that there are, and beside them.
-  Scene scene = lit_wall(1.0, 0.0);
-  scene.directional[0].to_light_world = {-2.0, -2.0, -2.0};
+  const Scene scene = lit_wall(1.0, 0.0);
+  constexpr std::int64_t c_least_place = -(std::int64_t{1} << (Exact::c_light_place_bits - 1));
   constexpr std::int64_t c_least = -(std::int64_t{1} << (Exact::c_vector_bits - 1));
   std::vector<Pixel> pixels;
   for (const std::int64_t x : {c_least, c_least + 1, -c_least - 1, std::int64_t{0}})
@@ -314,8 +322,9 @@ void products(Trial& trial) {
       for (const std::int64_t z : {c_least, -c_least - 64, std::int64_t{-1}})
         for (const bool normalize : {false, true}) pixels.push_back({{x, y, z}, 0, normalize});
   for (const ProcessorForm form : c_forms) {
-    const auto fragments = draw_pixels<Exact>(trial, scene, form, pixels);
-    trial.require(fragments.size() == pixels.size() && fragments[0].red == 255,
+    const auto fragments =
+        draw_pixels<Exact>(trial, scene, form, pixels, Axes{c_least_place, c_least_place, c_least_place});
+    trial.require(fragments.size() == pixels.size() && !fragments.empty() && fragments[0].red == 255,
                   [] { return "N.L of 12 is not white"; });
   }
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <glm/trigonometric.hpp>
-#include <limits>
 #include <map>
 
 #include "golden/processors_layout.hpp"
@@ -471,48 +470,6 @@ void lights_between_frames(Trial& trial) {
       }
 }
 
-// Numbers that are none: what they reach may be anything of the format, and each pixel still comes once.
-void not_numbers(Trial& trial) {
-  constexpr FrameSize c_frame{48, 36};
-  constexpr double c_nan = std::numeric_limits<double>::quiet_NaN(),
-                   c_infinite = std::numeric_limits<double>::infinity();
-  for (const double bad : {c_nan, c_infinite, -c_infinite, 1e308, 5e-324, -1.0})
-    for (int place = 0; place < 12; ++place) {
-      Scene scene = bent(c_shiny, 60.0);
-      scene.positional = {{{0.3, 0.4, 2.0}, glm::dvec3(0.9)}};
-      scene.spots = {{{0.3, 0.4, 2.0}, unit(-0.3, -0.4, -2.0), 0.95, 0.8, glm::dvec3(0.9)}};
-      const std::array<double*, 12> places = {&scene.materials[0].diffuse,
-                                              &scene.materials[0].exponent,
-                                              &scene.materials[0].colour.g,
-                                              &scene.ambient.r,
-                                              &scene.positional[0].intensity.b,
-                                              &scene.positional[0].position_world.x,
-                                              &scene.positional[0].position_world.z,
-                                              &scene.spots[0].axis_world.y,
-                                              &scene.spots[0].cos_inner,
-                                              &scene.spots[0].cos_outer,
-                                              &scene.normals_world[1].x,
-                                              &scene.normals_world[2].z};
-      *places[static_cast<std::size_t>(place)] = bad;
-      for (const Preset preset : {Preset::exact, Preset::published}) {
-        const Drawing drawing = draw(trial, scene, {.preset = preset, .frame = c_frame});
-        std::map<std::pair<int, int>, int> drawn;
-        for (const Fragment& f : drawing.fragments) ++drawn[{f.x, f.y}];
-        for (const ScreenTriangle& t : Projector(scene, c_frame, {}).project_all())
-          for_each_covered({{{t.vertex[0].x, t.vertex[0].y},
-                             {t.vertex[1].x, t.vertex[1].y},
-                             {t.vertex[2].x, t.vertex[2].y}}},
-                           c_subpixel_bits, c_frame, [&](std::int64_t x, std::int64_t y) {
-                             --drawn[{static_cast<int>(x), static_cast<int>(y)}];
-                           });
-        int wrong = drawing.fault;
-        for (const auto& [at, count] : drawn) wrong += std::abs(count);
-        const auto where = [&] { return fmt::format("{} as number {}", bad, place); };
-        preset == Preset::exact ? trial.ours(wrong, 0, where) : trial.published(wrong, 0, where);
-      }
-    }
-}
-
 constexpr HardCase c_cases[] = {
     {"A light's distance in the halfway vector",
      "processors, table of terms: (E + P_p − P)/abs(E + P_p − P) adds a unit vector and one of the light's "
@@ -572,9 +529,6 @@ constexpr HardCase c_cases[] = {
     {"Lights redefined and deleted between frames", "processors, section 3: redefine, delete",
      "a register of validity beside each light's", "each frame as it is alone", "frames that differ",
      Published::holds, lights_between_frames},
-    {"NaN, infinities and negative numbers", "the host's conversions to integers",
-     "held within the format; NaN is nothing", "each covered pixel once", "pixels", Published::holds,
-     not_numbers},
 };
 
 }  // namespace
