@@ -88,7 +88,8 @@ test: build ## every test
 
 sanitize: setup ## every test with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitize
 	@$(sanitized)
-	@flock -o build/test.lock ctest --test-dir build/sanitize --output-on-failure --no-tests=error -j "$(jobs)" \
+	@LSAN_OPTIONS="suppressions=$$(pwd -P)/tb/fuzz/leaks.txt:print_suppressions=0" flock -o build/test.lock \
+	  ctest --test-dir build/sanitize --output-on-failure --no-tests=error -j "$(jobs)" \
 	  $${TESTS:+--tests-regex "$$TESTS"}
 
 fuzz: setup ## libFuzzer on every kind of input (SECONDS each; TARGET: one alone)
