@@ -142,7 +142,7 @@ TEST(Renderer, InASceneWithShadowsALightGivesNothingWhereItDoesNotReach) {
         }
       }
   }
-  EXPECT_GT(shadowed, 500);
+  EXPECT_GT(shadowed, 400);
   EXPECT_GT(lit, 2000);
 }
 
