@@ -302,6 +302,7 @@ class SceneChecker : public Checker {
                             Shade& worst) {
     const ShadingBound bound(scene, frame);
     const std::size_t lights = bound.lights().size();
+    if (drawing.key.processors.shadows && lights > 6) return;  // too many
     const std::uint32_t all = (1U << lights) - 1;
     for (const Fragment& f : drawing.fragments) {
       const ScreenTriangle* piece = cover.piece(f);
@@ -369,10 +370,11 @@ class SceneSearch final : public Search {
     input[At::width] = random.whole(8, 64);
     input[At::height] = random.whole(8, 48);
     input[At::preset] = random.one_in(4);
-    input[At::shadows] = processors && random.one_in(3);
     input[At::form] = !processors || random.one_in(2);
     Scene scene;
     const int count = random.one_in(20) ? 16 : random.whole(0, 3);
+    // A pixel in shadow is looked for among all sets of lights.
+    input[At::shadows] = processors && count <= 3 && random.one_in(3);
     random.add_triangles(scene, random.whole(1, int{c_triangles}), random.log_within(0.05, 1.0),
                          random.one_in(3) ? 0.0 : random.log_within(0.01, 1.0));
     random.add_lights(scene, count, RandomScenes::any, 1.0, random.one_in(3));
