@@ -361,7 +361,6 @@ std::vector<Proof> all_proofs() {
        "if r.cycle = c_at.leave and r.valid = '1' then"},
       {"illumination/shading_processor.vhd", "(g_kind = c_ambient or r.valid = '1')",
        "(g_kind = c_ambient or r.valid = r.valid)"},
-      {"illumination/terms_pkg.vhd", "held(sum, radiance'length)", "sum(radiance'length - 1 downto 0)"},
   };
   std::vector<Fault> shadow_faults = folded_faults;
   shadow_faults.push_back(
@@ -372,6 +371,9 @@ std::vector<Proof> all_proofs() {
                             "r.cycle = c_at.cosine and positive_dot = '0'"});
   horizon_faults.push_back(
       {"arithmetic/shading_pkg.vhd", "dot(dot'left) = '0' and dot /= c_zero", "dot(dot'left) = '0'"});
+  std::vector<Fault> diffuse_faults = folded_faults;
+  diffuse_faults.push_back(
+      {"illumination/terms_pkg.vhd", "held(sum, radiance'length)", "sum(radiance'length - 1 downto 0)"});
   std::vector<Fault> ambient_faults(folded_faults.begin(), folded_faults.begin() + 3);
   ambient_faults.push_back({"illumination/shading_processor.vhd",
                             "g_kind = c_ambient and comes = '1' and\n          not",
@@ -398,7 +400,7 @@ std::vector<Proof> all_proofs() {
                     3,
                     true,
                     diffuse,
-                    folded_faults,
+                    diffuse_faults,
                     {},
                     true,
                     14});
@@ -429,17 +431,18 @@ std::vector<Proof> all_proofs() {
                     {},
                     true,
                     26});
-  proofs.push_back({"illumination/shading_processor",
-                    "illumination/shading_processor.psl",
-                    "The same of the ambient light: of an object, N alone besides the colour",
-                    Method::induction,
-                    3,
-                    false,
-                    with(diffuse, {{"g_normalize", "true"}, {"g_kind", "0"}, {"g_light", "0"}}),
-                    ambient_faults,
-                    {},
-                    true,
-                    14});
+  proofs.push_back(
+      {"illumination/shading_processor",
+       "illumination/shading_processor.psl",
+       "The same of the ambient light, preset `exact`: of an object, N alone besides the colour",
+       Method::induction,
+       3,
+       false,
+       with(diffuse, {{"g_exact", "true"}, {"g_normalize", "true"}, {"g_kind", "0"}, {"g_light", "0"}}),
+       ambient_faults,
+       {},
+       true,
+       16});
   proofs.push_back(
       {"illumination/unrolled_shading_processor",
        "illumination/unrolled_shading_processor.psl",
