@@ -125,31 +125,52 @@ std::string with_open_memories(std::string_view verilog) {
 }
 
 Equivalence::Equivalence(const Judge& judge) : judge_(judge) {
-  for (const Test& frame : judge.frames()) keys_.push_back(frame.key);
-  for (const Preset preset : {Preset::exact, Preset::published})
-    for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
-      HardwareKey key{.shader = Shader::processors, .preset = preset, .spherical = {}, .processors = {}};
-      key.processors = {.directional = 1,
-                        .positional = 1,
-                        .spots = 1,
-                        .diffuse = true,
-                        .specular = true,
-                        .normalize = true,
-                        .shadows = false,
-                        .form = form};
+  // What a scene may leave out, each with little else.
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    const bool exact = preset == Preset::exact;
+    HardwareKey key{.shader = Shader::quadratic, .preset = preset, .spherical = {}, .processors = {}};
+    for (const unsigned channels : {1U, 3U}) {
+      key.channels = channels;
       keys_.push_back(key);
     }
-  // The smaller tables that the paper names.
-  HardwareKey small{
-      .shader = Shader::spherical, .preset = Preset::published, .spherical = {}, .processors = {}};
-  small.spherical = {
-      .lights = 1, .diffuse = true, .specular = true, .highlight_channels = 3, .powers = 2, .tables = {4, 4}};
-  keys_.push_back(small);
-  const std::size_t without = keys_.size();
-  for (std::size_t i = 0; i < without; ++i) {
-    keys_.push_back(keys_[i]);
-    keys_.back().probe = true;
+    key.shader = Shader::spherical;
+    for (const unsigned parts : {0U, 1U, 2U, 3U})
+      for (const unsigned channels : {1U, 3U}) {
+        key.channels = channels;
+        key.spherical = {.lights = 2,
+                         .diffuse = (parts & 1) != 0,
+                         .specular = (parts & 2) != 0,
+                         .highlight_channels = channels,
+                         .powers = exact ? 19U : 2U,
+                         .tables = exact ? TableSize{9, 8} : TableSize{4, 4}};
+        keys_.push_back(key);
+      }
+    key.spherical = {};
+    key.shader = Shader::processors;
+    for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled})
+      for (const ProcessorUnits& units :
+           {ProcessorUnits{}, ProcessorUnits{.directional = 1, .diffuse = true},
+            ProcessorUnits{.positional = 1, .specular = true, .normalize = true},
+            ProcessorUnits{.directional = 2, .specular = true},
+            ProcessorUnits{.positional = 1, .diffuse = true, .normalize = true, .shadows = true},
+            ProcessorUnits{.spots = 1, .diffuse = true},
+            ProcessorUnits{.directional = 1,
+            .positional = 1,
+            .spots = 1,
+            .diffuse = true,
+            .specular = true,
+            .normalize = true}}) {
+        key.channels = units.lights() == 1 ? 1 : 3;
+        key.processors = units;
+        key.processors.form = form;
+        keys_.push_back(key);
+      }
   }
+  for (const Test& frame : judge.frames())
+    for (const bool probe : {false, true}) {
+      keys_.push_back(frame.key);
+      keys_.back().probe = probe;
+    }
 }
 
 Result<Netlist> Equivalence::synthesize(const HardwareKey& key, const Exchanged& exchanged) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -36,7 +37,7 @@ struct Exchanged {
 enum class Verdict {
   stillborn,  ///< cannot be analysed or elaborated: no hardware at all
   killed,
-  killed_by_time,  ///< took four times the processor time that it should, and 20 s
+  killed_by_time,  ///< simulated twice the time that it should, or took the processor for four times as long
   survived,
 };
 
@@ -49,7 +50,8 @@ struct Test {
   std::filesystem::path golden{};  ///< the trace that a frame must have; empty: a testbench
   HardwareKey key{};               ///< of a frame
   std::filesystem::path init{};    ///< of a frame
-  double seconds = 0;              ///< that it takes without a fault
+  double seconds = 60;             ///< that it takes without a fault
+  std::uint64_t ends_ns = 0;       ///< of simulated time, without a fault; 0: not known, or a frame's
   std::string hash{};              ///< of all that it reads
 };
 
@@ -90,7 +92,8 @@ class Judge {
    private:
     friend class Judge;
     Bench(const Judge& judge, Exchanged exchanged) : judge_(judge), exchanged_(std::move(exchanged)) {}
-    Result<Verdict> run_anew(const Test& test);
+    /// `output` of the simulation, where it is asked for.
+    Result<Verdict> run_anew(const Test& test, std::string* output = nullptr);
     Status make();
     const Judge& judge_;
     Exchanged exchanged_;

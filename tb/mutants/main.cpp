@@ -485,8 +485,7 @@ Report report_of(const Options& options, const Judge& judge, std::vector<Judged>
   const std::size_t counted = total.mutants - equivalent, killed = counted - survived;
   report.text += fmt::format(
       "\nOf {} generated mutants {} are proved equivalent; of the {} others {} were killed: {:.1f} %. {} of "
-      "all made a "
-      "test take four times its time, and count as killed.\n",
+      "all were killed by their time.\n",
       total.mutants, equivalent, counted, killed, percent(killed, counted),
       total.by_time + from_list.by_time);
   if (static_cast<double>(killed) < c_share * static_cast<double>(counted))
