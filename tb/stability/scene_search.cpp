@@ -232,7 +232,8 @@ class Cover {
 
 class SceneChecker : public Checker {
  public:
-  SceneChecker(Shader shader, SimulatorFolders folders) : shader_(shader), folders_(std::move(folders)) {}
+  SceneChecker(Shader shader, SimulatorFolders folders, bool quick)
+      : shader_(shader), folders_(std::move(folders)), quick_(quick) {}
 
   std::optional<Failure> check(const Input& input, Tally& tally) override {
     const Scene scene = scene_of(input);
@@ -273,7 +274,7 @@ class SceneChecker : public Checker {
     for (const Input& input : inputs) {
       // Sixteen lights take a minute to build: in one form of the hardware.
       const bool many = input[At::lights] > 3;
-      if (many && (preset_of(input) == Preset::published || input[At::form] == 0)) continue;
+      if (many && (quick_ || preset_of(input) == Preset::published || input[At::form] == 0)) continue;
       Trial trial(folders_, rtl_, true);
       trial.draw(scene_of(input), {.plan = request_of(shader_, input), .frame = frame_of(input)});
       if (!trial.tools()) return trial.tools().error();
@@ -339,6 +340,7 @@ class SceneChecker : public Checker {
 
   Shader shader_;
   SimulatorFolders folders_;
+  bool quick_;
   Simulators rtl_;
 };
 
@@ -363,8 +365,8 @@ class SceneSearch final : public Search {
   std::uint64_t full_count() const override { return 25'000; }
   std::uint64_t quick_count() const override { return 200; }
   std::uint64_t rtl_every() const override { return 10; }
-  std::unique_ptr<Checker> checker(const SimulatorFolders& folders) const override {
-    return std::make_unique<SceneChecker>(shader_, folders);
+  std::unique_ptr<Checker> checker(const SimulatorFolders& folders, bool quick) const override {
+    return std::make_unique<SceneChecker>(shader_, folders, quick);
   }
 
   Input make(std::uint32_t seed) const override {

@@ -67,7 +67,8 @@ class Search {
   /// Inputs that may be simpler than this one and differ from it in several parameters at once; the shrinker
   /// tries each parameter alone by itself.
   virtual std::vector<Input> simpler(const Input& /*input*/) const { return {}; }
-  virtual std::unique_ptr<Checker> checker(const SimulatorFolders& folders) const = 0;
+  /// A quick one leaves out hardware that takes minutes to build.
+  virtual std::unique_ptr<Checker> checker(const SimulatorFolders& folders, bool quick) const = 0;
 
   virtual std::uint64_t full_count() const = 0;   ///< inputs of `make search`
   virtual std::uint64_t quick_count() const = 0;  ///< of `make test`

@@ -121,7 +121,7 @@ class Run {
       : search_(search), options_(options), count_(count) {}
 
   void work() {
-    const auto checker = search_.checker(options_.folders());
+    const auto checker = search_.checker(options_.folders(), options_.quick);
     Tally tally;
     std::vector<Input> batch;
     // Batches are handed out in order: the first failure is the same however many threads there are.
@@ -175,7 +175,7 @@ class Run {
 
 // Shrinks what was found, prints it and keeps it.
 Status report(const Search& search, const Options& options, const Found& found) {
-  const auto checker = search.checker(options.folders());
+  const auto checker = search.checker(options.folders(), options.quick);
   Tally ignored;
   const auto failure_of = [&](const Input& input) -> std::optional<Failure> {
     if (!found.in_rtl) return checker->check(input, ignored);
@@ -290,7 +290,7 @@ ExitCode replay(const std::vector<std::unique_ptr<Search>>& searches, const Opti
       fmt::print(stderr, "{}\n", regression.error().message);
       return regression.error().code;
     }
-    const auto checker = (*search_of(regression->search))->checker(options.folders());
+    const auto checker = (*search_of(regression->search))->checker(options.folders(), false);
     Tally tally;
     auto failure = checker->check(regression->input, tally);
     if (!failure) {

@@ -315,7 +315,7 @@ class TriangleSearch final : public Search {
   std::uint64_t full_count() const override { return 10'000'000; }
   std::uint64_t quick_count() const override { return 20'000; }
   std::uint64_t rtl_every() const override { return 25; }
-  std::unique_ptr<Checker> checker(const SimulatorFolders& folders) const override {
+  std::unique_ptr<Checker> checker(const SimulatorFolders& folders, bool /*quick*/) const override {
     return std::make_unique<TriangleChecker>(folders);
   }
 
