@@ -65,7 +65,7 @@ class ShadingProcessor {
     if (token.is_object()) token.encode(config_, words);
   }
 
-  /// A count of shadow volumes left its format, or fell below those that hold the eye; since the beginning.
+  /// A count of shadow volumes left its format, since the beginning.
   bool fault() const { return counter_ && counter_->fault(); }
 
  private:
@@ -90,7 +90,7 @@ class ShadingProcessor {
       if (valid_) add(token, token.ambient, c_one);
       return;
     }
-    const bool reached = !counter_ || counter_->take(token.x, light_.around_eye, valid_);
+    const bool reached = !counter_ || counter_->take(token.x, light_.around_eye);
     if (!valid_ || !reached) return;
     Axes normal;
     for (std::size_t i = 0; i < c_axes; ++i) normal[i] = wrapped<Direction>(token.normal[i]);

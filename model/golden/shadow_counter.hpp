@@ -27,17 +27,17 @@ class ShadowCounter {
     else
       held = static_cast<std::int16_t>(held + (opens ? 1 : -1));
   }
-  /// Whether the light, where it is `valid`, reaches an object at column x: no volume is around it, with
-  /// those that hold the eye. The column starts anew.
-  bool take(std::uint32_t x, int around_eye, bool valid) {
+  /// Whether the light reaches an object at column x: no volume is around it, with those that hold the eye.
+  /// Less than none is none: a volume thinner than its depths' rounding may end before it begins. The column
+  /// starts anew.
+  bool take(std::uint32_t x, int around_eye) {
     const int around = around_eye + counts_[x];
     counts_[x] = 0;
-    fault_ = fault_ || (valid && around < 0);
-    return around == 0;
+    return around <= 0;
   }
   /// What column x holds.
   int held(std::uint32_t x) const { return counts_[x]; }
-  /// A count has left its format, or was less than the volumes that hold the eye account for.
+  /// A count has left its format.
   bool fault() const { return fault_; }
 
  private:

@@ -118,7 +118,7 @@ Status check_shadow_counts(const Scene& scene, const SceneStream& stream) {
                     scene.name, deepest, c_most_shadows));
   if (stream.fault())
     return tool_failed(
-        fmt::format("{}: before a pixel more shadow volumes end than begin; please report it", scene.name));
+        fmt::format("{}: a count of shadow volumes left its format; please report it", scene.name));
   return Ok{};
 }
 

@@ -8,8 +8,7 @@
 --             them; after reset the light is not valid. Objects come out with N, view vector and I renewed, or with I
 --             as it was: where the light is not valid, or shadow volumes are around the point. in_ready is '0' for a
 --             while after reset and after new_frame where shadows are counted (shadow_counter). fault stays '1' from
---             the clock after the token that left in it: a count of shadow volumes that left its format or was
---             negative at an object.
+--             the clock after the token that left in it: a count of shadow volumes that left its format.
 -- Formats     processors_pkg, formats_pkg; words between the units: terms_pkg
 -- Latency     a clock less than the throughput's
 -- Throughput  A token in so many clocks, the one that takes it and the one that hands it on included (published, exact):
@@ -463,7 +462,6 @@ begin
           opens      => in_token(c_header.opens.low),
           takes      => comes,
           x          => of_header(in_token, c_header.x),
-          valid      => r.valid,
           around_eye => of_header(light, c_light_header.around_eye),
           lit        => lit,
           fault      => fault

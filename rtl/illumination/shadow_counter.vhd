@@ -3,13 +3,13 @@
 -- Purpose     One light's shadow volumes around the surfaces of a line: a count for each column, one more where a
 --             shadow polygon opens a volume, one less where it closes it. An object takes its column's count, which
 --             then starts anew at 0; with the volumes that hold the eye it says whether the light reaches the object.
+--             Less than none is none: a volume thinner than its depths' rounding may end before it begins.
 -- Contract    At a rising edge with step and ready, column x is counted (counts, with opens), taken (takes), or all
 --             columns are cleared (clear); at most one of the three. Until the next step lit is '1' where what column x
---             held before and around_eye make 0; so long, valid (the light is there) and around_eye stand still. Any
---             columns may follow each other. After reset and a clear ready is '0' until all columns are 0: a clock for
---             each column up to the last counted one, after reset for all. A count that would leave its format is
---             held; fault stays '1' from then on, as it does from an object on, where the light is there, whose count
---             and around_eye are less than 0.
+--             held before and around_eye make 0 or less; so long around_eye stands still. Any columns may follow each
+--             other. After reset and a clear ready is '0' until all columns are 0: a clock for each column up to the
+--             last counted one, after reset for all. A count that would leave its format is held; fault stays '1'
+--             from then on.
 -- Formats     formats_pkg: x: pixel_x, around_eye: shadow_count; the same in both presets
 -- Latency     1 clock from step to lit, 2 to fault
 -- Throughput  1 column a clock
@@ -32,7 +32,6 @@ entity shadow_counter is
     opens      : in  std_logic;
     takes      : in  std_logic;
     x          : in  std_logic_vector(formats(true).pixel_x.bits - 1 downto 0);
-    valid      : in  std_logic; -- the light
     around_eye : in  std_logic_vector(formats(true).shadow_count.bits - 1 downto 0);
     lit        : out std_logic;
     fault      : out std_logic
@@ -78,7 +77,7 @@ begin
 
   held   <= r.forward when r.forwarded = '1' else memory_q;
   around <= resize(signed(held), around'length) + signed(around_eye);
-  lit    <= '1' when around = 0 else '0';
+  lit    <= '1' when around <= 0 else '0';
   fault  <= r.fault;
 
   change : process (all)
@@ -111,9 +110,6 @@ begin
   begin
     v := r;
     if leaves = '1' then
-      v.fault := '1';
-    end if;
-    if r.takes = '1' and valid = '1' and around < 0 then
       v.fault := '1';
     end if;
     if r.clearing = '1' then

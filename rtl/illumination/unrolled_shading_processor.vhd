@@ -198,7 +198,6 @@ begin
           opens      => in_token(c_header.opens.low),
           takes      => comes,
           x          => of_header(in_token, c_header.x),
-          valid      => r.valid,
           around_eye => of_header(light, c_light_header.around_eye),
           lit        => lit,
           fault      => fault

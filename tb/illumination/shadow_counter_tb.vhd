@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- Clock by clock against the golden twin: every column after reset, runs on few columns at full speed and with pauses,
--- counts past both ends of their format, fewer volumes around an object than none, with a light and without, clears,
--- and resets in between.
+-- counts past both ends of their format, fewer volumes around an object than none, clears, and resets in between.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -24,7 +23,6 @@ architecture sim of shadow_counter_tb is
   signal opens    : std_logic := '0';
   signal takes    : std_logic := '0';
   signal x        : std_logic_vector(formats(true).pixel_x.bits - 1 downto 0) := (others => '0');
-  signal valid    : std_logic := '0';
   signal eye      : std_logic_vector(formats(true).shadow_count.bits - 1 downto 0) := (others => '0');
   signal lit      : std_logic;
   signal fault    : std_logic;
@@ -40,7 +38,6 @@ begin
       opens      => opens,
       takes      => takes,
       x          => x,
-      valid      => valid,
       around_eye => eye,
       lit        => lit,
       fault      => fault);
@@ -50,7 +47,7 @@ begin
   run : process is
     variable vectors                                                       : vectors_t;
     variable reset_now, step_now, clear_now, counts_now, opens_now, takes_now : std_logic;
-    variable valid_now, counted, reset_before                              : std_logic;
+    variable counted, reset_before                                         : std_logic;
     variable x_now                                                         : std_logic_vector(x'range);
     variable eye_now                                                       : std_logic_vector(eye'range);
     variable waits                                                         : natural;
@@ -65,7 +62,6 @@ begin
       vectors.read_flag(opens_now);
       vectors.read_flag(takes_now);
       vectors.read_word(x_now);
-      vectors.read_flag(valid_now);
       vectors.read_word(eye_now);
       reset  <= reset_now;
       step   <= step_now;
@@ -74,7 +70,6 @@ begin
       opens  <= opens_now;
       takes  <= takes_now;
       x      <= x_now;
-      valid  <= valid_now;
       eye    <= eye_now;
       waits := vectors.read_number;
       wait until rising_edge(clk);

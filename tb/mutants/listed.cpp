@@ -148,9 +148,8 @@ constexpr Listed c_listed[] = {
     {"illumination/shadow_counter.vhd", "if held = c_least then", "if held = c_least and held(0) = '1' then"},
     {"illumination/shadow_counter.vhd", "v.last := unsigned(x)", "v.last := r.last"},
     {"illumination/shadow_counter.vhd", "if r.takes = '1' then", "if r.takes = '1' and r.opens = '1' then"},
-    {"illumination/shadow_counter.vhd", "'1' when around = 0", "'1' when around <= 0"},
-    {"illumination/shadow_counter.vhd", "and around < 0", "and around < -1"},
-    {"illumination/shadow_counter.vhd", "r.takes = '1' and valid = '1' and", "r.takes = '1' and"},
+    {"illumination/shadow_counter.vhd", "'1' when around <= 0", "'1' when around = 0"},
+    {"illumination/shadow_counter.vhd", "'1' when around <= 0", "'1' when around < 0"},
     // Redefines what is not there; a highlight below the horizon; a spot's
     // light
     // everywhere; the far light's shift forgotten.
@@ -207,6 +206,8 @@ constexpr Listed c_listed[] = {
     // object; a first colour that is not rounded; a colour that moves on; not busy with an object in the
     // pipeline; grey that is red.
     {"shaders/processors_shader.vhd", "walk_valid <= waiting and not loads;", "walk_valid <= waiting;"},
+    {"shaders/processors_shader.vhd", "shaded_step  <= shaded_valid and shaded_ready",
+     "shaded_step  <= shaded_valid"},
     {"shaders/processors_shader.vhd", "waiting and loads and not walking and objects_idle",
      "waiting and loads and objects_idle"},
     {"shaders/processors_shader.vhd", "token_ready and load_valid when", "load_valid when"},

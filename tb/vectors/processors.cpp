@@ -68,6 +68,13 @@ class TokenMaker {
     token.opens = random_.one_in(2);
     return token;
   }
+  /// A polygon that opens a volume at a column which no random token asks for.
+  Token opening(std::uint32_t light) {
+    Token token = shadow(light);
+    token.x = 17;
+    token.opens = true;
+    return token;
+  }
   Token object() {
     Token token = at_pixel();
     token.command = static_cast<Command>(random_.between(0, 2));
@@ -154,6 +161,9 @@ std::string name_of(const ProcessorsConfig& c) {
                      c.specular, c.normalize, c.shadows);
 }
 
+// Shadow polygons of one column, until its count leaves its format, and some more.
+constexpr int c_too_many = (1 << (Exact::c_shadow_count_bits - 1)) + 8;
+
 // A line: token; the token that comes out, fault once it has.
 template <class Preset>
 Status write_processor(const std::filesystem::path& folder, const ProcessorsConfig& config, Term term,
@@ -162,20 +172,18 @@ Status write_processor(const std::filesystem::path& folder, const ProcessorsConf
   TokenMaker<Preset> maker(config, static_cast<std::uint64_t>(bits * 8 + static_cast<int>(term) * 3 + light));
   golden::ShadingProcessor<Preset> twin(config, term, light);
   VectorFile file;
-  while (file.size() < static_cast<std::size_t>(tokens)) {
-    const auto done = static_cast<int>(file.size());
+  // In the end more volumes than the counter holds, if at all.
+  const int last = tokens + (faults ? c_too_many : 0);
+  for (int done = 0; done < last; ++done) {
     // At first no light is valid; then it is defined, and comes back after it was deleted.
     const bool defines = done == 20 || (done > 20 && done % 25 == 0);
-    auto token =
-        defines ? maker.load(Command::define, static_cast<std::uint32_t>(light)) : maker.token(light);
+    auto token = done >= tokens ? maker.opening(static_cast<std::uint32_t>(light))
+                 : defines      ? maker.load(Command::define, static_cast<std::uint32_t>(light))
+                                : maker.token(light);
     if (term != Term::ambient) token = maker.behind_ambient(token);
     auto words = maker.words(token, bits);
-    auto next = twin;
     const auto before = words;
-    next.process(words);
-    // Faults come in the last part, if at all.
-    if (next.fault() && !(faults && done > tokens * 3 / 4)) continue;
-    twin = std::move(next);
+    twin.process(words);
     file.words_of(before, bits).words_of(words, bits).flag(twin.fault()).end_vector();
   }
   return file.write(
@@ -223,19 +231,16 @@ Status write_pipeline(const std::filesystem::path& folder, const ProcessorsConfi
   TokenMaker<Preset> maker(config, static_cast<std::uint64_t>(bits));
   golden::ShadingPipeline<Preset> twin(config);
   VectorFile file;
-  while (file.size() < c_tokens) {
-    const auto done = static_cast<int>(file.size());
+  const int last = c_tokens + (faults ? c_too_many : 0);
+  for (int done = 0; done < last; ++done) {
     const int light = static_cast<int>(maker.random().between(0, config.lights()));
     // First all lights.
-    auto token = done <= config.lights() ? maker.load(Command::define, static_cast<std::uint32_t>(done))
-                                         : maker.token(light);
+    auto token = done >= c_tokens          ? maker.opening(static_cast<std::uint32_t>(config.lights()))
+                 : done <= config.lights() ? maker.load(Command::define, static_cast<std::uint32_t>(done))
+                                           : maker.token(light);
     auto words = maker.words(token, bits);
-    auto next = twin;
-    // Faults come in the last part, if at all.
     token = golden::ShadingToken<Preset>::decode(config, words);
-    const bool comes = next.process(token);
-    if (next.fault() && !(faults && done > c_tokens * 3 / 4)) continue;
-    twin = std::move(next);
+    const bool comes = twin.process(token);
     file.words_of(words, bits).flag(comes);
     if (comes) token.encode(config, words);
     file.words_of(words, bits).flag(twin.fault()).end_vector();
@@ -257,8 +262,8 @@ Status write_pipelines(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// A line: reset, step, clear, counts, opens, takes, x, and for the column before valid and around_eye, clocks
-// until ready; then before the edge: counted, lit (meant where counted), fault.
+// A line: reset, step, clear, counts, opens, takes, x, and around_eye for the column before, clocks until
+// ready; then before the edge: counted, lit (meant where counted), fault.
 Status write_shadow_counter(const std::filesystem::path& folder) {
   constexpr int c_columns = 1 << Exact::c_pixel_x_bits;
   constexpr int c_most = (1 << (Exact::c_shadow_count_bits - 1)) - 1;
@@ -269,9 +274,8 @@ Status write_shadow_counter(const std::filesystem::path& folder) {
   std::uint32_t waits = 0;  // until ready
   bool counted = false;     // the last step was one of a column
   int around_eye = 0;       // until the next step
-  bool valid = false, lit = false;
-  bool fault = false;        // as seen two clocks after the step
-  bool may_be_less = false;  // volumes around an object than none
+  bool lit = false;
+  bool fault = false;  // as seen two clocks after the step
   // What goes with a column that holds `held`: often the one that makes the object lit, else one beside it or
   // any.
   const auto choose_light = [&](int held) {
@@ -279,14 +283,13 @@ Status write_shadow_counter(const std::filesystem::path& folder) {
                      ? static_cast<int>(random.between(-c_most - 1, c_most))
                      : std::clamp(static_cast<int>(random.between(-1, 1)) - held, -c_most, c_most);
     if (random.one_in(2)) around_eye = std::clamp(-held, -c_most, c_most);
-    valid = !random.one_in(4) && (may_be_less || held + around_eye >= 0);
-    lit = held + around_eye == 0;
+    lit = held + around_eye <= 0;
   };
   const auto line = [&](bool reset, bool step, bool clear, bool counts, bool opens, bool takes,
                         std::uint32_t x) {
     const bool stepped = step && !reset;
     file.flag(reset).flag(step).flag(clear).flag(counts).flag(opens).flag(takes);
-    file.word(x, Exact::c_pixel_x_bits).flag(valid);
+    file.word(x, Exact::c_pixel_x_bits);
     file.word(static_cast<std::uint64_t>(around_eye), Exact::c_shadow_count_bits).word(reset ? 0 : waits, 32);
     if (waits > 0 && !reset) fault = twin.fault();
     file.flag(counted).flag(lit).flag(fault).end_vector();
@@ -300,7 +303,7 @@ Status write_shadow_counter(const std::filesystem::path& folder) {
         waits = last + 1;
         last = 0;
       } else if (takes) {
-        twin.take(x, around_eye, valid);
+        twin.take(x, around_eye);
       } else if (counts) {
         twin.count(x, opens);
         last = x > last ? x : last;
@@ -318,7 +321,6 @@ Status write_shadow_counter(const std::filesystem::path& folder) {
   for (std::uint32_t x = 0; x < c_columns; ++x) line(false, true, false, false, false, true, x);
   for (int i = 0; i < 12000; ++i) {
     const int part = i / 1500;
-    may_be_less = i % 3000 > 2900;
     if (i % 3000 == 2999) {
       line(true, random.one_in(2), false, true, true, false, 0);
       continue;

@@ -76,8 +76,7 @@ class Host {
     const std::int64_t x = random_.between(0, 4095);
     for (const std::uint32_t line : {y, y, y - 1, y - 1, y}) draw(line_walk(line, x, x + 1, 1 << 20, 3));
   }
-  // A line in its rounds. Each volume's exit lies behind its entry, so that no count falls below its
-  // beginning.
+  // A line in its rounds. A volume's exit lies behind its entry, or before it, as rounding may have it.
   void draw_line() {
     const std::uint32_t y = static_cast<std::uint32_t>(random_.between(0, 4095));
     const std::int64_t left = random_.one_in(4) ? 4096 - 12 : random_.between(0, 4000);
@@ -95,20 +94,20 @@ class Host {
         const InitVector entry = span(z, 7);
         send(shadow_vector(light, true, entry));
         InitVector exit = entry;
-        put_depth(exit, std::min<std::int64_t>(z + (random_.between(0, 6) << 20), 15 << 20));
+        put_depth(exit, std::clamp<std::int64_t>(z + (random_.between(-1, 6) << 20), 0, 15 << 20));
         send(shadow_vector(light, false, exit));
       }
     if (random_.one_in(8)) some_load();
     for (const InitVector& object : objects) draw(object);
   }
-  // An object inside less than no volume.
+  // More volumes before an object than a counter holds.
   void go_wrong() {
     define_all();
     const InitVector object = line_walk(5, 3, 4, 1 << 20, 1);
     send(walk_vector(Command::depth, object));
-    InitVector exit = object;
-    put_depth(exit, 1 << 19);
-    for (int i = 0; i < 2; ++i) send(shadow_vector(1, false, exit));
+    InitVector entry = object;
+    put_depth(entry, 1 << 19);
+    for (int i = 0; i < 1 << (Exact::c_shadow_count_bits - 1); ++i) send(shadow_vector(1, true, entry));
     draw(object);
   }
   void finish() {
