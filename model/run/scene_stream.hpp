@@ -26,8 +26,8 @@ struct Batch {
 /// with many line records, or of crowded lines hold fewer units.
 class SceneStream {
  public:
-  /// The setup must outlive the stream.
-  SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads);
+  /// The setup must outlive the stream. Without `golden` the batches hold no fragments.
+  SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads, bool golden = true);
   ~SceneStream();
 
   /// The next batch; false after the last.
@@ -53,6 +53,7 @@ class SceneStream {
   const Setup& setup_;
   HardwareKey key_;
   unsigned threads_;
+  bool golden_;
   std::vector<std::uint32_t> prologue_;
   std::uint32_t next_unit_ = 0, batch_units_;
   std::future<Work> ahead_;
@@ -64,5 +65,8 @@ class SceneStream {
 /// Whether, in all batches taken so far, each pixel's shadow volumes could be counted; bad input where there
 /// are too many.
 Status check_shadow_counts(const Scene& scene, const SceneStream& stream);
+/// Whether, in all batches taken so far, each triangle projects to finite points; bad input where one does
+/// not.
+Status check_projection(const Scene& scene, const SceneStream& stream);
 
 }  // namespace halfway
