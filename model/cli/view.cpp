@@ -3,6 +3,7 @@
 #include "run/view.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -35,6 +36,14 @@ using Clock = std::chrono::steady_clock;
 
 constexpr unsigned c_usual_rate = 16;  // the papers'
 constexpr unsigned c_most_rate = 1000, c_most_columns = 4096;
+
+// Buffers as large as a frame's fragments come and go with each frame: given back to the system, all their
+// pages would be faulted in again.
+void keep_freed_memory() {
+  constexpr int c_most_kept = 256 << 20, c_largest_threshold = 32 << 20;
+  ::mallopt(M_TRIM_THRESHOLD, c_most_kept);
+  ::mallopt(M_MMAP_THRESHOLD, c_largest_threshold);
+}
 
 struct ViewCommand {
   DrawOptions draw;
@@ -251,7 +260,7 @@ class View {
             ? draw_.out
             : ResultFiles::of(draw_.out, scene, to_string(draw_.plan.shader), draw_.plan.all_effects).folder /
                   "view";
-    if (Status status = make_folders(o_.folder); !status) return status.error();
+    if (const auto writable = TemporaryFolder::make(o_.folder); !writable) return writable.error();
     auto lock = FolderLock::take(o_.folder, [&] {
       say(fmt::format("waiting for {} (another halfway view draws into it)", o_.folder.string()));
     });
@@ -292,6 +301,7 @@ int run(const Folders& folders, const ViewCommand& command) {
   if (!draw) return report(draw.error());
   auto outputs = checked(command);
   if (!outputs) return report(outputs.error());
+  keep_freed_memory();
   const auto equal = View(command, folders, *draw, std::move(*outputs)).run();
   if (!equal) return report(equal.error());
   bool right = *equal;

@@ -99,7 +99,9 @@ Result<std::vector<unsigned char>> encode_png(const std::string& path, const Fra
     OIIO::ImageSpec spec(static_cast<int>(frame.size.width), static_cast<int>(frame.size.height), 3,
                          OIIO::TypeDesc::UINT8);
     if (compression == Compression::quick) {
+      constexpr int c_filter_up = 0x20;  // PNG_FILTER_UP
       spec.attribute("png:compressionLevel", 1);
+      spec.attribute("png:filter", c_filter_up);
     }
     if (!output->open(path, spec) || !output->write_image(OIIO::TypeDesc::UINT8, frame.rgb.data()) ||
         !output->close())
