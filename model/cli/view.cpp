@@ -227,12 +227,17 @@ class View {
         const auto path = o_.folder / o_.name_of(number);
         return o_.ppm ? write_ppm(path, frame) : write_png(path, frame, Compression::quick);
       };
-    settings.on_next = [&](std::uint32_t number, const Frame& frame) { return next(number, frame); };
+    settings.on_next = [&](std::uint32_t number, const Frame& frame) {
+      const auto writing = interruption->writing();
+      return next(number, frame);
+    };
 
     auto summary = view(*scene, settings);
+    // Never had again once a signal has come: what it broke off is no error.
+    std::shared_lock<std::shared_timed_mutex> writing;
+    if (interruption) writing = interruption->writing();
     progress_.clear();
     if (!summary) return summary.error();
-    const auto writing = interruption->writing();
     if (o_.terminal) screen_.leave();
     for (const std::string& note : summary->notes) say(note);
     fmt::print("{}", printable(to_lines(*summary)));

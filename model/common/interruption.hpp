@@ -2,6 +2,7 @@
 // Ctrl-C between two outputs, never in one.
 #pragma once
 
+#include <array>
 #include <csignal>
 #include <functional>
 #include <mutex>
@@ -11,8 +12,8 @@
 namespace halfway {
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP wait until nobody holds the gate (though not for ever), call
-/// `tidy`, and then end the process as they would have. Threads that are started before it must not take
-/// them.
+/// `tidy`, and then end the process as they would have; those that are ignored stay so. One at a time in a
+/// process.
 class Interruption {
  public:
   explicit Interruption(std::function<void()> tidy);
@@ -24,11 +25,17 @@ class Interruption {
   std::shared_lock<std::shared_timed_mutex> writing() { return std::shared_lock(gate_); }
 
  private:
-  void watch(const std::stop_token& stop);
+  struct Before {
+    int signal;
+    struct sigaction action;
+  };
+  void watch();
+  void restore() const;
 
   std::function<void()> tidy_;
   std::shared_timed_mutex gate_;
-  sigset_t signals_{}, before_{};
+  int reader_ = -1;
+  std::array<Before, 3> before_;
   std::jthread watcher_;
 };
 

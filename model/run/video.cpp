@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <system_error>
 #include <utility>
@@ -14,6 +15,7 @@ namespace halfway {
 namespace {
 
 constexpr const char* c_install = "apt-get install ffmpeg";
+constexpr std::chrono::seconds c_patience{2};  // with an ffmpeg that is to end at once
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
@@ -129,6 +131,8 @@ Status VideoWriter::commit() {
 }
 
 void VideoWriter::abandon() const {
+  ::shutdown(input_, SHUT_RDWR);
+  if (const auto ffmpeg = ffmpeg_; ffmpeg.valid()) ffmpeg.wait_for(c_patience);
   std::error_code ignored;
   std::filesystem::remove_all(folder_->path(), ignored);
 }

@@ -29,7 +29,7 @@ class VideoWriter {
 
   Status add(const Frame& frame);
   Status commit();
-  /// Removes what is unfinished, from another thread that ends the process.
+  /// Ends ffmpeg and removes what is unfinished, from another thread that is about to end the process.
   void abandon() const;
 
  private:
@@ -42,7 +42,7 @@ class VideoWriter {
   std::filesystem::path file_;
   std::optional<TemporaryFolder> folder_;
   int input_ = -1;  ///< of ffmpeg
-  std::future<Result<ProcessEnd>> ffmpeg_;
+  std::shared_future<Result<ProcessEnd>> ffmpeg_;
 };
 
 }  // namespace halfway

@@ -250,10 +250,11 @@ std::string to_lines(const ViewSummary& s) {
                                                             s.difference->run.mismatches, s.difference->frame)
                                               : "0 mismatches";
   std::string text = fmt::format(
-      "{:<12} {:<10} {:<9} {:>4}x{:<4} {:>4} frames of {} triangles, {} fragments | verilator: {} | {:.2f} "
-      "frames a second, {:.2f} s on {} threads\n",
+      "{:<12} {:<10} {:<9} {:>4}x{:<4} {:>4} frame{} of {} triangles, {} fragments | verilator: {} | {:.2f} "
+      "frames a second, {:.2f} s on {} thread{}\n",
       s.scene, to_string(s.plan.key.shader), to_string(s.plan.key.preset), s.size.width, s.size.height,
-      s.frames, s.triangles, s.fragments, compared, s.rate(), s.seconds, s.threads);
+      s.frames, s.frames == 1 ? "" : "s", s.triangles, s.fragments, compared, s.rate(), s.seconds, s.threads,
+      s.threads == 1 ? "" : "s");
   if (s.frames == 0) return text;
   const auto ms = [&](double seconds) { return 1e3 * seconds / s.frames; };
   text += fmt::format("processor time a frame: setup {:.1f} ms, ", ms(s.parts.setup));
