@@ -26,18 +26,19 @@ std::size_t bytes(const Batch& batch) {
 
 }  // namespace
 
-SceneStream::SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads, bool golden)
+SceneStream::SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads,
+                         const SceneStreamOptions& options)
     : setup_(setup),
       key_(key),
       threads_(std::max(1U, threads)),
-      golden_(golden),
+      options_(options),
       batch_units_(setup.units_are_lines() ? c_first_lines : c_first_batch) {
   setup_.append_prologue(prologue_, counts_);
   prefetch();
 }
 
 SceneStream::~SceneStream() {
-  if (ahead_.valid()) ahead_.wait();
+  if (options_.ahead && ahead_.valid()) ahead_.wait();
 }
 
 void SceneStream::prefetch() {
@@ -45,7 +46,8 @@ void SceneStream::prefetch() {
   if (next_unit_ >= total) return;
   const std::uint32_t begin = next_unit_, end = std::min(total, begin + batch_units_);
   next_unit_ = end;
-  ahead_ = std::async(std::launch::async, [this, begin, end] { return make(begin, end); });
+  ahead_ = std::async(options_.ahead ? std::launch::async : std::launch::deferred,
+                      [this, begin, end] { return make(begin, end); });
 }
 
 bool SceneStream::next(Batch& batch) {
@@ -71,7 +73,7 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) cons
   std::vector<Work> parts(chunks);
   std::atomic<std::size_t> next_chunk = 0;
   const auto work = [&] {
-    const std::unique_ptr<GoldenModel> golden = golden_ ? make_golden_model(key_) : nullptr;
+    const std::unique_ptr<GoldenModel> golden = options_.golden ? make_golden_model(key_) : nullptr;
     std::vector<Fragment> none;
     if (golden) golden->draw(prologue_, none);
     for (std::size_t i = next_chunk++; i < chunks; i = next_chunk++) {

@@ -20,14 +20,21 @@ struct Batch {
   double done = 0.0;  ///< part of the stream, this batch included: 0 to 1
 };
 
+struct SceneStreamOptions {
+  bool golden = true;  ///< else batches hold no fragments
+  /// Else a batch is made when it is asked for: better where other threads have work of their own.
+  bool ahead = true;
+};
+
 /// Setup and golden model on `threads` threads, one batch ahead of who takes them. The stream does not depend
 /// on the number of threads. The first batch begins with setup's prologue, which every thread's golden model
 /// is given first. Memory is bounded by a batch, not by the mesh: batches of large triangles, of triangles
 /// with many line records, or of crowded lines hold fewer units.
 class SceneStream {
  public:
-  /// The setup must outlive the stream. Without `golden` the batches hold no fragments.
-  SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads, bool golden = true);
+  /// The setup must outlive the stream.
+  SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads,
+              const SceneStreamOptions& options = {});
   ~SceneStream();
 
   /// The next batch; false after the last.
@@ -53,7 +60,7 @@ class SceneStream {
   const Setup& setup_;
   HardwareKey key_;
   unsigned threads_;
-  bool golden_;
+  SceneStreamOptions options_;
   std::vector<std::uint32_t> prologue_;
   std::uint32_t next_unit_ = 0, batch_units_;
   std::future<Work> ahead_;

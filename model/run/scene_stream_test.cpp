@@ -60,7 +60,7 @@ TEST(SceneStream, IsPrologueAndUnitsForAnyNumberOfThreads) {
         EXPECT_TRUE(check_shadow_counts(*scene, stream));
         EXPECT_TRUE(check_projection(*scene, stream));
       }
-      SceneStream without(*setup, key, 2, false);
+      SceneStream without(*setup, key, 2, {.golden = false, .ahead = false});
       std::vector<std::uint32_t> same;
       for (Batch batch; without.next(batch);) {
         same.insert(same.end(), batch.init_words.begin(), batch.init_words.end());

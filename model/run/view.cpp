@@ -61,7 +61,8 @@ class Easel {
     drawn.notes = setup->notes();
     drawn.seconds.setup = thread_seconds() - setup_start;
 
-    SceneStream stream(*setup, key_, threads_, s_.compare);
+    // With a thread a frame there is another frame to draw meanwhile.
+    SceneStream stream(*setup, key_, threads_, {.golden = s_.compare, .ahead = threads_ > 1});
     RtlStream rtl(s_.size, scene_.background, s_.compare);
     VerilatorFeed feed(simulator_, rtl);
     double feeding = 0.0;
