@@ -164,10 +164,10 @@ class Screen {
     return tool_failed(fmt::format("standard output: {}", std::strerror(errno)));
   }
   /// The terminal as it was, below the last picture.
-  void leave() const {
+  void leave() {
     constexpr std::string_view c_restore = "\033[0m\033[?25h\n";
-    if (terminal_ && entered_) [[maybe_unused]]
-      const ssize_t said = ::write(STDOUT_FILENO, c_restore.data(), c_restore.size());
+    if (terminal_ && entered_ && ::write(STDOUT_FILENO, c_restore.data(), c_restore.size()) < 0) return;
+    entered_ = false;
   }
 
  private:
@@ -286,7 +286,7 @@ class View {
   }
 
   // Before a signal ends the process.
-  void tidy() const {
+  void tidy() {
     if (video_) video_->abandon();
     if (o_.terminal) screen_.leave();
   }
