@@ -23,8 +23,8 @@ const std::vector<std::string> kVerilatorFlags = {
     "--cc", "--prefix",   "Vshader", "--x-assign", "fast",         "--x-initial",
     "fast", "--noassert", "-O3",     "--flatten",  "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE"};
 const std::vector<std::string> kCompilerFlags = {
-    "-std=gnu++20", "-march=native", "-fPIC", "-pthread", "-w", "-fvisibility=hidden", "-DVM_COVERAGE=0",
-    "-DVM_SC=0"};
+    "-std=gnu++20", "-march=native",       "-fPIC",           "-pthread",
+    "-w",           "-fvisibility=hidden", "-DVM_COVERAGE=0", "-DVM_SC=0"};
 const std::vector<std::string> kLinkFlags = {"-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs", "-latomic"};
 
 Result<std::string> run_tool(Command command, const std::string& install, const std::string& doing) {
@@ -121,11 +121,7 @@ Result<VerilatedLibrary> VerilatedLibrary::open(const VerilatedBuild& build,
   tools.add(compiler).add(processor());
   for (const std::string& flag : flags) tools.add(flag);
   ContentHash hash;
-  hash.add(tools.hex())
-      .add(build.netlist)
-      .add(build.top)
-      .add(*harness)
-      .add(build.fast ? "-O3" : "-O1");
+  hash.add(tools.hex()).add(build.netlist).add(build.top).add(*harness).add(build.fast ? "-O3" : "-O1");
   for (const auto& header : build.harness_headers) {
     const auto text = read_file(header);
     if (!text) return tool_failed(text.error().message);
