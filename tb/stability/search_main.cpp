@@ -36,7 +36,7 @@ void Tally::add(const Tally& other) {
   for (const auto& [quantity, theirs] : other.worst) {
     Worst& ours = worst[quantity];
     const std::uint64_t count = ours.count + theirs.count;
-    ours.add(theirs.figure, theirs.bound, [&] { return theirs.where; });
+    ours.add(theirs.figure, theirs.bound, [&where = theirs.where] { return where; });
     ours.count = count;
   }
 }
