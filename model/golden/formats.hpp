@@ -75,16 +75,12 @@ struct Exact {
   //   at most 512: 2^9
   static constexpr int c_shadow_count_bits = 10;
   static constexpr int c_shadow_count_fraction_bits = 0;
-  // u18.6: one over the width of a spot's soft edge, in cosines, 1/2 at least; a harder edge has one of 2^18,
-  // so that a cone of a tenth of a degree still comes to its full light. The share is t^2 (3 - 2t), t the
-  // slope times what the cosine is above the edge: it moves by 6 t^2 (1 - t), 8/9 at most, times the slope's
-  // relative error
+  // u18.6: one over the width of a spot's soft edge, in cosines, 1/2 at least; a harder edge has one of 2^18, so that a cone of a tenth of a degree still comes to its full light. The share is t^2 (3 - 2t), t the slope times what the cosine is above the edge: it moves by 6 t^2 (1 - t), 8/9 at most, times the slope's relative error
   //   off by at most 2^-7: u / 2
   //   share: off by at most 0.014 of the spot's light: 8 / 9 * u / 2 / (1 / 2)
   static constexpr int c_spot_slope_bits = 24;
   static constexpr int c_spot_slope_fraction_bits = 6;
-  // u18.0: up to the edge's height in subpixels, 16 a pixel from -2048 to 6143, doubled at no level of
-  // subdivision
+  // u18.0: up to the edge's height in subpixels, 16 a pixel from -2048 to 6143, doubled at no level of subdivision
   //   at most 131056: (6143 + 2048) * 16
   static constexpr int c_edge_error_bits = 18;
   static constexpr int c_edge_error_fraction_bits = 0;
@@ -92,14 +88,12 @@ struct Exact {
   //   at most 4096: frame
   static constexpr int c_edge_x_bits = 14;
   static constexpr int c_edge_x_fraction_bits = 0;
-  // s11.28: second differences, each word rounded to half a unit; the samples are, too, and what the
-  // quadratic takes of them adds up to 5/3 at most. Samples up to 1023 stay within +-2046
+  // s11.28: second differences, each word rounded to half a unit; the samples are, too, and what the quadratic takes of them adds up to 5/3 at most. Samples up to 1023 stay within +-2046
   //   off by at most 0.15 colour steps: (1 + k + k * (k - 1) / 2) * u / 2
   //   samples: off by at most 3.2e-09 colour steps: 5 / 3 * u / 2
   static constexpr int c_intensity_bits = 40;
   static constexpr int c_intensity_fraction_bits = 28;
-  // s10.22: half bells; start and slope each rounded to half a unit: a quarter of a 2^-9 cell; exponents up
-  // to 10^6 stay within +-1024
+  // s10.22: half bells; start and slope each rounded to half a unit: a quarter of a 2^-9 cell; exponents up to 10^6 stay within +-1024
   //   off by at most 2^-11 half bells: (1 + pixels) * u / 2
   static constexpr int c_angle_bits = 33;
   static constexpr int c_angle_fraction_bits = 22;
@@ -115,17 +109,13 @@ struct Exact {
   //   off by at most 2^-29: u / 2
   static constexpr int c_vector_bits = 30;
   static constexpr int c_vector_fraction_bits = 28;
-  // s1.22: components of unit vectors; an exponent m multiplies the error of a cosine by m. Rounded where
-  // they are made; their length has the error of root, half that of a square of 1/4 or more, and of three
-  // components rounded; the angle has that of a vector of 1/2 or more whose components are cut by half a
-  // unit, 3.1 halves across it at most, and of rounding, 1.8
+  // s1.22: components of unit vectors; an exponent m multiplies the error of a cosine by m. Rounded where they are made; their length has the error of root, half that of a square of 1/4 or more, and of three components rounded; the angle has that of a vector of 1/2 or more whose components are cut by half a unit, 3.1 halves across it at most, and of rounding, 1.8
   //   component: off by at most 2^-23: u / 2
   //   length: off by at most 1.42e-06: 1.2 * 10^-6 + 2 * u_square + sqrt(3) * u / 2
   //   angle: off by at most 5.9e-07 radians: 4.9 * u / 2
   static constexpr int c_direction_bits = 24;
   static constexpr int c_direction_fraction_bits = 22;
-  // s2.28: from a surface point to a light, before it is normalized: the light's place rounded, the point's
-  // cut
+  // s2.28: from a surface point to a light, before it is normalized: the light's place rounded, the point's cut
   //   off by at most 5.59e-09: (1 / 2 + 1) * u
   static constexpr int c_offset_bits = 31;
   static constexpr int c_offset_fraction_bits = 28;
@@ -146,8 +136,7 @@ struct Exact {
   //   relative: off by at most 0.00115 of it: sqrt(2) * u / 2 + 2^-8 / 2 / 2
   static constexpr int c_root_entry_bits = 12;
   static constexpr int c_root_entry_fraction_bits = 12;
-  // u1.23: after a Newton step from an entry r off, which is 3/2 r^2 short; raised by 17/2 units, cut by half
-  // of one and by one, sqrt(2) of it at x = 2 where r is largest
+  // u1.23: after a Newton step from an entry r off, which is 3/2 r^2 short; raised by 17/2 units, cut by half of one and by one, sqrt(2) of it at x = 2 where r is largest
   //   off by at most 1.2e-06 of it: 3 / 2 * 0.00115^2 - (17 - 1) / 2 * u + sqrt(2) * u
   static constexpr int c_root_bits = 24;
   static constexpr int c_root_fraction_bits = 23;
@@ -156,8 +145,7 @@ struct Exact {
   //   highlight: off by at most 0.0008 of a highlight's peak: u / 2 / e
   static constexpr int c_exponent_bits = 21;
   static constexpr int c_exponent_fraction_bits = 8;
-  // u1.16: a power of a cosine, or of a spot's edge, for slopes up to 2^12: t is cut by a unit and by 2^-28
-  // of the slope, and the share rises by 3/2 of t at most; a diffuse term's cosine is rounded
+  // u1.16: a power of a cosine, or of a spot's edge, for slopes up to 2^12: t is cut by a unit and by 2^-28 of the slope, and the share rises by 3/2 of t at most; a diffuse term's cosine is rounded
   //   power: off by at most 0.00101: 2^-15 + m * 2^-23
   //   spot: off by at most 5.34e-05: 3 / 2 * (u + 2^12 * 2^-28) + u / 2
   //   diffuse: off by at most 2^-17: u / 2
@@ -179,8 +167,7 @@ struct Exact {
   //   off by at most 2^-7 colour steps: terms * u
   static constexpr int c_radiance_bits = 22;
   static constexpr int c_radiance_fraction_bits = 12;
-  // u16.8: colour steps; the largest times the least entry of up to 8 bits is white, so what is brighter
-  // needs no more
+  // u16.8: colour steps; the largest times the least entry of up to 8 bits is white, so what is brighter needs no more
   //   off by at most 2^-9 colour steps: u / 2
   static constexpr int c_factor_bits = 24;
   static constexpr int c_factor_fraction_bits = 8;
@@ -191,19 +178,32 @@ struct Exact {
 
   static constexpr int c_init_header_bits = 480;
   static constexpr std::array<Field, 27> c_init_header = {{
-      {"triangle", 0, 32, false, 0},        {"y", 32, 12, false, 0},
-      {"upper_lines", 44, 13, false, 0},    {"lower_lines", 57, 13, false, 0},
-      {"backward", 70, 1, false, 0},        {"start_x", 71, 14, true, 0},
-      {"start_quotient", 85, 14, true, 0},  {"start_remainder", 99, 18, false, 0},
-      {"start_divisor", 117, 18, false, 0}, {"start_error", 135, 18, false, 0},
-      {"start_carry", 153, 1, false, 0},    {"upper_x", 154, 14, true, 0},
-      {"upper_quotient", 168, 14, true, 0}, {"upper_remainder", 182, 18, false, 0},
-      {"upper_divisor", 200, 18, false, 0}, {"upper_error", 218, 18, false, 0},
-      {"upper_carry", 236, 1, false, 0},    {"lower_x", 237, 14, true, 0},
-      {"lower_quotient", 251, 14, true, 0}, {"lower_remainder", 265, 18, false, 0},
-      {"lower_divisor", 283, 18, false, 0}, {"lower_error", 301, 18, false, 0},
-      {"lower_carry", 319, 1, false, 0},    {"z", 320, 40, true, 15},
-      {"z_dx", 360, 40, true, 15},          {"z_de0", 400, 40, true, 15},
+      {"triangle", 0, 32, false, 0},
+      {"y", 32, 12, false, 0},
+      {"upper_lines", 44, 13, false, 0},
+      {"lower_lines", 57, 13, false, 0},
+      {"backward", 70, 1, false, 0},
+      {"start_x", 71, 14, true, 0},
+      {"start_quotient", 85, 14, true, 0},
+      {"start_remainder", 99, 18, false, 0},
+      {"start_divisor", 117, 18, false, 0},
+      {"start_error", 135, 18, false, 0},
+      {"start_carry", 153, 1, false, 0},
+      {"upper_x", 154, 14, true, 0},
+      {"upper_quotient", 168, 14, true, 0},
+      {"upper_remainder", 182, 18, false, 0},
+      {"upper_divisor", 200, 18, false, 0},
+      {"upper_error", 218, 18, false, 0},
+      {"upper_carry", 236, 1, false, 0},
+      {"lower_x", 237, 14, true, 0},
+      {"lower_quotient", 251, 14, true, 0},
+      {"lower_remainder", 265, 18, false, 0},
+      {"lower_divisor", 283, 18, false, 0},
+      {"lower_error", 301, 18, false, 0},
+      {"lower_carry", 319, 1, false, 0},
+      {"z", 320, 40, true, 15},
+      {"z_dx", 360, 40, true, 15},
+      {"z_de0", 400, 40, true, 15},
       {"z_de1", 440, 40, true, 15},
   }};
   struct init_header_at {
@@ -567,10 +567,7 @@ struct Published {
   //   at most 512: 2^9
   static constexpr int c_shadow_count_bits = 10;
   static constexpr int c_shadow_count_fraction_bits = 0;
-  // u18.6: one over the width of a spot's soft edge, in cosines, 1/2 at least; a harder edge has one of 2^18,
-  // so that a cone of a tenth of a degree still comes to its full light. The share is t^2 (3 - 2t), t the
-  // slope times what the cosine is above the edge: it moves by 6 t^2 (1 - t), 8/9 at most, times the slope's
-  // relative error
+  // u18.6: one over the width of a spot's soft edge, in cosines, 1/2 at least; a harder edge has one of 2^18, so that a cone of a tenth of a degree still comes to its full light. The share is t^2 (3 - 2t), t the slope times what the cosine is above the edge: it moves by 6 t^2 (1 - t), 8/9 at most, times the slope's relative error
   //   off by at most 2^-7: u / 2
   //   share: off by at most 0.014 of the spot's light: 8 / 9 * u / 2 / (1 / 2)
   static constexpr int c_spot_slope_bits = 24;
@@ -583,15 +580,12 @@ struct Published {
   //   off by at most 2^-7 pixels: (1 + lines) * u / 2
   static constexpr int c_edge_x_bits = 32;
   static constexpr int c_edge_x_fraction_bits = 18;
-  // s11.20: 32 bits, 20 of them fraction: the quadratic paper's figure 7; second differences, each word
-  // rounded to half a unit: 4 colour steps after 4095 steps in all; where an edge leaves whole pixels comes
-  // on top
+  // s11.20: 32 bits, 20 of them fraction: the quadratic paper's figure 7; second differences, each word rounded to half a unit: 4 colour steps after 4095 steps in all; where an edge leaves whole pixels comes on top
   //   off by at most 16 colour steps: (1 + k_published + k_published * (k_published - 1) / 2) * u / 2
   //   samples: off by at most 8e-07 colour steps: 5 / 3 * u / 2
   static constexpr int c_intensity_bits = 32;
   static constexpr int c_intensity_fraction_bits = 20;
-  // s0.11: 12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the
-  // bell's ends. Start and slope each rounded to half a unit: 8 addresses after 1023 steps
+  // s0.11: 12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the bell's ends. Start and slope each rounded to half a unit: 8 addresses after 1023 steps
   //   off by at most 1 half bells: (1 + pixels) * u / 2
   static constexpr int c_angle_bits = 12;
   static constexpr int c_angle_fraction_bits = 11;
@@ -607,15 +601,13 @@ struct Published {
   //   off by at most 2^-15: u / 2
   static constexpr int c_vector_bits = 16;
   static constexpr int c_vector_fraction_bits = 14;
-  // s1.14: 16 bits, so that an N that is not normalized passes as it is; else as in preset exact, but vectors
-  // of 17 bits at most are cut, by a quarter of a unit
+  // s1.14: 16 bits, so that an N that is not normalized passes as it is; else as in preset exact, but vectors of 17 bits at most are cut, by a quarter of a unit
   //   component: off by at most 2^-15: u / 2
   //   length: off by at most 0.0094: 0.0092 + 2 * u_square + sqrt(3) * u / 2
   //   angle: off by at most 0.000102 radians: 3.3 * u / 2 * (1 + 0.0094)
   static constexpr int c_direction_bits = 16;
   static constexpr int c_direction_fraction_bits = 14;
-  // s2.14: from a surface point to a light, before it is normalized; with the eye's vector, held below 2, the
-  // sum of three words
+  // s2.14: from a surface point to a light, before it is normalized; with the eye's vector, held below 2, the sum of three words
   //   at most 4: (2 - u) + 1 + 1
   static constexpr int c_offset_bits = 17;
   static constexpr int c_offset_fraction_bits = 14;
@@ -645,9 +637,7 @@ struct Published {
   //   highlight: off by at most 0.184 of a highlight's peak: u / 2 / e
   static constexpr int c_exponent_bits = 10;
   static constexpr int c_exponent_fraction_bits = 0;
-  // u1.8: a power of a cosine, or of a spot's edge: next to 1 the middle of a cell of the logarithm and its
-  // rounding are 0.0062 off, so that an m-th power falls by e^(-m / 232); 2^-x, the rounding and the
-  // product's cut come on top. A diffuse term's cosine is rounded
+  // u1.8: a power of a cosine, or of a spot's edge: next to 1 the middle of a cell of the logarithm and its rounding are 0.0062 off, so that an m-th power falls by e^(-m / 232); 2^-x, the rounding and the product's cut come on top. A diffuse term's cosine is rounded
   //   power: off by at most 1: 1 - e^(-m / 232) + 0.0074 + u / 2 + 2^-10
   //   spot: off by at most 2^-7: 3 / 2 * u + u / 2
   //   diffuse: off by at most 2^-9: u / 2
