@@ -402,7 +402,8 @@ void expect_specification(const Scene& scene, FrameSize frame, const HardwareKey
       const bool upper_half = !c_exact && ends.upper_half(walker.y());
       for (std::size_t line = 1;; ++line) {
         if (!walker.line_empty()) {
-          const auto record = rest.subspan(line * vector_words, vector_words);
+          // None where no light and no material calls for one.
+          const auto record = vectors > 1 ? rest.subspan(line * vector_words, vector_words) : rest.first(0);
           const int way = walker.backward() ? -1 : 1;
           const Span span{walker.start().value(), walker.stop().value() - way, walker.y(), upper_half};
           const SpanThere there = !c_exact                               ? ends.published(span)
