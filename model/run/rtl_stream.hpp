@@ -24,6 +24,7 @@ struct SimulatorRun {
   std::uint64_t fragments = 0, mismatches = 0;
   /// Of the whole run; none where a fault ended it before its simulator could say.
   std::optional<std::uint64_t> cycles;
+  std::uint64_t parts = 1;  ///< each from the reset on: some cycles more than in one
   std::optional<double> seconds;
   std::string fault;        ///< of the hardware, as the simulator tells it; empty: none
   std::string description;  ///< the first mismatches and their counts; empty: none

@@ -18,6 +18,7 @@
 #include "plan/effects.hpp"
 #include "plan/hardware_units.hpp"
 #include "reference/renderer.hpp"
+#include "run/ghdl_parts.hpp"
 #include "run/limits.hpp"
 #include "run/rtl_stream.hpp"
 #include "run/scene_stream.hpp"
@@ -211,12 +212,14 @@ class Simulation {
     if (!golden_trace) return golden_trace.error();
 
     SceneStream stream(*setup, summary_.plan.key, s_.threads);
+    Cuts cuts(summary_.plan.key);
     std::optional<VerilatorFeed> feed;
     if (verilator) feed.emplace(*verilator, rtl, [&](auto drawn) { verilator_trace->write(drawn); });
     for (Batch batch; stream.next(batch);) {
       s_.on_progress("setup, golden model, Verilator", batch.done);
       if (Status status = check_shadow_counts(scene_, stream); !status) return status;
       init_file->write(batch.init_words);
+      if (s_.ghdl) cuts.add(batch.init_words);
       golden_trace->write(batch.golden);
       if (Status status = golden_.add(batch.golden); !status)
         return tool_failed(fmt::format("{}: setup made a fragment outside the frame: {}; please report it",
@@ -234,6 +237,7 @@ class Simulation {
     summary_.setup_seconds = stream.setup_seconds();
     summary_.golden_seconds = stream.golden_seconds();
     summary_.fragments = golden_.fragments();
+    first_vectors_ = cuts.parts(summary_.fragments);
     if (Status status = write_png(files_.frame("golden"), golden_.frame()); !status) return status;
     if (verilator) {
       // A run that was broken off leaves no trace that could pass for whole.
@@ -267,13 +271,15 @@ class Simulation {
       s_.on_progress("GHDL", std::min(1.0, static_cast<double>(bytes) / golden_bytes));
     };
     s_.on_progress("GHDL", 0.0);
-    const auto ran = runner->run(files_.init(), files_.trace("ghdl"), options);
+    const auto ran = run_in_parts(*runner, summary_.plan.key, files_.init(), first_vectors_,
+                                  files_.trace("ghdl"), options, s_.threads);
     if (!ran && ran.error().code != ExitCode::differs) return ran.error();
 
     RtlStream rtl(s_.size, scene_.background);
     if (Status status = add_traces(rtl, ran ? "" : ran.error().message); !status) return status;
     if (Status status = write_png(files_.frame("ghdl"), rtl.assembler().frame()); !status) return status;
     SimulatorRun run = rtl.finish("ghdl");
+    run.parts = first_vectors_.size();
     if (ran) {
       run.cycles = ran->cycles;
       run.seconds = ran->seconds;
@@ -343,6 +349,7 @@ class Simulation {
   const SimulateSettings& s_;
   ResultFiles files_;
   FrameAssembler golden_;
+  std::vector<std::uint64_t> first_vectors_;  ///< of the parts in which GHDL draws
   SceneSummary summary_;
 };
 
@@ -390,11 +397,9 @@ std::string unusual_tables(const HardwareKey& key) {
 std::string to_json(const SceneSummary& s) {
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();
   for (const SimulatorRun& run : s.runs) {
-    nlohmann::ordered_json entry = {{"simulator", run.simulator},
-                                    {"cycles", number_or_null(run.cycles)},
-                                    {"fragments", run.fragments},
-                                    {"mismatches", run.mismatches},
-                                    {"seconds", number_or_null(run.seconds)}};
+    nlohmann::ordered_json entry = {{"simulator", run.simulator},   {"cycles", number_or_null(run.cycles)},
+                                    {"parts", run.parts},           {"fragments", run.fragments},
+                                    {"mismatches", run.mismatches}, {"seconds", number_or_null(run.seconds)}};
     if (!run.fault.empty()) entry["fault"] = run.fault;
     runs.push_back(std::move(entry));
   }
@@ -450,7 +455,8 @@ std::string to_line(const SceneSummary& s) {
     fmt::format_to(to, " | {}: ", run.simulator);
     if (run.cycles)
       fmt::format_to(
-          to, "{} cycles, {:.3f} a fragment, ", *run.cycles,
+          to, "{} cycles{}, {:.3f} a fragment, ", *run.cycles,
+          run.parts > 1 ? fmt::format(" in {} parts", run.parts) : "",
           run.fragments == 0 ? 0.0 : static_cast<double>(*run.cycles) / static_cast<double>(run.fragments));
     fmt::format_to(to, "{} mismatches", run.mismatches);
     if (run.seconds) fmt::format_to(to, ", {:.2f} s", *run.seconds);
