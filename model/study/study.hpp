@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// A study: every point of a design space measured, and which of them are worth building.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/result.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+#include "study/design_point.hpp"
+#include "study/record.hpp"
+
+namespace halfway::study {
+
+struct StudySettings {
+  std::string scene;  ///< as load_scene takes it
+  std::vector<DesignPoint> points;
+  std::filesystem::path out;  ///< records of all studies lie in out/points, tables in out
+  unsigned threads = 1;
+  SimulatorFolders folders;
+  /// Told how many points are done; those that were measured before count.
+  std::function<void(std::size_t done)> on_progress = [](std::size_t) {};
+};
+
+struct Study {
+  Provenance provenance;
+  std::vector<Record> records;  ///< in the points' order
+  std::size_t measured = 0;     ///< anew, in this run
+};
+
+/// Measures what was not measured before, on all threads. Each point's record is written as it comes, so that
+/// a run that is broken off goes on where it was. The first point that fails ends the study.
+Result<Study> run_study(const StudySettings& settings);
+
+/// Numbers of the records that no other beats: none is as good in every figure of `costs` and better in one.
+/// `costs` gives a record's figures, the less the better, always as many.
+std::vector<std::size_t> front_of(std::span<const Record> records,
+                                  const std::function<std::vector<double>(const Record&)>& costs);
+
+}  // namespace halfway::study
