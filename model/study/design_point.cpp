@@ -139,6 +139,10 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
       sweep.names<ProcessorForm>("form", {ProcessorForm::unrolled},
                                  {{"folded", ProcessorForm::folded}, {"unrolled", ProcessorForm::unrolled}}),
       [](DesignPoint& p, ProcessorForm form) { p.form = form; });
+  // Version I takes N as it is interpolated; in preset exact that is N/w.
+  std::erase_if(points, [](const DesignPoint& p) {
+    return p.method == Method::processors_1 && p.preset == Preset::exact;
+  });
   multiply(points, sweep.numbers("threshold", {DesignPoint{}.threshold}, 0.01, 255.0),
            [](DesignPoint& p, double threshold) { p.threshold = threshold; });
   return points;
@@ -189,6 +193,7 @@ SetupOptions DesignPoint::setup() const {
   options.quadratic.test = method == Method::adaptive ? HighlightTest::conservative : HighlightTest::none;
   options.quadratic.threshold = threshold;
   options.spherical.threshold = threshold;
+  options.processors.normalize = method == Method::processors_2;
   return options;
 }
 
