@@ -13,20 +13,52 @@
 #include "study/pictures.hpp"
 
 namespace halfway::study {
+namespace {
 
-Result<Study> run_study(const StudySettings& settings) {
-  const std::filesystem::path scenes = settings.folders.source / "sim" / "scenes";
-  const auto scene = load_scene(settings.scene, scenes);
+std::size_t first_of(const StudySettings& settings, std::size_t part) {
+  return settings.points.size() * part / settings.parts;
+}
+
+// Where the records of the study lie, and what they must be of.
+struct Shelf {
+  Provenance provenance;
+  Records kept;
+};
+
+Result<Shelf> open_shelf(const StudySettings& settings) {
+  const auto scene = load_scene(settings.scene, settings.folders.source / "sim" / "scenes");
   if (!scene) return scene.error();
   auto provenance = provenance_of(*scene, settings.folders);
   if (!provenance) return provenance.error();
   const std::filesystem::path folder = settings.out / "points";
   if (Status made = make_folders(folder); !made) return made.error();
-  const Records kept(folder, *provenance);
-  PictureShelf shelf(settings.scene, scenes);
+  return Shelf{*provenance, Records(folder, *provenance)};
+}
 
-  std::vector<std::optional<Record>> records(settings.points.size());
-  std::atomic<std::size_t> next = 0;
+}  // namespace
+
+Result<std::vector<std::size_t>> open_parts(const StudySettings& settings) {
+  const auto shelf = open_shelf(settings);
+  if (!shelf) return shelf.error();
+  std::vector<std::size_t> open;
+  for (std::size_t part = 0; part < settings.parts; ++part)
+    for (std::size_t at = first_of(settings, part); at < first_of(settings, part + 1); ++at)
+      if (!shelf->kept.find(settings.points[at])) {
+        open.push_back(part);
+        break;
+      }
+  return open;
+}
+
+Result<Study> run_study(const StudySettings& settings) {
+  const auto opened = open_shelf(settings);
+  if (!opened) return opened.error();
+  const Records& kept = opened->kept;
+  PictureShelf shelf(settings.scene, settings.folders.source / "sim" / "scenes");
+
+  const std::size_t begin = first_of(settings, settings.part), end = first_of(settings, settings.part + 1);
+  std::vector<std::optional<Record>> records(end - begin);
+  std::atomic<std::size_t> next = begin;
   std::mutex mutex;
   std::size_t done = 0, measured = 0;
   std::optional<Error> error;
@@ -41,7 +73,7 @@ Result<Study> run_study(const StudySettings& settings) {
     return record;
   };
   work_on_threads(settings.threads, [&] {
-    for (std::size_t at; (at = next++) < settings.points.size();) {
+    for (std::size_t at; (at = next++) < end;) {
       const DesignPoint& point = settings.points[at];
       std::optional<Record> record = kept.find(point);
       const bool anew = !record;
@@ -56,16 +88,16 @@ Result<Study> run_study(const StudySettings& settings) {
       const std::scoped_lock lock(mutex);
       if (failed) {
         if (!error) error = std::move(failed);
-        next = settings.points.size();
+        next = end;
         return;
       }
-      records[at] = std::move(record);
+      records[at - begin] = std::move(record);
       measured += anew;
       settings.on_progress(++done);
     }
   });
   if (error) return *error;
-  Study study{std::move(*provenance), {}, measured};
+  Study study{opened->provenance, {}, measured};
   for (std::optional<Record>& record : records) study.records.push_back(std::move(*record));
   return study;
 }

@@ -20,6 +20,8 @@ struct StudySettings {
   std::vector<DesignPoint> points;
   std::filesystem::path out;  ///< records of all studies lie in out/points, tables in out
   unsigned threads = 1;
+  /// Points that follow each other are cut into `parts`; measured is only this one's. All: part 0 of 1.
+  std::size_t part = 0, parts = 1;
   SimulatorFolders folders;
   /// Told how many points are done; those that were measured before count.
   std::function<void(std::size_t done)> on_progress = [](std::size_t) {};
@@ -27,9 +29,12 @@ struct StudySettings {
 
 struct Study {
   Provenance provenance;
-  std::vector<Record> records;  ///< in the points' order
+  std::vector<Record> records;  ///< in the points' order; of the part alone
   std::size_t measured = 0;     ///< anew, in this run
 };
+
+/// Numbers of the parts with points that were not measured before.
+Result<std::vector<std::size_t>> open_parts(const StudySettings& settings);
 
 /// Measures what was not measured before, on all threads. Each point's record is written as it comes, so that
 /// a run that is broken off goes on where it was. The first point that fails ends the study.
