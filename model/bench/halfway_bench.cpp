@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed, as ratios within one run: golden model, Verilator with comparison, GHDL, setup, and a
+// Speed, as ratios within one run: golden model, Verilator and lanes with comparison, GHDL, setup, and a
 // million-triangle mesh as a whole process. Absolute figures belong to the machine that prints them.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -21,6 +21,7 @@
 #include "run/stream_comparator.hpp"
 #include "scene/load_scene.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/lanes/lane_simulator.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace {
@@ -126,10 +127,19 @@ void golden_model(benchmark::State& state, const Hardware& hardware, const char*
   report_fragments(state, s.golden.size());
 }
 
+// Lanes end each batch idle; Verilator goes on from batch to batch.
+Status end_of(VerilatorSimulator& simulator, std::vector<Fragment>& drawn) {
+  return simulator.finish(drawn, SIZE_MAX);
+}
+Status end_of(LaneSimulator&, std::vector<Fragment>&) {
+  return Ok{};
+}
+
 // Hardware alone, then with the golden model drawing the same on the same core and every field compared.
-void verilator(benchmark::State& state, const Hardware& hardware, const char* scene, bool compared) {
+template <class Simulator>
+void rtl(benchmark::State& state, const Hardware& hardware, const char* scene, bool compared) {
   const Stream& s = stream_of(hardware, scene, c_large);
-  auto simulator = must(VerilatorSimulator::open(s.key, c_folders));
+  auto simulator = must(Simulator::open(s.key, c_folders));
   const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
   const std::size_t words_per_vector = (s.init_bits + 31) / 32;
   std::vector<Fragment> drawn, expected;
@@ -154,7 +164,7 @@ void verilator(benchmark::State& state, const Hardware& hardware, const char* sc
       if (const Status ran = simulator.run(words, count, drawn, SIZE_MAX); !ran) fail(ran.error());
       take();
     }
-    if (const Status ended = simulator.finish(drawn, SIZE_MAX); !ended) fail(ended.error());
+    if (const Status ended = end_of(simulator, drawn); !ended) fail(ended.error());
     take();
     comparator.finish();
     if (comparator.mismatches() != 0) {
@@ -235,6 +245,7 @@ class Ratios final : public benchmark::ConsoleReporter {
       const std::string of = fmt::format("/{}/spheres", hardware.name);
       const double compared = rate("verilator_compared" + of), golden = rate("golden" + of);
       const double alone = rate("verilator" + of), in_ghdl = rate("ghdl" + of);
+      const double in_lanes = rate("lanes" + of), lanes_compared = rate("lanes_compared" + of);
       if (compared == 0.0 || golden == 0.0 || in_ghdl == 0.0) continue;
       fmt::print(
           "\n{}, spheres, fragments a second a core, as ratios within this run:\n"
@@ -242,6 +253,9 @@ class Ratios final : public benchmark::ConsoleReporter {
           "  Verilator alone                  {:.2f}\n  golden model alone               {:.2f}\n"
           "  GHDL                             1/{:.0f}\n",
           hardware.name, compared / 1e6, alone / compared, golden / compared, compared / in_ghdl);
+      if (in_lanes == 0.0 || lanes_compared == 0.0) continue;
+      fmt::print("  lanes with comparison            {:.2f}\n  lanes alone                      {:.2f}\n",
+                 lanes_compared / compared, in_lanes / compared);
     }
   }
 
@@ -261,8 +275,11 @@ int main(int argc, char** argv) {
     add("setup", "teapot", setup, hardware);
     for (const char* scene : {"spheres", "matte"}) {
       add("golden", scene, golden_model, hardware, scene);
-      add("verilator", scene, verilator, hardware, scene, false);
-      add("verilator_compared", scene, verilator, hardware, scene, true);
+      add("verilator", scene, rtl<VerilatorSimulator>, hardware, scene, false);
+      add("verilator_compared", scene, rtl<VerilatorSimulator>, hardware, scene, true);
+      if (hardware.plan.shader == Shader::processors) continue;  // no lanes: it has more than a triangle's state
+      add("lanes", scene, rtl<LaneSimulator>, hardware, scene, false);
+      add("lanes_compared", scene, rtl<LaneSimulator>, hardware, scene, true);
     }
     add("ghdl", "spheres", ghdl, hardware, "spheres")->UseManualTime()->Iterations(1);
   }

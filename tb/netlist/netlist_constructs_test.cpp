@@ -139,7 +139,7 @@ class NetlistConstructs : public testing::Test {
     }
     if (kind == Netlist::split) netlist = Result<std::string>(split_registers(*netlist));
     const std::filesystem::path root = HALFWAY_SOURCE_DIR;
-    const auto verilated = VerilatedLibrary::open({.name = entity,
+    const auto verilated = open_verilated({.name = entity,
                                                    .netlist = *netlist,
                                                    .top = entity,
                                                    .harness = root / "tb/netlist/netlist_harness.cpp",
