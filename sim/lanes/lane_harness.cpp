@@ -36,16 +36,15 @@ class Lanes {
     for (unsigned i = 0; i < kLanes; ++i) begin_part(i);
     while (active_ != 0) {
       std::size_t total = 0;
-      V ends{};
       for (unsigned i = 0; i < kLanes; ++i) {
         Lane& lane = lanes_[i];
         total += lane.count;
         if (lane.fragments.size() < lane.count + kBlock + 1)
           lane.fragments.resize(2 * lane.fragments.size() + 4 * kBlock);
-        ends[i] = reinterpret_cast<std::uint64_t>(lane.fragments.data() + lane.count);
+        lane.next = lane.fragments.data() + lane.count;
       }
       if (total > batch.max_fragments) return HALFWAY_BUFFER_FULL;
-      const M moved = block(ends);
+      const M moved = block();
       for (unsigned i = 0; i < kLanes; ++i) {
         Lane& lane = lanes_[i];
         lane.still = (moved >> i & 1) != 0 ? 0 : lane.still + kBlock;
@@ -63,6 +62,7 @@ class Lanes {
   struct Lane {
     std::vector<HalfwayFragment> fragments;
     std::size_t count = 0;
+    HalfwayFragment* next = nullptr;  // where its fragments go, less those of this block's clocks
     HalfwayPart* part = nullptr;
     const std::uint32_t* words = nullptr;  // of the vector that is offered
     std::size_t vectors = 0;               // still to be taken
@@ -105,52 +105,52 @@ class Lanes {
     }
   }
 
-  __attribute__((noinline)) void ended(M idle, V ends) {
+  __attribute__((noinline)) void ended(M idle, std::size_t clocks) {
     for (; idle != 0; idle &= static_cast<M>(idle - 1)) {
       const auto i = static_cast<unsigned>(std::countr_zero(idle));
-      Lane& lane = lanes_[i];
-      lane.count = static_cast<std::size_t>(reinterpret_cast<HalfwayFragment*>(ends[i]) - lane.fragments.data());
-      lane.part->fragments = lane.count - lane.part->fragment;
+      count(lanes_[i], clocks);
+      lanes_[i].part->fragments = lanes_[i].count - lanes_[i].part->fragment;
       begin_part(i);
     }
   }
 
-  M block(V ends) {
-    State state = state_;
+  static void count(Lane& lane, std::size_t clocks) {
+    lane.count = static_cast<std::size_t>(lane.next + clocks - lane.fragments.data());
+  }
+
+  M block() {
     M moved = 0;
-    for (std::size_t clock = 0; clock < kBlock && active_ != 0; ++clock) {
+    std::size_t clock = 0;
+    while (clock < kBlock && active_ != 0) {
       Outputs out;
       const M offered = in_.init_valid;
-      step(state, in_, out);
+      step(state_, in_, out);
       const M take = offered & out.init_ready;
       const V a = out.fragment_triangle | out.fragment_z << 32;
       const V b = out.fragment_y | out.fragment_x << 16 | out.fragment_red << 32 | out.fragment_green << 40 |
                   out.fragment_blue << 48;
-      write(ends, a, b);
-      ends += fill(out.fragment_valid, sizeof(HalfwayFragment));
+      write(a, b, clock++);
+      // Most lanes have a fragment in most clocks: only where there is none the place does not move.
+      for (M none = ~out.fragment_valid; none != 0; none &= static_cast<M>(none - 1))
+        --lanes_[std::countr_zero(none)].next;
       moved |= take | out.fragment_valid;
       faults_ |= out.fault;
       cycles_ += static_cast<unsigned>(std::popcount(active_));
       if (take != 0) taken(take);
       const M idle = active_ & ~(offered | out.fragment_valid | out.busy);
-      if (idle != 0) ended(idle, ends);
+      if (idle != 0) ended(idle, clock);
     }
-    for (unsigned i = 0; i < kLanes; ++i) {
-      lanes_[i].count = static_cast<std::size_t>(reinterpret_cast<HalfwayFragment*>(ends[i]) -
-                                                 lanes_[i].fragments.data());
-    }
-    state_ = state;
+    for (Lane& lane : lanes_) count(lane, clock);
     return moved;
   }
 
-  // Each lane's two halves of a fragment where its stream ends.
-  static void write(V ends, V a, V b) {
-    V low, high;
-    low = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
-    high = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+  // Each lane's two halves of a fragment.
+  void write(V a, V b, std::size_t clock) {
+    const V even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+    const V odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
     for (unsigned i = 0; i < kLanes; ++i)
-      std::memcpy(reinterpret_cast<void*>(ends[i]),
-                  reinterpret_cast<const char*>(i % 2 == 0 ? &low : &high) + 16 * (i / 2), 16);
+      std::memcpy(lanes_[i].next + clock, reinterpret_cast<const char*>(i % 2 == 0 ? &even : &odd) + 16 * (i / 2),
+                  16);
   }
 
   State state_;
