@@ -277,7 +277,8 @@ int main(int argc, char** argv) {
       add("golden", scene, golden_model, hardware, scene);
       add("verilator", scene, rtl<VerilatorSimulator>, hardware, scene, false);
       add("verilator_compared", scene, rtl<VerilatorSimulator>, hardware, scene, true);
-      if (hardware.plan.shader == Shader::processors) continue;  // no lanes: it has more than a triangle's state
+      if (hardware.plan.shader == Shader::processors)
+        continue;  // no lanes: it has more than a triangle's state
       add("lanes", scene, rtl<LaneSimulator>, hardware, scene, false);
       add("lanes_compared", scene, rtl<LaneSimulator>, hardware, scene, true);
     }

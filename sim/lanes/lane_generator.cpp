@@ -95,8 +95,9 @@ bool has_parts(const LaneNode& mask, bool wanted) {
 }
 
 bool excludes(const Guard& a, const Guard& b) {
-  return std::any_of(a.begin(), a.end(),
-                     [&](const auto& literal) { return b.count({literal.first, !literal.second}) != 0; });
+  return std::any_of(a.begin(), a.end(), [&](const auto& literal) {
+    return b.count({literal.first, !literal.second}) != 0;
+  });
 }
 
 struct Update {
@@ -192,8 +193,7 @@ class Builder {
     unsigned at = 0;
     for (const Piece& piece : bits) {
       const unsigned begin = std::max(low, at), end = std::min(low + width, at + piece.width);
-      if (begin < end)
-        append(found, {piece.node, is_mask(piece) ? 0 : piece.low + begin - at, end - begin});
+      if (begin < end) append(found, {piece.node, is_mask(piece) ? 0 : piece.low + begin - at, end - begin});
       at += piece.width;
     }
     if (width_of(found) != width) return fail("a slice reaches past its signal");
@@ -236,8 +236,7 @@ class Builder {
         int part = graph().shift(piece.node, static_cast<int>(at) - static_cast<int>(piece.low));
         const bool dirty_below = piece.low > 0 && at > 0;
         const bool dirty_above = at + piece.width < width && graph()[part].bits > at + piece.width;
-        if (dirty_below || dirty_above)
-          part = graph().operate(LaneOp::both, part, graph().constant(field));
+        if (dirty_below || dirty_above) part = graph().operate(LaneOp::both, part, graph().constant(field));
         sum = graph().operate(LaneOp::either, sum, part);
       }
       at += piece.width;
@@ -270,8 +269,7 @@ class Builder {
       const Piece &x = p[0], &y = q[0];
       if (x.width == 1 || (is_mask(x) && is_mask(y))) {
         const int then_mask = graph().mask_operate(LaneOp::mask_both, mask, to_mask(p));
-        const int else_mask =
-            graph().mask_operate(LaneOp::mask_both, graph().mask_invert(mask), to_mask(q));
+        const int else_mask = graph().mask_operate(LaneOp::mask_both, graph().mask_invert(mask), to_mask(q));
         append(chosen, {graph().mask_operate(LaneOp::mask_either, then_mask, else_mask), 0, x.width});
       } else if (!is_mask(x) && !is_mask(y) && x.low == y.low) {
         note(x, false);
@@ -299,8 +297,7 @@ class Builder {
       for (std::size_t i = cells->second; i < step_.cells.size() && step_.cells[i].variable == name; ++i) {
         const Cell& cell = step_.cells[i];
         const unsigned known = cell.dirty ? std::max(cell.width, kWord) : cell.width;
-        bits.push_back(
-            {cell.width == 1 ? graph().mask_cell(i) : graph().cell(i, known), 0, cell.width});
+        bits.push_back({cell.width == 1 ? graph().mask_cell(i) : graph().cell(i, known), 0, cell.width});
       }
       return bits;
     }
@@ -344,6 +341,7 @@ class Builder {
     if (op == "const") return literal(node);
     const unsigned width = type_width(node);
     const pugi::xml_node first = node.first_child(), second = first.next_sibling();
+    if (!first) return fail(fmt::format("{}: the lanes do not know '{}'", line_of(node), op));
     if (op == "arraysel") return element(node);
     const Bits a = value(first);
     if (op == "sel") {
@@ -371,6 +369,7 @@ class Builder {
       for (std::uint64_t i = 0; i < *count; ++i) append(bits, a);
       return bits;
     }
+    if (!second) return fail(fmt::format("{}: the lanes do not know '{}'", line_of(node), op));
     const Bits b = value(second);
     if (a.empty() || b.empty()) return {};
     if (op == "concat") {
@@ -409,8 +408,10 @@ class Builder {
       if (width == 1) return whole(graph().mask_operate(found->second.second, to_mask(a), to_mask(b)), 1);
       return whole(graph().operate(found->second.first, to_vector(a), to_vector(b)), width);
     }
-    static const std::map<std::string_view, LaneOp> arithmetic = {
-        {"add", LaneOp::add}, {"sub", LaneOp::subtract}, {"mul", LaneOp::multiply}, {"muls", LaneOp::multiply}};
+    static const std::map<std::string_view, LaneOp> arithmetic = {{"add", LaneOp::add},
+                                                                  {"sub", LaneOp::subtract},
+                                                                  {"mul", LaneOp::multiply},
+                                                                  {"muls", LaneOp::multiply}};
     if (const auto found = arithmetic.find(op); found != arithmetic.end())
       return whole(graph().operate(found->second, to_vector(a), to_vector(b)), width);
     if (op == "shiftl" || op == "shiftr" || op == "shiftrs") return shift(op, a, b);
@@ -427,8 +428,7 @@ class Builder {
         {"lts", {LaneOp::signed_less, false, false}}, {"gts", {LaneOp::signed_less, true, false}},
         {"ltes", {LaneOp::signed_less, true, true}},  {"gtes", {LaneOp::signed_less, false, true}}};
     const auto found = orders.find(op);
-    if (found == orders.end())
-      return fail(fmt::format("{}: the lanes do not know '{}'", line_of(node), op));
+    if (found == orders.end()) return fail(fmt::format("{}: the lanes do not know '{}'", line_of(node), op));
     const Order order = found->second;
     int mask = 0;
     if (order.op == LaneOp::equal && operand == 1) {
@@ -515,7 +515,8 @@ class Builder {
       if (!error_.empty()) return;
       unsigned at = 0;
       for (const Piece& piece : bits) layout_.cuts[name].insert(at += piece.width);
-      for (std::size_t i = first_cell_[name]; i < step_.cells.size() && step_.cells[i].variable == name; ++i) {
+      for (std::size_t i = first_cell_[name]; i < step_.cells.size() && step_.cells[i].variable == name;
+           ++i) {
         const Cell& cell = step_.cells[i];
         const Bits part = slice(bits, cell.low, cell.width);
         const int next = cell.width == 1 ? to_mask(part) : to_vector(part, false);
@@ -686,7 +687,10 @@ class Writer {
       case LaneOp::mask_cell: {
         const Cell& cell = step_.cells[node.value];
         if (cell.input && cell.width == 1 && cell.low == 0) return "in." + cell.variable;
-        return fmt::format("{}c{}", cell.input ? "in." : in_group_ && saved_.count(node.value) != 0 ? "o" : "s.",
+        return fmt::format("{}{}",
+                           cell.input                                   ? "in.c"
+                           : in_group_ && saved_.count(node.value) != 0 ? "o"
+                                                                        : "s.c",
                            node.value);
       }
       default:
@@ -825,7 +829,8 @@ Result<Netlist> read_netlist(const pugi::xml_document& document) {
     if (kind == "always") {
       const pugi::xml_node edge = node.child("sentree").child("senitem");
       const std::string_view clock = edge.child("varref").attribute("name").value();
-      if (std::string_view(edge.attribute("edgeType").value()) != "POS" || clock != "clk" || edge.next_sibling())
+      if (std::string_view(edge.attribute("edgeType").value()) != "POS" || clock != "clk" ||
+          edge.next_sibling())
         return tool_failed(fmt::format("the lanes do not know an 'always' without the clock's rising edge"));
       for (pugi::xml_node at = node.child("sentree").next_sibling(); at; at = at.next_sibling()) {
         netlist.clocked.push_back(at);
@@ -925,8 +930,8 @@ Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports)
       }
       ++number;
     }
-    return "struct State {\n" + state + "};\nstruct Inputs {\n" + inputs + "};\nstruct Outputs {\n" + outputs +
-           "};\n" + tables + setters + Writer(*step, live).function("step") +
+    return "struct State {\n" + state + "};\nstruct Inputs {\n" + inputs + "};\nstruct Outputs {\n" +
+           outputs + "};\n" + tables + setters + Writer(*step, live).function("step") +
            Writer(*reset_step, live).function("reset_step");
   }
 }

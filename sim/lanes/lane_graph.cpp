@@ -21,8 +21,7 @@ int LaneGraph::add(LaneNode node) {
 }
 
 int LaneGraph::constant(std::uint64_t value) {
-  return add(
-      {.op = LaneOp::constant, .value = value, .bits = static_cast<unsigned>(std::bit_width(value))});
+  return add({.op = LaneOp::constant, .value = value, .bits = static_cast<unsigned>(std::bit_width(value))});
 }
 
 int LaneGraph::operate(LaneOp op, int a, int b) {
@@ -85,9 +84,8 @@ int LaneGraph::select(int mask, int a, int b) {
   if (m.op == LaneOp::mask_constant) return m.value != 0 ? a : b;
   if (m.op == LaneOp::mask_invert) return select(m.operands[0], b, a);
   if (a == b) return a;
-  return add({.op = LaneOp::select,
-              .operands = {mask, a, b},
-              .bits = std::max((*this)[a].bits, (*this)[b].bits)});
+  return add(
+      {.op = LaneOp::select, .operands = {mask, a, b}, .bits = std::max((*this)[a].bits, (*this)[b].bits)});
 }
 
 int LaneGraph::fill(int mask, std::uint64_t value) {
@@ -111,8 +109,7 @@ int LaneGraph::mask_operate(LaneOp op, int a, int b) {
       if (op == LaneOp::mask_differ) return x.value != 0 ? mask_invert(other) : other;
       return (x.value != 0) == (op == LaneOp::mask_both) ? other : one;
     }
-    if (x.op == LaneOp::mask_invert && x.operands[0] == other)
-      return mask_constant(op != LaneOp::mask_both);
+    if (x.op == LaneOp::mask_invert && x.operands[0] == other) return mask_constant(op != LaneOp::mask_both);
   }
   if (a == b) return op == LaneOp::mask_differ ? mask_constant(false) : a;
   return add({.op = op, .operands = {a, b, -1}});
@@ -137,9 +134,7 @@ int LaneGraph::compare(LaneOp op, int a, int b) {
   const LaneNode &x = (*this)[a], &y = (*this)[b];
   if (x.op == LaneOp::constant && y.op == LaneOp::constant) {
     const auto p = static_cast<std::int64_t>(x.value), q = static_cast<std::int64_t>(y.value);
-    return mask_constant(op == LaneOp::equal  ? p == q
-                         : op == LaneOp::less ? x.value < y.value
-                                              : p < q);
+    return mask_constant(op == LaneOp::equal ? p == q : op == LaneOp::less ? x.value < y.value : p < q);
   }
   if (op == LaneOp::equal && a > b) std::swap(a, b);
   return add({.op = op, .operands = {a, b, -1}});

@@ -17,8 +17,8 @@ namespace {
 #include "lanes.hpp"
 
 constexpr std::size_t kInitWords = (HALFWAY_INIT_BITS + 31) / 32;
-constexpr std::size_t kBlock = 256;  // clocks between two looks at the room for fragments
-constexpr int kResetClocks = 4;        // as in sim/verilator/harness.cpp
+constexpr std::size_t kBlock = 256;               // clocks between two looks at the room for fragments
+constexpr int kResetClocks = 4, kLateClocks = 8;  // as in sim/verilator/harness.cpp
 
 class Lanes {
  public:
@@ -52,7 +52,12 @@ class Lanes {
       }
       if (faults_ != 0) return HALFWAY_FAULT;
     }
-    return HALFWAY_DONE;
+    Outputs out;
+    for (int i = 0; i < kLateClocks; ++i) {
+      step(state_, in_, out);
+      faults_ |= out.fault;
+    }
+    return faults_ != 0 ? HALFWAY_FAULT : HALFWAY_DONE;
   }
 
   const HalfwayFragment* fragments(std::uint32_t lane) const { return lanes_[lane].fragments.data(); }
@@ -149,8 +154,8 @@ class Lanes {
     const V even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
     const V odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
     for (unsigned i = 0; i < kLanes; ++i)
-      std::memcpy(lanes_[i].next + clock, reinterpret_cast<const char*>(i % 2 == 0 ? &even : &odd) + 16 * (i / 2),
-                  16);
+      std::memcpy(lanes_[i].next + clock,
+                  reinterpret_cast<const char*>(i % 2 == 0 ? &even : &odd) + 16 * (i / 2), 16);
   }
 
   State state_;

@@ -11,15 +11,16 @@ namespace {
 constexpr const char* kLibraryName = "lanes.so";
 // As sim/verilator/verilated_library.cpp has them.
 const std::vector<std::string> kVerilatorFlags = {
-    "--xml-only",   "--flatten", "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE", "--x-assign", "fast", "--x-initial", "fast",
-    "--noassert", "--xml-output", "netlist.xml"};
-const std::vector<std::string> kCompilerFlags = {"-std=gnu++20", "-march=native",       "-fPIC",          "-shared",
-                                                 "-w",           "-fvisibility=hidden", "-Wl,-Bsymbolic", "-Wl,-z,defs"};
+    "--xml-only",  "--flatten", "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE", "--x-assign", "fast",
+    "--x-initial", "fast",      "--noassert",   "--xml-output",        "netlist.xml"};
+const std::vector<std::string> kCompilerFlags = {
+    "-std=gnu++20", "-march=native",       "-fPIC",          "-shared",
+    "-w",           "-fvisibility=hidden", "-Wl,-Bsymbolic", "-Wl,-z,defs"};
 // What the text depends on beside the netlist.
-const std::vector<std::string> kSources = {
-    "sim/lanes/lane_generator.cpp", "sim/lanes/lane_generator.hpp", "sim/lanes/lane_graph.cpp",
-    "sim/lanes/lane_graph.hpp",     "sim/lanes/lane_vectors.hpp",   "sim/lanes/lane_api.h",
-    "sim/verilator/harness_api.h"};
+const std::vector<std::string> kSources = {"sim/lanes/lane_generator.cpp", "sim/lanes/lane_generator.hpp",
+                                           "sim/lanes/lane_graph.cpp",     "sim/lanes/lane_graph.hpp",
+                                           "sim/lanes/lane_vectors.hpp",   "sim/lanes/lane_api.h",
+                                           "sim/verilator/harness_api.h"};
 
 }  // namespace
 

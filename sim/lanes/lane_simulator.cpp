@@ -73,7 +73,8 @@ Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const Simulato
   const auto create = state->library.function<decltype(halfway_lanes_create)>("halfway_lanes_create");
   const auto destroy = state->library.function<decltype(halfway_lanes_destroy)>("halfway_lanes_destroy");
   const auto run = state->library.function<decltype(halfway_lanes_run)>("halfway_lanes_run");
-  const auto fragments = state->library.function<decltype(halfway_lanes_fragments)>("halfway_lanes_fragments");
+  const auto fragments =
+      state->library.function<decltype(halfway_lanes_fragments)>("halfway_lanes_fragments");
   const auto cycles = state->library.function<decltype(halfway_lanes_cycles)>("halfway_lanes_cycles");
   if (!version) return version.error();
   if (!count) return count.error();
@@ -113,7 +114,8 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
                           std::vector<Fragment>& out, std::size_t max_fragments) {
   State& s = *state_;
   const auto too_many = [&] {
-    return Error{ExitCode::differs, fmt::format("{} in lanes: more than {} fragments", s.name, max_fragments)};
+    return Error{ExitCode::differs,
+                 fmt::format("{} in lanes: more than {} fragments", s.name, max_fragments)};
   };
   if (out.size() > max_fragments) return too_many();
   // Long parts first, then shorter ones, so that all lanes end together.
@@ -136,7 +138,8 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
   std::atomic<std::size_t> next_thread = 0;
   work_on_threads(static_cast<unsigned>(std::min(s.threads.size(), s.parts.size())), [&] {
     for (std::size_t i; (i = next_thread++) < s.threads.size();) {
-      HalfwayBatch batch{init_words.data(), s.parts.data(), s.parts.size(), &next_part, max_fragments - out.size()};
+      HalfwayBatch batch{init_words.data(), s.parts.data(), s.parts.size(), &next_part,
+                         max_fragments - out.size()};
       const int status = s.run(s.threads[i], &batch);
       for (int seen = worst; status > seen && !worst.compare_exchange_weak(seen, status);) {
       }
@@ -151,10 +154,11 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
     case HALFWAY_BUFFER_FULL:
       return too_many();
     case HALFWAY_HANG:
-      return Error{ExitCode::differs,
-                   fmt::format("{} in lanes: hang: nothing moved in a lane for as long as is allowed, after {} "
-                               "cycles of all lanes",
-                               s.name, cycles())};
+      return Error{
+          ExitCode::differs,
+          fmt::format("{} in lanes: hang: nothing moved in a lane for as long as is allowed, after {} "
+                      "cycles of all lanes",
+                      s.name, cycles())};
     case HALFWAY_FAULT:
       return Error{ExitCode::differs, fmt::format("{} in lanes: the hardware tells a fault", s.name)};
     default:

@@ -26,17 +26,18 @@ struct LaneOptions {
 
 class LaneSimulator {
  public:
-  /// Builds the lanes, or takes them from the cache, and resets them. What lanes cannot be had for is an error
-  /// that says so, and the caller takes VerilatorSimulator: the processors shader, whose lights and counters
-  /// outlive a triangle, a key with probes, a netlist with what the generator does not know.
+  /// Builds the lanes, or takes them from the cache, and resets them. What lanes cannot be had for is an
+  /// error that says so, and the caller takes VerilatorSimulator: the processors shader, whose lights and
+  /// counters outlive a triangle, a key with probes, a netlist with what the generator does not know.
   static Result<LaneSimulator> open(const HardwareKey& key, const SimulatorFolders& folders,
                                     const LaneOptions& options = {});
 
   unsigned init_bits() const;
 
   /// Draws whole triangles from idle to idle and appends their fragments to `out` in the order of a single
-  /// stream, whatever the number of lanes and threads. More than `max_fragments` in `out` is an error. A fault
-  /// of the hardware (a hang) has the exit code `differs`. More vectors in a call are faster: thousands.
+  /// stream, whatever the number of lanes and threads. More than `max_fragments` in `out` is an error. A
+  /// fault of the hardware (a hang) has the exit code `differs`. More vectors in a call are faster:
+  /// thousands.
   Status run(std::span<const std::uint32_t> init_words, std::size_t vectors, std::vector<Fragment>& out,
              std::size_t max_fragments);
 

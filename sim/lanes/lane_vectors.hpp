@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operations of the generated lanes: vectors of a 64-bit number a lane, and masks of a bit a lane. With AVX-512
-// a mask is a mask register's; elsewhere the compiler does what it can.
+// Operations of the generated lanes: vectors of a 64-bit number a lane, and masks of a bit a lane. With
+// AVX-512 a mask is a mask register's; elsewhere the compiler does what it can.
 #pragma once
 
 #include <cstdint>
