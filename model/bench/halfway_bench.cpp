@@ -149,18 +149,15 @@ void rtl(benchmark::State& state, const Hardware& hardware, const char* scene, b
   for (auto _ : state) {
     StreamComparator comparator;
     const auto take = [&] {
-      if (compared) comparator.add_rtl(drawn);
+      if (compared) comparator.add(expected, drawn);
+      expected.clear();
       drawn.clear();
     };
     auto rest = std::span<const std::uint32_t>(s.words);
     for (const std::size_t count : s.batches) {
       const auto words = rest.first(count * words_per_vector);
       rest = rest.subspan(words.size());
-      if (compared) {
-        expected.clear();
-        golden->draw(words, expected);
-        comparator.add_golden(expected);
-      }
+      if (compared) golden->draw(words, expected);
       if (const Status ran = simulator.run(words, count, drawn, SIZE_MAX); !ran) fail(ran.error());
       take();
     }

@@ -17,7 +17,9 @@
 namespace halfway {
 namespace {
 
-constexpr std::size_t kShortestPart = 4;  ///< vectors: a part ends with some clocks in which nothing comes
+/// Fragments, about: a part ends with some clocks in which nothing comes, a batch with lanes that wait for
+/// the last part.
+constexpr double kShortestPart = 100;
 
 }  // namespace
 
@@ -40,6 +42,7 @@ struct LaneSimulator::State {
   decltype(&halfway_lanes_cycles) cycles = nullptr;
   decltype(&halfway_lanes_destroy) destroy = nullptr;
   std::size_t lanes = 0;
+  double fragments_per_vector = 25;  ///< in the batch before
 };
 
 Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,
@@ -120,9 +123,10 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
   if (out.size() > max_fragments) return too_many();
   // Long parts first, then shorter ones, so that all lanes end together.
   const std::size_t words_per_vector = (s.init_bits + 31) / 32, all = s.lanes * s.threads.size();
+  const auto shortest = static_cast<std::size_t>(kShortestPart / (s.fragments_per_vector + 1)) + 1;
   s.parts.clear();
   for (std::size_t at = 0; at < vectors;) {
-    const std::size_t wanted = std::max(kShortestPart, (vectors - at) / (4 * all));
+    const std::size_t wanted = std::max(shortest, (vectors - at) / (4 * all));
     HalfwayPart part{.vector = at};
     while (at < vectors && part.vectors < wanted) {
       const auto rest = init_words.subspan(at * words_per_vector, (vectors - at) * words_per_vector);
@@ -164,6 +168,7 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
     default:
       return tool_failed(fmt::format("{} in lanes: unknown status {}", s.name, worst.load()));
   }
+  if (vectors > 0) s.fragments_per_vector = static_cast<double>(total) / static_cast<double>(vectors);
   out.reserve(out.size() + total);
   for (const HalfwayPart& part : s.parts) {
     const auto* first = reinterpret_cast<const Fragment*>(s.fragments(s.threads[part.owner], part.lane));
