@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <set>
 
+#include "cli/command_test.hpp"
 #include "common/file.hpp"
-#include "common/subprocess.hpp"
 #include "frame/image.hpp"
 #include "frame/terminal_picture.hpp"
 #include "scene/load_scene.hpp"
@@ -25,42 +25,20 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-class ViewCommand : public ::testing::Test {
+class ViewCommand : public CommandTest {
  protected:
-  void SetUp() override {
-    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
-  }
-
-  struct Outcome {
-    int exit_code;
-    std::string output;  // both streams
-  };
-  Outcome run_as(std::vector<std::string> arguments, const std::string& path = "") const {
-    Command command{.arguments = std::move(arguments), .working_folder = folder_->path()};
-    if (!path.empty()) command.environment = {{"PATH", path}};
-    command.timeout = std::chrono::minutes(5);
-    const auto end = run_process(command, "");
-    if (!end) return {-1, end.error().message};
-    return {end->signal != 0 || end->timed_out ? -2 : end->exit_status, end->output};
-  }
-  Outcome run(std::vector<std::string> arguments, const std::string& path = "") const {
-    arguments.insert(arguments.begin(), HALFWAY_PROGRAM);
-    return run_as(std::move(arguments), path);
-  }
   /// At 64x48.
-  Outcome view(std::vector<std::string> arguments, const std::string& path = "") const {
+  Outcome view(std::vector<std::string> arguments, Environment environment = {}) const {
     arguments.insert(arguments.begin(), {"view", "--size", "64x48"});
-    return run(std::move(arguments), path);
+    return run(std::move(arguments), std::move(environment));
   }
 
   /// PATH with a stand-in for ffmpeg.
-  std::string path_with_ffmpeg(const std::string& script) const {
+  Environment path_with_ffmpeg(const std::string& script) const {
     const auto bin = folder_->path() / "bin";
     EXPECT_TRUE(write_file(bin / "ffmpeg", "#!/bin/sh\n" + script));
     std::filesystem::permissions(bin / "ffmpeg", std::filesystem::perms::all);
-    return bin.string() + ":" + std::getenv("PATH");
+    return {{"PATH", bin.string() + ":" + std::getenv("PATH")}};
   }
 
   std::filesystem::path at(const std::string& name) const { return folder_->path() / name; }
@@ -80,8 +58,6 @@ class ViewCommand : public ::testing::Test {
     EXPECT_TRUE(read) << read.error().message;
     return read ? *read : Frame{};
   }
-
-  std::optional<TemporaryFolder> folder_;
 };
 
 const std::string c_copy = "for last; do :; done; echo \"$@\" >arguments; cat >\"$last\"\n";
@@ -188,7 +164,8 @@ TEST_F(ViewCommand, AVideoIsEachFrameInItsOrder) {
 
 TEST_F(ViewCommand, NoFfmpegExitsThreeBeforeAnythingIsDrawn) {
   ASSERT_TRUE(make_folders(at("empty")));
-  const Outcome drawn = view({"matte", "--video", "turn.mp4", "--out", "turn"}, at("empty").string());
+  const Outcome drawn =
+      view({"matte", "--video", "turn.mp4", "--out", "turn"}, {{"PATH", at("empty").string()}});
   EXPECT_EQ(drawn.exit_code, 3) << drawn.output;
   EXPECT_THAT(drawn.output, HasSubstr("apt-get install ffmpeg"));
   EXPECT_THAT(names("."), ElementsAre("empty"));

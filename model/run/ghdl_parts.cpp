@@ -7,16 +7,15 @@
 #include <atomic>
 #include <chrono>
 #include <limits>
-#include <memory>
 #include <mutex>
 #include <numeric>
 #include <optional>
 
 #include "common/file.hpp"
+#include "common/seconds.hpp"
 #include "common/threads.hpp"
 #include "frame/init_file.hpp"
 #include "frame/trace.hpp"
-#include "run/golden_run.hpp"
 
 namespace halfway {
 namespace {
@@ -69,15 +68,15 @@ Status join(const std::vector<std::filesystem::path>& part_files, const std::str
 
 }  // namespace
 
-Cuts::Cuts(const HardwareKey& key) : key_(key) {}
+Cuts::Cuts(const HardwareKey& key)
+    : golden_(key.shader == Shader::processors ? nullptr : make_golden_model(key)) {}
 
 void Cuts::add(std::span<const std::uint32_t> init_words) {
-  if (key_.shader == Shader::processors) return;
-  const std::unique_ptr<GoldenModel> golden = make_golden_model(key_);
-  const std::size_t words_per_vector = (golden->init_bits() + 31) / 32;
+  if (!golden_) return;
+  const std::size_t words_per_vector = (golden_->init_bits() + 31) / 32;
   while (!init_words.empty()) {
     if (vectors_ >= places_.back() + c_between_places) places_.push_back(vectors_);
-    const std::size_t group = golden->group(init_words);
+    const std::size_t group = golden_->group(init_words);
     init_words = init_words.subspan(std::min(init_words.size(), group * words_per_vector));
     vectors_ += group;
   }
@@ -137,7 +136,7 @@ Result<GhdlRun> run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
     sum.cycles += (*runs[part])->cycles;
   }
   if (Status status = join(traces, key.name(), trace_file, sum.cycles); !status) return status.error();
-  sum.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  sum.seconds = seconds_since(start);
   return sum;
 }
 

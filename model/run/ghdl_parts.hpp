@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "common/result.hpp"
 #include "plan/hardware_key.hpp"
+#include "run/golden_run.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
 
 namespace halfway {
@@ -26,7 +28,7 @@ class Cuts {
   std::vector<std::uint64_t> parts(std::uint64_t fragments) const;
 
  private:
-  HardwareKey key_;
+  std::unique_ptr<GoldenModel> golden_;   ///< none where there is no place to cut
   std::vector<std::uint64_t> places_{0};  ///< vectors before
   std::uint64_t vectors_ = 0;
 };

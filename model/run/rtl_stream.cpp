@@ -5,17 +5,13 @@
 #include <chrono>
 #include <utility>
 
-#include "common/thread_seconds.hpp"
+#include "common/seconds.hpp"
 #include "run/limits.hpp"
 
 namespace halfway {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Where no golden model says how many fragments there are: vectors a call, so that its fragments, at most one
 // a pixel and vector, stay below this.

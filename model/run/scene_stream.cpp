@@ -7,7 +7,7 @@
 #include <atomic>
 #include <span>
 
-#include "common/thread_seconds.hpp"
+#include "common/seconds.hpp"
 #include "common/threads.hpp"
 #include "run/golden_run.hpp"
 

@@ -11,6 +11,7 @@
 
 #include "common/file.hpp"
 #include "common/folder_lock.hpp"
+#include "common/seconds.hpp"
 #include "frame/assemble.hpp"
 #include "frame/image.hpp"
 #include "frame/init_file.hpp"
@@ -36,10 +37,6 @@ using Clock = std::chrono::steady_clock;
 
 // Times white, past which a light's brightness is worth a note.
 constexpr double c_bright = 2.0;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 struct Pictures {
   ReferenceImage reference;

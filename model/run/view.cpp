@@ -9,7 +9,7 @@
 #include <condition_variable>
 #include <mutex>
 
-#include "common/thread_seconds.hpp"
+#include "common/seconds.hpp"
 #include "common/threads.hpp"
 #include "run/limits.hpp"
 #include "run/scene_stream.hpp"

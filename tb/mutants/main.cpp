@@ -26,6 +26,7 @@
 #include <string_view>
 #include <thread>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "common/file.hpp"
@@ -245,24 +246,27 @@ Result<Outcome> judged_by_its_own(const Judge& judge, const Mutant& mutant, cons
 
 Result<Outcome> judged(const Judge& judge, Equivalence& equivalence, bool quick, const Mutant& mutant) {
   const std::string own = std::filesystem::path(mutant.file).stem();
+  bool tried_to_prove = false;
+  const auto prove = [&]() -> Result<bool> {
+    if (std::exchange(tried_to_prove, true)) return false;
+    return equivalence.proved({mutant.file, mutant.content});
+  };
   if (!mutant.tested.empty()) {
     auto outcome = judged_by_its_own(judge, mutant, mutant.tested);
     if (!outcome || !mutant.asked || outcome->end != End::own) return outcome;
-    const auto proved = equivalence.proved({mutant.file, mutant.content});
+    const auto proved = prove();
     if (!proved) return proved.error();
     outcome->wrongly_proved = *proved;
     return outcome;
   }
   if (quick) return judged_by_its_own(judge, mutant, own);
   auto bench = judge.bench({mutant.file, mutant.content});
-  bool tried_to_prove = false;
   double seconds = 0;
   const auto tests = tests_of(judge, mutant);
   for (const Test* test : tests) {
     if (test->name != own) seconds += test->seconds;
-    if (seconds > c_quick && !tried_to_prove) {
-      tried_to_prove = true;
-      const auto proved = equivalence.proved({mutant.file, mutant.content});
+    if (seconds > c_quick) {
+      const auto proved = prove();
       if (!proved) return proved.error();
       if (*proved) return Outcome{End::equivalent, false, ""};
     }
@@ -273,6 +277,9 @@ Result<Outcome> judged(const Judge& judge, Equivalence& equivalence, bool quick,
     const End end = test->name == own ? End::own : test->golden.empty() ? End::other : End::frame;
     return Outcome{end, *verdict == Verdict::killed_by_time, test->name};
   }
+  const auto proved = prove();
+  if (!proved) return proved.error();
+  if (*proved) return Outcome{End::equivalent, false, ""};
   // GHDL passes over what hardware alone has. One frame of each shader is enough for that.
   std::set<Shader> seen;
   for (auto test = tests.rbegin(); test != tests.rend(); ++test) {
@@ -311,7 +318,9 @@ class Run {
     for (Mutant& mutant : *from_list)
       if (mutant.file.find(options_.part) != std::string::npos &&
           !(options_.quick && is_slow(mutant.tested))) {
-        mutant.asked = !options_.quick && asked.insert(mutant.file).second;
+        // A package's testbench also asks what no hardware does.
+        mutant.asked =
+            !options_.quick && !mutant.file.ends_with("_pkg.vhd") && asked.insert(mutant.file).second;
         listed_.push_back(std::move(mutant));
       }
     for (const VhdlSource& source : judge_.rtl()) {
