@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "run/limits.hpp"
 
@@ -41,12 +42,15 @@ Result<bool> use_lanes(RtlEngine engine, const HardwareKey& key, double pixels) 
 Status LaneFeed::add(std::span<const std::uint32_t> init_words, std::span<const Fragment> golden) {
   if (!alive_) return Ok{};
   const std::size_t most = rtl_.compares() ? golden.size() + c_most_surplus : c_most_uncompared;
+  const auto start = std::chrono::steady_clock::now();
   const Status ran = simulator_.run(init_words, most, [&](auto, std::span<const Fragment> drawn) {
     const std::span<const Fragment> expected = golden.first(std::min(golden.size(), drawn.size()));
     rtl_.add(expected, drawn);
+    if (on_drawn_) on_drawn_(drawn);
     golden = golden.subspan(expected.size());
   });
   rtl_.add_golden(golden);
+  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (ran) return Ok{};
   if (ran.error().code != ExitCode::differs) return ran;
   rtl_.set_fault(ran.error().message);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "common/result.hpp"
 #include "plan/hardware_key.hpp"
@@ -30,16 +31,22 @@ Result<bool> use_lanes(RtlEngine engine, const HardwareKey& key, double pixels);
 /// As VerilatorFeed. Each batch ends with the hardware idle.
 class LaneFeed {
  public:
-  /// Simulator and stream must outlive the feed.
-  LaneFeed(LaneSimulator& simulator, RtlStream& rtl) : simulator_(simulator), rtl_(rtl) {}
+  using OnDrawn = VerilatorFeed::OnDrawn;
+
+  /// Simulator and stream must outlive the feed; `on_drawn` sees the fragments too, in their order.
+  LaneFeed(LaneSimulator& simulator, RtlStream& rtl, OnDrawn on_drawn = {})
+      : simulator_(simulator), rtl_(rtl), on_drawn_(std::move(on_drawn)) {}
 
   /// `golden`: what the golden model draws for these vectors, where the stream compares.
   Status add(std::span<const std::uint32_t> init_words, std::span<const Fragment> golden);
-  bool alive() const { return alive_; }  ///< false after a fault
+  bool alive() const { return alive_; }        ///< false after a fault
+  double seconds() const { return seconds_; }  ///< with comparison and assembly
 
  private:
   LaneSimulator& simulator_;
   RtlStream& rtl_;
+  OnDrawn on_drawn_;
+  double seconds_ = 0.0;
   bool alive_ = true;
 };
 

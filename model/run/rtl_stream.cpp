@@ -72,7 +72,9 @@ SimulatorRun RtlStream::finish(std::string simulator) {
   run.fault = fault_;
   run.first = comparator_.first();
   if (run.mismatches != 0)
-    run.description = comparator_.describe(run.simulator == "ghdl" ? "GHDL" : "Verilator");
+    run.description = comparator_.describe(run.simulator == "ghdl"        ? "GHDL"
+                                           : run.simulator == "verilator" ? "Verilator"
+                                                                          : run.simulator);
   return run;
 }
 
