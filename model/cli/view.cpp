@@ -179,7 +179,7 @@ class Screen {
 
 void print_difference(const ViewSummary& s) {
   const ViewDifference& d = *s.difference;
-  say(fmt::format("{}: frame {}: verilator differs from the golden model", s.scene, d.frame));
+  say(fmt::format("{}: frame {}: {} differs from the golden model", s.scene, d.frame, d.run.simulator));
   if (!d.run.fault.empty()) say("  " + d.run.fault);
   fmt::print(stderr, "{}", d.run.description);
   const glm::dvec3 eye = d.camera.eye_world;

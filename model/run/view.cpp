@@ -61,13 +61,13 @@ class Easel {
     RtlStream rtl(s_.size, scene_.background, s_.compare);
     if (Status status = lanes_ ? draw_in_lanes(rtl, drawn) : draw_in_verilator(rtl, drawn); !status)
       return status.error();
-    SimulatorRun run = finish(rtl, drawn);
+    SimulatorRun run = finish(rtl, drawn, to_string(lanes_ ? RtlEngine::lanes : RtlEngine::verilator));
     if (lanes_ && !run.equal()) {
       // Verilator tells it better: the cycle of a fault, and what was drawn before.
       const std::uint64_t mismatches = run.mismatches;
       rtl = RtlStream(s_.size, scene_.background, s_.compare);
       if (Status status = draw_in_verilator(rtl, drawn); !status) return status.error();
-      run = finish(rtl, drawn);
+      run = finish(rtl, drawn, to_string(RtlEngine::verilator));
       if (run.equal() && mismatches != 0)
         return tool_failed(fmt::format(
             "{}: frame {}: {} fragments differ in lanes, and none in Verilator; please report it, and take "
@@ -131,9 +131,9 @@ class Easel {
     return check_projection(scene_, stream);
   }
 
-  SimulatorRun finish(RtlStream& rtl, DrawnFrame& drawn) const {
+  SimulatorRun finish(RtlStream& rtl, DrawnFrame& drawn, const char* simulator) const {
     const double start = thread_seconds();
-    SimulatorRun run = rtl.finish("verilator");
+    SimulatorRun run = rtl.finish(simulator);
     drawn.seconds.rtl += thread_seconds() - start - rtl.compare_seconds() - rtl.assemble_seconds();
     drawn.seconds.compare += rtl.compare_seconds();
     drawn.seconds.assemble += rtl.assemble_seconds();
