@@ -44,7 +44,7 @@ help: ## this list
 	@echo '  FORM       folded or unrolled shading processors          (default: unrolled)'
 	@echo '  PRESET     exact or published                             (default: exact)'
 	@echo '  SIZE       WIDTHxHEIGHT in pixels                         (default: 640x480)'
-	@echo '  SIMULATOR  ghdl or verilator                              (default: both)'
+	@echo '  SIMULATOR  ghdl, verilator or lanes; make view: auto, verilator or lanes (default: both; auto)'
 	@echo '  OUT        the folder for results                         (default: build/out)'
 	@echo '  THREADS    threads for triangle setup and golden model    (default: all cores)'
 	@echo '  ALL_EFFECTS  1: hardware with every effect, whatever the scene calls for; LIGHTS  for how many lights'
@@ -63,7 +63,7 @@ sim: program ## scenes through golden model, GHDL and Verilator: compare, write 
 	@build/halfway sim $(sim_options) $(scene)
 
 view: program ## one scene from all sides, by the RTL in Verilator (SCENE; VIDEO=turn.mp4, TERMINAL=1)
-	@build/halfway view $(run_options) $(call option,THREADS,--threads) $(call option,OUT,--out) \
+	@build/halfway view $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) $(call option,OUT,--out) \
 	  $(call option,FRAMES,--frames) $(call option,VIDEO,--video) $(call option,RATE,--rate) \
 	  $(call flag,TERMINAL,--terminal) $(scene)
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed, as ratios within one run: golden model, Verilator with comparison, GHDL, setup, and a
+// Speed, as ratios within one run: golden model, Verilator and lanes with comparison, GHDL, setup, and a
 // million-triangle mesh as a whole process. Absolute figures belong to the machine that prints them.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <tuple>
 
 #include "common/file.hpp"
@@ -21,6 +22,7 @@
 #include "run/stream_comparator.hpp"
 #include "scene/load_scene.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/lanes/lane_simulator.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace {
@@ -132,25 +134,22 @@ void verilator(benchmark::State& state, const Hardware& hardware, const char* sc
   auto simulator = must(VerilatorSimulator::open(s.key, c_folders));
   const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
   const std::size_t words_per_vector = (s.init_bits + 31) / 32;
-  std::vector<Fragment> drawn, expected;
+  std::vector<Fragment> drawn;
   drawn.reserve(1 << 20);
-  expected.reserve(1 << 20);
   const std::uint64_t before = simulator.cycles();
   for (auto _ : state) {
     StreamComparator comparator;
+    std::span<const Fragment> expected;
     const auto take = [&] {
-      if (compared) comparator.add_rtl(drawn);
+      if (compared) comparator.add(expected, drawn);
+      expected = {};
       drawn.clear();
     };
     auto rest = std::span<const std::uint32_t>(s.words);
     for (const std::size_t count : s.batches) {
       const auto words = rest.first(count * words_per_vector);
       rest = rest.subspan(words.size());
-      if (compared) {
-        expected.clear();
-        golden->draw(words, expected);
-        comparator.add_golden(expected);
-      }
+      if (compared) expected = golden->draw(words);
       if (const Status ran = simulator.run(words, count, drawn, SIZE_MAX); !ran) fail(ran.error());
       take();
     }
@@ -166,6 +165,31 @@ void verilator(benchmark::State& state, const Hardware& hardware, const char* sc
   state.counters["cycles/fragment"] =
       static_cast<double>(simulator.cycles() - before) /
       (static_cast<double>(s.golden.size()) * static_cast<double>(state.iterations()));
+}
+
+// The same in lanes; each of the benchmark's threads draws all of the scene.
+void lanes(benchmark::State& state, const Hardware& hardware, const char* scene, bool compared) {
+  static std::mutex mutex;
+  std::unique_lock lock(mutex);
+  const Stream& s = stream_of(hardware, scene, c_large);
+  auto simulator = must(LaneSimulator::open(s.key, c_folders));
+  lock.unlock();
+  const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
+  for (auto _ : state) {
+    StreamComparator comparator;
+    std::size_t drawn = 0;
+    const Status ran = simulator.run(s.words, SIZE_MAX, [&](auto words, auto fragments) {
+      drawn += fragments.size();
+      if (compared) comparator.add(golden->draw(words), fragments);
+    });
+    if (!ran) fail(ran.error());
+    comparator.finish();
+    if (drawn != s.golden.size() || comparator.mismatches() != 0) {
+      state.SkipWithError("the RTL differs from the golden model");
+      return;
+    }
+  }
+  report_fragments(state, s.golden.size());
 }
 
 void ghdl(benchmark::State& state, const Hardware& hardware, const char* scene) {
@@ -228,13 +252,16 @@ class Ratios final : public benchmark::ConsoleReporter {
   void Finalize() override {
     const auto rate = [&](std::string_view part) {
       for (const auto& [name, value] : rates_)
-        if (name.find(part) != std::string::npos) return value;
+        if (name.find(part) != std::string::npos && !name.ends_with("threads:2") &&
+            !name.ends_with("threads:4"))
+          return value;
       return 0.0;
     };
     for (const Hardware& hardware : c_hardware) {
       const std::string of = fmt::format("/{}/spheres", hardware.name);
       const double compared = rate("verilator_compared" + of), golden = rate("golden" + of);
       const double alone = rate("verilator" + of), in_ghdl = rate("ghdl" + of);
+      const double in_lanes = rate("lanes" + of), lanes_compared = rate("lanes_compared" + of);
       if (compared == 0.0 || golden == 0.0 || in_ghdl == 0.0) continue;
       fmt::print(
           "\n{}, spheres, fragments a second a core, as ratios within this run:\n"
@@ -242,6 +269,9 @@ class Ratios final : public benchmark::ConsoleReporter {
           "  Verilator alone                  {:.2f}\n  golden model alone               {:.2f}\n"
           "  GHDL                             1/{:.0f}\n",
           hardware.name, compared / 1e6, alone / compared, golden / compared, compared / in_ghdl);
+      if (in_lanes == 0.0 || lanes_compared == 0.0) continue;
+      fmt::print("  lanes with comparison            {:.2f}\n  lanes alone                      {:.2f}\n",
+                 lanes_compared / compared, in_lanes / compared);
     }
   }
 
@@ -263,6 +293,10 @@ int main(int argc, char** argv) {
       add("golden", scene, golden_model, hardware, scene);
       add("verilator", scene, verilator, hardware, scene, false);
       add("verilator_compared", scene, verilator, hardware, scene, true);
+      if (hardware.plan.shader == Shader::processors)
+        continue;  // no lanes: it has more than a triangle's state
+      add("lanes", scene, lanes, hardware, scene, false);
+      add("lanes_compared", scene, lanes, hardware, scene, true)->ThreadRange(1, 4);
     }
     add("ghdl", "spheres", ghdl, hardware, "spheres")->UseManualTime()->Iterations(1);
   }
