@@ -77,9 +77,9 @@ struct Hardware {
   FrameSize size, ghdl_size;  // GHDL takes its time
 };
 const Hardware c_hardware[] = {
-    {"quadratic", "quadratic", {.shader = Shader::quadratic}, true, {1600, 1200}, {320, 240}},
-    {"spherical", "spherical", {.shader = Shader::spherical}, true, {1600, 1200}, {320, 240}},
-    {"processors", "processors, unrolled", {.shader = Shader::processors}, false, {800, 600}, {128, 96}},
+    {"quadratic", "quadratic", {.shader = Shader::quadratic}, true, {1600, 1200}, {160, 120}},
+    {"spherical", "spherical", {.shader = Shader::spherical}, true, {1600, 1200}, {160, 120}},
+    {"processors", "processors, unrolled", {.shader = Shader::processors}, false, {800, 600}, {96, 72}},
     {"folded_processors",
      "folded",
      {.shader = Shader::processors, .form = ProcessorForm::folded},
@@ -118,6 +118,8 @@ class Measurements {
         ->UseManualTime()
         ->Iterations(1)
         ->Repetitions(repetitions)
+        ->ComputeStatistics("best", [](const std::vector<double>& all) { return std::ranges::min(all); })
+        ->DisplayAggregatesOnly()
         ->Unit(benchmark::kMillisecond);
   }
   /// The best of all repetitions; none where it was not measured.
@@ -204,23 +206,23 @@ struct Point {
   std::string name;
   double n;
   FrameSize size;
-  std::string hardware;
   HardwareKey key;
   std::function<Scene()> scene;
-  std::optional<FrameCost> best{};
+  std::optional<FrameCost> best{};  ///< each part's of all repetitions
 };
+
+/// What of a frame's time is held against a line.
+enum class Fitted { all, drawing, nothing };
 
 struct Series {
   std::string heading, unit, note;
-  bool lanes;
-  std::vector<Point> points;
+  Fitted fitted;
+  bool lanes = true;
+  std::vector<Point> points{};
 };
 
 constexpr FrameSize c_growth_frame{1000, 1000};
-
-Series make_series(std::string heading, std::string unit, bool lanes) {
-  return {std::move(heading), std::move(unit), {}, lanes, {}};
-}
+constexpr unsigned c_frame_bytes = 3 + 4;  // of a pixel: colour, depth
 
 HardwareKey key_of(const Scene& scene, Shader shader) {
   return must(plan_scene(scene, {.shader = shader})).key;
@@ -228,34 +230,58 @@ HardwareKey key_of(const Scene& scene, Shader shader) {
 
 std::vector<Series> growth_series() {
   std::vector<Series> all;
-  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
-    Series series = make_series(fmt::format("Triangles, {} shader", to_string(shader)), "triangles", true);
+  const auto by_triangles = [&](Series series, const char* name, Shader shader,
+                                Scene (*make)(std::uint64_t)) {
     for (const std::uint64_t n : {1'000, 10'000, 100'000, 1'000'000, 10'000'000})
-      series.points.push_back({fmt::format("triangles/{}/{}", to_string(shader), n), static_cast<double>(n),
-                               c_growth_frame, to_string(shader), key_of(sphere_scene(100), shader),
-                               [n] { return sphere_scene(n); }});
+      series.points.push_back({fmt::format("{}/{}/{}", name, to_string(shader), n), static_cast<double>(n),
+                               c_growth_frame, key_of(make(1'000), shader), [=] { return make(n); }});
     all.push_back(std::move(series));
-  }
+  };
+  for (const Shader shader : {Shader::quadratic, Shader::spherical})
+    by_triangles({fmt::format("Triangles, {} shader", to_string(shader)), "triangles",
+                  "More and more spheres of 990 triangles in a frame of 1000×1000, beside and behind one "
+                  "another: each "
+                  "triangle has as many pixels.",
+                  Fitted::all},
+                 "triangles", shader, many_spheres);
+  by_triangles({"Finer triangles, quadratic shader", "triangles",
+                "One sphere in a frame of 1000×1000, cut finer and finer. Its pixels are the constant part. "
+                "The line is "
+                "no line: a triangle that covers no\npixel gets no init vector and costs less, and from 10⁵ "
+                "on most are "
+                "such.",
+                Fitted::nothing},
+               "finer_triangles", Shader::quadratic, sphere_scene);
   for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
-    Series series = make_series(fmt::format("Pixels, {} shader", to_string(shader)), "pixels", true);
+    Series series{fmt::format("Pixels, {} shader", to_string(shader)), "pixels",
+                  shader == Shader::quadratic
+                      ? "`spheres`. The line is that of the drawing; setup depends on triangles, of which in "
+                        "small frames "
+                        "those without a pixel fall away."
+                      : "`spheres`. The line is that of the drawing; setup depends on lines, which grow with "
+                        "the root of "
+                        "the pixels: a record each, for\nwhich it looks at every pixel of short ones.",
+                  Fitted::drawing};
     for (const std::uint32_t side : {100U, 316U, 1000U, 2000U, 4000U})
       series.points.push_back({fmt::format("pixels/{}/{}", to_string(shader), side * side),
                                static_cast<double>(side) * side,
                                {side, side},
-                               to_string(shader),
                                key_of(builtin("spheres"), shader),
                                [] { return builtin("spheres"); }});
     all.push_back(std::move(series));
   }
   for (const Shader shader : {Shader::spherical, Shader::processors}) {
     const bool lanes = shader == Shader::spherical;
-    Series series = make_series(fmt::format("Lights, {}", lanes ? "spherical shader" : "shading processors"),
-                                "lights", lanes);
+    const FrameSize size = lanes ? FrameSize{800, 600} : FrameSize{320, 240};
+    Series series{fmt::format("Lights, {}", lanes ? "spherical shader" : "shading processors"), "lights",
+                  fmt::format("`spheres` at {}×{} under equal directional lights, hardware for as many.",
+                              size.width, size.height),
+                  Fitted::all, lanes};
     for (const unsigned lights : {1U, 2U, 4U, 8U, 16U})
       series.points.push_back({fmt::format("lights/{}/{}", to_string(shader), lights),
-                               static_cast<double>(lights), lanes ? FrameSize{800, 600} : FrameSize{320, 240},
-                               to_string(shader), key_of(with_lights(builtin("spheres"), lights), shader),
-                               [lights] { return with_lights(builtin("spheres"), lights); }});
+                               static_cast<double>(lights), size,
+                               key_of(with_lights(builtin("spheres"), lights), shader),
+                               [=] { return with_lights(builtin("spheres"), lights); }});
     all.push_back(std::move(series));
   }
   return all;
@@ -283,14 +309,17 @@ void add_growth(Measurements& measurements, std::vector<Series>& all, unsigned j
   });
   for (const Job& job : work) {
     Point& point = *job.point;
-    const int repetitions = point.n >= 5e6 ? 2 : point.n >= 5e5 ? 3 : 7;
+    const int repetitions = point.n >= 5e6 ? 2 : point.n >= 5e5 ? 5 : 11;
     measurements.add(point.name, repetitions,
                      [&point, rtl = models.at(point.key.name())]() -> Result<double> {
                        const auto cost = draw_frame(point.scene, point.size, point.key, *rtl);
                        if (!cost) return cost.error();
                        if (cost->mismatches != 0)
                          return Error{ExitCode::differs, point.name + ": the RTL differs"};
-                       if (!point.best || cost->seconds() < point.best->seconds()) point.best = *cost;
+                       if (!point.best) point.best = *cost;
+                       for (double FrameCost::*part : {&FrameCost::setup, &FrameCost::golden, &FrameCost::rtl,
+                                                       &FrameCost::compare, &FrameCost::assemble})
+                         (*point.best).*part = std::min((*point.best).*part, (*cost).*part);
                        return cost->seconds();
                      });
   }
@@ -299,41 +328,40 @@ void add_growth(Measurements& measurements, std::vector<Series>& all, unsigned j
 // --- Small triangles: clocks, no time
 
 struct SmallRow {
-  double wanted = 0;
-  std::uint64_t triangles = 0;
-  Shader shader{};
-  std::uint64_t fragments = 0, cycles = 0, headers = 0, records = 0;
-  std::optional<WalkCounts> walk;
+  std::uint64_t triangles;
+  Shader shader;
+  std::uint64_t cycles, records;
+  WalkCounts walk;
 };
 
 std::vector<SmallRow> small_triangles() {
   constexpr FrameSize c_frame{500, 500};
-  const auto covered = static_cast<double>(
-      must(make_batches(sphere_scene(10'000), c_frame, {.shader = Shader::quadratic})).golden.size());
+  std::vector<std::pair<double, Scene>> scenes;
+  for (const double wanted : {1.25, 3.0, 10.0, 30.0, 100.0}) {
+    // Triangles that cover a pixel have so many.
+    double triangles = 1e5;
+    for (int i = 0; i < 4; ++i) {
+      const InitBatches all = must(make_batches(sphere_scene(static_cast<std::uint64_t>(triangles)), c_frame,
+                                                {.shader = Shader::processors}));
+      triangles *=
+          static_cast<double>(all.golden.size()) / static_cast<double>(count_walk(all).headers) / wanted;
+      triangles = std::clamp(triangles, 100.0, 1e7);
+    }
+    scenes.emplace_back(wanted, sphere_scene(static_cast<std::uint64_t>(triangles)));
+  }
   std::vector<SmallRow> rows;
   for (const Shader shader : {Shader::quadratic, Shader::spherical, Shader::processors})
-    for (const double pixels : {1.0, 3.0, 10.0, 30.0, 100.0}) {
-      // One in two is seen.
-      const Scene scene = sphere_scene(static_cast<std::uint64_t>(2.0 * covered / pixels));
+    for (const auto& [wanted, scene] : scenes) {
       const InitBatches all = must(make_batches(scene, c_frame, {.shader = shader}));
       auto rtl = must(RtlModel::open(all.key, c_folders, false));
       std::vector<Fragment> drawn;
       must(rtl.draw(all.words, drawn, true));
       if (drawn != all.golden) fail({ExitCode::differs, "small triangles: the RTL differs"});
-      SmallRow row{.wanted = pixels,
-                   .triangles = scene.triangles.size(),
-                   .shader = shader,
-                   .fragments = drawn.size(),
-                   .cycles = rtl.cycles()};
-      row.headers = all.vectors();
-      if (shader != Shader::processors) {
-        row.walk = count_walk(all);
-        row.headers = row.walk->headers;
-        row.records = all.vectors() - row.headers;
-      }
-      rows.push_back(row);
+      const WalkCounts walk = count_walk(all);
+      rows.push_back({scene.triangles.size(), shader, rtl.cycles(),
+                      shader == Shader::spherical ? all.vectors() - walk.headers : 0, walk});
       fmt::print(stderr, "small triangles: {}, {} pixels each: {:.3f} clocks a fragment\n", to_string(shader),
-                 pixels, static_cast<double>(row.cycles) / static_cast<double>(row.fragments));
+                 wanted, static_cast<double>(rtl.cycles()) / static_cast<double>(walk.pixels));
     }
   return rows;
 }
@@ -430,10 +458,10 @@ EndToEnd measure_make() {
     end.line = end.line.substr(0, end.line.find('\n'));
     fmt::print(stderr, "make sim: {:.2f} s\n", seconds_since(start));
   }
-  const ProcessEnd ninja =
-      must(run_process({.arguments = {"ninja", "-C", (c_source / "build").string(), "-n", "halfway"}},
-                       "apt-get install ninja-build"));
-  end.rebuilt = end.rebuilt || ninja.output.find("no work to do") == std::string::npos;
+  const ProcessEnd build = must(
+      run_process({.arguments = {"cmake", "--build", (c_source / "build").string(), "--target", "halfway"}},
+                  "apt-get install cmake"));
+  end.rebuilt = end.rebuilt || build.output.find("no work to do") == std::string::npos;
   return end;
 }
 
@@ -543,55 +571,62 @@ std::string mesa_note() {
   if (!picture) return "";
   return fmt::format(
       "\nMesa's picture is {:.1f} dB and {}/255 beside the reference renderer's within outlines; on outlines "
-      "{} of the\n"
-      "pixels are others, as its vertices lie on 1/256 of a pixel and ours on 1/16. It counts in single "
+      "{:.0f} of a "
+      "million pixels are\nothers, as its vertices lie on 1/256 of a pixel and ours on 1/16. It counts in "
+      "single "
       "precision: {}.\n",
-      picture->psnr_db, picture->max_lsb, percent(picture->outline_off), picture->renderer);
+      picture->psnr_db, picture->max_lsb, 1e6 * picture->outline_off, picture->renderer);
 }
 
 std::string growth_section(const std::vector<Series>& all) {
   std::string text = fmt::format(
       "\n## Growth\n\n"
-      "A frame on one core: setup, golden model, RTL (in lanes; the shading processors in Verilator), "
-      "comparison of "
-      "every field,\nassembly to a picture. The line is t = constant + slope n with the least relative "
-      "squares. Memory is "
-      "the most beside\nthe mesh and the program, the frame's {} bytes a pixel included.\n",
-      3 + 4);
+      "A frame on one core, in seconds of it: setup, golden model, RTL (in lanes; the shading processors in "
+      "Verilator), "
+      "comparison of every\nfield, assembly to a picture. The line is t = constant + slope n with the least "
+      "squares of "
+      "relative deviations. Memory is the most\nbeside the mesh and the program, the frame's {} bytes a "
+      "pixel "
+      "included.\n",
+      c_frame_bytes);
   for (const Series& series : all) {
     std::vector<double> n, t;
     for (const Point& point : series.points)
       if (point.best) {
         n.push_back(point.n);
-        t.push_back(point.best->seconds());
+        t.push_back(series.fitted == Fitted::drawing ? point.best->drawing() : point.best->seconds());
       }
-    text += fmt::format("\n### {}\n\n", series.heading);
+    text += fmt::format("\n### {}\n\n{}\n\n", series.heading, series.note);
     if (n.size() < 3) {
       text += "Not measured.\n";
       continue;
     }
+    const bool fitted = series.fitted != Fitted::nothing;
     text += fmt::format(
-        "| {} | init vectors, line records | fragments | setup, s | golden model, s | RTL, s | comparison, s "
-        "| picture, "
-        "s | all, s | beside the line | memory, MiB (frame) |\n"
-        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
-        series.unit);
+        "| {} | init vectors, line records | fragments | setup | golden model | RTL | comparison | picture | "
+        "all |{} memory, "
+        "MiB (frame) |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |{} --- |\n",
+        series.unit, fitted ? " beside the line |" : "", fitted ? " --- |" : "");
     const LinearFit line = fit_line(n, t);
+    std::size_t i = 0;
     for (const Point& point : series.points) {
       if (!point.best) continue;
       const FrameCost& cost = *point.best;
-      const double frame = 7.0 * point.size.width * point.size.height / (1 << 20);
+      const std::string beside = fmt::format(" {:+.1f} % |", 100.0 * (t[i] / line.at(n[i]) - 1.0));
+      ++i;
+      const double frame = static_cast<double>(c_frame_bytes) * point.size.width * point.size.height;
       text += fmt::format(
-          "| {} | {}, {} | {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {:+.1f} % | {:.1f} "
-          "({:.1f}) |\n",
+          "| {} | {}, {} | {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {:.4f} |{} {:.1f} ({:.1f}) |\n",
           count(series.unit == "triangles" ? cost.triangles : static_cast<std::uint64_t>(point.n)),
           count(cost.vectors), count(cost.records), count(cost.fragments), cost.setup, cost.golden, cost.rtl,
-          cost.compare, cost.assemble, cost.seconds(), 100.0 * (cost.seconds() / line.at(point.n) - 1.0),
-          static_cast<double>(cost.memory_bytes) / (1 << 20), frame);
+          cost.compare, cost.assemble, cost.seconds(), fitted ? beside : "",
+          static_cast<double>(cost.memory_bytes) / (1 << 20), frame / (1 << 20));
     }
-    text += fmt::format("\n{:.4g} ms, and {:.4g} {} for each of the {}; at most {} beside that line.\n",
-                        1e3 * line.constant, (line.slope >= 1e-6 ? 1e3 : 1e9) * line.slope,
-                        line.slope >= 1e-6 ? "ms" : "ns", series.unit, percent(line.largest_deviation));
+    if (!fitted) continue;
+    const bool slow = line.slope >= 1e-4;
+    text += fmt::format("\n{:.3g} ms, and {:.4g} {} for each of the {}: at most {} beside that line.\n",
+                        1e3 * line.constant, (slow ? 1e3 : 1e9) * line.slope, slow ? "ms" : "ns", series.unit,
+                        percent(line.largest_deviation));
   }
   return text;
 }
@@ -599,41 +634,32 @@ std::string growth_section(const std::vector<Series>& all) {
 std::string small_section(const std::vector<SmallRow>& rows) {
   std::string text =
       "\n## Small triangles\n\n"
-      "A sphere of 500×500 pixels in smaller and smaller triangles: clocks of the RTL for a fragment, and "
-      "what there "
-      "is for\neach. The line stage takes a line a clock, empty or not, while the span stage walks the line "
-      "before, a "
-      "pixel a clock: clocks are\nlost where a span has fewer pixels than there are lines until the next "
-      "span. In the "
-      "spherical shader a triangle's header\nis one more for the line stage. *Expected* counts these from "
-      "the init "
-      "vectors alone; that it is what the RTL takes says that nothing else\nbounds it.\n\n"
-      "| shader | pixels a triangle drawn | triangles | clocks a fragment | expected | of these for lines "
-      "without a "
-      "pixel | for headers | init vectors a fragment | line records a fragment | lines a fragment | of these "
-      "empty |\n"
+      "A sphere that fills 500×500 pixels, cut finer and finer: clocks of the RTL for a fragment, and what "
+      "bounds them. "
+      "The line stage takes a\nline a clock, empty or not, while the span stage walks the line before, a "
+      "pixel a clock: "
+      "clocks are lost where a span has fewer\npixels than there are lines up to the next span. In the "
+      "spherical shader "
+      "a triangle's header is one more for the line stage.\n*Expected* is counted from the init vectors "
+      "alone: that the "
+      "RTL takes as many says that nothing else bounds it. The quadratic shader's\ntriangles are those after "
+      "subdivision.\n\n"
+      "| shader | triangles of the mesh | pixels a triangle | clocks a fragment | expected | lost to lines | "
+      "lost to "
+      "headers | a fragment: init vectors | line records | lines | empty lines |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const SmallRow& row : rows) {
+    const WalkCounts& walk = row.walk;
     const auto a_fragment = [&](std::uint64_t n) {
-      return figure(static_cast<double>(n) / static_cast<double>(row.fragments));
+      return fmt::format("{:.3f}", static_cast<double>(n) / static_cast<double>(walk.pixels));
     };
-    const auto clocks = [&](std::uint64_t n) {
-      return fmt::format("{:.3f}", static_cast<double>(n) / static_cast<double>(row.fragments));
-    };
-    text += fmt::format("| {} | {} | {} | {} |", to_string(row.shader),
-                        figure(static_cast<double>(row.fragments) / static_cast<double>(row.headers)),
-                        count(row.triangles), clocks(row.cycles));
-    if (!row.walk) {
-      text += fmt::format(" – | – | – | {} | – | – | – |\n", a_fragment(row.headers));
-      continue;
-    }
-    const WalkCounts& walk = *row.walk;
     const std::uint64_t headers = row.records != 0 ? walk.lost_to_headers : 0;
-    text += fmt::format(" {} | {} | {} | {} | {} | {} | {} |\n",
-                        clocks(walk.pixels + walk.lost_to_lines + headers), clocks(walk.lost_to_lines),
-                        clocks(headers), a_fragment(walk.headers), a_fragment(row.records),
-                        a_fragment(walk.lines),
-                        percent(static_cast<double>(walk.empty_lines) / static_cast<double>(walk.lines)));
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", to_string(row.shader),
+                        count(row.triangles),
+                        figure(static_cast<double>(walk.pixels) / static_cast<double>(walk.headers)),
+                        a_fragment(row.cycles), a_fragment(walk.pixels + walk.lost_to_lines + headers),
+                        a_fragment(walk.lost_to_lines), a_fragment(headers), a_fragment(walk.headers),
+                        a_fragment(row.records), a_fragment(walk.lines), a_fragment(walk.empty_lines));
   }
   return text;
 }
@@ -716,15 +742,13 @@ int run(const Options& options) {
       "fragments, or "
       "the right picture, each time that it is timed;\n`make test` does so at a tiny size.\n\n";
   text += fmt::format(
-      "Machine: {}, virtual and shared: the load was {:.1f} before, {:.1f} after, {:.1f} over the last "
+      "Machine: {}. Load, processes that would run: {:.1f} before, {:.1f} after, {:.1f} over the last "
       "quarter of an "
-      "hour, {:.1f} of it our own.\nTools: {}; {}; {}; {}; {}; {}.\n",
-      machine(), load_before, load_after, load_long, 1.0, first_line({"ghdl", "--version"}),
+      "hour, of\nwhich one was this.\n\nTools: {}; its llvm and {}; {}; {}; {}; {}.\n",
+      machine(), load_before, load_after, load_long, first_line({"ghdl", "--version"}),
+      lacking(Way::ghdl_mcode, c_folders).empty() ? "mcode back ends" : "no mcode back end",
       first_line({"verilator", "--version"}), first_line({"clang++", "--version"}),
-      first_line({"g++", "--version"}), first_line({"yosys", "-V"}),
-      lacking(Way::ghdl_mcode, c_folders).empty()
-          ? "mcode: " + first_line({ghdl_mcode(c_folders), "--version"})
-          : "no ghdl-mcode");
+      first_line({"g++", "--version"}), first_line({"yosys", "-V"}));
   text += ways_section(measurements, ways);
   text += mesa_note();
   text += growth_section(series);

@@ -97,7 +97,7 @@ TEST(BenchWorkload, AFrameIsDrawnWholeAndComparedInEveryField) {
 
 TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {
   const SimulatorFolders folders{c_source, c_source / "build/cache"};
-  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+  for (const Shader shader : c_shaders) {
     Scene scene = *load_scene("matte", c_source / "sim/scenes");
     const auto batches = make_batches(scene, {96, 72}, {.shader = shader});
     ASSERT_TRUE(batches);
@@ -113,16 +113,18 @@ TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {
     const std::uint64_t expected = walk.pixels + walk.lost_to_lines + (records ? walk.lost_to_headers : 0);
     EXPECT_GT(walk.lost_to_lines, 0U);
     EXPECT_GE(rtl->cycles(), expected);
-    EXPECT_LE(rtl->cycles(), expected + 8) << to_string(shader);  // the pipeline, once
+    // The pipeline once, and the processors' lights.
+    EXPECT_LE(rtl->cycles(), expected + (shader == Shader::processors ? 40 : 8)) << to_string(shader);
   }
 }
 
 TEST(BenchWorkload, SpheresHaveTheTrianglesAskedFor) {
-  for (const std::uint64_t n : {100, 1'000, 10'000, 123'456}) {
-    const auto made = static_cast<double>(sphere_scene(n).triangles.size());
-    EXPECT_NEAR(made / static_cast<double>(n), 1.0, 0.02) << n;
+  for (const std::uint64_t n : {1'000, 10'000, 123'456}) {
+    EXPECT_LE(sphere_scene(n).triangles.size(), n);
+    EXPECT_GT(sphere_scene(n).triangles.size(), n - n / 50);
+    EXPECT_LE(many_spheres(n).triangles.size(), n);
+    EXPECT_GT(many_spheres(n).triangles.size(), n - n / 20);
   }
-  EXPECT_LE(sphere_scene(10'000'000).triangles.size(), c_max_triangles);
 }
 
 TEST(BenchWorkload, LinesAreFitted) {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
@@ -17,6 +18,7 @@
 #include "common/file.hpp"
 #include "common/seconds.hpp"
 #include "frame/assemble.hpp"
+#include "golden/processors_layout.hpp"
 #include "golden/triangle_walker.hpp"
 #include "run/golden_run.hpp"
 #include "run/scene_stream.hpp"
@@ -114,6 +116,33 @@ Scene sphere_scene(std::uint64_t triangles) {
   scene.triangles = std::move(mesh.triangles);
   for (SceneTriangle& triangle : scene.triangles) triangle.material = 0;
   scene.camera = fit_camera(bounding_sphere(scene), {0.3, 0.4, 1.0});
+  return scene;
+}
+
+Scene many_spheres(std::uint64_t triangles) {
+  constexpr std::uint64_t c_each = 1000, c_side = 12, c_places = c_side * c_side;
+  constexpr double c_spacing = 2.2;  // radii
+  const Scene one = sphere_scene(c_each);
+  Scene scene = one;
+  scene.name = fmt::format("spheres-{}", triangles);
+  scene.positions_world.clear();
+  scene.triangles.clear();
+  for (std::uint64_t i = 0; i < triangles / c_each; ++i) {
+    const std::uint64_t place = i * 61 % c_places;  // scattered
+    // Those of one place lie almost in one another, so that all are of one size.
+    const glm::dvec3 centre(c_spacing * (static_cast<double>(place % c_side) - 0.5 * (c_side - 1)),
+                            c_spacing * (static_cast<double>(place / c_side) - 0.5 * (c_side - 1)),
+                            -0.02 * static_cast<double>(i / c_places));
+    const auto first = static_cast<std::uint32_t>(scene.positions_world.size());
+    for (const glm::dvec3& position : one.positions_world) scene.positions_world.push_back(position + centre);
+    for (SceneTriangle triangle : one.triangles) {
+      for (std::uint32_t& position : triangle.position) position += first;
+      scene.triangles.push_back(triangle);
+    }
+  }
+  scene.camera = {};
+  scene.camera.vertical_fov_degrees = 10.0;
+  scene.camera.eye_world = {0.0, 0.0, 0.5 * c_side * c_spacing / std::tan(std::numbers::pi / 36.0)};
   return scene;
 }
 
@@ -219,9 +248,19 @@ WalkCounts count_walk(const InitBatches& batches) {
     span = pixels;
     lines = items = 0;
   };
+  const bool processors = batches.key.shader == Shader::processors;
   for (auto rest = std::span<const std::uint32_t>(batches.words); !rest.empty();) {
-    walker.line_load(rest);
+    const auto vector = rest;
     rest = rest.subspan(golden->group(rest) * batches.words_per_vector());
+    if (processors && golden::get_bits(vector, golden::Exact::request_header_at::command) !=
+                          static_cast<std::uint64_t>(golden::Command::draw))
+      continue;  // a light
+    std::array<std::uint32_t, (golden::Exact::c_init_header_bits + 31) / 32> header;
+    for (std::size_t i = 0; i < header.size(); ++i)
+      header[i] = static_cast<std::uint32_t>(
+          golden::get_bits(vector, {"", 32 * static_cast<int>(i), 32, false, 0},
+                           processors ? golden::ProcessorsLayout<golden::Exact>::walk_low() : 0));
+    walker.line_load(header);
     ++n.headers;
     ++items;
     for (;;) {

@@ -19,6 +19,9 @@ namespace halfway {
 
 /// A sphere of about so many triangles in one light, seen whole by a camera that fits it.
 Scene sphere_scene(std::uint64_t triangles);
+/// Spheres of about 1000 triangles, one for each thousand asked for, on 12 by 12 places of a square frame:
+/// all triangles of one kind, and as many pixels each.
+Scene many_spheres(std::uint64_t triangles);
 /// The scene under this many equal directional lights in place of its own, 1 to 16, as bright together.
 Scene with_lights(Scene scene, unsigned lights);
 
@@ -61,7 +64,8 @@ struct FrameCost {
   std::uint64_t fragments = 0;
   std::uint64_t mismatches = 0;    ///< between golden model and RTL
   std::uint64_t memory_bytes = 0;  ///< the most beside scene and program at a time
-  double seconds() const { return setup + golden + rtl + compare + assemble; }
+  double drawing() const { return golden + rtl + compare + assemble; }
+  double seconds() const { return setup + drawing(); }
 };
 
 /// A frame on one thread in a process of its own: triangles set up, drawn by golden model and RTL, compared
@@ -77,7 +81,7 @@ struct WalkCounts {
   /// With the header of each triangle a clock more: those that come on top.
   std::uint64_t lost_to_headers = 0;
 };
-/// Of a shader whose init vectors begin with the walker's header (quadratic, spherical).
+/// Of preset exact, without shadows.
 WalkCounts count_walk(const InitBatches& batches);
 
 /// t = constant + slope n, with the least squares of relative deviations.
