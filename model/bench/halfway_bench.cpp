@@ -208,8 +208,23 @@ struct Point {
   FrameSize size;
   HardwareKey key;
   std::function<Scene()> scene;
-  std::optional<FrameCost> best{};  ///< each part's of all repetitions
+  std::vector<FrameCost> repetitions{};
 };
+
+/// Each part's median. Not the best: the largest frames take a minute, over which the load of the machine
+/// evens out, and the smallest would find a quiet millisecond.
+FrameCost typical(const Point& point) {
+  FrameCost cost = point.repetitions.front();
+  for (double FrameCost::*part :
+       {&FrameCost::setup, &FrameCost::golden, &FrameCost::rtl, &FrameCost::compare, &FrameCost::assemble}) {
+    std::vector<double> seconds;
+    for (const FrameCost& repetition : point.repetitions) seconds.push_back(repetition.*part);
+    std::ranges::sort(seconds);
+    const std::size_t half = seconds.size() / 2;
+    cost.*part = seconds.size() % 2 != 0 ? seconds[half] : 0.5 * (seconds[half - 1] + seconds[half]);
+  }
+  return cost;
+}
 
 /// What of a frame's time is held against a line.
 enum class Fitted { all, drawing, nothing };
@@ -309,17 +324,14 @@ void add_growth(Measurements& measurements, std::vector<Series>& all, unsigned j
   });
   for (const Job& job : work) {
     Point& point = *job.point;
-    const int repetitions = point.n >= 5e6 ? 2 : point.n >= 5e5 ? 5 : 11;
+    const int repetitions = point.n >= 5e6 ? 2 : point.n >= 5e5 ? 5 : 21;
     measurements.add(point.name, repetitions,
                      [&point, rtl = models.at(point.key.name())]() -> Result<double> {
                        const auto cost = draw_frame(point.scene, point.size, point.key, *rtl);
                        if (!cost) return cost.error();
                        if (cost->mismatches != 0)
                          return Error{ExitCode::differs, point.name + ": the RTL differs"};
-                       if (!point.best) point.best = *cost;
-                       for (double FrameCost::*part : {&FrameCost::setup, &FrameCost::golden, &FrameCost::rtl,
-                                                       &FrameCost::compare, &FrameCost::assemble})
-                         (*point.best).*part = std::min((*point.best).*part, (*cost).*part);
+                       point.repetitions.push_back(*cost);
                        return cost->seconds();
                      });
   }
@@ -581,7 +593,8 @@ std::string mesa_note() {
 std::string growth_section(const std::vector<Series>& all) {
   std::string text = fmt::format(
       "\n## Growth\n\n"
-      "A frame on one core, in seconds of it: setup, golden model, RTL (in lanes; the shading processors in "
+      "A frame on one core, in seconds of it, the median of 2 to 21 repetitions: setup, golden model, RTL "
+      "(in lanes; the shading processors in "
       "Verilator), "
       "comparison of every\nfield, assembly to a picture. The line is t = constant + slope n with the least "
       "squares of "
@@ -592,9 +605,10 @@ std::string growth_section(const std::vector<Series>& all) {
   for (const Series& series : all) {
     std::vector<double> n, t;
     for (const Point& point : series.points)
-      if (point.best) {
+      if (!point.repetitions.empty()) {
+        const FrameCost cost = typical(point);
         n.push_back(point.n);
-        t.push_back(series.fitted == Fitted::drawing ? point.best->drawing() : point.best->seconds());
+        t.push_back(series.fitted == Fitted::drawing ? cost.drawing() : cost.seconds());
       }
     text += fmt::format("\n### {}\n\n{}\n\n", series.heading, series.note);
     if (n.size() < 3) {
@@ -610,8 +624,8 @@ std::string growth_section(const std::vector<Series>& all) {
     const LinearFit line = fit_line(n, t);
     std::size_t i = 0;
     for (const Point& point : series.points) {
-      if (!point.best) continue;
-      const FrameCost& cost = *point.best;
+      if (point.repetitions.empty()) continue;
+      const FrameCost cost = typical(point);
       const std::string beside = fmt::format(" {:+.1f} % |", 100.0 * (t[i] / line.at(n[i]) - 1.0));
       ++i;
       const double frame = static_cast<double>(c_frame_bytes) * point.size.width * point.size.height;
