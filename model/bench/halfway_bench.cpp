@@ -194,7 +194,7 @@ WayTable make_ways(Measurements& measurements, unsigned jobs) {
                                   .scratch = c_scratch}));
     });
     for (Job& job : *jobs_now)
-      measurements.add(WayTable::name(job.way, job.column), WayTable::in_ghdl(job.way) ? 2 : 7,
+      measurements.add(WayTable::name(job.way, job.column), WayTable::in_ghdl(job.way) ? 2 : 11,
                        std::move(job.go));
   }
   return table;
@@ -208,20 +208,22 @@ struct Point {
   FrameSize size;
   HardwareKey key;
   std::function<Scene()> scene;
+  int wanted;  ///< repetitions
   std::vector<FrameCost> repetitions{};
 };
 
-/// Each part's median. Not the best: the largest frames take a minute, over which the load of the machine
-/// evens out, and the smallest would find a quiet millisecond.
-FrameCost typical(const Point& point) {
+/// The mean of all repetitions, at the pace of the run's best moment. Not the best of all: the largest frames
+/// take a minute, over which the load of the machine evens out, and the smallest would find a quiet
+/// millisecond.
+FrameCost typical(const Point& point, double best_pace) {
   FrameCost cost = point.repetitions.front();
+  double paces = 0.0;
+  for (const FrameCost& repetition : point.repetitions) paces += repetition.pace;
   for (double FrameCost::*part :
        {&FrameCost::setup, &FrameCost::golden, &FrameCost::rtl, &FrameCost::compare, &FrameCost::assemble}) {
-    std::vector<double> seconds;
-    for (const FrameCost& repetition : point.repetitions) seconds.push_back(repetition.*part);
-    std::ranges::sort(seconds);
-    const std::size_t half = seconds.size() / 2;
-    cost.*part = seconds.size() % 2 != 0 ? seconds[half] : 0.5 * (seconds[half - 1] + seconds[half]);
+    double seconds = 0.0;
+    for (const FrameCost& repetition : point.repetitions) seconds += repetition.*part;
+    cost.*part = seconds / paces * best_pace;
   }
   return cost;
 }
@@ -249,7 +251,10 @@ std::vector<Series> growth_series() {
                                 Scene (*make)(std::uint64_t)) {
     for (const std::uint64_t n : {1'000, 10'000, 100'000, 1'000'000, 10'000'000})
       series.points.push_back({fmt::format("{}/{}/{}", name, to_string(shader), n), static_cast<double>(n),
-                               c_growth_frame, key_of(make(1'000), shader), [=] { return make(n); }});
+                               c_growth_frame, key_of(make(1'000), shader), [=] { return make(n); },
+                               n >= 10'000'000  ? 2
+                               : n >= 1'000'000 ? 4
+                                                : 21});
     all.push_back(std::move(series));
   };
   for (const Shader shader : {Shader::quadratic, Shader::spherical})
@@ -282,7 +287,10 @@ std::vector<Series> growth_series() {
                                static_cast<double>(side) * side,
                                {side, side},
                                key_of(builtin("spheres"), shader),
-                               [] { return builtin("spheres"); }});
+                               [] { return builtin("spheres"); },
+                               side >= 4000   ? 7
+                               : side >= 2000 ? 11
+                                              : 31});
     all.push_back(std::move(series));
   }
   for (const Shader shader : {Shader::spherical, Shader::processors}) {
@@ -296,13 +304,15 @@ std::vector<Series> growth_series() {
       series.points.push_back({fmt::format("lights/{}/{}", to_string(shader), lights),
                                static_cast<double>(lights), size,
                                key_of(with_lights(builtin("spheres"), lights), shader),
-                               [=] { return with_lights(builtin("spheres"), lights); }});
+                               [=] { return with_lights(builtin("spheres"), lights); }, 15});
     all.push_back(std::move(series));
   }
   return all;
 }
 
 void add_growth(Measurements& measurements, std::vector<Series>& all, unsigned jobs) {
+  const auto pace = std::make_shared<const InitBatches>(
+      must(make_batches(builtin("spheres"), {560, 420}, {.shader = Shader::quadratic})));
   struct Job {
     Point* point;
     bool lanes;
@@ -324,10 +334,9 @@ void add_growth(Measurements& measurements, std::vector<Series>& all, unsigned j
   });
   for (const Job& job : work) {
     Point& point = *job.point;
-    const int repetitions = point.n >= 5e6 ? 2 : point.n >= 5e5 ? 5 : 21;
-    measurements.add(point.name, repetitions,
-                     [&point, rtl = models.at(point.key.name())]() -> Result<double> {
-                       const auto cost = draw_frame(point.scene, point.size, point.key, *rtl);
+    measurements.add(point.name, point.wanted,
+                     [&point, pace, rtl = models.at(point.key.name())]() -> Result<double> {
+                       const auto cost = draw_frame(point.scene, point.size, point.key, *rtl, *pace);
                        if (!cost) return cost.error();
                        if (cost->mismatches != 0)
                          return Error{ExitCode::differs, point.name + ": the RTL differs"};
@@ -593,20 +602,27 @@ std::string mesa_note() {
 std::string growth_section(const std::vector<Series>& all) {
   std::string text = fmt::format(
       "\n## Growth\n\n"
-      "A frame on one core, in seconds of it, the median of 2 to 21 repetitions: setup, golden model, RTL "
-      "(in lanes; the shading processors in "
+      "A frame on one core, in seconds of it: setup, golden model, RTL (in lanes; the shading processors in "
       "Verilator), "
-      "comparison of every\nfield, assembly to a picture. The line is t = constant + slope n with the least "
-      "squares of "
-      "relative deviations. Memory is the most\nbeside the mesh and the program, the frame's {} bytes a "
-      "pixel "
+      "comparison of every\nfield, assembly to a picture. A shared machine's processors are now slower, now "
+      "quicker, and "
+      "the largest frame takes a minute: between\nbatches a fixed piece of work is timed, and a point's mean "
+      "over its "
+      "repetitions is told at the pace of the run's best moment. The line is\nt = constant + slope n with "
+      "the least "
+      "squares of relative deviations. Memory is the most beside the mesh and the program, the frame's\n{} "
+      "bytes a pixel "
       "included.\n",
       c_frame_bytes);
+  double best_pace = std::numeric_limits<double>::infinity();
+  for (const Series& series : all)
+    for (const Point& point : series.points)
+      for (const FrameCost& cost : point.repetitions) best_pace = std::min(best_pace, cost.best_pace);
   for (const Series& series : all) {
     std::vector<double> n, t;
     for (const Point& point : series.points)
       if (!point.repetitions.empty()) {
-        const FrameCost cost = typical(point);
+        const FrameCost cost = typical(point, best_pace);
         n.push_back(point.n);
         t.push_back(series.fitted == Fitted::drawing ? cost.drawing() : cost.seconds());
       }
@@ -625,7 +641,7 @@ std::string growth_section(const std::vector<Series>& all) {
     std::size_t i = 0;
     for (const Point& point : series.points) {
       if (point.repetitions.empty()) continue;
-      const FrameCost cost = typical(point);
+      const FrameCost cost = typical(point, best_pace);
       const std::string beside = fmt::format(" {:+.1f} % |", 100.0 * (t[i] / line.at(n[i]) - 1.0));
       ++i;
       const double frame = static_cast<double>(c_frame_bytes) * point.size.width * point.size.height;
@@ -750,11 +766,11 @@ int run(const Options& options) {
       "# Speed\n\n"
       "What `make bench` measures, in one run; it writes this page. Ratios carry over to another machine, "
       "seconds do "
-      "not. Times are those of\nthe processor, not of the clock, where nothing else is said: the best of two "
-      "(GHDL, the "
-      "largest frames) to seven repetitions,\nall in random order. Every way is checked to draw the right "
-      "fragments, or "
-      "the right picture, each time that it is timed;\n`make test` does so at a tiny size.\n\n";
+      "not. Times are those of\nthe processor, not of the clock, where nothing else is said: the best of "
+      "eleven "
+      "repetitions (GHDL: two), all in random order. Every\nway is checked to draw the right fragments, or "
+      "the right "
+      "picture, each time that it is timed; `make test` does so at a tiny size.\n\n";
   text += fmt::format(
       "Machine: {}. Load, processes that would run: {:.1f} before, {:.1f} after, {:.1f} over the last "
       "quarter of an "

@@ -79,7 +79,7 @@ TEST(BenchWorkload, AFrameIsDrawnWholeAndComparedInEveryField) {
   ASSERT_TRUE(batches);
   auto rtl = RtlModel::open(batches->key, folders, false);
   ASSERT_TRUE(rtl) << rtl.error().message;
-  const auto cost = draw_frame([&] { return scene; }, c_size, batches->key, *rtl);
+  const auto cost = draw_frame([&] { return scene; }, c_size, batches->key, *rtl, *batches);
   ASSERT_TRUE(cost) << cost.error().message;
   EXPECT_EQ(cost->mismatches, 0U);
   EXPECT_EQ(cost->fragments, batches->golden.size());
@@ -87,12 +87,14 @@ TEST(BenchWorkload, AFrameIsDrawnWholeAndComparedInEveryField) {
   EXPECT_EQ(cost->triangles, scene.triangles.size());
   EXPECT_GT(cost->setup, 0.0);
   EXPECT_GT(cost->rtl, 0.0);
+  EXPECT_GT(cost->best_pace, 0.0);
+  EXPECT_GE(cost->pace, cost->best_pace);
   EXPECT_GT(cost->memory_bytes, 7U * c_size.width * c_size.height);
 
   // Hardware for three channels: other vectors.
   const auto other = make_batches(*load_scene("spheres", c_source / "sim/scenes"), c_size, {});
   ASSERT_TRUE(other);
-  EXPECT_FALSE(draw_frame([&] { return scene; }, c_size, other->key, *rtl));
+  EXPECT_FALSE(draw_frame([&] { return scene; }, c_size, other->key, *rtl, *batches));
 }
 
 TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {

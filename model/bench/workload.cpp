@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include "common/file.hpp"
@@ -54,8 +55,20 @@ void forget_peak() {
 }
 
 Status draw_frame_here(const std::function<Scene()>& make_scene, FrameSize size, const HardwareKey& key,
-                       RtlModel& rtl, FrameCost& cost) {
+                       RtlModel& rtl, const InitBatches& pace, FrameCost& cost) {
   const Scene scene = make_scene();
+  const std::unique_ptr<GoldenModel> pacer = make_golden_model(pace.key);
+  std::vector<Fragment> paced;
+  std::vector<double> paces;
+  const auto take_pace = [&] {
+    const double start = thread_seconds();
+    paced.clear();
+    pacer->draw(pace.words, paced);
+    paces.push_back(thread_seconds() - start);
+  };
+  take_pace();
+  paces.clear();  // that was the caches'
+  take_pace();
   ::malloc_trim(0);
   forget_peak();
   const std::uint64_t before = resident_bytes();
@@ -82,6 +95,7 @@ Status draw_frame_here(const std::function<Scene()>& make_scene, FrameSize size,
       cost.compare += compared - run;
       cost.assemble += thread_seconds() - compared;
       cost.fragments += drawn.size();
+      take_pace();
     }
     comparator.finish();
     cost.mismatches = comparator.mismatches();
@@ -90,6 +104,8 @@ Status draw_frame_here(const std::function<Scene()>& make_scene, FrameSize size,
     cost.vectors = stream.counts().vectors;
     cost.records = stream.counts().records;
   }
+  cost.pace = std::accumulate(paces.begin(), paces.end(), 0.0) / static_cast<double>(paces.size());
+  cost.best_pace = *std::ranges::min_element(paces);
   const std::uint64_t peak = peak_bytes();
   cost.memory_bytes = peak > before ? peak - before : 0;
   return Ok{};
@@ -212,14 +228,14 @@ Result<RtlModel> RtlModel::open(const HardwareKey& key, const SimulatorFolders& 
 }
 
 Result<FrameCost> draw_frame(const std::function<Scene()>& make_scene, FrameSize size, const HardwareKey& key,
-                             RtlModel& rtl) {
+                             RtlModel& rtl, const InitBatches& pace) {
   int ends[2];
   if (::pipe(ends) != 0) return tool_failed("no pipe");
   const pid_t child = ::fork();
   if (child < 0) return tool_failed("no process");
   if (child == 0) {
     FrameCost cost;
-    const Status drawn = draw_frame_here(make_scene, size, key, rtl, cost);
+    const Status drawn = draw_frame_here(make_scene, size, key, rtl, pace, cost);
     if (!drawn) fmt::print(stderr, "{}\n", drawn.error().message);
     const bool told = drawn && ::write(ends[1], &cost, sizeof cost) == sizeof cost;
     ::_exit(told ? 0 : 1);

@@ -63,6 +63,7 @@ struct FrameCost {
   std::uint64_t records = 0;    ///< line records
   std::uint64_t fragments = 0;
   std::uint64_t mismatches = 0;    ///< between golden model and RTL
+  double pace = 0, best_pace = 0;  ///< seconds that the pace takes between the batches: on average, at best
   std::uint64_t memory_bytes = 0;  ///< the most beside scene and program at a time
   double drawing() const { return golden + rtl + compare + assemble; }
   double seconds() const { return setup + drawing(); }
@@ -70,8 +71,10 @@ struct FrameCost {
 
 /// A frame on one thread in a process of its own: triangles set up, drawn by golden model and RTL, compared
 /// in every field and assembled to a picture. `make_scene` is called there, too, and its time not counted.
+/// `pace` is drawn by its golden model between the batches: the same work all the time, by which one can
+/// tell how quick the machine was meanwhile.
 Result<FrameCost> draw_frame(const std::function<Scene()>& make_scene, FrameSize size, const HardwareKey& key,
-                             RtlModel& rtl);
+                             RtlModel& rtl, const InitBatches& pace);
 
 /// What the walker of preset exact makes of the vectors: the same for every shader that has it.
 struct WalkCounts {
