@@ -96,21 +96,48 @@ bool is_wanted(const std::string& name) {
                                : std::regex_search(name, std::regex(filter));
 }
 
+/// The same piece of work, again and again: how quick this core of a shared machine is just now.
+class Pace {
+ public:
+  Pace()
+      : work_(must(make_batches(builtin("spheres"), {560, 420}, {.shader = Shader::quadratic}))),
+        golden_(make_golden_model(work_.key)) {}
+  const InitBatches& work() const { return work_; }
+  /// Processor seconds.
+  double take() {
+    constexpr int c_times = 4;
+    const double start = process_seconds();
+    for (int i = 0; i < c_times; ++i) {
+      fragments_.clear();
+      golden_->draw(work_.words, fragments_);
+    }
+    return (process_seconds() - start) / c_times;
+  }
+
+ private:
+  InitBatches work_;
+  std::unique_ptr<GoldenModel> golden_;
+  std::vector<Fragment> fragments_;
+};
+
 /// Registered with Google Benchmark, which repeats them in random order.
 class Measurements {
  public:
   void add(const std::string& name, int repetitions, Go go) {
-    double& best = best_.try_emplace(name, std::numeric_limits<double>::infinity()).first->second;
-    const auto measure = [this, &best, name, go = std::move(go)](benchmark::State& state) {
+    std::vector<Timed>& timed = timed_[name];
+    const auto measure = [this, &timed, name, go = std::move(go)](benchmark::State& state) {
       for (auto _ : state) {
+        const double before = pace_.take();
         const auto seconds = go();
         if (!seconds) {
           failed_ = seconds.error();
           state.SkipWithError(seconds.error().message.c_str());
           return;
         }
+        const double after = pace_.take();
+        best_pace_ = std::min({best_pace_, before, after});
+        timed.push_back({*seconds, 0.5 * (before + after)});
         state.SetIterationTime(*seconds);
-        best = std::min(best, *seconds);
         fmt::print(stderr, "{}: {:.4g} s\n", name, *seconds);
       }
     };
@@ -122,16 +149,26 @@ class Measurements {
         ->DisplayAggregatesOnly()
         ->Unit(benchmark::kMillisecond);
   }
-  /// The best of all repetitions; none where it was not measured.
+  /// The median of all repetitions, each at the pace of the best moment; none where it was not measured.
   std::optional<double> seconds(const std::string& name) const {
-    const auto found = best_.find(name);
-    if (found == best_.end() || !std::isfinite(found->second)) return std::nullopt;
-    return found->second;
+    const auto found = timed_.find(name);
+    if (found == timed_.end() || found->second.empty()) return std::nullopt;
+    std::vector<double> all;
+    for (const Timed& timed : found->second) all.push_back(timed.seconds / timed.pace * best_pace_);
+    std::ranges::sort(all);
+    const std::size_t half = all.size() / 2;
+    return all.size() % 2 != 0 ? all[half] : 0.5 * (all[half - 1] + all[half]);
   }
   const std::optional<Error>& failed() const { return failed_; }
+  const Pace& pace() const { return pace_; }
 
  private:
-  std::map<std::string, double> best_;
+  struct Timed {
+    double seconds, pace;
+  };
+  Pace pace_;
+  double best_pace_ = std::numeric_limits<double>::infinity();
+  std::map<std::string, std::vector<Timed>> timed_;
   std::optional<Error> failed_;
 };
 
@@ -194,7 +231,7 @@ WayTable make_ways(Measurements& measurements, unsigned jobs) {
                                   .scratch = c_scratch}));
     });
     for (Job& job : *jobs_now)
-      measurements.add(WayTable::name(job.way, job.column), WayTable::in_ghdl(job.way) ? 2 : 11,
+      measurements.add(WayTable::name(job.way, job.column), WayTable::in_ghdl(job.way) ? 2 : 15,
                        std::move(job.go));
   }
   return table;
@@ -273,15 +310,17 @@ std::vector<Series> growth_series() {
                 Fitted::nothing},
                "finer_triangles", Shader::quadratic, sphere_scene);
   for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
-    Series series{fmt::format("Pixels, {} shader", to_string(shader)), "pixels",
-                  shader == Shader::quadratic
-                      ? "`spheres`. The line is that of the drawing; setup depends on triangles, of which in "
-                        "small frames "
-                        "those without a pixel fall away."
-                      : "`spheres`. The line is that of the drawing; setup depends on lines, which grow with "
-                        "the root of "
-                        "the pixels: a record each, for\nwhich it looks at every pixel of short ones.",
-                  Fitted::drawing};
+    Series series{
+        fmt::format("Pixels, {} shader", to_string(shader)), "pixels",
+        shader == Shader::quadratic
+            ? "`spheres`. The line is that of the drawing; setup depends on triangles, of which in "
+              "small frames "
+              "those without a pixel fall away."
+            : "`spheres`. The line is that of the drawing; setup depends on lines, which grow with "
+              "the root of "
+              "the pixels: a record each, for\nwhich it looks at every pixel of short ones. In small frames "
+              "a line has few pixels, and what it costs itself shows in the drawing, too.",
+        Fitted::drawing};
     for (const std::uint32_t side : {100U, 316U, 1000U, 2000U, 4000U})
       series.points.push_back({fmt::format("pixels/{}/{}", to_string(shader), side * side),
                                static_cast<double>(side) * side,
@@ -311,8 +350,6 @@ std::vector<Series> growth_series() {
 }
 
 void add_growth(Measurements& measurements, std::vector<Series>& all, unsigned jobs) {
-  const auto pace = std::make_shared<const InitBatches>(
-      must(make_batches(builtin("spheres"), {560, 420}, {.shader = Shader::quadratic})));
   struct Job {
     Point* point;
     bool lanes;
@@ -334,15 +371,15 @@ void add_growth(Measurements& measurements, std::vector<Series>& all, unsigned j
   });
   for (const Job& job : work) {
     Point& point = *job.point;
-    measurements.add(point.name, point.wanted,
-                     [&point, pace, rtl = models.at(point.key.name())]() -> Result<double> {
-                       const auto cost = draw_frame(point.scene, point.size, point.key, *rtl, *pace);
-                       if (!cost) return cost.error();
-                       if (cost->mismatches != 0)
-                         return Error{ExitCode::differs, point.name + ": the RTL differs"};
-                       point.repetitions.push_back(*cost);
-                       return cost->seconds();
-                     });
+    measurements.add(
+        point.name, point.wanted,
+        [&point, &pace = measurements.pace().work(), rtl = models.at(point.key.name())]() -> Result<double> {
+          const auto cost = draw_frame(point.scene, point.size, point.key, *rtl, pace);
+          if (!cost) return cost.error();
+          if (cost->mismatches != 0) return Error{ExitCode::differs, point.name + ": the RTL differs"};
+          point.repetitions.push_back(*cost);
+          return cost->seconds();
+        });
   }
 }
 
@@ -543,16 +580,16 @@ std::string ways_section(const Measurements& measurements, const WayTable& table
   std::string text =
       "\n## Ways to a picture\n\n"
       "Built-in scene `spheres`, one light. Times as long as our path takes for a fragment on one core, and "
-      "ns of a "
-      "processor for a fragment.\nOur path is the first row; where there are no lanes, Verilator as built "
-      "here, "
-      "compared. *Compared* means that the golden model draws the\nsame fragments on the same core, and that "
-      "every "
-      "field of every fragment is held against it. What draws RTL or golden model is given the "
-      "init\nvectors; software "
-      "starts from projected triangles, OpenGL from vertices in place, and their picture's time is "
-      "divided\nby our "
-      "fragments.\n\n| |";
+      "a "
+      "processor's time for a\nfragment. Our path is the first row; where there are no lanes, Verilator as "
+      "built here, "
+      "compared. *Compared* means that the golden model\ndraws the same fragments on the same core, and that "
+      "every field "
+      "of every fragment is held against it. RTL and golden model are\ngiven the init vectors; GHDL's time "
+      "is that of its "
+      "whole process, small frame and text files included. Software starts from projected\ntriangles, OpenGL "
+      "from vertices "
+      "in place; their picture's time is divided by our fragments.\n\n| |";
   for (const Hardware& hardware : c_hardware) text += fmt::format(" {} |", hardware.heading);
   text += "\n| --- |";
   for (std::size_t i = 0; i < c_columns; ++i) text += " --- |";
@@ -569,7 +606,8 @@ std::string ways_section(const Measurements& measurements, const WayTable& table
       const auto taken = nanoseconds(way, column);
       const std::string lacks = lacking(way, c_folders);
       if (taken && ours)
-        text += fmt::format(" {} ({} ns) |", figure(*taken / *ours), figure(*taken));
+        text += *taken < 1e4 ? fmt::format(" {} ({} ns) |", figure(*taken / *ours), figure(*taken))
+                             : fmt::format(" {} ({} µs) |", figure(*taken / *ours), figure(1e-3 * *taken));
       else if (!lacks.empty())
         text += fmt::format(" {} is not here |", lacks);
       else
@@ -604,15 +642,11 @@ std::string growth_section(const std::vector<Series>& all) {
       "\n## Growth\n\n"
       "A frame on one core, in seconds of it: setup, golden model, RTL (in lanes; the shading processors in "
       "Verilator), "
-      "comparison of every\nfield, assembly to a picture. A shared machine's processors are now slower, now "
-      "quicker, and "
-      "the largest frame takes a minute: between\nbatches a fixed piece of work is timed, and a point's mean "
-      "over its "
-      "repetitions is told at the pace of the run's best moment. The line is\nt = constant + slope n with "
-      "the least "
-      "squares of relative deviations. Memory is the most beside the mesh and the program, the frame's\n{} "
-      "bytes a pixel "
-      "included.\n",
+      "comparison of every\nfield, assembly to a picture; the mean of 1 to 31 repetitions. The line is t = "
+      "constant + "
+      "slope n with the least squares of relative\ndeviations. Memory is the most beside the mesh and the "
+      "program, the "
+      "frame's {} bytes a pixel included.\n",
       c_frame_bytes);
   double best_pace = std::numeric_limits<double>::infinity();
   for (const Series& series : all)
@@ -766,15 +800,17 @@ int run(const Options& options) {
       "# Speed\n\n"
       "What `make bench` measures, in one run; it writes this page. Ratios carry over to another machine, "
       "seconds do "
-      "not. Times are those of\nthe processor, not of the clock, where nothing else is said: the best of "
-      "eleven "
-      "repetitions (GHDL: two), all in random order. Every\nway is checked to draw the right fragments, or "
-      "the right "
-      "picture, each time that it is timed; `make test` does so at a tiny size.\n\n";
+      "not. Times are those of\nthe processor, not of the clock, where nothing else is said. A shared "
+      "machine's "
+      "processors are now slower, now quicker: a fixed piece\nof work is timed before and after, or in long "
+      "measurements all the while, and times are told at the pace of its best moment.\nEvery way is checked "
+      "to draw the "
+      "right fragments, or the right picture, each time that it is timed; `make test` does so at a tiny "
+      "size.\n\n";
   text += fmt::format(
-      "Machine: {}. Load, processes that would run: {:.1f} before, {:.1f} after, {:.1f} over the last "
-      "quarter of an "
-      "hour, of\nwhich one was this.\n\nTools: {}; its llvm and {}; {}; {}; {}; {}.\n",
+      "Machine: {}. Load, processes that would run, of which one was this:\n{:.1f} before, {:.1f} after, "
+      "{:.1f} "
+      "over the last quarter of an hour.\n\nTools: {}; its llvm and {};\n{}; {}; {}; {}.\n",
       machine(), load_before, load_after, load_long, first_line({"ghdl", "--version"}),
       lacking(Way::ghdl_mcode, c_folders).empty() ? "mcode back ends" : "no mcode back end",
       first_line({"verilator", "--version"}), first_line({"clang++", "--version"}),
