@@ -20,6 +20,9 @@ namespace {
 /// Fragments, about: a part ends with some clocks in which nothing comes, a batch with lanes that wait for
 /// the last part.
 constexpr double kShortestPart = 100;
+/// Fragments a thread, about, that are drawn before they are handed on: they stay in the processor's second
+/// cache.
+constexpr double kBatch = 48 * 1024;
 
 }  // namespace
 
@@ -40,7 +43,10 @@ struct LaneSimulator::State {
   decltype(&halfway_lanes_run) run = nullptr;
   decltype(&halfway_lanes_fragments) fragments = nullptr;
   decltype(&halfway_lanes_cycles) cycles = nullptr;
+  decltype(&halfway_lanes_create) create = nullptr;
   decltype(&halfway_lanes_destroy) destroy = nullptr;
+  HardwareKey key;
+  LaneOptions options;
   std::size_t lanes = 0;
   double fragments_per_vector = 25;  ///< in the batch before
 };
@@ -92,15 +98,38 @@ Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const Simulato
   }
   state->name = key.name();
   state->init_bits = init_bits;
-  state->golden = make_golden_model(key);
   state->run = *run;
   state->fragments = *fragments;
   state->cycles = *cycles;
+  state->create = *create;
   state->destroy = *destroy;
+  state->key = key;
+  state->options = options;
   state->lanes = (*count)();
-  for (unsigned i = 0; i < std::max(options.threads, 1U); ++i)
-    state->threads.push_back((*create)(i, std::max<std::uint64_t>(options.idle_limit, 1)));
+  return with_lanes(std::move(state));
+}
+
+LaneSimulator LaneSimulator::with_lanes(std::shared_ptr<State> state) {
+  state->golden = make_golden_model(state->key);
+  for (unsigned i = 0; i < std::max(state->options.threads, 1U); ++i)
+    state->threads.push_back(state->create(i, std::max<std::uint64_t>(state->options.idle_limit, 1)));
   return LaneSimulator(std::move(state));
+}
+
+LaneSimulator LaneSimulator::another() const {
+  auto state = std::make_shared<State>(state_->library);
+  state->name = state_->name;
+  state->init_bits = state_->init_bits;
+  state->run = state_->run;
+  state->fragments = state_->fragments;
+  state->cycles = state_->cycles;
+  state->create = state_->create;
+  state->destroy = state_->destroy;
+  state->key = state_->key;
+  state->options = state_->options;
+  state->lanes = state_->lanes;
+  state->fragments_per_vector = state_->fragments_per_vector;
+  return with_lanes(std::move(state));
 }
 
 unsigned LaneSimulator::init_bits() const {
@@ -113,16 +142,49 @@ std::uint64_t LaneSimulator::cycles() const {
   return sum;
 }
 
+Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
+                          const OnDrawn& on_drawn) {
+  State& s = *state_;
+  const std::size_t words_per_vector = (s.init_bits + 31) / 32;
+  while (init_words.size() >= words_per_vector) {
+    const auto most = static_cast<std::size_t>(kBatch * static_cast<double>(s.threads.size()) /
+                                               (s.fragments_per_vector + 1)) +
+                      1;
+    std::size_t words = 0;
+    while (words < init_words.size() && words < most * words_per_vector) {
+      const std::size_t triangle = s.golden->group(init_words.subspan(words)) * words_per_vector;
+      words = std::min(words + std::max(triangle, words_per_vector), init_words.size());
+    }
+    const auto drawn = draw(init_words.first(words), max_fragments, on_drawn);
+    if (!drawn) return drawn.error();
+    max_fragments -= *drawn;
+    init_words = init_words.subspan(words);
+  }
+  return Ok{};
+}
+
 Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t vectors,
                           std::vector<Fragment>& out, std::size_t max_fragments) {
+  const std::size_t words_per_vector = (state_->init_bits + 31) / 32;
+  if (init_words.size() != words_per_vector * vectors)
+    return bad_input(fmt::format("{}: {} words are not {} vectors of {} bits", state_->name,
+                                 init_words.size(), vectors, state_->init_bits));
+  return run(init_words, max_fragments - std::min(max_fragments, out.size()),
+             [&](auto, std::span<const Fragment> fragments) {
+               out.insert(out.end(), fragments.begin(), fragments.end());
+             });
+}
+
+Result<std::size_t> LaneSimulator::draw(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
+                                        const OnDrawn& on_drawn) {
   State& s = *state_;
   const auto too_many = [&] {
     return Error{ExitCode::differs,
                  fmt::format("{} in lanes: more than {} fragments", s.name, max_fragments)};
   };
-  if (out.size() > max_fragments) return too_many();
   // Long parts first, then shorter ones, so that all lanes end together.
   const std::size_t words_per_vector = (s.init_bits + 31) / 32, all = s.lanes * s.threads.size();
+  const std::size_t vectors = init_words.size() / words_per_vector;
   const auto shortest = static_cast<std::size_t>(kShortestPart / (s.fragments_per_vector + 1)) + 1;
   s.parts.clear();
   for (std::size_t at = 0; at < vectors;) {
@@ -142,8 +204,7 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
   std::atomic<std::size_t> next_thread = 0;
   work_on_threads(static_cast<unsigned>(std::min(s.threads.size(), s.parts.size())), [&] {
     for (std::size_t i; (i = next_thread++) < s.threads.size();) {
-      HalfwayBatch batch{init_words.data(), s.parts.data(), s.parts.size(), &next_part,
-                         max_fragments - out.size()};
+      HalfwayBatch batch{init_words.data(), s.parts.data(), s.parts.size(), &next_part, max_fragments};
       const int status = s.run(s.threads[i], &batch);
       for (int seen = worst; status > seen && !worst.compare_exchange_weak(seen, status);) {
       }
@@ -153,7 +214,7 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
   for (const HalfwayPart& part : s.parts) total += part.fragments;
   switch (worst) {
     case HALFWAY_DONE:
-      if (total > max_fragments - out.size()) return too_many();
+      if (total > max_fragments) return too_many();
       break;
     case HALFWAY_BUFFER_FULL:
       return too_many();
@@ -169,12 +230,12 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
       return tool_failed(fmt::format("{} in lanes: unknown status {}", s.name, worst.load()));
   }
   if (vectors > 0) s.fragments_per_vector = static_cast<double>(total) / static_cast<double>(vectors);
-  out.reserve(out.size() + total);
   for (const HalfwayPart& part : s.parts) {
     const auto* first = reinterpret_cast<const Fragment*>(s.fragments(s.threads[part.owner], part.lane));
-    out.insert(out.end(), first + part.fragment, first + part.fragment + part.fragments);
+    on_drawn(init_words.subspan(part.vector * words_per_vector, part.vectors * words_per_vector),
+             {first + part.fragment, part.fragments});
   }
-  return Ok{};
+  return total;
 }
 
 }  // namespace halfway

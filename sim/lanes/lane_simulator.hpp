@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -34,10 +35,19 @@ class LaneSimulator {
 
   unsigned init_bits() const;
 
-  /// Draws whole triangles from idle to idle and appends their fragments to `out` in the order of a single
-  /// stream, whatever the number of lanes and threads. More than `max_fragments` in `out` is an error. A
-  /// fault of the hardware (a hang) has the exit code `differs`. More vectors in a call are faster:
-  /// thousands.
+  /// Other lanes of the same hardware, reset, for another thread; with the same options.
+  LaneSimulator another() const;
+
+  /// A part of a call's vectors, and the fragments that lanes drew for them, in the lanes' own room.
+  using OnDrawn =
+      std::function<void(std::span<const std::uint32_t> init_words, std::span<const Fragment> fragments)>;
+
+  /// Draws whole triangles from idle to idle, and hands on their fragments part by part in the order of a
+  /// single stream, whatever the number of lanes and threads; this thread calls `on_drawn`. More than
+  /// `max_fragments` is an error. A fault of the hardware (a hang) has the exit code `differs`; some parts
+  /// may have been handed on then. More vectors in a call are faster: thousands.
+  Status run(std::span<const std::uint32_t> init_words, std::size_t max_fragments, const OnDrawn& on_drawn);
+  /// The same, appended to `out`, which holds no more than `max_fragments`.
   Status run(std::span<const std::uint32_t> init_words, std::size_t vectors, std::vector<Fragment>& out,
              std::size_t max_fragments);
 
@@ -47,7 +57,10 @@ class LaneSimulator {
 
  private:
   struct State;
+  static LaneSimulator with_lanes(std::shared_ptr<State> state);
   explicit LaneSimulator(std::shared_ptr<State> state) : state_(std::move(state)) {}
+  Result<std::size_t> draw(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
+                           const OnDrawn& on_drawn);
   std::shared_ptr<State> state_;
 };
 
