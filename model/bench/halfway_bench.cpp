@@ -231,7 +231,7 @@ WayTable make_ways(Measurements& measurements, unsigned jobs) {
                                   .scratch = c_scratch}));
     });
     for (Job& job : *jobs_now)
-      measurements.add(WayTable::name(job.way, job.column), WayTable::in_ghdl(job.way) ? 2 : 15,
+      measurements.add(WayTable::name(job.way, job.column), WayTable::in_ghdl(job.way) ? 2 : 11,
                        std::move(job.go));
   }
   return table;
@@ -343,7 +343,7 @@ std::vector<Series> growth_series() {
       series.points.push_back({fmt::format("lights/{}/{}", to_string(shader), lights),
                                static_cast<double>(lights), size,
                                key_of(with_lights(builtin("spheres"), lights), shader),
-                               [=] { return with_lights(builtin("spheres"), lights); }, 15});
+                               [=] { return with_lights(builtin("spheres"), lights); }, 11});
     all.push_back(std::move(series));
   }
   return all;
@@ -413,7 +413,7 @@ std::vector<SmallRow> small_triangles() {
       const InitBatches all = must(make_batches(scene, c_frame, {.shader = shader}));
       auto rtl = must(RtlModel::open(all.key, c_folders, false));
       std::vector<Fragment> drawn;
-      must(rtl.draw(all.words, drawn, true));
+      must(rtl.draw(all.words, true, drawn));
       if (drawn != all.golden) fail({ExitCode::differs, "small triangles: the RTL differs"});
       const WalkCounts walk = count_walk(all);
       rows.push_back({scene.triangles.size(), shader, rtl.cycles(),
@@ -434,9 +434,11 @@ struct CoreRow {
 
 /// Golden model, lanes and comparison of batches that the threads take by turns.
 std::vector<CoreRow> measure_cores(const InitBatches& s, unsigned most) {
-  std::vector<std::size_t> begins;
-  for (std::size_t at = 0; const std::size_t vectors : s.batches) {
-    begins.push_back(at);
+  // Two batches a part.
+  std::vector<std::span<const std::uint32_t>> parts;
+  for (std::size_t at = 0, i = 0; i < s.batches.size(); i += 2) {
+    const std::size_t vectors = s.batches[i] + (i + 1 < s.batches.size() ? s.batches[i + 1] : 0);
+    parts.push_back(std::span(s.words).subspan(at * s.words_per_vector(), vectors * s.words_per_vector()));
     at += vectors;
   }
   std::vector<CoreRow> rows;
@@ -452,21 +454,15 @@ std::vector<CoreRow> measure_cores(const InitBatches& s, unsigned most) {
       work_on_threads(row.threads, [&] {
         RtlModel& rtl = models[model++];
         const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
-        std::vector<Fragment> drawn, expected;
         // Several frames: a thread takes its time to begin.
-        for (std::size_t i; (i = next++) < 4 * s.batches.size();) {
-          const std::size_t batch = i % s.batches.size();
-          const auto words = std::span(s.words).subspan(begins[batch] * s.words_per_vector(),
-                                                        s.batches[batch] * s.words_per_vector());
+        for (std::size_t i; (i = next++) < 4 * parts.size();) {
           StreamComparator comparator;
-          drawn.clear();
-          expected.clear();
-          golden->draw(words, expected);
-          must(rtl.draw(words, drawn, true));
-          comparator.add(expected, drawn);
+          must(rtl.draw(parts[i % parts.size()], true, [&](auto words, auto drawn) {
+            comparator.add(golden->draw(words), drawn);
+            fragments += drawn.size();
+          }));
           comparator.finish();
           mismatches += comparator.mismatches();
-          fragments += drawn.size();
         }
       });
       row.seconds = std::min(row.seconds, seconds_since(start));
@@ -642,7 +638,7 @@ std::string growth_section(const std::vector<Series>& all) {
       "\n## Growth\n\n"
       "A frame on one core, in seconds of it: setup, golden model, RTL (in lanes; the shading processors in "
       "Verilator), "
-      "comparison of every\nfield, assembly to a picture; the mean of 1 to 31 repetitions. The line is t = "
+      "comparison of every\nfield, assembly to a picture; the mean of 1 to 21 repetitions. The line is t = "
       "constant + "
       "slope n with the least squares of relative\ndeviations. Memory is the most beside the mesh and the "
       "program, the "

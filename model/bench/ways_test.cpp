@@ -109,7 +109,7 @@ TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {
     auto rtl = RtlModel::open(batches->key, folders, false);
     ASSERT_TRUE(rtl) << rtl.error().message;
     std::vector<Fragment> drawn;
-    ASSERT_TRUE(rtl->draw(batches->words, drawn, true));
+    ASSERT_TRUE(rtl->draw(batches->words, true, drawn));
     ASSERT_EQ(drawn, batches->golden);
     const bool records = shader == Shader::spherical;
     const std::uint64_t expected = walk.pixels + walk.lost_to_lines + (records ? walk.lost_to_headers : 0);

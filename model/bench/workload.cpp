@@ -78,23 +78,31 @@ Status draw_frame_here(const std::function<Scene()>& make_scene, FrameSize size,
     SceneStream stream(*setup, key, 1, {.ahead = false});
     StreamComparator comparator;
     FrameAssembler assembler(size, scene.background);
-    std::vector<Fragment> drawn;
     bool more = true;
-    // What the golden model is ahead by, where the RTL keeps fragments to the next batch.
     while (more) {
       Batch batch;
       more = stream.next(batch);
+      auto golden = std::span<const Fragment>(batch.golden);
+      Status added = Ok{};
+      double aside = 0.0;  // of what is not the RTL's
       const double start = thread_seconds();
-      drawn.clear();
-      if (Status ran = rtl.draw(batch.init_words, drawn, !more); !ran) return ran;
-      const double run = thread_seconds();
-      comparator.add(batch.golden, drawn);
-      const double compared = thread_seconds();
-      if (Status added = assembler.add(drawn); !added) return added;
-      cost.rtl += run - start;
-      cost.compare += compared - run;
-      cost.assemble += thread_seconds() - compared;
-      cost.fragments += drawn.size();
+      const Status ran = rtl.draw(batch.init_words, !more, [&](auto, std::span<const Fragment> drawn) {
+        const double began = thread_seconds();
+        const auto expected = golden.first(std::min(golden.size(), drawn.size()));
+        golden = golden.subspan(expected.size());
+        comparator.add(expected, drawn);
+        const double compared = thread_seconds();
+        if (Status status = assembler.add(drawn); !status) added = status;
+        const double ended = thread_seconds();
+        cost.compare += compared - began;
+        cost.assemble += ended - compared;
+        cost.fragments += drawn.size();
+        aside += ended - began;
+      });
+      if (!ran) return ran;
+      if (!added) return added;
+      cost.rtl += thread_seconds() - start - aside;
+      comparator.add_golden(golden);  // what Verilator draws with the next batch
       take_pace();
     }
     comparator.finish();
@@ -202,16 +210,12 @@ Result<InitBatches> make_batches(const Scene& scene, FrameSize size, const PlanR
 Result<RtlModel> RtlModel::open(const HardwareKey& key, const SimulatorFolders& folders, bool lanes,
                                 bool fast) {
   RtlModel model;
-  const auto vectors_of = [](std::span<const std::uint32_t> words, unsigned bits) {
-    return words.size() / ((bits + 31) / 32);
-  };
   if (lanes) {
     auto opened = LaneSimulator::open(key, folders, {.fast = fast});
     if (!opened) return opened.error();
     const auto simulator = std::make_shared<LaneSimulator>(std::move(*opened));
-    model.draw_ = [=](auto words, auto& out, bool) {
-      return words.empty() ? Status(Ok{})
-                           : simulator->run(words, vectors_of(words, simulator->init_bits()), out, SIZE_MAX);
+    model.draw_ = [=](auto words, bool, const OnDrawn& on_drawn) {
+      return words.empty() ? Status(Ok{}) : simulator->run(words, SIZE_MAX, on_drawn);
     };
     model.cycles_ = [=] { return simulator->cycles(); };
     return model;
@@ -219,9 +223,15 @@ Result<RtlModel> RtlModel::open(const HardwareKey& key, const SimulatorFolders& 
   auto opened = VerilatorSimulator::open(key, folders);
   if (!opened) return opened.error();
   const auto simulator = std::make_shared<VerilatorSimulator>(std::move(*opened));
-  model.draw_ = [=](auto words, auto& out, bool last) -> Status {
-    Status ran = simulator->run(words, vectors_of(words, simulator->init_bits()), out, SIZE_MAX);
-    return ran && last ? simulator->finish(out, SIZE_MAX) : ran;
+  const auto drawn = std::make_shared<std::vector<Fragment>>();
+  model.draw_ = [=](auto words, bool last, const OnDrawn& on_drawn) -> Status {
+    drawn->clear();
+    const std::size_t vectors = words.size() / ((simulator->init_bits() + 31) / 32);
+    if (Status ran = simulator->run(words, vectors, *drawn, SIZE_MAX); !ran) return ran;
+    if (last)
+      if (Status ended = simulator->finish(*drawn, SIZE_MAX); !ended) return ended;
+    on_drawn({}, *drawn);
+    return Ok{};
   };
   model.cycles_ = [=] { return simulator->cycles(); };
   return model;

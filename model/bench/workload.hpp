@@ -14,6 +14,7 @@
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/lanes/lane_simulator.hpp"
 
 namespace halfway {
 
@@ -44,14 +45,21 @@ class RtlModel {
  public:
   static Result<RtlModel> open(const HardwareKey& key, const SimulatorFolders& folders, bool lanes,
                                bool fast = true);
-  /// Appends fragments of this and earlier vectors; with `last` all that are left.
-  Status draw(std::span<const std::uint32_t> words, std::vector<Fragment>& out, bool last) {
-    return draw_(words, out, last);
+  /// Vectors and their fragments, in the stream's order and in the model's own room; Verilator, which goes on
+  /// from batch to batch, does not tell whose fragments they are.
+  using OnDrawn = LaneSimulator::OnDrawn;
+  /// Hands on fragments of this and earlier vectors; with `last` all that are left.
+  Status draw(std::span<const std::uint32_t> words, bool last, const OnDrawn& on_drawn) {
+    return draw_(words, last, on_drawn);
+  }
+  /// The same, appended to `out`.
+  Status draw(std::span<const std::uint32_t> words, bool last, std::vector<Fragment>& out) {
+    return draw(words, last, [&](auto, auto drawn) { out.insert(out.end(), drawn.begin(), drawn.end()); });
   }
   std::uint64_t cycles() const { return cycles_(); }
 
  private:
-  std::function<Status(std::span<const std::uint32_t>, std::vector<Fragment>&, bool)> draw_;
+  std::function<Status(std::span<const std::uint32_t>, bool, const OnDrawn&)> draw_;
   std::function<std::uint64_t()> cycles_;
 };
 
