@@ -128,8 +128,10 @@ bounds: configure ## every bound of formats and tables: derived, proved, and how
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds
 	@build/tb/halfway_bounds --page tb/bounds/README.md build/bounds
 
-bench: program ## speed, as ratios within one run
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench
+bench: configure ## speed: other ways to the same picture, growth, small triangles, cores; writes its page
+	@scripts/unpack.sh build/tools/ghdl-mcode ghdl-mcode ghdl-common || true
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_bench
+	@build/halfway_bench --jobs "$(jobs)" --page model/bench/README.md
 
 build: program ## program and tests
 	@$(lock) cmake --build build -j "$(jobs)"
@@ -147,7 +149,7 @@ configure: setup
 	elif [ -f build/configure.stamp ] && [ "$$(cat build/configure.stamp)" = "$$key" ]; then exit 0; fi; \
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
-# Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs one package more, and so
+# Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs some packages more, and so
 # do `make plan MEASURE=1`, `make prove`, `make bounds`, `make mutate`, `make fuzz` and `make sanitize`.
 setup:
 	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate,$(MAKECMDGOALS)) \
