@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -25,6 +24,7 @@
 #include <vector>
 
 #include "common/file.hpp"
+#include "common/seconds.hpp"
 #include "frame/frame.hpp"
 #include "scene/camera.hpp"
 #include "scene/load_scene.hpp"
@@ -258,12 +258,6 @@ class Picture {
   std::vector<Part> parts_;
 };
 
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 Status run(const char* name, FrameSize size, int repetitions, const char* file) {
   const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/scenes");
   if (!scene) return scene.error();
@@ -273,9 +267,9 @@ Status run(const char* name, FrameSize size, int repetitions, const char* file) 
   picture->draw();  // compiles the shaders for the processor
   double best = 1e300;
   for (int i = 0; i < repetitions; ++i) {
-    const double start = processor_seconds();
+    const double start = process_seconds();
     picture->draw();
-    best = std::min(best, processor_seconds() - start);
+    best = std::min(best, process_seconds() - start);
   }
   const Frame frame = picture->read();
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)

@@ -2,11 +2,9 @@
 #include "bench/ways.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -14,6 +12,7 @@
 
 #include "bench/outside_model.hpp"
 #include "common/file.hpp"
+#include "common/seconds.hpp"
 #include "common/subprocess.hpp"
 #include "frame/init_file.hpp"
 #include "frame/metrics.hpp"
@@ -203,19 +202,6 @@ std::string ghdl_mcode(const SimulatorFolders& folders) {
   const std::filesystem::path installed = find_program("ghdl-mcode");
   return installed.empty() ? (folders.source / "build/tools/ghdl-mcode/usr/bin/ghdl-mcode").string()
                            : installed.string();
-}
-
-double process_seconds() {
-  timespec now{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double children_seconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_CHILDREN, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
 }
 
 Result<MesaPicture> draw_by_mesa(const WayInput& input, int repetitions) {

@@ -76,8 +76,4 @@ Result<MesaPicture> draw_by_mesa(const WayInput& input, int repetitions);
 /// missing.
 std::string ghdl_mcode(const SimulatorFolders& folders);
 
-/// Processor seconds of this process, and those of its ended children.
-double process_seconds();
-double children_seconds();
-
 }  // namespace halfway
