@@ -228,14 +228,14 @@ TEST_F(ViewCommand, DrawsInTheTerminal) {
 TEST_F(ViewCommand, BrokenOffLeavesNoHalfFile) {
   for (const std::string signal : {"INT", "TERM"}) {
     // Job control, for a shell without it keeps INT from what it starts in the background.
-    const Outcome outcome =
-        run_as({"bash", "-c",
-                fmt::format(
-                    "set -m; '{}' view matte --size 64x48 --frames 10000 --out turn --video films/turn.mp4 & "
-                    "until [ -e turn/frame_0009.png ]; do sleep 0.05; kill -0 $! || exit 9; done; "
-                    "kill -{} $!; wait $!; exit $?",
-                    HALFWAY_PROGRAM, signal)},
-               path_with_ffmpeg(c_copy));
+    const Outcome outcome = run_as(
+        {"bash", "-c",
+         fmt::format(
+             "set -m; '{}' view matte --size 320x240 --frames 10000 --out turn --video films/turn.mp4 & "
+             "until [ -e turn/frame_0009.png ]; do sleep 0.05; kill -0 $! || exit 9; done; "
+             "kill -{} $!; wait $!; exit $?",
+             HALFWAY_PROGRAM, signal)},
+        path_with_ffmpeg(c_copy));
     EXPECT_EQ(outcome.exit_code, signal == "INT" ? 130 : 143) << outcome.output;
     EXPECT_THAT(outcome.output, Not(HasSubstr("frames a second")));
     const auto left = names("turn");
@@ -243,7 +243,7 @@ TEST_F(ViewCommand, BrokenOffLeavesNoHalfFile) {
     EXPECT_LT(left.size(), 10'000U);
     for (const std::string& name : left) {
       EXPECT_TRUE(name.ends_with(".png")) << name;
-      EXPECT_EQ(frame("turn/" + name).size.height, 48U) << name;
+      EXPECT_EQ(frame("turn/" + name).size.height, 240U) << name;
     }
     EXPECT_THAT(names("films"), IsEmpty());
   }
