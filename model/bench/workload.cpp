@@ -18,6 +18,7 @@
 
 #include "common/file.hpp"
 #include "common/seconds.hpp"
+#include "common/to_integer.hpp"
 #include "frame/assemble.hpp"
 #include "golden/processors_layout.hpp"
 #include "golden/triangle_walker.hpp"
@@ -124,7 +125,7 @@ Status draw_frame_here(const std::function<Scene()>& make_scene, FrameSize size,
 Scene sphere_scene(std::uint64_t triangles) {
   // 2 slices (stacks - 1), about square pieces at the equator; not more than asked for.
   const auto n = static_cast<double>(triangles);
-  const auto stacks = std::max(2U, static_cast<std::uint32_t>(0.5 + std::sqrt(0.25 + 0.25 * n)));
+  const auto stacks = std::max(2U, to_integer<std::uint32_t>(0.5 + std::sqrt(0.25 + 0.25 * n)));
   const auto slices = std::max(3U, static_cast<std::uint32_t>(triangles / (2 * (stacks - 1))));
   Mesh mesh = make_uv_sphere(slices, stacks, 1.0);
   Scene scene;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/threads.hpp"
+#include "common/to_integer.hpp"
 #include "run/golden_run.hpp"
 #include "sim/lanes/lane_api.h"
 #include "sim/lanes/lane_library.hpp"
@@ -147,8 +148,8 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
   State& s = *state_;
   const std::size_t words_per_vector = (s.init_bits + 31) / 32;
   while (init_words.size() >= words_per_vector) {
-    const auto most = static_cast<std::size_t>(kBatch * static_cast<double>(s.threads.size()) /
-                                               (s.fragments_per_vector + 1)) +
+    const auto most = to_integer<std::size_t>(kBatch * static_cast<double>(s.threads.size()) /
+                                              (s.fragments_per_vector + 1)) +
                       1;
     std::size_t words = 0;
     while (words < init_words.size() && words < most * words_per_vector) {
@@ -185,7 +186,7 @@ Result<std::size_t> LaneSimulator::draw(std::span<const std::uint32_t> init_word
   // Long parts first, then shorter ones, so that all lanes end together.
   const std::size_t words_per_vector = (s.init_bits + 31) / 32, all = s.lanes * s.threads.size();
   const std::size_t vectors = init_words.size() / words_per_vector;
-  const auto shortest = static_cast<std::size_t>(kShortestPart / (s.fragments_per_vector + 1)) + 1;
+  const auto shortest = to_integer<std::size_t>(kShortestPart / (s.fragments_per_vector + 1)) + 1;
   s.parts.clear();
   for (std::size_t at = 0; at < vectors;) {
     const std::size_t wanted = std::max(shortest, (vectors - at) / (4 * all));
