@@ -21,6 +21,9 @@ struct Provenance {
   std::string rtl;         ///< hash of every file of the RTL
   std::string tools;       ///< versions of those that make hardware of the RTL
 };
+/// Of all numbers of the scene that a picture depends on.
+std::string scene_hash(const Scene& scene);
+
 /// The scene is the one at tessellation 1.
 Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& folders);
 
@@ -45,8 +48,5 @@ class Records {
   std::filesystem::path folder_;
   Provenance provenance_;
 };
-
-/// One line a point, the names of the columns first. Columns are told in sim/studies/README.md.
-std::string to_csv(const Provenance& provenance, std::span<const Record> records);
 
 }  // namespace halfway::study
