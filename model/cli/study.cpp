@@ -123,9 +123,9 @@ int set_up(const study::StudySettings& settings, const std::string& names) {
     if (point == settings.points.end()) return bad_input("--set-up: '" + name + "' is no point of the space");
     const auto scene = study::drawn_scene(settings.scene, scenes, *point);
     if (!scene) return scene.error();
-    const auto key = study::hardware_of(*point, *scene);
-    if (!key) return key.error();
-    study::set_up_frame(*scene, point->size, *key, point->setup());
+    const auto hardware = study::hardware_of(*point, *scene);
+    if (!hardware) return hardware.error();
+    study::set_up_frame(*scene, point->size, hardware->key, point->setup());
     return Ok{};
   });
   return done ? 0 : report(done.error());

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "tables/made_tables.hpp"
+
 namespace halfway {
 namespace {
 

@@ -3,16 +3,18 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "golden/processors_layout.hpp"
 #include "golden/spherical_layout.hpp"
-#include "tables/made_tables.hpp"
 
 namespace halfway {
+
+namespace tables {
+class MadeTables;
+}
 
 enum class Shader { quadratic, spherical, processors };
 inline constexpr std::array c_shaders = {Shader::quadratic, Shader::spherical, Shader::processors};
@@ -46,7 +48,8 @@ struct SphericalUnits {
   unsigned highlight_channels = 1;  ///< 1 where every highlight is white: one multiplier for all channels
   unsigned powers = 0;              ///< bit i: there is a table of cosine to the power 2^i for highlights
   TableSize tables;
-  std::shared_ptr<const tables::MadeTables> made_tables;  ///< none: those that the program was built with
+  /// None: those that the program was built with. They must outlive the key and what draws by it.
+  const tables::MadeTables* made_tables = nullptr;
   /// Whether lines have records: some light has an effect.
   bool records() const { return lights > 0 && (diffuse || specular); }
 };

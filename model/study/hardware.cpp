@@ -28,34 +28,32 @@ std::optional<tables::CosineSize> made_size(const DesignPoint& point) {
 
 }  // namespace
 
-Result<HardwareKey> hardware_of(const DesignPoint& point, const Scene& scene) {
-  PlanRequest request = point.plan();
+Result<PointHardware> hardware_of(const DesignPoint& point, const Scene& scene) {
+  PointHardware hardware;
   if (const auto size = made_size(point))
-    request.made_tables = std::make_shared<tables::MadeTables>(point.preset == Preset::exact, *size);
+    hardware.tables = std::make_shared<tables::MadeTables>(point.preset == Preset::exact, *size);
+  PlanRequest request = point.plan();
+  request.made_tables = hardware.tables.get();
   auto plan = plan_scene(scene, request);
   if (!plan) return plan.error();
-  HardwareKey key = plan->key;
+  hardware.key = plan->key;
   if (point.method == Method::processors_1 || point.method == Method::processors_2) {
-    if (point.method == Method::processors_1 && key.processors.positional + key.processors.spots > 0)
+    ProcessorUnits& units = hardware.key.processors;
+    if (point.method == Method::processors_1 && units.positional + units.spots > 0)
       return bad_input(scene.name +
                        ": version I of the processors has no lights with a place; take version II");
-    key.processors.normalize = point.method == Method::processors_2 && key.processors.lights() > 0;
-  }
-  return key;
-}
-
-Result<PointHardware> hardware_of(const DesignPoint& point, const Scene& scene,
-                                  const SimulatorFolders& folders) {
-  auto key = hardware_of(point, scene);
-  if (!key) return key.error();
-  PointHardware hardware{std::move(*key), folders};
-  if (const auto size = made_size(point)) {
-    const auto source =
-        tables::rtl_with_tables(point.preset == Preset::exact, *size, folders.source, folders.cache);
-    if (!source) return source.error();
-    hardware.folders.source = *source;
+    units.normalize = point.method == Method::processors_2 && units.lights() > 0;
   }
   return hardware;
+}
+
+Result<SimulatorFolders> rtl_of(const DesignPoint& point, const SimulatorFolders& folders) {
+  const auto size = made_size(point);
+  if (!size) return folders;
+  const auto source =
+      tables::rtl_with_tables(point.preset == Preset::exact, *size, folders.source, folders.cache);
+  if (!source) return source.error();
+  return SimulatorFolders{*source, folders.cache};
 }
 
 double cell_count(const Cells& cells) {
@@ -66,16 +64,23 @@ Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const
                                        const SimulatorFolders& folders, unsigned threads,
                                        const std::function<void(const std::string&)>& on_progress) {
   HardwareTable table;
-  std::vector<std::pair<PointHardware, HardwareFigures*>> open;
+  struct Open {
+    PointHardware hardware;
+    SimulatorFolders folders;
+    HardwareFigures* figures;
+  };
+  std::vector<Open> open;
   for (const Record& record : records) {
     if (!in_hardware(record.point.method)) continue;
     const auto [entry, is_new] = table.try_emplace(record.measured.hardware);
     if (!is_new) continue;
     const auto drawn = drawn_scene(scene, folders.source / "sim" / "scenes", record.point);
     if (!drawn) return drawn.error();
-    auto hardware = hardware_of(record.point, *drawn, folders);
+    auto hardware = hardware_of(record.point, *drawn);
     if (!hardware) return hardware.error();
-    open.emplace_back(std::move(*hardware), &entry->second);
+    auto rtl = rtl_of(record.point, folders);
+    if (!rtl) return rtl.error();
+    open.push_back({std::move(*hardware), std::move(*rtl), &entry->second});
   }
   if (open.empty() || find_program("yosys").empty()) return table;
   std::atomic<std::size_t> next = 0, done = 0;
@@ -84,8 +89,8 @@ Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const
   on_progress(fmt::format("cells of {} designs", open.size()));
   work_on_threads(threads, [&] {
     for (std::size_t at; (at = next++) < open.size();) {
-      const auto& [hardware, figures] = open[at];
-      const auto counter = CellCounter::open(hardware.folders);
+      const auto& [hardware, rtl, figures] = open[at];
+      const auto counter = CellCounter::open(rtl);
       const auto cells = counter ? counter->count(hardware.key) : Result<Cells>(counter.error());
       const std::scoped_lock lock(mutex);
       if (cells)

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,20 +16,21 @@
 #include "sim/ghdl/ghdl_library.hpp"
 #include "study/design_point.hpp"
 #include "study/record.hpp"
+#include "tables/made_tables.hpp"
 
 namespace halfway::study {
 
-/// The point's hardware, and the folders that its RTL is made from: where it has tables of a size that the
-/// program was not built with, those of a copy in the cache.
+/// The hardware that draws a point.
 struct PointHardware {
   HardwareKey key;
-  SimulatorFolders folders;
+  std::shared_ptr<const tables::MadeTables> tables;  ///< the key's, where the program was not built with them
 };
-Result<PointHardware> hardware_of(const DesignPoint& point, const Scene& scene,
-                                  const SimulatorFolders& folders);
+/// The point must be hardware's; bad input where it cannot draw the scene.
+Result<PointHardware> hardware_of(const DesignPoint& point, const Scene& scene);
 
-/// The hardware that draws the point, which must be hardware's; bad input where it cannot draw the scene.
-Result<HardwareKey> hardware_of(const DesignPoint& point, const Scene& scene);
+/// What the point's RTL is made from: `folders`, or where it has tables that the program was not built with,
+/// a copy in the cache.
+Result<SimulatorFolders> rtl_of(const DesignPoint& point, const SimulatorFolders& folders);
 
 struct HardwareFigures {
   std::optional<Cells> cells;  ///< of no FPGA family; none without Yosys

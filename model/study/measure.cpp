@@ -18,10 +18,12 @@ namespace {
 // Adds what hardware draws and takes; the mask of what it covers.
 Result<std::vector<std::uint8_t>> draw_in_hardware(const DesignPoint& point, const Scene& scene,
                                                    const SimulatorFolders& folders, Measurement& m) {
-  const auto hardware = hardware_of(point, scene, folders);
+  const auto hardware = hardware_of(point, scene);
   if (!hardware) return hardware.error();
+  const auto rtl_folders = rtl_of(point, folders);
+  if (!rtl_folders) return rtl_folders.error();
   const HardwareKey& key = hardware->key;
-  auto simulator = VerilatorSimulator::open(key, hardware->folders, {.idle_limit = c_idle_limit});
+  auto simulator = VerilatorSimulator::open(key, *rtl_folders, {.idle_limit = c_idle_limit});
   if (!simulator) return simulator.error();
   const std::unique_ptr<Setup> setup = make_setup(scene, point.size, key, point.setup());
   SceneStream stream(*setup, key, 1, {.ahead = false});
