@@ -114,7 +114,7 @@ Status draw_table_3(const Context& context, Drawing& out) {
 
   // The same sphere under a directional light by version I, a positional one by version II, and by preset
   // exact.
-  constexpr FrameSize c_shown_size{160, 120};
+  constexpr FrameSize c_shown_size{144, 108};
   std::vector<Frame> pictures;
   for (const Source source : {Source::directional, Source::positional}) {
     Scene scene = lit_sphere(source, Reflection::diffuse);

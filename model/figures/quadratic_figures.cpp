@@ -68,7 +68,7 @@ std::string figure_7_script(const Figure7Trace& trace) {
       add(lane, i, i + 1, trace.pixel.at(c_pixel_registers[r].first).at(i), i < c_printed[r]);
   std::string script = "$printed << EOD\n" + blocks[0] + "EOD\n$ours << EOD\n" + blocks[1] + "EOD\n";
   script += fmt::format(
-      "set xrange [0:{0}]\nset yrange [0.4:5.7]\nunset ytics\nunset grid\nset border 1\nset xtics 1 format "
+      "set xrange [0:{0}]\nset yrange [0.4:5.7]\nunset ytics\nset border 1\nset xtics 1 format "
       "''\n"
       "set for [i = 1:{0}] label i sprintf('clock %d', i) at first i - 0.5, graph -0.05 center font ',11'\n"
       "set lmargin 13\nset bmargin 2.2\nset tmargin 0.4\nset rmargin 1\n",
@@ -163,7 +163,7 @@ Figure figure_7() {
 
 // ---- Figures 8 to 11 ----
 
-constexpr FrameSize c_mesh_size{200, 150}, c_sphere_size{168, 126};
+constexpr FrameSize c_mesh_size{176, 132}, c_sphere_size{160, 120};
 
 SetupOptions split_by(HighlightTest test) {
   SetupOptions options;
