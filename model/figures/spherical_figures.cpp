@@ -10,6 +10,7 @@
 #include <random>
 #include <utility>
 
+#include "common/to_integer.hpp"
 #include "figures/figure.hpp"
 #include "figures/pictures.hpp"
 #include "figures/plot.hpp"
@@ -47,12 +48,17 @@ double largest_over_angles(const Function& function) {
   return largest;
 }
 
+// Close together where sharp bells bend, in degrees.
+double curve_step(double degrees) {
+  return degrees >= -12.0 && degrees < 12.0 ? 0.75 : 3.0;
+}
+
 // Rows of x in degrees, and each curve there; symmetric.
 template <class Curve>
 std::vector<std::vector<double>> curves(std::span<const double> of, const Curve& curve) {
   std::vector<std::vector<double>> rows;
-  for (int degrees = -90; degrees <= 90; degrees += 2) {
-    rows.push_back({static_cast<double>(degrees)});
+  for (double degrees = -90.0; degrees <= 90.0; degrees += curve_step(degrees)) {
+    rows.push_back({degrees});
     for (const double n : of) rows.back().push_back(curve(n, degrees / 180.0 * std::numbers::pi));
   }
   return rows;
@@ -239,7 +245,7 @@ Status draw_figure_10(const Context& context, Drawing& out) {
   for (std::size_t i = 0; i < c_exponents.size(); ++i) {
     const double n = c_exponents[i], a = published_scale(n);
     std::vector<std::vector<double>> rows;
-    for (double degrees = -90.0; degrees <= 90.0; degrees += 3.0) {
+    for (double degrees = -90.0; degrees <= 90.0; degrees += curve_step(degrees)) {
       const double x = degrees / 180.0 * std::numbers::pi;
       rows.push_back({degrees, power_of_cosine(n, x), squared_cosine(a, x)});
     }
@@ -284,7 +290,7 @@ constexpr std::array c_figure_11_bits{4, 6};
 
 double entry_at(const tables::CosineTable& table, double x) {
   const double cells = std::ldexp(1.0, table.address_bits - 1);
-  const auto cell = static_cast<std::size_t>(std::min(std::floor(x / c_half_pi * cells), cells - 1.0));
+  const auto cell = to_integer<std::size_t>(std::min(x / c_half_pi * cells, cells - 1.0));
   return table.entries[cell] / (std::ldexp(1.0, table.data_bits) - 1.0);
 }
 
