@@ -13,6 +13,7 @@
 
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
+#include "frame/image.hpp"
 
 namespace halfway::study {
 namespace {
@@ -162,17 +163,24 @@ Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& fol
                     *ghdl + ", " + *verilator};
 }
 
-std::filesystem::path Records::file(const DesignPoint& point) const {
+std::string record_name(const Provenance& provenance, const DesignPoint& point) {
   ContentHash hash;
-  for (const std::string* part : {&provenance_.scene, &provenance_.scene_hash, &provenance_.program,
-                                  &provenance_.rtl, &provenance_.tools})
+  for (const std::string* part :
+       {&provenance.scene, &provenance.scene_hash, &provenance.program, &provenance.rtl, &provenance.tools})
     hash.add(*part);
-  return folder_ / (hash.add(point.name()).hex() + ".json");
+  return hash.add(point.name()).hex();
+}
+
+std::filesystem::path Records::file(const DesignPoint& point) const {
+  return folder_ / (record_name(provenance_, point) + ".json");
+}
+std::filesystem::path Records::picture(const DesignPoint& point) const {
+  return folder_ / (record_name(provenance_, point) + ".png");
 }
 
 std::optional<Record> Records::find(const DesignPoint& point) const {
   const auto text = read_file(file(point));
-  if (!text) return std::nullopt;
+  if (!text || !std::filesystem::exists(picture(point))) return std::nullopt;
   // Files are written whole: one that cannot be read is none of ours, and is written anew.
   const Json json = Json::parse(*text, nullptr, false);
   try {
@@ -185,7 +193,8 @@ std::optional<Record> Records::find(const DesignPoint& point) const {
   }
 }
 
-Status Records::add(const Record& record) const {
+Status Records::add(const Record& record, const Frame& frame) const {
+  if (Status drawn = write_png(picture(record.point), frame); !drawn) return drawn;
   Json figures;
   for_each_figure(record.measured, [&](const char* name, const auto& value) { figures[name] = told(value); });
   const Json json = {{"point", record.point.name()}, {"provenance", told(provenance_)}, {"figures", figures}};
@@ -195,7 +204,7 @@ Status Records::add(const Record& record) const {
 std::string to_csv(const Provenance& provenance, std::span<const Record> records) {
   std::string text =
       "scene,scene_hash,tools,point,method,preset,address_bits,data_bits,form,threshold,tessellation,"
-      "exponent,width,height";
+      "exponent,width,height,record";
   Measurement none;
   for_each_figure(none, [&](const char* name, const auto&) { text += fmt::format(",{}", name); });
   text += '\n';
@@ -203,12 +212,13 @@ std::string to_csv(const Provenance& provenance, std::span<const Record> records
     const DesignPoint& p = record.point;
     const bool hardware = in_hardware(p.method);
     text += fmt::format(
-        "\"{}\",{},\"{}\",\"{}\",{},{},{},{},{},{},{:g},{},{},{}", provenance.scene, provenance.scene_hash,
+        "\"{}\",{},\"{}\",\"{}\",{},{},{},{},{},{},{:g},{},{},{},{}", provenance.scene, provenance.scene_hash,
         provenance.tools, p.name(), to_string(p.method), hardware ? to_string(p.preset) : "",
         p.tables ? std::to_string(p.tables->address_bits) : "",
         p.tables ? std::to_string(p.tables->data_bits) : "", p.plan().form ? to_string(p.form) : "",
         p.has_threshold() ? fmt::format("{:g}", p.threshold) : "", p.tessellation,
-        p.exponent ? fmt::format("{:g}", *p.exponent) : "", p.size.width, p.size.height);
+        p.exponent ? fmt::format("{:g}", *p.exponent) : "", p.size.width, p.size.height,
+        record_name(provenance, p));
     for_each_figure(record.measured,
                     [&](const char*, const auto& value) { text += fmt::format(",{}", value); });
     text += '\n';

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a study keeps of a point: one JSON file, written whole or not at all, and one line of a table.
+// What a study keeps of a point: its frame as PNG, one JSON file, each written whole or not at all, and one
+// line of a table.
 #pragma once
 
 #include <filesystem>
@@ -30,7 +31,10 @@ struct Record {
   Measurement measured;
 };
 
-/// Records of one study in a folder: one file a point.
+/// By which a point's files are called, without ending.
+std::string record_name(const Provenance& provenance, const DesignPoint& point);
+
+/// Records of one study in a folder: two files a point.
 class Records {
  public:
   Records(std::filesystem::path folder, Provenance provenance)
@@ -38,8 +42,9 @@ class Records {
 
   /// None where there is no whole one of this provenance.
   std::optional<Record> find(const DesignPoint& point) const;
-  Status add(const Record& record) const;
+  Status add(const Record& record, const Frame& frame) const;
   std::filesystem::path file(const DesignPoint& point) const;
+  std::filesystem::path picture(const DesignPoint& point) const;
 
  private:
   std::filesystem::path folder_;

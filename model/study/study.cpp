@@ -67,9 +67,10 @@ Result<Study> run_study(const StudySettings& settings) {
     if (!pictures) return pictures.error();
     auto figures = measure(point, **pictures, settings.folders);
     if (!figures) return figures.error();
+    const Frame frame = std::move(figures->frame);
     Record record{point, std::move(*figures)};
     record.measured.frame = {};
-    if (Status added = kept.add(record); !added) return added.error();
+    if (Status added = kept.add(record, frame); !added) return added.error();
     return record;
   };
   work_on_threads(settings.threads, [&] {
