@@ -30,7 +30,7 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim view compare why plan figure17 gallery tables check-tables test sanitize fuzz kills mutate prove \
+.PHONY: help sim view compare why plan figures gallery tables check-tables test sanitize fuzz kills mutate prove \
   stability search bounds bench build program generator configure setup doctor format check-format clean report \
   check-report diagrams
 
@@ -95,8 +95,8 @@ diagrams: setup ## the shaders' block diagrams in rtl/diagrams, drawn from their
 	@for text in rtl/diagrams/*.dot; do dot -Tsvg "$$text" >build/diagram.svg && \
 	  mv build/diagram.svg "$${text%.dot}.svg" || exit 3; done
 
-figure17: setup ## figure 17 of the spherical paper, from its timing model's trace
-	@tb/timing/figure17.sh build/figure17
+figures: program ## what the papers print, drawn and measured anew: published beside measured, in sim/figures
+	@build/halfway figures --out build/figures --page sim/figures
 
 gallery: program ## the pictures in sim/gallery, drawn anew by the RTL
 	@scripts/gallery.sh build/gallery

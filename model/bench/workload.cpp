@@ -290,21 +290,18 @@ WalkCounts count_walk(const InitBatches& batches) {
     walker.line_load(header);
     ++n.headers;
     ++items;
-    for (;;) {
+    walker.walk([&] {
       ++n.lines;
       ++lines;
       ++items;
       if (walker.line_empty()) {
         ++n.empty_lines;
-      } else {
-        const std::int64_t pixels = walker.stop().value() - walker.start().value();
-        ++n.spans;
-        n.pixels += static_cast<std::uint64_t>(std::abs(pixels));
-        begin_span(static_cast<std::uint64_t>(std::abs(pixels)));
+        return;
       }
-      if (walker.line_last()) break;
-      walker.line_step();
-    }
+      ++n.spans;
+      n.pixels += walker.pixels();
+      begin_span(walker.pixels());
+    });
   }
   n.lost_to_lines = waited_lines;
   n.lost_to_headers = waited_items - waited_lines;

@@ -51,10 +51,10 @@ inline constexpr const char* c_shader_names = "quadratic, spherical or processor
 Result<Shader> checked_shader(const std::string& name);
 
 struct Simulators {
-  bool ghdl = true, verilator = true;
+  bool ghdl = true, verilator = true, lanes = false;
 };
-/// By their names; none given: both.
-Result<Simulators> checked_simulators(const std::vector<std::string>& names);
+/// By their names; none given: GHDL and Verilator. `with_lanes`: these are one, too.
+Result<Simulators> checked_simulators(const std::vector<std::string>& names, bool with_lanes = false);
 
 /// The built-in scenes' names, in alphabetical order.
 Result<std::vector<std::string>> builtin_scenes(const Folders& folders);
@@ -89,6 +89,7 @@ void add_plan(CLI::App& app, const Folders& folders, int& exit_code);
 void add_render(CLI::App& app, const Folders& folders, int& exit_code);
 void add_init(CLI::App& app, const Folders& folders, int& exit_code);
 void add_compare(CLI::App& app, const Folders& folders, int& exit_code);
+void add_figures(CLI::App& app, const Folders& folders, int& exit_code);
 void add_view(CLI::App& app, const Folders& folders, int& exit_code);
 void add_study(CLI::App& app, const Folders& folders, int& exit_code);
 void add_report(CLI::App& app, const Folders& folders, int& exit_code);

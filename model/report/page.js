@@ -39,8 +39,8 @@ function differenceOf(a, b) {
   return { canvas, pixels: image.data };
 }
 
-const zooms = [1, 2, 4, 8, 16, 32, 64];
-const valuesFrom = 48; // CSS pixels a pixel from which on values are written into it
+const zooms = [1, 2, 4, 8, 16, 32, 64, 128];
+const valuesFrom = 30; // CSS pixels a pixel from which on values are written into it
 
 /// Two of several pictures of one size, with a line between them.
 class Viewer {
@@ -144,7 +144,7 @@ class Viewer {
 
   writeValues(context, side, scale, from, to, height) {
     const { pixels } = this.layer(side).picture;
-    context.font = `${Math.floor(scale / 5)}px ui-monospace, monospace`;
+    context.font = `${Math.floor(scale / 4.5)}px ui-monospace, monospace`;
     context.textAlign = "center";
     const first = Math.max(0, Math.floor(this.left + from / scale));
     const last = Math.min(this.width - 1, Math.floor(this.left + to / scale));
