@@ -85,7 +85,7 @@ report: program ## one HTML page: frames, accuracy against time, effects, figure
 	  ls build/out/*/$$shader/summary.json >/dev/null 2>&1 || build/halfway sim --shader $$shader \
 	    $$([ $$shader != processors ] || echo --simulator verilator) || [ $$? = 1 ] || exit 3; done
 	@[ -f build/study/study.csv ] || $(MAKE) study
-	@[ -f build/figures/figures.json ] || $(MAKE) figures
+	@[ -f build/figures/figures.json ] || [ -f sim/figures/figures.json ] || $(MAKE) figures
 	@build/halfway report
 
 check-report: build ## the page of make report in headless Chromium, by mouse and by keys

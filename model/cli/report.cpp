@@ -11,17 +11,21 @@ namespace {
 
 struct ReportCommand {
   std::string out = "build/report/index.html";
-  std::string results = "build/out", study = "build/study", figures = "build/figures";
+  std::string results = "build/out", study = "build/study";
+  std::optional<std::string> figures;  ///< none: those of the last make figures, or the checkout's
   bool no_timing = false;
 };
 
 int run(const Folders& folders, const ReportCommand& command) {
+  std::filesystem::path figures = command.figures.value_or("build/figures");
+  if (!command.figures && !std::filesystem::exists(figures / "figures.json"))
+    figures = folders.source / "sim" / "figures";
   Progress progress("report");
   const auto made =
       report::write_report({.page = command.out,
                             .results = command.results,
                             .study = command.study,
-                            .figures = command.figures,
+                            .figures = figures,
                             .folders = {folders.source, folders.cache()},
                             .timing = !command.no_timing,
                             .on_progress = [&](const std::string& what) { progress.show(what); }});
@@ -41,7 +45,7 @@ void add_report(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("--out", command->out, "file to write")->capture_default_str();
   sub->add_option("--results", command->results, "what sim left")->capture_default_str();
   sub->add_option("--study", command->study, "what study left")->capture_default_str();
-  sub->add_option("--figures", command->figures, "what figures left")->capture_default_str();
+  sub->add_option("--figures", command->figures, "what figures left (build/figures, else sim/figures)");
   sub->add_flag("--no-timing", command->no_timing, "no timing diagrams, and so no GHDL");
   sub->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });
 }
