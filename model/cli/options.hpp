@@ -45,6 +45,9 @@ struct DrawSettings {
 
 Result<DrawSettings> checked(const DrawOptions& options);
 
+/// WIDTHxHEIGHT.
+Result<FrameSize> checked_size(const std::string& text);
+
 /// For help texts.
 inline constexpr const char* c_shader_names = "quadratic, spherical or processors";
 /// By its name.

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "common/file.hpp"
+#include "common/to_integer.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
 #include "scene/load_mesh.hpp"
@@ -465,7 +466,7 @@ class SceneReader {
                       std::uint32_t least) const {
     const double wanted = std::round(options_.tessellation * table.count(key, otherwise, least));
     if (wanted > c_max_triangles) table.fail(key, "is too much at this tessellation");
-    return std::max(least, static_cast<std::uint32_t>(wanted));
+    return std::max(least, to_integer<std::uint32_t>(wanted));
   }
 
   static std::vector<std::string_view> all_mesh_keys() {

@@ -10,8 +10,10 @@
 #include <set>
 
 #include "common/file.hpp"
+#include "common/to_integer.hpp"
 #include "frame/frame.hpp"
 #include "scene/load_scene.hpp"
+#include "tables/cosine.hpp"
 
 namespace halfway::study {
 namespace {
@@ -85,8 +87,6 @@ class Sweep {
   std::string file_;
 };
 
-constexpr double c_most_bits = 12;
-
 // A product of lists, point by point.
 template <class Value, class Set>
 void multiply(std::vector<DesignPoint>& points, const std::vector<Value>& values, const Set& set) {
@@ -126,14 +126,27 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
            sweep.names<Preset>("preset", {Preset::exact},
                                {{"exact", Preset::exact}, {"published", Preset::published}}),
            [](DesignPoint& p, Preset preset) { p.preset = preset; });
-  const auto bits = [&](const char* key) { return sweep.numbers(key, {0.0}, 2, c_most_bits); };
-  multiply(points, bits("address_bits"), [&](DesignPoint& p, double address) {
-    if (address > 0) p.tables = TableSize{static_cast<int>(address), 0};
-  });
-  multiply(points, bits("data_bits"), [&](DesignPoint& p, double data) {
-    if ((data > 0) != p.tables.has_value()) sweep.fail("data_bits", "goes with address_bits alone");
-    if (p.tables) p.tables->data_bits = static_cast<int>(data);
-  });
+  const auto bits = [&](const char* key, int least, int most) {
+    std::vector<int> whole;
+    for (const double value : sweep.numbers(key, {0.0}, least, most)) {
+      whole.push_back(to_integer<int>(value));
+      if (whole.back() != value) sweep.fail(key, "takes whole numbers");
+    }
+    return whole;
+  };
+  multiply(points,
+           bits("address_bits", tables::c_smallest_cosine_size.address_bits,
+                tables::c_largest_cosine_size.address_bits),
+           [&](DesignPoint& p, int address) {
+             if (address > 0) p.tables = TableSize{address, 0};
+           });
+  multiply(
+      points,
+      bits("data_bits", tables::c_smallest_cosine_size.data_bits, tables::c_largest_cosine_size.data_bits),
+      [&](DesignPoint& p, int data) {
+        if ((data > 0) != p.tables.has_value()) sweep.fail("data_bits", "goes with address_bits alone");
+        if (p.tables) p.tables->data_bits = data;
+      });
   multiply(
       points,
       sweep.names<ProcessorForm>("form", {ProcessorForm::unrolled},
@@ -165,14 +178,18 @@ std::string DesignPoint::picture() const {
   return text;
 }
 
-std::string DesignPoint::name() const {
+std::string DesignPoint::design() const {
   std::string text = to_string(method);
   if (in_hardware(method)) text += fmt::format(" {}", to_string(preset));
   if (method == Method::spherical && tables)
     text += fmt::format(" {}x{}", tables->address_bits, tables->data_bits);
   if (is_processors(method) && form == ProcessorForm::folded) text += " folded";
   if (has_threshold()) text += fmt::format(", threshold {:g}", threshold);
-  return text + ", " + picture();
+  return text;
+}
+
+std::string DesignPoint::name() const {
+  return design() + ", " + picture();
 }
 
 PlanRequest DesignPoint::plan() const {

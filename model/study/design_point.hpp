@@ -46,6 +46,8 @@ struct DesignPoint {
 
   /// Such as `spherical exact 9x8, exponent 50, tessellation 0.5, 320x240`: equal names, equal points.
   std::string name() const;
+  /// The same without what is drawn.
+  std::string design() const;
   /// The scene and what is drawn of it, without what draws: points of equal pictures share their reference.
   std::string picture() const;
   bool has_threshold() const;

@@ -10,6 +10,7 @@
 #include "run/rtl_stream.hpp"
 #include "run/scene_stream.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
+#include "study/hardware.hpp"
 
 namespace halfway::study {
 namespace {
@@ -17,16 +18,10 @@ namespace {
 // Adds what hardware draws and takes; the mask of what it covers.
 Result<std::vector<std::uint8_t>> draw_in_hardware(const DesignPoint& point, const Scene& scene,
                                                    const SimulatorFolders& folders, Measurement& m) {
-  auto plan = plan_scene(scene, point.plan());
-  if (!plan) return plan.error();
-  HardwareKey key = plan->key;
-  if (point.method == Method::processors_1 || point.method == Method::processors_2) {
-    if (point.method == Method::processors_1 && key.processors.positional + key.processors.spots > 0)
-      return bad_input(scene.name +
-                       ": version I of the processors has no lights with a place; take version II");
-    key.processors.normalize = point.method == Method::processors_2 && key.processors.lights() > 0;
-  }
-  auto simulator = VerilatorSimulator::open(key, folders, {.idle_limit = c_idle_limit});
+  const auto hardware = hardware_of(point, scene, folders);
+  if (!hardware) return hardware.error();
+  const HardwareKey& key = hardware->key;
+  auto simulator = VerilatorSimulator::open(key, hardware->folders, {.idle_limit = c_idle_limit});
   if (!simulator) return simulator.error();
   const std::unique_ptr<Setup> setup = make_setup(scene, point.size, key, point.setup());
   SceneStream stream(*setup, key, 1, {.ahead = false});

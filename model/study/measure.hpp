@@ -29,6 +29,8 @@ struct Measurement {
   std::string hardware;         ///< the key's name; empty in software
   std::uint64_t cycles = 0;     ///< of the RTL, for the frame
   SetupCounts setup;            ///< host
+  /// Of the host, for the frame's init vectors; none in software, and where nothing counted them.
+  std::optional<std::uint64_t> host_instructions;
 };
 
 /// Draws the point and measures it. Of hardware it is the RTL that draws, in Verilator; where a fragment

@@ -26,6 +26,14 @@ std::vector<std::uint8_t> highlight_mask(const Scene& scene, std::span<const Scr
 
 }  // namespace
 
+Result<Scene> drawn_scene(const std::string& scene, const std::filesystem::path& scenes_folder,
+                          const DesignPoint& point) {
+  auto drawn = load_scene(scene, scenes_folder, {.tessellation = point.tessellation});
+  if (drawn && point.exponent)
+    for (Material& material : drawn->materials) material.exponent = *point.exponent;
+  return drawn;
+}
+
 Result<std::shared_ptr<const Pictures>> PictureShelf::of(const DesignPoint& point) {
   const std::string name = point.picture();
   std::promise<Result<std::shared_ptr<const Pictures>>> promise;
@@ -50,10 +58,8 @@ Result<std::shared_ptr<const Pictures>> PictureShelf::of(const DesignPoint& poin
 }
 
 Result<std::shared_ptr<const Pictures>> PictureShelf::make(const DesignPoint& point) const {
-  auto scene = load_scene(scene_, scenes_folder_, {.tessellation = point.tessellation});
+  auto scene = drawn_scene(scene_, scenes_folder_, point);
   if (!scene) return scene.error();
-  if (point.exponent)
-    for (Material& material : scene->materials) material.exponent = *point.exponent;
   auto pictures = std::make_shared<Pictures>();
   pictures->scene = std::move(*scene);
   pictures->triangles = Projector(pictures->scene, point.size, {}).project_all();

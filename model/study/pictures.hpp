@@ -28,6 +28,10 @@ struct Pictures {
 };
 inline constexpr int c_highlight = 8;
 
+/// The scene as the point draws it.
+Result<Scene> drawn_scene(const std::string& scene, const std::filesystem::path& scenes_folder,
+                          const DesignPoint& point);
+
 /// Those of a scene, each made once for all points that share them, and kept while they are likely to be
 /// asked for. Threads may ask at once.
 class PictureShelf {

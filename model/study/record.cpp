@@ -14,47 +14,22 @@
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
 #include "frame/image.hpp"
+#include "study/figures.hpp"
 
 namespace halfway::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Every figure of a measurement with its column's name, in the table's order.
-template <class Measured, class Visit>
-void for_each_figure(Measured& m, const Visit& visit) {
-  visit("hardware", m.hardware);
-  visit("triangles", m.triangles);
-  visit("fragments", m.fragments);
-  visit("cycles", m.cycles);
-  visit("pixels", m.picture.pixels);
-  visit("largest_error", m.picture.max_lsb);
-  visit("error_99", m.picture.percentile99);
-  visit("rms", m.picture.rms);
-  visit("psnr_db", m.picture.psnr_db);
-  visit("highlight_pixels", m.highlight.pixels);
-  visit("highlight_largest_error", m.highlight.max_lsb);
-  visit("highlight_error_99", m.highlight.percentile99);
-  visit("highlight_rms", m.highlight.rms);
-  visit("highlight_psnr_db", m.highlight.psnr_db);
-  visit("perceived_pixels", m.perceived);
-  visit("mach_edges", m.mach_bands.edges);
-  visit("mach_rms", m.mach_bands.rms);
-  visit("mach_largest", m.mach_bands.largest);
-  visit("screen_triangles", m.setup.triangles);
-  visit("leaves", m.setup.leaves);
-  visit("unresolved", m.setup.unresolved);
-  visit("init_vectors", m.setup.vectors);
-  visit("line_records", m.setup.records);
-  visit("host_evaluations", m.setup.shaded);
-}
-
-// JSON has no infinity: a PSNR of equal pictures is null there.
+// JSON has no infinity: a PSNR of equal pictures is null there, as is what was not counted.
 template <class Value>
 Json told(const Value& value) {
   if constexpr (std::floating_point<Value>)
     if (!std::isfinite(value)) return nullptr;
   return value;
+}
+Json told(const std::optional<std::uint64_t>& value) {
+  return value ? Json(*value) : Json(nullptr);
 }
 template <class Value>
 void take(const Json& json, Value& value) {
@@ -64,6 +39,9 @@ void take(const Json& json, Value& value) {
       return;
     }
   json.get_to(value);
+}
+void take(const Json& json, std::optional<std::uint64_t>& value) {
+  if (!json.is_null()) value = json.get<std::uint64_t>();
 }
 
 Json told(const Provenance& p) {
@@ -96,7 +74,26 @@ void add_vector(ContentHash& hash, const glm::dvec3& v) {
   add_numbers(hash, {v.x, v.y, v.z});
 }
 
-std::string hash_of(const Scene& scene) {
+// Every file of the folder, by name.
+Result<std::string> hash_of(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  if (error) return tool_failed(fmt::format("{}: {}", folder.string(), error.message()));
+  std::ranges::sort(files);
+  ContentHash hash;
+  for (const std::filesystem::path& file : files) {
+    const auto text = read_file(file);
+    if (!text) return text.error();
+    hash.add(file.lexically_relative(folder).string()).add(*text);
+  }
+  return hash.hex();
+}
+
+}  // namespace
+
+std::string scene_hash(const Scene& scene) {
   ContentHash hash;
   const Camera& c = scene.camera;
   for (const glm::dvec3& v : {c.eye_world, c.target_world, c.up_world, scene.ambient, scene.background})
@@ -131,25 +128,6 @@ std::string hash_of(const Scene& scene) {
   return hash.hex();
 }
 
-// Every file of the folder, by name.
-Result<std::string> hash_of(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error))
-    if (entry.is_regular_file()) files.push_back(entry.path());
-  if (error) return tool_failed(fmt::format("{}: {}", folder.string(), error.message()));
-  std::ranges::sort(files);
-  ContentHash hash;
-  for (const std::filesystem::path& file : files) {
-    const auto text = read_file(file);
-    if (!text) return text.error();
-    hash.add(file.lexically_relative(folder).string()).add(*text);
-  }
-  return hash.hex();
-}
-
-}  // namespace
-
 Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& folders) {
   const auto program = read_file("/proc/self/exe");
   if (!program) return program.error();
@@ -159,8 +137,13 @@ Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& fol
   if (!ghdl) return ghdl.error();
   const auto verilator = version_of("verilator");
   if (!verilator) return verilator.error();
-  return Provenance{scene.name, hash_of(scene), ContentHash().add(*program).hex(), *rtl,
-                    *ghdl + ", " + *verilator};
+  std::string tools = *ghdl + ", " + *verilator;
+  if (!find_program("valgrind").empty()) {
+    const auto valgrind = version_of("valgrind");
+    if (!valgrind) return valgrind.error();
+    tools += ", " + *valgrind;
+  }
+  return Provenance{scene.name, scene_hash(scene), ContentHash().add(*program).hex(), *rtl, tools};
 }
 
 std::string record_name(const Provenance& provenance, const DesignPoint& point) {
@@ -193,37 +176,15 @@ std::optional<Record> Records::find(const DesignPoint& point) const {
   }
 }
 
-Status Records::add(const Record& record, const Frame& frame) const {
-  if (Status drawn = write_png(picture(record.point), frame); !drawn) return drawn;
+Status Records::add_frame(const DesignPoint& point, const Frame& frame) const {
+  return write_png(picture(point), frame);
+}
+
+Status Records::add(const Record& record) const {
   Json figures;
   for_each_figure(record.measured, [&](const char* name, const auto& value) { figures[name] = told(value); });
   const Json json = {{"point", record.point.name()}, {"provenance", told(provenance_)}, {"figures", figures}};
   return write_file(file(record.point), json.dump(2) + "\n");
-}
-
-std::string to_csv(const Provenance& provenance, std::span<const Record> records) {
-  std::string text =
-      "scene,scene_hash,tools,point,method,preset,address_bits,data_bits,form,threshold,tessellation,"
-      "exponent,width,height,record";
-  Measurement none;
-  for_each_figure(none, [&](const char* name, const auto&) { text += fmt::format(",{}", name); });
-  text += '\n';
-  for (const Record& record : records) {
-    const DesignPoint& p = record.point;
-    const bool hardware = in_hardware(p.method);
-    text += fmt::format(
-        "\"{}\",{},\"{}\",\"{}\",{},{},{},{},{},{},{:g},{},{},{},{}", provenance.scene, provenance.scene_hash,
-        provenance.tools, p.name(), to_string(p.method), hardware ? to_string(p.preset) : "",
-        p.tables ? std::to_string(p.tables->address_bits) : "",
-        p.tables ? std::to_string(p.tables->data_bits) : "", p.plan().form ? to_string(p.form) : "",
-        p.has_threshold() ? fmt::format("{:g}", p.threshold) : "", p.tessellation,
-        p.exponent ? fmt::format("{:g}", *p.exponent) : "", p.size.width, p.size.height,
-        record_name(provenance, p));
-    for_each_figure(record.measured,
-                    [&](const char*, const auto& value) { text += fmt::format(",{}", value); });
-    text += '\n';
-  }
-  return text;
 }
 
 }  // namespace halfway::study

@@ -22,6 +22,9 @@ struct Provenance {
   std::string rtl;         ///< hash of every file of the RTL
   std::string tools;       ///< versions of those that make hardware of the RTL
 };
+/// Of all numbers of the scene that a picture depends on.
+std::string scene_hash(const Scene& scene);
+
 /// The scene is the one at tessellation 1.
 Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& folders);
 
@@ -40,9 +43,11 @@ class Records {
   Records(std::filesystem::path folder, Provenance provenance)
       : folder_(std::move(folder)), provenance_(std::move(provenance)) {}
 
-  /// None where there is no whole one of this provenance.
+  /// None where there is no whole one of this provenance, or no frame of it.
   std::optional<Record> find(const DesignPoint& point) const;
-  Status add(const Record& record, const Frame& frame) const;
+  Status add(const Record& record) const;
+  /// Of a point whose record follows.
+  Status add_frame(const DesignPoint& point, const Frame& frame) const;
   std::filesystem::path file(const DesignPoint& point) const;
   std::filesystem::path picture(const DesignPoint& point) const;
 
@@ -50,8 +55,5 @@ class Records {
   std::filesystem::path folder_;
   Provenance provenance_;
 };
-
-/// One line a point, the names of the columns first. Columns are told in sim/studies/README.md.
-std::string to_csv(const Provenance& provenance, std::span<const Record> records);
 
 }  // namespace halfway::study

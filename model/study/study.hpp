@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -23,8 +22,10 @@ struct StudySettings {
   /// Points that follow each other are cut into `parts`; measured is only this one's. All: part 0 of 1.
   std::size_t part = 0, parts = 1;
   SimulatorFolders folders;
-  /// Told how many points are done; those that were measured before count.
-  std::function<void(std::size_t done)> on_progress = [](std::size_t) {};
+  /// What host_instructions takes as its worker. Empty: they are not counted.
+  std::vector<std::string> set_up;
+  /// Told what is done; points that were measured before count.
+  std::function<void(const std::string&)> on_progress = [](const std::string&) {};
 };
 
 struct Study {
@@ -33,16 +34,19 @@ struct Study {
   std::size_t measured = 0;     ///< anew, in this run
 };
 
+/// The points that can be drawn of the scene. What is left out is told: each reason once.
+struct Drawable {
+  std::vector<DesignPoint> points;
+  std::size_t left_out = 0;
+  std::vector<std::string> reasons;
+};
+Drawable drawable(std::vector<DesignPoint> points, const std::string& scene, const SimulatorFolders& folders);
+
 /// Numbers of the parts with points that were not measured before.
 Result<std::vector<std::size_t>> open_parts(const StudySettings& settings);
 
 /// Measures what was not measured before, on all threads. Each point's record is written as it comes, so that
 /// a run that is broken off goes on where it was. The first point that fails ends the study.
 Result<Study> run_study(const StudySettings& settings);
-
-/// Numbers of the records that no other beats: none is as good in every figure of `costs` and better in one.
-/// `costs` gives a record's figures, the less the better, always as many.
-std::vector<std::size_t> front_of(std::span<const Record> records,
-                                  const std::function<std::vector<double>(const Record&)>& costs);
 
 }  // namespace halfway::study

@@ -4,17 +4,29 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
-#include <random>
+#include <sstream>
 
 #include "common/file.hpp"
+#include "common/subprocess.hpp"
+#include "study/host_setup.hpp"
+#include "study/table.hpp"
+#include "tables/made_tables.hpp"
 
 namespace halfway::study {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
+
+std::string table_of(const Study& study) {
+  const auto csv = to_csv(study.provenance, study.records, {}, markets_of(study.records, {}, {}));
+  EXPECT_TRUE(csv) << csv.error().message;
+  return csv ? *csv : "";
+}
 
 class StudyTest : public ::testing::Test {
  protected:
@@ -63,7 +75,7 @@ TEST_F(StudyTest, MeasuresEachMethodAsWhatItIs) {
 }
 
 TEST_F(StudyTest, GoesOnWhereItWasBrokenOff) {
-  const std::string first = to_csv(study().provenance, study().records);
+  const std::string first = table_of(study());
   EXPECT_EQ(study().measured, 0U);
   // A point without its figures, and another without its frame.
   const Provenance provenance = study().provenance;
@@ -74,7 +86,7 @@ TEST_F(StudyTest, GoesOnWhereItWasBrokenOff) {
   EXPECT_TRUE(lose(0, ".json") && lose(1, ".png"));
   const Study again = study();
   EXPECT_EQ(again.measured, 2U);
-  EXPECT_EQ(to_csv(again.provenance, again.records), first);
+  EXPECT_EQ(table_of(again), first);
 }
 
 TEST_F(StudyTest, MeasuresAnewWhatIsDamagedOrOfAnotherScene) {
@@ -114,30 +126,109 @@ TEST_F(StudyTest, TellsThePointThatFails) {
   EXPECT_THAT(made.error().message, HasSubstr("version II"));
 }
 
-std::vector<double> errors_and_cycles(const Record& record) {
-  return {record.measured.picture.rms, static_cast<double>(record.measured.cycles)};
+// Tables that the program was not built with, in RTL and golden model alike: measure() compares each
+// fragment.
+TEST_F(StudyTest, DrawsWithTablesOfAnySize) {
+  settings_.points.clear();
+  for (const auto size :
+       {std::optional<TableSize>{}, std::optional(TableSize{5, 4}), std::optional(TableSize{3, 2})})
+    settings_.points.push_back(
+        {.method = Method::spherical, .tables = size, .tessellation = 0.5, .size = {160, 120}});
+  const Study made = study();
+  ASSERT_EQ(made.records.size(), 3U);
+  const Measurement &usual = made.records[0].measured, &coarse = made.records[1].measured,
+                    &least = made.records[2].measured;
+  EXPECT_THAT(usual.hardware, HasSubstr("rom9x8"));
+  EXPECT_THAT(coarse.hardware, HasSubstr("rom5x4"));
+  EXPECT_THAT(least.hardware, HasSubstr("rom3x2"));
+  EXPECT_LT(usual.picture.rms, coarse.picture.rms);
+  EXPECT_LT(coarse.picture.rms, least.picture.rms);
+  EXPECT_EQ(usual.fragments, least.fragments);
 }
 
-TEST(Front, IsWhatNoOtherBeats) {
-  std::mt19937 random(1);
-  for (int trial = 0; trial < 200; ++trial) {
-    std::vector<Record> records(1 + random() % 30);
-    for (Record& record : records) {
-      record.measured.picture.rms = static_cast<double>(random() % 8);
-      record.measured.cycles = random() % 8;
-    }
-    const auto front = front_of(records, errors_and_cycles);
-    ASSERT_FALSE(front.empty());
-    for (std::size_t i = 0; i < records.size(); ++i) {
-      const bool on_front = std::ranges::find(front, i) != front.end();
-      bool beaten = false;
-      for (const Record& other : records) {
-        const auto a = errors_and_cycles(other), b = errors_and_cycles(records[i]);
-        beaten = beaten || (a[0] <= b[0] && a[1] <= b[1] && (a[0] < b[0] || a[1] < b[1]));
-      }
-      EXPECT_NE(on_front, beaten);
-    }
-  }
+TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
+  const DesignPoint point{.method = Method::spherical, .tables = TableSize{5, 4}, .size = {160, 120}};
+  // What would be made stands there already, with one entry another.
+  const auto folder = tables::rtl_with_tables(true, {5, 4}, c_source, folder_->path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const std::filesystem::path package = *folder / "rtl/tables/cosine_pkg.vhd";
+  auto text = read_file(package);
+  ASSERT_TRUE(text);
+  const std::size_t at = text->find("c_exact_cosine_1_5_4");
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t entry = text->find("15", text->find('(', text->find(":=", at)));
+  ASSERT_NE(entry, std::string::npos);
+  ASSERT_TRUE(write_file(package, text->replace(entry, 2, "14")));
+  settings_.folders.cache = folder_->path();
+  settings_.points = {point};
+  const auto made = run_study(settings_);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, ExitCode::differs);
+  EXPECT_THAT(made.error().message, HasSubstr("the RTL differs from the golden model"));
+}
+
+TEST_F(StudyTest, LeavesOutWhatCannotDrawTheScene) {
+  const std::vector<DesignPoint> points = {{.method = Method::gouraud},
+                                           {.method = Method::processors_1, .preset = Preset::published},
+                                           {.method = Method::processors_2, .preset = Preset::published}};
+  const Drawable all = drawable(points, "matte", settings_.folders);
+  EXPECT_EQ(all.points.size(), 3U);
+  EXPECT_EQ(all.left_out, 0U);
+  const Drawable some = drawable(points, "lights", settings_.folders);
+  ASSERT_EQ(some.points.size(), 2U);
+  EXPECT_EQ(some.points[1].method, Method::processors_2);
+  EXPECT_EQ(some.left_out, 1U);
+  ASSERT_EQ(some.reasons.size(), 1U);
+  EXPECT_THAT(some.reasons[0], HasSubstr("processors-1: lights: version I"));
+}
+
+TEST_F(StudyTest, TheTableTellsTheFront) {
+  settings_.points.push_back({.method = Method::gouraud, .size = {160, 120}});
+  const Study made = study();
+  HardwareTable hardware;
+  hardware[made.records[2].measured.hardware].cells = Cells{.luts = 100, .flip_flops = 20};
+  const auto csv = to_csv(made.provenance, made.records, hardware, markets_of(made.records, hardware, {}));
+  ASSERT_TRUE(csv) << csv.error().message;
+  std::vector<std::string> lines;
+  std::istringstream stream(*csv);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 1 + made.records.size());
+  EXPECT_THAT(
+      lines[0],
+      EndsWith(",host_instructions,luts,flip_flops,memory_bits,multipliers,product_bits,cells,front"));
+  EXPECT_THAT(lines[1], EndsWith(",,,,,,,,"));
+  EXPECT_THAT(lines[3], EndsWith(",100,20,0,0,0,120,1"));
+  EXPECT_THAT(lines[4], EndsWith(",100,20,0,0,0,120,1"));
+  const auto commas = [](const std::string& line) {
+    bool quoted = false;
+    return std::ranges::count_if(line, [&](char c) { return (quoted ^= c == '"', c == ',' && !quoted); });
+  };
+  for (const std::string& line : lines) EXPECT_EQ(commas(line), commas(lines[0])) << line;
+}
+
+TEST_F(StudyTest, CountsTheHostsInstructions) {
+  if (find_program("valgrind").empty()) GTEST_SKIP() << "no Valgrind: " << c_install_valgrind;
+  ASSERT_TRUE(write_file(folder_->path() / "space.toml",
+                         "[[sweep]]\nmethod = [\"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
+  const auto points = read_space(folder_->path() / "space.toml");
+  ASSERT_TRUE(points);
+  settings_.points = *points;
+  settings_.set_up = {HALFWAY_PROGRAM, "study", "--space", (folder_->path() / "space.toml").string()};
+  const Study made = study();
+  ASSERT_EQ(made.records.size(), 2U);
+  const auto of = [](const Record& record) { return record.measured.host_instructions; };
+  ASSERT_TRUE(of(made.records[0]) && of(made.records[1]));
+  EXPECT_GT(of(made.records[1]), of(made.records[0]));
+  // In the other's place: the same.
+  const auto again =
+      host_instructions(settings_.set_up, {points->at(1).name(), points->at(0).name()}, folder_->path());
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ((*again)->at(0), of(made.records[1]));
+  EXPECT_EQ((*again)->at(1), of(made.records[0]));
+  EXPECT_FALSE(host_instructions(settings_.set_up, {"no such point"}, folder_->path()));
+  // Kept with the record.
+  settings_.set_up.clear();
+  EXPECT_EQ(of(study().records[1]), of(made.records[1]));
 }
 
 }  // namespace

@@ -224,10 +224,15 @@ class Builder {
     std::uint64_t constants = 0;
     unsigned at = 0;
     const unsigned width = width_of(bits);
+    for (const Piece& piece : bits) note(piece, arithmetic);
+    // A register that is not cut yet: what is noted cuts it, and the nodes are made anew.
+    if (width > kWord) {
+      if (layout_.words) fail(fmt::format("netlist.v: {} bits in one vector", width));
+      return sum;
+    }
     for (const Piece& piece : bits) {
       const std::uint64_t field = ones(piece.width) << at;
       const LaneNode& node = graph()[piece.node];
-      note(piece, arithmetic);
       if (node.is_mask()) {
         sum = graph().operate(LaneOp::either, sum, graph().fill(piece.node, field));
       } else if (node.op == LaneOp::constant) {
