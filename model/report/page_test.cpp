@@ -10,6 +10,8 @@
 #include "cli/command_test.hpp"
 #include "frame/image.hpp"
 #include "report/headless_browser.hpp"
+#include "study/study.hpp"
+#include "study/table.hpp"
 
 namespace halfway::report {
 namespace {
@@ -25,9 +27,6 @@ class ReportPage : public CommandTest {
       GTEST_SKIP() << "no Chromium here: apt-get install chromium, or make check-report";
     if (find_program("gnuplot").empty()) GTEST_SKIP() << "no gnuplot here: apt-get install gnuplot-nox";
     const auto here = folder_->path();
-    ASSERT_TRUE(write_file(here / "space.toml",
-                           "[[sweep]]\nmethod = [\"phong\", \"gouraud\", \"quadratic\", \"adaptive\"]\n"
-                           "preset = \"exact\"\nsize = \"160x120\"\n"));
     ASSERT_TRUE(make_folders(here / "figures"));
     ASSERT_TRUE(write_file(
         here / "figures/figures.json",
@@ -38,10 +37,10 @@ class ReportPage : public CommandTest {
     ASSERT_TRUE(write_file(
         here / "figures/a.svg",
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"><path d=\"M0 0L9 9\"/></svg>"));
+    ASSERT_NO_FATAL_FAILURE(make_study(here / "study"));
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"sim", "spheres", "--size", "96x72", "--simulator", "verilator", "--out",
                                    "out"},
-          {"study", "--space", "space.toml", "--out", "study", "--threads", "2"},
           {"report", "--results", "out", "--study", "study", "--figures", "figures", "--out", "page.html",
            "--no-timing"}}) {
       const Outcome outcome = run(command);
@@ -51,6 +50,24 @@ class ReportPage : public CommandTest {
     browser_->resize(1440, 900);
     browser_->open(here / "page.html");
     ASSERT_TRUE(browser_->becomes_true("document.querySelector('#frame-viewer .values td')"));
+  }
+
+  // Four points of one picture, as `halfway study` leaves them where Yosys and Valgrind are not there.
+  static void make_study(const std::filesystem::path& out) {
+    const std::filesystem::path source = HALFWAY_SOURCE_DIR;
+    study::StudySettings settings;
+    settings.scene = source / "sim/studies/sphere.toml";
+    settings.out = out;
+    settings.threads = 2;
+    settings.folders = {source, source / "build" / "cache"};
+    for (const study::Method method :
+         {study::Method::phong, study::Method::gouraud, study::Method::quadratic, study::Method::adaptive})
+      settings.points.push_back({.method = method, .size = {160, 120}});
+    const auto made = study::run_study(settings);
+    ASSERT_TRUE(made) << made.error().message;
+    const auto table = study::to_csv(made->provenance, made->records, {}, {});
+    ASSERT_TRUE(table) << table.error().message;
+    ASSERT_TRUE(write_file(out / "study.csv", *table));
   }
 
   void TearDown() override {
@@ -245,8 +262,6 @@ TEST_F(ReportPage, PointsOpenTheirFrames) {
                 .find("quadratic_shader"),
             std::string::npos);
   // The frame is the one that the study kept.
-  const auto csv = read_file(folder_->path() / "study/study.csv");
-  ASSERT_TRUE(csv);
   std::size_t equal = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder_->path() / "study/points")) {
     if (file.path().extension() != ".png") continue;

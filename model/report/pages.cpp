@@ -20,7 +20,7 @@ constexpr std::array c_pages = {
     OtherPage{"proofs", "Proofs", "tb/proofs/README.md", "make prove"},
     OtherPage{"mutants", "Mutants and coverage", "tb/mutants/README.md", "make mutate"},
     OtherPage{"bounds", "Bounds", "tb/bounds/README.md", "make bounds"},
-    OtherPage{"synthesis", "Synthesis", "scripts/synth/README.md", "make synth"},
+    OtherPage{"synthesis", "Synthesis", "tb/synth/README.md", "make synth"},
     OtherPage{"bench", "Speed of simulation", "model/bench/README.md", "make bench"},
 };
 
