@@ -60,6 +60,8 @@ Status copy_into(const std::filesystem::path& folder, const std::filesystem::pat
 }
 
 int run(const Folders& folders, const FiguresCommand& command) {
+  if (command.check && !command.only.empty())
+    return report(bad_input("--check: looks at all figures; leave their names out"));
   const auto some = chosen(command.only);
   if (!some) return report(some.error());
   figures::Context context{

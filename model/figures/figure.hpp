@@ -114,7 +114,9 @@ Result<Entry> drawn(const Figure& figure, const Context& context);
 /// a reason of, a reason for a difference that is none.
 std::vector<std::string> faults(const Claim& claim, const Row& row);
 
-/// figures.json, and back.
+/// figures.json, and back: a list of figures, each with id, paper, number, caption, shows, pictures (file,
+/// alt) and rows (what, published, measured, value or null, criterion, verdict "agrees" or "differs", reason,
+/// slow).
 std::string to_json(std::span<const Entry> entries);
 Result<std::vector<Entry>> entries_of(std::string_view json, const std::string& file);
 

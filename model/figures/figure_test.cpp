@@ -15,6 +15,7 @@
 #include "figures/check.hpp"
 #include "figures/pictures.hpp"
 #include "figures/plot.hpp"
+#include "figures/six_point_fit.hpp"
 #include "figures/timing_diagram.hpp"
 
 namespace halfway::figures {
@@ -258,6 +259,27 @@ TEST_F(Stale, AClaimThatNothingWasMeasuredForIsAnError) {
   EXPECT_THAT(entry.error().message, HasSubstr("nothing was measured for 'forgotten'"));
   figures_[0].claims = {{"other", "60", within(60, 0)}};
   EXPECT_FALSE(drawn(figures_[0], {.out = here_, .quick = true}));
+}
+
+TEST(SixPointFit, GoesThroughTheSixPointsByOneDivision) {
+  constexpr double c_x2 = 7.0, c_y2 = 0.0, c_x3 = 2.0,
+                   c_y3 = 6.0;  // where the published form divides by zero
+  constexpr std::array c_values{0.1, 0.4, 0.3, 0.9, 0.5, 0.7};
+  const auto fit = fit_six_points(c_x2, c_y2, c_x3, c_y3, c_values);
+  EXPECT_NEAR(fit.at(0.0, 0.0), c_values[0], 1e-14);
+  EXPECT_NEAR(fit.at(c_x2, c_y2), c_values[1], 1e-14);
+  EXPECT_NEAR(fit.at(c_x3, c_y3), c_values[2], 1e-14);
+  EXPECT_NEAR(fit.at(c_x2 / 2, c_y2 / 2), c_values[3], 1e-14);
+  EXPECT_NEAR(fit.at(c_x3 / 2, c_y3 / 2), c_values[4], 1e-14);
+  EXPECT_NEAR(fit.at((c_x2 + c_x3) / 2, (c_y2 + c_y3) / 2), c_values[5], 1e-14);
+
+  OperationCounts counts;
+  const auto counted = [&](double v) { return CountedNumber(v, counts); };
+  EXPECT_EQ((2.0 * counted(3.0) - counted(1.0) * (counted(1.0) + counted(4.0))).value(), 1.0);
+  EXPECT_EQ((1.0 / counted(4.0)).value(), 0.25);
+  EXPECT_EQ(counts.additions, 2);
+  EXPECT_EQ(counts.multiplications, 2);
+  EXPECT_EQ(counts.divisions, 1);
 }
 
 TEST(TimingTrace, TakesTheTimesBetweenAnInputsMoveAndItsOwn) {

@@ -16,9 +16,11 @@ What the three papers print, beside what this project's own hardware, golden mod
 measures all of it, and writes this page, its pictures and `figures.json`; `make test` draws again what the golden model can
 draw, and fails where a row, a verdict or a picture here is not what comes out.
 
-A verdict follows from the two numbers and the criterion beside it. Where they differ, the reason is given: the papers' own
-errors are among them. "Of 255" are steps of an 8-bit channel; two pictures count as alike where no pixel is off by more than
-2/255. The papers' mesh, a chicken, is not to be had: a hen of our own making stands in for it, and the teapot.
+A verdict follows from the two numbers and the criterion beside it, in brackets. Where they differ, the reason is given: the
+papers' own errors are among them. A step of an 8-bit channel is 1/255; how far pictures are apart is said as the largest
+difference of a pixel and as PSNR. Two pictures look alike where at most one in a thousand of their pixels is seen to differ, by
+Yee's perceptual metric (`model/frame/perception.hpp`), at 640×480; the pictures below are smaller ones of the same. The papers'
+mesh, a chicken, was not published: a hen of our own making stands in for it, and the teapot.
 
 )";
 
@@ -64,7 +66,7 @@ std::string to_page(std::span<const Entry> entries) {
                       rows, agreeing, rows - agreeing);
   for (const auto& [name, title] : c_papers) {
     page += fmt::format(
-        "\n### {}: *{}*\n\n| | what | published | measured | verdict |\n| --- | --- | --- | --- "
+        "\n### {}: *{}*\n\n| figure | what | published | measured | verdict |\n| --- | --- | --- | --- "
         "| --- |\n",
         name, title);
     for (const Entry& e : entries) {

@@ -23,7 +23,6 @@ set linetype 6 linecolor rgb '#57606a' linewidth 1.2
 set border 3 linecolor rgb '#1f2328'
 set tics nomirror out scale 0.6 textcolor rgb '#1f2328'
 set key noautotitle textcolor rgb '#1f2328'
-set grid linecolor rgb '#d8dee4' linewidth 0.6
 )";
 
 constexpr std::string_view c_produced = "Produced by ";

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <set>
 
+#include "common/to_integer.hpp"
+
 namespace halfway::figures {
 namespace {
 
@@ -28,7 +30,7 @@ Rings measure_rings(const Frame& frame, const Frame& without_tables) {
           peak_x = x, peak_y = y;
     std::set<int> levels;
     for (int dy = -c_radius; dy <= c_radius; ++dy) {
-      const int y = peak_y + dy, half = static_cast<int>(std::sqrt(c_radius * c_radius - dy * dy));
+      const int y = peak_y + dy, half = to_integer<int>(std::sqrt(c_radius * c_radius - dy * dy));
       for (int x = peak_x - half; x <= peak_x + half; ++x) {
         rings.largest_step =
             std::max(rings.largest_step, std::abs(blue(frame, x + 1, y) - blue(frame, x, y)));

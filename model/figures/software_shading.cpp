@@ -4,8 +4,11 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <utility>
 #include <vector>
 
+#include "common/seconds.hpp"
+#include "figures/six_point_fit.hpp"
 #include "reference/shade.hpp"
 #include "setup/edge.hpp"
 #include "setup/project.hpp"
@@ -98,28 +101,21 @@ class Renderer {
         [&] { value += plane.dx; });
   }
 
-  // I = T5 X² + T4 XY + T3 Y² + T2 X + T1 Y + T0 relative to the first vertex, by one division.
   void draw_quadratic(const ScreenTriangle& t, const Points& p, const Plane<double>& depth) {
     const glm::dvec3 i1 = shaded(t, {1, 0, 0}), i2 = shaded(t, {0, 1, 0}), i3 = shaded(t, {0, 0, 1}),
                      i12 = shaded(t, {0.5, 0.5, 0}), i13 = shaded(t, {0.5, 0, 0.5}),
                      i23 = shaded(t, {0, 0.5, 0.5});
-    const double x2 = p[1].x - p[0].x, y2 = p[1].y - p[0].y, x3 = p[2].x - p[0].x, y3 = p[2].y - p[0].y;
-    const double inverse = 1.0 / (x2 * y3 - y2 * x3), squared = inverse * inverse;
-    const glm::dvec3 c2 = 4.0 * i12 - 3.0 * i1 - i2, c3 = 4.0 * i13 - 3.0 * i1 - i3;
-    const glm::dvec3 q2 = 2.0 * (i1 + i2 - 2.0 * i12), q3 = 2.0 * (i1 + i3 - 2.0 * i13),
-                     b = 4.0 * (i23 - i12 - i13 + i1);
-    const glm::dvec3 t2 = (c2 * y3 - c3 * y2) * inverse, t1 = (c3 * x2 - c2 * x3) * inverse;
-    const glm::dvec3 t5 = (q2 * (y3 * y3) - b * (y2 * y3) + q3 * (y2 * y2)) * squared,
-                     t4 = (-2.0 * q2 * (x3 * y3) + b * (x2 * y3 + x3 * y2) - 2.0 * q3 * (x2 * y2)) * squared,
-                     t3 = (q2 * (x3 * x3) - b * (x2 * x3) + q3 * (x2 * x2)) * squared;
+    const QuadraticCoefficients<glm::dvec3> q =
+        fit_six_points(p[1].x - p[0].x, p[1].y - p[0].y, p[2].x - p[0].x, p[2].y - p[0].y,
+                       std::array{i1, i2, i3, i12, i13, i23});
     glm::dvec3 value, dx;
-    const glm::dvec3 dxx = 2.0 * t5;
+    const glm::dvec3 dxx = 2.0 * q.t5;
     walk(
         t, depth,
         [&](double x_screen, double y_screen) {
           const double x = x_screen - p[0].x, y = y_screen - p[0].y;
-          value = (t5 * x + t4 * y + t2) * x + (t3 * y + t1) * y + i1;
-          dx = t5 * (2.0 * x + 1.0) + t4 * y + t2;
+          value = q.at(x, y);
+          dx = q.t5 * (2.0 * x + 1.0) + q.t4 * y + q.t2;
         },
         [&] { return value; }, [&] { value += dx, dx += dxx; });
   }
@@ -144,11 +140,13 @@ class Renderer {
 
 }  // namespace
 
-Frame shade_in_software(const Scene& scene, std::span<const ScreenTriangle> triangles, FrameSize size,
-                        SoftwareShading shading) {
+SoftwareFrame shade_in_software(const Scene& scene, std::span<const ScreenTriangle> triangles, FrameSize size,
+                                SoftwareShading shading) {
   Renderer renderer(scene, size);
+  const double begin = thread_seconds();
   for (const ScreenTriangle& triangle : triangles) renderer.draw(triangle, shading);
-  return renderer.take();
+  const double seconds = thread_seconds() - begin;
+  return {renderer.take(), seconds};
 }
 
 }  // namespace halfway::figures

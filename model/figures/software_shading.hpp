@@ -17,8 +17,13 @@ enum class SoftwareShading {
   phong       ///< at each pixel; normal and position linear on the screen, as the paper has them
 };
 
-/// In double, with a depth buffer, of triangles at 4 subpixel bits.
-Frame shade_in_software(const Scene& scene, std::span<const ScreenTriangle> triangles, FrameSize size,
-                        SoftwareShading shading);
+struct SoftwareFrame {
+  Frame frame;
+  double seconds;  ///< of the processor, to draw the triangles on a frame that is there
+};
+
+/// In double, with a depth buffer, of triangles at 4 subpixel bits; on this thread.
+SoftwareFrame shade_in_software(const Scene& scene, std::span<const ScreenTriangle> triangles, FrameSize size,
+                                SoftwareShading shading);
 
 }  // namespace halfway::figures

@@ -10,6 +10,7 @@
 #include <random>
 #include <utility>
 
+#include "common/to_integer.hpp"
 #include "figures/figure.hpp"
 #include "figures/pictures.hpp"
 #include "figures/plot.hpp"
@@ -47,12 +48,17 @@ double largest_over_angles(const Function& function) {
   return largest;
 }
 
+// Close together where sharp bells bend, in degrees.
+double curve_step(double degrees) {
+  return degrees >= -12.0 && degrees < 12.0 ? 0.75 : 3.0;
+}
+
 // Rows of x in degrees, and each curve there; symmetric.
 template <class Curve>
 std::vector<std::vector<double>> curves(std::span<const double> of, const Curve& curve) {
   std::vector<std::vector<double>> rows;
-  for (int degrees = -90; degrees <= 90; degrees += 2) {
-    rows.push_back({static_cast<double>(degrees)});
+  for (double degrees = -90.0; degrees <= 90.0; degrees += curve_step(degrees)) {
+    rows.push_back({degrees});
     for (const double n : of) rows.back().push_back(curve(n, degrees / 180.0 * std::numbers::pi));
   }
   return rows;
@@ -239,7 +245,7 @@ Status draw_figure_10(const Context& context, Drawing& out) {
   for (std::size_t i = 0; i < c_exponents.size(); ++i) {
     const double n = c_exponents[i], a = published_scale(n);
     std::vector<std::vector<double>> rows;
-    for (double degrees = -90.0; degrees <= 90.0; degrees += 2.0) {
+    for (double degrees = -90.0; degrees <= 90.0; degrees += curve_step(degrees)) {
       const double x = degrees / 180.0 * std::numbers::pi;
       rows.push_back({degrees, power_of_cosine(n, x), squared_cosine(a, x)});
     }
@@ -272,8 +278,9 @@ Figure figure_10() {
             "the halos of cosⁿ are bigger (section 6)", at_least(1.0)},
            {"largest difference of the two, n = 5 to 500", "the quality is quite good",
             at_most(c_visible, "/255"),
-            "equal integrals leave the flanks apart by more than an eye misses; a least largest error needs "
-            "other powers of the cosine and a gain"}},
+            "with equal integrals the flanks are up to so far apart; a least largest error takes other "
+            "powers of the "
+            "cosine, and a gain. In pictures little of it is seen (figures 14 and 16)"}},
           draw_figure_10};
 }
 
@@ -283,7 +290,7 @@ constexpr std::array c_figure_11_bits{4, 6};
 
 double entry_at(const tables::CosineTable& table, double x) {
   const double cells = std::ldexp(1.0, table.address_bits - 1);
-  const auto cell = static_cast<std::size_t>(std::min(std::floor(x / c_half_pi * cells), cells - 1.0));
+  const auto cell = to_integer<std::size_t>(std::min(x / c_half_pi * cells, cells - 1.0));
   return table.entries[cell] / (std::ldexp(1.0, table.data_bits) - 1.0);
 }
 
@@ -294,7 +301,7 @@ Status draw_figure_11(const Context& context, Drawing& out) {
     const int bits = c_figure_11_bits[i];
     const tables::CosineTable table = tables::cosine_table(false, 2, bits, bits);
     error[i] = tables::table_error(table);
-    constexpr int c_samples = 320;  // ten an entry of 6 address bits
+    constexpr int c_samples = 192;  // six an entry of 6 address bits
     std::vector<std::vector<double>> rows;
     for (int k = 0; k < c_samples; ++k) {
       const double x = c_half_pi * (k + 0.5) / c_samples, value = entry_at(table, x);
@@ -378,7 +385,7 @@ Frame by_curve(const Scene& scene, FrameSize size, HighlightCurve curve, unsigne
 }
 
 Status draw_figure_14(const Context& context, Drawing& out) {
-  constexpr FrameSize c_size{432, 144};
+  constexpr FrameSize c_size{378, 126};
   auto scene = smooth_highlights(context);
   if (!scene) return scene.error();
   scene->camera.vertical_fov_degrees = 17.5;
@@ -456,7 +463,7 @@ Status draw_figure_15(const Context& context, Drawing& out) {
         {.shader = Shader::spherical, .preset = Preset::published, .tables = TableSize{bits, bits}});
     if (!drawn) return drawn.error();
     rings[i] = measure_rings(drawn->frame, without);
-    parts.push_back(cut(drawn->frame, 245, 150, {150, 150}));
+    parts.push_back(cut(drawn->frame, 252, 157, {136, 136}));
     out.measured[fmt::format("{} bits: largest step between neighbouring pixels at highlights", bits)] = {
         fmt::format("{}/255; without tables {}/255", rings[i].largest_step, none.largest_step),
         static_cast<double>(rings[i].largest_step - none.largest_step)};
@@ -467,7 +474,7 @@ Status draw_figure_15(const Context& context, Drawing& out) {
       rings[1].rms_error / rings[0].rms_error};
   const auto exact = draw_in_hardware(context, *scene, c_rings_frame, {.shader = Shader::spherical});
   if (!exact) return exact.error();
-  parts.push_back(cut(exact->frame, 245, 150, {150, 150}));
+  parts.push_back(cut(exact->frame, 252, 157, {136, 136}));
   return save_picture(
       context, "spherical-15", sheet(parts, 3),
       "A coarse sphere by tables of 4 bits, with rings around its highlight, by tables of 6 bits, "
@@ -496,7 +503,7 @@ Figure figure_15() {
 
 // ---- Figure 16 ----
 
-constexpr FrameSize c_mesh_size{160, 120};
+constexpr FrameSize c_mesh_size{144, 108};
 
 constexpr std::array c_figure_16_ways{"the method in double against Phong shading",
                                       "the published hardware against Phong shading",

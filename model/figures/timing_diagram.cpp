@@ -242,7 +242,6 @@ set tmargin at screen 0.985
 set bmargin at screen 0.165
 set yrange [0.6:11.7]
 unset key
-unset grid
 unset ytics
 set border 1 linecolor rgb ink
 set xtics 0, 30 out nomirror scale 0.7, 0.35 textcolor rgb ink offset 0, 0.3

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/to_integer.hpp"
+
 namespace halfway {
 namespace {
 
@@ -68,7 +70,7 @@ class Net {
  public:
   explicit Net(std::uint32_t cells) : cells_(cells) {
     for (int axis = 0; axis < 3; ++axis)
-      count_[axis] = static_cast<int>(std::ceil((c_high[axis] - c_low[axis]) * cells)) + 1;
+      count_[axis] = to_integer<int>(std::ceil((c_high[axis] - c_low[axis]) * cells)) + 1;
     values_.reserve(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2]);
     for (int z = 0; z < count_[2]; ++z)
       for (int y = 0; y < count_[1]; ++y)
