@@ -31,6 +31,11 @@ std::string column(const std::optional<std::uint64_t>& value) {
   return value ? fmt::format(",{}", *value) : ",";
 }
 
+std::string ratio(std::uint64_t part, std::uint64_t whole) {
+  if (part == 0 || whole == 0) return ",";
+  return fmt::format(",{:.6g}", static_cast<double>(part) / static_cast<double>(whole));
+}
+
 std::string cells_columns(const HardwareTable& hardware, const std::string& key) {
   const auto found = hardware.find(key);
   if (found == hardware.end() || !found->second.cells) return ",,,,,,";
@@ -50,7 +55,9 @@ Result<std::string> to_csv(const Provenance& provenance, std::span<const Record>
       "exponent,width,height";
   Measurement none;
   for_each_figure(none, [&](const char* name, const auto&) { text += fmt::format(",{}", name); });
-  text += ",luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,record\n";
+  text +=
+      ",luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,cycles_a_fragment,"
+      "host_instructions_a_triangle,record\n";
   for (std::size_t at = 0; at < records.size(); ++at) {
     const auto& [p, measured] = records[at];
     text += fmt::format(
@@ -63,7 +70,10 @@ Result<std::string> to_csv(const Provenance& provenance, std::span<const Record>
     for_each_figure(measured, [&](const char*, const auto& value) { text += column(value); });
     text += cells_columns(hardware, measured.hardware);
     const std::optional<bool> front = (*on_front)[at];
-    text += fmt::format(",{},{}\n", !front ? "" : *front ? "1" : "0", record_name(provenance, p));
+    text += !front ? "," : *front ? ",1" : ",0";
+    text += ratio(measured.cycles, measured.fragments) +
+            ratio(measured.host_instructions.value_or(0), measured.triangles) + "," +
+            record_name(provenance, p) + "\n";
   }
   return text;
 }
