@@ -19,6 +19,7 @@
 #include <string_view>
 
 #include "common/file.hpp"
+#include "common/sanitizers.hpp"
 #include "common/subprocess.hpp"
 
 namespace halfway::study {
@@ -72,7 +73,7 @@ Result<std::optional<std::vector<std::uint64_t>>> host_instructions(std::vector<
                                                                     const std::vector<std::string>& names,
                                                                     const std::filesystem::path& scratch) {
   std::optional<std::vector<std::uint64_t>> counted;
-  if (find_program("valgrind").empty()) return counted;
+  if (c_sanitized || find_program("valgrind").empty()) return counted;
   auto folder = TemporaryFolder::make(scratch);
   if (!folder) return folder.error();
   // Bound at once: the first call of a library's function is no dearer than the others.
