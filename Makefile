@@ -7,7 +7,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 # What a target hands to the program. Values travel through the environment and are quoted where they are
 # used: neither make nor a shell ever reads them as code.
 variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS \
-  ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE TRIANGLES SEED SECONDS TARGET
+  ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE TRIANGLES SEED SECONDS TARGET DESIGN SEEDS PIN
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
 
@@ -31,7 +31,7 @@ table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--add
   $(call option,DATA_BITS,--data-bits)
 
 .PHONY: help sim compare why plan figure17 gallery tables check-tables test sanitize fuzz kills mutate prove \
-  stability search bounds bench build program generator configure setup doctor format check-format clean
+  stability search bounds synth bench build program generator configure setup doctor format check-format clean
 
 help: ## this list
 	@echo 'Halfway: shading hardware in VHDL, checked bit for bit against C++'
@@ -56,6 +56,8 @@ help: ## this list
 	@echo '  TESTS      a regular expression: make test runs only the tests that match'
 	@echo '  JOBS       parallel compilations, tests and fuzzers       (default: all cores)'
 	@echo '  SECONDS, TARGET   make fuzz: for how long each (default: 60), and one target alone'
+	@echo '  DESIGN, SEEDS  make synth: only designs with this in their names; seeds of placement  (default: all, 5)'
+	@echo '  PIN        1: make synth pins the figures in place of comparing'
 
 sim: program ## scenes through golden model, GHDL and Verilator: compare, write frames
 	@build/halfway sim $(sim_options) $(scene)
@@ -121,6 +123,11 @@ bounds: configure ## every bound of formats and tables: derived, proved, and how
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds
 	@build/tb/halfway_bounds --page tb/bounds/README.md build/bounds
 
+synth: configure ## cells on two FPGAs, and the clock on one, against what is pinned (DESIGN, SEEDS, PIN=1)
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth
+	@build/tb/halfway_synth --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin) \
+	  $$([ -n "$$DESIGN" ] || echo --page tb/synth/README.md) . build/cache $${DESIGN:+"$$DESIGN"}
+
 bench: program ## speed, as ratios within one run
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench
 
@@ -141,9 +148,9 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs one package more, and so
-# do `make plan MEASURE=1`, `make prove`, `make bounds`, `make mutate`, `make fuzz` and `make sanitize`.
+# do `make plan MEASURE=1`, `make synth`, `make prove`, `make bounds`, `make mutate`, `make fuzz` and `make sanitize`.
 setup:
-	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate,$(MAKECMDGOALS)) \
+	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate synth,$(MAKECMDGOALS)) \
 	  $(if $(filter fuzz sanitize,$(MAKECMDGOALS)),fuzz) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth))
 

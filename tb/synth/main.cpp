@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+// halfway_synth [--quick] [--cells] [--pin] [--seeds N] [--jobs N] [--page FILE] SOURCE CACHE [PART]: every
+// design of the list through Yosys for two FPGA families and through nextpnr for an iCE40 HX8K, into one
+// table, and its figures against those pinned in tb/synth/pinned.txt. SOURCE is the project's root, CACHE
+// holds what was made before. --quick: the small ones, without ECP5, and exit code 77 where a tool is
+// missing; --cells: no place and route; --pin: writes the figures into the pinned file in place of comparing;
+// --seeds: of placement, 5 unless told; --page: writes the table into that file, behind what stands there
+// before it; PART: only designs whose names hold it. Exit codes: 0 all is as pinned, 1 something is not, 2
+// bad usage, 3 a tool is missing or broke.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "common/file.hpp"
+#include "common/threads.hpp"
+#include "pinned.hpp"
+#include "synthesis.hpp"
+
+namespace halfway::synth {
+namespace {
+
+constexpr int kSkipped = 77;  // as CMakeLists.txt has it in SKIP_RETURN_CODE
+constexpr const char* kPins = "tb/synth/pinned.txt";
+constexpr std::string_view kTable = "## Figures\n";  // of the page: what stands behind it is written anew
+
+struct Options {
+  bool quick = false, cells = false, pin = false;
+  unsigned seeds = 5, jobs = 2;
+  std::filesystem::path page{};
+  SimulatorFolders folders{};
+  std::string part{};
+};
+
+bool read_number(const std::string& text, unsigned& number) {
+  if (text.empty() || text.size() > 3 || text.find_first_not_of("0123456789") != std::string::npos)
+    return false;
+  number = static_cast<unsigned>(std::stoul(text));
+  return number > 0;
+}
+
+bool read_options(const std::vector<std::string>& arguments, Options& options) {
+  std::vector<std::string> places;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    const bool more = i + 1 < arguments.size();
+    if (argument == "--quick")
+      options.quick = true;
+    else if (argument == "--cells")
+      options.cells = true;
+    else if (argument == "--pin")
+      options.pin = true;
+    else if (argument == "--seeds" && more && read_number(arguments[i + 1], options.seeds))
+      ++i;
+    else if (argument == "--jobs" && more && read_number(arguments[i + 1], options.jobs))
+      ++i;
+    else if (argument == "--page" && more)
+      options.page = arguments[++i];
+    else if (argument.starts_with("--"))
+      return false;
+    else
+      places.push_back(argument);
+  }
+  if (places.size() != 2 && places.size() != 3) return false;
+  // A part of the figures is no page and no file of pins.
+  const bool whole = places.size() == 2 && !options.cells && !options.quick;
+  if (!options.page.empty() && !whole) return false;
+  if (options.pin && (options.cells || options.quick)) return false;
+  options.folders = {std::filesystem::absolute(places[0]), std::filesystem::absolute(places[1])};
+  if (places.size() == 3) options.part = places[2];
+  return true;
+}
+
+// What a design came to.
+struct Figures {
+  std::optional<Ice40Cells> ice40{};
+  std::optional<Ecp5Cells> ecp5{};
+  std::vector<Placement> placements{};  ///< slowest first, once all are there
+  const Placement* median() const {
+    return placements.empty() ? nullptr : &placements[placements.size() / 2];
+  }
+  bool fits() const { return !placements.empty() && placements.front().fits(); }
+  double mhz() const { return fits() ? median()->mhz : 0; }
+};
+
+std::string machine() {
+  std::string name = "unknown processor", system = "unknown system";
+  if (const auto text = read_file("/proc/cpuinfo")) {
+    const std::size_t at = text->find("model name");
+    if (at != std::string::npos) {
+      const std::size_t colon = text->find(": ", at);
+      name = text->substr(colon + 2, text->find('\n', colon) - colon - 2);
+    }
+  }
+  if (const auto text = read_file("/etc/os-release")) {
+    constexpr std::string_view c_key = "PRETTY_NAME=\"";
+    const std::size_t at = text->find(c_key);
+    if (at != std::string::npos)
+      system = text->substr(at + c_key.size(), text->find('"', at + c_key.size()) - at - c_key.size());
+  }
+  return fmt::format("{}, {} threads, {}", name, std::thread::hardware_concurrency(), system);
+}
+
+std::string path_text(const CriticalPath& path) {
+  return fmt::format("`{}` → `{}`: {} LUTs, {} carries, {:.1f} ns in cells, {:.1f} ns in wires", path.from,
+                     path.to, path.luts, path.carries, path.logic, path.routing);
+}
+
+std::string row(const Design& design, const Figures& f) {
+  std::string text = fmt::format("| `{}` |", design.name);
+  if (f.ice40)
+    text += fmt::format(" {} | {} | {} | {} |", f.ice40->luts, f.ice40->carries, f.ice40->flip_flops,
+                        f.ice40->rams);
+  else
+    text += " – | – | – | – |";
+  if (f.fits())
+    text += fmt::format(" {:.0f} | {:.0f} to {:.0f} | {:.1f} | {} |", f.mhz(), f.placements.front().mhz,
+                        f.placements.back().mhz, 1000 / f.mhz(), path_text(f.median()->path));
+  else
+    text += fmt::format(" – | – | – | {} |", !design.without.empty() ? "not placed: " + design.without
+                                             : f.placements.empty()  ? "not placed"
+                                                                     : "does not fit the HX8K's 7680 cells");
+  if (f.ecp5)
+    text += fmt::format(" {} | {} | {} | {} |\n", f.ecp5->luts, f.ecp5->flip_flops, f.ecp5->rams,
+                        f.ecp5->multipliers);
+  else
+    text += " – | – | – | – |\n";
+  return text;
+}
+
+Status write_page(const std::filesystem::path& path, std::string_view rows, const std::string& versions) {
+  auto text = read_file(path);
+  if (!text) return text.error();
+  text->resize(std::min(text->find(kTable), text->size()));
+  return write_file(path, fmt::format("{}{}\nBy {}, on {}.\n\n{}", *text, kTable, versions, machine(), rows));
+}
+
+class Run {
+ public:
+  Run(const Options& options, const Synthesizer& synthesizer, std::vector<Design> designs)
+      : options_(options),
+        synthesizer_(synthesizer),
+        designs_(std::move(designs)),
+        figures_(designs_.size()) {}
+
+  ExitCode run() {
+    // Cells first: placements of one design need them, and so wait for each other less.
+    std::vector<Job> jobs;
+    for (std::size_t i = 0; i < designs_.size(); ++i) {
+      jobs.push_back({i, Job::Kind::ice40});
+      if (!options_.quick) jobs.push_back({i, Job::Kind::ecp5});
+    }
+    work(jobs);
+    jobs.clear();
+    if (!options_.cells)
+      for (std::size_t i = 0; i < designs_.size(); ++i)
+        for (unsigned seed = 1; designs_[i].placed && figures_[i].ice40 && seed <= options_.seeds; ++seed)
+          jobs.push_back({i, Job::Kind::place, seed});
+    work(jobs);
+    for (Figures& f : figures_)
+      std::sort(f.placements.begin(), f.placements.end(),
+                [](const Placement& a, const Placement& b) { return a.mhz < b.mhz; });
+    return report();
+  }
+
+ private:
+  struct Job {
+    std::size_t design;
+    enum class Kind { ice40, ecp5, place } kind;
+    unsigned seed = 0;
+  };
+
+  void work(const std::vector<Job>& jobs) {
+    std::atomic<std::size_t> next = 0;
+    std::size_t done = 0;
+    work_on_threads(options_.jobs, [&] {
+      for (std::size_t at; (at = next++) < jobs.size();) {
+        const Job& job = jobs[at];
+        const auto said = work(job);
+        const std::lock_guard lock(mutex_);
+        broken_ += said ? 0 : 1;
+        fmt::print("[{}/{}] {}: {}\n", ++done, jobs.size(), designs_[job.design].name,
+                   said ? *said : said.error().message);
+        std::fflush(stdout);
+      }
+    });
+  }
+
+  Result<std::string> work(const Job& job) {
+    const Design& design = designs_[job.design];
+    Figures& f = figures_[job.design];
+    if (job.kind == Job::Kind::ice40) {
+      const auto cells = synthesizer_.ice40(design);
+      if (!cells) return cells.error();
+      const std::lock_guard lock(mutex_);
+      f.ice40 = *cells;
+      return fmt::format("iCE40: {} LUTs, {} flip-flops", cells->luts, cells->flip_flops);
+    }
+    if (job.kind == Job::Kind::ecp5) {
+      const auto cells = synthesizer_.ecp5(design);
+      if (!cells) return cells.error();
+      const std::lock_guard lock(mutex_);
+      f.ecp5 = *cells;
+      return fmt::format("ECP5: {} LUTs, {} flip-flops", cells->luts, cells->flip_flops);
+    }
+    const auto placement = synthesizer_.place(design, job.seed);
+    if (!placement) return placement.error();
+    const std::lock_guard lock(mutex_);
+    f.placements.push_back(*placement);
+    if (!placement->fits()) return std::string("does not fit the HX8K");
+    return fmt::format("seed {}: {:.1f} MHz; {}", job.seed, placement->mhz, path_text(placement->path));
+  }
+
+  ExitCode report() {
+    std::string rows =
+        "| design | LUTs | carries | flip-flops | RAMs | clock, MHz | of seeds | ns a pixel | critical path "
+        "| ECP5: LUTs | "
+        "flip-flops | RAMs | multipliers |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | "
+        "--- | --- | --- |\n";
+    for (std::size_t i = 0; i < designs_.size(); ++i) rows += row(designs_[i], figures_[i]);
+    fmt::print("\n{}\n", rows);
+    if (broken_ > 0) {
+      fmt::print("{} figures could not be had\n", broken_);
+      return ExitCode::tool_failed;
+    }
+    const auto path = options_.folders.source / kPins;
+    Pins pins;
+    // A part is pinned beside what is there.
+    if (!options_.pin || !options_.part.empty()) {
+      auto read = read_pins(path);
+      if (!read) return failed(read.error());
+      pins = std::move(*read);
+    }
+    int wrong = 0;
+    for (std::size_t i = 0; i < designs_.size(); ++i) {
+      const Figures& f = figures_[i];
+      if (options_.pin) {
+        pins[designs_[i].name] = {*f.ice40, f.mhz()};
+      } else if (const std::string text = compare(designs_[i].name, pins, *f.ice40, f.mhz()); !text.empty()) {
+        fmt::print("{}", text);
+        ++wrong;
+      }
+    }
+    if (options_.pin)
+      if (const Status written = write_pins(path, pins, synthesizer_.versions()); !written)
+        return failed(written.error());
+    fmt::print("{} of {} designs are not as pinned\n", wrong, designs_.size());
+    if (!options_.page.empty())
+      if (const Status written = write_page(options_.page, rows, synthesizer_.versions()); !written)
+        return failed(written.error());
+    return wrong == 0 ? ExitCode::equal : ExitCode::differs;
+  }
+
+  static ExitCode failed(const Error& error) {
+    fmt::print(stderr, "{}\n", error.message);
+    return error.code;
+  }
+
+  const Options& options_;
+  const Synthesizer& synthesizer_;
+  std::vector<Design> designs_;
+  std::vector<Figures> figures_;
+  std::mutex mutex_;
+  int broken_ = 0;
+};
+
+}  // namespace
+}  // namespace halfway::synth
+
+int main(int argc, char** argv) {
+  using namespace halfway;
+  using namespace halfway::synth;
+  Options options;
+  if (!read_options(std::vector<std::string>(argv + 1, argv + argc), options)) {
+    fmt::print(
+        stderr,
+        "usage: halfway_synth [--quick] [--cells] [--pin] [--seeds N] [--jobs N] [--page FILE] SOURCE CACHE "
+        "[PART]\n--page and --pin go with whole figures, not with --quick or --cells, --page not with "
+        "PART\n");
+    return static_cast<int>(ExitCode::bad_input);
+  }
+  std::vector<Design> designs;
+  for (Design& design : all_designs())
+    if ((design.quick || !options.quick) && design.name.find(options.part) != std::string::npos)
+      designs.push_back(std::move(design));
+  if (designs.empty()) {
+    fmt::print(stderr, "{}: no design has this in its name\n", options.part);
+    return static_cast<int>(ExitCode::bad_input);
+  }
+  const auto synthesizer = Synthesizer::open(options.folders, !options.cells);
+  if (!synthesizer) {
+    fmt::print(stderr, "{}{}\n", options.quick ? "skipped: " : "", synthesizer.error().message);
+    return options.quick ? kSkipped : static_cast<int>(synthesizer.error().code);
+  }
+  return static_cast<int>(Run(options, *synthesizer, std::move(designs)).run());
+}
