@@ -294,7 +294,7 @@ Result<std::filesystem::path> Synthesizer::ice40_folder(const Design& design) co
   return synthesized(
       design, "ice40",
       fmt::format("read_verilog netlist.v; synth_ice40 -device hx -top {}; tee -q -o cells.json stat "
-                  "-json; write_rtlil mapped.il; write_verilog -noattr mapped.v",
+                  "-json; write_rtlil mapped.il",
                   design.entity));
 }
 
@@ -320,10 +320,40 @@ Result<Ice40Cells> Synthesizer::ice40(const Design& design) const {
   return cells;
 }
 
-Result<std::string> Synthesizer::mapped(const Design& design) const {
-  const auto folder = ice40_folder(design);
+Result<std::filesystem::path> Synthesizer::from_mapped(const Design& design, const std::string& kind,
+                                                       const std::string& script,
+                                                       const std::string& around) const {
+  const auto core = ice40_folder(design);
+  if (!core) return core.error();
+  ContentHash hash;
+  hash.add("mapped 1").add(yosys_).add(script).add(around).add(core->filename().string());
+  const std::filesystem::path folder = cache_ / fmt::format("{}-{}-{}", design.name, kind, hash.hex());
+  if (std::filesystem::exists(folder)) return folder;
+  auto fresh = TemporaryFolder::make(cache_);
+  if (!fresh) return fresh.error();
+  std::error_code error;
+  std::filesystem::copy(*core / "mapped.il", fresh->path() / "mapped.il", error);
+  if (error) return tool_failed(fmt::format("{}: cannot be copied: {}", core->string(), error.message()));
+  if (!around.empty())
+    if (Status written = write_file(fresh->path() / "wrapper.v", around); !written) return written.error();
+  const auto done =
+      run({.arguments = {"yosys", "-q", "-p", script}, .working_folder = fresh->path()}, design.name);
+  if (!done) return done.error();
+  if (Status moved = fresh->move_to(folder); !moved) return moved.error();
+  return folder;
+}
+
+// splitnets: Verilator takes a carry chain in one vector for a loop.
+Result<std::string> Synthesizer::simulated(const Design& design) const {
+  const auto folder = from_mapped(
+      design, "simulated",
+      fmt::format(
+          "read_rtlil mapped.il; delete =A:blackbox; read_verilog -defer -D ICE40_HX +/ice40/cells_sim.v; "
+          "hierarchy -top {}; proc; flatten; opt_clean -purge; splitnets; write_verilog -noattr simulated.v",
+          design.entity),
+      "");
   if (!folder) return folder.error();
-  return read_file(*folder / "mapped.v");
+  return read_file(*folder / "simulated.v");
 }
 
 Result<Ecp5Cells> Synthesizer::ecp5(const Design& design) const {
@@ -360,31 +390,16 @@ Result<std::filesystem::path> Synthesizer::wrapped_folder(const Design& design) 
   if (!text) return text.error();
   const auto around = wrapper(*text, design.entity, kMostInputs);
   if (!around) return around.error();
-  const auto core = ice40_folder(design);
-  if (!core) return core.error();
   // The wrapper first, then the design that it holds as it was counted: nothing of one is optimized into the
   // other.
-  const std::string script = fmt::format(
-      "read_rtlil {0}; blackbox {1}; setattr -mod -unset top {1}; read_verilog wrapper.v; synth_ice40 "
-      "-device hx -top wrapped; "
-      "read_rtlil -overwrite {0}; setattr -mod -unset top {1}; hierarchy -top wrapped; flatten; opt_clean "
-      "-purge; write_json wrapped.json",
-      "mapped.il", design.entity);
-  ContentHash hash;
-  hash.add("wrapped 1").add(script).add(*around).add(core->filename().string());
-  const std::filesystem::path folder = cache_ / fmt::format("{}-wrapped-{}", design.name, hash.hex());
-  if (std::filesystem::exists(folder)) return folder;
-  auto fresh = TemporaryFolder::make(cache_);
-  if (!fresh) return fresh.error();
-  std::error_code error;
-  std::filesystem::copy(*core / "mapped.il", fresh->path() / "mapped.il", error);
-  if (error) return tool_failed(fmt::format("{}: cannot be copied: {}", core->string(), error.message()));
-  if (Status written = write_file(fresh->path() / "wrapper.v", *around); !written) return written.error();
-  const auto done =
-      run({.arguments = {"yosys", "-q", "-p", script}, .working_folder = fresh->path()}, design.name);
-  if (!done) return done.error();
-  if (Status moved = fresh->move_to(folder); !moved) return moved.error();
-  return folder;
+  return from_mapped(
+      design, "wrapped",
+      fmt::format("read_rtlil mapped.il; blackbox {0}; setattr -mod -unset top {0}; read_verilog wrapper.v; "
+                  "synth_ice40 -device hx -top wrapped; read_rtlil -overwrite mapped.il; setattr -mod -unset "
+                  "top {0}; "
+                  "hierarchy -top wrapped; flatten; opt_clean -purge; write_json wrapped.json",
+                  design.entity),
+      *around);
 }
 
 Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const {

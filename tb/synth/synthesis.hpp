@@ -80,8 +80,9 @@ class Synthesizer {
   Result<Ice40Cells> ice40(const Design& design) const;
   Result<Ecp5Cells> ecp5(const Design& design) const;
   Result<Placement> place(const Design& design, unsigned seed) const;
-  /// The design as iCE40 cells, in Verilog.
-  Result<std::string> mapped(const Design& design) const;
+  /// The design after synthesis for iCE40, in Verilog without modules: every cell as the model that Yosys has
+  /// of it.
+  Result<std::string> simulated(const Design& design) const;
 
  private:
   Synthesizer(GhdlLibrary library, std::filesystem::path cache)
@@ -92,6 +93,9 @@ class Synthesizer {
                                             const std::string& script) const;
   Result<std::filesystem::path> ice40_folder(const Design& design) const;
   Result<std::filesystem::path> wrapped_folder(const Design& design) const;
+  /// Where Yosys has left what `script` makes of mapped.il and, where it is not empty, wrapper.v.
+  Result<std::filesystem::path> from_mapped(const Design& design, const std::string& kind,
+                                            const std::string& script, const std::string& around) const;
   GhdlLibrary library_;
   std::filesystem::path cache_;
   std::string yosys_, nextpnr_, versions_;
