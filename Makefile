@@ -124,9 +124,10 @@ bounds: configure ## every bound of formats and tables: derived, proved, and how
 	@build/tb/halfway_bounds --page tb/bounds/README.md build/bounds
 
 synth: configure ## cells on two FPGAs, and the clock on one, against what is pinned (DESIGN, SEEDS, PIN=1)
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth synth_frames
+	@build/tb/synth_frames
 	@build/tb/halfway_synth --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin) \
-	  $$([ -n "$$DESIGN" ] || echo --page tb/synth/README.md) . build/cache $${DESIGN:+"$$DESIGN"}
+	  --page tb/synth/README.md . build/cache $${DESIGN:+"$$DESIGN"}
 
 bench: program ## speed, as ratios within one run
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench

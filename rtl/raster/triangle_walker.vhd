@@ -78,6 +78,7 @@ architecture rtl of triangle_walker is
     x        : span_x_t;
     stop     : span_x_t;
     backward : std_logic;
+    last     : std_logic; -- x is the span's last pixel
   end record;
 
   type reg_t is record
@@ -96,6 +97,8 @@ architecture rtl of triangle_walker is
 
   signal next_x       : span_x_t;
   signal span_last    : std_logic;
+  signal start_last   : std_logic; -- the line's first pixel is its last
+  signal next_last    : std_logic; -- the next pixel is the span's last
   signal span_free    : std_logic;
   signal line_empty   : std_logic;
   signal section_last : std_logic;
@@ -105,7 +108,13 @@ architecture rtl of triangle_walker is
 begin
 
   next_x    <= r.span.x - 1 when r.span.backward = '1' else r.span.x + 1;
-  span_last <= '1' when next_x = r.span.stop else '0';
+  span_last <= r.span.last;
+
+  -- A pixel ahead: all that goes on at a span's end waits for a register, not for a sum and a comparison.
+  start_last <= '1' when (r.line.backward = '1' and start - 1 = stop) or (r.line.backward = '0' and start + 1 = stop) else
+    '0';
+  next_last  <= '1' when (r.span.backward = '1' and r.span.x - 2 = r.span.stop)
+    or (r.span.backward = '0' and r.span.x + 2 = r.span.stop) else '0';
 
   span_step <= r.span.valid and fragment_ready;
   span_free <= not r.span.valid or (fragment_ready and span_last);
@@ -134,8 +143,10 @@ begin
       v.span.x        := start;
       v.span.stop     := stop;
       v.span.backward := r.line.backward;
+      v.span.last     := start_last;
     elsif span_step = '1' then
       v.span.x     := next_x;
+      v.span.last  := next_last;
       v.span.valid := not span_last;
     end if;
 

@@ -183,6 +183,8 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "(fragment_ready and span_last)", "span_last"},
       {"raster/triangle_walker.vhd", "(fragment_ready and span_last)", "fragment_ready"},
       {"raster/triangle_walker.vhd", "v.span.valid := not span_last", "v.span.valid := '1'"},
+      {"raster/triangle_walker.vhd", "v.span.last     := start_last", "v.span.last     := '0'"},
+      {"raster/triangle_walker.vhd", "v.span.last  := next_last", "v.span.last  := start_last"},
       {"raster/triangle_walker.vhd", "span_step <= r.span.valid and fragment_ready",
        "span_step <= r.span.valid"},
       {"raster/triangle_walker.vhd", "v.span.x        := start", "v.span.x        := stop"},

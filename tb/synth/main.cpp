@@ -31,6 +31,11 @@ namespace {
 constexpr int kSkipped = 77;  // as CMakeLists.txt has it in SKIP_RETURN_CODE
 constexpr const char* kPins = "tb/synth/pinned.txt";
 constexpr std::string_view kTable = "## Figures\n";  // of the page: what stands behind it is written anew
+constexpr std::string_view kHead =
+    "| design | LUTs | carries | flip-flops | RAMs | clock, MHz | of seeds | ns a pixel | critical path | "
+    "ECP5: LUTs | "
+    "flip-flops | RAMs | multipliers |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | "
+    "--- | --- |\n";
 
 struct Options {
   bool quick = false, cells = false, pin = false;
@@ -70,10 +75,7 @@ bool read_options(const std::vector<std::string>& arguments, Options& options) {
       places.push_back(argument);
   }
   if (places.size() != 2 && places.size() != 3) return false;
-  // A part of the figures is no page and no file of pins.
-  const bool whole = places.size() == 2 && !options.cells && !options.quick;
-  if (!options.page.empty() && !whole) return false;
-  if (options.pin && (options.cells || options.quick)) return false;
+  if (!options.page.empty() && (options.cells || options.quick)) return false;  // rows with holes
   options.folders = {std::filesystem::absolute(places[0]), std::filesystem::absolute(places[1])};
   if (places.size() == 3) options.part = places[2];
   return true;
@@ -114,8 +116,12 @@ std::string path_text(const CriticalPath& path) {
                      path.to, path.luts, path.carries, path.logic, path.routing);
 }
 
+std::string row_begin(const std::string& name) {
+  return fmt::format("| `{}` |", name);
+}
+
 std::string row(const Design& design, const Figures& f) {
-  std::string text = fmt::format("| `{}` |", design.name);
+  std::string text = row_begin(design.name);
   if (f.ice40)
     text += fmt::format(" {} | {} | {} | {} |", f.ice40->luts, f.ice40->carries, f.ice40->flip_flops,
                         f.ice40->rams);
@@ -136,11 +142,24 @@ std::string row(const Design& design, const Figures& f) {
   return text;
 }
 
-Status write_page(const std::filesystem::path& path, std::string_view rows, const std::string& versions) {
+// The rows of designs measured before stay, those of designs that are no more go.
+Status write_page(const std::filesystem::path& path, const std::map<std::string, std::string>& rows,
+                  const std::string& versions) {
   auto text = read_file(path);
   if (!text) return text.error();
-  text->resize(std::min(text->find(kTable), text->size()));
-  return write_file(path, fmt::format("{}{}\nBy {}, on {}.\n\n{}", *text, kTable, versions, machine(), rows));
+  const std::size_t figures = std::min(text->find(kTable), text->size());
+  std::string table(kHead);
+  for (const Design& design : all_designs()) {
+    const auto measured = rows.find(design.name);
+    const std::size_t before = text->find(row_begin(design.name), figures);
+    if (measured != rows.end())
+      table += measured->second;
+    else if (before != std::string::npos)
+      table += text->substr(before, text->find('\n', before) + 1 - before);
+  }
+  text->resize(figures);
+  return write_file(path,
+                    fmt::format("{}{}\nBy {}, on {}.\n\n{}", *text, kTable, versions, machine(), table));
 }
 
 class Run {
@@ -220,13 +239,13 @@ class Run {
   }
 
   ExitCode report() {
-    std::string rows =
-        "| design | LUTs | carries | flip-flops | RAMs | clock, MHz | of seeds | ns a pixel | critical path "
-        "| ECP5: LUTs | "
-        "flip-flops | RAMs | multipliers |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | "
-        "--- | --- | --- |\n";
-    for (std::size_t i = 0; i < designs_.size(); ++i) rows += row(designs_[i], figures_[i]);
-    fmt::print("\n{}\n", rows);
+    std::map<std::string, std::string> rows;
+    fmt::print("\n{}", kHead);
+    for (std::size_t i = 0; i < designs_.size(); ++i) {
+      rows[designs_[i].name] = row(designs_[i], figures_[i]);
+      fmt::print("{}", rows[designs_[i].name]);
+    }
+    fmt::print("\n");
     if (broken_ > 0) {
       fmt::print("{} figures could not be had\n", broken_);
       return ExitCode::tool_failed;
@@ -234,7 +253,8 @@ class Run {
     const auto path = options_.folders.source / kPins;
     Pins pins;
     // A part is pinned beside what is there.
-    if (!options_.pin || !options_.part.empty()) {
+    const bool part = !options_.part.empty() || options_.quick || options_.cells;
+    if (!options_.pin || (part && std::filesystem::exists(path))) {
       auto read = read_pins(path);
       if (!read) return failed(read.error());
       pins = std::move(*read);
@@ -243,7 +263,9 @@ class Run {
     for (std::size_t i = 0; i < designs_.size(); ++i) {
       const Figures& f = figures_[i];
       if (options_.pin) {
-        pins[designs_[i].name] = {*f.ice40, f.mhz()};
+        Pin& pin = pins[designs_[i].name];
+        pin.cells = *f.ice40;
+        if (f.fits()) pin.mhz = f.mhz();  // else as it was
       } else if (const std::string text = compare(designs_[i].name, pins, *f.ice40, f.mhz()); !text.empty()) {
         fmt::print("{}", text);
         ++wrong;
