@@ -32,7 +32,7 @@ constexpr int kSkipped = 77;  // as CMakeLists.txt has it in SKIP_RETURN_CODE
 constexpr const char* kPins = "tb/synth/pinned.txt";
 constexpr std::string_view kTable = "## Figures\n";  // of the page: what stands behind it is written anew
 constexpr std::string_view kHead =
-    "| design | LUTs | carries | flip-flops | RAMs | clock, MHz | of seeds | ns a pixel | critical path | "
+    "| design | LUTs | carries | flip-flops | RAMs | clock, MHz | seeds, MHz | ns a pixel | critical path | "
     "ECP5: LUTs | "
     "flip-flops | RAMs | multipliers |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | "
     "--- | --- |\n";
@@ -128,8 +128,9 @@ std::string row(const Design& design, const Figures& f) {
   else
     text += " – | – | – | – |";
   if (f.fits())
-    text += fmt::format(" {:.0f} | {:.0f} to {:.0f} | {:.1f} | {} |", f.mhz(), f.placements.front().mhz,
-                        f.placements.back().mhz, 1000 / f.mhz(), path_text(f.median()->path));
+    text += fmt::format(" {:.0f} | {:.0f} to {:.0f} of {} | {:.1f} | {} |", f.mhz(), f.placements.front().mhz,
+                        f.placements.back().mhz, f.placements.size(), 1000 / f.mhz(),
+                        path_text(f.median()->path));
   else
     text += fmt::format(" – | – | – | {} |", !design.without.empty() ? "not placed: " + design.without
                                              : f.placements.empty()  ? "not placed"
