@@ -7,7 +7,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 # What a target hands to the program. Values travel through the environment and are quoted where they are
 # used: neither make nor a shell ever reads them as code.
 variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS \
-  ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE TRIANGLES SEED SECONDS TARGET DESIGN SEEDS PIN
+  ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE TRIANGLES SEED SECONDS TARGET FRAMES VIDEO TERMINAL DESIGN SEEDS PIN
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
 
@@ -30,7 +30,7 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim compare why plan figure17 gallery tables check-tables test sanitize fuzz kills mutate prove \
+.PHONY: help sim view compare why plan figure17 gallery tables check-tables test sanitize fuzz kills mutate prove \
   stability search bounds synth bench build program generator configure setup doctor format check-format clean
 
 help: ## this list
@@ -48,6 +48,8 @@ help: ## this list
 	@echo '  OUT        the folder for results                         (default: build/out)'
 	@echo '  THREADS    threads for triangle setup and golden model    (default: all cores)'
 	@echo '  ALL_EFFECTS  1: hardware with every effect, whatever the scene calls for; LIGHTS  for how many lights'
+	@echo '  FRAMES     make view: steps of one turn of the camera         (default: 36)'
+	@echo '  VIDEO, RATE  make view: a file for a video, and its frames a second; TERMINAL  1: draw in the terminal'
 	@echo '  MEASURE    1: make plan counts cells by Yosys, and cycles and seconds by simulation'
 	@echo '  OBJECTS, RATE  make plan: how many shading processors draw so many objects a pixel, frames a second'
 	@echo '  TRIANGLES, SEED  make search: how many, and which ones     (default: 10000000, 1)'
@@ -61,6 +63,11 @@ help: ## this list
 
 sim: program ## scenes through golden model, GHDL and Verilator: compare, write frames
 	@build/halfway sim $(sim_options) $(scene)
+
+view: program ## one scene from all sides, by the RTL in Verilator (SCENE; VIDEO=turn.mp4, TERMINAL=1)
+	@build/halfway view $(run_options) $(call option,THREADS,--threads) $(call option,OUT,--out) \
+	  $(call option,FRAMES,--frames) $(call option,VIDEO,--video) $(call option,RATE,--rate) \
+	  $(call flag,TERMINAL,--terminal) $(scene)
 
 compare: program ## the frames that make sim left, once more
 	@build/halfway compare $(call option,SHADER,--shader) $(call flag,ALL_EFFECTS,--all-effects) \

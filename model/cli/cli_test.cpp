@@ -13,9 +13,9 @@
 #include <sstream>
 #include <thread>
 
+#include "cli/command_test.hpp"
 #include "common/file.hpp"
 #include "common/folder_lock.hpp"
-#include "common/subprocess.hpp"
 
 namespace halfway {
 namespace {
@@ -25,49 +25,20 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class CliTest : public ::testing::Test {
+class CliTest : public CommandTest {
  protected:
-  void SetUp() override {
-    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
-  }
-
-  struct Outcome {
-    int exit_code;
-    std::string output;  // both streams
-  };
-  Outcome run(std::vector<std::string> arguments,
-              std::vector<std::pair<std::string, std::string>> environment = {}) const {
-    arguments.insert(arguments.begin(), HALFWAY_PROGRAM);
-    return run_as(std::move(arguments), std::move(environment));
-  }
-  Outcome run_as(std::vector<std::string> arguments,
-                 std::vector<std::pair<std::string, std::string>> environment = {}) const {
-    Command command;
-    command.arguments = std::move(arguments);
-    command.working_folder = folder_->path();
-    command.environment = std::move(environment);
-    command.timeout = std::chrono::minutes(5);
-    const auto end = run_process(command, "");
-    if (!end) return {-1, end.error().message};
-    if (end->signal != 0 || end->timed_out) return {-2, end->how() + "\n" + end->output};
-    return {end->exit_status, end->output};
-  }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     const std::filesystem::path path = folder_->path() / name;
     EXPECT_TRUE(write_file(path, text));
     return path;
   }
   std::filesystem::path out() const { return folder_->path() / "out"; }
-
-  std::optional<TemporaryFolder> folder_;
 };
 
 const std::string c_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 TEST_F(CliTest, HelpGoesToStandardOutputAndExitsZero) {
-  for (const std::string command : {"sim", "plan", "render", "init", "compare", "why", "tables"}) {
+  for (const std::string command : {"sim", "view", "plan", "render", "init", "compare", "why", "tables"}) {
     const Outcome help = run({command, "--help"});
     EXPECT_EQ(help.exit_code, 0) << help.output;
     EXPECT_THAT(help.output, HasSubstr("Usage: "));

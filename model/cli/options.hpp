@@ -89,6 +89,7 @@ void add_plan(CLI::App& app, const Folders& folders, int& exit_code);
 void add_render(CLI::App& app, const Folders& folders, int& exit_code);
 void add_init(CLI::App& app, const Folders& folders, int& exit_code);
 void add_compare(CLI::App& app, const Folders& folders, int& exit_code);
+void add_view(CLI::App& app, const Folders& folders, int& exit_code);
 void add_why(CLI::App& app, const Folders& folders, int& exit_code);
 
 }  // namespace halfway::cli

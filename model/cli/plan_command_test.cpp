@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
+#include "cli/command_test.hpp"
 #include "common/file.hpp"
-#include "common/subprocess.hpp"
 
 namespace halfway {
 namespace {
@@ -16,30 +16,10 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class PlanCommand : public ::testing::Test {
+class PlanCommand : public CommandTest {
  protected:
-  void SetUp() override {
-    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
-  }
-
-  struct Outcome {
-    int exit_code;
-    std::string output;  // both streams
-  };
-  Outcome run(std::vector<std::string> arguments, const std::string& path = "") const {
-    arguments.insert(arguments.begin(), HALFWAY_PROGRAM);
-    Command command{.arguments = std::move(arguments), .working_folder = folder_->path()};
-    if (!path.empty()) command.environment = {{"PATH", path}};
-    command.timeout = std::chrono::minutes(5);
-    const auto end = run_process(command, "");
-    if (!end) return {-1, end.error().message};
-    return {end->signal != 0 || end->timed_out ? -2 : end->exit_status, end->output};
-  }
-
   /// PATH with a stand-in for Yosys: as many LUTs as the netlist has kilobytes.
-  std::string path_with_yosys() const {
+  Environment path_with_yosys() const {
     const auto bin = folder_->path() / "bin";
     EXPECT_TRUE(make_folders(bin));
     EXPECT_TRUE(write_file(bin / "yosys",
@@ -47,10 +27,8 @@ class PlanCommand : public ::testing::Test {
                            "echo \"{\\\"design\\\": {\\\"num_cells_by_type\\\": {\\\"\\$lut\\\": "
                            "$(($(wc -c <netlist.v) / 1024)), \\\"\\$_DFF_P_\\\": 5}}}\" >cells.json\n"));
     std::filesystem::permissions(bin / "yosys", std::filesystem::perms::all);
-    return bin.string() + ":" + std::getenv("PATH");
+    return {{"PATH", bin.string() + ":" + std::getenv("PATH")}};
   }
-
-  std::optional<TemporaryFolder> folder_;
 };
 
 TEST_F(PlanCommand, ListsEveryEffectAndWhatIsLeftOut) {
@@ -157,7 +135,7 @@ TEST_F(PlanCommand, BadUsageExitsTwo) {
 }
 
 TEST_F(PlanCommand, AMissingToolExitsThree) {
-  const std::string nowhere = (folder_->path() / "empty").string();
+  const Environment nowhere = {{"PATH", (folder_->path() / "empty").string()}};
   EXPECT_EQ(run({"plan", "matte"}, nowhere).exit_code, 0) << "without --measure no tool is needed";
   const Outcome outcome = run({"plan", "matte", "--measure"}, nowhere);
   EXPECT_EQ(outcome.exit_code, 3) << outcome.output;

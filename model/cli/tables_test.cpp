@@ -7,6 +7,7 @@
 #include <optional>
 #include <regex>
 
+#include "cli/command_test.hpp"
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
 
@@ -18,28 +19,11 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class TablesCommand : public ::testing::Test {
+class TablesCommand : public CommandTest {
  protected:
-  void SetUp() override {
-    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
-  }
-
-  struct Outcome {
-    int exit_code;
-    std::string output;  // both streams
-  };
   Outcome run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {HALFWAY_PROGRAM, "--source", source(), "tables"});
-    Command command;
-    command.arguments = std::move(arguments);
-    command.working_folder = folder_->path();
-    command.timeout = std::chrono::minutes(1);
-    const auto end = run_process(command, "");
-    if (!end) return {-1, end.error().message};
-    if (end->signal != 0 || end->timed_out) return {-2, end->how() + "\n" + end->output};
-    return {end->exit_status, end->output};
+    return run_as(std::move(arguments), {}, std::chrono::minutes(1));
   }
   std::filesystem::path source() const { return folder_->path() / "source"; }
   std::string text_of(const char* name) const {
@@ -47,8 +31,6 @@ class TablesCommand : public ::testing::Test {
     EXPECT_TRUE(text) << name;
     return text ? *text : std::string();
   }
-
-  std::optional<TemporaryFolder> folder_;
 };
 
 constexpr const char* c_files[] = {"rtl/tables/formats_pkg.vhd",  "model/golden/formats.hpp",

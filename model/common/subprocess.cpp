@@ -121,13 +121,15 @@ std::filesystem::path find_program(const std::string& name) {
 
 Result<ProcessEnd> run_process(const Command& command, const std::string& install) {
   const std::string& name = command.arguments.front();
+  Descriptor input(command.standard_input);
   std::filesystem::path program = find_program(name);
   if (program.empty()) return tool_failed(fmt::format("{}: not found; install it with: {}", name, install));
   // The child may change its folder first, and what PATH gave may be relative.
   program = std::filesystem::absolute(program);
 
   Pipe output, failure;
-  Descriptor input(::open("/dev/null", O_RDONLY | O_CLOEXEC)), file;
+  if (input.get() < 0) input.reset(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  Descriptor file;
   if (!output.open() || !failure.open() || input.get() < 0) {
     return tool_failed(fmt::format("{}: cannot start: {}", name, std::strerror(errno)));
   }
@@ -178,6 +180,7 @@ Result<ProcessEnd> run_process(const Command& command, const std::string& instal
     ::_exit(127);
   }
   ::setpgid(child, child);
+  input.reset();
   output.writer.reset();
   failure.writer.reset();
   file.reset();

@@ -19,6 +19,8 @@ struct Command {
   std::filesystem::path working_folder{};  ///< empty: this process's own
   std::filesystem::path
       standard_output{};  ///< a file for it; empty: into ProcessEnd::output with standard error
+  /// A descriptor for its standard input, closed here once it has started, or could not; -1: nothing to read.
+  int standard_input = -1;
   std::vector<std::pair<std::string, std::string>> environment{};  ///< added to this process's own
   std::optional<std::chrono::milliseconds> timeout{};
   std::function<void()> on_poll{};  ///< called about every `poll_interval` while it runs

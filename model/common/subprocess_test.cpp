@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/subprocess.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -28,6 +30,23 @@ TEST(Subprocess, GivesStatusAndOutput) {
   EXPECT_EQ(end.output, "out\nerr\n");
   EXPECT_EQ(end.how(), "exit status 7");
   EXPECT_TRUE(run(shell("true")).succeeded());
+}
+
+TEST(Subprocess, ReadsWhatItIsGiven) {
+  int ends[2];
+  ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+  ASSERT_EQ(::write(ends[1], "frames", 6), 6);
+  ::close(ends[1]);
+  Command command = shell("cat");
+  command.standard_input = ends[0];
+  EXPECT_EQ(run(command).output, "frames");
+  EXPECT_EQ(::fcntl(ends[0], F_GETFD), -1) << "left open";
+  EXPECT_EQ(run(shell("cat")).output, "");
+
+  ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+  ::close(ends[1]);
+  EXPECT_FALSE(run_process({.arguments = {"halfway-no-such-program"}, .standard_input = ends[0]}, ""));
+  EXPECT_EQ(::fcntl(ends[0], F_GETFD), -1) << "left open";
 }
 
 TEST(Subprocess, TellsTheSignal) {

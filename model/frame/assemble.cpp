@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 namespace halfway {
@@ -22,8 +24,10 @@ Error refusal(const Fragment& f, std::uint64_t number, const std::string& why) {
 
 FrameAssembler::FrameAssembler(FrameSize size, glm::dvec3 background)
     : frame_(size), z_(frame_.pixels(), c_empty) {
-  for (std::size_t i = 0; i < frame_.rgb.size(); ++i)
-    frame_.rgb[i] = to_byte(background[static_cast<glm::dvec3::length_type>(i % 3)]);
+  const std::array<std::uint8_t, 3> colour = {to_byte(background.r), to_byte(background.g),
+                                              to_byte(background.b)};
+  for (auto pixel = frame_.rgb.begin(); pixel != frame_.rgb.end();)
+    pixel = std::copy(colour.begin(), colour.end(), pixel);
 }
 
 Status FrameAssembler::add(std::span<const Fragment> fragments) {

@@ -75,7 +75,17 @@ Status write_whole(const std::string& path, std::span<const unsigned char> bytes
   return cannot_write(path, error);
 }
 
-Result<std::vector<unsigned char>> encode_png(const std::string& path, const Frame& frame) {
+Status check_picture(const std::string& path, const Frame& frame) {
+  if (frame.size.width == 0 || frame.size.height == 0 || frame.size.width > c_max_frame_side ||
+      frame.size.height > c_max_frame_side || frame.rgb.size() != 3 * frame.pixels())
+    return bad_input(fmt::format(
+        "{}: a frame of {}x{} with {} bytes is no picture; render 1x1 to {}x{} pixels", path,
+        frame.size.width, frame.size.height, frame.rgb.size(), c_max_frame_side, c_max_frame_side));
+  return Ok{};
+}
+
+Result<std::vector<unsigned char>> encode_png(const std::string& path, const Frame& frame,
+                                              Compression compression) {
   std::vector<unsigned char> bytes;
   const auto failed = [&](const std::string& why) {
     return tool_failed(
@@ -86,8 +96,13 @@ Result<std::vector<unsigned char>> encode_png(const std::string& path, const Fra
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png", &memory);
     if (!output) return failed(OIIO::geterror());
     if (!output->set_ioproxy(&memory)) return failed("it does not encode to memory");
-    const OIIO::ImageSpec spec(static_cast<int>(frame.size.width), static_cast<int>(frame.size.height), 3,
-                               OIIO::TypeDesc::UINT8);
+    OIIO::ImageSpec spec(static_cast<int>(frame.size.width), static_cast<int>(frame.size.height), 3,
+                         OIIO::TypeDesc::UINT8);
+    if (compression == Compression::quick) {
+      constexpr int c_filter_up = 0x20;  // PNG_FILTER_UP
+      spec.attribute("png:compressionLevel", 1);
+      spec.attribute("png:filter", c_filter_up);
+    }
     if (!output->open(path, spec) || !output->write_image(OIIO::TypeDesc::UINT8, frame.rgb.data()) ||
         !output->close())
       return failed(output->geterror());
@@ -99,15 +114,19 @@ Result<std::vector<unsigned char>> encode_png(const std::string& path, const Fra
 
 }  // namespace
 
-Status write_png(const std::filesystem::path& path, const Frame& frame) {
-  if (frame.size.width == 0 || frame.size.height == 0 || frame.size.width > c_max_frame_side ||
-      frame.size.height > c_max_frame_side || frame.rgb.size() != 3 * frame.pixels())
-    return bad_input(fmt::format(
-        "{}: a frame of {}x{} with {} bytes is no picture; render 1x1 to {}x{} pixels", path.string(),
-        frame.size.width, frame.size.height, frame.rgb.size(), c_max_frame_side, c_max_frame_side));
-  const Result<std::vector<unsigned char>> bytes = encode_png(path.string(), frame);
+Status write_png(const std::filesystem::path& path, const Frame& frame, Compression compression) {
+  if (Status status = check_picture(path.string(), frame); !status) return status;
+  const Result<std::vector<unsigned char>> bytes = encode_png(path.string(), frame, compression);
   if (!bytes) return bytes.error();
   return write_whole(path.string(), *bytes);
+}
+
+Status write_ppm(const std::filesystem::path& path, const Frame& frame) {
+  if (Status status = check_picture(path.string(), frame); !status) return status;
+  const std::string header = fmt::format("P6\n{} {}\n255\n", frame.size.width, frame.size.height);
+  std::vector<unsigned char> bytes(header.begin(), header.end());
+  bytes.insert(bytes.end(), frame.rgb.begin(), frame.rgb.end());
+  return write_whole(path.string(), bytes);
 }
 
 Result<Frame> read_png(const std::filesystem::path& path) {

@@ -55,7 +55,20 @@ TEST_F(Image, ComesBackAsItWasWritten) {
     EXPECT_EQ(back->size.height, size.height);
     EXPECT_EQ(back->rgb, frame.rgb);
     EXPECT_EQ(files(), 1u);  // nothing temporary left
+    ASSERT_TRUE(write_png(path, frame, Compression::quick));
+    const auto quick = read_png(path);
+    ASSERT_TRUE(quick) << quick.error().message;
+    EXPECT_EQ(quick->rgb, frame.rgb);
   }
+}
+
+TEST_F(Image, APpmIsItsPixelsAfterAHeader) {
+  const Frame frame = noise({3, 2}, 7);
+  const fs::path path = folder_ / "a.ppm";
+  ASSERT_TRUE(write_ppm(path, frame));
+  EXPECT_EQ(bytes_of(path), "P6\n3 2\n255\n" + std::string(frame.rgb.begin(), frame.rgb.end()));
+  EXPECT_EQ(files(), 1u);
+  EXPECT_FALSE(write_ppm(path, Frame{}));
 }
 
 TEST_F(Image, SameFrameGivesTheSameBytes) {

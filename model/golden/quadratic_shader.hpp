@@ -93,16 +93,16 @@ class QuadraticShader {
   }
 
  private:
-  using Channel = std::array<QuadraticInterpolator<Preset>, Channels>;
-
   template <class Emit, class Watch>
   void draw_span(Emit& emit, Watch& watch) {
     depth_.span_load();
     for (auto& channel : channel_) channel.span_load();
     if constexpr (requires { emit.room(std::size_t{}); }) {
-      // The compiler keeps the registers of a span in its own only where nothing else can see them.
-      ZInterpolator<Preset> depth = depth_;
-      Channel channel = channel_;
+      // The registers that move along the span, where nothing else can see them: the compiler keeps them in
+      // its own. Behind the span they are loaded anew.
+      auto depth = depth_.along_line();
+      const auto along = [&](int c) { return channel_[c].along_line(); };
+      auto red = along(0), green = along(Channels == 3 ? 1 : 0), blue = along(Channels == 3 ? 2 : 0);
       const std::int64_t from = walker_.start().value(), to = walker_.stop().value();
       const auto count = static_cast<std::size_t>(walker_.backward() ? from - to : to - from);
       Fragment* out = emit.room(count);
@@ -110,20 +110,21 @@ class QuadraticShader {
       const int step = walker_.backward() ? -1 : 1;
       for (std::size_t i = 0, x = static_cast<std::size_t>(from); i < count;
            ++i, x += static_cast<std::size_t>(step)) {
-        set_pixel(fragment, x, depth, channel);
+        set_pixel(fragment, x, depth.value, red.value, green.value, blue.value);
         *out++ = fragment;
-        depth.span_step();
-        for (auto& c : channel) c.span_step();
+        depth.step();
+        red.step();
+        green.step();
+        blue.step();
       }
-      depth_ = depth;
-      channel_ = channel;
     } else {
       const SpanXWord stop = walker_.stop();
       const SpanXWord step = SpanXWord::from_bits(walker_.backward() ? ~std::uint64_t{0} : 1);
       Fragment fragment = span_fragment();
       for (SpanXWord x = walker_.start(); x != stop; x += step) {
         watch.span(*this, x);
-        set_pixel(fragment, x.bits(), depth_, channel_);
+        set_pixel(fragment, x.bits(), depth_.value(), channel_[0].value(),
+                  channel_[Channels == 3 ? 1 : 0].value(), channel_[Channels == 3 ? 2 : 0].value());
         emit(fragment);
         depth_.span_step();
         for (auto& channel : channel_) channel.span_step();
@@ -137,19 +138,21 @@ class QuadraticShader {
     fragment.y = static_cast<std::uint16_t>(walker_.y());
     return fragment;
   }
-  static void set_pixel(Fragment& fragment, std::uint64_t x, const ZInterpolator<Preset>& depth,
-                        const Channel& channel) {
+  using Depth = Word<Preset::c_depth_sum_bits>;
+  using Intensity = Word<Preset::c_intensity_bits>;
+  static void set_pixel(Fragment& fragment, std::uint64_t x, Depth depth, Intensity red, Intensity green,
+                        Intensity blue) {
     fragment.x = static_cast<std::uint16_t>(low_bits(x, Preset::c_pixel_x_bits));
     fragment.z = static_cast<std::uint32_t>(
-        low_bits(depth.value().bits() >> Preset::c_depth_sum_fraction_bits, Preset::c_depth_bits));
-    fragment.red = colour(channel[0]);
-    fragment.green = colour(channel[Channels == 3 ? 1 : 0]);
-    fragment.blue = colour(channel[Channels == 3 ? 2 : 0]);
+        low_bits(depth.bits() >> Preset::c_depth_sum_fraction_bits, Preset::c_depth_bits));
+    fragment.red = colour(red);
+    fragment.green = colour(green);
+    fragment.blue = colour(blue);
   }
-  static std::uint8_t colour(const QuadraticInterpolator<Preset>& channel) {
+  static std::uint8_t colour(Intensity intensity) {
     return static_cast<std::uint8_t>(
         saturate<Preset::c_intensity_bits, Preset::c_intensity_fraction_bits, Preset::c_colour_bits>(
-            channel.value()));
+            intensity));
   }
 
   TriangleWalker<Preset> walker_;

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <span>
 
+#include "common/seconds.hpp"
 #include "common/threads.hpp"
 #include "run/golden_run.hpp"
 
@@ -24,23 +24,21 @@ std::size_t bytes(const Batch& batch) {
          batch.golden.size() * sizeof(batch.golden[0]);
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 }  // namespace
 
-SceneStream::SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads)
+SceneStream::SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads,
+                         const SceneStreamOptions& options)
     : setup_(setup),
       key_(key),
       threads_(std::max(1U, threads)),
+      options_(options),
       batch_units_(setup.units_are_lines() ? c_first_lines : c_first_batch) {
   setup_.append_prologue(prologue_, counts_);
   prefetch();
 }
 
 SceneStream::~SceneStream() {
-  if (ahead_.valid()) ahead_.wait();
+  if (options_.ahead && ahead_.valid()) ahead_.wait();
 }
 
 void SceneStream::prefetch() {
@@ -48,7 +46,8 @@ void SceneStream::prefetch() {
   if (next_unit_ >= total) return;
   const std::uint32_t begin = next_unit_, end = std::min(total, begin + batch_units_);
   next_unit_ = end;
-  ahead_ = std::async(std::launch::async, [this, begin, end] { return make(begin, end); });
+  ahead_ = std::async(options_.ahead ? std::launch::async : std::launch::deferred,
+                      [this, begin, end] { return make(begin, end); });
 }
 
 bool SceneStream::next(Batch& batch) {
@@ -74,22 +73,23 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) cons
   std::vector<Work> parts(chunks);
   std::atomic<std::size_t> next_chunk = 0;
   const auto work = [&] {
-    const std::unique_ptr<GoldenModel> golden = make_golden_model(key_);
+    const std::unique_ptr<GoldenModel> golden = options_.golden ? make_golden_model(key_) : nullptr;
     std::vector<Fragment> none;
-    golden->draw(prologue_, none);
+    if (golden) golden->draw(prologue_, none);
     for (std::size_t i = next_chunk++; i < chunks; i = next_chunk++) {
       Work& part = parts[i];
       const auto first = static_cast<std::uint32_t>(begin + i * chunk_units);
-      const auto setup_start = std::chrono::steady_clock::now();
+      const double setup_start = thread_seconds();
       if (first == 0) part.batch.init_words = prologue_;
       const std::size_t drawn = part.batch.init_words.size();
       for (std::uint32_t unit = first; unit < std::min(end, first + chunk_units); ++unit)
         setup_.append(unit, part.batch.init_words, part.counts);
-      part.setup_seconds = seconds_since(setup_start);
-      const auto golden_start = std::chrono::steady_clock::now();
+      part.setup_seconds = thread_seconds() - setup_start;
+      if (!golden) continue;
+      const double golden_start = thread_seconds();
       golden->draw(std::span(part.batch.init_words).subspan(drawn), part.batch.golden);
       part.fault = golden->fault();
-      part.golden_seconds = seconds_since(golden_start);
+      part.golden_seconds = thread_seconds() - golden_start;
     }
   };
   work_on_threads(static_cast<unsigned>(std::min<std::size_t>(threads_, chunks)), work);
@@ -119,6 +119,15 @@ Status check_shadow_counts(const Scene& scene, const SceneStream& stream) {
   if (stream.fault())
     return tool_failed(
         fmt::format("{}: a count of shadow volumes left its format; please report it", scene.name));
+  return Ok{};
+}
+
+Status check_projection(const Scene& scene, const SceneStream& stream) {
+  if (const std::uint64_t lost = stream.counts().projection.unrepresentable; lost != 0)
+    return bad_input(
+        fmt::format("{}: {} triangles project to no finite point; bring the scene nearer to the origin, or "
+                    "the camera away from them",
+                    scene.name, lost));
   return Ok{};
 }
 

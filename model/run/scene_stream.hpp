@@ -20,6 +20,12 @@ struct Batch {
   double done = 0.0;  ///< part of the stream, this batch included: 0 to 1
 };
 
+struct SceneStreamOptions {
+  bool golden = true;  ///< else batches hold no fragments
+  /// Else a batch is made when it is asked for: better where other threads have work of their own.
+  bool ahead = true;
+};
+
 /// Setup and golden model on `threads` threads, one batch ahead of who takes them. The stream does not depend
 /// on the number of threads. The first batch begins with setup's prologue, which every thread's golden model
 /// is given first. Memory is bounded by a batch, not by the mesh: batches of large triangles, of triangles
@@ -27,7 +33,8 @@ struct Batch {
 class SceneStream {
  public:
   /// The setup must outlive the stream.
-  SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads);
+  SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads,
+              const SceneStreamOptions& options = {});
   ~SceneStream();
 
   /// The next batch; false after the last.
@@ -53,6 +60,7 @@ class SceneStream {
   const Setup& setup_;
   HardwareKey key_;
   unsigned threads_;
+  SceneStreamOptions options_;
   std::vector<std::uint32_t> prologue_;
   std::uint32_t next_unit_ = 0, batch_units_;
   std::future<Work> ahead_;
@@ -64,5 +72,8 @@ class SceneStream {
 /// Whether, in all batches taken so far, each pixel's shadow volumes could be counted; bad input where there
 /// are too many.
 Status check_shadow_counts(const Scene& scene, const SceneStream& stream);
+/// Whether, in all batches taken so far, each triangle projects to finite points; bad input where one does
+/// not.
+Status check_projection(const Scene& scene, const SceneStream& stream);
 
 }  // namespace halfway

@@ -58,7 +58,15 @@ TEST(SceneStream, IsPrologueAndUnitsForAnyNumberOfThreads) {
         EXPECT_EQ(stream.counts().shadows, counts.shadows);
         EXPECT_EQ(stream.counts().projection.visible, counts.projection.visible);
         EXPECT_TRUE(check_shadow_counts(*scene, stream));
+        EXPECT_TRUE(check_projection(*scene, stream));
       }
+      SceneStream without(*setup, key, 2, {.golden = false, .ahead = false});
+      std::vector<std::uint32_t> same;
+      for (Batch batch; without.next(batch);) {
+        same.insert(same.end(), batch.init_words.begin(), batch.init_words.end());
+        EXPECT_TRUE(batch.golden.empty());
+      }
+      EXPECT_EQ(same, words);
     }
 }
 

@@ -11,6 +11,7 @@
 
 #include "common/file.hpp"
 #include "common/folder_lock.hpp"
+#include "common/seconds.hpp"
 #include "frame/assemble.hpp"
 #include "frame/image.hpp"
 #include "frame/init_file.hpp"
@@ -18,7 +19,9 @@
 #include "plan/effects.hpp"
 #include "plan/hardware_units.hpp"
 #include "reference/renderer.hpp"
+#include "run/ghdl_parts.hpp"
 #include "run/limits.hpp"
+#include "run/rtl_stream.hpp"
 #include "run/scene_stream.hpp"
 #include "run/trace_pair.hpp"
 #include "run/waveform.hpp"
@@ -34,51 +37,6 @@ using Clock = std::chrono::steady_clock;
 
 // Times white, past which a light's brightness is worth a note.
 constexpr double c_bright = 2.0;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// A simulator's fragments on their way: compared, assembled, written.
-class RtlStream {
- public:
-  RtlStream(FrameSize size, glm::dvec3 background) : assembler_(size, background) {}
-
-  void add_golden(std::span<const Fragment> fragments) { comparator_.add_golden(fragments); }
-  void add(std::span<const Fragment> fragments) {
-    count_ += fragments.size();
-    comparator_.add_rtl(fragments);
-    // Wrong hardware may draw anywhere; the frame then holds what it drew inside.
-    while (!fragments.empty()) {
-      const std::uint64_t before = assembler_.fragments();
-      if (assembler_.add(fragments)) break;
-      if (fault_.empty()) fault_ = "a fragment lies outside the frame";
-      fragments = fragments.subspan(static_cast<std::size_t>(assembler_.fragments() - before) + 1);
-    }
-  }
-  void set_fault(std::string fault) { fault_ = std::move(fault); }
-  std::uint64_t count() const { return count_; }
-  const FrameAssembler& assembler() const { return assembler_; }
-
-  SimulatorRun finish(std::string simulator) {
-    comparator_.finish();
-    SimulatorRun run;
-    run.simulator = std::move(simulator);
-    run.fragments = count_;
-    run.mismatches = comparator_.mismatches();
-    run.fault = fault_;
-    run.first = comparator_.first();
-    if (run.mismatches != 0)
-      run.description = comparator_.describe(run.simulator == "ghdl" ? "GHDL" : "Verilator");
-    return run;
-  }
-
- private:
-  StreamComparator comparator_;
-  FrameAssembler assembler_;
-  std::uint64_t count_ = 0;
-  std::string fault_;
-};
 
 struct Pictures {
   ReferenceImage reference;
@@ -251,67 +209,42 @@ class Simulation {
     if (!golden_trace) return golden_trace.error();
 
     SceneStream stream(*setup, summary_.plan.key, s_.threads);
-    const std::size_t words_per_vector = (setup->init_bits() + 31) / 32;
-    double verilator_seconds = 0.0;
-    bool rtl_alive = verilator.has_value();
-    std::vector<Fragment> drawn;
-    const auto take_rtl = [&](Clock::time_point begin, const Status& status) -> Status {
-      verilator_seconds += seconds_since(begin);
-      rtl.add(drawn);
-      verilator_trace->write(drawn);
-      drawn.clear();
-      if (status) return Ok{};
-      if (status.error().code != ExitCode::differs) return status;
-      rtl.set_fault(status.error().message);
-      rtl_alive = false;
-      return Ok{};
-    };
-    // `drawn` is emptied on every take, so its limit is what the golden model is ahead by, and some.
-    const auto limit = [&] {
-      return static_cast<std::size_t>(golden_.fragments() + c_most_surplus -
-                                      std::min(rtl.count(), golden_.fragments()));
-    };
+    Cuts cuts(summary_.plan.key);
+    std::optional<VerilatorFeed> feed;
+    if (verilator) feed.emplace(*verilator, rtl, [&](auto drawn) { verilator_trace->write(drawn); });
     for (Batch batch; stream.next(batch);) {
       s_.on_progress("setup, golden model, Verilator", batch.done);
       if (Status status = check_shadow_counts(scene_, stream); !status) return status;
       init_file->write(batch.init_words);
+      if (s_.ghdl) cuts.add(batch.init_words);
       golden_trace->write(batch.golden);
       if (Status status = golden_.add(batch.golden); !status)
         return tool_failed(fmt::format("{}: setup made a fragment outside the frame: {}; please report it",
                                        scene_.name, status.error().message));
       rtl.add_golden(batch.golden);
-      if (!rtl_alive) continue;
-      const Clock::time_point begin = Clock::now();
-      const Status ran =
-          verilator->run(batch.init_words, batch.init_words.size() / words_per_vector, drawn, limit());
-      if (Status status = take_rtl(begin, ran); !status) return status;
+      if (!feed) continue;
+      if (Status status = feed->add(batch.init_words); !status) return status;
     }
-    if (rtl_alive) {
-      const Clock::time_point begin = Clock::now();
-      const Status ran = verilator->finish(drawn, limit());
-      if (Status status = take_rtl(begin, ran); !status) return status;
-    }
+    if (feed)
+      if (Status status = feed->finish(); !status) return status;
     if (Status status = init_file->commit(); !status) return status;
     if (Status status = golden_trace->commit(); !status) return status;
     summary_.setup = stream.counts();
-    if (const std::uint64_t lost = summary_.setup.projection.unrepresentable; lost != 0)
-      return bad_input(
-          fmt::format("{}: {} triangles project to no finite point; bring the scene nearer to the origin, or "
-                      "the camera away from them",
-                      scene_.name, lost));
+    if (Status status = check_projection(scene_, stream); !status) return status;
     summary_.setup_seconds = stream.setup_seconds();
     summary_.golden_seconds = stream.golden_seconds();
     summary_.fragments = golden_.fragments();
+    first_vectors_ = cuts.parts(summary_.fragments);
     if (Status status = write_png(files_.frame("golden"), golden_.frame()); !status) return status;
     if (verilator) {
       // A run that was broken off leaves no trace that could pass for whole.
-      if (rtl_alive)
+      if (feed->alive())
         if (Status status = verilator_trace->commit(verilator->cycles()); !status) return status;
       if (Status status = write_png(files_.frame("verilator"), rtl.assembler().frame()); !status)
         return status;
       SimulatorRun run = rtl.finish("verilator");
       run.cycles = verilator->cycles();
-      run.seconds = verilator_seconds;
+      run.seconds = feed->seconds();
       if (Status status = show_difference(run, rtl.assembler().frame()); !status) return status;
       summary_.runs.push_back(std::move(run));
     }
@@ -335,13 +268,15 @@ class Simulation {
       s_.on_progress("GHDL", std::min(1.0, static_cast<double>(bytes) / golden_bytes));
     };
     s_.on_progress("GHDL", 0.0);
-    const auto ran = runner->run(files_.init(), files_.trace("ghdl"), options);
+    const auto ran = run_in_parts(*runner, summary_.plan.key, files_.init(), first_vectors_,
+                                  files_.trace("ghdl"), options, s_.threads);
     if (!ran && ran.error().code != ExitCode::differs) return ran.error();
 
     RtlStream rtl(s_.size, scene_.background);
     if (Status status = add_traces(rtl, ran ? "" : ran.error().message); !status) return status;
     if (Status status = write_png(files_.frame("ghdl"), rtl.assembler().frame()); !status) return status;
     SimulatorRun run = rtl.finish("ghdl");
+    run.parts = first_vectors_.size();
     if (ran) {
       run.cycles = ran->cycles;
       run.seconds = ran->seconds;
@@ -411,6 +346,7 @@ class Simulation {
   const SimulateSettings& s_;
   ResultFiles files_;
   FrameAssembler golden_;
+  std::vector<std::uint64_t> first_vectors_;  ///< of the parts in which GHDL draws
   SceneSummary summary_;
 };
 
@@ -458,11 +394,9 @@ std::string unusual_tables(const HardwareKey& key) {
 std::string to_json(const SceneSummary& s) {
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();
   for (const SimulatorRun& run : s.runs) {
-    nlohmann::ordered_json entry = {{"simulator", run.simulator},
-                                    {"cycles", number_or_null(run.cycles)},
-                                    {"fragments", run.fragments},
-                                    {"mismatches", run.mismatches},
-                                    {"seconds", number_or_null(run.seconds)}};
+    nlohmann::ordered_json entry = {{"simulator", run.simulator},   {"cycles", number_or_null(run.cycles)},
+                                    {"parts", run.parts},           {"fragments", run.fragments},
+                                    {"mismatches", run.mismatches}, {"seconds", number_or_null(run.seconds)}};
     if (!run.fault.empty()) entry["fault"] = run.fault;
     runs.push_back(std::move(entry));
   }
@@ -518,7 +452,8 @@ std::string to_line(const SceneSummary& s) {
     fmt::format_to(to, " | {}: ", run.simulator);
     if (run.cycles)
       fmt::format_to(
-          to, "{} cycles, {:.3f} a fragment, ", *run.cycles,
+          to, "{} cycles{}, {:.3f} a fragment, ", *run.cycles,
+          run.parts > 1 ? fmt::format(" in {} parts", run.parts) : "",
           run.fragments == 0 ? 0.0 : static_cast<double>(*run.cycles) / static_cast<double>(run.fragments));
     fmt::format_to(to, "{} mismatches", run.mismatches);
     if (run.seconds) fmt::format_to(to, ", {:.2f} s", *run.seconds);

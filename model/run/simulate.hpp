@@ -14,7 +14,7 @@
 #include "frame/metrics.hpp"
 #include "plan/plan.hpp"
 #include "run/result_files.hpp"
-#include "run/stream_comparator.hpp"
+#include "run/rtl_stream.hpp"
 #include "setup/setup.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
@@ -33,19 +33,6 @@ struct SimulateSettings {
   std::function<void(const std::string& what, double done)> on_progress = [](const std::string&, double) {};
   /// Told the folder of results where another run holds it.
   std::function<void(const std::filesystem::path& folder)> on_wait = [](const std::filesystem::path&) {};
-};
-
-struct SimulatorRun {
-  std::string simulator;
-  std::uint64_t fragments = 0, mismatches = 0;
-  /// Of the whole run; none where a fault ended it before its simulator could say.
-  std::optional<std::uint64_t> cycles;
-  std::optional<double> seconds;
-  std::string fault;        ///< of the hardware, as the simulator tells it; empty: none
-  std::string description;  ///< the first mismatches and their counts; empty: none
-  std::vector<Mismatch> first;
-  std::vector<std::filesystem::path> evidence;  ///< difference image, waveform
-  bool equal() const { return mismatches == 0 && fault.empty(); }
 };
 
 struct SceneSummary {

@@ -318,45 +318,47 @@ void for_each_vector(const std::vector<std::uint32_t>& words, unsigned bits, Vec
 
 // Line by line: all depths, then shadows, those that open first, then all that is shaded, the same triangles.
 TEST(ProcessorsSetup, ALineIsDepthsShadowsAndSurfaces) {
-  RandomSolids random(11);
-  Scene scene = on_a_floor(random, 4);
-  scene.camera.near = 2.0;  // cuts volumes
-  const HardwareKey key = key_of(scene);
-  const auto setup = make_setup(scene, c_frame, key, {});
-  const int walk = golden::ProcessorsLayout<golden::Exact>::walk_low();
   std::uint64_t opening = 0, closing = 0, before_near = 0;
-  for (std::uint32_t y = 0; y < setup->units(); ++y) {
-    std::vector<std::uint32_t> words;
-    SetupCounts counts;
-    setup->append(y, words, counts);
-    std::vector<std::uint64_t> depths, drawn;
-    int stage = 0;
-    for_each_vector(words, setup->init_bits(), [&](std::span<const std::uint32_t> v) {
-      EXPECT_EQ(golden::get_bits(v, Walked::y, walk), y);
-      EXPECT_EQ(golden::get_bits(v, Walked::upper_lines, walk), 1U);
-      EXPECT_EQ(golden::get_bits(v, Walked::lower_lines, walk), 0U);
-      const auto command = static_cast<golden::Command>(golden::get_bits(v, Request::command));
-      const bool opens = golden::get_bits(v, Request::opens) != 0;
-      const std::uint64_t triangle = golden::get_bits(v, Walked::triangle, walk);
-      int now = 3;
-      if (command == golden::Command::depth) {
-        now = 0;
-        depths.push_back(triangle);
-      } else if (command == golden::Command::shadow) {
-        now = opens ? 1 : 2;
-        ++(opens ? opening : closing);
-        const std::uint64_t light = golden::get_bits(v, Request::light);
-        EXPECT_TRUE(light >= 1 && light <= 3) << light;
-        before_near +=
-            golden::get_bits(v, Walked::z, walk) == 0 && golden::get_bits(v, Walked::z_dx, walk) == 0;
-      } else {
-        EXPECT_EQ(command, golden::Command::draw);
-        drawn.push_back(triangle);
-      }
-      EXPECT_GE(now, stage);
-      stage = now;
-    });
-    EXPECT_EQ(depths, drawn);
+  RandomSolids random(11);
+  for (int i = 0; i < 3; ++i) {
+    Scene scene = on_a_floor(random, 4);
+    scene.camera.near = 2.0;  // cuts volumes
+    const HardwareKey key = key_of(scene);
+    const auto setup = make_setup(scene, c_frame, key, {});
+    const int walk = golden::ProcessorsLayout<golden::Exact>::walk_low();
+    for (std::uint32_t y = 0; y < setup->units(); ++y) {
+      std::vector<std::uint32_t> words;
+      SetupCounts counts;
+      setup->append(y, words, counts);
+      std::vector<std::uint64_t> depths, drawn;
+      int stage = 0;
+      for_each_vector(words, setup->init_bits(), [&](std::span<const std::uint32_t> v) {
+        EXPECT_EQ(golden::get_bits(v, Walked::y, walk), y);
+        EXPECT_EQ(golden::get_bits(v, Walked::upper_lines, walk), 1U);
+        EXPECT_EQ(golden::get_bits(v, Walked::lower_lines, walk), 0U);
+        const auto command = static_cast<golden::Command>(golden::get_bits(v, Request::command));
+        const bool opens = golden::get_bits(v, Request::opens) != 0;
+        const std::uint64_t triangle = golden::get_bits(v, Walked::triangle, walk);
+        int now = 3;
+        if (command == golden::Command::depth) {
+          now = 0;
+          depths.push_back(triangle);
+        } else if (command == golden::Command::shadow) {
+          now = opens ? 1 : 2;
+          ++(opens ? opening : closing);
+          const std::uint64_t light = golden::get_bits(v, Request::light);
+          EXPECT_TRUE(light >= 1 && light <= 3) << light;
+          before_near +=
+              golden::get_bits(v, Walked::z, walk) == 0 && golden::get_bits(v, Walked::z_dx, walk) == 0;
+        } else {
+          EXPECT_EQ(command, golden::Command::draw);
+          drawn.push_back(triangle);
+        }
+        EXPECT_GE(now, stage);
+        stage = now;
+      });
+      EXPECT_EQ(depths, drawn);
+    }
   }
   EXPECT_GT(opening, 100U);
   EXPECT_GT(closing, 100U);

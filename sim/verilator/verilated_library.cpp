@@ -23,8 +23,9 @@ const std::vector<std::string> kVerilatorFlags = {
     "--cc", "--prefix",   "Vshader", "--x-assign", "fast",         "--x-initial",
     "fast", "--noassert", "-O3",     "--flatten",  "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE"};
 const std::vector<std::string> kCompilerFlags = {
-    "-std=gnu++20",        "-march=native",  "-fPIC",       "-shared",         "-pthread", "-w",
-    "-fvisibility=hidden", "-Wl,-Bsymbolic", "-Wl,-z,defs", "-DVM_COVERAGE=0", "-DVM_SC=0"};
+    "-std=gnu++20", "-march=native",       "-fPIC",           "-pthread",
+    "-w",           "-fvisibility=hidden", "-DVM_COVERAGE=0", "-DVM_SC=0"};
+const std::vector<std::string> kLinkFlags = {"-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs", "-latomic"};
 
 Result<std::string> run_tool(Command command, const std::string& install, const std::string& doing) {
   command.timeout = kBuildTimeout;
@@ -69,6 +70,25 @@ Result<std::vector<std::string>> generated_sources(const std::filesystem::path& 
   return names;
 }
 
+/// Verilator's runtime, most of what there is to compile for a small shader: once for all of them.
+Result<std::filesystem::path> runtime_object(const std::filesystem::path& parent, const std::string& key,
+                                             const std::string& compiler,
+                                             const std::vector<std::string>& flags) {
+  const std::filesystem::path folder = parent / ("runtime-" + key);
+  const std::filesystem::path object = folder / "runtime.o";
+  if (std::filesystem::exists(folder)) return object;
+  auto fresh = TemporaryFolder::make(parent);
+  if (!fresh) return fresh.error();
+  const std::string source = "#include \"verilated.cpp\"\n#include \"verilated_threads.cpp\"\n";
+  if (auto written = write_file(fresh->path() / "runtime.cpp", source); !written) return written.error();
+  Command compile{.arguments = {compiler}, .working_folder = fresh->path()};
+  compile.arguments.insert(compile.arguments.end(), flags.begin(), flags.end());
+  compile.arguments.insert(compile.arguments.end(), {"-O1", "-c", "runtime.cpp", "-o", "runtime.o"});
+  if (auto done = run_tool(compile, kInstallCompiler, "Verilator's runtime"); !done) return done.error();
+  if (auto moved = fresh->move_to(folder); !moved) return moved.error();
+  return object;
+}
+
 }  // namespace
 
 void* VerilatedLibrary::symbol(const char* name) const {
@@ -88,21 +108,26 @@ Result<VerilatedLibrary> VerilatedLibrary::open(const VerilatedBuild& build,
   const auto harness = read_file(build.harness);
   if (!harness) return tool_failed(harness.error().message);
 
+  std::vector<std::string> flags = kCompilerFlags;
+  // g++ would let all libraries in the process share the inline variables of the first.
+  if (compiler.find("clang") == std::string::npos) flags.emplace_back("-fno-gnu-unique");
+  flags.emplace_back(build.waves ? "-DVM_TRACE=1" : "-DVM_TRACE=0");
+  if (build.waves) flags.insert(flags.end(), {"-DVM_TRACE_FST=1", "-DHALFWAY_WAVES=1"});
+  flags.insert(flags.end(),
+               {"-I" + *verilator_root + "/include", "-I" + *verilator_root + "/include/vltstd"});
+
+  ContentHash tools;
+  tools.add("verilated library 2").add(*verilator_version).add(*verilator_root).add(*compiler_version);
+  tools.add(compiler).add(processor());
+  for (const std::string& flag : flags) tools.add(flag);
   ContentHash hash;
-  hash.add("verilated library 1").add(*verilator_version).add(*verilator_root).add(*compiler_version);
-  hash.add(compiler)
-      .add(processor())
-      .add(build.netlist)
-      .add(build.top)
-      .add(*harness)
-      .add(build.waves ? "waves" : "")
-      .add(build.fast ? "-O3" : "-O1");
+  hash.add(tools.hex()).add(build.netlist).add(build.top).add(*harness).add(build.fast ? "-O3" : "-O1");
   for (const auto& header : build.harness_headers) {
     const auto text = read_file(header);
     if (!text) return tool_failed(text.error().message);
     hash.add(*text);
   }
-  for (const auto* list : {&kVerilatorFlags, &kCompilerFlags, &build.definitions}) {
+  for (const auto* list : {&kVerilatorFlags, &kLinkFlags, &build.definitions}) {
     hash.add(std::to_string(list->size()));
     for (const std::string& flag : *list) hash.add(flag);
   }
@@ -110,6 +135,8 @@ Result<VerilatedLibrary> VerilatedLibrary::open(const VerilatedBuild& build,
   const std::filesystem::path folder = parent / fmt::format("{}-{}", build.name, hash.hex());
 
   if (!std::filesystem::exists(folder)) {
+    const auto runtime = runtime_object(parent, tools.hex(), compiler, flags);
+    if (!runtime) return runtime.error();
     auto fresh = TemporaryFolder::make(parent);
     if (!fresh) return fresh.error();
     if (auto written = write_file(fresh->path() / "netlist.v", build.netlist); !written)
@@ -128,23 +155,19 @@ Result<VerilatedLibrary> VerilatedLibrary::open(const VerilatedBuild& build,
     std::string unity = build.waves ? "#include \"verilated_fst_c.cpp\"\n" : "";
     for (const std::string& source : *sources) unity += fmt::format("#include \"verilated/{}\"\n", source);
     // After the model, whose functions it may call.
-    unity += "#include \"harness.cpp\"\n#include \"verilated.cpp\"\n#include \"verilated_threads.cpp\"\n";
+    unity += "#include \"harness.cpp\"\n";
     if (auto written = write_file(fresh->path() / "unity.cpp", unity); !written) return written.error();
     if (auto written = write_file(fresh->path() / "harness.cpp", *harness); !written) return written.error();
 
     Command compile{.arguments = {compiler}, .working_folder = fresh->path()};
     auto& arguments = compile.arguments;
-    arguments.insert(arguments.end(), kCompilerFlags.begin(), kCompilerFlags.end());
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
     arguments.emplace_back(build.fast ? "-O3" : "-O1");
-    // g++ would let all libraries in the process share the inline variables of the first.
-    if (compiler.find("clang") == std::string::npos) arguments.emplace_back("-fno-gnu-unique");
-    arguments.emplace_back(build.waves ? "-DVM_TRACE=1" : "-DVM_TRACE=0");
-    if (build.waves) arguments.insert(arguments.end(), {"-DVM_TRACE_FST=1", "-DHALFWAY_WAVES=1"});
     for (const std::string& definition : build.definitions) arguments.push_back("-D" + definition);
     arguments.insert(arguments.end(),
                      {"-I" + std::filesystem::absolute(build.include_folder).string(), "-Iverilated",
-                      "-I" + *verilator_root + "/include", "-I" + *verilator_root + "/include/vltstd",
-                      "unity.cpp", "-o", kLibraryName, "-latomic"});
+                      "unity.cpp", std::filesystem::absolute(*runtime).string(), "-o", kLibraryName});
+    arguments.insert(arguments.end(), kLinkFlags.begin(), kLinkFlags.end());
     if (build.waves) arguments.emplace_back("-lz");
     if (auto done = run_tool(compile, kInstallCompiler, build.name); !done) return done.error();
     if (auto moved = fresh->move_to(folder); !moved) return moved.error();

@@ -57,8 +57,10 @@ struct VerilatorSimulator::State {
   HalfwayOptions options{};
   std::string wave_path;
   std::size_t probe_words = 0;
+  bool record_probes = false;
   std::vector<ProbeRecord> probes;
   void* model = nullptr;
+  decltype(&halfway_create) create = nullptr;
   decltype(&halfway_run) run = nullptr;
   decltype(&halfway_drain) drain = nullptr;
   decltype(&halfway_cycles) cycles = nullptr;
@@ -117,6 +119,7 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
         fmt::format("{}: of another version; delete it and try again", state->library.file().string()));
   }
   state->name = key.name();
+  state->create = *create;
   state->run = *run;
   state->drain = *drain;
   state->cycles = *cycles;
@@ -126,13 +129,7 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
   state->options.probe_bits = probe_bits;
   state->options.stall_seed = options.stall_seed;
   state->options.idle_limit = std::max<std::uint64_t>(options.idle_limit, 1);
-  if (options.record_probes) {
-    state->options.probe_context = state.get();
-    state->options.on_probe = [](void* context, std::uint64_t cycle, const std::uint32_t* words) {
-      auto& owner = *static_cast<State*>(context);
-      owner.probes.push_back({cycle, std::vector<std::uint32_t>(words, words + owner.probe_words)});
-    };
-  }
+  state->record_probes = options.record_probes;
   if (!options.wave_file.empty()) {
     const auto absolute = std::filesystem::absolute(options.wave_file);
     if (auto made = make_folders(absolute.parent_path()); !made) return made.error();
@@ -141,14 +138,40 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
     state->options.waves_from = options.waves_from;
     state->options.waves_to = options.waves_to;
   }
-  state->model = (*create)(&state->options);
+  return with_model(std::move(state));
+}
+
+Result<VerilatorSimulator> VerilatorSimulator::with_model(std::shared_ptr<State> state) {
+  if (state->record_probes) {
+    state->options.probe_context = state.get();
+    state->options.on_probe = [](void* context, std::uint64_t cycle, const std::uint32_t* words) {
+      auto& owner = *static_cast<State*>(context);
+      owner.probes.push_back({cycle, std::vector<std::uint32_t>(words, words + owner.probe_words)});
+    };
+  }
+  state->model = state->create(&state->options);
   if (state->model == nullptr) {
-    return tool_failed(options.wave_file.empty()
+    return tool_failed(state->wave_path.empty()
                            ? fmt::format("{}: does not fit {}; delete it and try again",
-                                         state->library.file().string(), key.name())
-                           : fmt::format("{}: cannot write the waveforms", options.wave_file.string()));
+                                         state->library.file().string(), state->name)
+                           : fmt::format("{}: cannot write the waveforms", state->wave_path));
   }
   return VerilatorSimulator(std::move(state));
+}
+
+Result<VerilatorSimulator> VerilatorSimulator::another() const {
+  auto state = std::make_shared<State>(state_->library);
+  state->name = state_->name;
+  state->options = state_->options;
+  state->options.waves_path = nullptr;
+  state->record_probes = state_->record_probes;
+  state->probe_words = state_->probe_words;
+  state->create = state_->create;
+  state->run = state_->run;
+  state->drain = state_->drain;
+  state->cycles = state_->cycles;
+  state->destroy = state_->destroy;
+  return with_model(std::move(state));
 }
 
 unsigned VerilatorSimulator::init_bits() const {

@@ -41,6 +41,9 @@ class VerilatorSimulator {
   /// Builds the model, or takes it from the cache, and resets it.
   static Result<VerilatorSimulator> open(const HardwareKey& key, const SimulatorFolders& folders,
                                          const VerilatorOptions& options = {});
+  /// Another model of the same hardware, reset, with the same options, for another thread; without
+  /// waveforms.
+  Result<VerilatorSimulator> another() const;
 
   unsigned init_bits() const;
   unsigned probe_bits() const;
@@ -60,6 +63,7 @@ class VerilatorSimulator {
 
  private:
   struct State;
+  static Result<VerilatorSimulator> with_model(std::shared_ptr<State> state);
   explicit VerilatorSimulator(std::shared_ptr<State> state) : state_(std::move(state)) {}
   Status advance(const std::uint32_t* words, std::size_t vectors, bool drain, std::vector<Fragment>& out,
                  std::size_t max_fragments);

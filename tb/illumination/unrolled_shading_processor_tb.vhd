@@ -104,65 +104,48 @@ entity unrolled_shading_processor_tb is
 end entity;
 
 architecture sim of unrolled_shading_processor_tb is
-  constant c_runs : positive := 8; -- of a preset
-
   type clocks_t is array (0 to 1) of positive; -- published, exact
 
+  type promise_t is record
+    directional, positional, spots : natural;
+    specular, normalize            : boolean;
+    kind                           : natural;
+    clocks                         : clocks_t;
+  end record;
+
+  type promises_t is array (natural range <>) of promise_t;
+
+  -- With specular the ambient processor of preset exact has the view vector to make.
+  constant c_promises : promises_t := (
+    (0, 0, 0, false, false, c_ambient, (2, 2)),
+    (0, 0, 0, false, true, c_ambient, (6, 9)),
+    (1, 0, 0, true, false, c_diffuse, (4, 4)),
+    (1, 0, 0, true, false, c_specular, (5, 18)),
+    (0, 1, 0, true, false, c_diffuse, (10, 14)),
+    (0, 1, 0, true, false, c_specular, (11, 28)),
+    (0, 0, 1, true, false, c_diffuse, (14, 18)),
+    (0, 0, 1, true, false, c_specular, (14, 29)));
+
   signal finished : boolean;
-  signal timed    : boolean_vector(0 to 2 * c_runs - 1);
+  signal timed    : boolean_vector(0 to 2 * c_promises'length - 1);
 begin
   presets : for preset in 0 to 1 generate
-    constant c_exact : boolean := preset = 1;
-    constant c_first : natural := c_runs * preset;
-
-    -- With specular the ambient processor of preset exact has the view vector to make.
-    constant c_alone : clocks_t := (2, 2);
-    constant c_normalizing    : clocks_t := (6, 9);
-    constant c_directional_diffuse       : clocks_t := (4, 4);
-    constant c_directional_specular       : clocks_t := (5, 18);
-    constant c_positional_diffuse       : clocks_t := (10, 14);
-    constant c_positional_specular       : clocks_t := (11, 28);
-    constant c_spot_diffuse       : clocks_t := (14, 18);
-    constant c_spot_specular       : clocks_t := (14, 29);
-    begin
-      ambient : entity work.unrolled_latency_run
-        generic map (g_exact => c_exact, g_specular => false, g_kind => c_ambient, g_clocks => c_alone(preset))
-        port map (timed(c_first));
-
-      normalizing : entity work.unrolled_latency_run
-        generic map (g_exact => c_exact, g_specular => false, g_normalize => true, g_kind => c_ambient,
-          g_clocks => c_normalizing(preset))
-        port map (timed(c_first + 1));
-
-      directional_diffuse : entity work.unrolled_latency_run
-        generic map (g_exact => c_exact, g_directional => 1, g_specular => true, g_kind => c_diffuse,
-          g_clocks => c_directional_diffuse(preset))
-        port map (timed(c_first + 2));
-
-      directional_specular : entity work.unrolled_latency_run
-        generic map (g_exact => c_exact, g_directional => 1, g_specular => true, g_kind => c_specular,
-          g_clocks => c_directional_specular(preset))
-        port map (timed(c_first + 3));
-
-      positional_diffuse : entity work.unrolled_latency_run
-        generic map (g_exact => c_exact, g_positional => 1, g_specular => true, g_kind => c_diffuse,
-          g_clocks => c_positional_diffuse(preset))
-        port map (timed(c_first + 4));
-
-      positional_specular : entity work.unrolled_latency_run
-        generic map (g_exact => c_exact, g_positional => 1, g_specular => true, g_kind => c_specular,
-          g_clocks => c_positional_specular(preset))
-        port map (timed(c_first + 5));
-
-      spot_diffuse : entity work.unrolled_latency_run
-        generic map (g_exact => c_exact, g_spots => 1, g_specular => true, g_kind => c_diffuse,
-          g_clocks => c_spot_diffuse(preset))
-        port map (timed(c_first + 6));
-
-      spot_specular : entity work.unrolled_latency_run
-        generic map (g_exact => c_exact, g_spots => 1, g_specular => true, g_kind => c_specular,
-          g_clocks => c_spot_specular(preset))
-        port map (timed(c_first + 7));
+    promises : for i in c_promises'range generate
+      latency : entity work.unrolled_latency_run
+        generic map (
+          g_exact       => preset = 1,
+          g_directional => c_promises(i).directional,
+          g_positional  => c_promises(i).positional,
+          g_spots       => c_promises(i).spots,
+          g_specular    => c_promises(i).specular,
+          g_normalize   => c_promises(i).normalize,
+          g_kind        => c_promises(i).kind,
+          g_clocks      => c_promises(i).clocks(preset)
+          )
+        port map (
+          finished => timed(preset * c_promises'length + i)
+          );
+    end generate;
   end generate;
 
   checker : entity work.processors_checker

@@ -99,7 +99,8 @@ Netlist netlist_of(std::string_view verilog, const std::string& top) {
 }
 
 std::string with_open_memories(std::string_view verilog) {
-  // Written once and read once a clock, as GHDL writes it.
+  // Written once and read once a clock, as GHDL writes it. Kept: nothing reads what is told, until it is
+  // exposed.
   static const std::regex memory(
       R"(  reg (\[\d+:0\] )?(\w+)\[\d+:0\] ;[^\n]*\n(?:  initial begin\n(?:    [^\n]*X;\n)*    end\n)?)"
       R"(  always @\(posedge clk\)\n    if \((\w+)\)\n      (\w+) <= (\w+)\[(\w+)\];\n)"
@@ -112,9 +113,11 @@ std::string with_open_memories(std::string_view verilog) {
     if (m[2] == m[5] && m[2] == m[8]) {
       result += fmt::format(
           "  wire {1}{0}_read__;\n  always @(posedge clk)\n    if ({2})\n      {3} <= {0}_read__;\n"
-          "  wire {0}_reads_told__ = {2};\n  wire [31:0] {0}_from_told__ = {2} ? {4} : 0;\n"
-          "  wire {0}_writes_told__ = {5};\n  wire [31:0] {0}_to_told__ = {5} ? {6} : 0;\n"
-          "  wire {1}{0}_word_told__ = {5} ? {7} : 0;\n",
+          "  (* keep *) wire {0}_reads_told__ = {2};\n  (* keep *) wire [31:0] {0}_from_told__ = {2} ? {4} : "
+          "0;\n"
+          "  (* keep *) wire {0}_writes_told__ = {5};\n  (* keep *) wire [31:0] {0}_to_told__ = {5} ? {6} : "
+          "0;\n"
+          "  (* keep *) wire {1}{0}_word_told__ = {5} ? {7} : 0;\n",
           m[2].str(), m[1].str(), m[3].str(), m[4].str(), m[6].str(), m[7].str(), m[9].str(), m[10].str());
     } else {
       result += m.str();
@@ -206,7 +209,7 @@ Result<bool> Equivalence::same(const Netlist& gold, const Netlist& gate, const s
   add_modules(gold, module, done[0], texts[0]);
   add_modules(gate, module, done[1], texts[1]);
   if (texts[0].empty() || texts[1].empty()) return false;
-  const std::string key = ContentHash().add("miter 1").add(module).add(texts[0]).add(texts[1]).hex();
+  const std::string key = ContentHash().add("miter 2").add(module).add(texts[0]).add(texts[1]).hex();
   if (const auto before = judge_.remembered().find(key)) return *before == "same";
   auto folder = TemporaryFolder::make(judge_.folders().scratch / "benches");
   if (!folder) return folder.error();

@@ -39,7 +39,7 @@ constexpr const char* c_memory =
 TEST(Memories, AreOpened) {
   const std::string opened = with_open_memories(std::string("module m\n") + c_memory + "endmodule\n");
   EXPECT_THAT(opened, HasSubstr("n4_data <= words_read__;"));
-  EXPECT_THAT(opened, HasSubstr("words_from_told__ = enable ? index : 0;"));
+  EXPECT_THAT(opened, HasSubstr("(* keep *) wire [31:0] words_from_told__ = enable ? index : 0;"));
   EXPECT_THAT(opened, HasSubstr("words_to_told__ = writes ? place : 0;"));
   EXPECT_THAT(opened, HasSubstr("words_word_told__ = writes ? word : 0;"));
   EXPECT_THAT(opened, Not(HasSubstr("words[")));

@@ -48,10 +48,31 @@ constexpr KnownGap c_gaps[] = {
     {"arithmetic/shading_pkg.vhd", "return sum;", c_hardware},
 };
 
+constexpr std::string_view c_dropped = "a longer slice, whose upper bits `plain_direction` drops";
+
+constexpr KnownSurvivor c_survivors[] = {
+    {"illumination/shading_processor.vhd", "if c_shape.far then", "c_shape.far", "true",
+     "a wider multiplier: the same products"},
+    {"illumination/shading_processor.vhd", "elsif at_place = '0' then", "at_place = '0'", "false",
+     "a directional light in a processor for positional ones, too, takes their clocks to the same sum; "
+     "clocks are counted of processors for one kind"},
+    {"illumination/shading_processor.vhd",
+     "extended(plain_direction(g_exact, signed(in_token(low + c_vector - 1 downto low))), c_vector);", "1",
+     "0", c_dropped},
+    {"illumination/shading_processor.vhd", "sum := (others => '0');", "'0'", "'1'",
+     "a value for the netlist alone: wherever the sum is used it was given another"},
+    {"illumination/unrolled_shading_processor.vhd",
+     "unsigned(k_i(channel * (c_k + c_intensity + 2) + c_k + c_intensity - 1 downto", "2", "3",
+     "a longer slice: above a product of numbers without a sign there are zeros"},
+    {"illumination/unrolled_shading_processor.vhd",
+     "signed(behind(normal_low(c_config, axis) + c_vector - 1 downto normal_low(c_config, axis))));", "-",
+     "+", c_dropped},
+};
+
 }  // namespace
 
 std::span<const KnownSurvivor> known_survivors() {
-  return {};
+  return c_survivors;
 }
 
 std::span<const KnownGap> known_gaps() {

@@ -381,7 +381,7 @@ std::vector<Proof> all_proofs() {
   const auto with = [](Generics generics, const Generics& others) {
     for (const auto& [name, value] : others) {
       const auto at = std::find_if(generics.begin(), generics.end(),
-                                   [&](const auto& pair) { return pair.first == name; });
+                                   [&, key = name](const auto& pair) { return pair.first == key; });
       if (at == generics.end())
         generics.emplace_back(name, value);
       else

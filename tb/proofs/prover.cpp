@@ -306,7 +306,7 @@ Result<Answer> by_gappa(const Folders& folders, const std::filesystem::path& fol
 }  // namespace
 
 Status find_tools() {
-  for (const char* tool : {"ghdl", "yosys", "yosys-smtbmc", "yosys-abc", "cvc5"}) {
+  for (const char* tool : {"ghdl", "yosys", "yosys-smtbmc", "yosys-abc", "cvc5", "gappa"}) {
     if (!find_program(tool).empty()) continue;
     return tool_failed(fmt::format("{}: is missing; install it with: {}", tool,
                                    std::string_view(tool) == "ghdl" ? kInstallGhdl : kInstall));

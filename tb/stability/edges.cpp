@@ -53,7 +53,7 @@ void count_wrong(const std::vector<Shape>& shapes, FrameSize frame, std::vector<
       });
   std::ranges::sort(drawn);
   std::ranges::sort(covered);
-  if (wrong == Wrong::missing) drawn.erase(std::ranges::unique(drawn).begin(), drawn.end());
+  if (wrong == Wrong::missing) drawn.erase(std::unique(drawn.begin(), drawn.end()), drawn.end());
   std::vector<Pixel> other;
   if (wrong == Wrong::missing)
     std::ranges::set_difference(covered, drawn, std::back_inserter(other));

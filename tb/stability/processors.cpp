@@ -105,7 +105,7 @@ Scene lit(Material material = {}) {
   return scene;
 }
 
-constexpr Material c_shiny{.colour = {0.9, 0.6, 0.3}, .diffuse = 0.5, .specular = 0.5, .exponent = 60.0};
+const Material c_shiny{.colour = {0.9, 0.6, 0.3}, .diffuse = 0.5, .specular = 0.5, .exponent = 60.0};
 
 // Corners counter-clockwise, a normal each.
 void add_quad(Scene& scene, const std::array<glm::dvec3, 4>& corners,

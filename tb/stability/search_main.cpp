@@ -36,7 +36,7 @@ void Tally::add(const Tally& other) {
   for (const auto& [quantity, theirs] : other.worst) {
     Worst& ours = worst[quantity];
     const std::uint64_t count = ours.count + theirs.count;
-    ours.add(theirs.figure, theirs.bound, [&] { return theirs.where; });
+    ours.add(theirs.figure, theirs.bound, [&where = theirs.where] { return where; });
     ours.count = count;
   }
 }
@@ -233,8 +233,9 @@ ExitCode run_search(const Search& search, const Options& options, std::uint64_t 
   };
   Run run(search, options, count);
   {
-    std::vector<std::jthread> workers;
+    // Outlives the workers, which count it down last of all.
     std::atomic<unsigned> working = options.quick ? 1 : std::max(1U, std::thread::hardware_concurrency());
+    std::vector<std::jthread> workers;
     for (unsigned i = working; i > 0; --i)
       workers.emplace_back([&] {
         run.work();

@@ -463,7 +463,8 @@ void counters(Trial& trial) {
                                {1, 0, 1},
                                {0, 0, c_most + 2}};
   for (const ProcessorForm form : c_forms)
-    for (const auto& [around, opening, closing] : c_counts) {
+    for (const Case& c : c_counts) {
+      const int around = c.around, opening = c.opening, closing = c.closing;
       const int count = around + opening - closing;
       const bool fault = opening > c_most || opening - closing < -c_most - 1;
       // Behind a fault the hardware is opened anew.

@@ -336,6 +336,13 @@ Status write_shadow_counter(const std::filesystem::path& folder) {
     const bool takes = !clear && random.one_in(far ? 3000 : 4);
     line(false, step, clear, !clear && !takes && !random.one_in(10), opens, takes, x);
   }
+  // A column up to its limit, where nothing is wrong yet, and past it, with steps around that count nothing.
+  for (const bool opens : {true, false}) {
+    line(true, false, false, false, false, false, 0);
+    for (int i = 0; i < (opens ? c_most : c_most + 1); ++i) line(false, true, false, true, opens, false, 100);
+    for (const bool counts : {false, false, true, false, false})
+      line(false, true, false, counts, opens, false, 100);
+  }
   for (int i = 0; i < 3; ++i) line(false, false, false, false, false, false, 0);
   return file.write(folder / "columns.txt");
 }

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway view` as a user meets it: the frames that `halfway sim` draws from there, and what is left where
+// something is missing, wrong or broken off.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "cli/command_test.hpp"
+#include "common/file.hpp"
+#include "frame/image.hpp"
+#include "frame/terminal_picture.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/turntable.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class ViewCommand : public CommandTest {
+ protected:
+  /// At 64x48.
+  Outcome view(std::vector<std::string> arguments, Environment environment = {}) const {
+    arguments.insert(arguments.begin(), {"view", "--size", "64x48"});
+    return run(std::move(arguments), std::move(environment));
+  }
+
+  /// PATH with a stand-in for ffmpeg.
+  Environment path_with_ffmpeg(const std::string& script) const {
+    const auto bin = folder_->path() / "bin";
+    EXPECT_TRUE(write_file(bin / "ffmpeg", "#!/bin/sh\n" + script));
+    std::filesystem::permissions(bin / "ffmpeg", std::filesystem::perms::all);
+    return {{"PATH", bin.string() + ":" + std::getenv("PATH")}};
+  }
+
+  std::filesystem::path at(const std::string& name) const { return folder_->path() / name; }
+  std::string bytes(const std::string& name) const {
+    const auto text = read_file(at(name));
+    EXPECT_TRUE(text) << text.error().message;
+    return text ? *text : "";
+  }
+  std::set<std::string> names(const std::string& folder) const {
+    std::set<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(at(folder)))
+      if (entry.path().filename() != ".lock") found.insert(entry.path().filename().string());
+    return found;
+  }
+  Frame frame(const std::string& name) const {
+    auto read = read_png(at(name));
+    EXPECT_TRUE(read) << read.error().message;
+    return read ? *read : Frame{};
+  }
+};
+
+const std::string c_copy = "for last; do :; done; echo \"$@\" >arguments; cat >\"$last\"\n";
+
+// To the last bit, by each shader, and whichever thread drew what: the hardware goes from place to place
+// without a reset.
+TEST_F(ViewCommand, DrawsWhatSimDrawsFromEachPlace) {
+  const std::filesystem::path scenes = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes";
+  const auto text = read_file(scenes / "matte.toml");
+  ASSERT_TRUE(text);
+  const auto scene = load_scene("matte", scenes);
+  ASSERT_TRUE(scene);
+  for (const std::string shader : {"quadratic", "spherical", "processors"}) {
+    const bool first = shader == "quadratic";
+    const std::vector<std::string> thread_counts =
+        first ? std::vector<std::string>{"1", "2"} : std::vector<std::string>{"2"};
+    for (const std::string& threads : thread_counts) {
+      const Outcome drawn =
+          view({"matte", "--frames", "3", "--shader", shader, "--threads", threads, "--out", threads});
+      ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+      EXPECT_THAT(drawn.output,
+                  AllOf(ContainsRegex("matte +" + shader +
+                                      " +exact +64x48 +3 frames of [0-9]+ triangles, "
+                                      "[1-9][0-9]* fragments \\| verilator: 0 mismatches \\| "
+                                      "[0-9.]+ frames a second, [0-9.]+ s on " +
+                                      threads + " threads?\n"),
+                        ContainsRegex("a frame: setup [0-9.]+ ms, golden model [0-9.]+, Verilator [0-9.]+, "
+                                      "comparison [0-9.]+, assembly [0-9.]+, images [0-9.]+\n"),
+                        HasSubstr(threads + "/frame_0000.png to frame_0002.png\n")));
+      EXPECT_THAT(names(threads), ElementsAre("frame_0000.png", "frame_0001.png", "frame_0002.png"));
+    }
+    for (const std::uint32_t n :
+         first ? std::vector<std::uint32_t>{0, 1, 2} : std::vector<std::uint32_t>{2}) {
+      const glm::dvec3 eye = turned(scene->camera, n, 3).eye_world;
+      std::string moved = *text;
+      const std::size_t line = moved.find("eye = ");
+      moved.replace(line, moved.find('\n', line) - line,
+                    fmt::format("eye = [{:.17g}, {:.17g}, {:.17g}]", eye.x, eye.y, eye.z));
+      ASSERT_TRUE(write_file(at("moved.toml"), moved));
+      const Outcome sim = run({"sim", "moved.toml", "--size", "64x48", "--shader", shader, "--simulator",
+                               "verilator", "--out", "out"});
+      ASSERT_EQ(sim.exit_code, 0) << sim.output;
+      const Frame expected = frame("out/moved/" + shader + "/verilator.png");
+      for (const std::string& threads : thread_counts)
+        EXPECT_EQ(frame(fmt::format("{}/frame_{:04}.png", threads, n)).rgb, expected.rgb) << shader << n;
+    }
+    EXPECT_NE(frame("2/frame_0000.png").rgb, frame("2/frame_0001.png").rgb);
+    EXPECT_NE(frame("2/frame_0000.png").rgb, frame("2/frame_0002.png").rgb);
+  }
+}
+
+TEST_F(ViewCommand, ReplacesOlderFramesAndNothingElse) {
+  ASSERT_TRUE(write_file(at("turn/frame_0002.png"), "old"));
+  ASSERT_TRUE(write_file(at("turn/frame_0009.ppm.part-1-0"), "broken off"));
+  ASSERT_TRUE(write_file(at("turn/frame_x.png"), "mine"));
+  const Outcome drawn = view({"matte", "--frames", "2", "--format", "ppm", "--out", "turn"});
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
+  EXPECT_THAT(names("turn"), ElementsAre("frame_0000.ppm", "frame_0001.ppm", "frame_x.png"));
+  // By default beside sim's results, under the scene and the shader.
+  EXPECT_EQ(view({"matte", "--frames", "1"}).exit_code, 0);
+  EXPECT_THAT(names("build/out/matte/quadratic/view"), ElementsAre("frame_0000.png"));
+}
+
+TEST_F(ViewCommand, BadUsageExitsTwoAndSaysWhatToDo) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{}, "scene"},
+      {{"matte", "--frames", "0"}, "--frames: 0 is not 1 to 10000"},
+      {{"matte", "--format", "gif"}, "--format: 'gif' is not a format"},
+      {{"matte", "--format", "ppm", "--terminal", "--columns", "9"}, "give --out as well"},
+      {{"matte", "--rate", "16"}, "--rate goes with --video"},
+      {{"matte", "--rate", "0", "--video", "a.mp4"}, "--rate: 0 is not 1 to 1000"},
+      {{"matte", "--video", "turn"}, "--video: 'turn' names no video"},
+      {{"matte", "--columns", "20"}, "--columns goes with --terminal"},
+      {{"matte", "--colours", "256"}, "--colours goes with --terminal"},
+      {{"matte", "--terminal", "--columns", "9", "--colours", "16"}, "--colours: '16' is not a kind"},
+      {{"matte", "--terminal"}, "standard output is no terminal"},
+      // Nobody may write there, root included.
+      {{"matte", "--out", "/proc/sys"}, "/proc/sys"},
+      {{"matte", "--out", "file/out"}, "file/out"}};
+  ASSERT_TRUE(write_file(at("file"), "not a folder"));
+  for (const auto& [arguments, expected] : cases) {
+    const Outcome outcome = view(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(expected));
+  }
+  EXPECT_THAT(names("."), ElementsAre("file"));
+  const Outcome unwritable = view({"matte", "--video", "/proc/sys/turn.mp4"}, path_with_ffmpeg(c_copy));
+  EXPECT_EQ(unwritable.exit_code, 2) << unwritable.output;
+}
+
+TEST_F(ViewCommand, AVideoIsEachFrameInItsOrder) {
+  const Outcome drawn = view({"matte", "--frames", "5", "--threads", "3", "--video", "films/turn.mp4",
+                              "--rate", "24", "--out", "turn", "--format", "ppm"},
+                             path_with_ffmpeg(c_copy));
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+  EXPECT_THAT(drawn.output, HasSubstr("films/turn.mp4: 24 frames a second\n"));
+  EXPECT_THAT(bytes("arguments"), HasSubstr("-f rawvideo -pix_fmt rgb24 -s 64x48 -r 24 -i pipe:0 "));
+  std::string frames;
+  for (int n = 0; n < 5; ++n) frames += bytes(fmt::format("turn/frame_{:04}.ppm", n)).substr(13);
+  EXPECT_EQ(frames.size(), 5U * 3 * 64 * 48);
+  EXPECT_TRUE(bytes("films/turn.mp4") == frames);
+  EXPECT_THAT(names("films"), ElementsAre("turn.mp4"));
+}
+
+TEST_F(ViewCommand, NoFfmpegExitsThreeBeforeAnythingIsDrawn) {
+  ASSERT_TRUE(make_folders(at("empty")));
+  const Outcome drawn =
+      view({"matte", "--video", "turn.mp4", "--out", "turn"}, {{"PATH", at("empty").string()}});
+  EXPECT_EQ(drawn.exit_code, 3) << drawn.output;
+  EXPECT_THAT(drawn.output, HasSubstr("apt-get install ffmpeg"));
+  EXPECT_THAT(names("."), ElementsAre("empty"));
+}
+
+// It ends early, or only in the end: its words are told, and an older video stays.
+TEST_F(ViewCommand, AVideoThatFailsLeavesNoHalf) {
+  ASSERT_TRUE(write_file(at("films/turn.mp4"), "old"));
+  for (const std::string& script :
+       {std::string("echo no such encoder; exit 1\n"), c_copy + "echo no such encoder; exit 1\n"}) {
+    const Outcome drawn =
+        view({"matte", "--frames", "3", "--video", "films/turn.mp4"}, path_with_ffmpeg(script));
+    EXPECT_EQ(drawn.exit_code, 3) << drawn.output;
+    EXPECT_THAT(drawn.output, AllOf(HasSubstr("films/turn.mp4: ffmpeg could not make it (exit status 1)"),
+                                    HasSubstr("no such encoder")));
+    EXPECT_EQ(bytes("films/turn.mp4"), "old");
+    EXPECT_THAT(names("films"), ElementsAre("turn.mp4"));
+  }
+}
+
+TEST_F(ViewCommand, DrawsInTheTerminal) {
+  const Outcome drawn = view(
+      {"matte", "--frames", "2", "--terminal", "--columns", "20", "--colours", "24bit", "--out", "turn"});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+  std::size_t from = 0;
+  for (int n = 0; n < 2; ++n) {
+    const std::string picture =
+        terminal_picture(frame(fmt::format("turn/frame_{:04}.png", n)), {20, 15}, TerminalColours::full) +
+        fmt::format("frame {} of 2, ", n + 1);
+    from = drawn.output.find(picture, from);
+    EXPECT_NE(from, std::string::npos) << n;
+  }
+  // No cursor is moved where there is none.
+  EXPECT_THAT(drawn.output, Not(HasSubstr("\033[H")));
+  EXPECT_THAT(view({"matte", "--frames", "1", "--terminal", "--columns", "20", "--colours", "256"}).output,
+              AllOf(HasSubstr("\033[38;5;"), Not(HasSubstr("\033[38;2;"))));
+}
+
+// A signal between two frames, or in one: each file that is there is whole, and the shell sees the signal.
+TEST_F(ViewCommand, BrokenOffLeavesNoHalfFile) {
+  for (const std::string signal : {"INT", "TERM"}) {
+    // Job control, for a shell without it keeps INT from what it starts in the background.
+    const Outcome outcome =
+        run_as({"bash", "-c",
+                fmt::format(
+                    "set -m; '{}' view matte --size 64x48 --frames 10000 --out turn --video films/turn.mp4 & "
+                    "until [ -e turn/frame_0009.png ]; do sleep 0.05; kill -0 $! || exit 9; done; "
+                    "kill -{} $!; wait $!; exit $?",
+                    HALFWAY_PROGRAM, signal)},
+               path_with_ffmpeg(c_copy));
+    EXPECT_EQ(outcome.exit_code, signal == "INT" ? 130 : 143) << outcome.output;
+    EXPECT_THAT(outcome.output, Not(HasSubstr("frames a second")));
+    const auto left = names("turn");
+    EXPECT_GE(left.size(), 10U);
+    EXPECT_LT(left.size(), 10'000U);
+    for (const std::string& name : left) {
+      EXPECT_TRUE(name.ends_with(".png")) << name;
+      EXPECT_EQ(frame("turn/" + name).size.height, 48U) << name;
+    }
+    EXPECT_THAT(names("films"), IsEmpty());
+  }
+}
+
+// Hardware whose fault shows from the third place alone: the only triangle is averted before.
+TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
+  const std::filesystem::path source = HALFWAY_SOURCE_DIR, copy = at("source");
+  for (const char* part : {"rtl", "tb", "sim", "model/golden"}) {
+    ASSERT_TRUE(make_folders((copy / part).parent_path()));
+    std::filesystem::copy(source / part, copy / part, std::filesystem::copy_options::recursive);
+  }
+  const auto interpolator = copy / "rtl" / "interpolation" / "line_interpolator.vhd";
+  const auto text = read_file(interpolator);
+  ASSERT_TRUE(text);
+  const std::string from = "r.value + signed(increment)";
+  const std::size_t place = text->find(from);
+  ASSERT_NE(place, std::string::npos) << "mend this test";
+  std::string changed = *text;
+  changed.replace(place, from.size(), "r.value - signed(increment)");
+  ASSERT_TRUE(write_file(interpolator, changed));
+  ASSERT_TRUE(write_file(at("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  ASSERT_TRUE(
+      write_file(at("averted.toml"),
+                 "ambient = 0.5\n[camera]\neye = [0.3, 0.3, -3]\ntarget = [0.3, 0.3, 0]\n[[directional]]\n"
+                 "to_light = [0.4, 0.3, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nfile = \"one.obj\"\n"
+                 "material = \"m\"\n"));
+  const Outcome drawn = run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30",
+                             "--threads", "3", "--out", "turn", "--video", "turn.mp4"},
+                            path_with_ffmpeg(c_copy));
+  EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
+  EXPECT_THAT(drawn.output,
+              AllOf(HasSubstr("averted: frame 2: verilator differs from the golden model\n"),
+                    ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, [a-z]+: golden [0-9]+, Verilator"),
+                    HasSubstr("of the scene with eye = [0.3, 0.3, 3] in [camera]"),
+                    ContainsRegex("3 frames of 1 triangles.* [1-9][0-9]* mismatches in frame 2 "),
+                    HasSubstr("2 of 3 frames show no triangle")));
+  EXPECT_FALSE(std::filesystem::exists(at("turn.mp4")));
+
+  // Nothing is asked of the golden model, and nothing said of it.
+  const Outcome blind = run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30",
+                             "--no-compare", "--out", "turn"});
+  EXPECT_EQ(blind.exit_code, 0) << blind.output;
+  EXPECT_THAT(blind.output, AllOf(HasSubstr("verilator: not compared with the golden model"),
+                                  Not(HasSubstr("mismatches")), Not(HasSubstr("golden model 0"))));
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/rtl_stream.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "common/seconds.hpp"
+#include "run/limits.hpp"
+
+namespace halfway {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Where no golden model says how many fragments there are: vectors a call, so that its fragments, at most one
+// a pixel and vector, stay below this.
+constexpr std::size_t c_most_uncompared = std::size_t{1} << 24;
+constexpr std::size_t c_most_slice = 64;
+constexpr std::size_t c_in_flight = 4;  // vectors that the hardware may hold from calls before
+
+std::size_t slice_of(std::size_t pixels) {
+  return std::clamp(c_most_uncompared / pixels, std::size_t{1}, c_most_slice);
+}
+
+}  // namespace
+
+void RtlStream::add_golden(std::span<const Fragment> fragments) {
+  const double start = thread_seconds();
+  golden_count_ += fragments.size();
+  comparator_.add_golden(fragments);
+  compare_seconds_ += thread_seconds() - start;
+}
+
+void RtlStream::add(std::span<const Fragment> fragments) {
+  count_ += fragments.size();
+  const double start = thread_seconds();
+  if (compares_) comparator_.add_rtl(fragments);
+  const double compared = thread_seconds();
+  assemble(fragments);
+  compare_seconds_ += compared - start;
+  assemble_seconds_ += thread_seconds() - compared;
+}
+
+// Wrong hardware may draw anywhere; the frame then holds what it drew inside.
+void RtlStream::assemble(std::span<const Fragment> fragments) {
+  while (!fragments.empty()) {
+    const std::uint64_t before = assembler_.fragments();
+    if (assembler_.add(fragments)) break;
+    if (fault_.empty()) fault_ = "a fragment lies outside the frame";
+    fragments = fragments.subspan(static_cast<std::size_t>(assembler_.fragments() - before) + 1);
+  }
+}
+
+SimulatorRun RtlStream::finish(std::string simulator) {
+  comparator_.finish();
+  SimulatorRun run;
+  run.simulator = std::move(simulator);
+  run.fragments = count_;
+  run.mismatches = comparator_.mismatches();
+  run.fault = fault_;
+  run.first = comparator_.first();
+  if (run.mismatches != 0)
+    run.description = comparator_.describe(run.simulator == "ghdl" ? "GHDL" : "Verilator");
+  return run;
+}
+
+VerilatorFeed::VerilatorFeed(VerilatorSimulator& simulator, RtlStream& rtl, OnDrawn on_drawn)
+    : simulator_(simulator), rtl_(rtl), on_drawn_(std::move(on_drawn)) {}
+
+// `drawn_` is emptied on every take, so its limit is what the golden model is ahead by, and some.
+std::size_t VerilatorFeed::limit() const {
+  const std::size_t pixels = rtl_.assembler().frame().pixels();
+  const std::uint64_t ahead = rtl_.compares()
+                                  ? rtl_.golden_count() - std::min(rtl_.count(), rtl_.golden_count())
+                                  : (slice_of(pixels) + c_in_flight) * pixels;
+  return static_cast<std::size_t>(ahead + c_most_surplus);
+}
+
+Status VerilatorFeed::take(const Status& ran) {
+  rtl_.add(drawn_);
+  if (on_drawn_) on_drawn_(drawn_);
+  drawn_.clear();
+  if (ran) return Ok{};
+  if (ran.error().code != ExitCode::differs) return ran;
+  rtl_.set_fault(ran.error().message);
+  alive_ = false;
+  return Ok{};
+}
+
+Status VerilatorFeed::add(std::span<const std::uint32_t> init_words) {
+  const std::size_t words_per_vector = (simulator_.init_bits() + 31) / 32;
+  while (alive_ && !init_words.empty()) {
+    const std::size_t slice =
+        rtl_.compares()
+            ? init_words.size()
+            : std::min(init_words.size(), words_per_vector * slice_of(rtl_.assembler().frame().pixels()));
+    const Clock::time_point begin = Clock::now();
+    const Status ran = simulator_.run(init_words.first(slice), slice / words_per_vector, drawn_, limit());
+    seconds_ += seconds_since(begin);
+    init_words = init_words.subspan(slice);
+    if (Status status = take(ran); !status) return status;
+  }
+  return Ok{};
+}
+
+Status VerilatorFeed::finish() {
+  if (!alive_) return Ok{};
+  const Clock::time_point begin = Clock::now();
+  const Status ran = simulator_.finish(drawn_, limit());
+  seconds_ += seconds_since(begin);
+  return take(ran);
+}
+
+}  // namespace halfway

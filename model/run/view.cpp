@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
+#include "common/seconds.hpp"
+#include "common/threads.hpp"
+#include "run/limits.hpp"
+#include "run/scene_stream.hpp"
+#include "scene/camera.hpp"
+#include "scene/turntable.hpp"
+
+namespace halfway {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Each drawing thread has a copy of the scene, whose camera it moves; larger scenes are drawn by fewer.
+constexpr std::size_t c_most_copied_bytes = std::size_t{1} << 30;
+
+std::size_t bytes(const Scene& scene) {
+  return sizeof(glm::dvec3) * (scene.positions_world.size() + scene.normals_world.size()) +
+         sizeof(SceneTriangle) * scene.triangles.size();
+}
+
+struct DrawnFrame {
+  std::uint64_t fragments = 0;
+  ViewSeconds seconds;
+  std::vector<std::string> notes;
+  bool covered = false;
+  std::optional<ViewDifference> difference;
+};
+
+// A model, and the scene that it draws from place to place.
+class Easel {
+ public:
+  Easel(Scene scene, VerilatorSimulator simulator, const ViewSettings& settings, const HardwareKey& key,
+        unsigned threads)
+      : scene_(std::move(scene)),
+        first_camera_(scene_.camera),
+        simulator_(std::move(simulator)),
+        s_(settings),
+        key_(key),
+        threads_(threads) {}
+
+  Result<DrawnFrame> draw(std::uint32_t number) {
+    scene_.camera = turned(first_camera_, number, s_.frames);
+    if (!has_view(scene_.camera))
+      return bad_input(fmt::format(
+          "{}: frame {} has no view: the camera's eye is too near its target, or to the axis through that",
+          scene_.name, number));
+    DrawnFrame drawn;
+    const double setup_start = thread_seconds();
+    const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, key_, s_.setup);
+    drawn.notes = setup->notes();
+    drawn.seconds.setup = thread_seconds() - setup_start;
+
+    // With a thread a frame there is another frame to draw meanwhile.
+    SceneStream stream(*setup, key_, threads_, {.golden = s_.compare, .ahead = threads_ > 1});
+    RtlStream rtl(s_.size, scene_.background, s_.compare);
+    VerilatorFeed feed(simulator_, rtl);
+    double feeding = 0.0;
+    for (Batch batch; stream.next(batch);) {
+      if (Status status = check_shadow_counts(scene_, stream); !status) return status.error();
+      const double start = thread_seconds();
+      rtl.add_golden(batch.golden);
+      const Status fed = feed.add(batch.init_words);
+      feeding += thread_seconds() - start;
+      if (!fed) return fed.error();
+    }
+    const double start = thread_seconds();
+    if (Status status = feed.finish(); !status) return status.error();
+    if (Status status = check_projection(scene_, stream); !status) return status.error();
+    SimulatorRun run = rtl.finish("verilator");
+    feeding += thread_seconds() - start;
+
+    drawn.fragments = run.fragments;
+    drawn.covered = run.fragments != 0;
+    drawn.seconds.setup += stream.setup_seconds();
+    drawn.seconds.golden = stream.golden_seconds();
+    drawn.seconds.compare = rtl.compare_seconds();
+    drawn.seconds.assemble = rtl.assemble_seconds();
+    drawn.seconds.verilator = feeding - rtl.compare_seconds() - rtl.assemble_seconds();
+    if (!run.equal()) drawn.difference = ViewDifference{number, scene_.camera, std::move(run)};
+
+    const double images_start = thread_seconds();
+    if (Status status = s_.on_drawn(number, rtl.assembler().frame()); !status) return status.error();
+    drawn.seconds.images = thread_seconds() - images_start;
+    frame_ = rtl.assembler().frame();
+    return drawn;
+  }
+  const Frame& frame() const { return frame_; }
+
+ private:
+  Scene scene_;
+  Camera first_camera_;
+  VerilatorSimulator simulator_;
+  const ViewSettings& s_;
+  const HardwareKey& key_;
+  unsigned threads_;
+  Frame frame_;
+};
+
+// Numbers of frames for the threads, and their frames in that order for whoever takes them.
+class Turn {
+ public:
+  Turn(const ViewSettings& settings, ViewSummary& summary) : s_(settings), summary_(summary) {}
+
+  /// None when all are drawn or one went wrong.
+  std::optional<std::uint32_t> next() {
+    const std::scoped_lock lock(mutex_);
+    if (stop_ || next_ == s_.frames) return std::nullopt;
+    return next_++;
+  }
+
+  void take(std::uint32_t number, const Result<DrawnFrame>& drawn, const Frame& frame) {
+    std::unique_lock lock(mutex_);
+    if (!drawn) {
+      fail(number, drawn.error());
+      return;
+    }
+    in_turn_.wait(lock, [&] { return taken_ == number || failed_ < number; });
+    if (failed_ < number) return;
+    // Alone here until `taken_` goes on.
+    lock.unlock();
+    const Status taken = s_.on_next(number, frame);
+    lock.lock();
+    summary_.fragments += drawn->fragments;
+    summary_.parts += drawn->seconds;
+    for (const std::string& note : drawn->notes) add_note(note);
+    if (!drawn->covered) ++bare_;
+    ++summary_.frames;
+    ++taken_;
+    if (drawn->difference) {  // the last, whatever later ones came to
+      summary_.difference = drawn->difference;
+      error_.reset();
+      failed_ = number;
+      stop_ = true;
+    }
+    if (!taken) {
+      failed_ = number;
+      error_ = taken.error();
+      stop_ = true;
+    }
+    in_turn_.notify_all();
+  }
+  /// What came from elsewhere, such as out of memory: nobody waits any more.
+  void abandon() {
+    const std::scoped_lock lock(mutex_);
+    stop_ = true;
+    failed_ = 0;
+    in_turn_.notify_all();
+  }
+
+  const std::optional<Error>& error() const { return error_; }
+  std::uint32_t bare() const { return bare_; }
+
+ private:
+  // Frames are begun in order: those before the first failure are all drawn, whichever thread is fast.
+  void fail(std::uint32_t number, const Error& error) {
+    stop_ = true;
+    if (number < failed_) {
+      failed_ = number;
+      error_ = error;
+    }
+    in_turn_.notify_all();
+  }
+  void add_note(const std::string& note) {
+    const std::string text = fmt::format("{}: {}", summary_.scene, note);
+    if (std::ranges::find(summary_.notes, text) == summary_.notes.end()) summary_.notes.push_back(text);
+  }
+
+  const ViewSettings& s_;
+  ViewSummary& summary_;
+  std::mutex mutex_;
+  std::condition_variable in_turn_;
+  std::uint32_t next_ = 0, taken_ = 0;
+  std::uint32_t failed_ = c_most_view_frames;  ///< the first frame that is not to be taken any more
+  bool stop_ = false;
+  std::optional<Error> error_;
+  std::uint32_t bare_ = 0;
+};
+
+}  // namespace
+
+ViewSeconds& ViewSeconds::operator+=(const ViewSeconds& other) {
+  setup += other.setup;
+  golden += other.golden;
+  verilator += other.verilator;
+  compare += other.compare;
+  assemble += other.assemble;
+  images += other.images;
+  return *this;
+}
+
+Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
+  auto plan = plan_scene(scene, settings.plan);
+  if (!plan) return plan.error();
+  ViewSummary summary{.scene = scene.name,
+                      .plan = std::move(*plan),
+                      .size = settings.size,
+                      .triangles = scene.triangles.size(),
+                      .compared = settings.compare,
+                      .threads = settings.threads};
+  const HardwareKey& key = summary.plan.key;
+  settings.on_build(key.name());
+  const auto simulator = VerilatorSimulator::open(key, settings.folders, {.idle_limit = c_idle_limit});
+  if (!simulator) return simulator.error();
+  if (Status status = settings.on_ready(); !status) return status.error();
+
+  const Clock::time_point start = Clock::now();
+  const auto fit = static_cast<unsigned>(std::clamp<std::size_t>(
+      c_most_copied_bytes / std::max<std::size_t>(bytes(scene), 1), 1, settings.threads));
+  const unsigned easels = std::min({settings.threads, fit, settings.frames});
+  Turn turn(settings, summary);
+  work_on_threads(easels, [&] {
+    try {
+      auto model = simulator->another();
+      if (!model) {
+        turn.take(0, model.error(), {});
+        return;
+      }
+      Easel easel(scene, std::move(*model), settings, key, std::max(1U, settings.threads / easels));
+      while (const auto number = turn.next()) {
+        const auto drawn = easel.draw(*number);
+        turn.take(*number, drawn, easel.frame());
+      }
+    } catch (...) {
+      turn.abandon();
+      throw;
+    }
+  });
+  summary.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  if (turn.error()) return *turn.error();
+  if (turn.bare() != 0)
+    summary.notes.push_back(
+        fmt::format("{}: {} of {} frames show no triangle, and so nothing of the hardware", scene.name,
+                    turn.bare(), summary.frames));
+  return summary;
+}
+
+std::string to_lines(const ViewSummary& s) {
+  const std::string compared = !s.compared    ? "not compared with the golden model"
+                               : s.difference ? fmt::format("{} mismatches in frame {}",
+                                                            s.difference->run.mismatches, s.difference->frame)
+                                              : "0 mismatches";
+  std::string text = fmt::format(
+      "{:<12} {:<10} {:<9} {:>4}x{:<4} {:>4} frame{} of {} triangles, {} fragments | verilator: {} | {:.2f} "
+      "frames a second, {:.2f} s on {} thread{}\n",
+      s.scene, to_string(s.plan.key.shader), to_string(s.plan.key.preset), s.size.width, s.size.height,
+      s.frames, s.frames == 1 ? "" : "s", s.triangles, s.fragments, compared, s.rate(), s.seconds, s.threads,
+      s.threads == 1 ? "" : "s");
+  if (s.frames == 0) return text;
+  const auto ms = [&](double seconds) { return 1e3 * seconds / s.frames; };
+  text += fmt::format("processor time a frame: setup {:.1f} ms, ", ms(s.parts.setup));
+  if (s.compared) text += fmt::format("golden model {:.1f}, ", ms(s.parts.golden));
+  text += fmt::format("Verilator {:.1f}, ", ms(s.parts.verilator));
+  if (s.compared) text += fmt::format("comparison {:.1f}, ", ms(s.parts.compare));
+  return text + fmt::format("assembly {:.1f}, images {:.1f}\n", ms(s.parts.assemble), ms(s.parts.images));
+}
+
+}  // namespace halfway

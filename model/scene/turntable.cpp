@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/turntable.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace halfway {
+namespace {
+
+struct Angle {
+  double sine, cosine;
+};
+
+// Exact where it is a quarter turn: the eye then lies where a reader of the scene expects it.
+Angle part_of_turn(std::uint32_t frame, std::uint32_t frames) {
+  const std::uint64_t quarters = 4 * std::uint64_t{frame};
+  const double rest =
+      0.5 * std::numbers::pi * static_cast<double>(quarters % frames) / static_cast<double>(frames);
+  Angle angle{std::sin(rest), std::cos(rest)};
+  for (std::uint64_t i = quarters / frames; i > 0; --i) angle = {angle.cosine, -angle.sine};
+  return angle;
+}
+
+}  // namespace
+
+Camera turned(const Camera& camera, std::uint32_t frame, std::uint32_t frames) {
+  if (frame == 0) return camera;
+  const auto [sine, cosine] = part_of_turn(frame, frames);
+  const glm::dvec3 axis_world = glm::normalize(camera.up_world);
+  const glm::dvec3 backward_world = camera.eye_world - camera.target_world;
+  const glm::dvec3 along_axis_world = glm::dot(axis_world, backward_world) * axis_world;
+  Camera out = camera;
+  out.eye_world = camera.target_world + along_axis_world + cosine * (backward_world - along_axis_world) +
+                  sine * glm::cross(axis_world, backward_world);
+  return out;
+}
+
+}  // namespace halfway

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/turntable.hpp"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "scene/camera.hpp"
+
+namespace halfway {
+namespace {
+
+TEST(Turntable, QuarterTurnsAreExact) {
+  const Camera camera{
+      .eye_world = {1.0, 3.0, 10.0}, .target_world = {1.0, 2.0, 0.5}, .near = 0.25, .far = 40.0};
+  const glm::dvec3 eyes[] = {{1.0, 3.0, 10.0}, {10.5, 3.0, 0.5}, {1.0, 3.0, -9.0}, {-8.5, 3.0, 0.5}};
+  for (std::uint32_t quarter = 0; quarter < 4; ++quarter)
+    for (const std::uint32_t steps : {1U, 3U, 2500U}) {
+      const Camera at = turned(camera, quarter * steps, 4 * steps);
+      EXPECT_EQ(at.eye_world, eyes[quarter]) << quarter << " of " << steps;
+      EXPECT_EQ(at.target_world, camera.target_world);
+      EXPECT_EQ(at.up_world, camera.up_world);
+      EXPECT_EQ(at.vertical_fov_degrees, camera.vertical_fov_degrees);
+      EXPECT_EQ(at.near, 0.25);
+      EXPECT_EQ(at.far, 40.0);
+    }
+}
+
+TEST(Turntable, StepsAreEvenAndKeepHeightAndDistance) {
+  // Up neither of length 1 nor across the view.
+  const Camera camera{
+      .eye_world = {2.0, -1.0, 5.0}, .target_world = {0.5, 0.5, -1.0}, .up_world = {0.3, 2.0, 0.1}};
+  const glm::dvec3 axis = glm::normalize(camera.up_world);
+  const auto backward = [&](std::uint32_t frame) {
+    return turned(camera, frame, 7).eye_world - camera.target_world;
+  };
+  const auto around = [&](glm::dvec3 v) { return glm::normalize(v - glm::dot(v, axis) * axis); };
+  for (std::uint32_t frame = 0; frame < 7; ++frame) {
+    const glm::dvec3 here = backward(frame), next = frame == 6 ? backward(0) : backward(frame + 1);
+    EXPECT_NEAR(glm::length(here), glm::length(backward(0)), 1e-14);
+    EXPECT_NEAR(glm::dot(here, axis), glm::dot(backward(0), axis), 1e-14);
+    EXPECT_NEAR(glm::dot(around(here), around(next)), 0.62348980185873353, 1e-14);  // cos 360°/7
+    EXPECT_GT(glm::dot(glm::cross(around(here), around(next)), axis), 0.0);         // counter-clockwise
+    EXPECT_TRUE(has_view(turned(camera, frame, 7)));
+  }
+}
+
+}  // namespace
+}  // namespace halfway
