@@ -1,19 +1,21 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     Walks one triangle after the other: lines down the start edge, pixels from the start edge to the stop
---             edge, and tells the interpolators when to load and when to step. Two stages overlap: the line stage
---             stands one line ahead of the span stage, so that neither a new line nor a new triangle costs a clock,
+--             edge, and tells the interpolators when to load and when to step. Three stages overlap: the edge stage
+--             stands one line ahead of the line stage, so that how many pixels a line covers is a register there, and
+--             the line stage one ahead of the span stage, so that neither a new line nor a new triangle costs a clock,
 --             and lines that cover no pixel are passed over while a span is drawn.
 -- Init        preset exact: the start edge is the triangle's long one, spans run away from it (backward: to smaller x);
 --             the stop edge has an upper and a lower section. preset published: a horizontal-sided triangle, both
 --             edges stepped by a real slope, lines and spans inclusive at both ends.
 -- Contract    init is taken where init_valid and init_ready are '1', a fragment where fragment_valid and
---             fragment_ready are; x, y and triangle stand still while a fragment waits. The line stage goes on only
+--             fragment_ready are; x, y and triangle stand still while a fragment waits. init stands still from
+--             init_valid = '1' until it is taken: the edge stage has read it before. The line stage goes on only
 --             where line_ready = '1': what the line needs beside the walker has come. line_held: it holds a line.
 -- Formats     formats_pkg: the header of init; x span_x, y pixel_y
--- Latency     2 clocks from init taken to the triangle's first fragment
--- Throughput  with line_ready = '1' 1 fragment a clock, within and between spans and triangles; a line without a pixel
---             costs a clock only where no span is being drawn meanwhile
+-- Latency     3 clocks from init_valid to the triangle's first fragment, 2 from init taken
+-- Throughput  with line_ready = '1' 1 fragment a clock, within and between spans and triangles, but that a triangle takes
+--             2 clocks at least; a line without a pixel costs a clock only where no span is being drawn meanwhile
 -- Error       none in preset exact: a pixel belongs to the triangle by its centre, top-left rule
 -- Source      quadratic paper, section 5 and figure 6 (X counter, Y counter)
 -- Golden twin model/golden/triangle_walker.hpp
@@ -31,7 +33,7 @@ entity triangle_walker is
     clk            : in  std_logic;
     reset          : in  std_logic;
     init_valid     : in  std_logic;
-    init_ready     : out std_logic;
+    init_ready     : out std_logic; -- as line_load: the init vector is of no more use
     init           : in  std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0); -- header of the init vector
     line_ready     : in  std_logic;                                                   -- the line may go on
     line_held      : out std_logic;                                                   -- a line waits for line_ready
@@ -62,13 +64,32 @@ architecture rtl of triangle_walker is
   subtype span_x_t   is signed(c_formats.span_x.bits - 1 downto 0);
   subtype lines_t    is unsigned(c_formats.lines.bits - 1 downto 0);
 
+  -- What a line covers: pixels behind its first; below zero where it covers none.
+  subtype more_t is signed(c_formats.span_x.bits downto 0);
+  subtype rest_t is unsigned(c_formats.span_x.bits - 1 downto 0);
+
+  type edge_stage_t is record
+    valid        : std_logic;
+    first        : std_logic; -- the triangle's first line: init is not taken yet
+    triangle     : triangle_t;
+    y            : pixel_y_t;
+    lines        : lines_t; -- left in this section of the stop edge, this one included
+    lower_lines  : lines_t; -- in the section below
+    section_last : std_logic; -- lines = 1
+    lower_none   : std_logic; -- lower_lines = 0
+    backward     : std_logic;
+  end record;
+
   type line_stage_t is record
-    valid       : std_logic;
-    triangle    : triangle_t;
-    y           : pixel_y_t;
-    lines       : lines_t; -- left in this section of the stop edge, this one included
-    lower_lines : lines_t; -- in the section below
-    backward    : std_logic;
+    valid    : std_logic;
+    triangle : triangle_t;
+    y        : pixel_y_t;
+    start    : span_x_t;
+    stop     : span_x_t;
+    more     : rest_t; -- pixels behind the first
+    empty    : std_logic;
+    backward : std_logic;
+    carry    : std_logic; -- of the step to the next line
   end record;
 
   type span_stage_t is record
@@ -76,60 +97,57 @@ architecture rtl of triangle_walker is
     triangle : triangle_t;
     y        : pixel_y_t;
     x        : span_x_t;
-    stop     : span_x_t;
+    more     : rest_t; -- pixels behind x
     backward : std_logic;
-    last     : std_logic; -- x is the span's last pixel
+    last     : std_logic; -- more = 0
   end record;
 
   type reg_t is record
+    edge : edge_stage_t;
     line : line_stage_t;
     span : span_stage_t;
   end record;
 
   signal r, r_next : reg_t;
 
-  -- From the edges, for the line that the line stage holds.
+  -- From the edges, for the line that the edge stage holds.
   signal start, stop : span_x_t;
+  signal more        : more_t;
+  signal empty       : std_logic;
+  signal edge_carry  : std_logic;
 
   -- From the init vector, where the preset has them.
+  signal init_upper_lines : lines_t;
   signal init_lower_lines : lines_t;
   signal init_backward    : std_logic;
 
-  signal next_x       : span_x_t;
-  signal span_last    : std_logic;
-  signal start_last   : std_logic; -- the line's first pixel is its last
-  signal next_last    : std_logic; -- the next pixel is the span's last
-  signal span_free    : std_logic;
-  signal line_empty   : std_logic;
-  signal section_last : std_logic;
-  signal line_last    : std_logic;
-  signal to_lower     : std_logic; -- this step enters the lower section
+  signal next_x    : span_x_t;
+  signal span_free : std_logic;
+  signal edge_load : std_logic; -- read the init vector
+  signal edge_step : std_logic; -- hand the line on, and go to the next one
+  signal edge_last : std_logic; -- the triangle's last line
+  signal to_lower  : std_logic; -- this step enters the lower section
 
 begin
 
-  next_x    <= r.span.x - 1 when r.span.backward = '1' else r.span.x + 1;
-  span_last <= r.span.last;
+  init_upper_lines <= unsigned(init(c_init.upper_lines.high downto c_init.upper_lines.low));
 
-  -- A pixel ahead: all that goes on at a span's end waits for a register, not for a sum and a comparison.
-  start_last <= '1' when (r.line.backward = '1' and start - 1 = stop) or (r.line.backward = '0' and start + 1 = stop) else
-    '0';
-  next_last  <= '1' when (r.span.backward = '1' and r.span.x - 2 = r.span.stop)
-    or (r.span.backward = '0' and r.span.x + 2 = r.span.stop) else '0';
+  next_x <= r.span.x - 1 when r.span.backward = '1' else r.span.x + 1;
 
   span_step <= r.span.valid and fragment_ready;
-  span_free <= not r.span.valid or (fragment_ready and span_last);
+  span_free <= not r.span.valid or (fragment_ready and r.span.last);
 
-  line_empty <= '1' when (r.line.backward = '0' and start >= stop) or (r.line.backward = '1' and start <= stop) else
-    '0';
+  span_load <= r.line.valid and line_ready and not r.line.empty and span_free;
+  line_step <= r.line.valid and line_ready and (r.line.empty or span_free);
 
-  section_last <= '1' when r.line.lines = 1 else '0';
-  line_last    <= '1' when section_last = '1' and r.line.lower_lines = 0 else '0';
-  to_lower     <= section_last and not line_last;
+  edge_last <= r.edge.section_last and r.edge.lower_none;
+  to_lower  <= r.edge.section_last and not r.edge.lower_none;
+  edge_step <= r.edge.valid and (not r.line.valid or line_step);
+  line_load <= init_valid and edge_step and r.edge.first;
 
-  span_load  <= r.line.valid and line_ready and not line_empty and span_free;
-  line_step  <= r.line.valid and line_ready and (line_empty or span_free);
-  init_ready <= not r.line.valid or (line_step and line_last);
-  line_load  <= init_valid and init_ready;
+  -- While the first line is here init is still this triangle's.
+  edge_load  <= init_valid and (not r.edge.valid or (edge_step and edge_last and not r.edge.first));
+  init_ready <= line_load;
 
   combinational : process (all)
     variable v : reg_t;
@@ -140,34 +158,74 @@ begin
       v.span.valid    := '1';
       v.span.triangle := r.line.triangle;
       v.span.y        := r.line.y;
-      v.span.x        := start;
-      v.span.stop     := stop;
+      v.span.x        := r.line.start;
+      v.span.more     := r.line.more;
       v.span.backward := r.line.backward;
-      v.span.last     := start_last;
+      v.span.last     := '0';
+      if r.line.more = 0 then
+        v.span.last := '1';
+      end if;
     elsif span_step = '1' then
-      v.span.x     := next_x;
-      v.span.last  := next_last;
-      v.span.valid := not span_last;
+      v.span.x    := next_x;
+      v.span.more := r.span.more - 1;
+      v.span.last := '0';
+      if r.span.more = 1 then
+        v.span.last := '1';
+      end if;
+      v.span.valid := not r.span.last;
     end if;
 
-    if line_load = '1' then
-      v.line.valid       := '1';
-      v.line.triangle    := init(c_init.triangle.high downto c_init.triangle.low);
-      v.line.y           := unsigned(init(c_init.y.high downto c_init.y.low));
-      v.line.lines       := unsigned(init(c_init.upper_lines.high downto c_init.upper_lines.low));
-      v.line.lower_lines := init_lower_lines;
-      v.line.backward    := init_backward;
+    if edge_step = '1' then
+      v.line.valid    := '1';
+      v.line.triangle := r.edge.triangle;
+      v.line.y        := r.edge.y;
+      v.line.start    := start;
+      v.line.stop     := stop;
+      v.line.more     := unsigned(more(rest_t'range));
+      v.line.empty    := empty;
+      v.line.backward := r.edge.backward;
+      v.line.carry    := edge_carry;
     elsif line_step = '1' then
-      v.line.valid := not line_last;
-      v.line.y     := r.line.y + 1;
-      v.line.lines := r.line.lines - 1;
+      v.line.valid := '0';
+    end if;
+
+    if edge_load = '1' then
+      v.edge.valid        := '1';
+      v.edge.first        := '1';
+      v.edge.triangle     := init(c_init.triangle.high downto c_init.triangle.low);
+      v.edge.y            := unsigned(init(c_init.y.high downto c_init.y.low));
+      v.edge.lines        := init_upper_lines;
+      v.edge.lower_lines  := init_lower_lines;
+      v.edge.section_last := '0';
+      if init_upper_lines = 1 then
+        v.edge.section_last := '1';
+      end if;
+      v.edge.lower_none := '0';
+      if init_lower_lines = 0 then
+        v.edge.lower_none := '1';
+      end if;
+      v.edge.backward := init_backward;
+    elsif edge_step = '1' then
+      v.edge.valid        := not edge_last;
+      v.edge.first        := '0';
+      v.edge.y            := r.edge.y + 1;
+      v.edge.lines        := r.edge.lines - 1;
+      v.edge.section_last := '0';
+      if r.edge.lines = 2 then
+        v.edge.section_last := '1';
+      end if;
       if to_lower = '1' then
-        v.line.lines       := r.line.lower_lines;
-        v.line.lower_lines := (others => '0');
+        v.edge.lines        := r.edge.lower_lines;
+        v.edge.lower_none   := '1';
+        v.edge.section_last := '0';
+        if r.edge.lower_lines = 1 then
+          v.edge.section_last := '1';
+        end if;
       end if;
     end if;
 
     if reset = '1' then
+      v.edge.valid := '0';
       v.line.valid := '0';
       v.span.valid := '0';
     end if;
@@ -191,6 +249,7 @@ begin
     signal upper, lower, held_lower, section : section_t;
     signal start_x, stop_x                   : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
     signal stop_load                         : std_logic;
+    signal from_x, to_x                      : more_t;
 
     function part (whole : section_t; field : slice_t) return std_logic_vector is
     begin
@@ -205,16 +264,16 @@ begin
       start_edge : entity work.edge_walker
         port map (
           clk            => clk,
-          load           => line_load,
+          load           => edge_load,
           load_x         => init(c_init.start_x.high downto c_init.start_x.low),
           load_quotient  => init(c_init.start_quotient.high downto c_init.start_quotient.low),
           load_remainder => init(c_init.start_remainder.high downto c_init.start_remainder.low),
           load_divisor   => init(c_init.start_divisor.high downto c_init.start_divisor.low),
           load_error     => init(c_init.start_error.high downto c_init.start_error.low),
           load_carry     => init(c_init.start_carry.low),
-          step           => line_step,
+          step           => edge_step,
           x              => start_x,
-          carry          => line_carry
+          carry          => edge_carry
           );
 
       upper <= init(c_init.upper_carry.high downto c_init.upper_x.low);
@@ -226,13 +285,13 @@ begin
           )
         port map (
           clk   => clk,
-          load  => line_load,
+          load  => edge_load,
           start => lower,
           value => held_lower
           );
 
-      section   <= upper when line_load = '1' else held_lower;
-      stop_load <= line_load or (line_step and to_lower);
+      section   <= upper when edge_load = '1' else held_lower;
+      stop_load <= edge_load or (edge_step and to_lower);
 
       stop_edge : entity work.edge_walker
         port map (
@@ -244,13 +303,19 @@ begin
           load_divisor   => part(section, c_init.upper_divisor),
           load_error     => part(section, c_init.upper_error),
           load_carry     => section(c_section_bits - 1),
-          step           => line_step,
+          step           => edge_step,
           x              => stop_x,
           carry          => open
           );
 
       start <= signed(start_x);
       stop  <= signed(stop_x);
+
+      -- One pixel less than lies between them: the complement is the negative less one.
+      from_x <= resize(stop, more_t'length) when r.edge.backward = '1' else resize(start, more_t'length);
+      to_x   <= resize(start, more_t'length) when r.edge.backward = '1' else resize(stop, more_t'length);
+      more   <= to_x + not from_x;
+      empty  <= more(more'high);
 
   else generate
 
@@ -259,6 +324,9 @@ begin
     subtype edge_t is std_logic_vector(c_formats.edge_x.bits - 1 downto 0);
 
     signal start_x, start_slope, stop_x, stop_slope : edge_t;
+    signal last                                     : span_x_t; -- pixel of the line
+
+    constant c_highest : span_x_t := to_signed(2 ** (span_x_t'length - 1) - 1, span_x_t'length);
 
     begin
 
@@ -269,7 +337,7 @@ begin
 
       init_lower_lines <= (others => '0');
       init_backward    <= '0';
-      line_carry       <= '0';
+      edge_carry       <= '0';
 
       start_slope_register : entity work.parameter_register
         generic map (
@@ -277,7 +345,7 @@ begin
           )
         port map (
           clk   => clk,
-          load  => line_load,
+          load  => edge_load,
           start => init(c_init.start_slope.high downto c_init.start_slope.low),
           value => start_slope
           );
@@ -288,9 +356,9 @@ begin
           )
         port map (
           clk       => clk,
-          load      => line_load,
+          load      => edge_load,
           start     => init(c_init.start_x.high downto c_init.start_x.low),
-          step      => line_step,
+          step      => edge_step,
           increment => start_slope,
           value     => start_x
           );
@@ -301,7 +369,7 @@ begin
           )
         port map (
           clk   => clk,
-          load  => line_load,
+          load  => edge_load,
           start => init(c_init.upper_slope.high downto c_init.upper_slope.low),
           value => stop_slope
           );
@@ -312,22 +380,27 @@ begin
           )
         port map (
           clk       => clk,
-          load      => line_load,
+          load      => edge_load,
           start     => init(c_init.upper_x.high downto c_init.upper_x.low),
-          step      => line_step,
+          step      => edge_step,
           increment => stop_slope,
           value     => stop_x
           );
 
       start <= signed(start_x(c_formats.edge_x.bits - 1 downto c_fraction));
-      stop  <= signed(stop_x(c_formats.edge_x.bits - 1 downto c_fraction)) + 1;
+      last  <= signed(stop_x(c_formats.edge_x.bits - 1 downto c_fraction));
+      stop  <= last + 1;
+      more  <= resize(last, more_t'length) - resize(start, more_t'length);
+      -- Behind the highest pixel lies the lowest.
+      empty <= '1' when more(more'high) = '1' or last = c_highest else '0';
 
   end generate;
 
   line_held  <= r.line.valid;
+  line_carry <= r.line.carry;
   line_y     <= std_logic_vector(r.line.y);
-  line_start <= std_logic_vector(start);
-  line_stop  <= std_logic_vector(stop);
+  line_start <= std_logic_vector(r.line.start);
+  line_stop  <= std_logic_vector(r.line.stop);
 
   fragment_valid <= r.span.valid;
   triangle       <= r.span.triangle;

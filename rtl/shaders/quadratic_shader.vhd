@@ -6,9 +6,9 @@
 -- Contract    Both streams are valid/ready; a fragment stands still while it waits. One channel (g_channels = 1) is
 --             given out as red, green and blue.
 -- Formats     formats_pkg: init (header, then a block a channel), depth, colour
--- Latency     4 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel)
--- Throughput  1 fragment a clock, with no bubble between spans, lines and triangles; lines that cover no pixel cost a
---             clock each where no span is being drawn meanwhile
+-- Latency     5 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel)
+-- Throughput  1 fragment a clock, with no bubble between spans, lines and triangles, but that a triangle takes 2 clocks
+--             at least; lines that cover no pixel cost a clock each where no span is being drawn meanwhile
 -- Error       preset exact: the colour is within 0.65 steps of the quadratic through the six samples (0.5 rounding,
 --             0.15 differences), depth within 0.69 of the triangle's plane, and a step more within a step of 0 or of
 --             its largest value, which setup keeps clear

@@ -11,9 +11,10 @@
 --             spherical_pkg says where the lights' parts lie. One channel (g_channels = 1) is given out as red, green
 --             and blue.
 -- Formats     formats_pkg: init (header), ambient, diffuse, specular, depth, colour
--- Latency     6 clocks from a header taken to the triangle's first fragment (its first line covering a pixel)
--- Throughput  1 fragment a clock, with no bubble between spans and lines; between triangles one clock is lost where the
---             last span has a single pixel, none without line records. Lines that cover no pixel cost a clock each
+-- Latency     7 clocks from a header taken to the triangle's first fragment (its first line covering a pixel)
+-- Throughput  1 fragment a clock, with no bubble between spans and lines; between triangles two clocks are lost where
+--             the last span has a single pixel, one where it has two; without line records one behind a triangle of a
+--             single pixel. Lines that cover no pixel cost a clock each
 --             where no span is being drawn meanwhile.
 -- Error       the sum of the terms is exact, and rounded once; their factors and samples: see formats_pkg, cosine_rom
 -- Source      spherical paper, section 5 and figure 12
@@ -182,7 +183,7 @@ begin
 
     header_valid <= waiting and not line_held;
     line_ready   <= waiting;
-    taken        <= line_step or not line_held;
+    taken        <= line_step or header_ready;
 
   else generate
 

@@ -104,11 +104,16 @@ constexpr Listed c_listed[] = {
     // No carry into x; a carry too early.
     {"raster/edge_walker.vhd", "r.x + r.quotient + 1", "r.x + r.quotient"},
     {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
-    // A clock lost between triangles, and between lines; a line lost to a stall; the stop edge never bends.
-    {"raster/triangle_walker.vhd", "not r.line.valid or (line_step and line_last)", "not r.line.valid"},
-    {"raster/triangle_walker.vhd", "not r.span.valid or (fragment_ready and span_last)", "not r.span.valid"},
-    {"raster/triangle_walker.vhd", "(fragment_ready and span_last)", "span_last"},
-    {"raster/triangle_walker.vhd", "line_load or (line_step and to_lower)", "line_load"},
+    // A clock lost between lines of different triangles, and between lines; a line lost to a stall; the stop
+    // edge never bends.
+    {"raster/triangle_walker.vhd", "(edge_step and edge_last and not r.edge.first)", "'0'"},
+    {"raster/triangle_walker.vhd", "not r.span.valid or (fragment_ready and r.span.last)",
+     "not r.span.valid"},
+    {"raster/triangle_walker.vhd", "(fragment_ready and r.span.last)", "r.span.last"},
+    {"raster/triangle_walker.vhd", "edge_load or (edge_step and to_lower)", "edge_load"},
+    // An init vector read twice; one let go before its first line is handed on.
+    {"raster/triangle_walker.vhd", "edge_last and not r.edge.first", "edge_last"},
+    {"raster/triangle_walker.vhd", "init_ready <= line_load", "init_ready <= edge_load"},
     // A line, or a span, that does not wait for what it needs.
     {"raster/triangle_walker.vhd", "r.line.valid and line_ready and (", "r.line.valid and ("},
     {"raster/triangle_walker.vhd", "r.line.valid and line_ready and not", "r.line.valid and not"},
@@ -191,7 +196,7 @@ constexpr Listed c_listed[] = {
     // triangle behind; not busy while only the sample
     // stage holds a pixel; a sample that moves on without its pixel; white highlights all red.
     {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
-    {"shaders/spherical_shader.vhd", "line_step or not line_held", "line_load or span_load"},
+    {"shaders/spherical_shader.vhd", "line_step or header_ready", "header_ready or span_load"},
     {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
      "load  => line_load,\n      start => line_ambient"},
     {"shaders/spherical_shader.vhd", "walking or sample_valid or product_valid", "walking or product_valid"},

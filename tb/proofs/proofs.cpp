@@ -175,41 +175,55 @@ std::vector<Proof> all_proofs() {
         {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
         {"raster/edge_walker.vhd", "r.error - r.remainder + r.divisor", "r.error + r.remainder"}}});
   const std::vector<Fault> walker_faults = {
-      {"raster/triangle_walker.vhd", "not r.line.valid or (line_step and line_last)", "not r.line.valid"},
-      {"raster/triangle_walker.vhd", "not r.line.valid or (line_step and line_last)",
-       "not r.line.valid or line_step"},
-      {"raster/triangle_walker.vhd", "not r.span.valid or (fragment_ready and span_last)",
+      {"raster/triangle_walker.vhd", "init_ready <= line_load", "init_ready <= edge_load"},
+      {"raster/triangle_walker.vhd", "edge_last and not r.edge.first", "edge_last"},
+      {"raster/triangle_walker.vhd", "edge_last and not r.edge.first", "not r.edge.first"},
+      {"raster/triangle_walker.vhd", "r.edge.valid and (not r.line.valid or line_step)",
+       "r.edge.valid and not r.line.valid"},
+      {"raster/triangle_walker.vhd", "r.edge.valid and (not r.line.valid or line_step)", "r.edge.valid"},
+      {"raster/triangle_walker.vhd", "edge_step and r.edge.first;", "edge_step;"},
+      {"raster/triangle_walker.vhd", "not r.span.valid or (fragment_ready and r.span.last)",
        "not r.span.valid"},
-      {"raster/triangle_walker.vhd", "(fragment_ready and span_last)", "span_last"},
-      {"raster/triangle_walker.vhd", "(fragment_ready and span_last)", "fragment_ready"},
-      {"raster/triangle_walker.vhd", "v.span.valid := not span_last", "v.span.valid := '1'"},
-      {"raster/triangle_walker.vhd", "v.span.last     := start_last", "v.span.last     := '0'"},
-      {"raster/triangle_walker.vhd", "v.span.last  := next_last", "v.span.last  := start_last"},
+      {"raster/triangle_walker.vhd", "(fragment_ready and r.span.last)", "r.span.last"},
+      {"raster/triangle_walker.vhd", "(fragment_ready and r.span.last)", "fragment_ready"},
+      {"raster/triangle_walker.vhd", "v.span.valid := not r.span.last", "v.span.valid := '1'"},
+      {"raster/triangle_walker.vhd", "if r.line.more = 0 then", "if r.line.more = 1 then"},
+      {"raster/triangle_walker.vhd", "if r.span.more = 1 then", "if r.span.more = 0 then"},
+      {"raster/triangle_walker.vhd", "v.span.more := r.span.more - 1", "v.span.more := r.span.more"},
       {"raster/triangle_walker.vhd", "span_step <= r.span.valid and fragment_ready",
        "span_step <= r.span.valid"},
-      {"raster/triangle_walker.vhd", "v.span.x        := start", "v.span.x        := stop"},
-      {"raster/triangle_walker.vhd", "start >= stop", "start > stop"},
-      {"raster/triangle_walker.vhd", "line_ready and not line_empty and span_free",
-       "not line_empty and span_free"},
-      {"raster/triangle_walker.vhd", "(line_empty or span_free)", "span_free"},
-      {"raster/triangle_walker.vhd", "v.line.y     := r.line.y + 1", "v.line.y     := r.line.y"},
-      {"raster/triangle_walker.vhd", "v.line.lines := r.line.lines - 1", "v.line.lines := r.line.lines"},
+      {"raster/triangle_walker.vhd", "v.span.x        := r.line.start", "v.span.x        := r.line.stop"},
+      {"raster/triangle_walker.vhd", "line_ready and not r.line.empty and span_free",
+       "not r.line.empty and span_free"},
+      {"raster/triangle_walker.vhd", "(r.line.empty or span_free)", "span_free"},
+      {"raster/triangle_walker.vhd", "r.edge.y + 1", "r.edge.y"},
+      {"raster/triangle_walker.vhd", "r.edge.lines - 1", "r.edge.lines"},
+      {"raster/triangle_walker.vhd", "if r.edge.lines = 2 then", "if r.edge.lines = 1 then"},
+      {"raster/triangle_walker.vhd", "if init_upper_lines = 1 then", "if init_upper_lines = 0 then"},
   };
   std::vector<Fault> exact_faults = walker_faults;
   exact_faults.push_back(
-      {"raster/triangle_walker.vhd", "section_last = '1' and r.line.lower_lines = 0", "section_last = '1'"});
+      {"raster/triangle_walker.vhd", "if init_lower_lines = 0 then", "if init_lower_lines = 1 then"});
+  exact_faults.push_back(
+      {"raster/triangle_walker.vhd", "if r.edge.lower_lines = 1 then", "if r.edge.lower_lines = 0 then"});
+  exact_faults.push_back(
+      {"raster/triangle_walker.vhd", "v.edge.lower_none   := '1'", "v.edge.lower_none   := '0'"});
+  exact_faults.push_back({"raster/triangle_walker.vhd", "to_x + not from_x", "to_x - from_x"});
   exact_faults.push_back({"raster/triangle_walker.vhd", "when r.span.backward = '1' else r.span.x + 1",
                           "when r.line.backward = '1' else r.span.x + 1"});
+  std::vector<Fault> published_faults = walker_faults;
+  published_faults.push_back(
+      {"raster/triangle_walker.vhd", "more(more'high) = '1' or last = c_highest", "more(more'high) = '1'"});
   const std::vector<Fault> box_faults = {
-      {"raster/triangle_walker.vhd", "stop_load <= line_load or (line_step and to_lower)",
-       "stop_load <= line_load or (line_step and line_last)"},
-      {"raster/triangle_walker.vhd", "section   <= upper when line_load = '1' else held_lower",
-       "section   <= upper when line_load = '1' else lower"},
+      {"raster/triangle_walker.vhd", "stop_load <= edge_load or (edge_step and to_lower)",
+       "stop_load <= edge_load or (edge_step and edge_last)"},
+      {"raster/triangle_walker.vhd", "section   <= upper when edge_load = '1' else held_lower",
+       "section   <= upper when edge_load = '1' else lower"},
       {"raster/triangle_walker.vhd", "load_carry     => section(c_section_bits - 1)",
        "load_carry     => upper(c_section_bits - 1)"},
-      {"raster/triangle_walker.vhd", "r.line.backward = '0' and start >= stop",
-       "r.line.backward = '0' and start = stop"},
-      {"raster/triangle_walker.vhd", "v.line.y     := r.line.y + 1", "v.line.y     := r.line.y + 2"},
+      {"raster/triangle_walker.vhd", "empty  <= more(more'high)", "empty  <= '0'"},
+      {"raster/triangle_walker.vhd", "r.edge.y + 1", "r.edge.y + 2"},
+      {"raster/triangle_walker.vhd", "v.line.carry    := edge_carry", "v.line.carry    := r.line.carry"},
       {"raster/edge_walker.vhd", "r.error - r.remainder + r.divisor", "r.error - r.remainder"},
   };
   for (const bool exact : {true, false})
@@ -226,7 +240,7 @@ std::vector<Proof> all_proofs() {
          3,
          exact,
          {{"g_exact", exact ? "true" : "false"}},
-         exact ? exact_faults : walker_faults,
+         exact ? exact_faults : published_faults,
          {},
          false,
          8});
@@ -643,7 +657,7 @@ std::vector<Proof> all_proofs() {
         {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
          "load  => line_load,\n      start => line_ambient"},
         {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
-        {"shaders/spherical_shader.vhd", "line_step or not line_held", "line_step or not waiting"}},
+        {"shaders/spherical_shader.vhd", "line_step or header_ready", "line_step or not waiting"}},
        {},
        true,
        10});

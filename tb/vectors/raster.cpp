@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include "golden/edge_walker.hpp"
 #include "golden/object_stage.hpp"
 #include "vectors/entities.hpp"
@@ -62,13 +64,18 @@ Status write_walker(const std::filesystem::path& folder) {
     }
     VectorFile inits, line_file, fragments;
     WalkerClock clock;
+    LostClocks losses;
+    std::int64_t pixels_before = 0;
     for (const InitVector& init : set) {
       inits.words_of(init, Preset::c_init_header_bits);
       inits.word(static_cast<std::uint64_t>(clock.take_init()), 32).end_vector();
+      std::int64_t first_clock = -1, pixels = 0;
       for (const WalkedLine& line : walk_lines<Preset>(init)) {
         line_file.word(line.y, Preset::c_pixel_y_bits).word(line.start).word(line.stop);
         line_file.flag(line.pixels() == 0).flag(line.last).flag(line.carry).end_vector();
         const std::int64_t first = clock.take_line(line.pixels()) + 1;
+        if (pixels == 0) first_clock = first;
+        pixels += line.pixels();
         for (std::int64_t i = 0; i < line.pixels(); ++i) {
           const std::int64_t x = line.start.value() + (line.backward ? -i : i);
           fragments.word(line.triangle, Preset::c_triangle_bits).word(line.y, Preset::c_pixel_y_bits);
@@ -76,6 +83,11 @@ Status write_walker(const std::filesystem::path& folder) {
           fragments.word(static_cast<std::uint64_t>(first + i), 32).end_vector();
         }
       }
+      // What the header of triangle_walker.vhd promises: a triangle takes two clocks at least.
+      if (const std::int64_t lost = losses.triangle(first_clock, pixels);
+          mix == Mix::dense && (lost < 0 || lost > (pixels_before == 1 ? 1 : 0)))
+        return tool_failed(fmt::format("triangle_walker: {} clocks lost before clock {}", lost, first_clock));
+      pixels_before = pixels;
     }
     const std::string stem = std::string(Preset::c_name) + '_' + name;
     if (auto s = inits.write(folder / (stem + "_init.txt")); !s) return s;

@@ -49,29 +49,50 @@ std::vector<WalkedLine> walk_lines(const InitVector& init) {
 }
 
 /// When things happen at full speed, in clocks since the first init vector was taken, from what the header of
-/// rtl/raster/triangle_walker.vhd promises: the line stage stands a line ahead of the span stage.
+/// rtl/raster/triangle_walker.vhd promises: the edge stage stands a line ahead of the line stage, and that a
+/// line ahead of the span stage.
 class WalkerClock {
  public:
   /// `records`: the buffer in front holds a record a line, so the next header comes only after the last line.
-  explicit WalkerClock(bool records = false) : header_delay_(records ? 1 : 0), line_free_(-header_delay_) {}
+  explicit WalkerClock(bool records = false) : records_(records) {}
 
-  /// The clock in which the next init vector is taken.
+  /// The clock in which the next init vector is taken: its first line goes to the line stage. It is read a
+  /// clock before at the latest, when it is there and the line before has left the edge stage.
   std::int64_t take_init() {
-    const std::int64_t taken = line_free_ + header_delay_;
-    line_there_ = taken + 1;
-    return taken;
+    const std::int64_t there = (records_ ? line_free_ : taken_) + 1;
+    taken_ = std::max(std::max(there, handed_on_) + 1, line_free_);
+    handed_on_ = taken_;
+    first_ = true;
+    return taken_;
   }
   /// The clock in which the line, and its record, is taken. Its first pixel stands at the output a clock
   /// later and leaves in that clock, the others follow.
   std::int64_t take_line(std::int64_t pixels) {
-    line_free_ = pixels == 0 ? line_there_ : std::max(line_there_, span_free_);
-    line_there_ = line_free_ + 1;
+    if (!first_) handed_on_ = line_free_;
+    first_ = false;
+    line_free_ = pixels == 0 ? handed_on_ + 1 : std::max(handed_on_ + 1, span_free_);
     if (pixels != 0) span_free_ = line_free_ + pixels;
     return line_free_;
   }
 
  private:
-  std::int64_t header_delay_, line_free_, line_there_ = 0, span_free_ = 0;
+  bool records_, first_ = false;
+  std::int64_t taken_ = -2, handed_on_ = -1, line_free_ = -2, span_free_ = 0;
+};
+
+/// The clocks that are lost between triangles of which every line covers a pixel, held against a promise.
+class LostClocks {
+ public:
+  /// A triangle's fragments come out from `first` on, one a clock, `pixels` in all.
+  std::int64_t triangle(std::int64_t first, std::int64_t pixels) {
+    const std::int64_t lost = next_ == c_none ? 0 : first - next_;
+    next_ = first + pixels;
+    return lost;
+  }
+
+ private:
+  static constexpr std::int64_t c_none = -1;
+  std::int64_t next_ = c_none;
 };
 
 /// What a set of triangles is for.
