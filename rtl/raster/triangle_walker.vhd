@@ -77,6 +77,7 @@ architecture rtl of triangle_walker is
     lower_lines  : lines_t; -- in the section below
     section_last : std_logic; -- lines = 1
     lower_none   : std_logic; -- lower_lines = 0
+    last_behind  : std_logic; -- the triangle's last line, and not its first
     backward     : std_logic;
   end record;
 
@@ -87,7 +88,7 @@ architecture rtl of triangle_walker is
     start    : span_x_t;
     stop     : span_x_t;
     more     : rest_t; -- pixels behind the first
-    empty    : std_logic;
+    draws    : std_logic; -- valid, and the line covers a pixel
     backward : std_logic;
     carry    : std_logic; -- of the step to the next line
   end record;
@@ -99,7 +100,8 @@ architecture rtl of triangle_walker is
     x        : span_x_t;
     more     : rest_t; -- pixels behind x
     backward : std_logic;
-    last     : std_logic; -- more = 0
+    goes_on  : std_logic; -- valid, and a pixel is behind x
+    ends     : std_logic; -- valid, and none is
   end record;
 
   type reg_t is record
@@ -122,7 +124,7 @@ architecture rtl of triangle_walker is
   signal init_backward    : std_logic;
 
   signal next_x    : span_x_t;
-  signal span_free : std_logic;
+  signal blocked   : std_logic; -- the line that the line stage holds has to wait
   signal edge_load : std_logic; -- read the init vector
   signal edge_step : std_logic; -- hand the line on, and go to the next one
   signal edge_last : std_logic; -- the triangle's last line
@@ -135,18 +137,19 @@ begin
   next_x <= r.span.x - 1 when r.span.backward = '1' else r.span.x + 1;
 
   span_step <= r.span.valid and fragment_ready;
-  span_free <= not r.span.valid or (fragment_ready and r.span.last);
+  blocked   <= (r.line.draws and (r.span.goes_on or (r.span.ends and not fragment_ready)))
+    or (r.line.valid and not line_ready);
 
-  span_load <= r.line.valid and line_ready and not r.line.empty and span_free;
-  line_step <= r.line.valid and line_ready and (r.line.empty or span_free);
+  span_load <= r.line.draws and not blocked;
+  line_step <= r.line.valid and not blocked;
 
   edge_last <= r.edge.section_last and r.edge.lower_none;
   to_lower  <= r.edge.section_last and not r.edge.lower_none;
-  edge_step <= r.edge.valid and (not r.line.valid or line_step);
+  edge_step <= r.edge.valid and not blocked;
   line_load <= init_valid and edge_step and r.edge.first;
 
   -- While the first line is here init is still this triangle's.
-  edge_load  <= init_valid and (not r.edge.valid or (edge_step and edge_last and not r.edge.first));
+  edge_load  <= init_valid and (not r.edge.valid or (edge_step and r.edge.last_behind));
   init_ready <= line_load;
 
   combinational : process (all)
@@ -161,18 +164,21 @@ begin
       v.span.x        := r.line.start;
       v.span.more     := r.line.more;
       v.span.backward := r.line.backward;
-      v.span.last     := '0';
+      v.span.goes_on  := '1';
+      v.span.ends     := '0';
       if r.line.more = 0 then
-        v.span.last := '1';
+        v.span.goes_on := '0';
+        v.span.ends    := '1';
       end if;
     elsif span_step = '1' then
       v.span.x    := next_x;
       v.span.more := r.span.more - 1;
-      v.span.last := '0';
+      v.span.ends := '0';
       if r.span.more = 1 then
-        v.span.last := '1';
+        v.span.goes_on := '0';
+        v.span.ends    := r.span.goes_on;
       end if;
-      v.span.valid := not r.span.last;
+      v.span.valid := r.span.goes_on;
     end if;
 
     if edge_step = '1' then
@@ -182,11 +188,12 @@ begin
       v.line.start    := start;
       v.line.stop     := stop;
       v.line.more     := unsigned(more(rest_t'range));
-      v.line.empty    := empty;
+      v.line.draws    := not empty;
       v.line.backward := r.edge.backward;
       v.line.carry    := edge_carry;
     elsif line_step = '1' then
       v.line.valid := '0';
+      v.line.draws := '0';
     end if;
 
     if edge_load = '1' then
@@ -224,10 +231,15 @@ begin
       end if;
     end if;
 
+    v.edge.last_behind := v.edge.section_last and v.edge.lower_none and not v.edge.first;
+
     if reset = '1' then
-      v.edge.valid := '0';
-      v.line.valid := '0';
-      v.span.valid := '0';
+      v.edge.valid   := '0';
+      v.line.valid   := '0';
+      v.line.draws   := '0';
+      v.span.valid   := '0';
+      v.span.goes_on := '0';
+      v.span.ends    := '0';
     end if;
     r_next <= v;
   end process;

@@ -89,12 +89,19 @@ constexpr Listed c_listed[] = {
     // Overwrites a word that waits; survives reset.
     {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= '1'"},
     {"stream/stream_register.vhd", "v.valid := '0'", "v.valid := r.valid"},
+    // A word given out twice; a word too many; a claim that a reset leaves.
+    {"stream/stream_queue.vhd", "v.read      := r.read + 1", "v.read      := r.read"},
+    {"stream/stream_queue.vhd", "if v.claimed = c_most then", "if r.claimed = c_most then"},
+    {"stream/stream_queue.vhd", "v.claimed   := (others => '0')", "v.claimed   := r.claimed"},
+    // A carry lost, and one that comes too high.
+    {"interpolation/part_interpolator.vhd", "& carry_in)", "& '0')"},
+    {"interpolation/part_interpolator.vhd", "r.carry <= sum(g_bits + 1)", "r.carry <= sum(g_bits)"},
     // The wrong sign; step wins over load.
     {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
     {"interpolation/line_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '0' then"},
     // Carry turned round; the span takes the next triangle's step.
-    {"interpolation/plane_interpolator.vhd", "de <= de1 when line_carry = '1' else de0",
-     "de <= de0 when line_carry = '1' else de1"},
+    {"interpolation/plane_interpolator.vhd", "de <= de1 when line_carries(part) = '1' else de0",
+     "de <= de0 when line_carries(part) = '1' else de1"},
     {"interpolation/plane_interpolator.vhd", "increment => span_dx", "increment => dx"},
     // Depth that never takes the carry.
     {"interpolation/z_interpolator.vhd", "line_carry => line_carry", "line_carry => line_load"},
@@ -106,17 +113,16 @@ constexpr Listed c_listed[] = {
     {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
     // A clock lost between lines of different triangles, and between lines; a line lost to a stall; the stop
     // edge never bends.
-    {"raster/triangle_walker.vhd", "(edge_step and edge_last and not r.edge.first)", "'0'"},
-    {"raster/triangle_walker.vhd", "not r.span.valid or (fragment_ready and r.span.last)",
-     "not r.span.valid"},
-    {"raster/triangle_walker.vhd", "(fragment_ready and r.span.last)", "r.span.last"},
+    {"raster/triangle_walker.vhd", "(edge_step and r.edge.last_behind)", "'0'"},
+    {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "r.span.ends"},
+    {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "'0'"},
     {"raster/triangle_walker.vhd", "edge_load or (edge_step and to_lower)", "edge_load"},
     // An init vector read twice; one let go before its first line is handed on.
-    {"raster/triangle_walker.vhd", "edge_last and not r.edge.first", "edge_last"},
+    {"raster/triangle_walker.vhd", "v.edge.lower_none and not v.edge.first", "v.edge.lower_none"},
     {"raster/triangle_walker.vhd", "init_ready <= line_load", "init_ready <= edge_load"},
     // A line, or a span, that does not wait for what it needs.
-    {"raster/triangle_walker.vhd", "r.line.valid and line_ready and (", "r.line.valid and ("},
-    {"raster/triangle_walker.vhd", "r.line.valid and line_ready and not", "r.line.valid and not"},
+    {"raster/triangle_walker.vhd", "(r.line.valid and not line_ready)", "'0'"},
+    {"raster/triangle_walker.vhd", "(r.line.draws and (r.span.goes_on", "(r.line.valid and (r.span.goes_on"},
     // Of equal depths the last; a polygon on the surface is before it; a pixel shaded twice; a column that
     // the
     // token before has just changed; its change that does not go on with it; columns that a clear leaves; a
@@ -188,10 +194,14 @@ constexpr Listed c_listed[] = {
     {"shaders/shading_pipeline.vhd", "(processor - 1) / c_terms + 1",
      "(processor - 1) / c_terms + 2 - c_terms"},
     {"shaders/shading_pipeline.vhd", "or faults", "faults(0)"},
-    // Not busy while only the buffer in front holds a triangle; the colour of a fragment that waits moves on.
-    {"shaders/quadratic_shader.vhd", "waiting or walking or out_valid", "walking or out_valid"},
-    {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => colours",
-     "load  => drawn,\n      start => colours"},
+    // Not busy while only the buffer in front holds a triangle; pixels that nothing has a place for; a pixel
+    // with
+    // the position of the next; a triangle let go before the upper halves have it.
+    {"shaders/quadratic_shader.vhd", "waiting or walking or coming", "walking or coming"},
+    {"shaders/quadratic_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
+    {"shaders/quadratic_shader.vhd", "pixels <= ((triangle, y, x), pixels(1))",
+     "pixels <= ((triangle, y, x), (triangle, y, x))"},
+    {"shaders/quadratic_shader.vhd", "out_ready => r.line_load(2)", "out_ready => r.line_load(1)"},
     // A record taken as a header; an empty line's record taken for the next line's; the ambient light of the
     // triangle behind; not busy while only the sample
     // stage holds a pixel; a sample that moves on without its pixel; white highlights all red.

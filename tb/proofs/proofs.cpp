@@ -27,6 +27,23 @@ std::vector<Proof> all_proofs() {
         {"stream/stream_register.vhd", "v.valid := in_valid", "v.valid := in_valid or r.valid"},
         {"stream/stream_register.vhd", "take     <= in_valid and free", "take     <= in_valid"},
         {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= not r.valid"}}});
+  proofs.push_back(
+      {"stream/stream_queue",
+       "stream/stream_queue.psl",
+       "Numbered words come out with every number, in order, two clocks behind when nothing waits; never "
+       "more "
+       "are claimed than it has places for: 3 places, 3 bits",
+       Method::pdr,
+       12,
+       true,
+       {{"g_bits", "3"}, {"g_index_bits", "2"}},
+       {{"stream/stream_queue.vhd", "stored and (out_ready or not r.out_valid)",
+         "stored and not r.out_valid"},
+        {"stream/stream_queue.vhd", "stored and (out_ready or not r.out_valid)", "stored"},
+        {"stream/stream_queue.vhd", "r.out_valid and out_ready;", "r.out_valid;"},
+        {"stream/stream_queue.vhd", "if v.claimed = c_most then", "if r.claimed = c_most then"},
+        {"stream/stream_queue.vhd", "v.claimed   := (others => '0')", "v.claimed   := r.claimed"},
+        {"stream/stream_queue.vhd", "memory(to_integer(r.read))", "memory(to_integer(r.write))"}}});
   proofs.push_back({"stream/delay_line",
                     "stream/delay_line.psl",
                     "The word of g_depth = 5 enabled clocks ago, whatever stalls",
@@ -176,26 +193,26 @@ std::vector<Proof> all_proofs() {
         {"raster/edge_walker.vhd", "r.error - r.remainder + r.divisor", "r.error + r.remainder"}}});
   const std::vector<Fault> walker_faults = {
       {"raster/triangle_walker.vhd", "init_ready <= line_load", "init_ready <= edge_load"},
-      {"raster/triangle_walker.vhd", "edge_last and not r.edge.first", "edge_last"},
-      {"raster/triangle_walker.vhd", "edge_last and not r.edge.first", "not r.edge.first"},
-      {"raster/triangle_walker.vhd", "r.edge.valid and (not r.line.valid or line_step)",
-       "r.edge.valid and not r.line.valid"},
-      {"raster/triangle_walker.vhd", "r.edge.valid and (not r.line.valid or line_step)", "r.edge.valid"},
+      {"raster/triangle_walker.vhd", "v.edge.lower_none and not v.edge.first", "v.edge.lower_none"},
+      {"raster/triangle_walker.vhd", "edge_step and r.edge.last_behind", "edge_step"},
+      {"raster/triangle_walker.vhd", "edge_step <= r.edge.valid and not blocked",
+       "edge_step <= r.edge.valid and not r.line.valid"},
+      {"raster/triangle_walker.vhd", "edge_step <= r.edge.valid and not blocked",
+       "edge_step <= r.edge.valid"},
       {"raster/triangle_walker.vhd", "edge_step and r.edge.first;", "edge_step;"},
-      {"raster/triangle_walker.vhd", "not r.span.valid or (fragment_ready and r.span.last)",
-       "not r.span.valid"},
-      {"raster/triangle_walker.vhd", "(fragment_ready and r.span.last)", "r.span.last"},
-      {"raster/triangle_walker.vhd", "(fragment_ready and r.span.last)", "fragment_ready"},
-      {"raster/triangle_walker.vhd", "v.span.valid := not r.span.last", "v.span.valid := '1'"},
+      {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "r.span.ends"},
+      {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "'0'"},
+      {"raster/triangle_walker.vhd", "(r.span.goes_on or (", "('0' or ("},
+      {"raster/triangle_walker.vhd", "v.span.valid := r.span.goes_on", "v.span.valid := '1'"},
       {"raster/triangle_walker.vhd", "if r.line.more = 0 then", "if r.line.more = 1 then"},
       {"raster/triangle_walker.vhd", "if r.span.more = 1 then", "if r.span.more = 0 then"},
       {"raster/triangle_walker.vhd", "v.span.more := r.span.more - 1", "v.span.more := r.span.more"},
       {"raster/triangle_walker.vhd", "span_step <= r.span.valid and fragment_ready",
        "span_step <= r.span.valid"},
       {"raster/triangle_walker.vhd", "v.span.x        := r.line.start", "v.span.x        := r.line.stop"},
-      {"raster/triangle_walker.vhd", "line_ready and not r.line.empty and span_free",
-       "not r.line.empty and span_free"},
-      {"raster/triangle_walker.vhd", "(r.line.empty or span_free)", "span_free"},
+      {"raster/triangle_walker.vhd", "(r.line.valid and not line_ready)", "'0'"},
+      {"raster/triangle_walker.vhd", "(r.line.draws and (r.span.goes_on",
+       "(r.line.valid and (r.span.goes_on"},
       {"raster/triangle_walker.vhd", "r.edge.y + 1", "r.edge.y"},
       {"raster/triangle_walker.vhd", "r.edge.lines - 1", "r.edge.lines"},
       {"raster/triangle_walker.vhd", "if r.edge.lines = 2 then", "if r.edge.lines = 1 then"},
@@ -523,15 +540,23 @@ std::vector<Proof> all_proofs() {
   const std::vector<Fault> quadratic_faults = {
       {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
       {"interpolation/quadratic_interpolator.vhd", "increment => dx_step", "increment => dxx"},
-      {"interpolation/quadratic_interpolator.vhd", "start     => line_dx", "start     => dxx"},
-      {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
+      {"interpolation/quadratic_interpolator.vhd", "start     => part_dx", "start     => dxx"},
+      {"interpolation/part_interpolator.vhd", "'0' & unsigned(increment)", "'0' & unsigned(not increment)"},
+  };
+  const std::vector<Fault> split_faults = {
+      {"interpolation/part_interpolator.vhd", "r.carry <= sum(g_bits + 1)", "r.carry <= sum(g_bits)"},
+      {"interpolation/quadratic_interpolator.vhd", "span_steps(1)   <= span_step",
+       "span_steps(1)   <= span_load"},
+      {"interpolation/quadratic_interpolator.vhd", "carry_in  => carries(span_dx)(part)",
+       "carry_in  => carries(span_value)(part)"},
   };
   std::vector<Fault> carried_faults = quadratic_faults;
-  for (const auto& [from, to] : {std::pair{"de1_step   <= de1e1 when", "de1_step   <= de0e1 when"},
-                                 std::pair{"dx_step    <= dxe1 when", "dx_step    <= dxe0 when"},
-                                 std::pair{"line_de1 when line_carry", "line_de1 when not line_carry"},
-                                 std::pair{"de0_step   <= de0e1 when line_carry = '1' else de0e0;",
-                                           "de0_step   <= de0e0 when line_carry = '1' else de0e1;"}})
+  for (const auto& [from, to] :
+       {std::pair{"de1_step   <= de1e1 when", "de1_step   <= de0e1 when"},
+        std::pair{"dx_step    <= dxe1 when", "dx_step    <= dxe0 when"},
+        std::pair{"part_de1 when line_carries(part) = '1'", "part_de1 when line_carries(part) = '0'"},
+        std::pair{"de0_step   <= de0e1 when line_carries(part) = '1' else de0e0;",
+                  "de0_step   <= de0e0 when line_carries(part) = '1' else de0e1;"}})
     carried_faults.push_back({"interpolation/quadratic_interpolator.vhd", from, to});
   proofs.push_back(
       {"interpolation/line_interpolator",
@@ -554,29 +579,35 @@ std::vector<Proof> all_proofs() {
        5,
        false,
        {{"g_bits", "12"}},
-       {{"interpolation/plane_interpolator.vhd", "de <= de1 when line_carry = '1' else de0",
-         "de <= de0 when line_carry = '1' else de1"},
+       {{"interpolation/plane_interpolator.vhd", "de <= de1 when line_carries(part) = '1' else de0",
+         "de <= de0 when line_carries(part) = '1' else de1"},
         {"interpolation/plane_interpolator.vhd", "increment => span_dx", "increment => dx"},
-        {"interpolation/plane_interpolator.vhd", "load      => span_load", "load      => line_load"}},
+        {"interpolation/plane_interpolator.vhd", "load      => span_loads(part)",
+         "load      => line_loads(part)"}},
        {},
        false,
        6});
-  for (const bool exact : {true, false})
-    proofs.push_back(
-        {"interpolation/quadratic_interpolator",
-         "interpolation/quadratic_interpolator.psl",
-         exact
-             ? "Every line's and every pixel's words are what the second differences make of the triangle's, "
-               "bit for bit, full width"
-             : "The same in preset `published`",
-         Method::induction,
-         2,
-         true,
-         {{"g_exact", exact ? "true" : "false"}},
-         exact ? carried_faults : quadratic_faults,
-         {},
-         false,
-         5});
+  for (const bool split : {false, true})
+    for (const bool exact : {true, false}) {
+      proofs.push_back(
+          {"interpolation/quadratic_interpolator",
+           "interpolation/quadratic_interpolator.psl",
+           fmt::format("{}{}",
+                       exact ? "Every line's and every pixel's words are what the second differences make of "
+                               "the triangle's, bit for bit, full width"
+                             : "The same in preset `published`",
+                       split ? "; words in two halves" : ""),
+           Method::induction,
+           split ? 4 : 2,
+           true,
+           {{"g_exact", exact ? "true" : "false"}, {"g_split", split ? "true" : "false"}},
+           exact ? carried_faults : quadratic_faults,
+           {},
+           false,
+           split ? 7 : 5});
+      if (split)
+        proofs.back().faults.insert(proofs.back().faults.end(), split_faults.begin(), split_faults.end());
+    }
   proofs.push_back(
       {"interpolation/quadratic_interpolator",
        "interpolation/quadratic_interpolator_error.psl",
@@ -621,21 +652,22 @@ std::vector<Proof> all_proofs() {
   proofs.push_back(
       {"shaders/quadratic_shader",
        "shaders/quadratic_shader.psl",
-       "Each pixel of the walker comes out once, with its own depth and colours, and stands still while it "
-       "waits; double buffer: the next triangle is taken while one is drawn, and goes to the walker once, as "
-       "it "
-       "came",
+       "Each pixel of the walker has a place in the queue and comes there once, in order, with its own "
+       "position; double buffer: the next triangle is taken while one is drawn, goes to the walker once, and "
+       "stands still until the interpolators have it",
        Method::induction,
        3,
        true,
        {{"g_channels", "3"}, {"g_probe", "true"}},
-       {{"shaders/quadratic_shader.vhd", "waiting or walking or out_valid", "walking or out_valid"},
-        {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => colours",
-         "load  => drawn,\n      start => colours"},
-        {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => whole_z",
-         "load  => span_load,\n      start => whole_z"},
-        {"shaders/quadratic_shader.vhd", "out_ready => taken", "out_ready => taken and not walking"},
-        {"shaders/quadratic_shader.vhd", "init_valid     => waiting", "init_valid     => init_valid"},
+       {{"shaders/quadratic_shader.vhd", "waiting or walking or coming", "walking or coming"},
+        {"shaders/quadratic_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
+        {"shaders/quadratic_shader.vhd", "in_valid  => r.span_step(2)", "in_valid  => r.span_step(1)"},
+        {"shaders/quadratic_shader.vhd", "v.span_step := ('0', '0')", "v.span_step := v.span_step"},
+        {"shaders/quadratic_shader.vhd", "waiting and not r.line_load(1) and not r.line_load(2)",
+         "waiting and not r.line_load(1)"},
+        {"shaders/quadratic_shader.vhd", "out_ready => r.line_load(2)", "out_ready => r.line_load(1)"},
+        {"shaders/quadratic_shader.vhd", "pixels <= ((triangle, y, x), pixels(1))",
+         "pixels <= ((triangle, y, x), (triangle, y, x))"},
         {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= not r.valid"}},
        {},
        false,

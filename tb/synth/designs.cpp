@@ -88,8 +88,9 @@ std::vector<Design> all_designs() {
 
     add("line_interpolator", {{"g_bits", of("intensity")}}, true);
     add("plane_interpolator", {{"g_bits", of("depth_sum")}, {"g_carries", exact ? "true" : "false"}}, true);
-    add("z_interpolator", {is_exact}, true);
-    add("quadratic_interpolator", {is_exact}, true);
+    const std::pair<std::string, std::string> split = {"g_split", "true"};
+    add("z_interpolator", {is_exact, split}, true);
+    add("quadratic_interpolator", {is_exact, split}, true);
     if (exact) add("edge_walker", {}, true);
     add("triangle_walker", {is_exact}, true);
     add("saturate",
@@ -111,6 +112,7 @@ std::vector<Design> all_designs() {
         true);
     if (exact) add("parameter_register", {{"g_bits", of("intensity")}}, true);
     if (exact) add("stream_register", {{"g_bits", "64"}}, true);
+    if (exact) add("stream_queue", {{"g_bits", "104"}}, true);
     if (exact) add("delay_line", {{"g_bits", "24"}, {"g_depth", "9"}}, true);
     add("function_rom", {is_exact, {"g_which", "0"}}, true);
     add("dot_product", {{"g_bits", of("direction")}});

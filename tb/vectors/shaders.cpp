@@ -64,7 +64,8 @@ Status write_quadratic(const std::filesystem::path& folder) {
       }
     };
     Shader twin;
-    WalkerClock clock;
+    constexpr std::int64_t c_held = 2, c_least = 4;  // clocks in the buffer in front; clocks of a triangle
+    WalkerClock clock(false, c_held);
     LostClocks losses;
     std::int64_t taken = 0, pixels_before = 0;
     for (InitVector init :
@@ -72,20 +73,20 @@ Status write_quadratic(const std::filesystem::path& folder) {
       put_colours<Preset>(init, random, Channels);
       add_clock(inits.words_of(init, Shader::c_init_bits), taken);
       // The buffer in front takes the next vector in the clock in which the walker, which has read this one
-      // the clock before, lets it go.
-      taken = clock.take_init() + 2;
+      // the clock before, and the interpolators let it go.
+      taken = clock.take_init() + 2 + c_held;
       std::vector<std::int64_t> clocks;
       for (const WalkedLine& line : walk_lines<Preset>(init)) {
-        // A clock in the buffer in front, one in the edge stage, one to the span stage, and one in the
-        // register behind.
-        const std::int64_t first = clock.take_line(line.pixels()) + 4;
+        // A clock in the buffer in front, one in the edge stage, one to the span stage, two for both halves
+        // of the words, two in the queue.
+        const std::int64_t first = clock.take_line(line.pixels()) + 7;
         for (std::int64_t i = 0; i < line.pixels(); ++i) clocks.push_back(first + i);
       }
       // What the header of quadratic_shader.vhd promises.
       if (mix == Mix::dense) {
         const auto pixels = static_cast<std::int64_t>(clocks.size());
         const std::int64_t lost = losses.triangle(clocks.front(), pixels);
-        if (lost < 0 || lost > (pixels_before == 1 ? 1 : 0))
+        if (lost < 0 || lost > (pixels_before > 0 ? std::max<std::int64_t>(c_least - pixels_before, 0) : 0))
           return tool_failed(
               fmt::format("quadratic_shader: {} clocks lost before clock {}", lost, clocks.front()));
         pixels_before = pixels;

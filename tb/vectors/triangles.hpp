@@ -54,12 +54,13 @@ std::vector<WalkedLine> walk_lines(const InitVector& init) {
 class WalkerClock {
  public:
   /// `records`: the buffer in front holds a record a line, so the next header comes only after the last line.
-  explicit WalkerClock(bool records = false) : records_(records) {}
+  /// `held`: for so many clocks more an init vector stays in the buffer in front, when it was taken.
+  explicit WalkerClock(bool records = false, std::int64_t held = 0) : records_(records), held_(held) {}
 
   /// The clock in which the next init vector is taken: its first line goes to the line stage. It is read a
   /// clock before at the latest, when it is there and the line before has left the edge stage.
   std::int64_t take_init() {
-    const std::int64_t there = (records_ ? line_free_ : taken_) + 1;
+    const std::int64_t there = (records_ ? line_free_ : taken_ + held_) + 1;
     taken_ = std::max(std::max(there, handed_on_) + 1, line_free_);
     handed_on_ = taken_;
     first_ = true;
@@ -77,7 +78,7 @@ class WalkerClock {
 
  private:
   bool records_, first_ = false;
-  std::int64_t taken_ = -2, handed_on_ = -1, line_free_ = -2, span_free_ = 0;
+  std::int64_t held_, taken_ = -2 - held_, handed_on_ = -1, line_free_ = -2, span_free_ = 0;
 };
 
 /// The clocks that are lost between triangles of which every line covers a pixel, held against a promise.
