@@ -7,7 +7,7 @@
 namespace halfway {
 namespace {
 
-// The quadratic shader cuts the words of its interpolators in halves.
+// The quadratic shader cuts the words of its interpolators in halves, the spherical one those of depth.
 constexpr int kHalves = 2;
 
 // Entities below one, with all that lies below them.
@@ -41,8 +41,8 @@ class Units {
     add("part_interpolator", 2 * parts);
     add("parameter_register", (exact_ ? 4 : 3) * parts);
   }
-  // The spherical shader's: in the stages of line, span, sample and product.
-  void add_ambient() { add("parameter_register", 4); }
+  // The spherical shader's: in the stages of line and span.
+  void add_ambient() { add("parameter_register", 2); }
   void add_quadratic_interpolator() {
     add("quadratic_interpolator");
     add("part_interpolator", (exact_ ? 6 : 5) * kHalves);
@@ -79,11 +79,12 @@ class Units {
     const golden::SphericalConfig config = golden_config(key_);
     const bool diffuse_part = exact_ ? golden::SphericalLayout<golden::Exact>(config).has_diffuse_part()
                                      : golden::SphericalLayout<golden::Published>(config).has_diffuse_part();
-    add_stream_registers(4);       // the buffer in front, the stages of sample, product and fragment
-    add("parameter_register", 4);  // depth in three stages, colour
+    add_stream_registers(1);
+    add("stream_queue");
+    add("parameter_register");  // the header, for depth
     add_ambient();
     add_walker();
-    add_z_interpolator();
+    add_z_interpolator(kHalves);
     for (int light = 0; light < config.lights; ++light) {
       if (diffuse_part) add_diffuse_slice(config.diffuse ? config.channels : 0);
       if (config.specular) add_specular_slice();

@@ -149,7 +149,7 @@ begin
           carry_out => edge_carries(part + 1)
           );
 
-      -- The line stage may hold the next triangle already, so the span keeps its own step.
+        -- The line stage may hold the next triangle already, so the span keeps its own step.
       span_dx_register : entity work.parameter_register
         generic map (
           g_bits => c_part_bits
@@ -176,7 +176,7 @@ begin
           carry_out => span_carries(part + 1)
           );
 
-      -- A lower part waits for the upper one.
+        -- A lower part waits for the upper one.
       in_step : if part < c_parts - 1 generate
 
         registers : process (clk)

@@ -253,7 +253,7 @@ begin
           carry_out => carries(edge_de0)(part + 1)
           );
 
-      -- The line stage may hold the next triangle already, so the span keeps its own second difference.
+        -- The line stage may hold the next triangle already, so the span keeps its own second difference.
       span_dxx_register : entity work.parameter_register
         generic map (
           g_bits => c_part_bits
@@ -295,7 +295,7 @@ begin
           carry_out => carries(span_dx)(part + 1)
           );
 
-      -- A lower part waits for the upper one.
+        -- A lower part waits for the upper one.
       in_step : if part < c_parts - 1 generate
 
         registers : process (clk)

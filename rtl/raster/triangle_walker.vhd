@@ -127,6 +127,7 @@ architecture rtl of triangle_walker is
   signal blocked   : std_logic; -- the line that the line stage holds has to wait
   signal edge_load : std_logic; -- read the init vector
   signal edge_step : std_logic; -- hand the line on, and go to the next one
+  signal edge_goes : std_logic; -- either
   signal edge_last : std_logic; -- the triangle's last line
   signal to_lower  : std_logic; -- this step enters the lower section
 
@@ -146,6 +147,7 @@ begin
   edge_last <= r.edge.section_last and r.edge.lower_none;
   to_lower  <= r.edge.section_last and not r.edge.lower_none;
   edge_step <= r.edge.valid and not blocked;
+  edge_goes <= edge_step or (init_valid and not r.edge.valid);
   line_load <= init_valid and edge_step and r.edge.first;
 
   -- While the first line is here init is still this triangle's.
@@ -196,7 +198,7 @@ begin
       v.line.draws := '0';
     end if;
 
-    if edge_load = '1' then
+    if edge_goes = '1' and edge_load = '1' then
       v.edge.valid        := '1';
       v.edge.first        := '1';
       v.edge.triangle     := init(c_init.triangle.high downto c_init.triangle.low);
@@ -212,7 +214,7 @@ begin
         v.edge.lower_none := '1';
       end if;
       v.edge.backward := init_backward;
-    elsif edge_step = '1' then
+    elsif edge_goes = '1' then
       v.edge.valid        := not edge_last;
       v.edge.first        := '0';
       v.edge.y            := r.edge.y + 1;
@@ -283,7 +285,7 @@ begin
           load_divisor   => init(c_init.start_divisor.high downto c_init.start_divisor.low),
           load_error     => init(c_init.start_error.high downto c_init.start_error.low),
           load_carry     => init(c_init.start_carry.low),
-          step           => edge_step,
+          step           => edge_goes,
           x              => start_x,
           carry          => edge_carry
           );
@@ -302,7 +304,8 @@ begin
           value => held_lower
           );
 
-      section   <= upper when edge_load = '1' else held_lower;
+        -- Where the next section waits there is no other triangle to load: edge_load comes too late to choose by it.
+      section   <= held_lower when r.edge.valid = '1' and to_lower = '1' else upper;
       stop_load <= edge_load or (edge_step and to_lower);
 
       stop_edge : entity work.edge_walker
@@ -315,7 +318,7 @@ begin
           load_divisor   => part(section, c_init.upper_divisor),
           load_error     => part(section, c_init.upper_error),
           load_carry     => section(c_section_bits - 1),
-          step           => edge_step,
+          step           => edge_goes,
           x              => stop_x,
           carry          => open
           );

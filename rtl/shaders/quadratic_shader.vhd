@@ -74,6 +74,7 @@ architecture rtl of quadratic_shader is
   type strobe_t is array (1 to 2) of std_logic;
 
   type reg_t is record
+    walk_valid : std_logic; -- the buffer holds a triangle that the walker has not taken
     line_load  : strobe_t;
     line_step  : std_logic;
     line_carry : std_logic;
@@ -104,8 +105,9 @@ architecture rtl of quadratic_shader is
   signal line_z, z                     : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
   signal whole_z                       : std_logic_vector(fragment_z'range);
   signal colours                       : std_logic_vector(3 * c_colour - 1 downto 0); -- red lowest
-  signal walk_valid                    : std_logic;
+  signal buffer_free                   : std_logic;
   signal room, coming                  : std_logic;
+  signal pixel_valid                   : std_logic;
   signal walking                       : std_logic;
   signal pixel, fragment_pixel         : std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length
     + fragment_z'length + 3 * c_colour - 1 downto 0);
@@ -128,15 +130,12 @@ begin
       clk       => clk,
       reset     => reset,
       in_valid  => init_valid,
-      in_ready  => init_ready,
+      in_ready  => buffer_free,
       in_data   => init_data,
       out_valid => waiting,
       out_ready => r.line_load(2),
       out_data  => init
       );
-
-  -- Until the upper halves have been loaded the triangle that the walker has taken stands in the buffer.
-  walk_valid <= waiting and not r.line_load(1) and not r.line_load(2);
 
   walker : entity work.triangle_walker
     generic map (
@@ -145,7 +144,7 @@ begin
     port map (
       clk            => clk,
       reset          => reset,
-      init_valid     => walk_valid,
+      init_valid     => r.walk_valid,
       init_ready     => open,
       init           => init(c_header_bits - 1 downto 0),
       line_ready     => '1',
@@ -170,12 +169,18 @@ begin
     variable v : reg_t;
   begin
     v            := r;
+    -- Until the upper halves have been loaded the triangle that the walker has taken stands in the buffer.
+    v.walk_valid := (waiting and not r.line_load(2)) or (init_valid and buffer_free);
+    if line_load = '1' or r.line_load(1) = '1' then
+      v.walk_valid := '0';
+    end if;
     v.line_load  := (line_load, r.line_load(1));
     v.line_step  := line_step;
     v.line_carry := line_carry;
     v.span_load  := span_load;
     v.span_step  := (span_step, r.span_step(1));
     if reset = '1' then
+      v.walk_valid := '0';
       v.line_load := ('0', '0');
       v.span_step := ('0', '0');
     end if;
@@ -269,8 +274,9 @@ begin
     colours(3 * c_colour - 1 downto c_colour) <= colours(c_colour - 1 downto 0) & colours(c_colour - 1 downto 0);
   end generate;
 
-  whole_z <= z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction);
-  pixel   <= colours & whole_z & pixels(2).x(fragment_x'range) & pixels(2).y & pixels(2).triangle;
+  whole_z     <= z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction);
+  pixel_valid <= r.span_step(2);
+  pixel       <= colours & whole_z & pixels(2).x(fragment_x'range) & pixels(2).y & pixels(2).triangle;
 
   queue : entity work.stream_queue
     generic map (
@@ -282,7 +288,7 @@ begin
       claim     => span_step,
       room      => room,
       holds     => coming,
-      in_valid  => r.span_step(2),
+      in_valid  => pixel_valid,
       in_data   => pixel,
       out_valid => fragment_valid,
       out_ready => fragment_ready,
@@ -296,6 +302,8 @@ begin
   fragment_red      <= fragment_pixel(c_red_low + fragment_red'length - 1 downto c_red_low);
   fragment_green    <= fragment_pixel(c_green_low + fragment_green'length - 1 downto c_green_low);
   fragment_blue     <= fragment_pixel(c_blue_low + fragment_blue'length - 1 downto c_blue_low);
+
+  init_ready <= buffer_free;
 
   busy  <= waiting or walking or coming;
   fault <= '0';

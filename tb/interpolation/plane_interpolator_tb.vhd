@@ -42,7 +42,7 @@ begin
       line_value => line_value,
       value      => value);
 
-  -- A clock later the same.
+    -- A clock later the same.
   split : entity work.plane_interpolator
     generic map (g_bits => g_bits, g_carries => g_carries, g_split => true)
     port map (

@@ -50,7 +50,7 @@ begin
       value      => value,
       dx         => dx);
 
-  -- A clock later the same.
+    -- A clock later the same.
   split : entity work.quadratic_interpolator
     generic map (g_exact => g_exact, g_split => true)
     port map (

@@ -42,7 +42,7 @@ begin
       line_value => line_value,
       value      => value);
 
-  -- A clock later the same.
+    -- A clock later the same.
   split : entity work.z_interpolator
     generic map (g_exact => g_exact, g_split => true)
     port map (

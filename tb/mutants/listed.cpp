@@ -17,8 +17,8 @@ constexpr Listed c_listed[] = {
      "value(c_sign - 2 downto c_result_high + 1) & \"00\""},
     {"arithmetic/saturate.vhd", "result <= (others => '0')", "result <= (others => '1')"},
     // Signed operands; a product that does not stand still.
-    {"arithmetic/multiplier.vhd", "unsigned(a) * unsigned(b)", "unsigned(signed(a) * signed(b))"},
-    {"arithmetic/multiplier.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
+    {"arithmetic/multiplier.vhd", "r.high + resize(", "r.high - resize("},
+    {"arithmetic/multiplier.vhd", "if r.added = '1' then", "if enable = '1' then"},
     // The bell is not folded; it has a second one beside it; preset published takes the lower bits.
     {"arithmetic/angle_address.vhd", "magnitude <= not angle when", "magnitude <= angle when"},
     {"arithmetic/angle_address.vhd", "magnitude(c_sign downto c_fraction) = c_inside",
@@ -109,7 +109,7 @@ constexpr Listed c_listed[] = {
     {"interpolation/quadratic_interpolator.vhd", "de0_step   <= de0e1 when", "de0_step   <= de0e0 when"},
     {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
     // No carry into x; a carry too early.
-    {"raster/edge_walker.vhd", "r.x + r.quotient + 1", "r.x + r.quotient"},
+    {"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '0')"},
     {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
     // A clock lost between lines of different triangles, and between lines; a line lost to a stall; the stop
     // edge never bends.
@@ -203,14 +203,18 @@ constexpr Listed c_listed[] = {
      "pixels <= ((triangle, y, x), (triangle, y, x))"},
     {"shaders/quadratic_shader.vhd", "out_ready => r.line_load(2)", "out_ready => r.line_load(1)"},
     // A record taken as a header; an empty line's record taken for the next line's; the ambient light of the
-    // triangle behind; not busy while only the sample
-    // stage holds a pixel; a sample that moves on without its pixel; white highlights all red.
+    // triangle behind; not busy while only
+    // the buffer holds a vector; pixels that nothing has a place for; another line's ambient light; white
+    // highlights all
+    // red.
     {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
     {"shaders/spherical_shader.vhd", "line_step or header_ready", "header_ready or span_load"},
     {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
      "load  => line_load,\n      start => line_ambient"},
-    {"shaders/spherical_shader.vhd", "walking or sample_valid or product_valid", "walking or product_valid"},
-    {"shaders/spherical_shader.vhd", "sample_valid and sample_ready", "sample_valid"},
+    {"shaders/spherical_shader.vhd", "waiting or walking or coming", "walking or coming"},
+    {"shaders/spherical_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
+    {"shaders/spherical_shader.vhd", "span_ambient & ambients(1 to c_multiplied - 1)",
+     "line_ambient & ambients(1 to c_multiplied - 1)"},
     {"shaders/spherical_shader.vhd", "channel * boolean'pos(g_highlight_channels > 1)",
      "channel * boolean'pos(g_highlight_channels > 3)"},
     // A load taken for a triangle, one that overtakes objects in the walker or in the object stage, one that

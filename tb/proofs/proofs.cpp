@@ -96,15 +96,18 @@ std::vector<Proof> all_proofs() {
   proofs.push_back(
       {"arithmetic/multiplier",
        "arithmetic/multiplier.psl",
-       "The sum of a's multiples that b's bits ask for, a clock later, and it stands still without enable: 6 "
-       "by 6 "
-       "bits",
+       "The sum of a's multiples that b's bits ask for, two clocks later, and it stands still without "
+       "enable: "
+       "6 by 6 bits",
        Method::induction,
-       1,
+       3,
        true,
        {{"g_a_bits", "6"}, {"g_b_bits", "6"}},
-       {{"arithmetic/multiplier.vhd", "unsigned(a) * unsigned(b)", "unsigned(a) * unsigned(b) + 1"},
-        {"arithmetic/multiplier.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"}}});
+       {{"arithmetic/multiplier.vhd", "padded(g_a_bits downto c_low_bits)) * unsigned(b)",
+         "padded(g_a_bits downto c_low_bits)) * unsigned(b) + 1"},
+        {"arithmetic/multiplier.vhd", "if r.added = '1' then", "if enable = '1' then"},
+        {"arithmetic/multiplier.vhd", "r.low(r.low'high downto c_low_bits), r.high",
+         "r.low(r.low'high - 1 downto c_low_bits), r.high"}}});
   proofs.push_back(
       {"arithmetic/angle_address",
        "arithmetic/angle_address.psl",
@@ -188,9 +191,9 @@ std::vector<Proof> all_proofs() {
        3,
        true,
        {},
-       {{"raster/edge_walker.vhd", "r.x + r.quotient + 1", "r.x + r.quotient"},
+       {{"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '0')"},
         {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
-        {"raster/edge_walker.vhd", "r.error - r.remainder + r.divisor", "r.error + r.remainder"}}});
+        {"raster/edge_walker.vhd", "r.error + r.rise", "r.error + r.remainder"}}});
   const std::vector<Fault> walker_faults = {
       {"raster/triangle_walker.vhd", "init_ready <= line_load", "init_ready <= edge_load"},
       {"raster/triangle_walker.vhd", "v.edge.lower_none and not v.edge.first", "v.edge.lower_none"},
@@ -234,14 +237,13 @@ std::vector<Proof> all_proofs() {
   const std::vector<Fault> box_faults = {
       {"raster/triangle_walker.vhd", "stop_load <= edge_load or (edge_step and to_lower)",
        "stop_load <= edge_load or (edge_step and edge_last)"},
-      {"raster/triangle_walker.vhd", "section   <= upper when edge_load = '1' else held_lower",
-       "section   <= upper when edge_load = '1' else lower"},
+      {"raster/triangle_walker.vhd", "section   <= held_lower when", "section   <= lower when"},
       {"raster/triangle_walker.vhd", "load_carry     => section(c_section_bits - 1)",
        "load_carry     => upper(c_section_bits - 1)"},
       {"raster/triangle_walker.vhd", "empty  <= more(more'high)", "empty  <= '0'"},
       {"raster/triangle_walker.vhd", "r.edge.y + 1", "r.edge.y + 2"},
       {"raster/triangle_walker.vhd", "v.line.carry    := edge_carry", "v.line.carry    := r.line.carry"},
-      {"raster/edge_walker.vhd", "r.error - r.remainder + r.divisor", "r.error - r.remainder"},
+      {"raster/edge_walker.vhd", "r.error + r.rise", "r.error - r.remainder"},
   };
   for (const bool exact : {true, false})
     proofs.push_back(
@@ -661,38 +663,41 @@ std::vector<Proof> all_proofs() {
        {{"g_channels", "3"}, {"g_probe", "true"}},
        {{"shaders/quadratic_shader.vhd", "waiting or walking or coming", "walking or coming"},
         {"shaders/quadratic_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
-        {"shaders/quadratic_shader.vhd", "in_valid  => r.span_step(2)", "in_valid  => r.span_step(1)"},
+        {"shaders/quadratic_shader.vhd", "pixel_valid <= r.span_step(2)", "pixel_valid <= r.span_step(1)"},
         {"shaders/quadratic_shader.vhd", "v.span_step := ('0', '0')", "v.span_step := v.span_step"},
-        {"shaders/quadratic_shader.vhd", "waiting and not r.line_load(1) and not r.line_load(2)",
-         "waiting and not r.line_load(1)"},
+        {"shaders/quadratic_shader.vhd", "if line_load = '1' or r.line_load(1) = '1' then",
+         "if line_load = '1' then"},
         {"shaders/quadratic_shader.vhd", "out_ready => r.line_load(2)", "out_ready => r.line_load(1)"},
         {"shaders/quadratic_shader.vhd", "pixels <= ((triangle, y, x), pixels(1))",
          "pixels <= ((triangle, y, x), (triangle, y, x))"},
         {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= not r.valid"}},
        {},
        false,
-       8});
+       14});
   proofs.push_back(
       {"shaders/spherical_shader",
        "shaders/spherical_shader.psl",
-       "The same through both stages behind the walker, in order, each with its own depth, ambient "
-       "light and colour; a record goes to its line; any products",
+       "The same four clocks later, each with its own depth and ambient light and the sum of its products; a "
+       "record goes to its line; any products",
        Method::induction,
        3,
        false,
        {{"g_channels", "1"}, {"g_highlight_channels", "1"}},
-       {{"shaders/spherical_shader.vhd", "walking or sample_valid or product_valid",
-         "walking or product_valid"},
-        {"shaders/spherical_shader.vhd", "product_valid and product_ready", "product_valid"},
-        {"shaders/spherical_shader.vhd", "load  => sample_step,\n      start => sample_depth",
-         "load  => span_step,\n      start => sample_depth"},
+       {{"shaders/spherical_shader.vhd", "waiting or walking or coming", "walking or coming"},
+        {"shaders/spherical_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
+        {"shaders/spherical_shader.vhd", "span_step & r.filled(1 to c_summed - 1)",
+         "span_load & r.filled(1 to c_summed - 1)"},
+        {"shaders/spherical_shader.vhd", "span_ambient & ambients(1 to c_multiplied - 1)",
+         "line_ambient & ambients(1 to c_multiplied - 1)"},
         {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
          "load  => line_load,\n      start => line_ambient"},
+        {"shaders/spherical_shader.vhd", "span_place & places(1 to c_summed - 1)",
+         "span_place & span_place & places(1 to c_summed - 2)"},
         {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
         {"shaders/spherical_shader.vhd", "line_step or header_ready", "line_step or not waiting"}},
        {},
        true,
-       10});
+       14});
   proofs.push_back(
       {"shaders/processors_shader",
        "shaders/processors_shader.psl",

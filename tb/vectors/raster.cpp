@@ -167,12 +167,12 @@ Status write_edge_walker(const std::filesystem::path& folder) {
       edges.push_back(garbage_edge(random));
     }
     const EdgeStart& e = edges.back();
-    const bool load = i == 0 || random.one_in(16), step = !random.one_in(5);
+    const bool load = i == 0 || random.one_in(16), step = i == 0 || !random.one_in(5);
     file.flag(i > 0).flag(load).word(e.x).word(e.quotient);
     for (const std::uint32_t word : {e.remainder, e.divisor, e.error})
       file.word(word, Exact::c_edge_error_bits);
     file.flag(e.carry).flag(step).word(twin.x()).flag(twin.carry()).end_vector();
-    if (load) {
+    if (load && step) {
       twin.load(e);
       edges.pop_back();
     } else if (step) {

@@ -184,8 +184,9 @@ Status write_spherical(const std::filesystem::path& folder, const Spherical& sph
           group.insert(group.end(), record.begin(), record.end());
           taken = line_taken + 2;
         }
-        // Two clocks more than in the quadratic shader: samples and products.
-        const std::int64_t first = line_taken + 6;
+        // A clock in the buffer in front, one in the edge stage, one to the span stage, one for the samples,
+        // two for the products, one for their sum, two in the queue.
+        const std::int64_t first = line_taken + 9;
         for (std::int64_t i = 0; i < line.pixels(); ++i) clocks.push_back(first + i);
       }
       if (twin.group(group) * twin.init_words() != group.size())
