@@ -13,7 +13,7 @@
 --             spherical_pkg says where the lights' parts lie. One channel (g_channels = 1) is given out as red, green
 --             and blue.
 -- Formats     formats_pkg: init (header), ambient, diffuse, specular, depth, colour
--- Latency     10 clocks from a header taken to the triangle's first fragment (its first line covering a pixel)
+-- Latency     11 clocks from a header taken to the triangle's first fragment (its first line covering a pixel)
 -- Throughput  1 fragment a clock, with no bubble between spans and lines; between triangles two clocks are lost where
 --             the last span has a single pixel, one where it has two; without line records one behind a triangle of a
 --             single pixel. Lines that cover no pixel cost a clock each
@@ -112,10 +112,10 @@ architecture rtl of spherical_shader is
   signal room, coming                 : std_logic;
   signal pixel_valid                  : std_logic;
 
-  -- Behind the span stage, clock by clock: samples, halves of products, products, sums.
+  -- Behind the span stage, clock by clock: samples, products in three, sums.
   constant c_sampled    : positive := 1;
-  constant c_multiplied : positive := 3;
-  constant c_summed     : positive := 4;
+  constant c_multiplied : positive := 4;
+  constant c_summed     : positive := 5;
 
   -- Depth comes two clocks behind its pixel: its words are in halves, and it takes the strobes from registers.
   constant c_depth : positive := 2;
@@ -498,9 +498,11 @@ begin
   pixel_valid <= r.filled(c_summed);
   pixel       <= colours & depths(c_summed) & places(c_summed);
 
+  -- A pixel comes five clocks after its claim: seven places would not do.
   queue : entity work.stream_queue
     generic map (
-      g_bits => pixel'length
+      g_bits       => pixel'length,
+      g_index_bits => 4
       )
     port map (
       clk       => clk,

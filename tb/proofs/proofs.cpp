@@ -96,18 +96,16 @@ std::vector<Proof> all_proofs() {
   proofs.push_back(
       {"arithmetic/multiplier",
        "arithmetic/multiplier.psl",
-       "The sum of a's multiples that b's bits ask for, two clocks later, and it stands still without "
+       "The sum of a's multiples that b's bits ask for, three clocks later, and it stands still without "
        "enable: "
        "6 by 6 bits",
        Method::induction,
-       3,
+       5,
        true,
        {{"g_a_bits", "6"}, {"g_b_bits", "6"}},
-       {{"arithmetic/multiplier.vhd", "padded(g_a_bits downto c_low_bits)) * unsigned(b)",
-         "padded(g_a_bits downto c_low_bits)) * unsigned(b) + 1"},
-        {"arithmetic/multiplier.vhd", "if r.added = '1' then", "if enable = '1' then"},
-        {"arithmetic/multiplier.vhd", "r.low(r.low'high downto c_low_bits), r.high",
-         "r.low(r.low'high - 1 downto c_low_bits), r.high"}}});
+       {{"arithmetic/multiplier.vhd", "unsigned(padded((i + 1)", "1 + unsigned(padded((i + 1)"},
+        {"arithmetic/multiplier.vhd", "enable & r.filled(1)", "enable & enable"},
+        {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"}}});
   proofs.push_back(
       {"arithmetic/angle_address",
        "arithmetic/angle_address.psl",
@@ -677,7 +675,7 @@ std::vector<Proof> all_proofs() {
   proofs.push_back(
       {"shaders/spherical_shader",
        "shaders/spherical_shader.psl",
-       "The same four clocks later, each with its own depth and ambient light and the sum of its products; a "
+       "The same five clocks later, each with its own depth and ambient light and the sum of its products; a "
        "record goes to its line; any products",
        Method::induction,
        3,

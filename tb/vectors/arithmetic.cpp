@@ -49,19 +49,20 @@ Status write_saturate(const std::filesystem::path& folder) {
 Status write_multiplier_of(const std::filesystem::path& folder, int a_bits, int b_bits) {
   Random random(static_cast<std::uint64_t>(a_bits + b_bits));
   VectorFile file;
-  std::uint64_t halves = 0, product = 0;
+  std::uint64_t quarters = 0, halves = 0, product = 0;
   int filled = 0;
   const auto add = [&](bool enable, std::uint64_t a, std::uint64_t b) {
-    file.flag(filled > 1)
+    file.flag(filled > 2)
         .flag(enable)
         .word(a, a_bits)
         .word(b, b_bits)
         .word(product, a_bits + b_bits)
         .end_vector();
     ++filled;
-    // The halves of the last product become one.
+    // The quarters of the last product become halves, and these one.
     product = halves;
-    if (enable) halves = golden::multiply(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+    halves = quarters;
+    if (enable) quarters = golden::multiply(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
   };
   if (a_bits + b_bits <= 16) {
     for (std::uint64_t a = 0; a < std::uint64_t{1} << a_bits; ++a)

@@ -186,7 +186,7 @@ Status write_spherical(const std::filesystem::path& folder, const Spherical& sph
         }
         // A clock in the buffer in front, one in the edge stage, one to the span stage, one for the samples,
         // two for the products, one for their sum, two in the queue.
-        const std::int64_t first = line_taken + 9;
+        const std::int64_t first = line_taken + 10;
         for (std::int64_t i = 0; i < line.pixels(); ++i) clocks.push_back(first + i);
       }
       if (twin.group(group) * twin.init_words() != group.size())
