@@ -232,6 +232,8 @@ std::vector<Proof> all_proofs() {
   std::vector<Fault> published_faults = walker_faults;
   published_faults.push_back(
       {"raster/triangle_walker.vhd", "more(more'high) = '1' or last = c_highest", "more(more'high) = '1'"});
+  const std::vector<Width> narrow_walk = {
+      {"span_x", 4, 0}, {"edge_error", 3, 0}, {"lines", 3, 0}, {"pixel_y", 3, 0}, {"triangle", 2, 0}};
   const std::vector<Fault> box_faults = {
       {"raster/triangle_walker.vhd", "stop_load <= edge_load or (edge_step and to_lower)",
        "stop_load <= edge_load or (edge_step and edge_last)"},
@@ -258,9 +260,10 @@ std::vector<Proof> all_proofs() {
          exact,
          {{"g_exact", exact ? "true" : "false"}},
          exact ? exact_faults : published_faults,
-         {},
+         exact ? narrow_walk : std::vector<Width>{},
          false,
-         8});
+         8,
+         true});
 
   proofs.push_back(
       {"raster/triangle_walker",
@@ -658,9 +661,8 @@ std::vector<Proof> all_proofs() {
        Method::induction,
        3,
        true,
-       {{"g_channels", "3"}, {"g_probe", "true"}},
+       {{"g_channels", "1"}, {"g_probe", "true"}},
        {{"shaders/quadratic_shader.vhd", "waiting or walking or coming", "walking or coming"},
-        {"shaders/quadratic_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
         {"shaders/quadratic_shader.vhd", "pixel_valid <= r.span_step(2)", "pixel_valid <= r.span_step(1)"},
         {"shaders/quadratic_shader.vhd", "v.span_step := ('0', '0')", "v.span_step := v.span_step"},
         {"shaders/quadratic_shader.vhd", "if line_load = '1' or r.line_load(1) = '1' then",
@@ -671,7 +673,7 @@ std::vector<Proof> all_proofs() {
         {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= not r.valid"}},
        {},
        false,
-       14});
+       9});
   proofs.push_back(
       {"shaders/spherical_shader",
        "shaders/spherical_shader.psl",
@@ -682,7 +684,6 @@ std::vector<Proof> all_proofs() {
        false,
        {{"g_channels", "1"}, {"g_highlight_channels", "1"}},
        {{"shaders/spherical_shader.vhd", "waiting or walking or coming", "walking or coming"},
-        {"shaders/spherical_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
         {"shaders/spherical_shader.vhd", "span_step & r.filled(1 to c_summed - 1)",
          "span_load & r.filled(1 to c_summed - 1)"},
         {"shaders/spherical_shader.vhd", "span_ambient & ambients(1 to c_multiplied - 1)",
@@ -690,7 +691,7 @@ std::vector<Proof> all_proofs() {
         {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
          "load  => line_load,\n      start => line_ambient"},
         {"shaders/spherical_shader.vhd", "span_place & places(1 to c_summed - 1)",
-         "span_place & span_place & places(1 to c_summed - 2)"},
+         "places(c_summed) & places(1 to c_summed - 1)"},
         {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
         {"shaders/spherical_shader.vhd", "line_step or header_ready", "line_step or not waiting"}},
        {},

@@ -12,6 +12,7 @@ namespace {
 using Generics = std::vector<std::pair<std::string, std::string>>;
 
 constexpr const char* kLarge = "multipliers of LUTs alone would fill it";
+constexpr const char* kCrowded = "82 % of the cells, and nextpnr 0.4's placers do not end";
 
 Design shader(const std::string& name, const HardwareKey& key) {
   return {.name = name, .entity = key.entity(), .generics = key.generics()};
@@ -75,6 +76,10 @@ std::vector<Design> all_designs() {
     };
 
     all.push_back(shader("quadratic_shader_" + p, {.preset = preset}));
+    if (exact) {
+      all.back().placed = false;
+      all.back().without = kCrowded;
+    }
     all.push_back(shader("quadratic_shader_grey_" + p, {.preset = preset, .channels = 1}));
     all.push_back(shader("spherical_shader_" + p, spherical(preset, 3, exact ? 8 : 2, tables)));
     all.push_back(shader("spherical_shader_grey_" + p, spherical(preset, 1, exact ? 8 : 2, tables)));
