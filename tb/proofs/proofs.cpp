@@ -227,8 +227,6 @@ std::vector<Proof> all_proofs() {
   exact_faults.push_back(
       {"raster/triangle_walker.vhd", "v.edge.lower_none   := '1'", "v.edge.lower_none   := '0'"});
   exact_faults.push_back({"raster/triangle_walker.vhd", "to_x + not from_x", "to_x - from_x"});
-  exact_faults.push_back({"raster/triangle_walker.vhd", "when r.span.backward = '1' else r.span.x + 1",
-                          "when r.line.backward = '1' else r.span.x + 1"});
   std::vector<Fault> published_faults = walker_faults;
   published_faults.push_back(
       {"raster/triangle_walker.vhd", "more(more'high) = '1' or last = c_highest", "more(more'high) = '1'"});
