@@ -44,7 +44,7 @@ help: ## this list
 	@echo '  FORM       folded or unrolled shading processors          (default: unrolled)'
 	@echo '  PRESET     exact or published                             (default: exact)'
 	@echo '  SIZE       WIDTHxHEIGHT in pixels                         (default: 640x480)'
-	@echo '  SIMULATOR  ghdl or verilator                              (default: both)'
+	@echo '  SIMULATOR  ghdl, verilator or lanes; make view: auto, verilator or lanes (default: both; auto)'
 	@echo '  OUT        the folder for results                         (default: build/out)'
 	@echo '  THREADS    threads for triangle setup and golden model    (default: all cores)'
 	@echo '  ALL_EFFECTS  1: hardware with every effect, whatever the scene calls for; LIGHTS  for how many lights'
@@ -65,7 +65,7 @@ sim: program ## scenes through golden model, GHDL and Verilator: compare, write 
 	@build/halfway sim $(sim_options) $(scene)
 
 view: program ## one scene from all sides, by the RTL in Verilator (SCENE; VIDEO=turn.mp4, TERMINAL=1)
-	@build/halfway view $(run_options) $(call option,THREADS,--threads) $(call option,OUT,--out) \
+	@build/halfway view $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) $(call option,OUT,--out) \
 	  $(call option,FRAMES,--frames) $(call option,VIDEO,--video) $(call option,RATE,--rate) \
 	  $(call flag,TERMINAL,--terminal) $(scene)
 
@@ -136,8 +136,10 @@ synth: configure ## cells on two FPGAs, and the clock on one, against what is pi
 	@build/tb/halfway_synth --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin) \
 	  --page tb/synth/README.md . build/cache $${DESIGN:+"$$DESIGN"}
 
-bench: program ## speed, as ratios within one run
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bench && build/halfway_bench
+bench: configure ## speed: other ways to the same picture, growth, small triangles, cores; writes its page
+	@scripts/unpack.sh build/tools/ghdl-mcode ghdl-mcode ghdl-common || true
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_bench
+	@build/halfway_bench --jobs "$(jobs)" --page model/bench/README.md
 
 build: program ## program and tests
 	@$(lock) cmake --build build -j "$(jobs)"
@@ -155,7 +157,7 @@ configure: setup
 	elif [ -f build/configure.stamp ] && [ "$$(cat build/configure.stamp)" = "$$key" ]; then exit 0; fi; \
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
-# Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs one package more, and so
+# Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs some packages more, and so
 # do `make plan MEASURE=1`, `make synth`, `make prove`, `make bounds`, `make mutate`, `make fuzz` and `make sanitize`.
 setup:
 	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate synth,$(MAKECMDGOALS)) \

@@ -17,6 +17,7 @@
 #include "frame/init_file.hpp"
 #include "frame/trace.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/lanes/lane_simulator.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {
@@ -148,7 +149,7 @@ class Simulators : public testing::Test {
     scratch_.emplace(std::move(*made));
     folders_ = {scratch_->path() / "tree", HALFWAY_CACHE_DIR};
     const std::filesystem::path root = HALFWAY_SOURCE_DIR;
-    for (const char* folder : {"sim/verilator", "tb"}) {
+    for (const char* folder : {"sim/lanes", "sim/verilator", "tb"}) {
       std::filesystem::create_directories(folders_.source / folder);
       std::filesystem::copy(root / folder, folders_.source / folder,
                             std::filesystem::copy_options::recursive);
@@ -227,6 +228,22 @@ class Simulators : public testing::Test {
     trace.cycles = simulator->cycles();
     probes_ = std::move(simulator->probes());
     return trace;
+  }
+
+  Result<std::vector<Fragment>> lanes(std::size_t most = 1U << 20, LaneOptions options = {}) {
+    options.fast = false;
+    auto simulator = LaneSimulator::open(key_, folders_, options);
+    if (!simulator) return simulator.error();
+    std::vector<Fragment> fragments;
+    if (auto run = simulator->run(init_.words, init_.size(), fragments, most); !run) return run.error();
+    return fragments;
+  }
+
+  void expect_lanes_fail(const std::string& with) {
+    const auto from_lanes = lanes(1U << 20, {.idle_limit = 500});
+    ASSERT_FALSE(from_lanes);
+    EXPECT_EQ(from_lanes.error().code, ExitCode::differs) << from_lanes.error().message;
+    EXPECT_NE(from_lanes.error().message.find(with), std::string::npos) << from_lanes.error().message;
   }
 
   void expect_both_fail(const std::string& with, const std::string& in_verilator) {
@@ -331,6 +348,7 @@ TEST_F(Simulators, NoVectorsGiveAnEmptyTrace) {
 TEST_F(Simulators, AHangIsSeen) {
   write_rtl({.fault = "if r.left = 9 then v := r; end if;", .valid = "'0' when r.left = 9 else r.valid"});
   expect_both_fail("hang", "hang");
+  expect_lanes_fail("hang");
 }
 
 TEST_F(Simulators, AFaultThatTheHardwareTellsIsSeen) {
@@ -339,6 +357,7 @@ TEST_F(Simulators, AFaultThatTheHardwareTellsIsSeen) {
     write_rtl(
         {.alarm = "(r.valid and fragment_ready and r.triangle(3) and not r.triangle(31))", .delay = delay});
     expect_both_fail("shadow counter", "shadow counter");
+    expect_lanes_fail("fault");
   }
 }
 
@@ -367,6 +386,18 @@ TEST_F(Simulators, MoreFragmentsThanAllowedAreSeen) {
   const auto from_verilator = verilator({}, limit);
   ASSERT_FALSE(from_verilator);
   EXPECT_EQ(from_verilator.error().code, ExitCode::differs);
+  const auto from_lanes = lanes(limit);
+  ASSERT_FALSE(from_lanes);
+  EXPECT_EQ(from_lanes.error().code, ExitCode::differs);
+  EXPECT_TRUE(lanes(limit + 1));
+}
+
+TEST_F(Simulators, LanesGiveTheExpectedFragmentsInOrder) {
+  for (const unsigned threads : {1U, 3U}) {
+    const auto from_lanes = lanes(1U << 20, {.threads = threads});
+    ASSERT_TRUE(from_lanes) << from_lanes.error().message;
+    EXPECT_EQ(*from_lanes, expected_) << threads;
+  }
 }
 
 TEST_F(Simulators, BrokenRtlIsToldWithItsLine) {

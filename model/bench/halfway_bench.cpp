@@ -1,34 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed, as ratios within one run: golden model, Verilator with comparison, GHDL, setup, and a
-// million-triangle mesh as a whole process. Absolute figures belong to the machine that prints them.
+// halfway_bench [--page FILE] [--jobs N] [--benchmark_…]: speed, as ratios within one run. Every way to a
+// picture beside the project's own; how time and memory grow with triangles, pixels and lights; small
+// triangles; cores; `make sim` as a whole. --page: writes the tables. Figures are processor time, the best of
+// several repetitions in random order; absolute ones belong to the machine that prints them.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <map>
-#include <tuple>
+#include <optional>
+#include <regex>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
+#include "bench/ways.hpp"
+#include "bench/workload.hpp"
 #include "common/file.hpp"
-#include "frame/init_file.hpp"
-#include "plan/plan.hpp"
+#include "common/seconds.hpp"
+#include "common/subprocess.hpp"
+#include "common/threads.hpp"
 #include "run/golden_run.hpp"
-#include "run/scene_stream.hpp"
 #include "run/stream_comparator.hpp"
 #include "scene/load_scene.hpp"
-#include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/lanes/lane_simulator.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
+namespace halfway {
 namespace {
-
-using namespace halfway;
 
 const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
 const SimulatorFolders c_folders{c_source, c_source / "build" / "cache"};
+const std::filesystem::path c_scratch = c_source / "build" / "bench";
 
 [[noreturn]] void fail(const Error& error) {
   fmt::print(stderr, "{}\n", error.message);
@@ -41,238 +51,792 @@ T must(Result<T> result) {
   return std::move(*result);
 }
 
-// A built-in scene's init vectors and the golden model's fragments for them.
-struct Stream {
-  HardwareKey key;
-  unsigned init_bits;
-  std::vector<std::uint32_t> words;
-  std::vector<Fragment> golden;
-  std::vector<std::size_t> batches;  // in vectors; whole triangles
-};
+void must(const Status& status) {
+  if (!status) fail(status.error());
+}
 
-constexpr std::size_t c_batch = 512;  // vectors, at least
+Scene builtin(const char* name) {
+  return must(load_scene(name, c_source / "sim" / "scenes"));
+}
+
+/// Each number below `count` once, on so many threads.
+template <class Work>
+void on_threads(unsigned threads, std::size_t count, const Work& work) {
+  std::atomic<std::size_t> next = 0;
+  work_on_threads(threads, [&] {
+    for (std::size_t i; (i = next++) < count;) work(i);
+  });
+}
 
 // What is measured: a shader, the shading processors in either form.
 struct Hardware {
   const char* name;
+  const char* heading;
   PlanRequest plan;
+  bool lanes;
+  FrameSize size, ghdl_size;  // GHDL takes its time
 };
 const Hardware c_hardware[] = {
-    {"quadratic", {.shader = Shader::quadratic}},
-    {"spherical", {.shader = Shader::spherical}},
-    {"processors", {.shader = Shader::processors}},
-    {"folded_processors", {.shader = Shader::processors, .form = ProcessorForm::folded}}};
+    {"quadratic", "quadratic", {.shader = Shader::quadratic}, true, {1600, 1200}, {160, 120}},
+    {"spherical", "spherical", {.shader = Shader::spherical}, true, {1600, 1200}, {160, 120}},
+    {"processors", "processors, unrolled", {.shader = Shader::processors}, false, {800, 600}, {96, 72}},
+    {"folded_processors",
+     "folded",
+     {.shader = Shader::processors, .form = ProcessorForm::folded},
+     false,
+     {320, 240},
+     {64, 48}}};
+constexpr std::size_t c_columns = std::size(c_hardware);
 
-const Stream& stream_of(const Hardware& hardware, const std::string& name, FrameSize size) {
-  static std::map<std::tuple<std::string, std::string, std::uint32_t>, Stream> streams;
-  const auto [it, fresh] = streams.try_emplace({hardware.name, name, size.width});
-  Stream& s = it->second;
-  if (!fresh) return s;
-  const Scene scene = must(load_scene(name, c_source / "sim" / "scenes"));
-  s.key = must(plan_scene(scene, hardware.plan)).key;
-  const std::unique_ptr<Setup> setup = make_setup(scene, size, s.key, {});
-  s.init_bits = setup->init_bits();
-  SceneStream source(*setup, s.key, 1);
-  for (Batch batch; source.next(batch);) {
-    s.words.insert(s.words.end(), batch.init_words.begin(), batch.init_words.end());
-    s.golden.insert(s.golden.end(), batch.golden.begin(), batch.golden.end());
-  }
-  const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
-  const std::size_t words_per_vector = (s.init_bits + 31) / 32;
-  std::size_t vectors = 0;
-  for (auto rest = std::span<const std::uint32_t>(s.words); !rest.empty();) {
-    const std::size_t triangle = golden->group(rest);
-    rest = rest.subspan(triangle * words_per_vector);
-    vectors += triangle;
-    if (vectors < c_batch && !rest.empty()) continue;
-    s.batches.push_back(vectors);
-    vectors = 0;
-  }
-  return s;
+/// Whether --benchmark_filter lets it through.
+bool is_wanted(const std::string& name) {
+  const std::string filter = benchmark::GetBenchmarkFilter();
+  if (filter.empty() || filter == "all") return true;
+  return filter.front() == '-' ? !std::regex_search(name, std::regex(filter.substr(1)))
+                               : std::regex_search(name, std::regex(filter));
 }
 
-constexpr FrameSize c_large{1600, 1200}, c_small{320, 240};
-
-void report_fragments(benchmark::State& state, std::size_t fragments) {
-  state.counters["fragments/s"] =
-      benchmark::Counter(static_cast<double>(fragments), benchmark::Counter::kIsIterationInvariantRate);
-}
-
-void setup(benchmark::State& state, const Hardware& hardware) {
-  const Scene scene = must(load_scene("teapot", c_source / "sim" / "scenes"));
-  const HardwareKey key = must(plan_scene(scene, hardware.plan)).key;
-  const std::unique_ptr<Setup> maker = make_setup(scene, c_large, key, {});
-  SetupCounts counts;
-  for (auto _ : state) {
-    counts = {};
-    std::vector<std::uint32_t> words;
-    for (std::uint32_t unit = 0; unit < maker->units(); ++unit) maker->append(unit, words, counts);
-    benchmark::DoNotOptimize(words.data());
-  }
-  state.counters["vectors/s"] = benchmark::Counter(static_cast<double>(counts.vectors + counts.records),
-                                                   benchmark::Counter::kIsIterationInvariantRate);
-}
-
-void golden_model(benchmark::State& state, const Hardware& hardware, const char* scene) {
-  const Stream& s = stream_of(hardware, scene, c_large);
-  const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
-  std::vector<Fragment> fragments;
-  fragments.reserve(s.golden.size());
-  for (auto _ : state) {
-    fragments.clear();
-    golden->draw(s.words, fragments);
-    benchmark::DoNotOptimize(fragments.data());
-  }
-  report_fragments(state, s.golden.size());
-}
-
-// Hardware alone, then with the golden model drawing the same on the same core and every field compared.
-void verilator(benchmark::State& state, const Hardware& hardware, const char* scene, bool compared) {
-  const Stream& s = stream_of(hardware, scene, c_large);
-  auto simulator = must(VerilatorSimulator::open(s.key, c_folders));
-  const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
-  const std::size_t words_per_vector = (s.init_bits + 31) / 32;
-  std::vector<Fragment> drawn, expected;
-  drawn.reserve(1 << 20);
-  expected.reserve(1 << 20);
-  const std::uint64_t before = simulator.cycles();
-  for (auto _ : state) {
-    StreamComparator comparator;
-    const auto take = [&] {
-      if (compared) comparator.add_rtl(drawn);
-      drawn.clear();
-    };
-    auto rest = std::span<const std::uint32_t>(s.words);
-    for (const std::size_t count : s.batches) {
-      const auto words = rest.first(count * words_per_vector);
-      rest = rest.subspan(words.size());
-      if (compared) {
-        expected.clear();
-        golden->draw(words, expected);
-        comparator.add_golden(expected);
-      }
-      if (const Status ran = simulator.run(words, count, drawn, SIZE_MAX); !ran) fail(ran.error());
-      take();
-    }
-    if (const Status ended = simulator.finish(drawn, SIZE_MAX); !ended) fail(ended.error());
-    take();
-    comparator.finish();
-    if (comparator.mismatches() != 0) {
-      state.SkipWithError("the RTL differs from the golden model");
-      return;
-    }
-  }
-  report_fragments(state, s.golden.size());
-  state.counters["cycles/fragment"] =
-      static_cast<double>(simulator.cycles() - before) /
-      (static_cast<double>(s.golden.size()) * static_cast<double>(state.iterations()));
-}
-
-void ghdl(benchmark::State& state, const Hardware& hardware, const char* scene) {
-  const Stream& s = stream_of(hardware, scene, c_small);
-  const auto runner = must(GhdlRunner::open(s.key, c_folders));
-  const std::filesystem::path folder = c_source / "build" / "bench";
-  if (const Status made = make_folders(folder); !made) fail(made.error());
-  if (const Status wrote = write_init_file(folder / "init.txt", s.key.name(), {s.init_bits, s.words}); !wrote)
-    fail(wrote.error());
-  for (auto _ : state) {
-    const GhdlRun run = must(runner.run(folder / "init.txt", folder / "ghdl.trace"));
-    state.SetIterationTime(run.seconds);
-  }
-  report_fragments(state, s.golden.size());
-}
-
-// The whole of `halfway sim` on a mesh of a million triangles: seconds and peak memory of the process.
-void million_triangles(benchmark::State& state) {
-  const std::filesystem::path folder = c_source / "build" / "bench";
-  if (const Status made = make_folders(folder); !made) fail(made.error());
-  const std::filesystem::path scene = folder / "million.toml";
-  if (const Status wrote =
-          write_file(scene,
-                     "[camera]\nfit = true\n[[directional]]\nto_light = [1.0, 2.0, 3.0]\n"
-                     "[[material]]\nname = \"m\"\ncolour = [0.8, 0.5, 0.3]\n"
-                     "[[mesh]]\nkind = \"sphere\"\nslices = 709\nstacks = 707\nmaterial = \"m\"\n");
-      !wrote)
-    fail(wrote.error());
-  const std::string program = c_source / "build" / "halfway", scene_name = scene, out = folder / "out";
-  for (auto _ : state) {
-    const pid_t child = fork();
-    if (child == 0) {
-      execl(program.c_str(), program.c_str(), "sim", "--simulator", "verilator", "--size", "1920x1080",
-            "--out", out.c_str(), "--", scene_name.c_str(), nullptr);
-      _exit(127);
-    }
-    int status = 0;
-    rusage usage{};
-    wait4(child, &status, 0, &usage);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-      state.SkipWithError("halfway sim failed");
-      return;
-    }
-    state.counters["peak_MiB"] = static_cast<double>(usage.ru_maxrss) / 1024.0;
-    state.counters["cpu_s"] = static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-                              1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-  }
-}
-
-// Keeps each benchmark's rate to print ratios at the end.
-class Ratios final : public benchmark::ConsoleReporter {
+/// The same piece of work, again and again: how quick this core of a shared machine is just now.
+class Pace {
  public:
-  void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
-    for (const Run& run : runs)
-      if (const auto rate = run.counters.find("fragments/s");
-          !run.error_occurred && rate != run.counters.end())
-        rates_[run.benchmark_name()] = rate->second.value;
-  }
-  void Finalize() override {
-    const auto rate = [&](std::string_view part) {
-      for (const auto& [name, value] : rates_)
-        if (name.find(part) != std::string::npos) return value;
-      return 0.0;
-    };
-    for (const Hardware& hardware : c_hardware) {
-      const std::string of = fmt::format("/{}/spheres", hardware.name);
-      const double compared = rate("verilator_compared" + of), golden = rate("golden" + of);
-      const double alone = rate("verilator" + of), in_ghdl = rate("ghdl" + of);
-      if (compared == 0.0 || golden == 0.0 || in_ghdl == 0.0) continue;
-      fmt::print(
-          "\n{}, spheres, fragments a second a core, as ratios within this run:\n"
-          "  Verilator with comparison        1.00  ({:.1f} million)\n"
-          "  Verilator alone                  {:.2f}\n  golden model alone               {:.2f}\n"
-          "  GHDL                             1/{:.0f}\n",
-          hardware.name, compared / 1e6, alone / compared, golden / compared, compared / in_ghdl);
+  Pace()
+      : work_(must(make_batches(builtin("spheres"), {560, 420}, {.shader = Shader::quadratic}))),
+        golden_(make_golden_model(work_.key)) {}
+  const InitBatches& work() const { return work_; }
+  /// Processor seconds.
+  double take() {
+    constexpr int c_times = 4;
+    const double start = process_seconds();
+    for (int i = 0; i < c_times; ++i) {
+      fragments_.clear();
+      golden_->draw(work_.words, fragments_);
     }
+    return (process_seconds() - start) / c_times;
   }
 
  private:
-  std::map<std::string, double> rates_;
+  InitBatches work_;
+  std::unique_ptr<GoldenModel> golden_;
+  std::vector<Fragment> fragments_;
 };
 
+/// Registered with Google Benchmark, which repeats them in random order.
+class Measurements {
+ public:
+  void add(const std::string& name, int repetitions, Go go) {
+    std::vector<Timed>& timed = timed_[name];
+    const auto measure = [this, &timed, name, go = std::move(go)](benchmark::State& state) {
+      for (auto _ : state) {
+        const double before = pace_.take();
+        const auto seconds = go();
+        if (!seconds) {
+          failed_ = seconds.error();
+          state.SkipWithError(seconds.error().message.c_str());
+          return;
+        }
+        const double after = pace_.take();
+        best_pace_ = std::min({best_pace_, before, after});
+        timed.push_back({*seconds, 0.5 * (before + after)});
+        state.SetIterationTime(*seconds);
+        fmt::print(stderr, "{}: {:.4g} s\n", name, *seconds);
+      }
+    };
+    benchmark::RegisterBenchmark(name.c_str(), measure)
+        ->UseManualTime()
+        ->Iterations(1)
+        ->Repetitions(repetitions)
+        ->ComputeStatistics("best", [](const std::vector<double>& all) { return std::ranges::min(all); })
+        ->DisplayAggregatesOnly()
+        ->Unit(benchmark::kMillisecond);
+  }
+  /// The median of all repetitions, each at the pace of the best moment; none where it was not measured.
+  std::optional<double> seconds(const std::string& name) const {
+    const auto found = timed_.find(name);
+    if (found == timed_.end() || found->second.empty()) return std::nullopt;
+    std::vector<double> all;
+    for (const Timed& timed : found->second) all.push_back(timed.seconds / timed.pace * best_pace_);
+    std::ranges::sort(all);
+    const std::size_t half = all.size() / 2;
+    return all.size() % 2 != 0 ? all[half] : 0.5 * (all[half - 1] + all[half]);
+  }
+  const std::optional<Error>& failed() const { return failed_; }
+  const Pace& pace() const { return pace_; }
+
+ private:
+  struct Timed {
+    double seconds, pace;
+  };
+  Pace pace_;
+  double best_pace_ = std::numeric_limits<double>::infinity();
+  std::map<std::string, std::vector<Timed>> timed_;
+  std::optional<Error> failed_;
+};
+
+// --- Ratios
+
+struct WayTable {
+  struct Column {
+    Scene scene;
+    InitBatches batches, ghdl_batches;
+  };
+  std::vector<Column> columns;
+
+  static std::string name(Way way, std::size_t column) {
+    return fmt::format("{}/{}/spheres", short_name(way), c_hardware[column].name);
+  }
+  static bool in_ghdl(Way way) { return way == Way::ghdl_llvm || way == Way::ghdl_mcode; }
+  const InitBatches& batches(Way way, std::size_t column) const {
+    return in_ghdl(way) ? columns[column].ghdl_batches : columns[column].batches;
+  }
+  /// Software knows one picture, whatever the hardware; folded processors are there for their clocks.
+  static bool is_measured(Way way, std::size_t column) {
+    if (!is_wanted(name(way, column)) || !lacking(way, c_folders).empty()) return false;
+    if (way == Way::reference || way == Way::mesa) return column == 0;
+    if (way == Way::lanes || way == Way::lanes_compared) return c_hardware[column].lanes;
+    if (way == Way::cxxrtl || way == Way::verilator_as_it_comes) return column < 3;
+    return true;
+  }
+};
+
+WayTable make_ways(Measurements& measurements, unsigned jobs) {
+  WayTable table;
+  for (const Hardware& hardware : c_hardware) {
+    WayTable::Column column{builtin("spheres"), {}, {}};
+    column.batches = must(make_batches(column.scene, hardware.size, hardware.plan));
+    column.ghdl_batches = must(make_batches(column.scene, hardware.ghdl_size, hardware.plan));
+    table.columns.push_back(std::move(column));
+  }
+  struct Job {
+    Way way;
+    std::size_t column;
+    Go go{};
+  };
+  std::vector<Job> work, with_comparison;
+  for (const Way way : c_ways)
+    for (std::size_t column = 0; column < c_columns; ++column)
+      if (WayTable::is_measured(way, column))
+        (way == Way::lanes_compared || way == Way::verilator_compared ? with_comparison : work)
+            .push_back({way, column});
+  // What is compared is built already, by the same hardware alone.
+  for (std::vector<Job>* jobs_now : {&work, &with_comparison}) {
+    on_threads(jobs, jobs_now->size(), [&](std::size_t i) {
+      Job& job = (*jobs_now)[i];
+      fmt::print(stderr, "building {}\n", WayTable::name(job.way, job.column));
+      const auto& hardware = c_hardware[job.column];
+      job.go =
+          must(make_way(job.way, {.scene = &table.columns[job.column].scene,
+                                  .size = WayTable::in_ghdl(job.way) ? hardware.ghdl_size : hardware.size,
+                                  .batches = &table.batches(job.way, job.column),
+                                  .folders = c_folders,
+                                  .scratch = c_scratch}));
+    });
+    for (Job& job : *jobs_now)
+      measurements.add(WayTable::name(job.way, job.column), WayTable::in_ghdl(job.way) ? 2 : 11,
+                       std::move(job.go));
+  }
+  return table;
+}
+
+// --- Growth
+
+struct Point {
+  std::string name;
+  double n;
+  FrameSize size;
+  HardwareKey key;
+  std::function<Scene()> scene;
+  int wanted;  ///< repetitions
+  std::vector<FrameCost> repetitions{};
+};
+
+/// The mean of all repetitions, at the pace of the run's best moment. Not the best of all: the largest frames
+/// take a minute, over which the load of the machine evens out, and the smallest would find a quiet
+/// millisecond.
+FrameCost typical(const Point& point, double best_pace) {
+  FrameCost cost = point.repetitions.front();
+  double paces = 0.0;
+  for (const FrameCost& repetition : point.repetitions) paces += repetition.pace;
+  for (double FrameCost::*part :
+       {&FrameCost::setup, &FrameCost::golden, &FrameCost::rtl, &FrameCost::compare, &FrameCost::assemble}) {
+    double seconds = 0.0;
+    for (const FrameCost& repetition : point.repetitions) seconds += repetition.*part;
+    cost.*part = seconds / paces * best_pace;
+  }
+  return cost;
+}
+
+/// What of a frame's time is held against a line.
+enum class Fitted { all, drawing, nothing };
+
+struct Series {
+  std::string heading, unit, note;
+  Fitted fitted;
+  bool lanes = true;
+  std::vector<Point> points{};
+};
+
+constexpr FrameSize c_growth_frame{1000, 1000};
+constexpr unsigned c_frame_bytes = 3 + 4;  // of a pixel: colour, depth
+
+HardwareKey key_of(const Scene& scene, Shader shader) {
+  return must(plan_scene(scene, {.shader = shader})).key;
+}
+
+std::vector<Series> growth_series() {
+  std::vector<Series> all;
+  const auto by_triangles = [&](Series series, const char* name, Shader shader,
+                                Scene (*make)(std::uint64_t)) {
+    for (const std::uint64_t n : {1'000, 10'000, 100'000, 1'000'000, 10'000'000})
+      series.points.push_back({fmt::format("{}/{}/{}", name, to_string(shader), n), static_cast<double>(n),
+                               c_growth_frame, key_of(make(1'000), shader), [=] { return make(n); },
+                               n >= 10'000'000  ? 2
+                               : n >= 1'000'000 ? 4
+                                                : 21});
+    all.push_back(std::move(series));
+  };
+  for (const Shader shader : {Shader::quadratic, Shader::spherical})
+    by_triangles({fmt::format("Triangles, {} shader", to_string(shader)), "triangles",
+                  "More and more spheres of 990 triangles in a frame of 1000×1000, beside and behind one "
+                  "another: each "
+                  "triangle has as many pixels.",
+                  Fitted::all},
+                 "triangles", shader, many_spheres);
+  by_triangles({"Finer triangles, quadratic shader", "triangles",
+                "One sphere in a frame of 1000×1000, cut finer and finer. Its pixels are the constant part. "
+                "The line is "
+                "no line: a triangle that covers no\npixel gets no init vector and costs less, and from 10⁵ "
+                "on most are "
+                "such.",
+                Fitted::nothing},
+               "finer_triangles", Shader::quadratic, sphere_scene);
+  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+    Series series{
+        fmt::format("Pixels, {} shader", to_string(shader)), "pixels",
+        shader == Shader::quadratic
+            ? "`spheres`. The line is that of the drawing; setup depends on triangles, of which in "
+              "small frames "
+              "those without a pixel fall away."
+            : "`spheres`. The line is that of the drawing; setup depends on lines, which grow with "
+              "the root of "
+              "the pixels: a record each, for\nwhich it looks at every pixel of short ones. In small frames "
+              "a line has few pixels, and what it costs itself shows in the drawing, too.",
+        Fitted::drawing};
+    for (const std::uint32_t side : {100U, 316U, 1000U, 2000U, 4000U})
+      series.points.push_back({fmt::format("pixels/{}/{}", to_string(shader), side * side),
+                               static_cast<double>(side) * side,
+                               {side, side},
+                               key_of(builtin("spheres"), shader),
+                               [] { return builtin("spheres"); },
+                               side >= 4000   ? 7
+                               : side >= 2000 ? 11
+                                              : 31});
+    all.push_back(std::move(series));
+  }
+  for (const Shader shader : {Shader::spherical, Shader::processors}) {
+    const bool lanes = shader == Shader::spherical;
+    const FrameSize size = lanes ? FrameSize{800, 600} : FrameSize{320, 240};
+    Series series{fmt::format("Lights, {}", lanes ? "spherical shader" : "shading processors"), "lights",
+                  fmt::format("`spheres` at {}×{} under equal directional lights, hardware for as many.",
+                              size.width, size.height),
+                  Fitted::all, lanes};
+    for (const unsigned lights : {1U, 2U, 4U, 8U, 16U})
+      series.points.push_back({fmt::format("lights/{}/{}", to_string(shader), lights),
+                               static_cast<double>(lights), size,
+                               key_of(with_lights(builtin("spheres"), lights), shader),
+                               [=] { return with_lights(builtin("spheres"), lights); }, 11});
+    all.push_back(std::move(series));
+  }
+  return all;
+}
+
+void add_growth(Measurements& measurements, std::vector<Series>& all, unsigned jobs) {
+  struct Job {
+    Point* point;
+    bool lanes;
+  };
+  std::vector<Job> work;
+  for (Series& series : all)
+    for (Point& point : series.points)
+      if (is_wanted(point.name)) work.push_back({&point, series.lanes});
+  // The largest first: they take longest to build.
+  std::map<std::string, std::shared_ptr<RtlModel>> models;
+  std::vector<std::pair<HardwareKey, bool>> keys;
+  for (const Job& job : work)
+    if (models.try_emplace(job.point->key.name()).second) keys.emplace_back(job.point->key, job.lanes);
+  std::reverse(keys.begin(), keys.end());
+  on_threads(jobs, keys.size(), [&](std::size_t i) {
+    const auto& [key, lanes] = keys[i];
+    fmt::print(stderr, "building {}\n", key.name());
+    models.at(key.name()) = std::make_shared<RtlModel>(must(RtlModel::open(key, c_folders, lanes)));
+  });
+  for (const Job& job : work) {
+    Point& point = *job.point;
+    measurements.add(
+        point.name, point.wanted,
+        [&point, &pace = measurements.pace().work(), rtl = models.at(point.key.name())]() -> Result<double> {
+          const auto cost = draw_frame(point.scene, point.size, point.key, *rtl, pace);
+          if (!cost) return cost.error();
+          if (cost->mismatches != 0) return Error{ExitCode::differs, point.name + ": the RTL differs"};
+          point.repetitions.push_back(*cost);
+          return cost->seconds();
+        });
+  }
+}
+
+// --- Small triangles: clocks, no time
+
+struct SmallRow {
+  std::uint64_t triangles;
+  Shader shader;
+  std::uint64_t cycles, records;
+  WalkCounts walk;
+};
+
+std::vector<SmallRow> small_triangles() {
+  constexpr FrameSize c_frame{500, 500};
+  std::vector<std::pair<double, Scene>> scenes;
+  for (const double wanted : {1.25, 3.0, 10.0, 30.0, 100.0}) {
+    // Triangles that cover a pixel have so many.
+    double triangles = 1e5;
+    for (int i = 0; i < 4; ++i) {
+      const InitBatches all = must(make_batches(sphere_scene(static_cast<std::uint64_t>(triangles)), c_frame,
+                                                {.shader = Shader::processors}));
+      triangles *=
+          static_cast<double>(all.golden.size()) / static_cast<double>(count_walk(all).headers) / wanted;
+      triangles = std::clamp(triangles, 100.0, 1e7);
+    }
+    scenes.emplace_back(wanted, sphere_scene(static_cast<std::uint64_t>(triangles)));
+  }
+  std::vector<SmallRow> rows;
+  for (const Shader shader : {Shader::quadratic, Shader::spherical, Shader::processors})
+    for (const auto& [wanted, scene] : scenes) {
+      const InitBatches all = must(make_batches(scene, c_frame, {.shader = shader}));
+      auto rtl = must(RtlModel::open(all.key, c_folders, false));
+      std::vector<Fragment> drawn;
+      must(rtl.draw(all.words, true, drawn));
+      if (drawn != all.golden) fail({ExitCode::differs, "small triangles: the RTL differs"});
+      const WalkCounts walk = count_walk(all);
+      rows.push_back({scene.triangles.size(), shader, rtl.cycles(),
+                      shader == Shader::spherical ? all.vectors() - walk.headers : 0, walk});
+      fmt::print(stderr, "small triangles: {}, {} pixels each: {:.3f} clocks a fragment\n", to_string(shader),
+                 wanted, static_cast<double>(rtl.cycles()) / static_cast<double>(walk.pixels));
+    }
+  return rows;
+}
+
+// --- Cores
+
+struct CoreRow {
+  unsigned threads;
+  double seconds = std::numeric_limits<double>::infinity();    // by the clock
+  double processor = std::numeric_limits<double>::infinity();  // of all threads
+};
+
+/// Golden model, lanes and comparison of batches that the threads take by turns.
+std::vector<CoreRow> measure_cores(const InitBatches& s, unsigned most) {
+  // Two batches a part.
+  std::vector<std::span<const std::uint32_t>> parts;
+  for (std::size_t at = 0, i = 0; i < s.batches.size(); i += 2) {
+    const std::size_t vectors = s.batches[i] + (i + 1 < s.batches.size() ? s.batches[i + 1] : 0);
+    parts.push_back(std::span(s.words).subspan(at * s.words_per_vector(), vectors * s.words_per_vector()));
+    at += vectors;
+  }
+  std::vector<CoreRow> rows;
+  for (unsigned threads = 1; threads <= most; ++threads) rows.push_back({threads});
+  std::vector<RtlModel> models;
+  for (unsigned i = 0; i < most; ++i) models.push_back(must(RtlModel::open(s.key, c_folders, true)));
+  for (int repetition = 0; repetition < 15; ++repetition)
+    for (CoreRow& row : rows) {
+      std::atomic<std::size_t> next = 0, model = 0;
+      std::atomic<std::uint64_t> mismatches = 0, fragments = 0;
+      const double processor = process_seconds();
+      const auto start = std::chrono::steady_clock::now();
+      work_on_threads(row.threads, [&] {
+        RtlModel& rtl = models[model++];
+        const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
+        // Several frames: a thread takes its time to begin.
+        for (std::size_t i; (i = next++) < 4 * parts.size();) {
+          StreamComparator comparator;
+          must(rtl.draw(parts[i % parts.size()], true, [&](auto words, auto drawn) {
+            comparator.add(golden->draw(words), drawn);
+            fragments += drawn.size();
+          }));
+          comparator.finish();
+          mismatches += comparator.mismatches();
+        }
+      });
+      row.seconds = std::min(row.seconds, seconds_since(start));
+      row.processor = std::min(row.processor, process_seconds() - processor);
+      if (mismatches != 0 || fragments != 4 * s.golden.size())
+        fail({ExitCode::differs, "cores: the RTL differs"});
+    }
+  return rows;
+}
+
+// --- End to end
+
+struct EndToEnd {
+  double seconds = std::numeric_limits<double>::infinity();
+  double processor = std::numeric_limits<double>::infinity();
+  std::string line;      // of make sim
+  bool rebuilt = false;  // anything, in a tree without a change
+};
+
+std::size_t cached_builds() {
+  std::size_t count = 0;
+  for (const auto& kind : std::filesystem::directory_iterator(c_folders.cache))
+    if (kind.is_directory())
+      for ([[maybe_unused]] const auto& build : std::filesystem::directory_iterator(kind)) ++count;
+  return count;
+}
+
+EndToEnd measure_make() {
+  EndToEnd end;
+  const Command sim{.arguments = {"make", "sim", "SCENE=spheres", "OUT=" + (c_scratch / "out").string()},
+                    .working_folder = c_source,
+                    .environment = {{"MAKEFLAGS", ""}, {"SHADER", ""}, {"SIZE", ""}}};
+  std::size_t builds = 0;
+  for (int i = 0; i < 4; ++i) {  // the first may build
+    const double before = children_seconds();
+    const auto start = std::chrono::steady_clock::now();
+    const ProcessEnd ran = must(run_process(sim, "apt-get install make"));
+    if (!ran.succeeded()) fail(tool_failed("make sim failed: " + ran.output));
+    if (i != 0) {
+      end.seconds = std::min(end.seconds, seconds_since(start));
+      end.processor = std::min(end.processor, children_seconds() - before);
+      end.rebuilt = end.rebuilt || cached_builds() != builds;
+    }
+    builds = cached_builds();
+    const std::size_t at = ran.output.find("spheres  ");
+    end.line = ran.output.substr(std::min(at, ran.output.size()));
+    end.line = end.line.substr(0, end.line.find('\n'));
+    fmt::print(stderr, "make sim: {:.2f} s\n", seconds_since(start));
+  }
+  const ProcessEnd build = must(
+      run_process({.arguments = {"cmake", "--build", (c_source / "build").string(), "--target", "halfway"}},
+                  "apt-get install cmake"));
+  end.rebuilt = end.rebuilt || build.output.find("no work to do") == std::string::npos;
+  return end;
+}
+
+// --- The page
+
+std::string first_line(const std::vector<std::string>& question) {
+  if (find_program(question.front()).empty() && !std::filesystem::exists(question.front())) return "not here";
+  const auto end = run_process({.arguments = question}, "");
+  if (!end) return "not here";
+  return end->output.substr(0, end->output.find('\n'));
+}
+
+std::string machine() {
+  std::string processor = "unknown";
+  if (const auto text = read_file("/proc/cpuinfo"))
+    if (const std::size_t at = text->find("model name"); at != std::string::npos) {
+      const std::size_t from = text->find(": ", at) + 2;
+      processor = text->substr(from, text->find('\n', from) - from);
+    }
+  std::string memory;
+  if (const auto text = read_file("/proc/meminfo"))
+    memory = fmt::format("{:.0f} GiB", std::strtod(text->c_str() + text->find(':') + 1, nullptr) / (1 << 20));
+  return fmt::format("{} cores of {}, {}", std::thread::hardware_concurrency(), processor, memory);
+}
+
+/// Of the last one and fifteen minutes: processes that would run.
+std::pair<double, double> load() {
+  double minutes[3] = {0, 0, 0};
+  if (::getloadavg(minutes, 3) != 3) return {0, 0};
+  return {minutes[0], minutes[2]};
+}
+
+std::string figure(double value) {
+  if (value == 0) return "0";
+  return value >= 100  ? fmt::format("{:.0f}", value)
+         : value >= 10 ? fmt::format("{:.1f}", value)
+                       : fmt::format("{:.2f}", value);
+}
+
+std::string percent(double part) {
+  return fmt::format("{:.1f} %", 100.0 * part);
+}
+
+std::string count(std::uint64_t n) {
+  std::string text = std::to_string(n);
+  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, " ");
+  return text;
+}
+
+std::string ways_section(const Measurements& measurements, const WayTable& table) {
+  const auto nanoseconds = [&](Way way, std::size_t column) -> std::optional<double> {
+    // One picture in software for all columns.
+    const std::size_t measured = way == Way::reference || way == Way::mesa ? 0 : column;
+    const auto seconds = measurements.seconds(WayTable::name(way, measured));
+    if (!seconds) return std::nullopt;
+    return 1e9 * *seconds / static_cast<double>(table.batches(way, measured).golden.size());
+  };
+  std::string text =
+      "\n## Ways to a picture\n\n"
+      "Built-in scene `spheres`, one light. Times as long as our path takes for a fragment on one core, and "
+      "a "
+      "processor's time for a\nfragment. Our path is the first row; where there are no lanes, Verilator as "
+      "built here, "
+      "compared. *Compared* means that the golden model\ndraws the same fragments on the same core, and that "
+      "every field "
+      "of every fragment is held against it. RTL and golden model are\ngiven the init vectors; GHDL's time "
+      "is that of its "
+      "whole process, small frame and text files included. Software starts from projected\ntriangles, OpenGL "
+      "from vertices "
+      "in place; their picture's time is divided by our fragments.\n\n| |";
+  for (const Hardware& hardware : c_hardware) text += fmt::format(" {} |", hardware.heading);
+  text += "\n| --- |";
+  for (std::size_t i = 0; i < c_columns; ++i) text += " --- |";
+  text += "\n| frame; in GHDL |";
+  for (const Hardware& hardware : c_hardware)
+    text += fmt::format(" {}×{}; {}×{} |", hardware.size.width, hardware.size.height,
+                        hardware.ghdl_size.width, hardware.ghdl_size.height);
+  text += '\n';
+  for (const Way way : c_ways) {
+    text += fmt::format("| {} |", to_string(way));
+    for (std::size_t column = 0; column < c_columns; ++column) {
+      const auto ours =
+          nanoseconds(c_hardware[column].lanes ? Way::lanes_compared : Way::verilator_compared, column);
+      const auto taken = nanoseconds(way, column);
+      const std::string lacks = lacking(way, c_folders);
+      if (taken && ours)
+        text += *taken < 1e4 ? fmt::format(" {} ({} ns) |", figure(*taken / *ours), figure(*taken))
+                             : fmt::format(" {} ({} µs) |", figure(*taken / *ours), figure(1e-3 * *taken));
+      else if (!lacks.empty())
+        text += fmt::format(" {} is not here |", lacks);
+      else
+        text += " – |";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string mesa_note() {
+  if (!lacking(Way::mesa, c_folders).empty()) return "";
+  const Scene scene = builtin("spheres");
+  const WayInput input{.scene = &scene,
+                       .size = c_hardware[0].size,
+                       .batches = nullptr,
+                       .folders = c_folders,
+                       .scratch = c_scratch};
+  const auto picture = draw_by_mesa(input, 1);
+  if (!picture) return "";
+  return fmt::format(
+      "\nMesa's picture is {:.1f} dB and {}/255 beside the reference renderer's within outlines; on outlines "
+      "{:.0f} of a "
+      "million pixels are\nothers, as its vertices lie on 1/256 of a pixel and ours on 1/16. It counts in "
+      "single "
+      "precision: {}.\n",
+      picture->psnr_db, picture->max_lsb, 1e6 * picture->outline_off, picture->renderer);
+}
+
+std::string growth_section(const std::vector<Series>& all) {
+  std::string text = fmt::format(
+      "\n## Growth\n\n"
+      "A frame on one core, in seconds of it: setup, golden model, RTL (in lanes; the shading processors in "
+      "Verilator), "
+      "comparison of every\nfield, assembly to a picture; the mean of 1 to 21 repetitions. The line is t = "
+      "constant + "
+      "slope n with the least squares of relative\ndeviations. Memory is the most beside the mesh and the "
+      "program, the "
+      "frame's {} bytes a pixel included.\n",
+      c_frame_bytes);
+  double best_pace = std::numeric_limits<double>::infinity();
+  for (const Series& series : all)
+    for (const Point& point : series.points)
+      for (const FrameCost& cost : point.repetitions) best_pace = std::min(best_pace, cost.best_pace);
+  for (const Series& series : all) {
+    std::vector<double> n, t;
+    for (const Point& point : series.points)
+      if (!point.repetitions.empty()) {
+        const FrameCost cost = typical(point, best_pace);
+        n.push_back(point.n);
+        t.push_back(series.fitted == Fitted::drawing ? cost.drawing() : cost.seconds());
+      }
+    text += fmt::format("\n### {}\n\n{}\n\n", series.heading, series.note);
+    if (n.size() < 3) {
+      text += "Not measured.\n";
+      continue;
+    }
+    const bool fitted = series.fitted != Fitted::nothing;
+    text += fmt::format(
+        "| {} | init vectors, line records | fragments | setup | golden model | RTL | comparison | picture | "
+        "all |{} memory, "
+        "MiB (frame) |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |{} --- |\n",
+        series.unit, fitted ? " beside the line |" : "", fitted ? " --- |" : "");
+    const LinearFit line = fit_line(n, t);
+    std::size_t i = 0;
+    for (const Point& point : series.points) {
+      if (point.repetitions.empty()) continue;
+      const FrameCost cost = typical(point, best_pace);
+      const std::string beside = fmt::format(" {:+.1f} % |", 100.0 * (t[i] / line.at(n[i]) - 1.0));
+      ++i;
+      const double frame = static_cast<double>(c_frame_bytes) * point.size.width * point.size.height;
+      text += fmt::format(
+          "| {} | {}, {} | {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {:.4f} |{} {:.1f} ({:.1f}) |\n",
+          count(series.unit == "triangles" ? cost.triangles : static_cast<std::uint64_t>(point.n)),
+          count(cost.vectors), count(cost.records), count(cost.fragments), cost.setup, cost.golden, cost.rtl,
+          cost.compare, cost.assemble, cost.seconds(), fitted ? beside : "",
+          static_cast<double>(cost.memory_bytes) / (1 << 20), frame / (1 << 20));
+    }
+    if (!fitted) continue;
+    const bool slow = line.slope >= 1e-4;
+    text += fmt::format("\n{:.3g} ms, and {:.4g} {} for each of the {}: at most {} beside that line.\n",
+                        1e3 * line.constant, (slow ? 1e3 : 1e9) * line.slope, slow ? "ms" : "ns", series.unit,
+                        percent(line.largest_deviation));
+  }
+  return text;
+}
+
+std::string small_section(const std::vector<SmallRow>& rows) {
+  std::string text =
+      "\n## Small triangles\n\n"
+      "A sphere that fills 500×500 pixels, cut finer and finer: clocks of the RTL for a fragment, and what "
+      "bounds them. "
+      "The line stage takes a\nline a clock, empty or not, while the span stage walks the line before, a "
+      "pixel a clock: "
+      "clocks are lost where a span has fewer\npixels than there are lines up to the next span. In the "
+      "spherical shader "
+      "a triangle's header is one more for the line stage.\n*Expected* is counted from the init vectors "
+      "alone: that the "
+      "RTL takes as many says that nothing else bounds it. The quadratic shader's\ntriangles are those after "
+      "subdivision.\n\n"
+      "| shader | triangles of the mesh | pixels a triangle | clocks a fragment | expected | lost to lines | "
+      "lost to "
+      "headers | a fragment: init vectors | line records | lines | empty lines |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const SmallRow& row : rows) {
+    const WalkCounts& walk = row.walk;
+    const auto a_fragment = [&](std::uint64_t n) {
+      return fmt::format("{:.3f}", static_cast<double>(n) / static_cast<double>(walk.pixels));
+    };
+    const std::uint64_t headers = row.records != 0 ? walk.lost_to_headers : 0;
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", to_string(row.shader),
+                        count(row.triangles),
+                        figure(static_cast<double>(walk.pixels) / static_cast<double>(walk.headers)),
+                        a_fragment(row.cycles), a_fragment(walk.pixels + walk.lost_to_lines + headers),
+                        a_fragment(walk.lost_to_lines), a_fragment(headers), a_fragment(walk.headers),
+                        a_fragment(row.records), a_fragment(walk.lines), a_fragment(walk.empty_lines));
+  }
+  return text;
+}
+
+std::string cores_section(const std::map<std::string, std::vector<CoreRow>>& all) {
+  std::string text =
+      "\n## Cores\n\n"
+      "Our path on `spheres` at 1600×1200, four frames: threads take batches by turns. By the clock, so the "
+      "load of the "
+      "machine\ncounts; the processor time of all threads together says what sharing costs.\n\n"
+      "| shader | threads | times as fast by the clock | a core | processor time |\n| --- | --- | --- | --- "
+      "| --- |\n";
+  for (const auto& [shader, rows] : all)
+    for (const CoreRow& row : rows) {
+      const double speed = rows.front().seconds / row.seconds;
+      text += fmt::format("| {} | {} | {:.2f} | {} | {:.2f} |\n", shader, row.threads, speed,
+                          percent(speed / row.threads), row.processor / rows.front().processor);
+    }
+  return text;
+}
+
+std::string make_section(const EndToEnd& end) {
+  return fmt::format(
+      "\n## End to end\n\n"
+      "`make sim SCENE=spheres` in a tree without a change, all of it: set-up's look at the machine, the "
+      "build's, the "
+      "scene by golden\nmodel, GHDL, Verilator and reference renderer, images. The best of three: {:.2f} s "
+      "by the clock, {:.2f} s of "
+      "processors; built anew: {}.\n\n```\n{}\n```\n",
+      end.seconds, end.processor, end.rebuilt ? "something, which is a fault" : "nothing", end.line);
+}
+
+struct Options {
+  std::filesystem::path page{};
+  unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
+};
+
+bool read_options(int argc, char** argv, Options& options) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (argument == "--page" && i + 1 < argc)
+      options.page = argv[++i];
+    else if (argument == "--jobs" && i + 1 < argc)
+      options.jobs = static_cast<unsigned>(std::clamp(std::atoi(argv[++i]), 1, 256));
+    else
+      return false;
+  }
+  // The page has all of it.
+  return options.page.empty() || benchmark::GetBenchmarkFilter().empty();
+}
+
+int run(const Options& options) {
+  must(make_folders(c_scratch));
+  const auto [load_before, ignored] = load();
+  Measurements measurements;
+  const WayTable ways = make_ways(measurements, options.jobs);
+  std::vector<Series> series = growth_series();
+  add_growth(measurements, series, options.jobs);
+  benchmark::ConsoleReporter reporter(benchmark::ConsoleReporter::OO_Tabular);
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  if (measurements.failed()) fail(*measurements.failed());
+
+  std::map<std::string, std::vector<CoreRow>> cores;
+  for (std::size_t column = 0; column < c_columns; ++column)
+    if (c_hardware[column].lanes && is_wanted(fmt::format("cores/{}", c_hardware[column].name)))
+      cores[c_hardware[column].heading] =
+          measure_cores(ways.columns[column].batches, std::min(4U, std::thread::hardware_concurrency()));
+  const std::vector<SmallRow> small =
+      is_wanted("small_triangles") ? small_triangles() : std::vector<SmallRow>{};
+  const std::optional<EndToEnd> end = is_wanted("make_sim") ? std::optional(measure_make()) : std::nullopt;
+  const auto [load_after, load_long] = load();
+
+  std::string text =
+      "# Speed\n\n"
+      "What `make bench` measures, in one run; it writes this page. Ratios carry over to another machine, "
+      "seconds do "
+      "not. Times are those of\nthe processor, not of the clock, where nothing else is said. A shared "
+      "machine's "
+      "processors are now slower, now quicker: a fixed piece\nof work is timed before and after, or in long "
+      "measurements all the while, and times are told at the pace of its best moment.\nEvery way is checked "
+      "to draw the "
+      "right fragments, or the right picture, each time that it is timed; `make test` does so at a tiny "
+      "size.\n\n";
+  text += fmt::format(
+      "Machine: {}. Load, processes that would run, of which one was this:\n{:.1f} before, {:.1f} after, "
+      "{:.1f} "
+      "over the last quarter of an hour.\n\nTools: {}; its llvm and {};\n{}; {}; {}; {}.\n",
+      machine(), load_before, load_after, load_long, first_line({"ghdl", "--version"}),
+      lacking(Way::ghdl_mcode, c_folders).empty() ? "mcode back ends" : "no mcode back end",
+      first_line({"verilator", "--version"}), first_line({"clang++", "--version"}),
+      first_line({"g++", "--version"}), first_line({"yosys", "-V"}));
+  text += ways_section(measurements, ways);
+  text += mesa_note();
+  text += growth_section(series);
+  text += small_section(small);
+  text += cores_section(cores);
+  if (end) text += make_section(*end);
+  fmt::print("\n{}", text);
+  if (!options.page.empty()) must(write_file(options.page, text));
+  return end && end->rebuilt ? 1 : 0;
+}
+
 }  // namespace
+}  // namespace halfway
 
 int main(int argc, char** argv) {
-  for (const Hardware& hardware : c_hardware) {
-    const auto add = [&](const char* what, const char* scene, auto&&... arguments) {
-      return benchmark::RegisterBenchmark(fmt::format("{}/{}/{}", what, hardware.name, scene).c_str(),
-                                          arguments...)
-          ->Unit(benchmark::kMillisecond);
-    };
-    add("setup", "teapot", setup, hardware);
-    for (const char* scene : {"spheres", "matte"}) {
-      add("golden", scene, golden_model, hardware, scene);
-      add("verilator", scene, verilator, hardware, scene, false);
-      add("verilator_compared", scene, verilator, hardware, scene, true);
-    }
-    add("ghdl", "spheres", ghdl, hardware, "spheres")->UseManualTime()->Iterations(1);
+  // The load of a shared machine comes and goes: repetitions of one measurement lie apart.
+  std::vector<char*> arguments(argv, argv + argc);
+  std::string interleave = "--benchmark_enable_random_interleaving=true";
+  arguments.insert(arguments.begin() + 1, interleave.data());
+  auto count = static_cast<int>(arguments.size());
+  arguments.push_back(nullptr);
+  benchmark::Initialize(&count, arguments.data());
+  halfway::Options options;
+  if (!halfway::read_options(count, arguments.data(), options)) {
+    fmt::print(stderr, "usage: halfway_bench [--page FILE] [--jobs N] [--benchmark_filter=REGEX]\n");
+    return 2;
   }
-  benchmark::RegisterBenchmark("million_triangles/1920x1080", million_triangles)
-      ->Unit(benchmark::kMillisecond)
-      ->UseRealTime()
-      ->Iterations(1);
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  Ratios ratios;
-  benchmark::RunSpecifiedBenchmarks(&ratios);
-  return 0;
+  return halfway::run(options);
 }

@@ -117,10 +117,14 @@ int run(const Folders& folders, const SimOptions& options) {
   settings.out = draw->out;
   settings.stall_seed = options.stall_seed;
   settings.folders = {folders.source, folders.cache()};
-  const auto simulators = checked_simulators(options.simulators);
+  std::vector<std::string> names = options.simulators;
+  settings.lanes = std::erase(names, "lanes") != 0;
+  const auto simulators = checked_simulators(names);
   if (!simulators) return report(simulators.error());
-  settings.ghdl = simulators->ghdl;
-  settings.verilator = simulators->verilator;
+  settings.ghdl = simulators->ghdl && !(settings.lanes && names.empty());
+  settings.verilator = simulators->verilator && !(settings.lanes && names.empty());
+  if (settings.lanes && settings.stall_seed != 0)
+    return report(bad_input("--simulator lanes: they know no stalls; leave --stalls out"));
   std::vector<std::string> scenes = options.scenes;
   if (scenes.empty()) {
     auto builtin = builtin_scenes(folders);
@@ -192,7 +196,9 @@ void add_sim(CLI::App& app, const Folders& folders, int& exit_code) {
                       "a built-in scene's name, a scene file (.toml) or a mesh (.obj .ply .stl .gltf .glb);\n"
                       "none: all built-in scenes");
   options->draw.add_to(*command);
-  command->add_option("--simulator", options->simulators, "ghdl or verilator (default: both)");
+  command->add_option("--simulator", options->simulators,
+                      "ghdl or verilator (default: both), or lanes: many copies of the RTL at once (see\n"
+                      "sim/lanes), which tell no cycles");
   command
       ->add_option("--stalls", options->stall_seed,
                    "stall both streams at random, by this seed (0: full speed)")

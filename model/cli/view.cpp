@@ -50,6 +50,7 @@ struct ViewCommand {
   bool out_given = false;
   std::string scene;
   std::int64_t frames = 36;
+  std::string engine = "auto";
   bool no_compare = false;
   std::optional<std::string> format;
   std::optional<std::string> video;
@@ -178,7 +179,7 @@ class Screen {
 
 void print_difference(const ViewSummary& s) {
   const ViewDifference& d = *s.difference;
-  say(fmt::format("{}: frame {}: verilator differs from the golden model", s.scene, d.frame));
+  say(fmt::format("{}: frame {}: {} differs from the golden model", s.scene, d.frame, d.run.simulator));
   if (!d.run.fault.empty()) say("  " + d.run.fault);
   fmt::print(stderr, "{}", d.run.description);
   const glm::dvec3 eye = d.camera.eye_world;
@@ -188,8 +189,15 @@ void print_difference(const ViewSummary& s) {
 
 class View {
  public:
-  View(const ViewCommand& command, const Folders& folders, const DrawSettings& draw, Outputs outputs)
-      : c_(command), folders_(folders), draw_(draw), o_(std::move(outputs)), screen_(o_), progress_("view") {}
+  View(const ViewCommand& command, const Folders& folders, const DrawSettings& draw, RtlEngine engine,
+       Outputs outputs)
+      : c_(command),
+        folders_(folders),
+        draw_(draw),
+        engine_(engine),
+        o_(std::move(outputs)),
+        screen_(o_),
+        progress_("view") {}
 
   Result<bool> run() {
     const auto scene = load_scene(c_.scene, folders_.scenes());
@@ -206,8 +214,10 @@ class View {
     settings.frames = static_cast<std::uint32_t>(c_.frames);
     settings.compare = !c_.no_compare;
     settings.folders = {folders_.source, folders_.cache()};
-    settings.on_build = [&](const std::string& key) {
-      progress_.show(fmt::format("building {} for Verilator", key));
+    settings.engine = engine_;
+    settings.on_build = [&](const std::string& key, RtlEngine engine) {
+      progress_.show(
+          fmt::format("building {} {}", key, engine == RtlEngine::lanes ? "in lanes" : "for Verilator"));
     };
     std::optional<Interruption> interruption;
     settings.on_ready = [&]() -> Status {
@@ -294,6 +304,7 @@ class View {
   const ViewCommand& c_;
   const Folders& folders_;
   const DrawSettings& draw_;
+  RtlEngine engine_;
   Outputs o_;
   Screen screen_;
   Progress progress_;
@@ -304,10 +315,12 @@ class View {
 int run(const Folders& folders, const ViewCommand& command) {
   const auto draw = checked(command.draw);
   if (!draw) return report(draw.error());
+  const auto engine = parse_rtl_engine(command.engine);
+  if (!engine) return report(engine.error());
   auto outputs = checked(command);
   if (!outputs) return report(outputs.error());
   keep_freed_memory();
-  const auto equal = View(command, folders, *draw, std::move(*outputs)).run();
+  const auto equal = View(command, folders, *draw, *engine, std::move(*outputs)).run();
   if (!equal) return report(equal.error());
   bool right = *equal;
   // As for sim: frames are equal wherever no fragment needs what was changed.
@@ -322,7 +335,8 @@ int run(const Folders& folders, const ViewCommand& command) {
 
 void add_view(CLI::App& app, const Folders& folders, int& exit_code) {
   CLI::App* sub = app.add_subcommand(
-      "view", "draw a scene from all sides by the RTL in Verilator: images, a video, or the terminal");
+      "view",
+      "draw a scene from all sides by the RTL in Verilator or lanes: images, a video, or the terminal");
   auto command = std::make_shared<ViewCommand>();
   sub->add_option("scene", command->scene, "as for sim")->required();
   command->draw.add_to(*sub);
@@ -346,6 +360,10 @@ void add_view(CLI::App& app, const Folders& folders, int& exit_code) {
       "(default: the terminal's)");
   sub->add_option("--colours", command->colours,
                   "with --terminal: 24bit or 256 (default: as COLORTERM says)");
+  sub->add_option("--simulator", command->engine,
+                  "verilator; lanes: many copies of the RTL in one vector, faster, and longer to build; or\n"
+                  "auto: lanes from 2^28 pixels of all frames on, with AVX-512, quadratic and spherical")
+      ->capture_default_str();
   sub->add_flag("--no-compare", command->no_compare,
                 "leave the golden model out: faster, and nothing says whether the frames are right");
   sub->callback([=, &folders, &exit_code] {

@@ -106,7 +106,27 @@ TEST_F(ViewCommand, DrawsWhatSimDrawsFromEachPlace) {
     }
     EXPECT_NE(frame("2/frame_0000.png").rgb, frame("2/frame_0001.png").rgb);
     EXPECT_NE(frame("2/frame_0000.png").rgb, frame("2/frame_0002.png").rgb);
+
+    for (const std::string threads : {"1", "3"}) {
+      if (shader == "processors") break;
+      const Outcome drawn = view({"matte", "--frames", "3", "--shader", shader, "--threads", threads,
+                                  "--simulator", "lanes", "--out", "lanes"});
+      ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+      EXPECT_THAT(drawn.output, AllOf(ContainsRegex("[1-9][0-9]* fragments \\| lanes: 0 mismatches"),
+                                      ContainsRegex("golden model [0-9.]+, lanes [0-9.]+, comparison")));
+      for (const std::string name : {"/frame_0000.png", "/frame_0001.png", "/frame_0002.png"})
+        EXPECT_EQ(frame("lanes" + name).rgb, frame("2" + name).rgb) << shader << name;
+    }
   }
+}
+
+TEST_F(ViewCommand, LanesThatCannotBeHadAreBadInput) {
+  const Outcome other = view({"matte", "--simulator", "ghdl"});
+  EXPECT_EQ(other.exit_code, 2) << other.output;
+  EXPECT_THAT(other.output, HasSubstr("--simulator: 'ghdl' is none of auto, verilator and lanes"));
+  const Outcome processors = view({"matte", "--shader", "processors", "--simulator", "lanes"});
+  EXPECT_EQ(processors.exit_code, 2) << processors.output;
+  EXPECT_THAT(processors.output, HasSubstr("no lanes for this hardware"));
 }
 
 TEST_F(ViewCommand, ReplacesOlderFramesAndNothingElse) {
@@ -208,14 +228,14 @@ TEST_F(ViewCommand, DrawsInTheTerminal) {
 TEST_F(ViewCommand, BrokenOffLeavesNoHalfFile) {
   for (const std::string signal : {"INT", "TERM"}) {
     // Job control, for a shell without it keeps INT from what it starts in the background.
-    const Outcome outcome =
-        run_as({"bash", "-c",
-                fmt::format(
-                    "set -m; '{}' view matte --size 64x48 --frames 10000 --out turn --video films/turn.mp4 & "
-                    "until [ -e turn/frame_0009.png ]; do sleep 0.05; kill -0 $! || exit 9; done; "
-                    "kill -{} $!; wait $!; exit $?",
-                    HALFWAY_PROGRAM, signal)},
-               path_with_ffmpeg(c_copy));
+    const Outcome outcome = run_as(
+        {"bash", "-c",
+         fmt::format(
+             "set -m; '{}' view matte --size 320x240 --frames 10000 --out turn --video films/turn.mp4 & "
+             "until [ -e turn/frame_0009.png ]; do sleep 0.05; kill -0 $! || exit 9; done; "
+             "kill -{} $!; wait $!; exit $?",
+             HALFWAY_PROGRAM, signal)},
+        path_with_ffmpeg(c_copy));
     EXPECT_EQ(outcome.exit_code, signal == "INT" ? 130 : 143) << outcome.output;
     EXPECT_THAT(outcome.output, Not(HasSubstr("frames a second")));
     const auto left = names("turn");
@@ -223,7 +243,7 @@ TEST_F(ViewCommand, BrokenOffLeavesNoHalfFile) {
     EXPECT_LT(left.size(), 10'000U);
     for (const std::string& name : left) {
       EXPECT_TRUE(name.ends_with(".png")) << name;
-      EXPECT_EQ(frame("turn/" + name).size.height, 48U) << name;
+      EXPECT_EQ(frame("turn/" + name).size.height, 240U) << name;
     }
     EXPECT_THAT(names("films"), IsEmpty());
   }
@@ -251,17 +271,22 @@ TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
                  "ambient = 0.5\n[camera]\neye = [0.3, 0.3, -3]\ntarget = [0.3, 0.3, 0]\n[[directional]]\n"
                  "to_light = [0.4, 0.3, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nfile = \"one.obj\"\n"
                  "material = \"m\"\n"));
-  const Outcome drawn = run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30",
-                             "--threads", "3", "--out", "turn", "--video", "turn.mp4"},
-                            path_with_ffmpeg(c_copy));
-  EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
-  EXPECT_THAT(drawn.output,
-              AllOf(HasSubstr("averted: frame 2: verilator differs from the golden model\n"),
-                    ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, [a-z]+: golden [0-9]+, Verilator"),
-                    HasSubstr("of the scene with eye = [0.3, 0.3, 3] in [camera]"),
-                    ContainsRegex("3 frames of 1 triangles.* [1-9][0-9]* mismatches in frame 2 "),
-                    HasSubstr("2 of 3 frames show no triangle")));
-  EXPECT_FALSE(std::filesystem::exists(at("turn.mp4")));
+  // Lanes leave it to Verilator to tell.
+  for (const std::string simulator : {"verilator", "lanes"}) {
+    const Outcome drawn =
+        run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30", "--threads", "3",
+             "--simulator", simulator, "--out", "turn", "--video", "turn.mp4"},
+            path_with_ffmpeg(c_copy));
+    EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
+    EXPECT_THAT(
+        drawn.output,
+        AllOf(HasSubstr("averted: frame 2: verilator differs from the golden model\n"),
+              ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, [a-z]+: golden [0-9]+, Verilator"),
+              HasSubstr("of the scene with eye = [0.3, 0.3, 3] in [camera]"),
+              ContainsRegex("3 frames of 1 triangles.*" + simulator + ": [1-9][0-9]* mismatches in frame 2 "),
+              HasSubstr("2 of 3 frames show no triangle")));
+    EXPECT_FALSE(std::filesystem::exists(at("turn.mp4")));
+  }
 
   // Nothing is asked of the golden model, and nothing said of it.
   const Outcome blind = run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30",

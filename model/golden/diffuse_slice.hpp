@@ -37,6 +37,10 @@ class DiffuseSlice {
   void span_step() { angle_.step(slope_); }
 
   Angle angle() const { return angle_.value(); }
+  Angle slope() const { return slope_; }
+  int address_bits() const { return address_bits_; }
+  const CosineRom& rom() const { return rom_; }
+  std::uint32_t factor(int channel) const { return factors_[static_cast<std::size_t>(channel)]; }
   /// The pixel is not behind the light's horizon.
   bool lit() const { return place().in_range; }
   std::uint32_t sample() const { return rom_.sample(place().address); }

@@ -25,15 +25,9 @@ class PlaneInterpolator {
   }
   void span_step() { along_line_.step(span_dx_); }
 
-  /// What moves along a span.
-  struct AlongLine {
-    Value value, dx;
-    void step() { value += dx; }
-  };
-  AlongLine along_line() const { return {value(), span_dx_}; }
-
   Value line_value() const { return along_edge_.value(); }
   Value value() const { return along_line_.value(); }
+  Value dx() const { return span_dx_; }
 
  private:
   LineInterpolator<W> along_edge_, along_line_;

@@ -53,16 +53,6 @@ class QuadraticInterpolator {
     dx_along_line_.step(span_dxx_);
   }
 
-  /// What moves along a span.
-  struct AlongLine {
-    Value value, dx, dxx;
-    void step() {
-      value += dx;
-      dx += dxx;
-    }
-  };
-  AlongLine along_line() const { return {value(), dx(), span_dxx_}; }
-
   Value line_value() const { return value_along_edge_.value(); }
   Value line_dx() const { return dx_along_edge_.value(); }
   Value line_de0() const { return de0_along_edge_.value(); }

@@ -9,6 +9,7 @@
 
 #include "frame/fragment.hpp"
 #include "golden/quadratic_interpolator.hpp"
+#include "golden/quadratic_side_by_side.hpp"
 #include "golden/saturate.hpp"
 #include "golden/triangle_walker.hpp"
 #include "golden/unwatched.hpp"
@@ -36,21 +37,10 @@ class QuadraticShader {
   template <class Emit, class Watch = Unwatched>
   void draw(std::span<const std::uint32_t> init, Emit&& emit, Watch&& watch = {}) {
     assert(init.size() >= c_init_words);
-    walker_.line_load(init);
-    depth_.line_load(init);
-    for (int c = 0; c < Channels; ++c)
-      channel_[c].line_load(init, Preset::c_init_header_bits + c * Preset::c_init_channel_bits);
-    for (;;) {
-      if (!walker_.line_empty()) {
-        watch.line(*this);
-        draw_span(emit, watch);
-      }
-      if (walker_.line_last()) return;
-      const bool carry = walker_.carry();
-      walker_.line_step();
-      depth_.line_step(carry);
-      for (auto& channel : channel_) channel.line_step(carry);
-    }
+    if constexpr (requires { emit.room(std::size_t{}); })
+      draw_unwatched(init, emit);
+    else
+      draw_watched(init, emit, watch);
   }
 
   const TriangleWalker<Preset>& walker() const { return walker_; }
@@ -93,42 +83,59 @@ class QuadraticShader {
   }
 
  private:
+  template <class Emit>
+  void draw_unwatched(std::span<const std::uint32_t> init, Emit& emit) {
+    walker_.line_load(init);
+    QuadraticSideBySide<Preset, Channels> interpolators;
+    interpolators.line_load(init);
+    for (;;) {
+      if (!walker_.line_empty()) {
+        const std::int64_t from = walker_.start().value(), to = walker_.stop().value();
+        const auto count = static_cast<std::size_t>(walker_.backward() ? from - to : to - from);
+        const std::uint64_t step = walker_.backward() ? ~std::uint64_t{0} : 1;
+        interpolators.draw_span(walker_.triangle(), walker_.y(), static_cast<std::uint64_t>(from), step,
+                                count, emit.room(count));
+      }
+      if (walker_.line_last()) return;
+      const bool carry = walker_.carry();
+      walker_.line_step();
+      interpolators.line_step(carry);
+    }
+  }
+
+  template <class Emit, class Watch>
+  void draw_watched(std::span<const std::uint32_t> init, Emit& emit, Watch& watch) {
+    walker_.line_load(init);
+    depth_.line_load(init);
+    for (int c = 0; c < Channels; ++c)
+      channel_[c].line_load(init, Preset::c_init_header_bits + c * Preset::c_init_channel_bits);
+    for (;;) {
+      if (!walker_.line_empty()) {
+        watch.line(*this);
+        draw_span(emit, watch);
+      }
+      if (walker_.line_last()) return;
+      const bool carry = walker_.carry();
+      walker_.line_step();
+      depth_.line_step(carry);
+      for (auto& channel : channel_) channel.line_step(carry);
+    }
+  }
+
   template <class Emit, class Watch>
   void draw_span(Emit& emit, Watch& watch) {
     depth_.span_load();
     for (auto& channel : channel_) channel.span_load();
-    if constexpr (requires { emit.room(std::size_t{}); }) {
-      // The registers that move along the span, where nothing else can see them: the compiler keeps them in
-      // its own. Behind the span they are loaded anew.
-      auto depth = depth_.along_line();
-      const auto along = [&](int c) { return channel_[c].along_line(); };
-      auto red = along(0), green = along(Channels == 3 ? 1 : 0), blue = along(Channels == 3 ? 2 : 0);
-      const std::int64_t from = walker_.start().value(), to = walker_.stop().value();
-      const auto count = static_cast<std::size_t>(walker_.backward() ? from - to : to - from);
-      Fragment* out = emit.room(count);
-      Fragment fragment = span_fragment();
-      const int step = walker_.backward() ? -1 : 1;
-      for (std::size_t i = 0, x = static_cast<std::size_t>(from); i < count;
-           ++i, x += static_cast<std::size_t>(step)) {
-        set_pixel(fragment, x, depth.value, red.value, green.value, blue.value);
-        *out++ = fragment;
-        depth.step();
-        red.step();
-        green.step();
-        blue.step();
-      }
-    } else {
-      const SpanXWord stop = walker_.stop();
-      const SpanXWord step = SpanXWord::from_bits(walker_.backward() ? ~std::uint64_t{0} : 1);
-      Fragment fragment = span_fragment();
-      for (SpanXWord x = walker_.start(); x != stop; x += step) {
-        watch.span(*this, x);
-        set_pixel(fragment, x.bits(), depth_.value(), channel_[0].value(),
-                  channel_[Channels == 3 ? 1 : 0].value(), channel_[Channels == 3 ? 2 : 0].value());
-        emit(fragment);
-        depth_.span_step();
-        for (auto& channel : channel_) channel.span_step();
-      }
+    const SpanXWord stop = walker_.stop();
+    const SpanXWord step = SpanXWord::from_bits(walker_.backward() ? ~std::uint64_t{0} : 1);
+    Fragment fragment = span_fragment();
+    for (SpanXWord x = walker_.start(); x != stop; x += step) {
+      watch.span(*this, x);
+      set_pixel(fragment, x.bits(), depth_.value(), channel_[0].value(),
+                channel_[Channels == 3 ? 1 : 0].value(), channel_[Channels == 3 ? 2 : 0].value());
+      emit(fragment);
+      depth_.span_step();
+      for (auto& channel : channel_) channel.span_step();
     }
   }
 

@@ -49,6 +49,10 @@ class SpecularSlice {
   void span_step() { angle_.step(slope_); }
 
   Angle angle() const { return angle_.value(); }
+  Angle slope() const { return slope_; }
+  int address_bits() const { return address_bits_; }
+  const CosineRom& rom() const { return selected_; }  ///< selected
+  std::uint32_t factor(int channel) const { return factors_[static_cast<std::size_t>(channel)]; }
   /// Not past the bell's ends and, `lit`, not behind the light's horizon.
   bool in_range(bool lit) const { return lit && place().in_range; }
   std::uint32_t sample() const { return selected_.sample(place().address); }

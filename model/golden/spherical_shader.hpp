@@ -12,6 +12,7 @@
 #include "golden/saturating_sum.hpp"
 #include "golden/specular_slice.hpp"
 #include "golden/spherical_layout.hpp"
+#include "golden/spherical_side_by_side.hpp"
 #include "golden/triangle_walker.hpp"
 #include "golden/unwatched.hpp"
 #include "golden/z_interpolator.hpp"
@@ -51,8 +52,8 @@ class SphericalShader {
 
   /// Draws the init vectors of one group, init_words() words each: emit(Fragment) for each pixel; watch.line
   /// where the span stage takes a line, watch.span, watch.sample and watch.product for each pixel, as the
-  /// RTL's probe. Faster where emit.room(n) gives room for n fragments in place of taking them one by one;
-  /// nothing is watched then.
+  /// RTL's probe. Faster where emit.room(n) gives room for n fragments, and for three more that mean
+  /// nothing, in place of taking them one by one; nothing is watched then.
   template <class Emit, class Watch = Unwatched>
   void draw(std::span<const std::uint32_t> vectors, Emit&& emit, Watch&& watch = {}) {
     assert(vectors.size() >= init_words() && vectors.size() >= group(vectors) * init_words());
@@ -153,16 +154,12 @@ class SphericalShader {
   }
 
   struct Light {
-    DiffuseSlice<Preset> diffuse;
-    SpecularSlice<Preset> specular;
-    void span_step() {
-      diffuse.span_step();
-      specular.span_step();
-    }
+    const DiffuseSlice<Preset>& diffuse;
+    const SpecularSlice<Preset>& specular;
   };
   Light light_at(std::size_t light) const {
-    return {diffuse_.empty() ? DiffuseSlice<Preset>() : diffuse_[light],
-            specular_.empty() ? SpecularSlice<Preset>() : specular_[light]};
+    return {diffuse_.empty() ? no_diffuse_ : diffuse_[light],
+            specular_.empty() ? no_specular_ : specular_[light]};
   }
 
   void span_load(std::span<const std::uint32_t> record) {
@@ -208,39 +205,42 @@ class SphericalShader {
     }
   }
 
-  // The compiler keeps a slice's registers in its own only where it sees all of them: with one light the
-  // whole pixel at once, with more one light after the other over the whole span.
+  // The last block of four is drawn whole: emit.room() has room for that.
   template <int Channels, bool Coloured>
-  void draw_run(Fragment fragment, std::int64_t from, std::size_t count, Fragment* out) {
-    const auto start = ambient_sums<Channels>();
-    ZInterpolator<Preset> depth = depth_;
-    const std::int64_t step = walker_.backward() ? -1 : 1;
-    const auto put_pixel = [&](const SaturatingSum* sums) {
-      set_pixel<Channels>(fragment, static_cast<std::uint64_t>(from), depth, sums);
-      *out++ = fragment;
-      depth.span_step();
-      from += step;
+  void draw_run(const Fragment& line, std::int64_t from, std::size_t count, Fragment* out) {
+    FourSums start{};
+    const auto ambient = ambient_sums<Channels>();
+    for (std::size_t c = 0; c < Channels; ++c) start.channel[c] = FourWords{} + ambient[c].sum();
+    FourSteps<Preset::c_depth_sum_bits> depth(depth_.value(), depth_.dx());
+    const std::uint64_t step = walker_.backward() ? ~std::uint64_t{0} : 1;
+    auto x = static_cast<std::uint64_t>(from);
+    const auto put = [&](const FourWords* sums) {
+      put_pixels<Preset, Channels>(line, x, step, depth.aligned(), sums, config_.data_bits, out);
+      out += 4;
+      x += 4 * step;
+      depth.step();
     };
     if (config_.lights == 1) {
-      Light light = light_at(0);
-      for (std::size_t i = 0; i < count; ++i) {
-        auto sums = start;
-        add_light<Channels, Coloured>(light.diffuse, light.specular, sums.data());
-        put_pixel(sums.data());
-        light.span_step();
+      const Light light = light_at(0);
+      FourLit<Preset> lit(light.diffuse, light.specular);
+      for (std::size_t i = 0; i < count; i += 4, lit.step()) {
+        FourSums sums = start;
+        lit.template add_to<Channels, Coloured>(sums.channel);
+        put(sums.channel);
       }
-    } else {
-      sums_.resize(count * Channels);
-      for (std::size_t i = 0; i < sums_.size(); i += Channels) std::copy_n(start.data(), Channels, &sums_[i]);
-      for (std::size_t l = 0; l < static_cast<std::size_t>(config_.lights); ++l) {
-        Light light = light_at(l);
-        for (std::size_t i = 0; i < sums_.size(); i += Channels) {
-          add_light<Channels, Coloured>(light.diffuse, light.specular, &sums_[i]);
-          light.span_step();
-        }
-      }
-      for (std::size_t i = 0; i < sums_.size(); i += Channels) put_pixel(&sums_[i]);
+      return;
     }
+    // One light after the other over the whole span.
+    sums_.assign((count + 3) / 4, start);
+    for (std::size_t l = 0; l < static_cast<std::size_t>(config_.lights); ++l) {
+      const Light light = light_at(l);
+      FourLit<Preset> lit(light.diffuse, light.specular);
+      for (FourSums& sums : sums_) {
+        lit.template add_to<Channels, Coloured>(sums.channel);
+        lit.step();
+      }
+    }
+    for (const FourSums& sums : sums_) put(sums.channel);
   }
 
   /// What the adders have before any light.
@@ -295,7 +295,9 @@ class SphericalShader {
   std::array<std::uint32_t, 3> ambient_{};
   std::vector<DiffuseSlice<Preset>> diffuse_;    // one a light, or none
   std::vector<SpecularSlice<Preset>> specular_;  // one a light, or none
-  std::vector<SaturatingSum> sums_;              // of a span's pixels
+  const DiffuseSlice<Preset> no_diffuse_{};
+  const SpecularSlice<Preset> no_specular_{};
+  std::vector<FourSums> sums_;  // of a span's pixels
 };
 
 }  // namespace halfway::golden

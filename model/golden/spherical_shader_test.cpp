@@ -68,15 +68,17 @@ class Drawing {
   }
   std::vector<Fragment> draw_spans() {
     struct Room {
-      std::vector<Fragment>& fragments;
-      Fragment* room(std::size_t count) {
-        fragments.resize(fragments.size() + count);
-        return fragments.data() + fragments.size() - count;
+      std::vector<Fragment> fragments;
+      std::size_t count = 0;
+      Fragment* room(std::size_t more) {
+        count += more;
+        fragments.resize(count + 3);  // which may be written too
+        return fragments.data() + count - more;
       }
-    };
-    std::vector<Fragment> fragments;
-    shader.draw(vectors, Room{fragments});
-    return fragments;
+    } room;
+    shader.draw(vectors, room);
+    room.fragments.resize(room.count);
+    return room.fragments;
   }
 
   SphericalLayout<Preset> layout;

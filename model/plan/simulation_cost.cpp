@@ -2,12 +2,11 @@
 #include "plan/simulation_cost.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <time.h>
 
 #include <algorithm>
 
 #include "common/file.hpp"
+#include "common/seconds.hpp"
 #include "frame/assemble.hpp"
 #include "frame/init_file.hpp"
 #include "run/limits.hpp"
@@ -21,23 +20,6 @@ namespace {
 constexpr int c_most_passes = 3;
 // A pass of this many seconds is measured well enough.
 constexpr double c_long_pass = 1.0;
-
-// Of this thread. What other processes take meanwhile does not count.
-double thread_seconds() {
-  timespec time{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-// Of all programs that this one has run.
-double programs_seconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_CHILDREN, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 // The least of up to three passes.
 Status least_of(std::optional<double>& least, const std::function<Result<double>()>& pass) {
@@ -89,12 +71,12 @@ class Measurement {
     s_.on_progress(fmt::format("GHDL simulates {}", key_.name()));
     const auto runner = GhdlRunner::open(key_, s_.folders);
     if (!runner) return runner.error();
-    const double begin = programs_seconds();
+    const double begin = children_seconds();
     const auto ran = runner->run(init, init.parent_path() / "trace", {.idle_limit = c_idle_limit});
     if (!ran) return ran.error();
     cost_.cycles = ran->cycles;
     cost_.fragments = ran->fragments;
-    return programs_seconds() - begin;
+    return children_seconds() - begin;
   }
 
   Result<double> verilator_pass() {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/golden_run.hpp"
 
+#include <algorithm>
+#include <memory>
+#include <utility>
+
 #include "golden/processors_shader.hpp"
 #include "golden/quadratic_shader.hpp"
 #include "golden/spherical_shader.hpp"
@@ -8,13 +12,57 @@
 namespace halfway {
 namespace {
 
-struct Room {
-  std::vector<Fragment>& fragments;
+// Fragments one after the other; a vector would write zeros first.
+class Room {
+ public:
   Fragment* room(std::size_t count) {
-    fragments.resize(fragments.size() + count);
-    return fragments.data() + fragments.size() - count;
+    if (capacity_ - size_ < count + c_surplus) grow(count);
+    Fragment* begin = data_.get() + size_;
+    size_ += count;
+    return begin;
   }
+  void clear() { size_ = 0; }
+  std::span<const Fragment> fragments() const { return {data_.get(), size_}; }
+
+ private:
+  static constexpr std::size_t c_surplus = 3;  // which a shader may write past what it asked for
+
+  [[gnu::noinline]] void grow(std::size_t count) {
+    capacity_ = 2 * (size_ + count) + 4096;
+    auto larger = std::make_unique_for_overwrite<Fragment[]>(capacity_);
+    std::copy_n(data_.get(), size_, larger.get());
+    data_ = std::move(larger);
+  }
+
+  std::unique_ptr<Fragment[]> data_;
+  std::size_t size_ = 0, capacity_ = 0;
 };
+
+// A block of fragments to stay in the processor's nearer caches.
+constexpr std::size_t c_block = 8192;
+
+// Compiled for several processors, and chosen by the one that it runs on; all that it calls is inlined.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define HALFWAY_FOR_PROCESSORS \
+  __attribute__((flatten, target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define HALFWAY_FOR_PROCESSORS
+#endif
+
+// Draws triangles until the room holds `most` fragments or there are no more; what is left.
+template <class Shader>
+HALFWAY_FOR_PROCESSORS std::span<const std::uint32_t> draw_into(Room& room, Shader& shader,
+                                                                std::span<const std::uint32_t> init_words,
+                                                                std::size_t most) {
+  const auto vector_words = static_cast<std::size_t>((shader.init_bits() + 31) / 32);
+  while (init_words.size() >= vector_words && room.fragments().size() < most) {
+    const std::size_t words = shader.group(init_words) * vector_words;
+    if (words > init_words.size()) return {};  // a triangle cut short draws nothing
+    shader.draw(init_words.first(words), room);
+    init_words = init_words.subspan(words);
+  }
+  return init_words.size() >= vector_words ? init_words : std::span<const std::uint32_t>();
+}
 
 struct Watch {
   std::vector<ProbeEvent>& events;
@@ -51,14 +99,28 @@ class Model final : public GoldenModel {
     return shader_.group(init_words);
   }
   void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) override {
-    each_triangle(init_words, [&](auto words) { shader_.draw(words, Room{fragments}); });
+    while (!init_words.empty()) {
+      room_.clear();
+      init_words = draw_into(room_, shader_, init_words, c_block);
+      fragments.insert(fragments.end(), room_.fragments().begin(), room_.fragments().end());
+    }
+  }
+  std::span<const Fragment> draw(std::span<const std::uint32_t> init_words) override {
+    room_.clear();
+    draw_into(room_, shader_, init_words, SIZE_MAX);
+    return room_.fragments();
   }
   void draw_probed(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,
                    std::vector<ProbeEvent>& events) override {
-    each_triangle(init_words, [&](auto words) {
+    const auto vector_words = static_cast<std::size_t>((shader_.init_bits() + 31) / 32);
+    while (init_words.size() >= vector_words) {
+      const std::size_t words = shader_.group(init_words) * vector_words;
+      if (words > init_words.size()) return;
       shader_.draw(
-          words, [&](const Fragment& f) { fragments.push_back(f); }, Watch{events, fragments});
-    });
+          init_words.first(words), [&](const Fragment& f) { fragments.push_back(f); },
+          Watch{events, fragments});
+      init_words = init_words.subspan(words);
+    }
   }
   bool fault() const override {
     if constexpr (requires { shader_.fault(); })
@@ -70,17 +132,8 @@ class Model final : public GoldenModel {
   unsigned probe_bits() const override { return static_cast<unsigned>(shader_.probe_bits()); }
 
  private:
-  template <class Draw>
-  void each_triangle(std::span<const std::uint32_t> init_words, Draw&& draw) {
-    const auto vector_words = static_cast<std::size_t>((shader_.init_bits() + 31) / 32);
-    while (init_words.size() >= vector_words) {
-      const std::size_t words = shader_.group(init_words) * vector_words;
-      if (words > init_words.size()) return;  // a triangle cut short draws nothing
-      draw(init_words.first(words));
-      init_words = init_words.subspan(words);
-    }
-  }
   Shader shader_;
+  Room room_;
 };
 
 template <class Preset>

@@ -33,6 +33,8 @@ class GoldenModel {
   virtual std::size_t group(std::span<const std::uint32_t> init_words) const = 0;
   /// Appends the fragments of whole triangles' vectors.
   virtual void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) = 0;
+  /// The same fragments in the model's own room, until it draws again.
+  virtual std::span<const Fragment> draw(std::span<const std::uint32_t> init_words) = 0;
   /// The same, and the stages' registers.
   virtual void draw_probed(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,
                            std::vector<ProbeEvent>& events) = 0;

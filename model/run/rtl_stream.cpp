@@ -42,6 +42,17 @@ void RtlStream::add(std::span<const Fragment> fragments) {
   assemble_seconds_ += thread_seconds() - compared;
 }
 
+void RtlStream::add(std::span<const Fragment> golden, std::span<const Fragment> fragments) {
+  golden_count_ += golden.size();
+  count_ += fragments.size();
+  const double start = thread_seconds();
+  if (compares_) comparator_.add(golden, fragments);
+  const double compared = thread_seconds();
+  assemble(fragments);
+  compare_seconds_ += compared - start;
+  assemble_seconds_ += thread_seconds() - compared;
+}
+
 // Wrong hardware may draw anywhere; the frame then holds what it drew inside.
 void RtlStream::assemble(std::span<const Fragment> fragments) {
   while (!fragments.empty()) {
@@ -61,7 +72,9 @@ SimulatorRun RtlStream::finish(std::string simulator) {
   run.fault = fault_;
   run.first = comparator_.first();
   if (run.mismatches != 0)
-    run.description = comparator_.describe(run.simulator == "ghdl" ? "GHDL" : "Verilator");
+    run.description = comparator_.describe(run.simulator == "ghdl"        ? "GHDL"
+                                           : run.simulator == "verilator" ? "Verilator"
+                                                                          : run.simulator);
   return run;
 }
 

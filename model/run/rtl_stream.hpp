@@ -41,6 +41,8 @@ class RtlStream {
 
   void add_golden(std::span<const Fragment> fragments);
   void add(std::span<const Fragment> fragments);
+  /// Both of the same vectors, without a copy.
+  void add(std::span<const Fragment> golden, std::span<const Fragment> fragments);
   void set_fault(std::string fault) { fault_ = std::move(fault); }
 
   bool compares() const { return compares_; }

@@ -20,6 +20,7 @@
 #include "plan/hardware_units.hpp"
 #include "reference/renderer.hpp"
 #include "run/ghdl_parts.hpp"
+#include "run/lane_feed.hpp"
 #include "run/limits.hpp"
 #include "run/rtl_stream.hpp"
 #include "run/scene_stream.hpp"
@@ -86,7 +87,7 @@ class Simulation {
  private:
   // What a broken run leaves must not pass for this run's.
   Status forget_old_results() const {
-    for (const char* who : {"golden", "ghdl", "verilator"}) {
+    for (const char* who : {"golden", "ghdl", "verilator", "lanes"}) {
       if (Status status = forget(files_.trace(who)); !status) return status;
       if (Status status = forget(files_.frame(who)); !status) return status;
       if (Status status = forget(files_.frame(fmt::format("mismatch-{}", who))); !status) return status;
@@ -202,6 +203,21 @@ class Simulation {
       if (!trace) return trace.error();
       verilator_trace.emplace(std::move(*trace));
     }
+    std::optional<LaneSimulator> lanes;
+    std::optional<TraceWriter> lanes_trace;
+    RtlStream rtl_in_lanes(s_.size, scene_.background);
+    if (s_.lanes) {
+      if (const auto possible = use_lanes(RtlEngine::lanes, summary_.plan.key, 0.0); !possible)
+        return possible.error();
+      s_.on_progress(fmt::format("building {} in lanes", key), -1.0);
+      auto opened = LaneSimulator::open(summary_.plan.key, s_.folders,
+                                        {.threads = s_.threads, .idle_limit = c_idle_limit});
+      if (!opened) return opened.error();
+      lanes.emplace(std::move(*opened));
+      auto trace = TraceWriter::open(files_.trace("lanes"), key);
+      if (!trace) return trace.error();
+      lanes_trace.emplace(std::move(*trace));
+    }
     for (const std::string& held : setup->notes()) note(held);
     auto init_file = InitFileWriter::open(files_.init(), key, setup->init_bits());
     if (!init_file) return init_file.error();
@@ -212,6 +228,8 @@ class Simulation {
     Cuts cuts(summary_.plan.key);
     std::optional<VerilatorFeed> feed;
     if (verilator) feed.emplace(*verilator, rtl, [&](auto drawn) { verilator_trace->write(drawn); });
+    std::optional<LaneFeed> lane_feed;
+    if (lanes) lane_feed.emplace(*lanes, rtl_in_lanes, [&](auto drawn) { lanes_trace->write(drawn); });
     for (Batch batch; stream.next(batch);) {
       s_.on_progress("setup, golden model, Verilator", batch.done);
       if (Status status = check_shadow_counts(scene_, stream); !status) return status;
@@ -221,6 +239,8 @@ class Simulation {
       if (Status status = golden_.add(batch.golden); !status)
         return tool_failed(fmt::format("{}: setup made a fragment outside the frame: {}; please report it",
                                        scene_.name, status.error().message));
+      if (lane_feed)
+        if (Status status = lane_feed->add(batch.init_words, batch.golden); !status) return status;
       rtl.add_golden(batch.golden);
       if (!feed) continue;
       if (Status status = feed->add(batch.init_words); !status) return status;
@@ -246,6 +266,17 @@ class Simulation {
       run.cycles = verilator->cycles();
       run.seconds = feed->seconds();
       if (Status status = show_difference(run, rtl.assembler().frame()); !status) return status;
+      summary_.runs.push_back(std::move(run));
+    }
+    if (lanes) {
+      if (lane_feed->alive())
+        if (Status status = lanes_trace->commit(); !status) return status;
+      if (Status status = write_png(files_.frame("lanes"), rtl_in_lanes.assembler().frame()); !status)
+        return status;
+      // Their clocks are not the stream's: each part of it runs from idle to idle.
+      SimulatorRun run = rtl_in_lanes.finish("lanes");
+      run.seconds = lane_feed->seconds();
+      if (Status status = show_difference(run, rtl_in_lanes.assembler().frame()); !status) return status;
       summary_.runs.push_back(std::move(run));
     }
     return Ok{};

@@ -22,10 +22,18 @@ void StreamComparator::add_rtl(std::span<const Fragment> fragments) {
   advance();
 }
 
-void StreamComparator::advance() {
-  const std::size_t count = std::min(pending_golden_.size() - golden_used_, pending_rtl_.size() - rtl_used_);
-  const Fragment* golden = pending_golden_.data() + golden_used_;
-  const Fragment* rtl = pending_rtl_.data() + rtl_used_;
+void StreamComparator::add(std::span<const Fragment> golden, std::span<const Fragment> rtl) {
+  if (pending_golden_.empty() && pending_rtl_.empty()) {
+    const std::size_t count = std::min(golden.size(), rtl.size());
+    compare(golden.data(), rtl.data(), count);
+    golden = golden.subspan(count);
+    rtl = rtl.subspan(count);
+  }
+  add_golden(golden);
+  add_rtl(rtl);
+}
+
+void StreamComparator::compare(const Fragment* golden, const Fragment* rtl, std::size_t count) {
   constexpr std::size_t c_block = 1024;
   for (std::size_t i = 0; i < count; i += c_block) {
     const std::size_t n = std::min(c_block, count - i);
@@ -39,6 +47,11 @@ void StreamComparator::advance() {
       ++compared_;
     }
   }
+}
+
+void StreamComparator::advance() {
+  const std::size_t count = std::min(pending_golden_.size() - golden_used_, pending_rtl_.size() - rtl_used_);
+  compare(pending_golden_.data() + golden_used_, pending_rtl_.data() + rtl_used_, count);
   golden_used_ += count;
   rtl_used_ += count;
   const auto drop_used = [](std::vector<Fragment>& pending, std::size_t& used) {

@@ -29,6 +29,8 @@ class StreamComparator {
  public:
   void add_golden(std::span<const Fragment> fragments);
   void add_rtl(std::span<const Fragment> fragments);
+  /// The same of both, without a copy of what they share.
+  void add(std::span<const Fragment> golden, std::span<const Fragment> rtl);
   /// No more will come: what one stream has and the other has not differs.
   void finish();
 
@@ -46,6 +48,7 @@ class StreamComparator {
 
  private:
   void advance();
+  void compare(const Fragment* golden, const Fragment* rtl, std::size_t count);
   void note(const std::optional<Fragment>& golden, const std::optional<Fragment>& rtl);
 
   std::vector<Fragment> pending_golden_, pending_rtl_;

@@ -37,14 +37,16 @@ struct DrawnFrame {
   std::optional<ViewDifference> difference;
 };
 
-// A model, and the scene that it draws from place to place.
+// Models of the hardware, and the scene that they draw from place to place.
 class Easel {
  public:
-  Easel(Scene scene, VerilatorSimulator simulator, const ViewSettings& settings, const HardwareKey& key,
-        unsigned threads)
+  /// `lanes`: none where Verilator draws.
+  Easel(Scene scene, std::optional<VerilatorSimulator> verilator, std::optional<LaneSimulator> lanes,
+        const ViewSettings& settings, const HardwareKey& key, unsigned threads)
       : scene_(std::move(scene)),
         first_camera_(scene_.camera),
-        simulator_(std::move(simulator)),
+        verilator_(std::move(verilator)),
+        lanes_(std::move(lanes)),
         s_(settings),
         key_(key),
         threads_(threads) {}
@@ -56,37 +58,24 @@ class Easel {
           "{}: frame {} has no view: the camera's eye is too near its target, or to the axis through that",
           scene_.name, number));
     DrawnFrame drawn;
-    const double setup_start = thread_seconds();
-    const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, key_, s_.setup);
-    drawn.notes = setup->notes();
-    drawn.seconds.setup = thread_seconds() - setup_start;
-
-    // With a thread a frame there is another frame to draw meanwhile.
-    SceneStream stream(*setup, key_, threads_, {.golden = s_.compare, .ahead = threads_ > 1});
     RtlStream rtl(s_.size, scene_.background, s_.compare);
-    VerilatorFeed feed(simulator_, rtl);
-    double feeding = 0.0;
-    for (Batch batch; stream.next(batch);) {
-      if (Status status = check_shadow_counts(scene_, stream); !status) return status.error();
-      const double start = thread_seconds();
-      rtl.add_golden(batch.golden);
-      const Status fed = feed.add(batch.init_words);
-      feeding += thread_seconds() - start;
-      if (!fed) return fed.error();
+    if (Status status = lanes_ ? draw_in_lanes(rtl, drawn) : draw_in_verilator(rtl, drawn); !status)
+      return status.error();
+    SimulatorRun run = finish(rtl, drawn, to_string(lanes_ ? RtlEngine::lanes : RtlEngine::verilator));
+    if (lanes_ && !run.equal()) {
+      // Verilator tells it better: the cycle of a fault, and what was drawn before.
+      const std::uint64_t mismatches = run.mismatches;
+      rtl = RtlStream(s_.size, scene_.background, s_.compare);
+      if (Status status = draw_in_verilator(rtl, drawn); !status) return status.error();
+      run = finish(rtl, drawn, to_string(RtlEngine::verilator));
+      if (run.equal() && mismatches != 0)
+        return tool_failed(fmt::format(
+            "{}: frame {}: {} fragments differ in lanes, and none in Verilator; please report it, and take "
+            "--simulator verilator",
+            scene_.name, number, mismatches));
     }
-    const double start = thread_seconds();
-    if (Status status = feed.finish(); !status) return status.error();
-    if (Status status = check_projection(scene_, stream); !status) return status.error();
-    SimulatorRun run = rtl.finish("verilator");
-    feeding += thread_seconds() - start;
-
     drawn.fragments = run.fragments;
     drawn.covered = run.fragments != 0;
-    drawn.seconds.setup += stream.setup_seconds();
-    drawn.seconds.golden = stream.golden_seconds();
-    drawn.seconds.compare = rtl.compare_seconds();
-    drawn.seconds.assemble = rtl.assemble_seconds();
-    drawn.seconds.verilator = feeding - rtl.compare_seconds() - rtl.assemble_seconds();
     if (!run.equal()) drawn.difference = ViewDifference{number, scene_.camera, std::move(run)};
 
     const double images_start = thread_seconds();
@@ -98,9 +87,63 @@ class Easel {
   const Frame& frame() const { return frame_; }
 
  private:
+  Status draw_in_lanes(RtlStream& rtl, DrawnFrame& drawn) {
+    LaneFeed feed(*lanes_, rtl);
+    return draw(drawn, [&](const Batch& batch) { return feed.add(batch.init_words, batch.golden); });
+  }
+  Status draw_in_verilator(RtlStream& rtl, DrawnFrame& drawn) {
+    if (!verilator_) {
+      auto opened = VerilatorSimulator::open(key_, s_.folders, {.idle_limit = c_idle_limit});
+      if (!opened) return opened.error();
+      verilator_.emplace(std::move(*opened));
+    }
+    VerilatorFeed feed(*verilator_, rtl);
+    if (Status status = draw(drawn,
+                             [&](const Batch& batch) {
+                               rtl.add_golden(batch.golden);
+                               return feed.add(batch.init_words);
+                             });
+        !status)
+      return status;
+    const double start = thread_seconds();
+    const Status status = feed.finish();
+    drawn.seconds.rtl += thread_seconds() - start;
+    return status;
+  }
+
+  template <class Feed>
+  Status draw(DrawnFrame& drawn, const Feed& feed) {
+    const double setup_start = thread_seconds();
+    const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, key_, s_.setup);
+    drawn.notes = setup->notes();
+    drawn.seconds.setup += thread_seconds() - setup_start;
+    // With a thread a frame there is another frame to draw meanwhile.
+    SceneStream stream(*setup, key_, threads_, {.golden = s_.compare, .ahead = threads_ > 1});
+    for (Batch batch; stream.next(batch);) {
+      if (Status status = check_shadow_counts(scene_, stream); !status) return status;
+      const double start = thread_seconds();
+      const Status fed = feed(batch);
+      drawn.seconds.rtl += thread_seconds() - start;
+      if (!fed) return fed;
+    }
+    drawn.seconds.setup += stream.setup_seconds();
+    drawn.seconds.golden += stream.golden_seconds();
+    return check_projection(scene_, stream);
+  }
+
+  SimulatorRun finish(RtlStream& rtl, DrawnFrame& drawn, const char* simulator) const {
+    const double start = thread_seconds();
+    SimulatorRun run = rtl.finish(simulator);
+    drawn.seconds.rtl += thread_seconds() - start - rtl.compare_seconds() - rtl.assemble_seconds();
+    drawn.seconds.compare += rtl.compare_seconds();
+    drawn.seconds.assemble += rtl.assemble_seconds();
+    return run;
+  }
+
   Scene scene_;
   Camera first_camera_;
-  VerilatorSimulator simulator_;
+  std::optional<VerilatorSimulator> verilator_;
+  std::optional<LaneSimulator> lanes_;
   const ViewSettings& s_;
   const HardwareKey& key_;
   unsigned threads_;
@@ -192,7 +235,7 @@ class Turn {
 ViewSeconds& ViewSeconds::operator+=(const ViewSeconds& other) {
   setup += other.setup;
   golden += other.golden;
-  verilator += other.verilator;
+  rtl += other.rtl;
   compare += other.compare;
   assemble += other.assemble;
   images += other.images;
@@ -209,9 +252,23 @@ Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
                       .compared = settings.compare,
                       .threads = settings.threads};
   const HardwareKey& key = summary.plan.key;
-  settings.on_build(key.name());
-  const auto simulator = VerilatorSimulator::open(key, settings.folders, {.idle_limit = c_idle_limit});
-  if (!simulator) return simulator.error();
+  const auto in_lanes =
+      use_lanes(settings.engine, key,
+                double(settings.size.width) * double(settings.size.height) * double(settings.frames));
+  if (!in_lanes) return in_lanes.error();
+  summary.engine = *in_lanes ? RtlEngine::lanes : RtlEngine::verilator;
+  settings.on_build(key.name(), summary.engine);
+  std::optional<VerilatorSimulator> verilator;
+  std::optional<LaneSimulator> lanes;
+  if (*in_lanes) {
+    auto opened = LaneSimulator::open(key, settings.folders, {.idle_limit = c_idle_limit});
+    if (!opened) return opened.error();
+    lanes.emplace(std::move(*opened));
+  } else {
+    auto opened = VerilatorSimulator::open(key, settings.folders, {.idle_limit = c_idle_limit});
+    if (!opened) return opened.error();
+    verilator.emplace(std::move(*opened));
+  }
   if (Status status = settings.on_ready(); !status) return status.error();
 
   const Clock::time_point start = Clock::now();
@@ -221,12 +278,19 @@ Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
   Turn turn(settings, summary);
   work_on_threads(easels, [&] {
     try {
-      auto model = simulator->another();
-      if (!model) {
-        turn.take(0, model.error(), {});
-        return;
+      std::optional<VerilatorSimulator> own;
+      std::optional<LaneSimulator> own_lanes;
+      if (lanes) own_lanes.emplace(lanes->another());
+      if (verilator) {
+        auto model = verilator->another();
+        if (!model) {
+          turn.take(0, model.error(), {});
+          return;
+        }
+        own.emplace(std::move(*model));
       }
-      Easel easel(scene, std::move(*model), settings, key, std::max(1U, settings.threads / easels));
+      Easel easel(scene, std::move(own), std::move(own_lanes), settings, key,
+                  std::max(1U, settings.threads / easels));
       while (const auto number = turn.next()) {
         const auto drawn = easel.draw(*number);
         turn.take(*number, drawn, easel.frame());
@@ -251,16 +315,16 @@ std::string to_lines(const ViewSummary& s) {
                                                             s.difference->run.mismatches, s.difference->frame)
                                               : "0 mismatches";
   std::string text = fmt::format(
-      "{:<12} {:<10} {:<9} {:>4}x{:<4} {:>4} frame{} of {} triangles, {} fragments | verilator: {} | {:.2f} "
+      "{:<12} {:<10} {:<9} {:>4}x{:<4} {:>4} frame{} of {} triangles, {} fragments | {}: {} | {:.2f} "
       "frames a second, {:.2f} s on {} thread{}\n",
       s.scene, to_string(s.plan.key.shader), to_string(s.plan.key.preset), s.size.width, s.size.height,
-      s.frames, s.frames == 1 ? "" : "s", s.triangles, s.fragments, compared, s.rate(), s.seconds, s.threads,
-      s.threads == 1 ? "" : "s");
+      s.frames, s.frames == 1 ? "" : "s", s.triangles, s.fragments, to_string(s.engine), compared, s.rate(),
+      s.seconds, s.threads, s.threads == 1 ? "" : "s");
   if (s.frames == 0) return text;
   const auto ms = [&](double seconds) { return 1e3 * seconds / s.frames; };
   text += fmt::format("processor time a frame: setup {:.1f} ms, ", ms(s.parts.setup));
   if (s.compared) text += fmt::format("golden model {:.1f}, ", ms(s.parts.golden));
-  text += fmt::format("Verilator {:.1f}, ", ms(s.parts.verilator));
+  text += fmt::format("{} {:.1f}, ", s.engine == RtlEngine::lanes ? "lanes" : "Verilator", ms(s.parts.rtl));
   if (s.compared) text += fmt::format("comparison {:.1f}, ", ms(s.parts.compare));
   return text + fmt::format("assembly {:.1f}, images {:.1f}\n", ms(s.parts.assemble), ms(s.parts.images));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A turntable: one scene from all sides, by one piece of hardware in Verilator.
+// A turntable: one scene from all sides, by one piece of hardware, in Verilator or in lanes.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@
 #include "common/result.hpp"
 #include "frame/frame.hpp"
 #include "plan/plan.hpp"
+#include "run/lane_feed.hpp"
 #include "run/rtl_stream.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
@@ -27,9 +28,11 @@ struct ViewSettings {
   unsigned threads = 1;
   std::uint32_t frames = 36;  ///< of one turn; 1 to c_most_view_frames
   bool compare = true;        ///< else the golden model does not draw
+  RtlEngine engine = RtlEngine::automatic;
   SimulatorFolders folders;
-  /// Told the key before its hardware is built.
-  std::function<void(const std::string& key)> on_build = [](const std::string&) {};
+  /// Told the key before its hardware is built, and for what.
+  std::function<void(const std::string& key, RtlEngine engine)> on_build = [](const std::string&, RtlEngine) {
+  };
   /// Called once the hardware is there, before anything is drawn.
   std::function<Status()> on_ready = []() -> Status { return Ok{}; };
   /// Called with each frame once it is drawn: by several threads at once, in no order.
@@ -42,7 +45,7 @@ struct ViewSettings {
 
 /// Processor seconds of all frames.
 struct ViewSeconds {
-  double setup = 0.0, golden = 0.0, verilator = 0.0, compare = 0.0, assemble = 0.0;
+  double setup = 0.0, golden = 0.0, rtl = 0.0, compare = 0.0, assemble = 0.0;
   double images = 0.0;  ///< on_drawn
   ViewSeconds& operator+=(const ViewSeconds& other);
 };
@@ -62,6 +65,7 @@ struct ViewSummary {
   std::uint32_t frames = 0;     ///< drawn; all, unless one differs
   std::uint64_t fragments = 0;  ///< of the RTL, in all frames
   bool compared = true;
+  RtlEngine engine = RtlEngine::verilator;  ///< which drew
   unsigned threads = 1;
   double seconds = 0.0;  ///< from when the hardware was there until the last frame was taken
   ViewSeconds parts;
@@ -72,8 +76,10 @@ struct ViewSummary {
 
 /// Draws the scene from `frames` places around its camera's target. Hardware is planned and built once: no
 /// effect depends on the camera. Threads draw whole frames, each on a model of its own, which is not reset
-/// between them; memory is bounded by the threads, not by the frames. Ends after the first frame that
-/// differs, which is no error: see ViewSummary::difference.
+/// between them; lanes where they pay, see use_lanes(), and a frame that differs in lanes is drawn again in
+/// Verilator, which tells more: its cycles, and what was drawn until a fault. Memory is bounded by the
+/// threads, not by the frames. Ends after the first frame that differs, which is no error: see
+/// ViewSummary::difference.
 Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings);
 
 /// Two lines: frames a second, mismatches; the parts of a frame's time.

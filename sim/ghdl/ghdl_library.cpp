@@ -51,15 +51,15 @@ Status check_choices(const std::string& entity, std::string_view vhdl) {
 
 }  // namespace
 
-Result<GhdlTool> GhdlTool::find() {
-  Command command{.arguments = {"ghdl", "--version"}, .timeout = std::chrono::seconds(30)};
+Result<GhdlTool> GhdlTool::find(const std::string& program) {
+  Command command{.arguments = {program, "--version"}, .timeout = std::chrono::seconds(30)};
   const auto end = run_process(command, kInstallGhdl);
   if (!end) return end.error();
   if (!end->succeeded()) {
-    return tool_failed(fmt::format("ghdl: does not run ({}): {}; install it with: {}", end->how(),
+    return tool_failed(fmt::format("{}: does not run ({}): {}; install it with: {}", program, end->how(),
                                    end->output, kInstallGhdl));
   }
-  GhdlTool tool{GhdlBackEnd::mcode, end->output};
+  GhdlTool tool{GhdlBackEnd::mcode, end->output, program};
   if (end->output.find("llvm") != std::string::npos) tool.back_end = GhdlBackEnd::llvm;
   if (end->output.find("GCC") != std::string::npos) tool.back_end = GhdlBackEnd::gcc;
   return tool;
@@ -104,7 +104,7 @@ Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<Vh
 
   auto fresh = TemporaryFolder::make(folder.parent_path());
   if (!fresh) return fresh.error();
-  Command analyse{.arguments = {"ghdl", "-a"}, .working_folder = fresh->path()};
+  Command analyse{.arguments = {tool.program, "-a"}, .working_folder = fresh->path()};
   if (tool.back_end != GhdlBackEnd::mcode) analyse.arguments.emplace_back("-O2");
   analyse.arguments.insert(analyse.arguments.end(), kAnalysisFlags.begin(), kAnalysisFlags.end());
   for (const VhdlSource& source : sources) {
@@ -114,7 +114,7 @@ Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<Vh
   }
   if (auto done = run_ghdl(analyse, "analysis of the VHDL"); !done) return done.error();
   if (!top.empty() && tool.back_end != GhdlBackEnd::mcode) {
-    Command elaborate{.arguments = {"ghdl", "-e", "--std=08", top}, .working_folder = fresh->path()};
+    Command elaborate{.arguments = {tool.program, "-e", "--std=08", top}, .working_folder = fresh->path()};
     if (auto done = run_ghdl(elaborate, "elaboration of " + top); !done) return done.error();
   }
   if (auto moved = fresh->move_to(folder); !moved) return moved.error();
@@ -127,7 +127,7 @@ Result<std::string> GhdlLibrary::synthesize(
     // Standard output goes to a file: warnings on standard error must not get into the netlist.
     auto scratch = TemporaryFolder::make(folder_.parent_path());
     if (!scratch) return scratch.error();
-    Command command{.arguments = {"ghdl", "--synth", "--std=08", "--no-formal", "--out=" + language},
+    Command command{.arguments = {tool_.program, "--synth", "--std=08", "--no-formal", "--out=" + language},
                     .working_folder = folder_,
                     .standard_output = scratch->path() / "netlist"};
     for (const auto& [name, value] : generics) command.arguments.push_back("-g" + name + '=' + value);
@@ -142,7 +142,7 @@ Result<std::string> GhdlLibrary::synthesize(
 }
 
 std::vector<std::string> GhdlLibrary::run_arguments(const std::string& top) const {
-  if (tool_.back_end == GhdlBackEnd::mcode) return {"ghdl", "-r", "--std=08", top};
+  if (tool_.back_end == GhdlBackEnd::mcode) return {tool_.program, "-r", "--std=08", top};
   return {(folder_ / top).string()};
 }
 

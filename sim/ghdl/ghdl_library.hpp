@@ -26,10 +26,11 @@ enum class GhdlBackEnd { mcode, llvm, gcc };
 
 struct GhdlTool {
   GhdlBackEnd back_end;
-  std::string version;  ///< all that `ghdl --version` says
+  std::string version;           ///< all that `ghdl --version` says
+  std::string program = "ghdl";  ///< a name in PATH, or a path
 
-  /// Asks the ghdl in PATH; where there is none, an error with the command that installs it.
-  static Result<GhdlTool> find();
+  /// Asks the program; where there is none, an error with the command that installs GHDL.
+  static Result<GhdlTool> find(const std::string& program = "ghdl");
 };
 
 struct VhdlSource {

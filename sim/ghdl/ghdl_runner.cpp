@@ -104,8 +104,9 @@ Result<VhdlSource> GhdlRunner::testbench(const HardwareKey& key, const std::file
   return testbench;
 }
 
-Result<GhdlRunner> GhdlRunner::open(const HardwareKey& key, const SimulatorFolders& folders) {
-  const auto tool = GhdlTool::find();
+Result<GhdlRunner> GhdlRunner::open(const HardwareKey& key, const SimulatorFolders& folders,
+                                    const std::string& program) {
+  const auto tool = GhdlTool::find(program);
   if (!tool) return tool.error();
   auto sources = read_rtl_sources(folders.source);
   if (!sources) return sources.error();

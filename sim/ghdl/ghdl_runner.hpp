@@ -35,7 +35,8 @@ class GhdlRunner {
   static Result<VhdlSource> testbench(const HardwareKey& key, const std::filesystem::path& source_folder);
 
   /// Analyses the RTL and the testbench, or takes them from the cache.
-  static Result<GhdlRunner> open(const HardwareKey& key, const SimulatorFolders& folders);
+  static Result<GhdlRunner> open(const HardwareKey& key, const SimulatorFolders& folders,
+                                 const std::string& program = "ghdl");
 
   /// Writes `trace_file` (under a temporary name until it is whole). A fault of the hardware that the
   /// testbench sees (a hang, a metavalue, a payload that does not stand still) ends with the exit code

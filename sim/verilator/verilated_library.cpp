@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/verilator/verilated_library.hpp"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "common/file.hpp"
-#include "common/subprocess.hpp"
 
 namespace halfway {
 namespace {
 
-constexpr const char* kInstallVerilator = "apt-get install verilator";
-constexpr const char* kInstallCompiler = "apt-get install clang";
-constexpr std::chrono::minutes kBuildTimeout{20};
 constexpr const char* kLibraryName = "shader.so";
 
 // Warnings of the netlist that GHDL's way of printing state machines brings; every other one is an error.
@@ -26,37 +20,6 @@ const std::vector<std::string> kCompilerFlags = {
     "-std=gnu++20", "-march=native",       "-fPIC",           "-pthread",
     "-w",           "-fvisibility=hidden", "-DVM_COVERAGE=0", "-DVM_SC=0"};
 const std::vector<std::string> kLinkFlags = {"-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs", "-latomic"};
-
-Result<std::string> run_tool(Command command, const std::string& install, const std::string& doing) {
-  command.timeout = kBuildTimeout;
-  const auto end = run_process(command, install);
-  if (!end) return end.error();
-  if (end->succeeded()) return end->output;
-  return tool_failed(
-      fmt::format("{}: {} failed ({}):\n{}\n  while running: {}{}", doing, command.arguments.front(),
-                  end->how(), end->output, to_string(command),
-                  room_note({command.working_folder, std::filesystem::temp_directory_path()})));
-}
-
-Result<std::string> ask(const std::vector<std::string>& question, const std::string& install) {
-  auto answer = run_tool(Command{.arguments = question, .working_folder = {}, .standard_output = {}}, install,
-                         "looking for " + question.front());
-  if (!answer) return answer.error();
-  while (!answer->empty() && answer->back() == '\n') answer->pop_back();
-  return *answer;
-}
-
-/// What -march=native stands for: a cache on a shared disk may be seen from another machine.
-std::string processor() {
-  const auto text = read_file("/proc/cpuinfo");
-  if (!text) return "unknown";
-  std::string found;
-  for (const char* key : {"model name", "flags", "Features"}) {
-    const std::size_t at = text->find(key);
-    if (at != std::string::npos) found += text->substr(at, text->find('\n', at) - at);
-  }
-  return found;
-}
 
 Result<std::vector<std::string>> generated_sources(const std::filesystem::path& folder) {
   std::vector<std::string> names;
@@ -91,34 +54,26 @@ Result<std::filesystem::path> runtime_object(const std::filesystem::path& parent
 
 }  // namespace
 
-void* VerilatedLibrary::symbol(const char* name) const {
-  return ::dlsym(handle_.get(), name);
-}
-
-Result<VerilatedLibrary> VerilatedLibrary::open(const VerilatedBuild& build,
-                                                const std::filesystem::path& cache) {
-  const std::string compiler =
-      !build.compiler.empty() ? build.compiler : (find_program("clang++").empty() ? "g++" : "clang++");
+Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::filesystem::path& cache) {
   const auto verilator_version = ask({"verilator", "--version"}, kInstallVerilator);
   if (!verilator_version) return verilator_version.error();
   const auto verilator_root = ask({"verilator", "--getenv", "VERILATOR_ROOT"}, kInstallVerilator);
   if (!verilator_root) return verilator_root.error();
-  const auto compiler_version = ask({compiler, "--version"}, kInstallCompiler);
-  if (!compiler_version) return compiler_version.error();
+  const auto compiler = Compiler::find(build.compiler);
+  if (!compiler) return compiler.error();
   const auto harness = read_file(build.harness);
   if (!harness) return tool_failed(harness.error().message);
 
   std::vector<std::string> flags = kCompilerFlags;
   // g++ would let all libraries in the process share the inline variables of the first.
-  if (compiler.find("clang") == std::string::npos) flags.emplace_back("-fno-gnu-unique");
+  if (compiler->program.find("clang") == std::string::npos) flags.emplace_back("-fno-gnu-unique");
   flags.emplace_back(build.waves ? "-DVM_TRACE=1" : "-DVM_TRACE=0");
   if (build.waves) flags.insert(flags.end(), {"-DVM_TRACE_FST=1", "-DHALFWAY_WAVES=1"});
   flags.insert(flags.end(),
                {"-I" + *verilator_root + "/include", "-I" + *verilator_root + "/include/vltstd"});
 
   ContentHash tools;
-  tools.add("verilated library 2").add(*verilator_version).add(*verilator_root).add(*compiler_version);
-  tools.add(compiler).add(processor());
+  tools.add("verilated library 2").add(*verilator_version).add(*verilator_root).add(compiler->identity);
   for (const std::string& flag : flags) tools.add(flag);
   ContentHash hash;
   hash.add(tools.hex()).add(build.netlist).add(build.top).add(*harness).add(build.fast ? "-O3" : "-O1");
@@ -135,7 +90,7 @@ Result<VerilatedLibrary> VerilatedLibrary::open(const VerilatedBuild& build,
   const std::filesystem::path folder = parent / fmt::format("{}-{}", build.name, hash.hex());
 
   if (!std::filesystem::exists(folder)) {
-    const auto runtime = runtime_object(parent, tools.hex(), compiler, flags);
+    const auto runtime = runtime_object(parent, tools.hex(), compiler->program, flags);
     if (!runtime) return runtime.error();
     auto fresh = TemporaryFolder::make(parent);
     if (!fresh) return fresh.error();
@@ -159,7 +114,7 @@ Result<VerilatedLibrary> VerilatedLibrary::open(const VerilatedBuild& build,
     if (auto written = write_file(fresh->path() / "unity.cpp", unity); !written) return written.error();
     if (auto written = write_file(fresh->path() / "harness.cpp", *harness); !written) return written.error();
 
-    Command compile{.arguments = {compiler}, .working_folder = fresh->path()};
+    Command compile{.arguments = {compiler->program}, .working_folder = fresh->path()};
     auto& arguments = compile.arguments;
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     arguments.emplace_back(build.fast ? "-O3" : "-O1");
@@ -173,13 +128,7 @@ Result<VerilatedLibrary> VerilatedLibrary::open(const VerilatedBuild& build,
     if (auto moved = fresh->move_to(folder); !moved) return moved.error();
   }
 
-  const std::filesystem::path file = folder / kLibraryName;
-  void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) {
-    return tool_failed(fmt::format("{}: cannot be loaded: {}; delete {} and try again", file.string(),
-                                   ::dlerror(), folder.string()));
-  }
-  return VerilatedLibrary(std::shared_ptr<void>(handle, [](void* closing) { ::dlclose(closing); }), file);
+  return SharedLibrary::load(folder / kLibraryName);
 }
 
 }  // namespace halfway

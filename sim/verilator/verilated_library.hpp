@@ -4,13 +4,11 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/result.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/verilator/shared_library.hpp"
 
 namespace halfway {
 
@@ -27,26 +25,7 @@ struct VerilatedBuild {
   std::string compiler;                                ///< empty: clang++ where it is installed, else g++
 };
 
-/// A loaded shared library; unloaded when the last copy goes.
-class VerilatedLibrary {
- public:
-  /// Builds the library in build/cache/verilator/<name>-<hash>/ unless it is there, and loads it.
-  static Result<VerilatedLibrary> open(const VerilatedBuild& build, const std::filesystem::path& cache);
-
-  template <class Function>
-  Result<Function*> function(const char* name) const {
-    void* found = symbol(name);
-    if (found == nullptr) return tool_failed(file_.string() + ": has no function " + name);
-    return reinterpret_cast<Function*>(found);
-  }
-  const std::filesystem::path& file() const { return file_; }
-
- private:
-  VerilatedLibrary(std::shared_ptr<void> handle, std::filesystem::path file)
-      : handle_(std::move(handle)), file_(std::move(file)) {}
-  void* symbol(const char* name) const;
-  std::shared_ptr<void> handle_;
-  std::filesystem::path file_;
-};
+/// Builds the library in build/cache/verilator/<name>-<hash>/ unless it is there, and loads it.
+Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::filesystem::path& cache);
 
 }  // namespace halfway

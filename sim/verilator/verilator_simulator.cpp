@@ -10,6 +10,7 @@
 #include "common/file.hpp"
 #include "sim/verilator/harness_api.h"
 #include "sim/verilator/netlist.hpp"
+#include "sim/verilator/shader_netlist.hpp"
 #include "sim/verilator/verilated_library.hpp"
 
 namespace halfway {
@@ -26,33 +27,17 @@ static_assert(offsetof(Fragment, red) == offsetof(HalfwayFragment, red));
 static_assert(offsetof(Fragment, green) == offsetof(HalfwayFragment, green));
 static_assert(offsetof(Fragment, blue) == offsetof(HalfwayFragment, blue));
 
-/// The mended netlist of a key, cached by what it is made from: synthesis takes longer than all else when
-/// nothing changed.
-Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders) {
-  const auto tool = GhdlTool::find();
-  if (!tool) return tool.error();
-  const auto sources = read_rtl_sources(folders.source);
-  if (!sources) return sources.error();
-  const auto library = GhdlLibrary::open(*tool, *sources, "", folders.cache);
-  if (!library) return library.error();
-  const auto netlist = library->synthesize(key.entity(), key.generics());
-  if (!netlist) return netlist.error();
-  auto mended = mend_netlist(*netlist);
-  if (!mended) return mended.error();
-  return split_registers(*mended);
-}
-
 }  // namespace
 
 struct VerilatorSimulator::State {
-  explicit State(VerilatedLibrary loaded) : library(std::move(loaded)) {}
+  explicit State(SharedLibrary loaded) : library(std::move(loaded)) {}
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
     if (model != nullptr) destroy(model);
   }
 
-  VerilatedLibrary library;
+  SharedLibrary library;
   std::string name;
   HalfwayOptions options{};
   std::string wave_path;
@@ -98,7 +83,7 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
       // The others are for looking at a few cycles.
       .fast = options.wave_file.empty() && !key.probe && options.netlist.empty(),
       .compiler = options.compiler};
-  auto library = VerilatedLibrary::open(build, folders.cache);
+  auto library = open_verilated(build, folders.cache);
   if (!library) return library.error();
 
   auto state = std::make_shared<State>(std::move(*library));

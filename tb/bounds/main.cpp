@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_bounds [--quick] [--page FILE] SCRATCH [PART]: checks every bound that model/tables states of a
-// format or a table: that its derivation comes to no more, that nothing found or proved exceeds it, and that
-// something comes within a factor of two of it. --quick: strides in place of exhaustion,
-// without Gappa, in seconds; --page: writes the tables into that file, behind what stands there before them;
-// PART: only entries whose names hold it. Exit codes: 0 all hold, 1 one does not, 2 bad usage, 3 a tool is
-// missing.
+// halfway_bounds: checks every bound that model/tables states of a format or a table: that its derivation
+// comes to no more, that nothing found or proved exceeds it, and that something comes within a factor of two
+// of it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/program.hpp"
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
 #include "registry.hpp"
@@ -34,24 +32,6 @@ struct Options {
   std::filesystem::path page{}, scratch{};
   std::string part{};
 };
-
-bool read_options(const std::vector<std::string>& arguments, Options& options) {
-  std::vector<std::string> places;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i] == "--quick")
-      options.quick = true;
-    else if (arguments[i] == "--page" && i + 1 < arguments.size())
-      options.page = arguments[++i];
-    else if (arguments[i].starts_with("--"))
-      return false;
-    else
-      places.push_back(arguments[i]);
-  }
-  if (places.empty() || places.size() > 2) return false;
-  options.scratch = places[0];
-  if (places.size() == 2) options.part = places[1];
-  return true;
-}
 
 std::vector<Check> all_checks() {
   std::vector<Check> all;
@@ -249,26 +229,33 @@ class Report {
   int bounds_ = 0, wrong_ = 0;
 };
 
-}  // namespace
-}  // namespace halfway::bounds
-
-int main(int argc, char** argv) {
-  using namespace halfway;
-  bounds::Options options;
-  if (!bounds::read_options(std::vector<std::string>(argv + 1, argv + argc), options)) {
-    fmt::print(stderr, "usage: halfway_bounds [--quick] [--page FILE] SCRATCH [PART]\n");
-    return static_cast<int>(ExitCode::bad_input);
-  }
+int main_of(const Options& options) {
   for (const char* tool : {"gappa", "sollya"}) {
     if (options.quick || !find_program(tool).empty()) continue;
     fmt::print(stderr, "{0}: is missing; install it with: apt-get install {0}\n", tool);
     return static_cast<int>(ExitCode::tool_failed);
   }
-  bounds::Report report(options);
+  Report report(options);
   const auto wrong = report.run();
   if (!wrong) {
     fmt::print(stderr, "{}\n", wrong.error().message);
     return static_cast<int>(wrong.error().code);
   }
   return static_cast<int>(*wrong == 0 ? ExitCode::equal : ExitCode::differs);
+}
+
+}  // namespace
+}  // namespace halfway::bounds
+
+int main(int argc, char** argv) {
+  using namespace halfway;
+  bounds::Options options;
+  CLI::App app{"Checks the bounds that formats and tables state", "halfway_bounds"};
+  app.add_flag("--quick", options.quick, "strides in place of exhaustion, without Gappa and Sollya: seconds");
+  app.add_option("--page", options.page, "file whose tables are written anew");
+  app.add_option("SCRATCH", options.scratch, "folder for temporary files")->required();
+  app.add_option("PART", options.part, "only entries whose names hold it");
+  int exit_code = 0;
+  app.callback([&] { exit_code = bounds::main_of(options); });
+  return cli::run_program(app, argc, argv, exit_code);
 }

@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_mutants [--quick] [--count N] [--seed N] [--jobs N] [--no-coverage] [--page FILE] SOURCE VECTORS
-// SCRATCH [PART]: puts one small fault after the other into a copy of the RTL, which the project's tests must
-// find, and counts what of the RTL those tests reach. SOURCE is the project's root, VECTORS what
-// halfway_vectors wrote, SCRATCH holds what is remembered of runs before; with PART only faults in files
-// whose names hold it.
-//   --quick        the listed faults and a generated one for each file that has a testbench, each by that
-//                  testbench; without the slowest
-//   --count        so many generated faults, over all files
-//   --seed         other ones: those of the page are of seed 1
-//   --no-coverage  mutants alone
-//   --page         writes the tables into that file, behind what stands there before them
+// halfway_mutants: puts one small fault after the other into a copy of the RTL, which the project's tests
+// must find, and counts what of the RTL those tests reach.
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <condition_variable>
 #include <cstdio>
 #include <deque>
@@ -29,8 +19,10 @@
 #include <utility>
 #include <vector>
 
+#include "cli/program.hpp"
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
+#include "common/threads.hpp"
 #include "coverage.hpp"
 #include "equivalence.hpp"
 #include "judge.hpp"
@@ -54,40 +46,6 @@ struct Options {
   Folders folders{};
   std::string part{};
 };
-
-bool read_number(const std::string& text, unsigned& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
-bool read_options(const std::vector<std::string>& arguments, Options& options) {
-  std::vector<std::string> places;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const bool more = i + 1 < arguments.size();
-    if (arguments[i] == "--quick") {
-      options.quick = true;
-    } else if (arguments[i] == "--no-coverage") {
-      options.coverage = false;
-    } else if (arguments[i] == "--page" && more) {
-      options.page = arguments[++i];
-    } else if (arguments[i] == "--count" && more) {
-      if (!read_number(arguments[++i], options.count)) return false;
-    } else if (arguments[i] == "--seed" && more) {
-      if (!read_number(arguments[++i], options.seed)) return false;
-    } else if (arguments[i] == "--jobs" && more) {
-      if (!read_number(arguments[++i], options.jobs) || options.jobs == 0) return false;
-    } else if (arguments[i].starts_with("--")) {
-      return false;
-    } else {
-      places.push_back(arguments[i]);
-    }
-  }
-  if (places.size() != 3 && places.size() != 4) return false;
-  options.folders = {std::filesystem::absolute(places[0]), std::filesystem::absolute(places[1]),
-                     std::filesystem::absolute(places[2])};
-  if (places.size() == 4) options.part = places[3];
-  return true;
-}
 
 struct Mutant {
   std::string file;  ///< in rtl/
@@ -302,9 +260,7 @@ class Run {
 
   Status all() {
     if (auto ready = gather(); !ready) return ready;
-    std::vector<std::jthread> workers;
-    for (unsigned i = 0; i < options_.jobs; ++i) workers.emplace_back([this] { work(); });
-    workers.clear();
+    work_on_threads(options_.jobs, [this] { work(); });
     return failed_;
   }
   std::vector<Judged>& judged_mutants() { return done_; }
@@ -675,14 +631,28 @@ ExitCode run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace halfway;
-  using namespace halfway::mutants;
-  Options options;
-  if (!read_options(std::vector<std::string>(argv + 1, argv + argc), options)) {
-    fmt::print(stderr,
-               "usage: halfway_mutants [--quick] [--count N] [--seed N] [--jobs N] [--no-coverage] [--page "
-               "FILE] SOURCE "
-               "VECTORS SCRATCH [PART]\n");
-    return static_cast<int>(ExitCode::bad_input);
-  }
-  return static_cast<int>(run(options));
+  mutants::Options options;
+  CLI::App app{"Puts small faults into the RTL, which the tests must find, and counts what those tests reach",
+               "halfway_mutants"};
+  app.add_flag("--quick", options.quick,
+               "the listed faults and a generated one for each file that has a testbench, each by that "
+               "testbench; without the slowest");
+  app.add_option("--count", options.count, "generated faults, over all files")->capture_default_str();
+  app.add_option("--seed", options.seed, "other ones: those of the page are of seed 1")
+      ->capture_default_str();
+  app.add_option("--jobs", options.jobs, "at a time")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_flag("--no-coverage{false}", options.coverage, "mutants alone");
+  app.add_option("--page", options.page, "file whose tables are written anew");
+  app.add_option("SOURCE", options.folders.source, "the project's root")->required();
+  app.add_option("VECTORS", options.folders.vectors, "what halfway_vectors wrote")->required();
+  app.add_option("SCRATCH", options.folders.scratch, "folder for what is remembered of runs before")
+      ->required();
+  app.add_option("PART", options.part, "only faults in files whose names hold it");
+  int exit_code = 0;
+  app.callback([&] {
+    for (auto* folder : {&options.folders.source, &options.folders.vectors, &options.folders.scratch})
+      *folder = std::filesystem::absolute(*folder);
+    exit_code = static_cast<int>(mutants::run(options));
+  });
+  return cli::run_program(app, argc, argv, exit_code);
 }

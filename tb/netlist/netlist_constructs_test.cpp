@@ -139,16 +139,16 @@ class NetlistConstructs : public testing::Test {
     }
     if (kind == Netlist::split) netlist = Result<std::string>(split_registers(*netlist));
     const std::filesystem::path root = HALFWAY_SOURCE_DIR;
-    const auto verilated = VerilatedLibrary::open({.name = entity,
-                                                   .netlist = *netlist,
-                                                   .top = entity,
-                                                   .harness = root / "tb/netlist/netlist_harness.cpp",
-                                                   .include_folder = root,
-                                                   .harness_headers = {},
-                                                   .definitions = {},
-                                                   .waves = false,
-                                                   .compiler = ""},
-                                                  HALFWAY_CACHE_DIR);
+    const auto verilated = open_verilated({.name = entity,
+                                           .netlist = *netlist,
+                                           .top = entity,
+                                           .harness = root / "tb/netlist/netlist_harness.cpp",
+                                           .include_folder = root,
+                                           .harness_headers = {},
+                                           .definitions = {},
+                                           .waves = false,
+                                           .compiler = ""},
+                                          HALFWAY_CACHE_DIR);
     if (!verilated) return verilated.error();
     const auto run =
         verilated->function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("netlist_run");

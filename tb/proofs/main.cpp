@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_proofs [--quick] [--no-faults] [--page FILE] SOURCE SCRATCH [PART]: proves every property of the
-// list on the RTL, and puts each of its faults into a copy, which must refute it. SOURCE is the project's
-// root; with PART only the proofs of entities whose names hold it; --quick: those of a few seconds, and exit
-// code 77 where a tool is missing; --page: writes the table into that file, behind what stands there before
-// it.
+// halfway_proofs: proves every property of the list on the RTL, and puts each of its faults into a copy,
+// which must refute it.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -11,10 +8,11 @@
 #include <mutex>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
+#include "cli/program.hpp"
 #include "common/file.hpp"
+#include "common/threads.hpp"
 #include "prover.hpp"
 
 namespace halfway::proofs {
@@ -32,27 +30,6 @@ struct Options {
   Folders folders{};
   std::string part{};
 };
-
-bool read_options(const std::vector<std::string>& arguments, Options& options) {
-  std::vector<std::string> places;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i] == "--quick") {
-      options.quick = true;
-    } else if (arguments[i] == "--no-faults") {
-      options.faults = false;
-    } else if (arguments[i] == "--page" && i + 1 < arguments.size()) {
-      options.page = arguments[++i];
-    } else if (arguments[i].starts_with("--")) {
-      return false;
-    } else {
-      places.push_back(arguments[i]);
-    }
-  }
-  if (places.size() != 2 && places.size() != 3) return false;
-  options.folders = {std::filesystem::absolute(places[0]), std::filesystem::absolute(places[1])};
-  if (places.size() == 3) options.part = places[2];
-  return true;
-}
 
 // What a proof and its faults came to.
 struct Outcome {
@@ -121,10 +98,7 @@ ExitCode run(const Options& options, const std::vector<Proof>& proofs) {
       std::fflush(stdout);
     }
   };
-  {
-    std::vector<std::jthread> workers;
-    for (int i = 0; i < 2; ++i) workers.emplace_back(work);
-  }
+  work_on_threads(2, work);
   std::string rows;
   for (std::size_t i = 0; i < proofs.size(); ++i) rows += in_page(proofs[i], outcomes[i]);
   fmt::print("\n{}{}\n{} of {} not proved, {} faults not refuted, {} could not be run\n", kTable, rows,
@@ -138,17 +112,7 @@ ExitCode run(const Options& options, const std::vector<Proof>& proofs) {
   return written.error().code;
 }
 
-}  // namespace
-}  // namespace halfway::proofs
-
-int main(int argc, char** argv) {
-  using namespace halfway;
-  using namespace halfway::proofs;
-  Options options;
-  if (!read_options(std::vector<std::string>(argv + 1, argv + argc), options)) {
-    fmt::print(stderr, "usage: halfway_proofs [--quick] [--no-faults] [--page FILE] SOURCE SCRATCH [PART]\n");
-    return static_cast<int>(ExitCode::bad_input);
-  }
+int main_of(const Options& options) {
   std::vector<Proof> proofs;
   for (Proof& proof : all_proofs())
     if ((proof.quick || !options.quick) &&
@@ -163,4 +127,29 @@ int main(int argc, char** argv) {
     return options.quick ? kSkipped : static_cast<int>(found.error().code);
   }
   return static_cast<int>(run(options, proofs));
+}
+
+}  // namespace
+}  // namespace halfway::proofs
+
+int main(int argc, char** argv) {
+  using namespace halfway;
+  proofs::Options options;
+  CLI::App app{"Proves properties of the RTL, and that each proof refutes the faults put in for it",
+               "halfway_proofs"};
+  app.add_flag(
+      "--quick", options.quick,
+      fmt::format("proofs of a few seconds; exit code {} where a tool is missing", proofs::kSkipped));
+  app.add_flag("--no-faults{false}", options.faults, "proofs alone");
+  app.add_option("--page", options.page, "file whose table is written anew");
+  app.add_option("SOURCE", options.folders.source, "the project's root")->required();
+  app.add_option("SCRATCH", options.folders.scratch, "folder for temporary files")->required();
+  app.add_option("PART", options.part, "only proofs of entities whose names hold it");
+  int exit_code = 0;
+  app.callback([&] {
+    options.folders.source = std::filesystem::absolute(options.folders.source);
+    options.folders.scratch = std::filesystem::absolute(options.folders.scratch);
+    exit_code = proofs::main_of(options);
+  });
+  return cli::run_program(app, argc, argv, exit_code);
 }

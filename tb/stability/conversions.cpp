@@ -77,6 +77,7 @@ struct Site {
   std::string_view where;
 };
 constexpr Site c_sites[] = {
+    {"model/bench/workload.cpp", 1, "sphere_scene: stacks of so many triangles; only `make bench` asks"},
     {"model/cli/options.cpp", 1, "Progress::show: a percentage; any part of the work done"},
     {"model/cli/plan.cpp", 1, "saved: a percentage of cells"},
     {"model/cli/sim.cpp", 1, "run: a percentage"},
@@ -91,6 +92,7 @@ constexpr Site c_sites[] = {
     {"model/setup/spherical_setup.cpp", 4, "places to look at along a span; Extreme numbers"},
     {"model/tables/cosine.cpp", 1, "entries, checked sizes; cosine_test"},
     {"model/tables/functions.cpp", 1, "entries; functions_test"},
+    {"sim/lanes/lane_simulator.cpp", 2, "vectors of a batch and of a part, by how much the last one drew"},
 };
 
 std::size_t closing(const std::string& text, std::size_t open) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_stability [--quick] [--page FILE] SOURCE [PART]: tries every hard case of the registry in the
-// specification, in the golden model and in the RTL. SOURCE is the project's root; with PART only the
-// families whose names hold it, or the cases; --page: writes a section for each of these families, whole,
-// into that file.
+// halfway_stability: tries every hard case of the registry in the specification, in the golden model and in
+// the RTL.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -10,13 +8,14 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
-#include <iterator>
 #include <mutex>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
 
+#include "cli/program.hpp"
+#include "common/threads.hpp"
 #include "stability/hard_case.hpp"
 #include "stability/page.hpp"
 #include "stability/trial.hpp"
@@ -36,25 +35,6 @@ struct Options {
   std::filesystem::path page{}, source{};
   std::string part{};
 };
-
-bool read_options(const std::vector<std::string>& arguments, Options& options) {
-  std::vector<std::string> places;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i] == "--quick") {
-      options.quick = true;
-    } else if (arguments[i] == "--page" && i + 1 < arguments.size()) {
-      options.page = arguments[++i];
-    } else if (arguments[i].starts_with("--")) {
-      return false;
-    } else {
-      places.push_back(arguments[i]);
-    }
-  }
-  if (places.size() != 1 && places.size() != 2) return false;
-  options.source = std::filesystem::absolute(places[0]);
-  if (places.size() == 2) options.part = places[1];
-  return true;
-}
 
 struct Job {
   const Family* family;
@@ -133,11 +113,7 @@ ExitCode run_all(const std::vector<Job>& jobs, const Options& options) {
       if (terminal) fmt::print(stderr, "{} of {}\r", ++done, jobs.size());
     }
   };
-  {
-    std::vector<std::jthread> workers;
-    const unsigned count = options.quick ? 1 : std::max(1U, std::thread::hardware_concurrency());
-    for (unsigned i = 0; i < count; ++i) workers.emplace_back(work);
-  }
+  work_on_threads(options.quick ? 1 : std::max(1U, std::thread::hardware_concurrency()), work);
   fmt::print("{} of {} cases fail, {} could not be run\n", failed, jobs.size(), broken);
   if (broken > 0) return ExitCode::tool_failed;
   if (failed > 0) return ExitCode::differs;
@@ -157,17 +133,7 @@ ExitCode run_all(const std::vector<Job>& jobs, const Options& options) {
   return written.error().code;
 }
 
-}  // namespace
-}  // namespace halfway::stability
-
-int main(int argc, char** argv) {
-  using namespace halfway;
-  using namespace halfway::stability;
-  Options options;
-  if (!read_options(std::vector<std::string>(argv + 1, argv + argc), options)) {
-    fmt::print(stderr, "usage: halfway_stability [--quick] [--page FILE] SOURCE [PART]\n");
-    return static_cast<int>(ExitCode::bad_input);
-  }
+int main_of(const Options& options) {
   std::vector<Job> jobs;
   for (const Family* family : c_families)
     for (const HardCase& c : family->cases)
@@ -179,4 +145,25 @@ int main(int argc, char** argv) {
     return static_cast<int>(ExitCode::bad_input);
   }
   return static_cast<int>(run_all(jobs, options));
+}
+
+}  // namespace
+}  // namespace halfway::stability
+
+int main(int argc, char** argv) {
+  using namespace halfway;
+  stability::Options options;
+  CLI::App app{"Tries hard cases in the specification, in the golden model and in the RTL",
+               "halfway_stability"};
+  app.add_flag("--quick", options.quick, "a short sweep of each");
+  app.add_option("--page", options.page, "file in which the families' sections are written anew");
+  app.add_option("SOURCE", options.source, "the project's root")->required();
+  app.add_option("PART", options.part,
+                 "only families whose names hold it, or, without --page, cases whose names do");
+  int exit_code = 0;
+  app.callback([&] {
+    options.source = std::filesystem::absolute(options.source);
+    exit_code = stability::main_of(options);
+  });
+  return cli::run_program(app, argc, argv, exit_code);
 }

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_search [--quick] [--seed N] [--NAME N]... [--page FILE] [--keep FOLDER] SOURCE: runs every search,
-// or those named (--triangles 1000000), each with N inputs. What fails is shrunk, printed, and written into
-// the folder. halfway_search --replay FOLDER SOURCE: checks the inputs that are kept there. SOURCE is the
-// project's root.
+// halfway_search: tries random inputs, or those that are kept. What fails is shrunk, printed, and written
+// down.
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -19,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include "cli/program.hpp"
 #include "common/file.hpp"
 #include "stability/page.hpp"
 #include "stability/scene_search.hpp"
@@ -57,51 +56,10 @@ constexpr std::uint64_t c_batch = 100;
 struct Options {
   bool quick = false;
   std::uint32_t seed = 1;
-  std::vector<std::pair<std::string, std::uint64_t>> counts{};  ///< by search's name; none: all of them
+  std::map<std::string_view, std::uint64_t> counts{};  ///< by search's name; none: all of them
   std::filesystem::path page{}, keep{}, replay{}, source{};
   SimulatorFolders folders() const { return {source, source / "build" / "cache"}; }
 };
-
-template <class Number>
-bool read_number(std::string_view text, Number& number) {
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc{} && rest == text.data() + text.size();
-}
-
-bool read_options(const std::vector<std::string>& arguments,
-                  const std::vector<std::unique_ptr<Search>>& searches, Options& options) {
-  std::vector<std::string> places;
-  for (const std::string& argument : arguments) {
-    if (!argument.starts_with("--")) {
-      places.push_back(argument);
-      continue;
-    }
-    if (argument == "--quick") {
-      options.quick = true;
-      continue;
-    }
-    const std::size_t equals = argument.find('=');
-    if (equals == std::string::npos) return false;
-    const std::string name = argument.substr(2, equals - 2), value = argument.substr(equals + 1);
-    if (name == "seed") {
-      if (!read_number(value, options.seed)) return false;
-    } else if (name == "page") {
-      options.page = value;
-    } else if (name == "keep") {
-      options.keep = value;
-    } else if (name == "replay") {
-      options.replay = value;
-    } else {
-      std::uint64_t count = 0;
-      const auto same = [&](const auto& search) { return search->name() == name; };
-      if (std::ranges::none_of(searches, same) || !read_number(value, count)) return false;
-      options.counts.emplace_back(name, count);
-    }
-  }
-  if (places.size() != 1) return false;
-  options.source = std::filesystem::absolute(places[0]);
-  return true;
-}
 
 // Neighbouring seeds of a run, and runs of neighbouring seeds, have no input in common.
 std::uint32_t seed_of(std::uint32_t run, std::uint64_t index) {
@@ -316,8 +274,7 @@ ExitCode run_all(const std::vector<std::unique_ptr<Search>>& searches, const Opt
   for (const auto& search : searches) {
     std::uint64_t count = options.quick ? search->quick_count() : search->full_count();
     if (!options.counts.empty()) {
-      const auto asked = std::ranges::find(options.counts, search->name(),
-                                           [](const auto& named) { return std::string_view(named.first); });
+      const auto asked = options.counts.find(search->name());
       if (asked == options.counts.end()) continue;
       count = asked->second;
     }
@@ -338,12 +295,23 @@ int main(int argc, char** argv) {
   using namespace halfway::stability;
   const auto searches = all_searches();
   Options options;
-  if (!read_options(std::vector<std::string>(argv + 1, argv + argc), searches, options)) {
-    fmt::print(
-        stderr,
-        "usage: halfway_search [--quick] [--seed=N] [--NAME=N]... [--page=FILE] [--keep=FOLDER] SOURCE\n"
-        "       halfway_search --replay=FOLDER SOURCE\n");
-    return static_cast<int>(ExitCode::bad_input);
-  }
-  return static_cast<int>(options.replay.empty() ? run_all(searches, options) : replay(searches, options));
+  CLI::App app{"Tries random inputs; what fails is shrunk, printed, and written down", "halfway_search"};
+  app.add_flag("--quick", options.quick, "few inputs of each search");
+  app.add_option("--seed", options.seed, "other inputs")->capture_default_str();
+  for (const auto& search : searches)
+    app.add_option_function<std::uint64_t>(
+        fmt::format("--{}", search->name()),
+        [&options, name = search->name()](std::uint64_t count) { options.counts[name] = count; },
+        "this search, with so many inputs; those not named are left out");
+  app.add_option("--page", options.page, "file in which the searches' sections are written anew");
+  app.add_option("--keep", options.keep, "folder for inputs that fail");
+  app.add_option("--replay", options.replay, "checks the inputs of this folder instead");
+  app.add_option("SOURCE", options.source, "the project's root")->required();
+  int exit_code = 0;
+  app.callback([&] {
+    options.source = std::filesystem::absolute(options.source);
+    exit_code =
+        static_cast<int>(options.replay.empty() ? run_all(searches, options) : replay(searches, options));
+  });
+  return cli::run_program(app, argc, argv, exit_code);
 }

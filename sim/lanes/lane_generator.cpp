@@ -1,0 +1,939 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/lanes/lane_generator.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <pugixml.hpp>
+#include <set>
+#include <utility>
+
+#include "sim/lanes/lane_graph.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr unsigned kWord = 64;
+
+constexpr std::uint64_t ones(unsigned width) {
+  return width >= kWord ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1;
+}
+
+/// `width` bits of a vector from `low` up, or a mask repeated. A signal is a list of pieces, the least
+/// significant first: slices, concatenations and extensions only rearrange them.
+struct Piece {
+  int node;
+  unsigned low, width;
+};
+using Bits = std::vector<Piece>;
+
+unsigned width_of(const Bits& bits) {
+  unsigned width = 0;
+  for (const Piece& piece : bits) width += piece.width;
+  return width;
+}
+
+struct Rom {
+  unsigned bits = 0;  ///< of a datum
+  std::vector<std::uint64_t> data;
+};
+
+/// The netlist by names. The nodes stay in the document.
+struct Netlist {
+  std::map<std::string, unsigned> types;                             ///< width by the type's number
+  std::map<std::string, std::pair<std::string, std::size_t>> rooms;  ///< array types: element type, count
+  std::map<std::string, unsigned> inputs;                            ///< width
+  std::map<std::string, pugi::xml_node> drivers;                     ///< the expression assigned
+  std::map<std::string, unsigned> registers;                         ///< width
+  std::vector<pugi::xml_node> clocked;                               ///< the statements of `always` blocks
+  std::map<std::string, Rom> roms;
+};
+
+/// A part of a register or an input, of up to 64 bits, that lies in a variable of its own.
+struct Cell {
+  std::string variable;
+  unsigned low, width;
+  bool input, dirty;  ///< dirty: bits above `width` mean nothing
+};
+
+/// How registers and inputs are cut into cells, found by building the graph until nothing new is asked for:
+/// where a slice begins or ends there is a cut, but none inside what arithmetic takes as a whole.
+struct Layout {
+  std::map<std::string, std::set<unsigned>> cuts;
+  std::map<std::string, std::set<std::pair<unsigned, unsigned>>> wholes;
+  std::set<std::pair<std::string, unsigned>> dirty;
+  bool words = false;  ///< cells have at most 64 bits; at first they are not cut where nothing asks for it
+  friend bool operator==(const Layout&, const Layout&) = default;
+
+  std::vector<Cell> cells_of(const std::string& variable, unsigned width, bool input) const {
+    std::set<unsigned> at = {0, width};
+    if (const auto found = cuts.find(variable); found != cuts.end())
+      at.insert(found->second.begin(), found->second.end());
+    if (const auto found = wholes.find(variable); found != wholes.end())
+      for (const auto& [low, high] : found->second) at.erase(at.upper_bound(low), at.lower_bound(high));
+    std::vector<Cell> cells;
+    for (auto next = at.begin(); *next != width;) {
+      const unsigned begin = *next++;
+      const unsigned longest = words ? kWord : *next - begin;
+      for (unsigned low = begin; low < *next; low += longest) {
+        cells.push_back({variable, low, std::min(*next - low, longest), input,
+                         !input && dirty.count({variable, low}) != 0});
+      }
+    }
+    return cells;
+  }
+};
+
+/// A condition: masks that are all true, or false.
+using Guard = std::set<std::pair<int, bool>>;
+
+/// Whether a condition stands for both its operands, which are in a guard beside it.
+bool has_parts(const LaneNode& mask, bool wanted) {
+  return mask.op == (wanted ? LaneOp::mask_both : LaneOp::mask_either);
+}
+
+bool excludes(const Guard& a, const Guard& b) {
+  return std::any_of(a.begin(), a.end(), [&](const auto& literal) {
+    return b.count({literal.first, !literal.second}) != 0;
+  });
+}
+
+struct Update {
+  std::size_t cell;
+  int value;
+};
+
+/// One function: the graph for one value of `reset`.
+struct Step {
+  LaneGraph graph;
+  std::vector<Cell> cells;
+  std::map<Guard, std::vector<Update>> updates;
+  std::map<std::string, std::vector<int>> outputs;  ///< words, or one mask
+};
+
+class Builder {
+ public:
+  Builder(const Netlist& netlist, const LanePorts& ports, bool reset, Layout& layout)
+      : netlist_(netlist), ports_(ports), reset_(reset), layout_(layout) {
+    for (const auto& [variables, input] : {std::pair(&netlist.inputs, true), {&netlist.registers, false}}) {
+      for (const auto& [name, width] : *variables) {
+        first_cell_[name] = step_.cells.size();
+        for (Cell& cell : layout.cells_of(name, width, input)) step_.cells.push_back(std::move(cell));
+      }
+    }
+  }
+
+  Result<Step> build() {
+    for (const std::string& name : ports_.outputs) {
+      const Bits bits = signal(name);
+      auto& words = step_.outputs[name];
+      const unsigned width = width_of(bits);
+      if (width == 1) {
+        words.push_back(to_mask(bits));
+      } else {
+        for (unsigned low = 0; low < width; low += kWord) {
+          const unsigned part = std::min(width - low, kWord);
+          words.push_back(graph().clean(to_vector(slice(bits, low, part), false), part));
+        }
+      }
+    }
+    for (const pugi::xml_node statement : netlist_.clocked) execute(statement, {});
+    if (!error_.empty()) return tool_failed(error_);
+    return std::move(step_);
+  }
+
+ private:
+  LaneGraph& graph() { return step_.graph; }
+
+  Bits fail(const std::string& what) {
+    if (error_.empty()) error_ = what;
+    return {};
+  }
+  static std::string line_of(pugi::xml_node node) {
+    const std::string_view place = node.attribute("loc").value();
+    const std::size_t comma = place.find(',');
+    if (comma == std::string_view::npos) return "netlist.v";
+    return "netlist.v:" + std::string(place.substr(comma + 1, place.find(',', comma + 1) - comma - 1));
+  }
+  unsigned type_width(pugi::xml_node node) {
+    const auto found = netlist_.types.find(node.attribute("dtype_id").value());
+    return found == netlist_.types.end() ? 0 : found->second;
+  }
+
+  // Pieces
+
+  bool is_mask(const Piece& piece) { return graph()[piece.node].is_mask(); }
+
+  void append(Bits& bits, Piece piece) {
+    if (piece.width == 0) return;
+    if (!bits.empty()) {
+      Piece& last = bits.back();
+      const LaneNode &a = graph()[last.node], &b = graph()[piece.node];
+      if (last.node == piece.node && (a.is_mask() || piece.low == last.low + last.width)) {
+        last.width += piece.width;
+        return;
+      }
+      if (a.op == LaneOp::constant && b.op == LaneOp::constant && last.width + piece.width <= kWord) {
+        const std::uint64_t low = a.value >> last.low & ones(last.width),
+                            high = b.value >> piece.low & ones(piece.width);
+        last = {graph().constant(low | high << last.width), 0, last.width + piece.width};
+        return;
+      }
+    }
+    bits.push_back(piece);
+  }
+  void append(Bits& bits, const Bits& more) {
+    for (const Piece& piece : more) append(bits, piece);
+  }
+
+  Bits slice(const Bits& bits, unsigned low, unsigned width) {
+    Bits found;
+    unsigned at = 0;
+    for (const Piece& piece : bits) {
+      const unsigned begin = std::max(low, at), end = std::min(low + width, at + piece.width);
+      if (begin < end) append(found, {piece.node, is_mask(piece) ? 0 : piece.low + begin - at, end - begin});
+      at += piece.width;
+    }
+    if (width_of(found) != width) return fail("a slice reaches past its signal");
+    return found;
+  }
+
+  Bits whole(int node, unsigned width) { return {{node, 0, width}}; }
+  Bits constant(std::uint64_t value, unsigned width) { return whole(graph().constant(value), width); }
+  Bits zeros(unsigned width) {
+    Bits bits;
+    for (unsigned low = 0; low < width; low += kWord)
+      bits.push_back({graph().constant(0), 0, std::min(width - low, kWord)});
+    return bits;
+  }
+
+  void note(const Piece& piece, bool arithmetic) {
+    const LaneNode& node = graph()[piece.node];
+    if (node.op != LaneOp::cell) return;
+    const Cell& cell = step_.cells[node.value];
+    const unsigned low = cell.low + piece.low, high = low + piece.width;
+    layout_.cuts[cell.variable].insert({low, high});
+    if (arithmetic) layout_.wholes[cell.variable].insert({low, high});
+  }
+
+  /// As one vector; what lies above the bits' width means nothing.
+  int to_vector(const Bits& bits, bool arithmetic = true) {
+    int sum = graph().constant(0);
+    std::uint64_t constants = 0;
+    unsigned at = 0;
+    const unsigned width = width_of(bits);
+    for (const Piece& piece : bits) {
+      const std::uint64_t field = ones(piece.width) << at;
+      const LaneNode& node = graph()[piece.node];
+      note(piece, arithmetic);
+      if (node.is_mask()) {
+        sum = graph().operate(LaneOp::either, sum, graph().fill(piece.node, field));
+      } else if (node.op == LaneOp::constant) {
+        constants |= node.value >> piece.low << at & field;
+      } else {
+        int part = graph().shift(piece.node, static_cast<int>(at) - static_cast<int>(piece.low));
+        const bool dirty_below = piece.low > 0 && at > 0;
+        const bool dirty_above = at + piece.width < width && graph()[part].bits > at + piece.width;
+        if (dirty_below || dirty_above) part = graph().operate(LaneOp::both, part, graph().constant(field));
+        sum = graph().operate(LaneOp::either, sum, part);
+      }
+      at += piece.width;
+    }
+    return graph().operate(LaneOp::either, sum, graph().constant(constants));
+  }
+
+  int to_mask(const Bits& bits) {
+    if (bits.empty()) return graph().mask_constant(false);
+    const Piece& piece = bits.front();
+    if (is_mask(piece)) return piece.node;
+    note(piece, false);
+    return graph().bit(piece.node, piece.low);
+  }
+
+  Bits choose(int mask, const Bits& a, const Bits& b) {
+    Bits chosen;
+    const unsigned width = width_of(a);
+    std::set<unsigned> cuts;
+    for (const Bits* bits : {&a, &b}) {
+      unsigned at = 0;
+      for (const Piece& piece : *bits) cuts.insert(at += piece.width);
+    }
+    unsigned low = 0;
+    for (const unsigned high : cuts) {
+      if (high > width) break;
+      const Bits p = slice(a, low, high - low), q = slice(b, low, high - low);
+      low = high;
+      if (p.empty() || q.empty()) return {};
+      const Piece &x = p[0], &y = q[0];
+      if (x.width == 1 || (is_mask(x) && is_mask(y))) {
+        const int then_mask = graph().mask_operate(LaneOp::mask_both, mask, to_mask(p));
+        const int else_mask = graph().mask_operate(LaneOp::mask_both, graph().mask_invert(mask), to_mask(q));
+        append(chosen, {graph().mask_operate(LaneOp::mask_either, then_mask, else_mask), 0, x.width});
+      } else if (!is_mask(x) && !is_mask(y) && x.low == y.low) {
+        note(x, false);
+        note(y, false);
+        append(chosen, {graph().select(mask, x.node, y.node), x.low, x.width});
+      } else {
+        append(chosen, {graph().select(mask, to_vector(p, false), to_vector(q, false)), 0, x.width});
+      }
+    }
+    return chosen;
+  }
+
+  // Expressions
+
+  Bits signal(const std::string& name) {
+    if (const auto known = signals_.find(name); known != signals_.end()) {
+      if (known->second.empty()) return fail(name + ": depends on itself without a register");
+      return known->second;
+    }
+    if (const auto fixed = ports_.fixed.find(name); fixed != ports_.fixed.end())
+      return whole(graph().mask_constant(fixed->second), 1);
+    if (name == "reset") return whole(graph().mask_constant(reset_), 1);
+    if (const auto cells = first_cell_.find(name); cells != first_cell_.end()) {
+      Bits bits;
+      for (std::size_t i = cells->second; i < step_.cells.size() && step_.cells[i].variable == name; ++i) {
+        const Cell& cell = step_.cells[i];
+        const unsigned known = cell.dirty ? std::max(cell.width, kWord) : cell.width;
+        bits.push_back({cell.width == 1 ? graph().mask_cell(i) : graph().cell(i, known), 0, cell.width});
+      }
+      return bits;
+    }
+    const auto driver = netlist_.drivers.find(name);
+    if (driver == netlist_.drivers.end()) return fail(name + ": nothing that the lanes know drives this");
+    signals_[name] = {};
+    return signals_[name] = value(driver->second);
+  }
+
+  Bits literal(pugi::xml_node node) {
+    const unsigned width = type_width(node);
+    std::string_view digits = node.attribute("name").value();
+    const std::size_t quote = digits.find('\'');
+    if (quote == std::string_view::npos) return fail(line_of(node) + ": a constant without a base");
+    digits.remove_prefix(quote + 1);
+    if (digits.substr(0, 1) == "s") digits.remove_prefix(1);
+    const unsigned step = digits.substr(0, 1) == "h" ? 4 : digits.substr(0, 1) == "b" ? 1 : 0;
+    if (step == 0) return fail(line_of(node) + ": a constant of an unknown base");
+    digits.remove_prefix(1);
+    std::vector<std::uint64_t> words(width / kWord + 1);
+    unsigned at = 0;
+    for (auto digit = digits.rbegin(); digit != digits.rend() && at < width; ++digit, at += step) {
+      // Unknown bits are zeros, as Verilator has them with --x-assign fast.
+      const std::size_t found = std::string_view("0123456789abcdef").find(*digit);
+      words[at / kWord] |= (found == std::string_view::npos ? 0 : std::uint64_t{found}) << at % kWord;
+    }
+    Bits bits;
+    for (unsigned low = 0; low < width; low += kWord)
+      append(bits, constant(words[low / kWord], std::min(width - low, kWord)));
+    return bits;
+  }
+  std::optional<std::uint64_t> number(pugi::xml_node node) {
+    if (std::string_view(node.name()) != "const") return std::nullopt;
+    const Bits bits = literal(node);
+    return bits.size() == 1 ? std::optional(graph()[bits[0].node].value) : std::nullopt;
+  }
+
+  Bits value(pugi::xml_node node) {
+    const std::string_view op = node.name();
+    if (op == "varref") return signal(node.attribute("name").value());
+    if (op == "const") return literal(node);
+    const unsigned width = type_width(node);
+    const pugi::xml_node first = node.first_child(), second = first.next_sibling();
+    if (!first) return fail(fmt::format("{}: the lanes do not know '{}'", line_of(node), op));
+    if (op == "arraysel") return element(node);
+    const Bits a = value(first);
+    if (op == "sel") {
+      const auto low = number(second), count = number(second.next_sibling());
+      if (!low || !count) return fail(line_of(node) + ": a slice whose place is not constant");
+      return slice(a, static_cast<unsigned>(*low), static_cast<unsigned>(*count));
+    }
+    if (op == "extend" || op == "extends") {
+      if (a.empty() || width_of(a) > width) return fail(line_of(node) + ": an extension that narrows");
+      Bits bits = a;
+      const unsigned more = width - width_of(a);
+      append(bits, op == "extend" ? zeros(more) : whole(to_mask(slice(a, width_of(a) - 1, 1)), more));
+      return bits;
+    }
+    if (op == "not") return invert(node, a);
+    if (op == "negate") {
+      if (!fits(node, width)) return {};
+      return whole(graph().operate(LaneOp::subtract, graph().constant(0), to_vector(a)), width);
+    }
+    if (op == "replicate") {
+      const auto count = number(second);
+      if (!count) return fail(line_of(node) + ": a replication whose count is not constant");
+      Bits bits;
+      if (width_of(a) == 1) return whole(to_mask(a), static_cast<unsigned>(*count));
+      for (std::uint64_t i = 0; i < *count; ++i) append(bits, a);
+      return bits;
+    }
+    if (!second) return fail(fmt::format("{}: the lanes do not know '{}'", line_of(node), op));
+    const Bits b = value(second);
+    if (a.empty() || b.empty()) return {};
+    if (op == "concat") {
+      Bits bits = b;
+      append(bits, a);
+      return bits;
+    }
+    if (op == "cond") {
+      const Bits c = value(second.next_sibling());
+      return c.empty() ? c : choose(to_mask(a), b, c);
+    }
+    return binary(node, op, a, b);
+  }
+
+  bool fits(pugi::xml_node node, unsigned width) {
+    if (width <= kWord) return true;
+    fail(fmt::format("{}: '{}' on {} bits: lanes have {}", line_of(node), node.name(), width, kWord));
+    return false;
+  }
+
+  Bits invert(pugi::xml_node node, const Bits& a) {
+    const unsigned width = width_of(a);
+    if (width == 1) return whole(graph().mask_invert(to_mask(a)), 1);
+    if (!fits(node, width)) return {};
+    return whole(graph().invert(to_vector(a)), width);
+  }
+
+  Bits binary(pugi::xml_node node, std::string_view op, const Bits& a, const Bits& b) {
+    const unsigned width = type_width(node), operand = width_of(a);
+    if (!fits(node, std::max(operand, width_of(b)))) return {};
+    static const std::map<std::string_view, std::pair<LaneOp, LaneOp>> bitwise = {
+        {"and", {LaneOp::both, LaneOp::mask_both}},
+        {"or", {LaneOp::either, LaneOp::mask_either}},
+        {"xor", {LaneOp::differ, LaneOp::mask_differ}}};
+    if (const auto found = bitwise.find(op); found != bitwise.end()) {
+      if (width == 1) return whole(graph().mask_operate(found->second.second, to_mask(a), to_mask(b)), 1);
+      return whole(graph().operate(found->second.first, to_vector(a), to_vector(b)), width);
+    }
+    static const std::map<std::string_view, LaneOp> arithmetic = {{"add", LaneOp::add},
+                                                                  {"sub", LaneOp::subtract},
+                                                                  {"mul", LaneOp::multiply},
+                                                                  {"muls", LaneOp::multiply}};
+    if (const auto found = arithmetic.find(op); found != arithmetic.end())
+      return whole(graph().operate(found->second, to_vector(a), to_vector(b)), width);
+    if (op == "shiftl" || op == "shiftr" || op == "shiftrs") return shift(op, a, b);
+
+    // a OP b as a < b or a == b, perhaps the other way round, perhaps not.
+    struct Order {
+      LaneOp op;
+      bool swap, invert;
+    };
+    static const std::map<std::string_view, Order> orders = {
+        {"eq", {LaneOp::equal, false, false}},        {"neq", {LaneOp::equal, false, true}},
+        {"lt", {LaneOp::less, false, false}},         {"gt", {LaneOp::less, true, false}},
+        {"lte", {LaneOp::less, true, true}},          {"gte", {LaneOp::less, false, true}},
+        {"lts", {LaneOp::signed_less, false, false}}, {"gts", {LaneOp::signed_less, true, false}},
+        {"ltes", {LaneOp::signed_less, true, true}},  {"gtes", {LaneOp::signed_less, false, true}}};
+    const auto found = orders.find(op);
+    if (found == orders.end()) return fail(fmt::format("{}: the lanes do not know '{}'", line_of(node), op));
+    const Order order = found->second;
+    int mask = 0;
+    if (order.op == LaneOp::equal && operand == 1) {
+      mask = graph().mask_invert(graph().mask_operate(LaneOp::mask_differ, to_mask(a), to_mask(b)));
+    } else {
+      const auto side = [&](const Bits& bits) {
+        const int vector = to_vector(bits);
+        // The sign at the top, or nothing above the number.
+        return order.op == LaneOp::signed_less ? graph().shift(vector, static_cast<int>(kWord - operand))
+                                               : graph().clean(vector, operand);
+      };
+      const int x = side(a), y = side(b);
+      mask = order.swap ? graph().compare(order.op, y, x) : graph().compare(order.op, x, y);
+    }
+    return whole(order.invert ? graph().mask_invert(mask) : mask, 1);
+  }
+
+  Bits shift(std::string_view op, const Bits& a, const Bits& by) {
+    const unsigned width = width_of(a);
+    if (by.size() == 1 && graph()[by[0].node].op == LaneOp::constant && op != "shiftrs") {
+      const auto distance = static_cast<unsigned>(std::min<std::uint64_t>(graph()[by[0].node].value, width));
+      Bits bits = op == "shiftl" ? zeros(distance) : slice(a, distance, width - distance);
+      append(bits, op == "shiftl" ? slice(a, 0, width - distance) : zeros(distance));
+      return bits;
+    }
+    const int distance = graph().clean(to_vector(by), width_of(by));
+    int vector = to_vector(a);
+    if (op == "shiftl") return whole(graph().operate(LaneOp::left_by, vector, distance), width);
+    if (op == "shiftr")
+      return whole(graph().operate(LaneOp::right_by, graph().clean(vector, width), distance), width);
+    vector = graph().shift(vector, static_cast<int>(kWord - width));
+    vector = graph().operate(LaneOp::signed_right_by, vector, graph().constant(kWord - width));
+    return whole(graph().operate(LaneOp::signed_right_by, vector, distance), width);
+  }
+
+  Bits element(pugi::xml_node node) {
+    const std::string name = node.first_child().attribute("name").value();
+    const auto rom = netlist_.roms.find(name);
+    if (rom == netlist_.roms.end()) return fail(fmt::format("{}: {}: a memory", line_of(node), name));
+    const Bits address = value(node.last_child());
+    const unsigned width = width_of(address);
+    if (width > 16 || rom->second.data.size() != std::size_t{1} << width)
+      return fail(fmt::format("{}: {}: an address that may lie outside", line_of(node), name));
+    // Equal tables are one.
+    const auto first = std::find_if(netlist_.roms.begin(), netlist_.roms.end(),
+                                    [&](const auto& other) { return other.second.data == rom->second.data; });
+    const auto table = static_cast<std::size_t>(std::distance(netlist_.roms.begin(), first));
+    return whole(graph().rom(table, graph().clean(to_vector(address), width), rom->second.bits),
+                 rom->second.bits);
+  }
+
+  // Statements
+
+  /// With one more condition, and its parts; nothing where it can never hold.
+  std::optional<Guard> narrow(Guard guard, int mask, bool wanted) {
+    const LaneNode node = graph()[mask];
+    if (node.op == LaneOp::mask_constant)
+      return (node.value != 0) == wanted ? std::optional(std::move(guard)) : std::nullopt;
+    if (node.op == LaneOp::mask_invert) return narrow(std::move(guard), node.operands[0], !wanted);
+    if (guard.count({mask, !wanted}) != 0) return std::nullopt;
+    guard.insert({mask, wanted});
+    if (!has_parts(node, wanted)) return guard;
+    auto narrower = narrow(std::move(guard), node.operands[0], wanted);
+    return narrower ? narrow(std::move(*narrower), node.operands[1], wanted) : std::nullopt;
+  }
+
+  void execute(pugi::xml_node node, const Guard& guard) {
+    const std::string_view op = node.name();
+    if (op == "begin") {
+      for (const pugi::xml_node inner : node.children()) execute(inner, guard);
+    } else if (op == "if") {
+      const pugi::xml_node condition = node.first_child(), then_part = condition.next_sibling();
+      const int mask = to_mask(value(condition));
+      if (const auto narrower = narrow(guard, mask, true)) execute(then_part, *narrower);
+      if (const auto other = narrow(guard, mask, false); other && then_part.next_sibling())
+        execute(then_part.next_sibling(), *other);
+    } else if (op == "assigndly" && std::string_view(node.last_child().name()) == "varref") {
+      const std::string name = node.last_child().attribute("name").value();
+      const Bits bits = value(node.first_child());
+      for (const Guard& other : writes_[name]) {
+        if (!excludes(guard, other)) fail(fmt::format("{}: {}: assigned twice", line_of(node), name));
+      }
+      writes_[name].push_back(guard);
+      if (!error_.empty()) return;
+      unsigned at = 0;
+      for (const Piece& piece : bits) layout_.cuts[name].insert(at += piece.width);
+      for (std::size_t i = first_cell_[name]; i < step_.cells.size() && step_.cells[i].variable == name;
+           ++i) {
+        const Cell& cell = step_.cells[i];
+        const Bits part = slice(bits, cell.low, cell.width);
+        const int next = cell.width == 1 ? to_mask(part) : to_vector(part, false);
+        if (cell.width > 1 && graph()[next].bits > cell.width) layout_.dirty.insert({name, cell.low});
+        step_.updates[guard].push_back({i, next});
+      }
+    } else {
+      fail(fmt::format("{}: the lanes do not know '{}' there", line_of(node), op));
+    }
+  }
+
+  const Netlist& netlist_;
+  const LanePorts& ports_;
+  bool reset_;
+  Layout& layout_;
+  Step step_;
+  std::map<std::string, std::size_t> first_cell_;
+  std::map<std::string, Bits> signals_;
+  std::map<std::string, std::vector<Guard>> writes_;
+  std::string error_;
+};
+
+// The text
+
+struct Group {
+  Guard guard;
+  std::vector<Update> updates;
+  int mask;
+  std::set<std::size_t> reads, writes;
+};
+
+class Writer {
+ public:
+  Writer(Step& step, const std::set<std::size_t>& live) : step_(step), live_(live) {
+    for (const auto& [guard, updates] : step.updates) {
+      Group group{guard, {}, step.graph.mask_constant(true), {}, {}};
+      for (const Update& update : updates)
+        if (live.count(update.cell) != 0) group.updates.push_back(update);
+      if (group.updates.empty()) continue;
+      for (const auto& [mask, wanted] : guard) {
+        if (has_parts(step.graph[mask], wanted)) continue;
+        group.mask = step.graph.mask_operate(LaneOp::mask_both, group.mask,
+                                             wanted ? mask : step.graph.mask_invert(mask));
+      }
+      groups_.push_back(std::move(group));
+    }
+  }
+
+  /// The cells that the outputs depend on, over any number of clocks.
+  static std::set<std::size_t> live_cells(const Step& step) {
+    std::vector<bool> seen(static_cast<std::size_t>(step.graph.size()));
+    std::set<std::size_t> live;
+    const auto see = [&](int node) { visit(step.graph, node, seen, live); };
+    for (const auto& [name, words] : step.outputs)
+      for (const int word : words) see(word);
+    for (std::size_t before = SIZE_MAX; before != live.size();) {
+      before = live.size();
+      for (const auto& [guard, updates] : step.updates) {
+        for (const Update& update : updates) {
+          if (live.count(update.cell) == 0) continue;
+          see(update.value);
+          for (const auto& literal : guard) see(literal.first);
+        }
+      }
+    }
+    return live;
+  }
+
+  std::string function(const std::string& name) {
+    std::vector<bool> first(static_cast<std::size_t>(step_.graph.size()));
+    std::set<std::size_t> cells;
+    for (const auto& [output, words] : step_.outputs)
+      for (const int word : words) visit(step_.graph, word, first, cells);
+    for (const Group& group : groups_) visit(step_.graph, group.mask, first, cells);
+    // A cell is read where it stands.
+    for (int i = 0; i < step_.graph.size(); ++i) {
+      const LaneOp op = step_.graph[i].op;
+      if (op == LaneOp::cell || op == LaneOp::mask_cell) first[static_cast<std::size_t>(i)] = false;
+    }
+    for (Group& group : groups_) {
+      auto seen = first;
+      visit(step_.graph, group.mask, seen, group.reads);
+      for (const Update& update : group.updates) {
+        visit(step_.graph, update.value, seen, group.reads);
+        group.writes.insert(update.cell);
+      }
+    }
+    order();
+
+    std::string text = "LANE_FUNCTION void " + name + "(State& s, const Inputs& in, Outputs& out) {\n";
+    for (const std::size_t cell : saved_)
+      text += fmt::format("  const {0} o{1} = s.c{1};\n", type_of(cell), cell);
+    in_group_ = false;
+    nodes(text, first, std::vector<bool>(first.size()));
+    for (const auto& [output, words] : step_.outputs) {
+      for (std::size_t i = 0; i < words.size(); ++i) {
+        text += fmt::format("  out.{}{} = {};\n", output, words.size() == 1 ? "" : fmt::format("[{}]", i),
+                            reference(words[i]));
+      }
+    }
+    in_group_ = true;
+    for (const Group& group : groups_) {
+      auto seen = first;
+      std::set<std::size_t> reads;
+      for (const Update& update : group.updates) visit(step_.graph, update.value, seen, reads);
+      const bool always = step_.graph[group.mask].op == LaneOp::mask_constant;
+      text += always ? "  {\n" : fmt::format("  if ({}) {{\n", reference(group.mask));
+      nodes(text, seen, first);
+      for (const auto& [cell, value] : group.updates) {
+        text += fmt::format("  const {} n{} = ", type_of(cell), cell);
+        text += always ? reference(value)
+                       : fmt::format("select({}, {}, s.c{})", reference(group.mask), reference(value), cell);
+        text += ";\n";
+      }
+      for (const auto& [cell, value] : group.updates) text += fmt::format("  s.c{0} = n{0};\n", cell);
+      text += "  }\n";
+    }
+    return text + "}\n";
+  }
+
+ private:
+  static void visit(const LaneGraph& graph, int node, std::vector<bool>& seen, std::set<std::size_t>& cells) {
+    if (static_cast<std::size_t>(node) >= seen.size()) seen.resize(static_cast<std::size_t>(graph.size()));
+    if (seen[static_cast<std::size_t>(node)]) return;
+    seen[static_cast<std::size_t>(node)] = true;
+    const LaneNode& at = graph[node];
+    if (at.op == LaneOp::cell || at.op == LaneOp::mask_cell) cells.insert(at.value);
+    for (const int operand : at.operands)
+      if (operand >= 0) visit(graph, operand, seen, cells);
+  }
+
+  /// Who reads a register's old value comes before who writes it; where there is no such order, the old value
+  /// is kept. Conditions that exclude each other do not meet in a lane.
+  void order() {
+    std::vector<Group> ordered, left = std::move(groups_);
+    while (!left.empty()) {
+      std::size_t best = 0;
+      std::set<std::size_t> best_broken;
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        std::set<std::size_t> broken;
+        for (std::size_t k = 0; k < left.size(); ++k) {
+          if (k == i || excludes(left[i].guard, left[k].guard)) continue;
+          std::set_intersection(left[i].writes.begin(), left[i].writes.end(), left[k].reads.begin(),
+                                left[k].reads.end(), std::inserter(broken, broken.end()));
+        }
+        if (i == 0 || broken.size() < best_broken.size()) {
+          best = i;
+          best_broken = std::move(broken);
+        }
+      }
+      saved_.insert(best_broken.begin(), best_broken.end());
+      ordered.push_back(std::move(left[best]));
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
+    }
+    groups_ = std::move(ordered);
+  }
+
+  const char* type_of(std::size_t cell) const { return step_.cells[cell].width == 1 ? "M" : "V"; }
+
+  std::string reference(int number) const {
+    const LaneNode& node = step_.graph[number];
+    switch (node.op) {
+      case LaneOp::constant:
+        return fmt::format("splat({:#x}u)", node.value);
+      case LaneOp::mask_constant:
+        return node.value != 0 ? "kAll" : "M{0}";
+      case LaneOp::cell:
+      case LaneOp::mask_cell: {
+        const Cell& cell = step_.cells[node.value];
+        if (cell.input && cell.width == 1 && cell.low == 0) return "in." + cell.variable;
+        return fmt::format("{}{}",
+                           cell.input                                   ? "in.c"
+                           : in_group_ && saved_.count(node.value) != 0 ? "o"
+                                                                        : "s.c",
+                           node.value);
+      }
+      default:
+        return fmt::format("{}{}", node.is_mask() ? 'm' : 'v', number);
+    }
+  }
+
+  /// Those of `wanted` that are not in `known`, each as a constant of its own.
+  void nodes(std::string& text, const std::vector<bool>& wanted, const std::vector<bool>& known) const {
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (!wanted[i] || known[i]) continue;
+      const int number = static_cast<int>(i);
+      const LaneNode& node = step_.graph[number];
+      const std::string expression = expression_of(node);
+      if (expression.empty()) continue;
+      text += fmt::format("  const {} {} = {};\n", node.is_mask() ? "M" : "V", reference(number), expression);
+    }
+  }
+
+  std::string expression_of(const LaneNode& node) const {
+    std::array<std::string, 3> x;
+    bool small = true;
+    for (std::size_t i = 0; i < 3 && node.operands[i] >= 0; ++i) {
+      x[i] = reference(node.operands[i]);
+      small = small && step_.graph[node.operands[i]].bits <= 32;
+    }
+    const auto infix = [&](const char* op) { return fmt::format("{} {} {}", x[0], op, x[1]); };
+    const auto call = [&](const char* f) { return fmt::format("{}({}, {})", f, x[0], x[1]); };
+    switch (node.op) {
+      case LaneOp::constant:
+      case LaneOp::mask_constant:
+      case LaneOp::cell:
+      case LaneOp::mask_cell:
+        return {};
+      case LaneOp::add:
+        return infix("+");
+      case LaneOp::subtract:
+        return infix("-");
+      case LaneOp::multiply:
+        return small ? call("multiply32") : infix("*");
+      case LaneOp::both:
+        return infix("&");
+      case LaneOp::either:
+        return infix("|");
+      case LaneOp::differ:
+        return infix("^");
+      case LaneOp::invert:
+        return "~" + x[0];
+      case LaneOp::left:
+        return fmt::format("{} << {}", x[0], node.value);
+      case LaneOp::right:
+        return fmt::format("{} >> {}", x[0], node.value);
+      case LaneOp::left_by:
+        return call("left_by");
+      case LaneOp::right_by:
+        return call("right_by");
+      case LaneOp::signed_right_by:
+        return call("signed_right_by");
+      case LaneOp::select:
+        return fmt::format("select({}, {}, {})", x[0], x[1], x[2]);
+      case LaneOp::fill:
+        return fmt::format("fill({}, {:#x}u)", x[0], node.value);
+      case LaneOp::rom:
+        return fmt::format("lookup(c_rom{}, {})", node.value, x[0]);
+      case LaneOp::mask_both:
+        return infix("&");
+      case LaneOp::mask_either:
+        return infix("|");
+      case LaneOp::mask_differ:
+        return infix("^");
+      case LaneOp::mask_invert:
+        return fmt::format("static_cast<M>(~{})", x[0]);
+      case LaneOp::equal:
+        return call("equal");
+      case LaneOp::less:
+        return call("less");
+      case LaneOp::signed_less:
+        return call("signed_less");
+      case LaneOp::bit:
+        return fmt::format("test({}, {:#x}u)", x[0], std::uint64_t{1} << node.value);
+    }
+    return {};
+  }
+
+  Step& step_;
+  const std::set<std::size_t>& live_;
+  std::vector<Group> groups_;
+  std::set<std::size_t> saved_;
+  bool in_group_ = false;
+};
+
+// The document
+
+std::optional<std::uint64_t> to_number(std::string_view literal) {
+  const std::size_t at = literal.find('h');
+  if (at == std::string_view::npos) return std::nullopt;
+  return std::strtoull(std::string(literal.substr(at + 1)).c_str(), nullptr, 16);
+}
+
+Result<Netlist> read_netlist(const pugi::xml_document& document) {
+  Netlist netlist;
+  const pugi::xml_node root = document.child("verilator_xml").child("netlist");
+  const pugi::xml_node module = root.find_child_by_attribute("module", "topModule", "1");
+  const pugi::xml_node scope = module.child("topscope").child("scope");
+  if (!scope) return tool_failed("Verilator's XML holds no flattened module");
+  for (const pugi::xml_node type : root.child("typetable").children()) {
+    const std::string id = type.attribute("id").value();
+    const std::string_view kind = type.name();
+    if (kind == "basicdtype") {
+      netlist.types[id] = static_cast<unsigned>(type.attribute("left").as_int() + 1);
+    } else if (kind == "unpackarraydtype") {
+      const pugi::xml_node range = type.child("range");
+      const auto left = to_number(range.first_child().attribute("name").value());
+      const auto right = to_number(range.last_child().attribute("name").value());
+      if (!left || !right) return tool_failed("Verilator's XML: an array of unknown size");
+      netlist.rooms[id] = {type.attribute("sub_dtype_id").value(), std::max(*left, *right) + 1};
+    }
+  }
+  std::map<std::string, std::string> type_of;
+  for (const pugi::xml_node variable : module.children("var")) {
+    const std::string name = variable.attribute("name").value();
+    type_of[name] = variable.attribute("dtype_id").value();
+    if (std::string_view(variable.attribute("dir").value()) == "input")
+      netlist.inputs[name] = netlist.types[type_of[name]];
+  }
+  const std::function<void(pugi::xml_node)> targets = [&](pugi::xml_node node) {
+    if (std::string_view(node.name()) == "assigndly") {
+      const std::string name = node.last_child().attribute("name").value();
+      netlist.registers[name] = netlist.types[type_of[name]];
+    }
+    for (const pugi::xml_node inner : node.children()) targets(inner);
+  };
+  for (const pugi::xml_node node : scope.children()) {
+    const std::string_view kind = node.name();
+    if (kind == "varscope") continue;
+    if (kind == "always") {
+      const pugi::xml_node edge = node.child("sentree").child("senitem");
+      const std::string_view clock = edge.child("varref").attribute("name").value();
+      if (std::string_view(edge.attribute("edgeType").value()) != "POS" || clock != "clk" ||
+          edge.next_sibling())
+        return tool_failed(fmt::format("the lanes do not know an 'always' without the clock's rising edge"));
+      for (pugi::xml_node at = node.child("sentree").next_sibling(); at; at = at.next_sibling()) {
+        netlist.clocked.push_back(at);
+        targets(at);
+      }
+    } else if (kind == "contassign" || kind == "assignalias") {
+      const std::string name = node.last_child().attribute("name").value();
+      if (std::string_view(node.last_child().name()) != "varref")
+        return tool_failed("the lanes do not know an assignment to a part of a signal");
+      if (kind == "contassign" || name != node.first_child().attribute("name").value())
+        netlist.drivers[name] = node.first_child();
+    } else if (kind == "initial") {
+      for (const pugi::xml_node assign : node.children()) {
+        const pugi::xml_node datum = assign.first_child(), target = assign.last_child();
+        if (std::string_view(target.name()) == "varref") {
+          netlist.drivers[target.attribute("name").value()] = datum;
+          continue;
+        }
+        const std::string name = target.first_child().attribute("name").value();
+        const auto index = to_number(target.last_child().attribute("name").value());
+        const auto value = to_number(datum.attribute("name").value());
+        const auto room = netlist.rooms.find(type_of[name]);
+        if (std::string_view(target.name()) != "arraysel" || !index || !value || room == netlist.rooms.end())
+          return tool_failed(fmt::format("{}: the lanes do not know what it begins with", name));
+        Rom& rom = netlist.roms[name];
+        rom.bits = netlist.types[room->second.first];
+        rom.data.resize(room->second.second);
+        if (*index >= rom.data.size() || rom.bits > kWord)
+          return tool_failed(fmt::format("{}: a table too wide or too small", name));
+        rom.data[*index] = *value;
+      }
+    } else {
+      return tool_failed(fmt::format("the lanes do not know '{}' in a module", kind));
+    }
+  }
+  netlist.inputs.erase("clk");
+  for (const auto& [name, width] : netlist.registers) netlist.roms.erase(name);
+  return netlist;
+}
+
+}  // namespace
+
+Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports) {
+  pugi::xml_document document;
+  if (const auto parsed = document.load_buffer(xml.data(), xml.size()); !parsed)
+    return tool_failed(fmt::format("Verilator's XML cannot be read: {}", parsed.description()));
+  auto netlist = read_netlist(document);
+  if (!netlist) return netlist.error();
+  netlist->inputs.erase("reset");
+  for (const auto& fixed : ports.fixed) netlist->inputs.erase(fixed.first);
+
+  Layout layout;
+  while (true) {
+    Layout next = layout;
+    auto step = Builder(*netlist, ports, false, next).build();
+    if (!step) return step.error();
+    auto reset_step = Builder(*netlist, ports, true, next).build();
+    if (!reset_step) return reset_step.error();
+    if (next != layout || !layout.words) {
+      next.words = layout.words || next == layout;
+      layout = std::move(next);
+      continue;
+    }
+
+    const std::set<std::size_t> live = Writer::live_cells(*step);
+    std::string state, inputs, outputs, setters, tables;
+    std::map<std::string, std::string> fields;
+    for (std::size_t i = 0; i < step->cells.size(); ++i) {
+      const Cell& cell = step->cells[i];
+      if (!cell.input) {
+        if (live.count(i) != 0) state += fmt::format("  {} c{}{{}};\n", cell.width == 1 ? "M" : "V", i);
+      } else if (netlist->inputs[cell.variable] == 1) {
+        inputs += fmt::format("  M {}{{}};\n", cell.variable);
+      } else {
+        std::string& field = fields[cell.variable];
+        if (live.count(i) == 0) continue;
+        inputs += fmt::format("  {} c{}{{}};\n", cell.width == 1 ? "M" : "V", i);
+        field += fmt::format("  set_lane(in.c{}, lane, field<{}, {}>(words));\n", i, cell.low, cell.width);
+      }
+    }
+    for (const auto& [name, words] : step->outputs) {
+      outputs += fmt::format("  {} {}{};\n", step->graph[words[0]].is_mask() ? "M" : "V", name,
+                             words.size() == 1 ? "" : fmt::format("[{}]", words.size()));
+    }
+    for (const auto& [name, field] : fields) {
+      setters += fmt::format(
+          "LANE_FUNCTION void set_{}(Inputs& in, unsigned lane, const std::uint32_t* words) {{\n{}}}\n", name,
+          field);
+    }
+    std::size_t number = 0;
+    std::set<std::vector<std::uint64_t>> written;
+    for (const auto& [name, rom] : netlist->roms) {
+      if (written.insert(rom.data).second) {
+        tables += fmt::format("constexpr std::uint64_t c_rom{}[{}] = {{", number, rom.data.size());
+        for (const std::uint64_t datum : rom.data) tables += fmt::format("{}u,", datum);
+        tables += "};\n";
+      }
+      ++number;
+    }
+    return "struct State {\n" + state + "};\nstruct Inputs {\n" + inputs + "};\nstruct Outputs {\n" +
+           outputs + "};\n" + tables + setters + Writer(*step, live).function("step") +
+           Writer(*reset_step, live).function("reset_step");
+  }
+}
+
+}  // namespace halfway

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// From Verilator's XML of a flattened netlist to C++ that clocks many copies of it at once, each in a lane of
+// its own. sim/lanes/lane_vectors.hpp has the operations that the text calls.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/result.hpp"
+
+namespace halfway {
+
+/// What the text is for. The clock is the input `clk`; `reset` is 1 in reset_step() and 0 in step().
+struct LanePorts {
+  std::map<std::string, bool> fixed;  ///< inputs of one bit that never change
+  std::vector<std::string> outputs;   ///< those that are looked at; what no other needs is left out
+};
+
+/// The structs State, Inputs and Outputs, and the functions
+///     set_PORT(Inputs&, unsigned lane, const std::uint32_t* words)   for each input wider than a bit
+///     step(State&, const Inputs&, Outputs&), reset_step(...)
+/// which give the outputs before the clock's rising edge, then the registers after it. Inputs of one bit are
+/// masks by their names. What the lanes cannot do (an unknown node, arithmetic on more than 64 bits) is an
+/// error that names it (exit code tool_failed).
+Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports);
+
+}  // namespace halfway

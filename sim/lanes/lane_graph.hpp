@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a netlist works out in a clock, as a graph of operations on lanes: each node is a vector of 64-bit
+// numbers, one a lane, or a mask, one bit a lane. Equal nodes are one node; operands come before their users.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <vector>
+
+namespace halfway {
+
+enum class LaneOp {
+  // Vectors
+  constant,  ///< value
+  cell,      ///< a part of a register or an input: value is its number
+  add,
+  subtract,
+  multiply,
+  both,    ///< bitwise and
+  either,  ///< bitwise or
+  differ,  ///< bitwise exclusive or
+  invert,
+  left,  ///< by value
+  right,
+  left_by,  ///< by another vector; from 64 on nothing is left
+  right_by,
+  signed_right_by,
+  select,  ///< mask ? a : b
+  fill,    ///< mask ? value : 0
+  rom,     ///< value: number of the table
+  // Masks
+  mask_constant,
+  mask_cell,
+  mask_both,
+  mask_either,
+  mask_differ,
+  mask_invert,
+  equal,
+  less,
+  signed_less,
+  bit,  ///< bit `value` of a vector
+};
+
+struct LaneNode {
+  LaneOp op;
+  std::array<int, 3> operands{-1, -1, -1};
+  std::uint64_t value = 0;
+  unsigned bits = 64;  ///< all from here up are zero
+
+  bool is_mask() const { return op >= LaneOp::mask_constant; }
+};
+
+class LaneGraph {
+ public:
+  const LaneNode& operator[](int node) const { return nodes_[static_cast<std::size_t>(node)]; }
+  int size() const { return static_cast<int>(nodes_.size()); }
+
+  int constant(std::uint64_t value);
+  int mask_constant(bool value) { return add({.op = LaneOp::mask_constant, .value = value}); }
+  int cell(std::size_t number, unsigned bits) {
+    return add({.op = LaneOp::cell, .value = number, .bits = bits});
+  }
+  int mask_cell(std::size_t number) { return add({.op = LaneOp::mask_cell, .value = number}); }
+  int operate(LaneOp op, int a, int b);
+  int invert(int a);
+  int shift(int a, int by);  ///< to the left where positive
+  int clean(int a, unsigned width);
+  int select(int mask, int a, int b);
+  int fill(int mask, std::uint64_t value);
+  int rom(std::size_t table, int address, unsigned bits);
+  int mask_operate(LaneOp op, int a, int b);
+  int mask_invert(int a);
+  int bit(int a, unsigned index);
+  int compare(LaneOp op, int a, int b);
+
+ private:
+  int add(LaneNode node);
+  std::vector<LaneNode> nodes_;
+  std::map<std::tuple<LaneOp, std::array<int, 3>, std::uint64_t>, int> known_;
+};
+
+}  // namespace halfway

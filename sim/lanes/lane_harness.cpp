@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled with the generated lanes of a shader.
+//
+// A cycle is as in sim/verilator/harness.cpp at full speed: outputs are sampled just before the rising edge,
+// inputs change after it. A lane that has drawn its part is given the next one when its hardware is idle; one
+// that gets no more runs on empty.
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "sim/lanes/lane_api.h"
+#include "sim/lanes/lane_vectors.hpp"
+
+namespace halfway::lanes {
+namespace {
+#include "lanes.hpp"
+
+constexpr std::size_t kInitWords = (HALFWAY_INIT_BITS + 31) / 32;
+constexpr std::size_t kBlock = 256;               // clocks between two looks at the room for fragments
+constexpr int kResetClocks = 4, kLateClocks = 8;  // as in sim/verilator/harness.cpp
+
+class Lanes {
+ public:
+  Lanes(std::uint32_t owner, std::uint64_t idle_limit) : owner_(owner), idle_limit_(idle_limit) {
+    Outputs out;
+    for (int i = 0; i < kResetClocks; ++i) reset_step(state_, in_, out);
+  }
+
+  int run(const HalfwayBatch& batch) {
+    batch_ = &batch;
+    active_ = 0;
+    faults_ = 0;
+    in_.init_valid = 0;
+    for (Lane& lane : lanes_) lane.count = 0;
+    for (unsigned i = 0; i < kLanes; ++i) begin_part(i);
+    while (active_ != 0) {
+      std::size_t total = 0;
+      for (unsigned i = 0; i < kLanes; ++i) {
+        Lane& lane = lanes_[i];
+        total += lane.count;
+        if (lane.fragments.size() < lane.count + kBlock + 1)
+          lane.fragments.resize(2 * lane.fragments.size() + 4 * kBlock);
+        lane.next = lane.fragments.data() + lane.count;
+      }
+      if (total > batch.max_fragments) return HALFWAY_BUFFER_FULL;
+      const M moved = block();
+      for (unsigned i = 0; i < kLanes; ++i) {
+        Lane& lane = lanes_[i];
+        lane.still = (moved >> i & 1) != 0 ? 0 : lane.still + kBlock;
+        if ((active_ >> i & 1) != 0 && lane.still >= idle_limit_ + kBlock) return HALFWAY_HANG;
+      }
+      if (faults_ != 0) return HALFWAY_FAULT;
+    }
+    Outputs out;
+    for (int i = 0; i < kLateClocks; ++i) {
+      step(state_, in_, out);
+      faults_ |= out.fault;
+    }
+    return faults_ != 0 ? HALFWAY_FAULT : HALFWAY_DONE;
+  }
+
+  const HalfwayFragment* fragments(std::uint32_t lane) const { return lanes_[lane].fragments.data(); }
+  std::uint64_t cycles() const { return cycles_; }
+
+ private:
+  struct Lane {
+    std::vector<HalfwayFragment> fragments;
+    std::size_t count = 0;
+    HalfwayFragment* next = nullptr;  // where its fragments go, less those of this block's clocks
+    HalfwayPart* part = nullptr;
+    const std::uint32_t* words = nullptr;  // of the vector that is offered
+    std::size_t vectors = 0;               // still to be taken
+    std::uint64_t still = 0;               // clocks in which nothing moved
+  };
+
+  void begin_part(unsigned i) {
+    const M bit = static_cast<M>(1u << i);
+    active_ &= static_cast<M>(~bit);
+    const std::size_t next = __atomic_fetch_add(batch_->next, 1, __ATOMIC_RELAXED);
+    if (next >= batch_->count) return;
+    Lane& lane = lanes_[i];
+    HalfwayPart& part = batch_->parts[next];
+    lane.part = &part;
+    part.owner = owner_;
+    part.lane = i;
+    part.fragment = lane.count;
+    lane.words = batch_->words + part.vector * kInitWords;
+    lane.vectors = part.vectors;
+    lane.still = 0;
+    active_ |= bit;
+    offer(i);
+  }
+
+  void offer(unsigned i) {
+    const Lane& lane = lanes_[i];
+    const M bit = static_cast<M>(1u << i);
+    in_.init_valid &= static_cast<M>(~bit);
+    if (lane.vectors == 0) return;
+    in_.init_valid |= bit;
+    set_init_data(in_, i, lane.words);
+  }
+
+  __attribute__((noinline)) void taken(M take) {
+    for (; take != 0; take &= static_cast<M>(take - 1)) {
+      const auto i = static_cast<unsigned>(std::countr_zero(take));
+      lanes_[i].words += kInitWords;
+      --lanes_[i].vectors;
+      offer(i);
+    }
+  }
+
+  __attribute__((noinline)) void ended(M idle, std::size_t clocks) {
+    for (; idle != 0; idle &= static_cast<M>(idle - 1)) {
+      const auto i = static_cast<unsigned>(std::countr_zero(idle));
+      count(lanes_[i], clocks);
+      lanes_[i].part->fragments = lanes_[i].count - lanes_[i].part->fragment;
+      begin_part(i);
+    }
+  }
+
+  static void count(Lane& lane, std::size_t clocks) {
+    lane.count = static_cast<std::size_t>(lane.next + clocks - lane.fragments.data());
+  }
+
+  M block() {
+    M moved = 0;
+    std::size_t clock = 0;
+    while (clock < kBlock && active_ != 0) {
+      Outputs out;
+      const M offered = in_.init_valid;
+      step(state_, in_, out);
+      const M take = offered & out.init_ready;
+      const V a = out.fragment_triangle | out.fragment_z << 32;
+      const V b = out.fragment_y | out.fragment_x << 16 | out.fragment_red << 32 | out.fragment_green << 40 |
+                  out.fragment_blue << 48;
+      write(a, b, clock++);
+      // Most lanes have a fragment in most clocks: only where there is none the place does not move.
+      for (M none = ~out.fragment_valid; none != 0; none &= static_cast<M>(none - 1))
+        --lanes_[std::countr_zero(none)].next;
+      moved |= take | out.fragment_valid;
+      faults_ |= out.fault;
+      cycles_ += static_cast<unsigned>(std::popcount(active_));
+      if (take != 0) taken(take);
+      const M idle = active_ & ~(offered | out.fragment_valid | out.busy);
+      if (idle != 0) ended(idle, clock);
+    }
+    for (Lane& lane : lanes_) count(lane, clock);
+    return moved;
+  }
+
+  // Each lane's two halves of a fragment.
+  void write(V a, V b, std::size_t clock) {
+    const V even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+    const V odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+    for (unsigned i = 0; i < kLanes; ++i)
+      std::memcpy(lanes_[i].next + clock,
+                  reinterpret_cast<const char*>(i % 2 == 0 ? &even : &odd) + 16 * (i / 2), 16);
+  }
+
+  State state_;
+  Inputs in_;
+  Lane lanes_[kLanes];
+  M active_ = 0, faults_ = 0;
+  const HalfwayBatch* batch_ = nullptr;
+  std::uint32_t owner_;
+  std::uint64_t idle_limit_, cycles_ = 0;
+};
+
+}  // namespace
+}  // namespace halfway::lanes
+
+#define HALFWAY_EXPORT extern "C" __attribute__((visibility("default")))
+using halfway::lanes::Lanes;
+
+HALFWAY_EXPORT int halfway_lanes_run(void* lanes, const HalfwayBatch* batch) {
+  return static_cast<Lanes*>(lanes)->run(*batch);
+}
+HALFWAY_EXPORT const HalfwayFragment* halfway_lanes_fragments(const void* lanes, uint32_t lane) {
+  return static_cast<const Lanes*>(lanes)->fragments(lane);
+}
+HALFWAY_EXPORT uint64_t halfway_lanes_cycles(const void* lanes) {
+  return static_cast<const Lanes*>(lanes)->cycles();
+}
+HALFWAY_EXPORT uint32_t halfway_lanes_count(void) {
+  return halfway::lanes::kLanes;
+}
+HALFWAY_EXPORT uint32_t halfway_lanes_version(void) {
+  return HALFWAY_LANES_VERSION;
+}
+HALFWAY_EXPORT void* halfway_lanes_create(uint32_t owner, uint64_t idle_limit) {
+  return new Lanes(owner, idle_limit);
+}
+HALFWAY_EXPORT void halfway_lanes_destroy(void* lanes) {
+  delete static_cast<Lanes*>(lanes);
+}

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/lanes/lane_library.hpp"
+
+#include <fmt/format.h>
+
+#include "common/file.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr const char* kLibraryName = "lanes.so";
+// As sim/verilator/verilated_library.cpp has them.
+const std::vector<std::string> kVerilatorFlags = {
+    "--xml-only",  "--flatten", "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE", "--x-assign", "fast",
+    "--x-initial", "fast",      "--noassert",   "--xml-output",        "netlist.xml"};
+const std::vector<std::string> kCompilerFlags = {
+    "-std=gnu++20", "-march=native",       "-fPIC",          "-shared",
+    "-w",           "-fvisibility=hidden", "-Wl,-Bsymbolic", "-Wl,-z,defs"};
+// What the text depends on beside the netlist.
+const std::vector<std::string> kSources = {"sim/lanes/lane_generator.cpp", "sim/lanes/lane_generator.hpp",
+                                           "sim/lanes/lane_graph.cpp",     "sim/lanes/lane_graph.hpp",
+                                           "sim/lanes/lane_vectors.hpp",   "sim/lanes/lane_api.h",
+                                           "sim/verilator/harness_api.h"};
+
+}  // namespace
+
+Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::path& cache) {
+  const auto verilator_version = ask({"verilator", "--version"}, kInstallVerilator);
+  if (!verilator_version) return verilator_version.error();
+  const auto compiler = Compiler::find(build.compiler);
+  if (!compiler) return compiler.error();
+  const auto harness = read_file(build.harness);
+  if (!harness) return tool_failed(harness.error().message);
+
+  ContentHash hash;
+  hash.add("lanes 1").add(*verilator_version).add(compiler->identity).add(build.netlist).add(build.top);
+  hash.add(*harness).add(build.fast ? "-O3" : "-O1");
+  for (const std::string& name : kSources) {
+    const auto text = read_file(build.source / name);
+    if (!text) return tool_failed(text.error().message);
+    hash.add(*text);
+  }
+  for (const auto* list : {&kVerilatorFlags, &kCompilerFlags, &build.definitions, &build.ports.outputs}) {
+    hash.add(std::to_string(list->size()));
+    for (const std::string& item : *list) hash.add(item);
+  }
+  for (const auto& [port, value] : build.ports.fixed) hash.add(port).add(value ? "1" : "0");
+  const std::filesystem::path parent = std::filesystem::absolute(cache) / "lanes";
+  const std::filesystem::path folder = parent / fmt::format("{}-{}", build.name, hash.hex());
+
+  if (!std::filesystem::exists(folder)) {
+    auto fresh = TemporaryFolder::make(parent);
+    if (!fresh) return fresh.error();
+    if (auto written = write_file(fresh->path() / "netlist.v", build.netlist); !written)
+      return written.error();
+    Command verilate{.arguments = {"verilator"}, .working_folder = fresh->path()};
+    verilate.arguments.insert(verilate.arguments.end(), kVerilatorFlags.begin(), kVerilatorFlags.end());
+    verilate.arguments.insert(verilate.arguments.end(), {"--top-module", build.top, "netlist.v"});
+    if (auto done = run_tool(verilate, kInstallVerilator, build.name); !done) return done.error();
+    const auto xml = read_file(fresh->path() / "netlist.xml");
+    if (!xml) return tool_failed(xml.error().message);
+    const auto lanes = generate_lanes(*xml, build.ports);
+    if (!lanes) return Error{lanes.error().code, build.name + ": " + lanes.error().message};
+    if (auto written = write_file(fresh->path() / "lanes.hpp", *lanes); !written) return written.error();
+    if (auto written = write_file(fresh->path() / "harness.cpp", *harness); !written) return written.error();
+
+    Command compile{.arguments = {compiler->program}, .working_folder = fresh->path()};
+    auto& arguments = compile.arguments;
+    arguments.insert(arguments.end(), kCompilerFlags.begin(), kCompilerFlags.end());
+    arguments.emplace_back(build.fast ? "-O3" : "-O1");
+    // g++ would let all libraries in the process share the inline variables of the first.
+    if (compiler->program.find("clang") == std::string::npos) arguments.emplace_back("-fno-gnu-unique");
+    for (const std::string& definition : build.definitions) arguments.push_back("-D" + definition);
+    arguments.insert(arguments.end(), {"-I" + std::filesystem::absolute(build.source).string(), "harness.cpp",
+                                       "-o", kLibraryName});
+    if (auto done = run_tool(compile, kInstallCompiler, build.name); !done) return done.error();
+    if (auto moved = fresh->move_to(folder); !moved) return moved.error();
+  }
+  return SharedLibrary::load(folder / kLibraryName);
+}
+
+}  // namespace halfway

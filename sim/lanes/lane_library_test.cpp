@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// The generator on netlists of its own: every operation as in Verilator, and what it cannot do, refused.
+#include "sim/lanes/lane_library.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <random>
+
+#include "common/file.hpp"
+#include "sim/verilator/verilated_library.hpp"
+
+namespace halfway {
+namespace {
+
+const std::filesystem::path kRoot = HALFWAY_SOURCE_DIR;
+const std::filesystem::path kCache = kRoot / "build" / "cache";
+constexpr unsigned kLanes = 8, kStimulusWords = 5, kResponseWords = 100;
+constexpr std::size_t kVectors = 500;  // a lane
+
+// As tb/netlist/netlist_harness.cpp, each lane with its own vectors.
+const char* const kHarness = R"(
+#include "sim/lanes/lane_vectors.hpp"
+namespace halfway::lanes { namespace {
+#include "lanes.hpp"
+} }
+extern "C" __attribute__((visibility("default"))) void lanes_run(const std::uint32_t* stimuli,
+                                                                 std::size_t count, std::uint32_t* responses) {
+  using namespace halfway::lanes;
+  State state;
+  Inputs in;
+  Outputs out;
+  for (int i = 0; i < 4; ++i) reset_step(state, in, out);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (unsigned lane = 0; lane < kLanes; ++lane) set_stimulus(in, lane, stimuli + (lane * count + i) * 5);
+    step(state, in, out);
+    for (unsigned lane = 0; lane < kLanes; ++lane)
+      for (unsigned word = 0; word < 100; ++word)
+        responses[(lane * count + i) * 100 + word] =
+            static_cast<std::uint32_t>(out.response[word / 2][lane] >> word % 2 * 32);
+  }
+}
+)";
+
+// Ports as tb/netlist/netlist_harness.cpp has them.
+std::string module_of(const std::string& body) {
+  return "module m\n  (input  clk,\n   input  reset,\n   input  [159:0] stimulus,\n   output [3199:0] "
+         "response);\n" +
+         body + "endmodule\n";
+}
+
+// What the shaders' netlists are made of, and registers that read one another at one edge.
+const char* const kEverything = R"(
+  wire [39:0] a, b;
+  wire [11:0] c, d;
+  wire [5:0] n;
+  wire e, f, g, h;
+  assign a = stimulus[39:0];
+  assign b = stimulus[79:40];
+  assign c = stimulus[91:80];
+  assign d = stimulus[103:92];
+  assign n = stimulus[109:104];
+  assign e = stimulus[110];
+  assign f = stimulus[111];
+  assign g = stimulus[112];
+  assign h = stimulus[113];
+  reg [7:0] rom[63:0];
+
+  initial begin
+ROM
+  end
+  reg [39:0] p, q, sum;
+  reg [99:0] wide;
+  reg [18:0] mixed;
+  reg [7:0] read;
+  reg [31:0] product;
+  reg one, two;
+  wire [39:0] next;
+  assign next = e ? sum + a : sum - b;
+  always @(posedge clk)
+    if (reset) begin sum <= 40'b0; end else begin if (f) begin sum <= next; end end
+  always @(posedge clk)
+    if (e & f) begin p <= q; end else begin if (g) begin p <= a; end end
+  always @(posedge clk)
+    if (f) begin q <= p; end else begin if (h) begin q <= b; end end
+  always @(posedge clk)
+    if (g) begin wide <= stimulus[150:51]; end else begin if (h) begin wide <= {wide[59:0], p}; end end
+  always @(posedge clk)
+    if (!h) begin mixed <= c < d ? {1'b1, sum[17:0]} : {1'b0, mixed[18:1]}; end
+  always @(posedge clk)
+    if (f | g) begin read <= rom[n]; end
+  always @(posedge clk)
+    product <= {20'b0, c} * {20'b0, d};
+  always @(posedge clk)
+    if (reset) begin one <= 1'b0; end else begin one <= two ^ e; end
+  always @(posedge clk)
+    if (reset) begin two <= 1'b1; end else begin if (e) begin two <= one | ~f; end end
+  assign response = {
+    2038'b0, c != d ? a : b,
+    {40{two}}, {24'b0, c, mixed[18], n, d[3:0]}, one, two, product, read, mixed, wide, q, p, sum,
+    a << 5, a >> 7, a << n, a >> n, {52'b0, c} << n, $signed(c) >>> 3, $signed(d) >>> n[3:0],
+    ~a, -a, a & b, a | b, a ^ b, a * b, $signed(c) * $signed(d), {16'b0, a[39:16]},
+    c == d, c != d, c < d, c <= d, c > d, c >= d, e == f, e != f,
+    $signed(c) < $signed(d), $signed(c) <= $signed(d), $signed(c) > $signed(d), $signed(c) >= $signed(d),
+    $signed({{8{c[11]}}, c}) == $signed(b[19:0]), {3{c}},
+    e ? {c, 1'b0, d} : {13'b1, n, n}, f ? a : {b[38:0], e}, g ? wide : {wide[98:0], f}};
+)";
+
+class Lanes : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto made = TemporaryFolder::make(std::filesystem::path(testing::TempDir()) / "lanes");
+    ASSERT_TRUE(made) << made.error().message;
+    scratch_.emplace(std::move(*made));
+    ASSERT_TRUE(write_file(scratch_->path() / "harness.cpp", kHarness));
+  }
+
+  Result<SharedLibrary> open(const std::string& body) {
+    return open_lanes({.name = "test",
+                       .netlist = module_of(body),
+                       .top = "m",
+                       .ports = {.fixed = {}, .outputs = {"response"}},
+                       .harness = scratch_->path() / "harness.cpp",
+                       .source = kRoot,
+                       .definitions = {},
+                       .fast = false,
+                       .compiler = {}},
+                      kCache);
+  }
+
+  void expect_refused(const std::string& body, const std::string& with) {
+    const auto lanes = open(body);
+    ASSERT_FALSE(lanes) << body;
+    EXPECT_EQ(lanes.error().code, ExitCode::tool_failed);
+    EXPECT_NE(lanes.error().message.find(with), std::string::npos) << lanes.error().message;
+  }
+
+  std::optional<TemporaryFolder> scratch_;
+};
+
+TEST_F(Lanes, EveryOperationIsAsInVerilator) {
+  std::string body = kEverything, rom;
+  for (unsigned i = 0; i < 64; ++i) rom += fmt::format("    rom[{}] = 8'd{};\n", i, (i * i * 7 + 13) % 256);
+  body.replace(body.find("ROM\n"), 4, rom);
+  std::mt19937 random(20240229);
+  std::vector<std::uint32_t> stimuli(kLanes * kVectors * kStimulusWords);
+  for (std::uint32_t& word : stimuli) {
+    word = static_cast<std::uint32_t>(random());
+    if (random() % 8 == 0) word = random() % 2 == 0 ? 0 : ~0U;
+  }
+  const auto lanes = open(body);
+  ASSERT_TRUE(lanes) << lanes.error().message;
+  const auto run = lanes->function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("lanes_run");
+  ASSERT_TRUE(run) << run.error().message;
+  std::vector<std::uint32_t> found(kLanes * kVectors * kResponseWords), expected(found.size());
+  (*run)(stimuli.data(), kVectors, found.data());
+
+  std::string verilog = module_of(body);
+  const auto verilated = open_verilated({.name = "lanes_test",
+                                         .netlist = verilog,
+                                         .top = "m",
+                                         .harness = kRoot / "tb/netlist/netlist_harness.cpp",
+                                         .include_folder = kRoot,
+                                         .harness_headers = {},
+                                         .definitions = {},
+                                         .fast = false,
+                                         .compiler = {}},
+                                        kCache);
+  ASSERT_TRUE(verilated) << verilated.error().message;
+  const auto verilate =
+      verilated->function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("netlist_run");
+  ASSERT_TRUE(verilate) << verilate.error().message;
+  for (unsigned lane = 0; lane < kLanes; ++lane) {
+    (*verilate)(&stimuli[lane * kVectors * kStimulusWords], kVectors,
+                &expected[lane * kVectors * kResponseWords]);
+  }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    ASSERT_EQ(found[i], expected[i]) << "lane " << i / kResponseWords / kVectors << ", vector "
+                                     << i / kResponseWords % kVectors << ", word " << i % kResponseWords;
+  }
+}
+
+TEST_F(Lanes, WhatTheyCannotDoIsRefused) {
+  const auto respond = [](const std::string& expression) {
+    return "  assign response = " + expression + ";\n";
+  };
+  expect_refused(respond("{3128'b0, stimulus[71:0] + stimulus[151:80]}"), "'add' on 72 bits");
+  expect_refused(respond("{3199'b0, stimulus[71:0] < stimulus[151:80]}"), "'lt' on 72 bits");
+  expect_refused(respond("{3192'b0, stimulus[7:0] / stimulus[15:8]}"), "do not know 'div'");
+  expect_refused(respond("{3199'b0, ^stimulus[7:0]}"), "do not know 'redxor'");
+  expect_refused("  reg [3:0] m[15:0];\n  always @(posedge clk) m[stimulus[3:0]] <= stimulus[7:4];\n" +
+                     respond("{3196'b0, m[stimulus[11:8]]}"),
+                 "m.m: a memory");
+  expect_refused("  reg q;\n  always @(negedge clk) q <= stimulus[0];\n" + respond("{3199'b0, q}"),
+                 "rising edge");
+  expect_refused(
+      "  reg q;\n  always @(posedge clk) begin q <= stimulus[0]; if (stimulus[1]) q <= stimulus[2]; end\n" +
+          respond("{3199'b0, q}"),
+      "assigned twice");
+}
+
+TEST_F(Lanes, BrokenXmlIsRefused) {
+  EXPECT_FALSE(generate_lanes("<verilator_xml>", {}));
+  EXPECT_FALSE(generate_lanes("<verilator_xml></verilator_xml>", {}));
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// A shader's RTL in lanes: many copies of the hardware in one vector of the processor, each with triangles of
+// its own. The same fragments as from VerilatorSimulator, several times as fast; no stalls, probes or waves.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/result.hpp"
+#include "frame/fragment.hpp"
+#include "plan/hardware_key.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+
+namespace halfway {
+
+struct LaneOptions {
+  unsigned threads = 1;                ///< each with lanes of its own
+  std::uint64_t idle_limit = 100'000;  ///< cycles in which nothing moves in a lane: a hang
+  bool fast = true;                    ///< worth a long compilation
+  std::string compiler{};              ///< empty: clang++ where it is installed, else g++
+};
+
+class LaneSimulator {
+ public:
+  /// Builds the lanes, or takes them from the cache, and resets them. What lanes cannot be had for is an
+  /// error that says so, and the caller takes VerilatorSimulator: the processors shader, whose lights and
+  /// counters outlive a triangle, a key with probes, a netlist with what the generator does not know.
+  static Result<LaneSimulator> open(const HardwareKey& key, const SimulatorFolders& folders,
+                                    const LaneOptions& options = {});
+
+  unsigned init_bits() const;
+
+  /// Other lanes of the same hardware, reset, for another thread; with the same options.
+  LaneSimulator another() const;
+
+  /// A part of a call's vectors, and the fragments that lanes drew for them, in the lanes' own room.
+  using OnDrawn =
+      std::function<void(std::span<const std::uint32_t> init_words, std::span<const Fragment> fragments)>;
+
+  /// Draws whole triangles from idle to idle, and hands on their fragments part by part in the order of a
+  /// single stream, whatever the number of lanes and threads; this thread calls `on_drawn`. More than
+  /// `max_fragments` is an error. A fault of the hardware (a hang) has the exit code `differs`; some parts
+  /// may have been handed on then. More vectors in a call are faster: thousands.
+  Status run(std::span<const std::uint32_t> init_words, std::size_t max_fragments, const OnDrawn& on_drawn);
+  /// The same, appended to `out`, which holds no more than `max_fragments`.
+  Status run(std::span<const std::uint32_t> init_words, std::size_t vectors, std::vector<Fragment>& out,
+             std::size_t max_fragments);
+
+  /// Clocks of all lanes while they had something to draw, summed: more than one hardware would need, as each
+  /// part of a batch ends with the pipeline running empty.
+  std::uint64_t cycles() const;
+
+ private:
+  struct State;
+  static LaneSimulator with_lanes(std::shared_ptr<State> state);
+  explicit LaneSimulator(std::shared_ptr<State> state) : state_(std::move(state)) {}
+  Result<std::size_t> draw(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
+                           const OnDrawn& on_drawn);
+  std::shared_ptr<State> state_;
+};
+
+}  // namespace halfway

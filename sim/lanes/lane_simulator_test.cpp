@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shaders in lanes: every fragment as the golden model has it, and so as Verilator, whose frames are
+// compared with it elsewhere.
+#include "sim/lanes/lane_simulator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "plan/plan.hpp"
+#include "run/golden_run.hpp"
+#include "run/scene_stream.hpp"
+#include "scene/load_scene.hpp"
+
+namespace halfway {
+namespace {
+
+const std::filesystem::path kRoot = HALFWAY_SOURCE_DIR;
+const SimulatorFolders kFolders{kRoot, kRoot / "build" / "cache"};
+constexpr std::size_t kMost = std::size_t{1} << 24;
+
+struct Case {
+  const char* scene;
+  Shader shader;
+  Preset preset;
+};
+
+class ShadersInLanes : public testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    auto scene = load_scene(GetParam().scene, kRoot / "sim" / "scenes");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto plan = plan_scene(*scene, {.shader = GetParam().shader, .preset = GetParam().preset});
+    ASSERT_TRUE(plan) << plan.error().message;
+    key_ = plan->key;
+    add(*scene, {96, 72});
+    // From nearby: much of it beside the frame.
+    const auto middle = scene->camera.target_world;
+    scene->camera.eye_world = middle + 0.4 * (scene->camera.eye_world - middle);
+    add(*scene, {48, 40});
+    golden_ = make_golden_model(key_);
+  }
+
+  void add(const Scene& scene, FrameSize size) {
+    const std::unique_ptr<halfway::Setup> setup = make_setup(scene, size, key_, {});
+    SceneStream stream(*setup, key_, 1);
+    for (Batch batch; stream.next(batch);) {
+      words_.insert(words_.end(), batch.init_words.begin(), batch.init_words.end());
+      expected_.insert(expected_.end(), batch.golden.begin(), batch.golden.end());
+    }
+    words_per_vector_ = (setup->init_bits() + 31) / 32;
+  }
+
+  HardwareKey key_;
+  std::vector<std::uint32_t> words_;
+  std::vector<Fragment> expected_;
+  std::size_t words_per_vector_ = 0;
+  std::unique_ptr<GoldenModel> golden_;
+};
+
+TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
+  const std::size_t vectors = words_.size() / words_per_vector_;
+  for (const unsigned threads : {1U, 3U}) {
+    auto lanes = LaneSimulator::open(key_, kFolders, {.threads = threads, .fast = false});
+    ASSERT_TRUE(lanes) << lanes.error().message;
+    std::vector<Fragment> drawn;
+    const Status ran = lanes->run(words_, vectors, drawn, kMost);
+    ASSERT_TRUE(ran) << ran.error().message;
+    EXPECT_TRUE(drawn == expected_);
+    EXPECT_GE(lanes->cycles(), drawn.size());
+
+    // Part by part, each with its own vectors, by other lanes of the same hardware.
+    LaneSimulator others = lanes->another();
+    std::size_t at = 0, parts = 0;
+    const auto take = [&](std::span<const std::uint32_t> words, std::span<const Fragment> fragments) {
+      const std::span<const Fragment> own = golden_->draw(words);
+      EXPECT_TRUE(std::equal(fragments.begin(), fragments.end(), own.begin(), own.end()));
+      at += fragments.size();
+      ++parts;
+    };
+    ASSERT_TRUE(others.run(words_, kMost, take));
+    EXPECT_EQ(at, expected_.size());
+    EXPECT_GT(parts, 8U);
+    EXPECT_FALSE(others.run(words_, expected_.size() - 1, take));
+
+    // Again, in batches of nothing, one triangle, fewer than lanes, and many, into what is there already.
+    drawn.clear();
+    std::span<const std::uint32_t> rest = words_;
+    for (std::size_t triangles = 0; !rest.empty(); ++triangles) {
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < triangles * triangles && count * words_per_vector_ < rest.size(); ++i)
+        count += golden_->group(rest.subspan(count * words_per_vector_));
+      const Status part = lanes->run(rest.first(count * words_per_vector_), count, drawn, kMost);
+      ASSERT_TRUE(part) << part.error().message;
+      rest = rest.subspan(count * words_per_vector_);
+    }
+    EXPECT_TRUE(drawn == expected_);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShadersInLanes,
+                         testing::Values(Case{"spheres", Shader::quadratic, Preset::exact},
+                                         Case{"matte", Shader::quadratic, Preset::published},
+                                         Case{"spheres", Shader::spherical, Preset::exact},
+                                         Case{"lights", Shader::spherical, Preset::published}));
+
+TEST(LaneSimulator, RefusesWhatOutlivesATriangle) {
+  HardwareKey key;
+  key.shader = Shader::processors;
+  const auto processors = LaneSimulator::open(key, kFolders);
+  ASSERT_FALSE(processors);
+  EXPECT_NE(processors.error().message.find("outlive a triangle"), std::string::npos);
+  key.shader = Shader::quadratic;
+  key.probe = true;
+  const auto probed = LaneSimulator::open(key, kFolders);
+  ASSERT_FALSE(probed);
+  EXPECT_NE(probed.error().message.find("no probes"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace halfway

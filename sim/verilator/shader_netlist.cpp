@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/verilator/shader_netlist.hpp"
+
+#include "sim/verilator/netlist.hpp"
+
+namespace halfway {
+
+Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders) {
+  const auto tool = GhdlTool::find();
+  if (!tool) return tool.error();
+  const auto sources = read_rtl_sources(folders.source);
+  if (!sources) return sources.error();
+  const auto library = GhdlLibrary::open(*tool, *sources, "", folders.cache);
+  if (!library) return library.error();
+  const auto netlist = library->synthesize(key.entity(), key.generics());
+  if (!netlist) return netlist.error();
+  auto mended = mend_netlist(*netlist);
+  if (!mended) return mended.error();
+  return split_registers(*mended);
+}
+
+}  // namespace halfway
