@@ -40,6 +40,17 @@ struct Rom {
   std::vector<std::uint64_t> data;
 };
 
+/// A memory that is written: each of its places is a register.
+struct Memory {
+  unsigned bits = 0;  ///< of a datum
+  std::size_t places = 0;
+};
+constexpr std::size_t kMostPlaces = 16;  ///< every access looks at all
+
+std::string place_of(std::string_view memory, std::size_t index) {
+  return fmt::format("{}[{}]", memory, index);
+}
+
 /// The netlist by names. The nodes stay in the document.
 struct Netlist {
   std::map<std::string, unsigned> types;                             ///< width by the type's number
@@ -49,6 +60,7 @@ struct Netlist {
   std::map<std::string, unsigned> registers;                         ///< width
   std::vector<pugi::xml_node> clocked;                               ///< the statements of `always` blocks
   std::map<std::string, Rom> roms;
+  std::map<std::string, Memory> memories;
 };
 
 /// A part of a register or an input, of up to 64 bits, that lies in a variable of its own.
@@ -466,8 +478,11 @@ class Builder {
 
   Bits element(pugi::xml_node node) {
     const std::string name = node.first_child().attribute("name").value();
+    if (const auto memory = netlist_.memories.find(name); memory != netlist_.memories.end())
+      return read(node, name, memory->second);
     const auto rom = netlist_.roms.find(name);
-    if (rom == netlist_.roms.end()) return fail(fmt::format("{}: {}: a memory", line_of(node), name));
+    if (rom == netlist_.roms.end())
+      return fail(fmt::format("{}: {}: nothing that the lanes know is in there", line_of(node), name));
     const Bits address = value(node.last_child());
     const unsigned width = width_of(address);
     if (width > 16 || rom->second.data.size() != std::size_t{1} << width)
@@ -478,6 +493,51 @@ class Builder {
     const auto table = static_cast<std::size_t>(std::distance(netlist_.roms.begin(), first));
     return whole(graph().rom(table, graph().clean(to_vector(address), width), rom->second.bits),
                  rom->second.bits);
+  }
+
+  /// The place that the element `node` names, as a mask's bits; nothing where it may lie outside.
+  Bits address_of(pugi::xml_node node, const std::string& name, const Memory& memory) {
+    const Bits address = value(node.last_child());
+    if (address.empty()) return {};
+    if (memory.places > kMostPlaces)
+      return fail(fmt::format("{}: {}: a memory of {} places: lanes have up to {}", line_of(node), name,
+                              memory.places, kMostPlaces));
+    if (memory.places != std::size_t{1} << width_of(address))
+      return fail(fmt::format("{}: {}: an address that may lie outside", line_of(node), name));
+    for (std::size_t i = 0; i < memory.places; ++i)
+      layout_.wholes[place_of(name, i)].insert({0, memory.bits});
+    return address;
+  }
+
+  Bits read(pugi::xml_node node, const std::string& name, const Memory& memory) {
+    const Bits address = address_of(node, name, memory);
+    if (address.empty()) return {};
+    std::vector<Bits> left;
+    for (std::size_t i = 0; i < memory.places; ++i) left.push_back(signal(place_of(name, i)));
+    for (unsigned bit = 0; left.size() > 1; ++bit) {
+      const int upper = to_mask(slice(address, bit, 1));
+      for (std::size_t i = 0; i < left.size() / 2; ++i) left[i] = choose(upper, left[2 * i + 1], left[2 * i]);
+      left.resize(left.size() / 2);
+    }
+    return left[0];
+  }
+
+  void write(pugi::xml_node assignment, const Memory& memory, const Guard& guard) {
+    const pugi::xml_node target = assignment.last_child();
+    const std::string name = target.first_child().attribute("name").value();
+    const Bits address = address_of(target, name, memory), datum = value(assignment.first_child());
+    if (address.empty() || datum.empty()) return;
+    Bits words;  // put together once, not at each place
+    for (unsigned low = 0; low < memory.bits; low += kWord) {
+      const unsigned width = std::min(memory.bits - low, kWord);
+      append(words, whole(to_vector(slice(datum, low, width), false), width));
+    }
+    const int index = graph().clean(to_vector(address), width_of(address));
+    for (std::size_t i = 0; i < memory.places; ++i) {
+      const int here = graph().compare(LaneOp::equal, index, graph().constant(i));
+      const std::string place = place_of(name, i);
+      assign(assignment, place, choose(here, words, signal(place)), guard);
+    }
   }
 
   // Statements
@@ -506,25 +566,30 @@ class Builder {
       if (const auto other = narrow(guard, mask, false); other && then_part.next_sibling())
         execute(then_part.next_sibling(), *other);
     } else if (op == "assigndly" && std::string_view(node.last_child().name()) == "varref") {
-      const std::string name = node.last_child().attribute("name").value();
-      const Bits bits = value(node.first_child());
-      for (const Guard& other : writes_[name]) {
-        if (!excludes(guard, other)) fail(fmt::format("{}: {}: assigned twice", line_of(node), name));
-      }
-      writes_[name].push_back(guard);
-      if (!error_.empty()) return;
-      unsigned at = 0;
-      for (const Piece& piece : bits) layout_.cuts[name].insert(at += piece.width);
-      for (std::size_t i = first_cell_[name]; i < step_.cells.size() && step_.cells[i].variable == name;
-           ++i) {
-        const Cell& cell = step_.cells[i];
-        const Bits part = slice(bits, cell.low, cell.width);
-        const int next = cell.width == 1 ? to_mask(part) : to_vector(part, false);
-        if (cell.width > 1 && graph()[next].bits > cell.width) layout_.dirty.insert({name, cell.low});
-        step_.updates[guard].push_back({i, next});
-      }
+      assign(node, node.last_child().attribute("name").value(), value(node.first_child()), guard);
+    } else if (const auto memory =
+                   netlist_.memories.find(node.last_child().first_child().attribute("name").value());
+               op == "assigndly" && memory != netlist_.memories.end()) {
+      write(node, memory->second, guard);
     } else {
       fail(fmt::format("{}: the lanes do not know '{}' there", line_of(node), op));
+    }
+  }
+
+  void assign(pugi::xml_node node, const std::string& name, const Bits& bits, const Guard& guard) {
+    for (const Guard& other : writes_[name]) {
+      if (!excludes(guard, other)) fail(fmt::format("{}: {}: assigned twice", line_of(node), name));
+    }
+    writes_[name].push_back(guard);
+    if (!error_.empty()) return;
+    unsigned at = 0;
+    for (const Piece& piece : bits) layout_.cuts[name].insert(at += piece.width);
+    for (std::size_t i = first_cell_[name]; i < step_.cells.size() && step_.cells[i].variable == name; ++i) {
+      const Cell& cell = step_.cells[i];
+      const Bits part = slice(bits, cell.low, cell.width);
+      const int next = cell.width == 1 ? to_mask(part) : to_vector(part, false);
+      if (cell.width > 1 && graph()[next].bits > cell.width) layout_.dirty.insert({name, cell.low});
+      step_.updates[guard].push_back({i, next});
     }
   }
 
@@ -818,8 +883,17 @@ Result<Netlist> read_netlist(const pugi::xml_document& document) {
   }
   const std::function<void(pugi::xml_node)> targets = [&](pugi::xml_node node) {
     if (std::string_view(node.name()) == "assigndly") {
-      const std::string name = node.last_child().attribute("name").value();
-      netlist.registers[name] = netlist.types[type_of[name]];
+      const pugi::xml_node target = node.last_child();
+      const bool element = std::string_view(target.name()) == "arraysel";
+      const std::string name = (element ? target.first_child() : target).attribute("name").value();
+      if (const auto room = netlist.rooms.find(type_of[name]); element && room != netlist.rooms.end()) {
+        const Memory& memory =
+            netlist.memories[name] = {netlist.types[room->second.first], room->second.second};
+        for (std::size_t i = 0; i < std::min(memory.places, kMostPlaces); ++i)
+          netlist.registers[place_of(name, i)] = memory.bits;
+      } else {
+        netlist.registers[name] = netlist.types[type_of[name]];
+      }
     }
     for (const pugi::xml_node inner : node.children()) targets(inner);
   };
@@ -868,6 +942,10 @@ Result<Netlist> read_netlist(const pugi::xml_document& document) {
   }
   netlist.inputs.erase("clk");
   for (const auto& [name, width] : netlist.registers) netlist.roms.erase(name);
+  for (const auto& [name, memory] : netlist.memories) {
+    if (netlist.roms.erase(name) != 0)
+      return tool_failed(fmt::format("{}: the lanes do not know what a memory begins with", name));
+  }
   return netlist;
 }
 
