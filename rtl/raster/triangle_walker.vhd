@@ -10,10 +10,11 @@
 --             edges stepped by a real slope, lines and spans inclusive at both ends.
 -- Contract    init is taken where init_valid and init_ready are '1', a fragment where fragment_valid and
 --             fragment_ready are; x, y and triangle stand still while a fragment waits. init stands still from
---             init_valid = '1' until it is taken: the edge stage has read it before. The line stage goes on only
---             where line_ready = '1': what the line needs beside the walker has come. line_held: it holds a line.
+--             init_valid = '1' until it is taken. It may stand longer, until line_load: none is taken before. The line
+--             stage goes on only where line_ready = '1': what the line needs beside the walker has come. line_held: it
+--             holds a line.
 -- Formats     formats_pkg: the header of init; x span_x, y pixel_y
--- Latency     3 clocks from init_valid to the triangle's first fragment, 2 from init taken
+-- Latency     3 clocks from init taken to the triangle's first fragment, 2 from line_load
 -- Throughput  with line_ready = '1' 1 fragment a clock, within and between spans and triangles, but that a triangle takes
 --             2 clocks at least; a line without a pixel costs a clock only where no span is being drawn meanwhile
 -- Error       none in preset exact: a pixel belongs to the triangle by its centre, top-left rule
@@ -33,11 +34,11 @@ entity triangle_walker is
     clk            : in  std_logic;
     reset          : in  std_logic;
     init_valid     : in  std_logic;
-    init_ready     : out std_logic; -- as line_load: the init vector is of no more use
+    init_ready     : out std_logic; -- the edge stage reads the init vector
     init           : in  std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0); -- header of the init vector
     line_ready     : in  std_logic;                                                   -- the line may go on
     line_held      : out std_logic;                                                   -- a line waits for line_ready
-    line_load      : out std_logic;                                                   -- take the init vector
+    line_load      : out std_logic;                                                   -- begin the triangle
     line_step      : out std_logic;                                                   -- go to the next line
     line_carry     : out std_logic;                                                   -- that step goes a pixel further
     span_load      : out std_logic;                                                   -- begin the line
@@ -70,7 +71,7 @@ architecture rtl of triangle_walker is
 
   type edge_stage_t is record
     valid        : std_logic;
-    first        : std_logic; -- the triangle's first line: init is not taken yet
+    first        : std_logic; -- the triangle's first line
     triangle     : triangle_t;
     y            : pixel_y_t;
     lines        : lines_t; -- left in this section of the stop edge, this one included
@@ -148,11 +149,11 @@ begin
   to_lower  <= r.edge.section_last and not r.edge.lower_none;
   edge_step <= r.edge.valid and not blocked;
   edge_goes <= edge_step or (init_valid and not r.edge.valid);
-  line_load <= init_valid and edge_step and r.edge.first;
+  line_load <= edge_step and r.edge.first;
 
-  -- While the first line is here init is still this triangle's.
+  -- While the first line is here init may still be this triangle's.
   edge_load  <= init_valid and (not r.edge.valid or (edge_step and r.edge.last_behind));
-  init_ready <= line_load;
+  init_ready <= edge_load;
 
   combinational : process (all)
     variable v : reg_t;
@@ -421,6 +422,6 @@ begin
   triangle       <= r.span.triangle;
   y              <= std_logic_vector(r.span.y);
   x              <= std_logic_vector(r.span.x);
-  busy           <= r.line.valid or r.span.valid;
+  busy           <= r.edge.valid or r.line.valid or r.span.valid;
 
 end architecture;

@@ -9,7 +9,7 @@
 --             given out as red, green and blue.
 -- Formats     formats_pkg: init (header, then a block a channel), depth, colour
 -- Latency     8 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel)
--- Throughput  1 fragment a clock, with no bubble between spans, lines and triangles, but that a triangle takes 4 clocks
+-- Throughput  1 fragment a clock, with no bubble between spans, lines and triangles, but that a triangle takes 2 clocks
 --             at least; lines that cover no pixel cost a clock each where no span is being drawn meanwhile
 -- Error       preset exact: the colour is within 0.65 steps of the quadratic through the six samples (0.5 rounding,
 --             0.15 differences), depth within 0.69 of the triangle's plane, and a step more within a step of 0 or of
@@ -57,6 +57,13 @@ architecture rtl of quadratic_shader is
   constant c_channel_bits : positive        := init_channel_low(g_exact, 1) - c_header_bits;
   constant c_colour       : positive        := c_formats.colour.bits;
 
+  -- The interpolators' words: depth's are the header's last.
+  constant c_depth_low     : positive := init_header(g_exact).z.low;
+  constant c_depth_bits    : positive := c_formats.depth_sum.bits;
+  constant c_depth_words   : positive := (c_header_bits - c_depth_low) / c_depth_bits;
+  constant c_value_bits    : positive := c_formats.intensity.bits;
+  constant c_channel_words : positive := c_channel_bits / c_value_bits;
+
   subtype intensity_t is std_logic_vector(c_formats.intensity.bits - 1 downto 0);
   subtype span_x_t    is std_logic_vector(c_formats.span_x.bits - 1 downto 0);
 
@@ -73,8 +80,14 @@ architecture rtl of quadratic_shader is
   -- upper ones a clock later. Then a word is whole.
   type strobe_t is array (1 to 2) of std_logic;
 
+  -- Behind the buffer the interpolators' words have a second place, from which they load: so the buffer is free a clock
+  -- after the walker has read it. The upper halves go there, too, a clock behind the lower ones.
   type reg_t is record
     walk_valid : std_logic; -- the buffer holds a triangle that the walker has not taken
+    walk_taken : std_logic; -- the walker took it in the clock before: the buffer lets it go
+    copy_waits : std_logic; -- the buffer holds a triangle whose words have not gone on
+    placed     : std_logic; -- the second place holds words of a triangle that has not begun
+    copy       : strobe_t;  -- words go on, now (the lower halves) or a clock ago
     line_load  : strobe_t;
     line_step  : std_logic;
     line_carry : std_logic;
@@ -94,8 +107,8 @@ architecture rtl of quadratic_shader is
   signal r, r_next : reg_t;
   signal pixels    : pixels_t;
 
-  signal init                          : std_logic_vector(init_data'range);
-  signal waiting                       : std_logic;
+  signal init, words                   : std_logic_vector(init_data'range); -- in the buffer; in the second place
+  signal waiting, walk_ready           : std_logic;
   signal line_load, line_step          : std_logic;
   signal line_carry                    : std_logic;
   signal span_load, span_step          : std_logic;
@@ -133,7 +146,7 @@ begin
       in_ready  => buffer_free,
       in_data   => init_data,
       out_valid => waiting,
-      out_ready => r.line_load(2),
+      out_ready => r.walk_taken,
       out_data  => init
       );
 
@@ -145,7 +158,7 @@ begin
       clk            => clk,
       reset          => reset,
       init_valid     => r.walk_valid,
-      init_ready     => open,
+      init_ready     => walk_ready,
       init           => init(c_header_bits - 1 downto 0),
       line_ready     => '1',
       line_held      => open,
@@ -169,11 +182,12 @@ begin
     variable v : reg_t;
   begin
     v            := r;
-    -- Until the upper halves have been loaded the triangle that the walker has taken stands in the buffer.
-    v.walk_valid := (waiting and not r.line_load(2)) or (init_valid and buffer_free);
-    if line_load = '1' or r.line_load(1) = '1' then
-      v.walk_valid := '0';
-    end if;
+    v.walk_taken := r.walk_valid and walk_ready;
+    v.walk_valid := (r.walk_valid and not walk_ready) or (init_valid and buffer_free);
+    -- Known a clock before: a register lets all these words in.
+    v.copy_waits := (r.copy_waits and not r.copy(1)) or (init_valid and buffer_free);
+    v.placed     := r.copy(1) or (r.placed and not line_load);
+    v.copy       := (v.copy_waits and not v.placed, r.copy(1));
     v.line_load  := (line_load, r.line_load(1));
     v.line_step  := line_step;
     v.line_carry := line_carry;
@@ -181,6 +195,10 @@ begin
     v.span_step  := (span_step, r.span_step(1));
     if reset = '1' then
       v.walk_valid := '0';
+      v.walk_taken := '0';
+      v.copy_waits := '0';
+      v.placed := '0';
+      v.copy := ('0', '0');
       v.line_load := ('0', '0');
       v.span_step := ('0', '0');
     end if;
@@ -195,6 +213,32 @@ begin
     end if;
   end process;
 
+  words(c_depth_low - 1 downto 0) <= (others => '0'); -- the walker's alone
+
+  depth_words : for word in 0 to c_depth_words - 1 generate
+
+    halves : for half in 0 to 1 generate
+
+      constant c_low  : natural := c_depth_low + word * c_depth_bits + half * c_depth_bits / 2;
+      constant c_high : natural := c_depth_low + word * c_depth_bits + (half + 1) * c_depth_bits / 2 - 1;
+
+      begin
+
+        place : entity work.parameter_register
+          generic map (
+            g_bits => c_high - c_low + 1
+            )
+          port map (
+            clk   => clk,
+            load  => r.copy(1 + half),
+            start => init(c_high downto c_low),
+            value => words(c_high downto c_low)
+            );
+
+    end generate;
+
+  end generate;
+
   depth : entity work.z_interpolator
     generic map (
       g_exact => g_exact,
@@ -202,7 +246,7 @@ begin
       )
     port map (
       clk        => clk,
-      init       => init(c_header_bits - 1 downto 0),
+      init       => words(c_header_bits - 1 downto 0),
       line_load  => r.line_load(1),
       line_step  => r.line_step,
       line_carry => r.line_carry,
@@ -222,6 +266,30 @@ begin
 
     begin
 
+      channel_words : for word in 0 to c_channel_words - 1 generate
+
+        halves : for half in 0 to 1 generate
+
+          constant c_half : natural := c_low + word * c_value_bits + half * c_value_bits / 2;
+          constant c_high : natural := c_low + word * c_value_bits + (half + 1) * c_value_bits / 2 - 1;
+
+          begin
+
+            place : entity work.parameter_register
+              generic map (
+                g_bits => c_high - c_half + 1
+                )
+              port map (
+                clk   => clk,
+                load  => r.copy(1 + half),
+                start => init(c_high downto c_half),
+                value => words(c_high downto c_half)
+                );
+
+        end generate;
+
+      end generate;
+
       interpolator : entity work.quadratic_interpolator
         generic map (
           g_exact => g_exact,
@@ -229,7 +297,7 @@ begin
           )
         port map (
           clk        => clk,
-          init       => init(c_low + c_channel_bits - 1 downto c_low),
+          init       => words(c_low + c_channel_bits - 1 downto c_low),
           line_load  => r.line_load(1),
           line_step  => r.line_step,
           line_carry => r.line_carry,

@@ -117,9 +117,9 @@ constexpr Listed c_listed[] = {
     {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "r.span.ends"},
     {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "'0'"},
     {"raster/triangle_walker.vhd", "edge_load or (edge_step and to_lower)", "edge_load"},
-    // An init vector read twice; one let go before its first line is handed on.
+    // An init vector read twice; one that nobody is told of until its first line is handed on.
     {"raster/triangle_walker.vhd", "v.edge.lower_none and not v.edge.first", "v.edge.lower_none"},
-    {"raster/triangle_walker.vhd", "init_ready <= line_load", "init_ready <= edge_load"},
+    {"raster/triangle_walker.vhd", "init_ready <= edge_load", "init_ready <= line_load"},
     // A line, or a span, that does not wait for what it needs.
     {"raster/triangle_walker.vhd", "(r.line.valid and not line_ready)", "'0'"},
     {"raster/triangle_walker.vhd", "(r.line.draws and (r.span.goes_on", "(r.line.valid and (r.span.goes_on"},
@@ -201,14 +201,17 @@ constexpr Listed c_listed[] = {
     {"shaders/quadratic_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
     {"shaders/quadratic_shader.vhd", "pixels <= ((triangle, y, x), pixels(1))",
      "pixels <= ((triangle, y, x), (triangle, y, x))"},
-    {"shaders/quadratic_shader.vhd", "out_ready => r.line_load(2)", "out_ready => r.line_load(1)"},
+    {"shaders/quadratic_shader.vhd", "out_ready => r.walk_taken", "out_ready => walk_ready"},
+    {"shaders/quadratic_shader.vhd", "v.copy_waits and not v.placed", "v.copy_waits"},
+    {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + half),\n                start",
+     "load  => r.copy(1),\n                start"},
     // A record taken as a header; an empty line's record taken for the next line's; the ambient light of the
     // triangle behind; not busy while only
     // the buffer holds a vector; pixels that nothing has a place for; another line's ambient light; white
     // highlights all
     // red.
     {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
-    {"shaders/spherical_shader.vhd", "line_step or header_ready", "header_ready or span_load"},
+    {"shaders/spherical_shader.vhd", "line_step or line_load", "line_load or span_load"},
     {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
      "load  => line_load,\n      start => line_ambient"},
     {"shaders/spherical_shader.vhd", "waiting or walking or coming", "walking or coming"},

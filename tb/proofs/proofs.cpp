@@ -193,7 +193,7 @@ std::vector<Proof> all_proofs() {
         {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
         {"raster/edge_walker.vhd", "r.error + r.rise", "r.error + r.remainder"}}});
   const std::vector<Fault> walker_faults = {
-      {"raster/triangle_walker.vhd", "init_ready <= line_load", "init_ready <= edge_load"},
+      {"raster/triangle_walker.vhd", "init_ready <= edge_load", "init_ready <= line_load"},
       {"raster/triangle_walker.vhd", "v.edge.lower_none and not v.edge.first", "v.edge.lower_none"},
       {"raster/triangle_walker.vhd", "edge_step and r.edge.last_behind", "edge_step"},
       {"raster/triangle_walker.vhd", "edge_step <= r.edge.valid and not blocked",
@@ -654,8 +654,9 @@ std::vector<Proof> all_proofs() {
       {"shaders/quadratic_shader",
        "shaders/quadratic_shader.psl",
        "Each pixel of the walker has a place in the queue and comes there once, in order, with its own "
-       "position; double buffer: the next triangle is taken while one is drawn, goes to the walker once, and "
-       "stands still until the interpolators have it",
+       "position; two buffers: the next triangles are taken while one is drawn, each goes to the walker "
+       "once, and "
+       "its words stand still until the interpolators have them",
        Method::induction,
        3,
        true,
@@ -663,15 +664,20 @@ std::vector<Proof> all_proofs() {
        {{"shaders/quadratic_shader.vhd", "waiting or walking or coming", "walking or coming"},
         {"shaders/quadratic_shader.vhd", "pixel_valid <= r.span_step(2)", "pixel_valid <= r.span_step(1)"},
         {"shaders/quadratic_shader.vhd", "v.span_step := ('0', '0')", "v.span_step := v.span_step"},
-        {"shaders/quadratic_shader.vhd", "if line_load = '1' or r.line_load(1) = '1' then",
-         "if line_load = '1' then"},
-        {"shaders/quadratic_shader.vhd", "out_ready => r.line_load(2)", "out_ready => r.line_load(1)"},
+        {"shaders/quadratic_shader.vhd", "(r.walk_valid and not walk_ready) or", "waiting or"},
+        {"shaders/quadratic_shader.vhd", "out_ready => r.walk_taken", "out_ready => walk_ready"},
+        {"shaders/quadratic_shader.vhd", "v.copy_waits and not v.placed", "v.copy_waits"},
+        {"shaders/quadratic_shader.vhd", "(r.placed and not line_load)", "r.placed"},
+        {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + half),\n            start",
+         "load  => r.copy(1),\n            start"},
+        {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + half),\n                start",
+         "load  => r.copy(1),\n                start"},
         {"shaders/quadratic_shader.vhd", "pixels <= ((triangle, y, x), pixels(1))",
          "pixels <= ((triangle, y, x), (triangle, y, x))"},
         {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= not r.valid"}},
        {},
        false,
-       9});
+       12});
   proofs.push_back(
       {"shaders/spherical_shader",
        "shaders/spherical_shader.psl",
@@ -691,7 +697,7 @@ std::vector<Proof> all_proofs() {
         {"shaders/spherical_shader.vhd", "span_place & places(1 to c_summed - 1)",
          "places(c_summed) & places(1 to c_summed - 1)"},
         {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
-        {"shaders/spherical_shader.vhd", "line_step or header_ready", "line_step or not waiting"}},
+        {"shaders/spherical_shader.vhd", "line_step or line_load", "line_step or not waiting"}},
        {},
        true,
        14});

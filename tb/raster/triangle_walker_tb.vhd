@@ -20,7 +20,7 @@ entity triangle_walker_run is
 end entity;
 
 architecture sim of triangle_walker_run is
-  constant c_latency    : positive := 2;      -- clocks from init taken to the first fragment
+  constant c_latency    : positive := 3;      -- clocks from init taken to the first fragment
   constant c_idle_limit : positive := 10_000; -- clocks in which nothing moves: a hang
 
   signal clk            : std_logic := '0';
@@ -93,6 +93,7 @@ begin
       variable init_now   : std_logic_vector(init'range);
       variable to_come    : boolean;            -- an init vector not yet taken
       variable offered    : boolean := false;
+      variable in_edge    : boolean := false;   -- the edge stage holds a triangle that has not begun
       variable in_line    : boolean := false;   -- the line stage holds a triangle
       variable waiting    : boolean := false;   -- the last clock's fragment was not taken
       variable empty      : std_logic;
@@ -132,9 +133,8 @@ begin
         idle := idle + 1;
 
         -- The contract, whatever is drawn.
-        check_flag("busy", busy, to_flag(in_line) or fragment_valid, clock);
+        check_flag("busy", busy, to_flag(in_edge) or to_flag(in_line) or fragment_valid, clock);
         check_flag("line_held", line_held, to_flag(in_line), clock);
-        check_flag("line_load", line_load, init_valid and init_ready, clock);
         check_flag("span_step", span_step, fragment_valid and fragment_ready, clock);
         if waiting then
           check_flag("fragment_valid of a fragment not taken", fragment_valid, '1', clock);
@@ -179,12 +179,20 @@ begin
           check_flag("span_load", span_load, '0', clock);
         end if;
 
+        if line_load = '1' then
+          check_flag("line_load without a triangle", to_flag(in_edge), '1', clock);
+          check_flag("line_load over a triangle not yet drawn", to_flag(in_line), '0', clock);
+          in_edge := false;
+          in_line := true;
+          idle    := 0;
+        end if;
+
         if init_valid = '1' and init_ready = '1' then
-          check_flag("init_ready over a triangle not yet drawn", to_flag(in_line), '0', clock);
+          check_flag("init_ready over a triangle that has not begun", to_flag(in_edge), '0', clock);
           if c_full and clock /= init_clock then
             inits.fail("is taken in clock " & to_string(clock) & ", expected " & to_string(init_clock));
           end if;
-          in_line := true;
+          in_edge := true;
           offered := false;
           taken   := taken + 1;
           to_come := inits.next_vector;
@@ -195,7 +203,7 @@ begin
           idle := 0;
         end if;
 
-        exit when not to_come and not in_line and line_step = '0' and fragment_valid = '0';
+        exit when not to_come and not in_edge and not in_line and line_step = '0' and fragment_valid = '0';
         assert idle < c_idle_limit
           report g_stem & set & ": nothing moved for " & to_string(c_idle_limit) & " clocks after "
           & to_string(taken) & " init vectors and " & to_string(given) & " fragments"

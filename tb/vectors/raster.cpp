@@ -39,7 +39,8 @@ struct SetNames {
 constexpr SetNames c_sets[] = {{Mix::dense, "dense"}, {Mix::mixed, "mixed"}};
 
 // init: the header, and the clock in which it is taken at full speed; lines: y, start, stop, empty, last,
-// carry; fragments: triangle, y, x, and the clock in which it is given out at full speed.
+// carry; fragments: triangle, y, x, and the clock in which it is given out at full speed. Clocks count from
+// the first init vector taken, a clock before its triangle begins.
 template <class Preset>
 Status write_walker(const std::filesystem::path& folder) {
   using At = typename Preset::init_header_at;
@@ -67,13 +68,14 @@ Status write_walker(const std::filesystem::path& folder) {
     LostClocks losses;
     std::int64_t pixels_before = 0;
     for (const InitVector& init : set) {
+      clock.take_init();
       inits.words_of(init, Preset::c_init_header_bits);
-      inits.word(static_cast<std::uint64_t>(clock.take_init()), 32).end_vector();
+      inits.word(static_cast<std::uint64_t>(clock.read() + 1), 32).end_vector();
       std::int64_t first_clock = -1, pixels = 0;
       for (const WalkedLine& line : walk_lines<Preset>(init)) {
         line_file.word(line.y, Preset::c_pixel_y_bits).word(line.start).word(line.stop);
         line_file.flag(line.pixels() == 0).flag(line.last).flag(line.carry).end_vector();
-        const std::int64_t first = clock.take_line(line.pixels()) + 1;
+        const std::int64_t first = clock.take_line(line.pixels()) + 2;
         if (pixels == 0) first_clock = first;
         pixels += line.pixels();
         for (std::int64_t i = 0; i < line.pixels(); ++i) {

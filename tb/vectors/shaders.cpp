@@ -64,7 +64,7 @@ Status write_quadratic(const std::filesystem::path& folder) {
       }
     };
     Shader twin;
-    constexpr std::int64_t c_held = 2, c_least = 4;  // clocks in the buffer in front; clocks of a triangle
+    constexpr std::int64_t c_held = 1, c_least = 2;  // clocks in the buffer when read; clocks of a triangle
     WalkerClock clock(false, c_held);
     LostClocks losses;
     std::int64_t taken = 0, pixels_before = 0;
@@ -72,9 +72,9 @@ Status write_quadratic(const std::filesystem::path& folder) {
          random_triangles<Preset>(random, mix, Shader::c_init_bits, mix == Mix::dense ? 700 : 1000)) {
       put_colours<Preset>(init, random, Channels);
       add_clock(inits.words_of(init, Shader::c_init_bits), taken);
-      // The buffer in front takes the next vector in the clock in which the walker, which has read this one
-      // the clock before, and the interpolators let it go.
-      taken = clock.take_init() + 2 + c_held;
+      clock.take_init();
+      // The buffer in front takes the next vector a clock after the walker has read this one.
+      taken = clock.read() + 2 + c_held;
       std::vector<std::int64_t> clocks;
       for (const WalkedLine& line : walk_lines<Preset>(init)) {
         // A clock in the buffer in front, one in the edge stage, one to the span stage, two for both halves

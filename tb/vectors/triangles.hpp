@@ -2,17 +2,18 @@
 // Random triangles as init vectors, what the golden walker makes of them, and when the hardware must show it.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "golden/triangle_walker.hpp"
+#include "golden/walker_clock.hpp"
 #include "setup/walk.hpp"
 #include "vectors/random.hpp"
 
 namespace halfway::vectors {
 
+using golden::WalkerClock;
 using InitVector = std::vector<std::uint32_t>;
 
 /// `bits` random bits; those above are zero.
@@ -47,39 +48,6 @@ std::vector<WalkedLine> walk_lines(const InitVector& init) {
     walker.line_step();
   }
 }
-
-/// When things happen at full speed, in clocks since the first init vector was taken, from what the header of
-/// rtl/raster/triangle_walker.vhd promises: the edge stage stands a line ahead of the line stage, and that a
-/// line ahead of the span stage.
-class WalkerClock {
- public:
-  /// `records`: the buffer in front holds a record a line, so the next header comes only after the last line.
-  /// `held`: for so many clocks more an init vector stays in the buffer in front, when it was taken.
-  explicit WalkerClock(bool records = false, std::int64_t held = 0) : records_(records), held_(held) {}
-
-  /// The clock in which the next init vector is taken: its first line goes to the line stage. It is read a
-  /// clock before at the latest, when it is there and the line before has left the edge stage.
-  std::int64_t take_init() {
-    const std::int64_t there = (records_ ? line_free_ : taken_ + held_) + 1;
-    taken_ = std::max(std::max(there, handed_on_) + 1, line_free_);
-    handed_on_ = taken_;
-    first_ = true;
-    return taken_;
-  }
-  /// The clock in which the line, and its record, is taken. Its first pixel stands at the output a clock
-  /// later and leaves in that clock, the others follow.
-  std::int64_t take_line(std::int64_t pixels) {
-    if (!first_) handed_on_ = line_free_;
-    first_ = false;
-    line_free_ = pixels == 0 ? handed_on_ + 1 : std::max(handed_on_ + 1, span_free_);
-    if (pixels != 0) span_free_ = line_free_ + pixels;
-    return line_free_;
-  }
-
- private:
-  bool records_, first_ = false;
-  std::int64_t held_, taken_ = -2 - held_, handed_on_ = -1, line_free_ = -2, span_free_ = 0;
-};
 
 /// The clocks that are lost between triangles of which every line covers a pixel, held against a promise.
 class LostClocks {
