@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "designs.hpp"
+
 #include <fmt/format.h>
 
 #include "golden/processors_layout.hpp"
 #include "plan/hardware_key.hpp"
-#include "synthesis.hpp"
 #include "tables/formats.hpp"
 
 namespace halfway::synth {
@@ -14,8 +15,8 @@ using Generics = std::vector<std::pair<std::string, std::string>>;
 constexpr const char* kLarge = "multipliers of LUTs alone would fill it";
 constexpr const char* kCrowded = "82 % of the cells, and nextpnr 0.4's placers do not end";
 
-Design shader(const std::string& name, const HardwareKey& key) {
-  return {.name = name, .entity = key.entity(), .generics = key.generics()};
+ListedDesign shader(const std::string& name, const HardwareKey& key) {
+  return {.design = {.name = name, .entity = key.entity(), .generics = key.generics()}};
 }
 
 HardwareKey spherical(Preset preset, unsigned channels, unsigned powers, TableSize tables) {
@@ -45,12 +46,12 @@ std::string bits(const tables::PresetFormats& preset, std::string_view format) {
 
 }  // namespace
 
-std::vector<Design> all_designs() {
-  std::vector<Design> all;
+std::vector<ListedDesign> all_designs() {
+  std::vector<ListedDesign> all;
   for (const char* width : {"24", "32", "40"})
-    all.push_back({.name = fmt::format("accumulator_{}", width),
-                   .entity = "accumulator",
-                   .generics = {{"g_bits", width}},
+    all.push_back({.design = {.name = fmt::format("accumulator_{}", width),
+                              .entity = "accumulator",
+                              .generics = {{"g_bits", width}}},
                    .quick = true});
 
   const auto presets = tables::preset_formats();
@@ -65,9 +66,9 @@ std::vector<Design> all_designs() {
                             {"g_data_bits", std::to_string(tables.data_bits)}};
     const auto add = [&](const std::string& entity, Generics generics, bool quick = false,
                          const std::string& suffix = "") {
-      all.push_back({.name = fmt::format("{}{}_{}", entity, suffix, p),
-                     .entity = entity,
-                     .generics = std::move(generics),
+      all.push_back({.design = {.name = fmt::format("{}{}_{}", entity, suffix, p),
+                                .entity = entity,
+                                .generics = std::move(generics)},
                      .quick = quick});
     };
     const auto with = [](Generics first, const Generics& more) {
@@ -84,7 +85,7 @@ std::vector<Design> all_designs() {
     all.push_back(shader("spherical_shader_" + p, spherical(preset, 3, exact ? 8 : 2, tables)));
     all.push_back(shader("spherical_shader_grey_" + p, spherical(preset, 1, exact ? 8 : 2, tables)));
     for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
-      Design design =
+      ListedDesign design =
           shader(fmt::format("processors_shader_{}_{}", to_string(form), p), processors(preset, form));
       design.placed = false;
       design.without = kLarge;

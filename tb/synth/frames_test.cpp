@@ -10,8 +10,8 @@
 #include "run/limits.hpp"
 #include "run/scene_stream.hpp"
 #include "scene/load_scene.hpp"
+#include "sim/synth/synthesis.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
-#include "synthesis.hpp"
 
 namespace halfway::synth {
 namespace {

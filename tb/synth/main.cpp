@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_synth [--quick] [--cells] [--pin] [--seeds N] [--jobs N] [--page FILE] SOURCE CACHE [PART]: every
-// design of the list through Yosys for two FPGA families and through nextpnr for an iCE40 HX8K, into one
-// table, and its figures against those pinned in tb/synth/pinned.txt. SOURCE is the project's root, CACHE
-// holds what was made before. --quick: the small ones, without ECP5, and exit code 77 where a tool is
-// missing; --cells: no place and route; --pin: writes the figures into the pinned file in place of comparing;
-// --seeds: of placement, 5 unless told; --page: writes the table into that file, behind what stands there
-// before it; PART: only designs whose names hold it. Exit codes: 0 all is as pinned, 1 something is not, 2
-// bad usage, 3 a tool is missing or broke.
+// halfway_synth: every design of the list through Yosys for two FPGA families and through nextpnr for an
+// iCE40 HX8K, into one table, and its figures against those pinned in tb/synth/pinned.txt.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,10 +14,12 @@
 #include <thread>
 #include <vector>
 
+#include "cli/program.hpp"
 #include "common/file.hpp"
 #include "common/threads.hpp"
+#include "designs.hpp"
 #include "pinned.hpp"
-#include "synthesis.hpp"
+#include "sim/synth/synthesis.hpp"
 
 namespace halfway::synth {
 namespace {
@@ -44,42 +40,6 @@ struct Options {
   SimulatorFolders folders{};
   std::string part{};
 };
-
-bool read_number(const std::string& text, unsigned& number) {
-  if (text.empty() || text.size() > 3 || text.find_first_not_of("0123456789") != std::string::npos)
-    return false;
-  number = static_cast<unsigned>(std::stoul(text));
-  return number > 0;
-}
-
-bool read_options(const std::vector<std::string>& arguments, Options& options) {
-  std::vector<std::string> places;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& argument = arguments[i];
-    const bool more = i + 1 < arguments.size();
-    if (argument == "--quick")
-      options.quick = true;
-    else if (argument == "--cells")
-      options.cells = true;
-    else if (argument == "--pin")
-      options.pin = true;
-    else if (argument == "--seeds" && more && read_number(arguments[i + 1], options.seeds))
-      ++i;
-    else if (argument == "--jobs" && more && read_number(arguments[i + 1], options.jobs))
-      ++i;
-    else if (argument == "--page" && more)
-      options.page = arguments[++i];
-    else if (argument.starts_with("--"))
-      return false;
-    else
-      places.push_back(argument);
-  }
-  if (places.size() != 2 && places.size() != 3) return false;
-  if (!options.page.empty() && (options.cells || options.quick)) return false;  // rows with holes
-  options.folders = {std::filesystem::absolute(places[0]), std::filesystem::absolute(places[1])};
-  if (places.size() == 3) options.part = places[2];
-  return true;
-}
 
 // What a design came to.
 struct Figures {
@@ -120,8 +80,8 @@ std::string row_begin(const std::string& name) {
   return fmt::format("| `{}` |", name);
 }
 
-std::string row(const Design& design, const Figures& f) {
-  std::string text = row_begin(design.name);
+std::string row(const ListedDesign& listed, const Figures& f) {
+  std::string text = row_begin(listed.design.name);
   if (f.ice40)
     text += fmt::format(" {} | {} | {} | {} |", f.ice40->luts, f.ice40->carries, f.ice40->flip_flops,
                         f.ice40->rams);
@@ -132,7 +92,7 @@ std::string row(const Design& design, const Figures& f) {
                         f.placements.back().mhz, f.placements.size(), 1000 / f.mhz(),
                         path_text(f.median()->path));
   else
-    text += fmt::format(" – | – | – | {} |", !design.without.empty() ? "not placed: " + design.without
+    text += fmt::format(" – | – | – | {} |", !listed.without.empty() ? "not placed: " + listed.without
                                              : f.placements.empty()  ? "not placed"
                                                                      : "does not fit the HX8K's 7680 cells");
   if (f.ecp5)
@@ -150,9 +110,10 @@ Status write_page(const std::filesystem::path& path, const std::map<std::string,
   if (!text) return text.error();
   const std::size_t figures = std::min(text->find(kTable), text->size());
   std::string table(kHead);
-  for (const Design& design : all_designs()) {
-    const auto measured = rows.find(design.name);
-    const std::size_t before = text->find(row_begin(design.name), figures);
+  for (const ListedDesign& listed : all_designs()) {
+    const std::string& name = listed.design.name;
+    const auto measured = rows.find(name);
+    const std::size_t before = text->find(row_begin(name), figures);
     if (measured != rows.end())
       table += measured->second;
     else if (before != std::string::npos)
@@ -165,7 +126,7 @@ Status write_page(const std::filesystem::path& path, const std::map<std::string,
 
 class Run {
  public:
-  Run(const Options& options, const Synthesizer& synthesizer, std::vector<Design> designs)
+  Run(const Options& options, const Synthesizer& synthesizer, std::vector<ListedDesign> designs)
       : options_(options),
         synthesizer_(synthesizer),
         designs_(std::move(designs)),
@@ -207,7 +168,7 @@ class Run {
         const auto said = work(job);
         const std::lock_guard lock(mutex_);
         broken_ += said ? 0 : 1;
-        fmt::print("[{}/{}] {}: {}\n", ++done, jobs.size(), designs_[job.design].name,
+        fmt::print("[{}/{}] {}: {}\n", ++done, jobs.size(), designs_[job.design].design.name,
                    said ? *said : said.error().message);
         std::fflush(stdout);
       }
@@ -215,7 +176,7 @@ class Run {
   }
 
   Result<std::string> work(const Job& job) {
-    const Design& design = designs_[job.design];
+    const Design& design = designs_[job.design].design;
     Figures& f = figures_[job.design];
     if (job.kind == Job::Kind::ice40) {
       const auto cells = synthesizer_.ice40(design);
@@ -243,8 +204,8 @@ class Run {
     std::map<std::string, std::string> rows;
     fmt::print("\n{}", kHead);
     for (std::size_t i = 0; i < designs_.size(); ++i) {
-      rows[designs_[i].name] = row(designs_[i], figures_[i]);
-      fmt::print("{}", rows[designs_[i].name]);
+      rows[designs_[i].design.name] = row(designs_[i], figures_[i]);
+      fmt::print("{}", rows[designs_[i].design.name]);
     }
     fmt::print("\n");
     if (broken_ > 0) {
@@ -254,8 +215,7 @@ class Run {
     const auto path = options_.folders.source / kPins;
     Pins pins;
     // A part is pinned beside what is there.
-    const bool part = !options_.part.empty() || options_.quick || options_.cells;
-    if (!options_.pin || (part && std::filesystem::exists(path))) {
+    if (!options_.pin || (!options_.part.empty() && std::filesystem::exists(path))) {
       auto read = read_pins(path);
       if (!read) return failed(read.error());
       pins = std::move(*read);
@@ -264,10 +224,11 @@ class Run {
     for (std::size_t i = 0; i < designs_.size(); ++i) {
       const Figures& f = figures_[i];
       if (options_.pin) {
-        Pin& pin = pins[designs_[i].name];
+        Pin& pin = pins[designs_[i].design.name];
         pin.cells = *f.ice40;
         if (f.fits()) pin.mhz = f.mhz();  // else as it was
-      } else if (const std::string text = compare(designs_[i].name, pins, *f.ice40, f.mhz()); !text.empty()) {
+      } else if (const std::string text = compare(designs_[i].design.name, pins, *f.ice40, f.mhz());
+                 !text.empty()) {
         fmt::print("{}", text);
         ++wrong;
       }
@@ -289,39 +250,58 @@ class Run {
 
   const Options& options_;
   const Synthesizer& synthesizer_;
-  std::vector<Design> designs_;
+  std::vector<ListedDesign> designs_;
   std::vector<Figures> figures_;
   std::mutex mutex_;
   int broken_ = 0;
 };
+
+int main_of(const Options& options) {
+  std::vector<ListedDesign> designs;
+  for (ListedDesign& listed : all_designs())
+    if ((listed.quick || !options.quick) && listed.design.name.find(options.part) != std::string::npos)
+      designs.push_back(std::move(listed));
+  if (designs.empty()) {
+    fmt::print(stderr, "{}: no design has this in its name\n", options.part);
+    return static_cast<int>(ExitCode::bad_input);
+  }
+  const auto synthesizer = Synthesizer::open(options.folders, !options.cells, {kAccumulator});
+  if (!synthesizer) {
+    fmt::print(stderr, "{}{}\n", options.quick ? "skipped: " : "", synthesizer.error().message);
+    return options.quick ? kSkipped : static_cast<int>(synthesizer.error().code);
+  }
+  return static_cast<int>(Run(options, *synthesizer, std::move(designs)).run());
+}
 
 }  // namespace
 }  // namespace halfway::synth
 
 int main(int argc, char** argv) {
   using namespace halfway;
-  using namespace halfway::synth;
-  Options options;
-  if (!read_options(std::vector<std::string>(argv + 1, argv + argc), options)) {
-    fmt::print(
-        stderr,
-        "usage: halfway_synth [--quick] [--cells] [--pin] [--seeds N] [--jobs N] [--page FILE] SOURCE CACHE "
-        "[PART]\n--page and --pin go with whole figures, not with --quick or --cells, --page not with "
-        "PART\n");
-    return static_cast<int>(ExitCode::bad_input);
-  }
-  std::vector<Design> designs;
-  for (Design& design : all_designs())
-    if ((design.quick || !options.quick) && design.name.find(options.part) != std::string::npos)
-      designs.push_back(std::move(design));
-  if (designs.empty()) {
-    fmt::print(stderr, "{}: no design has this in its name\n", options.part);
-    return static_cast<int>(ExitCode::bad_input);
-  }
-  const auto synthesizer = Synthesizer::open(options.folders, !options.cells);
-  if (!synthesizer) {
-    fmt::print(stderr, "{}{}\n", options.quick ? "skipped: " : "", synthesizer.error().message);
-    return options.quick ? kSkipped : static_cast<int>(synthesizer.error().code);
-  }
-  return static_cast<int>(Run(options, *synthesizer, std::move(designs)).run());
+  synth::Options options;
+  CLI::App app{"Cells on two FPGA families and the clock on an iCE40 HX8K, against what is pinned",
+               "halfway_synth"};
+  auto* quick = app.add_flag(
+      "--quick", options.quick,
+      fmt::format("small designs, without ECP5; exit code {} where a tool is missing", synth::kSkipped));
+  auto* cells = app.add_flag("--cells", options.cells, "no place and route");
+  app.add_flag("--pin", options.pin, "write the figures into the pinned file in place of comparing")
+      ->excludes(quick)
+      ->excludes(cells);
+  app.add_option("--seeds", options.seeds, "of placement")->check(CLI::Range(1, 999))->capture_default_str();
+  app.add_option("--jobs", options.jobs, "at a time")->check(CLI::Range(1, 999))->capture_default_str();
+  // Rows would have holes.
+  app.add_option("--page", options.page, "file whose table is written anew")
+      ->excludes(quick)
+      ->excludes(cells);
+  app.add_option("SOURCE", options.folders.source, "the project's root")->required();
+  app.add_option("CACHE", options.folders.cache, "folder of what was made before")->required();
+  app.add_option("PART", options.part, "only designs whose names hold it");
+  int exit_code = 0;
+  app.callback([&] {
+    options.folders.source = std::filesystem::absolute(options.folders.source);
+    options.folders.cache = std::filesystem::absolute(options.folders.cache);
+    exit_code = synth::main_of(options);
+  });
+  return cli::run_program(app, argc, argv, exit_code);
 }

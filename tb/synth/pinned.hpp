@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "synthesis.hpp"
+#include "sim/synth/synthesis.hpp"
 
 namespace halfway::synth {
 

@@ -16,18 +16,12 @@ namespace halfway::synth {
 
 inline constexpr const char* kInstallTools = "apt-get install yosys nextpnr-ice40";
 
-/// What is synthesized: an entity of rtl/, or `accumulator` beside this file.
+/// What is synthesized: an entity of rtl/, or of what `open` is given beside it.
 struct Design {
-  std::string name;  ///< in the page and in the file of pinned figures, without spaces
+  std::string name;  ///< without spaces: messages and the cache's folders begin with it
   std::string entity;
   std::vector<std::pair<std::string, std::string>> generics;
-  bool quick = false;     ///< a second or two of Yosys: in `make test` too
-  bool placed = true;     ///< else cells alone
-  std::string without{};  ///< why it is not placed
 };
-
-/// All of them, in the order of the page.
-std::vector<Design> all_designs();
 
 /// Of an entity by itself, without what stands around it for its clock.
 struct Ice40Cells {
@@ -35,9 +29,8 @@ struct Ice40Cells {
   friend bool operator==(Ice40Cells, Ice40Cells) = default;
 };
 struct Ecp5Cells {
-  std::uint64_t luts = 0;                                   ///< LUT4, the two of a CCU2C among them
+  std::uint64_t luts = 0;  ///< LUT4, with the two of a CCU2C and the four of a TRELLIS_DPR16X4
   std::uint64_t flip_flops = 0, rams = 0, multipliers = 0;  ///< TRELLIS_FF, DP16KD, MULT18X18D
-  std::uint64_t ram_luts = 0;                               ///< TRELLIS_DPR16X4, four LUTs each
 };
 
 /// From register to register, the routed one that limits the clock.
@@ -69,8 +62,9 @@ Result<Placement> read_placement(std::string_view report, std::string_view netli
 class Synthesizer {
  public:
   /// An error (exit code tool_failed) names what installs a missing tool. Without `place` nextpnr need not be
-  /// there.
-  static Result<Synthesizer> open(const SimulatorFolders& folders, bool place);
+  /// there. `more`: VHDL sources beside those of rtl/, under the project's root.
+  static Result<Synthesizer> open(const SimulatorFolders& folders, bool place,
+                                  const std::vector<std::string>& more = {});
 
   /// Of GHDL, Yosys and nextpnr, for the page.
   const std::string& versions() const { return versions_; }

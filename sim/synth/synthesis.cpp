@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "synthesis.hpp"
+#include "sim/synth/synthesis.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::chrono::minutes kTimeout{60};
-constexpr const char* kAccumulator = "tb/synth/accumulator.vhd";
 constexpr unsigned kMostInputs = 256;  // flip-flops in front of a design
 constexpr int kFrequency = 200;        // MHz asked for: more than any design comes to
 
@@ -240,7 +239,8 @@ Result<Placement> read_placement(std::string_view report, std::string_view netli
   return placement;
 }
 
-Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool place) {
+Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool place,
+                                      const std::vector<std::string>& more) {
   const auto tool = GhdlTool::find();
   if (!tool) return tool.error();
   auto yosys = run({.arguments = {"yosys", "-V"}}, "looking for yosys");
@@ -253,9 +253,11 @@ Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool plac
   }
   auto sources = read_rtl_sources(folders.source);
   if (!sources) return sources.error();
-  auto accumulator = read_vhdl_source(folders.source, kAccumulator);
-  if (!accumulator) return accumulator.error();
-  sources->push_back(std::move(*accumulator));
+  for (const std::string& file : more) {
+    auto source = read_vhdl_source(folders.source, file);
+    if (!source) return source.error();
+    sources->push_back(std::move(*source));
+  }
   auto library = GhdlLibrary::open(*tool, *sources, "", folders.cache);
   if (!library) return library.error();
   Synthesizer synthesizer(std::move(*library), std::filesystem::absolute(folders.cache) / "synth");
