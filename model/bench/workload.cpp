@@ -285,24 +285,22 @@ WalkCounts count_walk(const InitBatches& batches) {
     walker.line_load(header);
     ++n.headers;
     clock.take_init();
-    for (;;) {
+    walker.walk([&] {
       ++n.lines;
       ++lines;
-      const std::int64_t pixels =
-          walker.line_empty() ? 0 : std::abs(walker.stop().value() - walker.start().value());
-      clock.take_line(pixels);
-      if (pixels == 0) {
+      if (walker.line_empty()) {
         ++n.empty_lines;
-      } else {
-        ++n.spans;
-        n.pixels += static_cast<std::uint64_t>(pixels);
-        n.lost_to_lines += std::max(span, lines) - span;
-        span = static_cast<std::uint64_t>(pixels);
-        lines = 0;
+        clock.take_line(0);
+        return;
       }
-      if (walker.line_last()) break;
-      walker.line_step();
-    }
+      const std::uint64_t pixels = walker.pixels();
+      ++n.spans;
+      n.pixels += pixels;
+      clock.take_line(static_cast<std::int64_t>(pixels));
+      n.lost_to_lines += std::max(span, lines) - span;
+      span = pixels;
+      lines = 0;
+    });
   }
   n.lost_to_headers = static_cast<std::uint64_t>(clock.last_pixel()) - n.pixels - n.lost_to_lines;
   return n;

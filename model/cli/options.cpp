@@ -200,7 +200,7 @@ Result<DrawSettings> checked(const DrawOptions& o) {
   return s;
 }
 
-Result<Simulators> checked_simulators(const std::vector<std::string>& names) {
+Result<Simulators> checked_simulators(const std::vector<std::string>& names, bool with_lanes) {
   Simulators chosen;
   if (names.empty()) return chosen;
   chosen.ghdl = chosen.verilator = false;
@@ -209,8 +209,11 @@ Result<Simulators> checked_simulators(const std::vector<std::string>& names) {
       chosen.ghdl = true;
     else if (name == "verilator")
       chosen.verilator = true;
+    else if (with_lanes && name == "lanes")
+      chosen.lanes = true;
     else
-      return bad_input(fmt::format("--simulator: '{}' is not a simulator; take ghdl or verilator", name));
+      return bad_input(fmt::format("--simulator: '{}' is not a simulator; take ghdl{} verilator{}", name,
+                                   with_lanes ? "," : " or", with_lanes ? " or lanes" : ""));
   }
   return chosen;
 }

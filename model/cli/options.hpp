@@ -51,10 +51,10 @@ inline constexpr const char* c_shader_names = "quadratic, spherical or processor
 Result<Shader> checked_shader(const std::string& name);
 
 struct Simulators {
-  bool ghdl = true, verilator = true;
+  bool ghdl = true, verilator = true, lanes = false;
 };
-/// By their names; none given: both.
-Result<Simulators> checked_simulators(const std::vector<std::string>& names);
+/// By their names; none given: GHDL and Verilator. `with_lanes`: these are one, too.
+Result<Simulators> checked_simulators(const std::vector<std::string>& names, bool with_lanes = false);
 
 /// The built-in scenes' names, in alphabetical order.
 Result<std::vector<std::string>> builtin_scenes(const Folders& folders);

@@ -117,12 +117,11 @@ int run(const Folders& folders, const SimOptions& options) {
   settings.out = draw->out;
   settings.stall_seed = options.stall_seed;
   settings.folders = {folders.source, folders.cache()};
-  std::vector<std::string> names = options.simulators;
-  settings.lanes = std::erase(names, "lanes") != 0;
-  const auto simulators = checked_simulators(names);
+  const auto simulators = checked_simulators(options.simulators, true);
   if (!simulators) return report(simulators.error());
-  settings.ghdl = simulators->ghdl && !(settings.lanes && names.empty());
-  settings.verilator = simulators->verilator && !(settings.lanes && names.empty());
+  settings.ghdl = simulators->ghdl;
+  settings.verilator = simulators->verilator;
+  settings.lanes = simulators->lanes;
   if (settings.lanes && settings.stall_seed != 0)
     return report(bad_input("--simulator lanes: they know no stalls; leave --stalls out"));
   std::vector<std::string> scenes = options.scenes;

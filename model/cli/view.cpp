@@ -21,6 +21,7 @@
 #include "common/folder_lock.hpp"
 #include "common/interruption.hpp"
 #include "common/printable.hpp"
+#include "common/seconds.hpp"
 #include "frame/image.hpp"
 #include "frame/terminal_picture.hpp"
 #include "run/result_files.hpp"
@@ -285,7 +286,7 @@ class View {
   }
 
   Status next(std::uint32_t number, const Frame& frame) {
-    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double seconds = seconds_since(start_);
     const std::string so_far =
         fmt::format("frame {} of {}, {:.1f} frames a second", number + 1, c_.frames, (number + 1) / seconds);
     if (video_)

@@ -72,18 +72,17 @@ class ProcessorsShader {
     token_.normalize = request(RequestAt::normalize) != 0;
     line_load(vector);
     token_.triangle = walker_.triangle();
-    for (;;) {
-      if (!walker_.line_empty()) {
-        watch.line(*this);
-        span_load();
-        draw_span(emit, watch);
-      }
-      if (walker_.line_last()) return;
-      const bool carry = walker_.carry();
-      walker_.line_step();
-      depth_.line_step(carry);
-      for (auto& plane : planes_) plane.line_step(carry);
-    }
+    walker_.walk(
+        [&] {
+          if (walker_.line_empty()) return;
+          watch.line(*this);
+          span_load();
+          draw_span(emit, watch);
+        },
+        [&](bool carry) {
+          depth_.line_step(carry);
+          for (auto& plane : planes_) plane.line_step(carry);
+        });
   }
 
   const TriangleWalker<Exact>& walker() const { return walker_; }
@@ -188,7 +187,7 @@ class ProcessorsShader {
   template <class Emit, class Watch>
   void draw_span(Emit& emit, Watch& watch) {
     const std::int64_t from = walker_.start().value(), to = walker_.stop().value();
-    const std::int64_t step = walker_.backward() ? -1 : 1;
+    const std::int64_t step = walker_.pixel_step();
     token_.y = walker_.y();
     for (std::int64_t x = from; x != to; x += step) {
       const auto at = SpanXWord::from_bits(static_cast<std::uint64_t>(x));

@@ -88,19 +88,15 @@ class QuadraticShader {
     walker_.line_load(init);
     QuadraticSideBySide<Preset, Channels> interpolators;
     interpolators.line_load(init);
-    for (;;) {
-      if (!walker_.line_empty()) {
-        const std::int64_t from = walker_.start().value(), to = walker_.stop().value();
-        const auto count = static_cast<std::size_t>(walker_.backward() ? from - to : to - from);
-        const std::uint64_t step = walker_.backward() ? ~std::uint64_t{0} : 1;
-        interpolators.draw_span(walker_.triangle(), walker_.y(), static_cast<std::uint64_t>(from), step,
-                                count, emit.room(count));
-      }
-      if (walker_.line_last()) return;
-      const bool carry = walker_.carry();
-      walker_.line_step();
-      interpolators.line_step(carry);
-    }
+    walker_.walk(
+        [&] {
+          if (walker_.line_empty()) return;
+          const std::size_t count = walker_.pixels();
+          interpolators.draw_span(walker_.triangle(), walker_.y(),
+                                  static_cast<std::uint64_t>(walker_.start().value()),
+                                  static_cast<std::uint64_t>(walker_.pixel_step()), count, emit.room(count));
+        },
+        [&](bool carry) { interpolators.line_step(carry); });
   }
 
   template <class Emit, class Watch>
@@ -109,17 +105,16 @@ class QuadraticShader {
     depth_.line_load(init);
     for (int c = 0; c < Channels; ++c)
       channel_[c].line_load(init, Preset::c_init_header_bits + c * Preset::c_init_channel_bits);
-    for (;;) {
-      if (!walker_.line_empty()) {
-        watch.line(*this);
-        draw_span(emit, watch);
-      }
-      if (walker_.line_last()) return;
-      const bool carry = walker_.carry();
-      walker_.line_step();
-      depth_.line_step(carry);
-      for (auto& channel : channel_) channel.line_step(carry);
-    }
+    walker_.walk(
+        [&] {
+          if (walker_.line_empty()) return;
+          watch.line(*this);
+          draw_span(emit, watch);
+        },
+        [&](bool carry) {
+          depth_.line_step(carry);
+          for (auto& channel : channel_) channel.line_step(carry);
+        });
   }
 
   template <class Emit, class Watch>
@@ -127,7 +122,7 @@ class QuadraticShader {
     depth_.span_load();
     for (auto& channel : channel_) channel.span_load();
     const SpanXWord stop = walker_.stop();
-    const SpanXWord step = SpanXWord::from_bits(walker_.backward() ? ~std::uint64_t{0} : 1);
+    const auto step = SpanXWord::from_bits(static_cast<std::uint64_t>(walker_.pixel_step()));
     Fragment fragment = span_fragment();
     for (SpanXWord x = walker_.start(); x != stop; x += step) {
       watch.span(*this, x);

@@ -62,18 +62,15 @@ class SphericalShader {
     for (int c = 0; c < config_.channels; ++c)
       ambient_[static_cast<std::size_t>(c)] = static_cast<std::uint32_t>(
           get_bits(vectors, Preset::ambient_channel_at::ambient, layout_.ambient_low(c)));
-    for (;;) {
-      if (layout_.record_bits() != 0) vectors = vectors.subspan(init_words());
-      if (!walker_.line_empty()) {
-        watch.line(*this);
-        span_load(vectors);
-        draw_span(emit, watch);
-      }
-      if (walker_.line_last()) return;
-      const bool carry = walker_.carry();
-      walker_.line_step();
-      depth_.line_step(carry);
-    }
+    walker_.walk(
+        [&] {
+          if (layout_.record_bits() != 0) vectors = vectors.subspan(init_words());
+          if (walker_.line_empty()) return;
+          watch.line(*this);
+          span_load(vectors);
+          draw_span(emit, watch);
+        },
+        [&](bool carry) { depth_.line_step(carry); });
   }
 
   const TriangleWalker<Preset>& walker() const { return walker_; }
@@ -177,8 +174,8 @@ class SphericalShader {
     fragment.triangle = walker_.triangle();
     fragment.y = static_cast<std::uint16_t>(walker_.y());
     if constexpr (requires { emit.room(std::size_t{}); }) {
-      const std::int64_t from = walker_.start().value(), to = walker_.stop().value();
-      const auto count = static_cast<std::size_t>(walker_.backward() ? from - to : to - from);
+      const std::int64_t from = walker_.start().value();
+      const std::size_t count = walker_.pixels();
       Fragment* out = emit.room(count);
       if (config_.channels == 1)
         draw_run<1, false>(fragment, from, count, out);
@@ -188,7 +185,7 @@ class SphericalShader {
         draw_run<3, true>(fragment, from, count, out);
     } else {
       const SpanXWord stop = walker_.stop();
-      const SpanXWord step = SpanXWord::from_bits(walker_.backward() ? ~std::uint64_t{0} : 1);
+      const auto step = SpanXWord::from_bits(static_cast<std::uint64_t>(walker_.pixel_step()));
       for (SpanXWord x = walker_.start(); x != stop; x += step) {
         watch.span(*this, x);
         watch.sample(*this, x);
@@ -212,7 +209,7 @@ class SphericalShader {
     const auto ambient = ambient_sums<Channels>();
     for (std::size_t c = 0; c < Channels; ++c) start.channel[c] = FourWords{} + ambient[c].sum();
     FourSteps<Preset::c_depth_sum_bits> depth(depth_.value(), depth_.dx());
-    const std::uint64_t step = walker_.backward() ? ~std::uint64_t{0} : 1;
+    const auto step = static_cast<std::uint64_t>(walker_.pixel_step());
     auto x = static_cast<std::uint64_t>(from);
     const auto put = [&](const FourWords* sums) {
       put_pixels<Preset, Channels>(line, x, step, depth.aligned(), sums, config_.data_bits, out);

@@ -65,6 +65,30 @@ class TriangleWalker {
     return backward_ ? start().value() <= stop().value() : start().value() >= stop().value();
   }
   bool line_last() const { return lines_ == 1 && lower_lines_ == 0; }
+  /// Of the line, where it is not empty.
+  std::size_t pixels() const {
+    const std::int64_t from = start().value(), to = stop().value();
+    return static_cast<std::size_t>(backward_ ? from - to : to - from);
+  }
+  /// From a pixel of a span to the next one: 1 or -1.
+  std::int64_t pixel_step() const { return backward_ ? -1 : 1; }
+
+  /// The lines from the loaded one to the triangle's last: line() at each, line_step(carry) of whatever walks
+  /// along from each to the next.
+  template <class Line, class Step>
+  void walk(Line&& line, Step&& step) {
+    for (;;) {
+      line();
+      if (line_last()) return;
+      const bool carries = carry();
+      line_step();
+      step(carries);
+    }
+  }
+  template <class Line>
+  void walk(Line&& line) {
+    walk(line, [](bool) {});
+  }
 
   void line_step() {
     const bool to_lower = lines_ == 1 && lower_lines_ != 0;

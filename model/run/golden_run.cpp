@@ -49,19 +49,30 @@ constexpr std::size_t c_block = 8192;
 #define HALFWAY_FOR_PROCESSORS
 #endif
 
+// Takes the next triangle's vectors off the front; none where there is no more, or one that is cut short,
+// which draws nothing.
+template <class Shader>
+std::span<const std::uint32_t> take_triangle(const Shader& shader,
+                                             std::span<const std::uint32_t>& init_words) {
+  const auto vector_words = static_cast<std::size_t>((shader.init_bits() + 31) / 32);
+  const std::size_t words = init_words.size() < vector_words ? 0 : shader.group(init_words) * vector_words;
+  const bool whole = words <= init_words.size();
+  const auto triangle = init_words.first(whole ? words : 0);
+  init_words = whole && words != 0 ? init_words.subspan(words) : std::span<const std::uint32_t>();
+  return triangle;
+}
+
 // Draws triangles until the room holds `most` fragments or there are no more; what is left.
 template <class Shader>
 HALFWAY_FOR_PROCESSORS std::span<const std::uint32_t> draw_into(Room& room, Shader& shader,
                                                                 std::span<const std::uint32_t> init_words,
                                                                 std::size_t most) {
-  const auto vector_words = static_cast<std::size_t>((shader.init_bits() + 31) / 32);
-  while (init_words.size() >= vector_words && room.fragments().size() < most) {
-    const std::size_t words = shader.group(init_words) * vector_words;
-    if (words > init_words.size()) return {};  // a triangle cut short draws nothing
-    shader.draw(init_words.first(words), room);
-    init_words = init_words.subspan(words);
+  while (room.fragments().size() < most) {
+    const auto triangle = take_triangle(shader, init_words);
+    if (triangle.empty()) break;
+    shader.draw(triangle, room);
   }
-  return init_words.size() >= vector_words ? init_words : std::span<const std::uint32_t>();
+  return init_words;
 }
 
 struct Watch {
@@ -112,15 +123,10 @@ class Model final : public GoldenModel {
   }
   void draw_probed(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,
                    std::vector<ProbeEvent>& events) override {
-    const auto vector_words = static_cast<std::size_t>((shader_.init_bits() + 31) / 32);
-    while (init_words.size() >= vector_words) {
-      const std::size_t words = shader_.group(init_words) * vector_words;
-      if (words > init_words.size()) return;
+    for (auto triangle = take_triangle(shader_, init_words); !triangle.empty();
+         triangle = take_triangle(shader_, init_words))
       shader_.draw(
-          init_words.first(words), [&](const Fragment& f) { fragments.push_back(f); },
-          Watch{events, fragments});
-      init_words = init_words.subspan(words);
-    }
+          triangle, [&](const Fragment& f) { fragments.push_back(f); }, Watch{events, fragments});
   }
   bool fault() const override {
     if constexpr (requires { shader_.fault(); })

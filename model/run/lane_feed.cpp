@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "common/seconds.hpp"
 #include "run/limits.hpp"
 
 namespace halfway {
@@ -32,7 +33,7 @@ Result<RtlEngine> parse_rtl_engine(const std::string& text) {
 }
 
 Result<bool> use_lanes(RtlEngine engine, const HardwareKey& key, double pixels) {
-  const bool possible = key.shader != Shader::processors && !key.probe;
+  const bool possible = LaneSimulator::refused(key).empty();
   if (engine == RtlEngine::lanes && !possible)
     return bad_input(fmt::format("{}: no lanes for this hardware; leave --simulator out", key.name()));
   if (engine != RtlEngine::automatic) return engine == RtlEngine::lanes;
@@ -50,7 +51,7 @@ Status LaneFeed::add(std::span<const std::uint32_t> init_words, std::span<const 
     golden = golden.subspan(expected.size());
   });
   rtl_.add_golden(golden);
-  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  seconds_ += seconds_since(start);
   if (ran) return Ok{};
   if (ran.error().code != ExitCode::differs) return ran;
   rtl_.set_fault(ran.error().message);

@@ -256,29 +256,31 @@ class Simulation {
     summary_.fragments = golden_.fragments();
     first_vectors_ = cuts.parts(summary_.fragments);
     if (Status status = write_png(files_.frame("golden"), golden_.frame()); !status) return status;
-    if (verilator) {
-      // A run that was broken off leaves no trace that could pass for whole.
-      if (feed->alive())
-        if (Status status = verilator_trace->commit(verilator->cycles()); !status) return status;
-      if (Status status = write_png(files_.frame("verilator"), rtl.assembler().frame()); !status)
+    if (feed)
+      if (Status status = keep_run("verilator", rtl, feed->alive() ? &*verilator_trace : nullptr,
+                                   verilator->cycles(), feed->seconds());
+          !status)
         return status;
-      SimulatorRun run = rtl.finish("verilator");
-      run.cycles = verilator->cycles();
-      run.seconds = feed->seconds();
-      if (Status status = show_difference(run, rtl.assembler().frame()); !status) return status;
-      summary_.runs.push_back(std::move(run));
-    }
-    if (lanes) {
-      if (lane_feed->alive())
-        if (Status status = lanes_trace->commit(); !status) return status;
-      if (Status status = write_png(files_.frame("lanes"), rtl_in_lanes.assembler().frame()); !status)
-        return status;
-      // Their clocks are not the stream's: each part of it runs from idle to idle.
-      SimulatorRun run = rtl_in_lanes.finish("lanes");
-      run.seconds = lane_feed->seconds();
-      if (Status status = show_difference(run, rtl_in_lanes.assembler().frame()); !status) return status;
-      summary_.runs.push_back(std::move(run));
-    }
+    // Lanes' clocks are not the stream's: each part of it runs from idle to idle.
+    if (lane_feed)
+      return keep_run("lanes", rtl_in_lanes, lane_feed->alive() ? &*lanes_trace : nullptr, std::nullopt,
+                      lane_feed->seconds());
+    return Ok{};
+  }
+
+  // What a simulator in this process leaves. A run that was broken off has no trace, which could pass for
+  // whole.
+  Status keep_run(const std::string& simulator, RtlStream& rtl, TraceWriter* trace,
+                  std::optional<std::uint64_t> cycles, double seconds) {
+    if (trace != nullptr)
+      if (Status status = trace->commit(cycles); !status) return status;
+    const Frame& frame = rtl.assembler().frame();
+    if (Status status = write_png(files_.frame(simulator), frame); !status) return status;
+    SimulatorRun run = rtl.finish(simulator);
+    run.cycles = cycles;
+    run.seconds = seconds;
+    if (Status status = show_difference(run, frame); !status) return status;
+    summary_.runs.push_back(std::move(run));
     return Ok{};
   }
 

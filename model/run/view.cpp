@@ -300,7 +300,7 @@ Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
       throw;
     }
   });
-  summary.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  summary.seconds = seconds_since(start);
   if (turn.error()) return *turn.error();
   if (turn.bare() != 0)
     summary.notes.push_back(

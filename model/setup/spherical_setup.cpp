@@ -35,11 +35,7 @@ template <class P, class Line>
 void walk_lines(std::span<const std::uint32_t> header, Line&& line) {
   golden::TriangleWalker<P> walker;
   walker.line_load(header);
-  for (;;) {
-    line(walker);
-    if (walker.line_last()) return;
-    walker.line_step();
-  }
+  walker.walk([&] { line(walker); });
 }
 
 bool nearly_opposed(glm::dvec3 a, glm::dvec3 b) {

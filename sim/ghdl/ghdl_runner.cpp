@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "common/file.hpp"
+#include "common/seconds.hpp"
 #include "common/subprocess.hpp"
 
 namespace halfway {
@@ -162,7 +163,7 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
   const auto start = std::chrono::steady_clock::now();
   const auto end = run_process(command, kInstallGhdl);
   if (!end) return end.error();
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  const double seconds = seconds_since(start);
 
   if (end->timed_out) {
     return tool_failed(
@@ -190,7 +191,7 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
         fmt::format("{}: GHDL ended without an error, but the trace is not whole; is the disk full?",
                     absolute_trace.string()));
   }
-  run->seconds = taken.count();
+  run->seconds = seconds;
   if (auto renamed = trace.rename_to(absolute_trace); !renamed) return renamed.error();
   if (!options.probe_file.empty()) {
     if (auto renamed = probes.rename_to(std::filesystem::absolute(options.probe_file)); !renamed) {

@@ -27,36 +27,41 @@ constexpr double kBatch = 48 * 1024;
 
 }  // namespace
 
-struct LaneSimulator::State {
-  explicit State(SharedLibrary loaded) : library(std::move(loaded)) {}
+struct LaneSimulator::Hardware {
+  HardwareKey key;
+  LaneOptions options;
+  SharedLibrary library;
+  unsigned init_bits = 0;
+  std::size_t lanes = 0;
+  double fragments_per_vector = 25;  ///< in the batch before
+  decltype(&halfway_lanes_run) run = nullptr;
+  decltype(&halfway_lanes_fragments) fragments = nullptr;
+  decltype(&halfway_lanes_cycles) cycles = nullptr;
+  decltype(&halfway_lanes_create) create = nullptr;
+  decltype(&halfway_lanes_destroy) destroy = nullptr;
+};
+
+struct LaneSimulator::State : Hardware {
+  explicit State(Hardware hardware) : Hardware(std::move(hardware)), golden(make_golden_model(key)) {}
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
     for (void* thread : threads) destroy(thread);
   }
 
-  SharedLibrary library;
-  std::string name;
-  unsigned init_bits = 0;
   std::unique_ptr<GoldenModel> golden;  ///< knows which vectors belong together
   std::vector<void*> threads;
   std::vector<HalfwayPart> parts;
-  decltype(&halfway_lanes_run) run = nullptr;
-  decltype(&halfway_lanes_fragments) fragments = nullptr;
-  decltype(&halfway_lanes_cycles) cycles = nullptr;
-  decltype(&halfway_lanes_create) create = nullptr;
-  decltype(&halfway_lanes_destroy) destroy = nullptr;
-  HardwareKey key;
-  LaneOptions options;
-  std::size_t lanes = 0;
-  double fragments_per_vector = 25;  ///< in the batch before
 };
+
+std::string LaneSimulator::refused(const HardwareKey& key) {
+  if (key.shader == Shader::processors) return "its lights and counters outlive a triangle";
+  return key.probe ? "they have no probes" : "";
+}
 
 Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,
                                           const LaneOptions& options) {
-  if (key.shader == Shader::processors)
-    return bad_input(key.name() + ": no lanes: its lights and counters outlive a triangle");
-  if (key.probe) return bad_input(key.name() + ": no lanes: they have no probes");
+  if (const std::string why = refused(key); !why.empty()) return bad_input(key.name() + ": no lanes: " + why);
   auto netlist = netlist_of(key, folders);
   if (!netlist) return netlist.error();
   const unsigned init_bits = port_bits(*netlist, key.entity(), "init_data");
@@ -77,60 +82,32 @@ Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const Simulato
   auto library = open_lanes(build, folders.cache);
   if (!library) return library.error();
 
-  auto state = std::make_shared<State>(std::move(*library));
-  const auto version = state->library.function<decltype(halfway_lanes_version)>("halfway_lanes_version");
-  const auto count = state->library.function<decltype(halfway_lanes_count)>("halfway_lanes_count");
-  const auto create = state->library.function<decltype(halfway_lanes_create)>("halfway_lanes_create");
-  const auto destroy = state->library.function<decltype(halfway_lanes_destroy)>("halfway_lanes_destroy");
-  const auto run = state->library.function<decltype(halfway_lanes_run)>("halfway_lanes_run");
-  const auto fragments =
-      state->library.function<decltype(halfway_lanes_fragments)>("halfway_lanes_fragments");
-  const auto cycles = state->library.function<decltype(halfway_lanes_cycles)>("halfway_lanes_cycles");
-  if (!version) return version.error();
-  if (!count) return count.error();
-  if (!create) return create.error();
-  if (!destroy) return destroy.error();
-  if (!run) return run.error();
-  if (!fragments) return fragments.error();
-  if (!cycles) return cycles.error();
-  if ((*version)() != HALFWAY_LANES_VERSION) {
+  Hardware hardware{.key = key, .options = options, .library = std::move(*library), .init_bits = init_bits};
+  decltype(&halfway_lanes_version) version = nullptr;
+  decltype(&halfway_lanes_count) count = nullptr;
+  if (Status bound = hardware.library.bind(
+          version, "halfway_lanes_version", count, "halfway_lanes_count", hardware.run, "halfway_lanes_run",
+          hardware.fragments, "halfway_lanes_fragments", hardware.cycles, "halfway_lanes_cycles",
+          hardware.create, "halfway_lanes_create", hardware.destroy, "halfway_lanes_destroy");
+      !bound)
+    return bound.error();
+  if (version() != HALFWAY_LANES_VERSION) {
     return tool_failed(
-        fmt::format("{}: of another version; delete it and try again", state->library.file().string()));
+        fmt::format("{}: of another version; delete it and try again", hardware.library.file().string()));
   }
-  state->name = key.name();
-  state->init_bits = init_bits;
-  state->run = *run;
-  state->fragments = *fragments;
-  state->cycles = *cycles;
-  state->create = *create;
-  state->destroy = *destroy;
-  state->key = key;
-  state->options = options;
-  state->lanes = (*count)();
-  return with_lanes(std::move(state));
+  hardware.lanes = count();
+  return with_lanes(std::move(hardware));
 }
 
-LaneSimulator LaneSimulator::with_lanes(std::shared_ptr<State> state) {
-  state->golden = make_golden_model(state->key);
+LaneSimulator LaneSimulator::with_lanes(Hardware hardware) {
+  auto state = std::make_shared<State>(std::move(hardware));
   for (unsigned i = 0; i < std::max(state->options.threads, 1U); ++i)
     state->threads.push_back(state->create(i, std::max<std::uint64_t>(state->options.idle_limit, 1)));
   return LaneSimulator(std::move(state));
 }
 
 LaneSimulator LaneSimulator::another() const {
-  auto state = std::make_shared<State>(state_->library);
-  state->name = state_->name;
-  state->init_bits = state_->init_bits;
-  state->run = state_->run;
-  state->fragments = state_->fragments;
-  state->cycles = state_->cycles;
-  state->create = state_->create;
-  state->destroy = state_->destroy;
-  state->key = state_->key;
-  state->options = state_->options;
-  state->lanes = state_->lanes;
-  state->fragments_per_vector = state_->fragments_per_vector;
-  return with_lanes(std::move(state));
+  return with_lanes(*state_);
 }
 
 unsigned LaneSimulator::init_bits() const {
@@ -168,7 +145,7 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
                           std::vector<Fragment>& out, std::size_t max_fragments) {
   const std::size_t words_per_vector = (state_->init_bits + 31) / 32;
   if (init_words.size() != words_per_vector * vectors)
-    return bad_input(fmt::format("{}: {} words are not {} vectors of {} bits", state_->name,
+    return bad_input(fmt::format("{}: {} words are not {} vectors of {} bits", state_->key.name(),
                                  init_words.size(), vectors, state_->init_bits));
   return run(init_words, max_fragments - std::min(max_fragments, out.size()),
              [&](auto, std::span<const Fragment> fragments) {
@@ -181,7 +158,7 @@ Result<std::size_t> LaneSimulator::draw(std::span<const std::uint32_t> init_word
   State& s = *state_;
   const auto too_many = [&] {
     return Error{ExitCode::differs,
-                 fmt::format("{} in lanes: more than {} fragments", s.name, max_fragments)};
+                 fmt::format("{} in lanes: more than {} fragments", s.key.name(), max_fragments)};
   };
   // Long parts first, then shorter ones, so that all lanes end together.
   const std::size_t words_per_vector = (s.init_bits + 31) / 32, all = s.lanes * s.threads.size();
@@ -224,11 +201,11 @@ Result<std::size_t> LaneSimulator::draw(std::span<const std::uint32_t> init_word
           ExitCode::differs,
           fmt::format("{} in lanes: hang: nothing moved in a lane for as long as is allowed, after {} "
                       "cycles of all lanes",
-                      s.name, cycles())};
+                      s.key.name(), cycles())};
     case HALFWAY_FAULT:
-      return Error{ExitCode::differs, fmt::format("{} in lanes: the hardware tells a fault", s.name)};
+      return Error{ExitCode::differs, fmt::format("{} in lanes: the hardware tells a fault", s.key.name())};
     default:
-      return tool_failed(fmt::format("{} in lanes: unknown status {}", s.name, worst.load()));
+      return tool_failed(fmt::format("{} in lanes: unknown status {}", s.key.name(), worst.load()));
   }
   if (vectors > 0) s.fragments_per_vector = static_cast<double>(total) / static_cast<double>(vectors);
   for (const HalfwayPart& part : s.parts) {

@@ -27,6 +27,9 @@ struct LaneOptions {
 
 class LaneSimulator {
  public:
+  /// Why there are no lanes for hardware of this key, whatever its netlist; empty where there may be.
+  static std::string refused(const HardwareKey& key);
+
   /// Builds the lanes, or takes them from the cache, and resets them. What lanes cannot be had for is an
   /// error that says so, and the caller takes VerilatorSimulator: the processors shader, whose lights and
   /// counters outlive a triangle, a key with probes, a netlist with what the generator does not know.
@@ -56,8 +59,9 @@ class LaneSimulator {
   std::uint64_t cycles() const;
 
  private:
+  struct Hardware;  // what others of the same share
   struct State;
-  static LaneSimulator with_lanes(std::shared_ptr<State> state);
+  static LaneSimulator with_lanes(Hardware hardware);
   explicit LaneSimulator(std::shared_ptr<State> state) : state_(std::move(state)) {}
   Result<std::size_t> draw(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
                            const OnDrawn& on_drawn);

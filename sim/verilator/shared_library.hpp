@@ -39,6 +39,17 @@ class SharedLibrary {
     if (found == nullptr) return tool_failed(file_.string() + ": has no function " + name);
     return reinterpret_cast<Function*>(found);
   }
+  /// Points each to the function of the name behind it: bind(run, "halfway_run", drain, "halfway_drain").
+  template <class Function, class... More>
+  Status bind(Function*& pointer, const char* name, More&&... more) const {
+    const auto found = function<Function>(name);
+    if (!found) return found.error();
+    pointer = *found;
+    if constexpr (sizeof...(more) > 0)
+      return bind(std::forward<More>(more)...);
+    else
+      return Ok{};
+  }
   const std::filesystem::path& file() const { return file_; }
 
  private:

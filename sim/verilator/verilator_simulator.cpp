@@ -29,27 +29,30 @@ static_assert(offsetof(Fragment, blue) == offsetof(HalfwayFragment, blue));
 
 }  // namespace
 
-struct VerilatorSimulator::State {
-  explicit State(SharedLibrary loaded) : library(std::move(loaded)) {}
+struct VerilatorSimulator::Hardware {
+  SharedLibrary library;
+  std::string name;
+  HalfwayOptions options{};
+  std::size_t probe_words = 0;
+  bool record_probes = false;
+  decltype(&halfway_create) create = nullptr;
+  decltype(&halfway_run) run = nullptr;
+  decltype(&halfway_drain) drain = nullptr;
+  decltype(&halfway_cycles) cycles = nullptr;
+  decltype(&halfway_destroy) destroy = nullptr;
+};
+
+struct VerilatorSimulator::State : Hardware {
+  explicit State(Hardware hardware) : Hardware(std::move(hardware)) {}
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
     if (model != nullptr) destroy(model);
   }
 
-  SharedLibrary library;
-  std::string name;
-  HalfwayOptions options{};
   std::string wave_path;
-  std::size_t probe_words = 0;
-  bool record_probes = false;
   std::vector<ProbeRecord> probes;
   void* model = nullptr;
-  decltype(&halfway_create) create = nullptr;
-  decltype(&halfway_run) run = nullptr;
-  decltype(&halfway_drain) drain = nullptr;
-  decltype(&halfway_cycles) cycles = nullptr;
-  decltype(&halfway_destroy) destroy = nullptr;
 };
 
 Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,
@@ -86,35 +89,25 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
   auto library = open_verilated(build, folders.cache);
   if (!library) return library.error();
 
-  auto state = std::make_shared<State>(std::move(*library));
-  const auto version = state->library.function<decltype(halfway_harness_version)>("halfway_harness_version");
-  const auto create = state->library.function<decltype(halfway_create)>("halfway_create");
-  const auto destroy = state->library.function<decltype(halfway_destroy)>("halfway_destroy");
-  const auto run = state->library.function<decltype(halfway_run)>("halfway_run");
-  const auto drain = state->library.function<decltype(halfway_drain)>("halfway_drain");
-  const auto cycles = state->library.function<decltype(halfway_cycles)>("halfway_cycles");
-  if (!version) return version.error();
-  if (!create) return create.error();
-  if (!destroy) return destroy.error();
-  if (!run) return run.error();
-  if (!drain) return drain.error();
-  if (!cycles) return cycles.error();
-  if ((*version)() != HALFWAY_HARNESS_VERSION) {
+  Hardware hardware{.library = std::move(*library), .name = key.name()};
+  decltype(&halfway_harness_version) version = nullptr;
+  if (Status bound =
+          hardware.library.bind(version, "halfway_harness_version", hardware.create, "halfway_create",
+                                hardware.destroy, "halfway_destroy", hardware.run, "halfway_run",
+                                hardware.drain, "halfway_drain", hardware.cycles, "halfway_cycles");
+      !bound)
+    return bound.error();
+  if (version() != HALFWAY_HARNESS_VERSION) {
     return tool_failed(
-        fmt::format("{}: of another version; delete it and try again", state->library.file().string()));
+        fmt::format("{}: of another version; delete it and try again", hardware.library.file().string()));
   }
-  state->name = key.name();
-  state->create = *create;
-  state->run = *run;
-  state->drain = *drain;
-  state->cycles = *cycles;
-  state->destroy = *destroy;
-  state->probe_words = (probe_bits + 31) / 32;
-  state->options.init_bits = init_bits;
-  state->options.probe_bits = probe_bits;
-  state->options.stall_seed = options.stall_seed;
-  state->options.idle_limit = std::max<std::uint64_t>(options.idle_limit, 1);
-  state->record_probes = options.record_probes;
+  hardware.probe_words = (probe_bits + 31) / 32;
+  hardware.options.init_bits = init_bits;
+  hardware.options.probe_bits = probe_bits;
+  hardware.options.stall_seed = options.stall_seed;
+  hardware.options.idle_limit = std::max<std::uint64_t>(options.idle_limit, 1);
+  hardware.record_probes = options.record_probes;
+  auto state = std::make_shared<State>(std::move(hardware));
   if (!options.wave_file.empty()) {
     const auto absolute = std::filesystem::absolute(options.wave_file);
     if (auto made = make_folders(absolute.parent_path()); !made) return made.error();
@@ -145,17 +138,8 @@ Result<VerilatorSimulator> VerilatorSimulator::with_model(std::shared_ptr<State>
 }
 
 Result<VerilatorSimulator> VerilatorSimulator::another() const {
-  auto state = std::make_shared<State>(state_->library);
-  state->name = state_->name;
-  state->options = state_->options;
+  auto state = std::make_shared<State>(static_cast<const Hardware&>(*state_));
   state->options.waves_path = nullptr;
-  state->record_probes = state_->record_probes;
-  state->probe_words = state_->probe_words;
-  state->create = state_->create;
-  state->run = state_->run;
-  state->drain = state_->drain;
-  state->cycles = state_->cycles;
-  state->destroy = state_->destroy;
   return with_model(std::move(state));
 }
 

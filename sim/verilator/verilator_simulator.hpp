@@ -62,6 +62,7 @@ class VerilatorSimulator {
   std::vector<ProbeRecord>& probes();
 
  private:
+  struct Hardware;  // what others of the same share
   struct State;
   static Result<VerilatorSimulator> with_model(std::shared_ptr<State> state);
   explicit VerilatorSimulator(std::shared_ptr<State> state) : state_(std::move(state)) {}

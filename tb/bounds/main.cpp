@@ -14,6 +14,7 @@
 
 #include "cli/program.hpp"
 #include "common/file.hpp"
+#include "common/seconds.hpp"
 #include "common/subprocess.hpp"
 #include "registry.hpp"
 
@@ -139,8 +140,7 @@ class Report {
         used[static_cast<std::size_t>(check - checks.begin())] = true;
         const auto began = std::chrono::steady_clock::now();
         const Finding finding = check->run(context_, preset, format, bound);
-        const double seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+        const double seconds = seconds_since(began);
         const double derived = tables::derived(preset, format, bound);
         // A signed format holds one more below zero.
         const double capacity = std::ldexp(1.0, format.integer_bits) - (format.is_signed ? 0 : format.unit());

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <thread>
 
+#include "common/seconds.hpp"
 #include "common/subprocess.hpp"
 #include "frame/init_file.hpp"
 #include "frame/trace.hpp"
@@ -300,7 +301,7 @@ Status Judge::prepare(unsigned workers, bool with_frames,
         remembered_->add(ends_key, std::to_string(tests[i]->ends_ns));
     }
     const std::lock_guard lock(mutex);
-    tests[i]->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    tests[i]->seconds = seconds_since(began);
     // From an earlier run, where this one did not need it.
     const std::string key = key_of(tests[i]->hash);
     if (const auto before = remembered_->find(key))

@@ -12,6 +12,7 @@
 
 #include "cli/program.hpp"
 #include "common/file.hpp"
+#include "common/seconds.hpp"
 #include "common/threads.hpp"
 #include "prover.hpp"
 
@@ -76,7 +77,7 @@ ExitCode run(const Options& options, const std::vector<Proof>& proofs) {
       const Proof& proof = proofs[index];
       const auto began = std::chrono::steady_clock::now();
       const auto answer = prove(options.folders, proof, fault);
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+      const double seconds = seconds_since(began);
       const std::lock_guard lock(mutex);
       if (!answer) {
         ++broken;

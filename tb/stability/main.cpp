@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "cli/program.hpp"
+#include "common/seconds.hpp"
 #include "common/threads.hpp"
 #include "stability/hard_case.hpp"
 #include "stability/page.hpp"
@@ -99,7 +100,7 @@ ExitCode run_all(const std::vector<Job>& jobs, const Options& options) {
     for (std::size_t at; (at = next++) < jobs.size();) {
       const auto began = std::chrono::steady_clock::now();
       outcomes[at] = run(jobs[at], rtl, options);
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+      const double seconds = seconds_since(began);
       const std::lock_guard lock(mutex);
       const Outcome& outcome = outcomes[at];
       broken += outcome.broken;

@@ -19,6 +19,7 @@
 
 #include "cli/program.hpp"
 #include "common/file.hpp"
+#include "common/seconds.hpp"
 #include "stability/page.hpp"
 #include "stability/scene_search.hpp"
 #include "stability/search.hpp"
@@ -186,9 +187,7 @@ ExitCode run_search(const Search& search, const Options& options, std::uint64_t 
                     std::vector<Section>& sections) {
   const auto began = std::chrono::steady_clock::now();
   const std::clock_t processor_began = std::clock();
-  const auto seconds = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  };
+  const auto seconds = [&] { return seconds_since(began); };
   Run run(search, options, count);
   {
     // Outlives the workers, which count it down last of all.

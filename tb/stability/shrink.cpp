@@ -10,6 +10,8 @@
 #include <optional>
 #include <tuple>
 
+#include "common/seconds.hpp"
+
 namespace halfway::stability {
 namespace {
 
@@ -68,9 +70,7 @@ Input shrink(std::span<const Parameter> parameters, Input input,
   const auto began = std::chrono::steady_clock::now();
   std::uint64_t tries = 0;
   const auto exhausted = [&] {
-    return tries >= options.most_tries ||
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() >
-               options.most_seconds;
+    return tries >= options.most_tries || seconds_since(began) > options.most_seconds;
   };
   const auto take = [&](const Input& next) {
     if (exhausted() || !in_range(parameters, next) ||
