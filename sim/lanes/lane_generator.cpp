@@ -477,7 +477,10 @@ class Builder {
   }
 
   Bits element(pugi::xml_node node) {
-    const std::string name = node.first_child().attribute("name").value();
+    std::string name = node.first_child().attribute("name").value();
+    // Where it is read before it is declared Verilator leaves the module out of its name.
+    for (const auto& [whole, memory] : netlist_.memories)
+      if (std::string_view(whole).substr(whole.find('.') + 1) == name) name = whole;
     if (const auto memory = netlist_.memories.find(name); memory != netlist_.memories.end())
       return read(node, name, memory->second);
     const auto rom = netlist_.roms.find(name);
