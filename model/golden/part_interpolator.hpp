@@ -9,7 +9,10 @@ namespace halfway::golden {
 template <int W>
 class PartInterpolator {
  public:
-  void load(Word<W> start) { value_ = start; }
+  void load(Word<W> start) {
+    value_ = start;
+    carry_ = false;
+  }
   void step(Word<W> increment, bool carry) {
     const Word<W> before = value_;
     value_ += increment;

@@ -27,7 +27,7 @@ entity part_interpolator is
     increment : in  std_logic_vector(g_bits - 1 downto 0);
     carry_in  : in  std_logic;
     value     : out std_logic_vector(g_bits - 1 downto 0);
-    carry_out : out std_logic -- of the last step
+    carry_out : out std_logic -- of the last step, '0' behind a load
   );
 end entity;
 
@@ -49,6 +49,7 @@ begin
     if rising_edge(clk) then
       if load = '1' then
         r.value <= unsigned(start);
+        r.carry <= '0'; -- nobody asks; so that neither register changes but where the part loads or steps
       elsif step = '1' then
         sum := ('0' & r.value & '1') + ('0' & unsigned(increment) & carry_in);
         r.value <= sum(g_bits downto 1);

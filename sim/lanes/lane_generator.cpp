@@ -26,6 +26,7 @@ constexpr std::uint64_t ones(unsigned width) {
 struct Piece {
   int node;
   unsigned low, width;
+  friend auto operator<=>(const Piece&, const Piece&) = default;
 };
 using Bits = std::vector<Piece>;
 
@@ -76,6 +77,7 @@ struct Layout {
   std::map<std::string, std::set<unsigned>> cuts;
   std::map<std::string, std::set<std::pair<unsigned, unsigned>>> wholes;
   std::set<std::pair<std::string, unsigned>> dirty;
+  std::map<std::string, std::string> twins;  ///< registers that are always what another one is
   bool words = false;  ///< cells have at most 64 bits; at first they are not cut where nothing asks for it
   friend bool operator==(const Layout&, const Layout&) = default;
 
@@ -117,12 +119,16 @@ struct Update {
   int value;
 };
 
+/// What a register becomes, and when: registers for which it is the same are twins.
+using Writes = std::vector<std::pair<Guard, Bits>>;
+
 /// One function: the graph for one value of `reset`.
 struct Step {
   LaneGraph graph;
   std::vector<Cell> cells;
   std::map<Guard, std::vector<Update>> updates;
   std::map<std::string, std::vector<int>> outputs;  ///< words, or one mask
+  std::map<std::string, Writes> writes;
 };
 
 class Builder {
@@ -131,6 +137,7 @@ class Builder {
       : netlist_(netlist), ports_(ports), reset_(reset), layout_(layout) {
     for (const auto& [variables, input] : {std::pair(&netlist.inputs, true), {&netlist.registers, false}}) {
       for (const auto& [name, width] : *variables) {
+        if (layout.twins.count(name) != 0) continue;
         first_cell_[name] = step_.cells.size();
         for (Cell& cell : layout.cells_of(name, width, input)) step_.cells.push_back(std::move(cell));
       }
@@ -304,6 +311,7 @@ class Builder {
     if (const auto fixed = ports_.fixed.find(name); fixed != ports_.fixed.end())
       return whole(graph().mask_constant(fixed->second), 1);
     if (name == "reset") return whole(graph().mask_constant(reset_), 1);
+    if (const auto twin = layout_.twins.find(name); twin != layout_.twins.end()) return signal(twin->second);
     if (const auto cells = first_cell_.find(name); cells != first_cell_.end()) {
       Bits bits;
       for (std::size_t i = cells->second; i < step_.cells.size() && step_.cells[i].variable == name; ++i) {
@@ -409,6 +417,23 @@ class Builder {
     return whole(graph().invert(to_vector(a)), width);
   }
 
+  /// The lowest bit alone, a constant one.
+  bool is_one(const Bits& bits) {
+    const Piece& low = bits.front();
+    const LaneNode& node = graph()[low.node];
+    return low.width == 1 && node.op == LaneOp::constant && (node.value >> low.low & 1) != 0;
+  }
+  /// (x, 1) + (y, carry), as the RTL takes a carry by one sum: x + y + carry behind the bit that makes it.
+  Bits sum_with_carry(const Bits& a, const Bits& b) {
+    const unsigned width = width_of(a) - 1;
+    const int carry = to_mask(slice(b, 0, 1));
+    const int sum =
+        graph().operate(LaneOp::add, to_vector(slice(a, 1, width)), to_vector(slice(b, 1, width)));
+    Bits bits = whole(graph().mask_invert(carry), 1);
+    append(bits, whole(graph().operate(LaneOp::add, sum, graph().fill(carry, 1)), width));
+    return bits;
+  }
+
   Bits binary(pugi::xml_node node, std::string_view op, const Bits& a, const Bits& b) {
     const unsigned width = type_width(node), operand = width_of(a);
     if (!fits(node, std::max(operand, width_of(b)))) return {};
@@ -419,6 +444,10 @@ class Builder {
     if (const auto found = bitwise.find(op); found != bitwise.end()) {
       if (width == 1) return whole(graph().mask_operate(found->second.second, to_mask(a), to_mask(b)), 1);
       return whole(graph().operate(found->second.first, to_vector(a), to_vector(b)), width);
+    }
+    if (op == "add" && width > 1 && operand == width && width_of(b) == width) {
+      if (is_one(a)) return sum_with_carry(a, b);
+      if (is_one(b)) return sum_with_carry(b, a);
     }
     static const std::map<std::string_view, LaneOp> arithmetic = {{"add", LaneOp::add},
                                                                   {"sub", LaneOp::subtract},
@@ -580,10 +609,12 @@ class Builder {
   }
 
   void assign(pugi::xml_node node, const std::string& name, const Bits& bits, const Guard& guard) {
-    for (const Guard& other : writes_[name]) {
-      if (!excludes(guard, other)) fail(fmt::format("{}: {}: assigned twice", line_of(node), name));
+    if (layout_.twins.count(name) != 0) return;
+    Writes& writes = step_.writes[name];
+    for (const auto& other : writes) {
+      if (!excludes(guard, other.first)) fail(fmt::format("{}: {}: assigned twice", line_of(node), name));
     }
-    writes_[name].push_back(guard);
+    writes.emplace_back(guard, bits);
     if (!error_.empty()) return;
     unsigned at = 0;
     for (const Piece& piece : bits) layout_.cuts[name].insert(at += piece.width);
@@ -603,7 +634,6 @@ class Builder {
   Step step_;
   std::map<std::string, std::size_t> first_cell_;
   std::map<std::string, Bits> signals_;
-  std::map<std::string, std::vector<Guard>> writes_;
   std::string error_;
 };
 
@@ -970,6 +1000,11 @@ Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports)
     if (!step) return step.error();
     auto reset_step = Builder(*netlist, ports, true, next).build();
     if (!reset_step) return reset_step.error();
+    std::map<std::pair<Writes, Writes>, std::string> first;
+    for (const auto& [name, writes] : step->writes) {
+      const auto [twin, alone] = first.try_emplace({writes, reset_step->writes[name]}, name);
+      if (!alone) next.twins[name] = twin->second;
+    }
     if (next != layout || !layout.words) {
       next.words = layout.words || next == layout;
       layout = std::move(next);

@@ -103,7 +103,7 @@ ROM
   always @(posedge clk)
     if (reset) begin two <= 1'b1; end else begin if (e) begin two <= one | ~f; end end
   assign response = {
-    1828'b0, places[n[4:2]], place, {f, place[68:0]}, c != d ? a : b,
+    1748'b0, {a[38:0], 1'b1} + {b[38:0], e}, {b[38:0], f} + {a[38:0], 1'b1}, places[n[4:2]], place, {f, place[68:0]}, c != d ? a : b,
     {40{two}}, {24'b0, c, mixed[18], n, d[3:0]}, one, two, product, read, mixed, wide, q, p, sum,
     a << 5, a >> 7, a << n, a >> n, {52'b0, c} << n, $signed(c) >>> 3, $signed(d) >>> n[3:0],
     ~a, -a, a & b, a | b, a ^ b, a * b, $signed(c) * $signed(d), {16'b0, a[39:16]},

@@ -32,25 +32,22 @@ Status write_line(const std::filesystem::path& folder) {
   return file.write(folder / (std::to_string(W) + ".txt"));
 }
 
-// A line: checked, load, start, step, increment, carry_in; value, before the edge that may load or step, and
-// whether the carry is meant and what it is.
+// A line: checked, load, start, step, increment, carry_in; value and carry, before the edge that may load or
+// step.
 template <int W>
 Status write_part(const std::filesystem::path& folder) {
   Random random(W);
   VectorFile file;
   golden::PartInterpolator<W> twin;
-  bool stepped = false;
   for (int i = 0; i < 4000; ++i) {
     const bool load = i == 0 || random.one_in(12), step = !random.one_in(5), carry = random.one_in(2);
     const auto start = random.word<W>(), increment = random.word<W>();
     file.flag(i > 0).flag(load).word(start).flag(step).word(increment).flag(carry);
-    file.word(twin.value()).flag(stepped).flag(twin.carry()).end_vector();
-    if (load) {
+    file.word(twin.value()).flag(twin.carry()).end_vector();
+    if (load)
       twin.load(start);
-    } else if (step) {
+    else if (step)
       twin.step(increment, carry);
-      stepped = true;
-    }
   }
   return file.write(folder / (std::to_string(W) + ".txt"));
 }
