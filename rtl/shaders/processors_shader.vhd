@@ -118,7 +118,7 @@ architecture rtl of processors_shader is
   signal loads                     : std_logic; -- that vector
   signal load_valid                : std_logic;
   signal walk                      : std_logic_vector(c_walk_bits - 1 downto 0);
-  signal walk_valid                : std_logic;
+  signal walk_valid, walk_ready    : std_logic;
   signal line_load, line_step      : std_logic;
   signal line_carry                : std_logic;
   signal span_load, span_step      : std_logic;
@@ -197,7 +197,7 @@ begin
       clk            => clk,
       reset          => reset,
       init_valid     => walk_valid,
-      init_ready     => open,
+      init_ready     => walk_ready,
       init           => walk,
       line_ready     => '1',
       line_held      => open,

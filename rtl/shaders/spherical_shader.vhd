@@ -99,7 +99,7 @@ architecture rtl of spherical_shader is
   signal init                         : std_logic_vector(init_data'range);
   signal waiting                      : std_logic; -- a vector in the init buffer
   signal taken                        : std_logic;
-  signal header_valid                 : std_logic;
+  signal header_valid, header_ready   : std_logic;
   signal line_ready, line_held        : std_logic;
   signal line_load, line_step         : std_logic;
   signal line_carry                   : std_logic;
@@ -194,7 +194,7 @@ begin
       clk            => clk,
       reset          => reset,
       init_valid     => header_valid,
-      init_ready     => open,
+      init_ready     => header_ready,
       init           => init(c_header_bits - 1 downto 0),
       line_ready     => line_ready,
       line_held      => line_held,

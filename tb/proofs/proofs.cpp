@@ -240,7 +240,7 @@ std::vector<Proof> all_proofs() {
        "load_carry     => upper(c_section_bits - 1)"},
       {"raster/triangle_walker.vhd", "empty  <= more(more'high)", "empty  <= '0'"},
       {"raster/triangle_walker.vhd", "r.edge.y + 1", "r.edge.y + 2"},
-      {"raster/triangle_walker.vhd", "v.line.carry    := edge_carry", "v.line.carry    := r.line.carry"},
+      {"raster/triangle_walker.vhd", "v.line.carry    := edge_carry", "v.line.carry    := not edge_carry"},
       {"raster/edge_walker.vhd", "r.error + r.rise", "r.error - r.remainder"},
   };
   for (const bool exact : {true, false})
