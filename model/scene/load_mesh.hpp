@@ -32,8 +32,8 @@ bool is_mesh_file_name(const std::filesystem::path& path);
 /// its colour; k_d and k_s are those of the default material. Exponents below 1 become 1. A file without
 /// materials gets one default material. Textures and vertex colours are left out, with a note.
 ///
-/// assimp does the reading, in a child process with limits on memory and time: where a damaged file breaks
-/// it, only the child ends, and the file is an error like any other.
+/// assimp does the reading, in halfway_mesh_reader, a process with limits on memory and time: where a damaged
+/// file breaks it, only that process ends, and the file is an error like any other.
 Result<LoadedMesh> load_mesh(const std::filesystem::path& path);
 
 /// Checks that can tell the line: does the file exist, is it a file, does it hold anything?

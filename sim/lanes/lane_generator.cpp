@@ -185,6 +185,11 @@ class Builder {
 
   bool is_mask(const Piece& piece) { return graph()[piece.node].is_mask(); }
 
+  /// A piece of a constant; what lies above a node's vector is zero.
+  std::uint64_t constant_of(const Piece& piece) {
+    return piece.low < kWord ? graph()[piece.node].value >> piece.low & ones(piece.width) : 0;
+  }
+
   void append(Bits& bits, Piece piece) {
     if (piece.width == 0) return;
     if (!bits.empty()) {
@@ -195,8 +200,7 @@ class Builder {
         return;
       }
       if (a.op == LaneOp::constant && b.op == LaneOp::constant && last.width + piece.width <= kWord) {
-        const std::uint64_t low = a.value >> last.low & ones(last.width),
-                            high = b.value >> piece.low & ones(piece.width);
+        const std::uint64_t low = constant_of(last), high = constant_of(piece);
         last = {graph().constant(low | high << last.width), 0, last.width + piece.width};
         return;
       }
@@ -243,14 +247,19 @@ class Builder {
     std::uint64_t constants = 0;
     unsigned at = 0;
     const unsigned width = width_of(bits);
+    for (const Piece& piece : bits) note(piece, arithmetic);
+    // A register that is not cut yet: what is noted cuts it, and the nodes are made anew.
+    if (width > kWord) {
+      if (layout_.words) fail(fmt::format("netlist.v: {} bits in one vector", width));
+      return sum;
+    }
     for (const Piece& piece : bits) {
       const std::uint64_t field = ones(piece.width) << at;
       const LaneNode& node = graph()[piece.node];
-      note(piece, arithmetic);
       if (node.is_mask()) {
         sum = graph().operate(LaneOp::either, sum, graph().fill(piece.node, field));
       } else if (node.op == LaneOp::constant) {
-        constants |= node.value >> piece.low << at & field;
+        constants |= constant_of(piece) << at;
       } else {
         int part = graph().shift(piece.node, static_cast<int>(at) - static_cast<int>(piece.low));
         const bool dirty_below = piece.low > 0 && at > 0;

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -11,35 +10,12 @@
 
 #include "common/file.hpp"
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#include <pthread.h>
-#include <sanitizer/common_interface_defs.h>
-#define HALFWAY_FUZZ_CHILDREN
-#endif
-#endif
-
 namespace halfway::fuzz {
-namespace {
-
-/// assimp may break in the child process that reads a mesh file: the child's end is then an error like any
-/// other, and no crash of the target's, as libFuzzer, which the child inherits, would have it.
-void leave_children_alone() {
-#ifdef HALFWAY_FUZZ_CHILDREN
-  ::pthread_atfork(nullptr, nullptr, [] {
-    __sanitizer_set_death_callback(nullptr);
-    for (const int signal : {SIGABRT, SIGILL, SIGFPE, SIGTERM, SIGXFSZ}) ::signal(signal, SIG_DFL);
-  });
-#endif
-}
-
-}  // namespace
 
 const std::filesystem::path& folder() {
   static const TemporaryFolder temporary = [] {
     auto made = TemporaryFolder::make(std::filesystem::temp_directory_path());
     if (!made) demand(false, made.error().message);
-    leave_children_alone();
     return std::move(*made);
   }();
   return temporary.path();

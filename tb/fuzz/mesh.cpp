@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mesh files, one target a format (HALFWAY_FUZZ_ENDING): each loads as a fit scene or is refused, and assimp,
-// in its child process, takes nobody down with it. What loads is drawn.
+// in its own process, takes nobody down with it. What loads is drawn.
 #include "fuzz/draw.hpp"
 #include "fuzz/fuzz.hpp"
 #include "scene/check_mesh_file.hpp"
