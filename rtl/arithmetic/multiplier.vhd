@@ -30,7 +30,7 @@ end entity;
 architecture rtl of multiplier is
 
   -- Of a with zeros before it: no quarter is without a bit.
-  constant c_digit : positive := (g_a_bits + 3) / 4;
+  constant c_digit : positive := (g_a_bits + 3) / 4; -- elaboration only
 
   subtype digit_t is unsigned(c_digit + g_b_bits - 1 downto 0);
   subtype half_t  is unsigned(2 * c_digit + g_b_bits - 1 downto 0);

@@ -87,8 +87,8 @@ begin
 
   parts : for part in 0 to c_parts - 1 generate
 
-    constant c_low       : natural  := part * c_bits / c_parts;
-    constant c_high      : natural  := (part + 1) * c_bits / c_parts - 1;
+    constant c_low       : natural  := part * c_bits / c_parts; -- elaboration only
+    constant c_high      : natural  := (part + 1) * c_bits / c_parts - 1; -- elaboration only
     constant c_part_bits : positive := c_high - c_low + 1;
 
     subtype part_t is std_logic_vector(c_part_bits - 1 downto 0);

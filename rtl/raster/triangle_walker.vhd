@@ -106,9 +106,9 @@ architecture rtl of triangle_walker is
   end record;
 
   type reg_t is record
-    edge : edge_stage_t;
-    line : line_stage_t;
-    span : span_stage_t;
+    edges : edge_stage_t;
+    line  : line_stage_t;
+    span  : span_stage_t;
   end record;
 
   signal r, r_next : reg_t;
@@ -145,14 +145,14 @@ begin
   span_load <= r.line.draws and not blocked;
   line_step <= r.line.valid and not blocked;
 
-  edge_last <= r.edge.section_last and r.edge.lower_none;
-  to_lower  <= r.edge.section_last and not r.edge.lower_none;
-  edge_step <= r.edge.valid and not blocked;
-  edge_goes <= edge_step or (init_valid and not r.edge.valid);
-  line_load <= edge_step and r.edge.first;
+  edge_last <= r.edges.section_last and r.edges.lower_none;
+  to_lower  <= r.edges.section_last and not r.edges.lower_none;
+  edge_step <= r.edges.valid and not blocked;
+  edge_goes <= edge_step or (init_valid and not r.edges.valid);
+  line_load <= edge_step and r.edges.first;
 
   -- While the first line is here init may still be this triangle's.
-  edge_load  <= init_valid and (not r.edge.valid or (edge_step and r.edge.last_behind));
+  edge_load  <= init_valid and (not r.edges.valid or (edge_step and r.edges.last_behind));
   init_ready <= edge_load;
 
   combinational : process (all)
@@ -186,13 +186,13 @@ begin
 
     if edge_step = '1' then
       v.line.valid    := '1';
-      v.line.triangle := r.edge.triangle;
-      v.line.y        := r.edge.y;
+      v.line.triangle := r.edges.triangle;
+      v.line.y        := r.edges.y;
       v.line.start    := start;
       v.line.stop     := stop;
       v.line.more     := unsigned(more(rest_t'range));
       v.line.draws    := not empty;
-      v.line.backward := r.edge.backward;
+      v.line.backward := r.edges.backward;
       v.line.carry    := edge_carry;
     elsif line_step = '1' then
       v.line.valid := '0';
@@ -200,44 +200,44 @@ begin
     end if;
 
     if edge_goes = '1' and edge_load = '1' then
-      v.edge.valid        := '1';
-      v.edge.first        := '1';
-      v.edge.triangle     := init(c_init.triangle.high downto c_init.triangle.low);
-      v.edge.y            := unsigned(init(c_init.y.high downto c_init.y.low));
-      v.edge.lines        := init_upper_lines;
-      v.edge.lower_lines  := init_lower_lines;
-      v.edge.section_last := '0';
+      v.edges.valid        := '1';
+      v.edges.first        := '1';
+      v.edges.triangle     := init(c_init.triangle.high downto c_init.triangle.low);
+      v.edges.y            := unsigned(init(c_init.y.high downto c_init.y.low));
+      v.edges.lines        := init_upper_lines;
+      v.edges.lower_lines  := init_lower_lines;
+      v.edges.section_last := '0';
       if init_upper_lines = 1 then
-        v.edge.section_last := '1';
+        v.edges.section_last := '1';
       end if;
-      v.edge.lower_none := '0';
+      v.edges.lower_none := '0';
       if init_lower_lines = 0 then
-        v.edge.lower_none := '1';
+        v.edges.lower_none := '1';
       end if;
-      v.edge.backward := init_backward;
+      v.edges.backward := init_backward;
     elsif edge_goes = '1' then
-      v.edge.valid        := not edge_last;
-      v.edge.first        := '0';
-      v.edge.y            := r.edge.y + 1;
-      v.edge.lines        := r.edge.lines - 1;
-      v.edge.section_last := '0';
-      if r.edge.lines = 2 then
-        v.edge.section_last := '1';
+      v.edges.valid        := not edge_last;
+      v.edges.first        := '0';
+      v.edges.y            := r.edges.y + 1;
+      v.edges.lines        := r.edges.lines - 1;
+      v.edges.section_last := '0';
+      if r.edges.lines = 2 then
+        v.edges.section_last := '1';
       end if;
       if to_lower = '1' then
-        v.edge.lines        := r.edge.lower_lines;
-        v.edge.lower_none   := '1';
-        v.edge.section_last := '0';
-        if r.edge.lower_lines = 1 then
-          v.edge.section_last := '1';
+        v.edges.lines        := r.edges.lower_lines;
+        v.edges.lower_none   := '1';
+        v.edges.section_last := '0';
+        if r.edges.lower_lines = 1 then
+          v.edges.section_last := '1';
         end if;
       end if;
     end if;
 
-    v.edge.last_behind := v.edge.section_last and v.edge.lower_none and not v.edge.first;
+    v.edges.last_behind := v.edges.section_last and v.edges.lower_none and not v.edges.first;
 
     if reset = '1' then
-      v.edge.valid   := '0';
+      v.edges.valid   := '0';
       v.line.valid   := '0';
       v.line.draws   := '0';
       v.span.valid   := '0';
@@ -306,7 +306,7 @@ begin
           );
 
         -- Where the next section waits there is no other triangle to load: edge_load comes too late to choose by it.
-      section   <= held_lower when r.edge.valid = '1' and to_lower = '1' else upper;
+      section   <= held_lower when r.edges.valid = '1' and to_lower = '1' else upper;
       stop_load <= edge_load or (edge_step and to_lower);
 
       stop_edge : entity work.edge_walker
@@ -328,8 +328,8 @@ begin
       stop  <= signed(stop_x);
 
       -- One pixel less than lies between them: the complement is the negative less one.
-      from_x <= resize(stop, more_t'length) when r.edge.backward = '1' else resize(start, more_t'length);
-      to_x   <= resize(start, more_t'length) when r.edge.backward = '1' else resize(stop, more_t'length);
+      from_x <= resize(stop, more_t'length) when r.edges.backward = '1' else resize(start, more_t'length);
+      to_x   <= resize(start, more_t'length) when r.edges.backward = '1' else resize(stop, more_t'length);
       more   <= to_x + not from_x;
       empty  <= more(more'high);
 
@@ -422,6 +422,6 @@ begin
   triangle       <= r.span.triangle;
   y              <= std_logic_vector(r.span.y);
   x              <= std_logic_vector(r.span.x);
-  busy           <= r.edge.valid or r.line.valid or r.span.valid;
+  busy           <= r.edges.valid or r.line.valid or r.span.valid;
 
 end architecture;

@@ -60,9 +60,9 @@ architecture rtl of quadratic_shader is
   -- The interpolators' words: depth's are the header's last.
   constant c_depth_low     : positive := init_header(g_exact).z.low;
   constant c_depth_bits    : positive := c_formats.depth_sum.bits;
-  constant c_depth_words   : positive := (c_header_bits - c_depth_low) / c_depth_bits;
+  constant c_depth_words   : positive := (c_header_bits - c_depth_low) / c_depth_bits; -- elaboration only
   constant c_value_bits    : positive := c_formats.intensity.bits;
-  constant c_channel_words : positive := c_channel_bits / c_value_bits;
+  constant c_channel_words : positive := c_channel_bits / c_value_bits; -- elaboration only
 
   subtype intensity_t is std_logic_vector(c_formats.intensity.bits - 1 downto 0);
   subtype span_x_t    is std_logic_vector(c_formats.span_x.bits - 1 downto 0);
@@ -219,8 +219,8 @@ begin
 
     halves : for half in 0 to 1 generate
 
-      constant c_low  : natural := c_depth_low + word * c_depth_bits + half * c_depth_bits / 2;
-      constant c_high : natural := c_depth_low + word * c_depth_bits + (half + 1) * c_depth_bits / 2 - 1;
+      constant c_low  : natural := c_depth_low + word * c_depth_bits + half * c_depth_bits / 2; -- elaboration only
+      constant c_high : natural := c_depth_low + word * c_depth_bits + (half + 1) * c_depth_bits / 2 - 1; -- elaboration only
 
       begin
 
@@ -270,8 +270,8 @@ begin
 
         halves : for half in 0 to 1 generate
 
-          constant c_half : natural := c_low + word * c_value_bits + half * c_value_bits / 2;
-          constant c_high : natural := c_low + word * c_value_bits + (half + 1) * c_value_bits / 2 - 1;
+          constant c_half : natural := c_low + word * c_value_bits + half * c_value_bits / 2; -- elaboration only
+          constant c_high : natural := c_low + word * c_value_bits + (half + 1) * c_value_bits / 2 - 1; -- elaboration only
 
           begin
 

@@ -113,12 +113,12 @@ constexpr Listed c_listed[] = {
     {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
     // A clock lost between lines of different triangles, and between lines; a line lost to a stall; the stop
     // edge never bends.
-    {"raster/triangle_walker.vhd", "(edge_step and r.edge.last_behind)", "'0'"},
+    {"raster/triangle_walker.vhd", "(edge_step and r.edges.last_behind)", "'0'"},
     {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "r.span.ends"},
     {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "'0'"},
     {"raster/triangle_walker.vhd", "edge_load or (edge_step and to_lower)", "edge_load"},
     // An init vector read twice; one that nobody is told of until its first line is handed on.
-    {"raster/triangle_walker.vhd", "v.edge.lower_none and not v.edge.first", "v.edge.lower_none"},
+    {"raster/triangle_walker.vhd", "v.edges.lower_none and not v.edges.first", "v.edges.lower_none"},
     {"raster/triangle_walker.vhd", "init_ready <= edge_load", "init_ready <= line_load"},
     // A line, or a span, that does not wait for what it needs.
     {"raster/triangle_walker.vhd", "(r.line.valid and not line_ready)", "'0'"},

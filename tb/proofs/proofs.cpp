@@ -194,13 +194,13 @@ std::vector<Proof> all_proofs() {
         {"raster/edge_walker.vhd", "r.error + r.rise", "r.error + r.remainder"}}});
   const std::vector<Fault> walker_faults = {
       {"raster/triangle_walker.vhd", "init_ready <= edge_load", "init_ready <= line_load"},
-      {"raster/triangle_walker.vhd", "v.edge.lower_none and not v.edge.first", "v.edge.lower_none"},
-      {"raster/triangle_walker.vhd", "edge_step and r.edge.last_behind", "edge_step"},
-      {"raster/triangle_walker.vhd", "edge_step <= r.edge.valid and not blocked",
-       "edge_step <= r.edge.valid and not r.line.valid"},
-      {"raster/triangle_walker.vhd", "edge_step <= r.edge.valid and not blocked",
-       "edge_step <= r.edge.valid"},
-      {"raster/triangle_walker.vhd", "edge_step and r.edge.first;", "edge_step;"},
+      {"raster/triangle_walker.vhd", "v.edges.lower_none and not v.edges.first", "v.edges.lower_none"},
+      {"raster/triangle_walker.vhd", "edge_step and r.edges.last_behind", "edge_step"},
+      {"raster/triangle_walker.vhd", "edge_step <= r.edges.valid and not blocked",
+       "edge_step <= r.edges.valid and not r.line.valid"},
+      {"raster/triangle_walker.vhd", "edge_step <= r.edges.valid and not blocked",
+       "edge_step <= r.edges.valid"},
+      {"raster/triangle_walker.vhd", "edge_step and r.edges.first;", "edge_step;"},
       {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "r.span.ends"},
       {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "'0'"},
       {"raster/triangle_walker.vhd", "(r.span.goes_on or (", "('0' or ("},
@@ -214,18 +214,18 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "(r.line.valid and not line_ready)", "'0'"},
       {"raster/triangle_walker.vhd", "(r.line.draws and (r.span.goes_on",
        "(r.line.valid and (r.span.goes_on"},
-      {"raster/triangle_walker.vhd", "r.edge.y + 1", "r.edge.y"},
-      {"raster/triangle_walker.vhd", "r.edge.lines - 1", "r.edge.lines"},
-      {"raster/triangle_walker.vhd", "if r.edge.lines = 2 then", "if r.edge.lines = 1 then"},
+      {"raster/triangle_walker.vhd", "r.edges.y + 1", "r.edges.y"},
+      {"raster/triangle_walker.vhd", "r.edges.lines - 1", "r.edges.lines"},
+      {"raster/triangle_walker.vhd", "if r.edges.lines = 2 then", "if r.edges.lines = 1 then"},
       {"raster/triangle_walker.vhd", "if init_upper_lines = 1 then", "if init_upper_lines = 0 then"},
   };
   std::vector<Fault> exact_faults = walker_faults;
   exact_faults.push_back(
       {"raster/triangle_walker.vhd", "if init_lower_lines = 0 then", "if init_lower_lines = 1 then"});
   exact_faults.push_back(
-      {"raster/triangle_walker.vhd", "if r.edge.lower_lines = 1 then", "if r.edge.lower_lines = 0 then"});
+      {"raster/triangle_walker.vhd", "if r.edges.lower_lines = 1 then", "if r.edges.lower_lines = 0 then"});
   exact_faults.push_back(
-      {"raster/triangle_walker.vhd", "v.edge.lower_none   := '1'", "v.edge.lower_none   := '0'"});
+      {"raster/triangle_walker.vhd", "v.edges.lower_none   := '1'", "v.edges.lower_none   := '0'"});
   exact_faults.push_back({"raster/triangle_walker.vhd", "to_x + not from_x", "to_x - from_x"});
   std::vector<Fault> published_faults = walker_faults;
   published_faults.push_back(
@@ -239,7 +239,7 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "load_carry     => section(c_section_bits - 1)",
        "load_carry     => upper(c_section_bits - 1)"},
       {"raster/triangle_walker.vhd", "empty  <= more(more'high)", "empty  <= '0'"},
-      {"raster/triangle_walker.vhd", "r.edge.y + 1", "r.edge.y + 2"},
+      {"raster/triangle_walker.vhd", "r.edges.y + 1", "r.edges.y + 2"},
       {"raster/triangle_walker.vhd", "v.line.carry    := edge_carry", "v.line.carry    := not edge_carry"},
       {"raster/edge_walker.vhd", "r.error + r.rise", "r.error - r.remainder"},
   };
