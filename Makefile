@@ -7,7 +7,8 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 # What a target hands to the program. Values travel through the environment and are quoted where they are
 # used: neither make nor a shell ever reads them as code.
 variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS \
-  ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE TRIANGLES SEED SECONDS TARGET FRAMES VIDEO TERMINAL DESIGN SEEDS PIN
+  ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE TRIANGLES SEED SECONDS TARGET FRAMES VIDEO TERMINAL \
+  SPACE FULL ERROR PSNR TIME CLOCK EXECUTOR PARTS DESIGN SEEDS PIN
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
 
@@ -30,7 +31,7 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim view compare why plan figure17 gallery tables check-tables test sanitize fuzz kills mutate prove \
+.PHONY: help sim view compare why plan study slurm-test figures gallery tables check-tables test sanitize fuzz kills mutate prove \
   stability search bounds synth bench build program generator configure setup doctor format check-format clean
 
 help: ## this list
@@ -52,6 +53,10 @@ help: ## this list
 	@echo '  VIDEO, RATE  make view: a file for a video, and its frames a second; TERMINAL  1: draw in the terminal'
 	@echo '  MEASURE    1: make plan counts cells by Yosys, and cycles and seconds by simulation'
 	@echo '  OBJECTS, RATE  make plan: how many shading processors draw so many objects a pixel, frames a second'
+	@echo '  ERROR, PSNR, TIME  make study: the cheapest hardware within so many steps of 1/255, of so many dB, in 10ms'
+	@echo '  CLOCK      make study: MHz that hardware is taken to run at'
+	@echo '  FULL, SPACE  make study: 1: the whole space; or a TOML file of designs'
+	@echo '  EXECUTOR, PARTS  make study: slurm: as a job array of so many tasks   (default: local; 64)'
 	@echo '  TRIANGLES, SEED  make search: how many, and which ones     (default: 10000000, 1)'
 	@echo '  PIXEL      x,y of the pixel that make why explains'
 	@echo '  ADDRESS_BITS, DATA_BITS   make tables: size of cosine tables  (default: 9, 8; published 6, 6)'
@@ -80,8 +85,19 @@ plan: program ## the hardware that a scene calls for, and why (SCENE; MEASURE=1:
 	@build/halfway plan $(run_options) $(call flag,MEASURE,--measure) $(call option,SIMULATOR,--simulator) \
 	  $(call option,OBJECTS,--objects) $(call option,RATE,--rate) $(call option,THREADS,--threads) $(scene)
 
-figure17: setup ## figure 17 of the spherical paper, from its timing model's trace
-	@tb/timing/figure17.sh build/figure17
+study: program ## accuracy against time over the design space (FULL=1; SCENE; ERROR, PSNR, TIME ask; EXECUTOR=slurm)
+	@build/halfway study $${SPACE:+--space "$$SPACE"} $$(case "$$SPACE$${FULL:-0}" in \
+	  0) ;; 1) echo --space sim/studies/full.toml ;; esac) $(call option,SIZE,--size) $(call option,ERROR,--error) \
+	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) \
+	  $(call option,EXECUTOR,--executor) $(call option,PARTS,--parts) $(call option,THREADS,--threads) \
+	  $(call option,OUT,--out) $(scene)
+
+slurm-test: configure ## a study as a job array on a Slurm that the test starts on this machine, and ends
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway
+	@tb/slurm/slurm.sh build/halfway . build/tb/slurm
+
+figures: program ## what the papers print, drawn and measured anew: published beside measured, in sim/figures
+	@build/halfway figures --out build/figures --page sim/figures
 
 gallery: program ## the pictures in sim/gallery, drawn anew by the RTL
 	@scripts/gallery.sh build/gallery

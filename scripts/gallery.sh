@@ -1,7 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Makes the pictures of sim/gallery that the RTL draws, from GHDL's frames of `halfway sim`. Figure 17 is
-# tb/timing/figure17.sh's.
+# Makes the pictures of sim/gallery from GHDL's frames of `halfway sim`.
 #
 #   scripts/gallery.sh [--check] FOLDER   FOLDER takes what is made on the way; --check writes nothing else, draws by
 #                                         the golden model alone, and fails where the gallery has another picture
@@ -27,12 +26,10 @@ halfway=${HALFWAY:-$root/build/halfway}
 gallery=$root/sim/gallery
 mkdir -p "$1"
 cd "$1"
-for tool in oiiotool idiff; do
-  command -v $tool >/dev/null || {
-    echo "gallery: $tool is missing; install it with: apt-get install openimageio-tools" >&2
-    exit 3
-  }
-done
+command -v idiff >/dev/null || {
+  echo "gallery: idiff is missing; install it with: apt-get install openimageio-tools" >&2
+  exit 3
+}
 
 # Draws a scene into NAME.png.
 draw() { # name scene option...
@@ -50,16 +47,9 @@ draw() { # name scene option...
 draw spheres spheres
 draw teapot teapot
 draw shadows shadows --shader processors
-# Figure 15 of the spherical paper: one coarse sphere by tables of 4 address and 4 data bits, beside it by 6 and 6.
-for bits in 4 6; do
-  draw tables$bits highlights --shader spherical --preset published --address-bits $bits --data-bits $bits
-  oiiotool tables$bits.png --cut 190x200+225+140 --resample 380x400 -o half$bits.png
-done
-oiiotool --nosoftwareattrib half4.png half6.png --mosaic 2x1 --eraseattrib Software --eraseattrib '.*ImageHistory' \
-  -o figure15.png
 
 bad=0
-for picture in spheres teapot shadows figure15; do
+for picture in spheres teapot shadows; do
   if ! $check; then
     cp $picture.png "$gallery"
     echo "sim/gallery/$picture.png: written"

@@ -38,7 +38,8 @@ class CliTest : public CommandTest {
 const std::string c_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 TEST_F(CliTest, HelpGoesToStandardOutputAndExitsZero) {
-  for (const std::string command : {"sim", "view", "plan", "render", "init", "compare", "why", "tables"}) {
+  for (const std::string command :
+       {"sim", "view", "plan", "render", "init", "compare", "why", "tables", "study"}) {
     const Outcome help = run({command, "--help"});
     EXPECT_EQ(help.exit_code, 0) << help.output;
     EXPECT_THAT(help.output, HasSubstr("Usage: "));

@@ -19,8 +19,10 @@ int main(int argc, char** argv) {
   cli::add_compare(app, folders, exit_code);
   cli::add_why(app, folders, exit_code);
   cli::add_plan(app, folders, exit_code);
+  cli::add_study(app, folders, exit_code);
   cli::add_render(app, folders, exit_code);
   cli::add_init(app, folders, exit_code);
   cli::add_tables(app, folders, exit_code);
+  cli::add_figures(app, folders, exit_code);
   return cli::run_program(app, argc, argv, exit_code);
 }

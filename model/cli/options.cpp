@@ -138,6 +138,17 @@ Result<Shader> checked_shader(const std::string& name) {
       fmt::format("--shader: '{}' is not a shader of this program; take {}", name, c_shader_names));
 }
 
+Result<FrameSize> checked_size(const std::string& text) {
+  const std::optional<FrameSize> size = parse_size(text);
+  if (!size)
+    return bad_input(fmt::format("--size: '{}' is not WIDTHxHEIGHT in pixels, such as 640x480", text));
+  if (size->width < 1 || size->height < 1 || size->width > c_max_frame_side ||
+      size->height > c_max_frame_side)
+    return bad_input(fmt::format("--size: {} is out of range; width and height are 1 to {} pixels", text,
+                                 c_max_frame_side));
+  return *size;
+}
+
 Result<DrawSettings> checked(const DrawOptions& o) {
   DrawSettings s;
   const auto shader = checked_shader(o.shader);
@@ -160,13 +171,8 @@ Result<DrawSettings> checked(const DrawOptions& o) {
     s.setup.spherical.ends = SpanEnds::slerped_along_edges;
   else if (o.span_ends && o.span_ends != "surface")
     return bad_input(fmt::format("--span-ends: '{}' is not a way; take surface or slerp", *o.span_ends));
-  const std::optional<FrameSize> size = parse_size(o.size);
-  if (!size)
-    return bad_input(fmt::format("--size: '{}' is not WIDTHxHEIGHT in pixels, such as 640x480", o.size));
-  if (size->width < 1 || size->height < 1 || size->width > c_max_frame_side ||
-      size->height > c_max_frame_side)
-    return bad_input(fmt::format("--size: {} is out of range; width and height are 1 to {} pixels", o.size,
-                                 c_max_frame_side));
+  const auto size = checked_size(o.size);
+  if (!size) return size.error();
   s.size = *size;
   s.setup.quadratic.test =
       s.plan.preset == Preset::exact ? HighlightTest::conservative : HighlightTest::centroid;

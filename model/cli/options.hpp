@@ -45,6 +45,9 @@ struct DrawSettings {
 
 Result<DrawSettings> checked(const DrawOptions& options);
 
+/// WIDTHxHEIGHT.
+Result<FrameSize> checked_size(const std::string& text);
+
 /// For help texts.
 inline constexpr const char* c_shader_names = "quadratic, spherical or processors";
 /// By its name.
@@ -89,7 +92,9 @@ void add_plan(CLI::App& app, const Folders& folders, int& exit_code);
 void add_render(CLI::App& app, const Folders& folders, int& exit_code);
 void add_init(CLI::App& app, const Folders& folders, int& exit_code);
 void add_compare(CLI::App& app, const Folders& folders, int& exit_code);
+void add_figures(CLI::App& app, const Folders& folders, int& exit_code);
 void add_view(CLI::App& app, const Folders& folders, int& exit_code);
+void add_study(CLI::App& app, const Folders& folders, int& exit_code);
 void add_why(CLI::App& app, const Folders& folders, int& exit_code);
 
 }  // namespace halfway::cli

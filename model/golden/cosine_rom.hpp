@@ -15,13 +15,14 @@ class CosineRom {
  public:
   /// No table: every sample is zero.
   CosineRom() = default;
-  /// One of c_cosine_tables.
-  CosineRom(bool exact, int power, int address_bits, int data_bits) {
-    const auto table = std::find_if(c_cosine_tables.begin(), c_cosine_tables.end(), [&](const auto& t) {
+  /// One of the tables, which must outlive it.
+  CosineRom(bool exact, int power, int address_bits, int data_bits,
+            std::span<const CosineTable> tables = c_cosine_tables) {
+    const auto table = std::find_if(tables.begin(), tables.end(), [&](const auto& t) {
       return t.exact == exact && t.power == power && t.address_bits == address_bits &&
              t.data_bits == data_bits;
     });
-    assert(table != c_cosine_tables.end() && "there is no such table: make tables");
+    assert(table != tables.end() && "there is no such table: make tables");
     entries_ = table->entries;
   }
 

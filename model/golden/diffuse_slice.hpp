@@ -19,9 +19,10 @@ class DiffuseSlice {
 
   DiffuseSlice() = default;
   /// `channels` 0: no factor and no table, only the light's horizon.
-  DiffuseSlice(int channels, int address_bits, int data_bits)
+  DiffuseSlice(int channels, int address_bits, int data_bits,
+               std::span<const CosineTable> tables = c_cosine_tables)
       : channels_(channels), address_bits_(address_bits) {
-    if (channels > 0) rom_ = CosineRom(std::is_same_v<Preset, Exact>, 1, address_bits, data_bits);
+    if (channels > 0) rom_ = CosineRom(std::is_same_v<Preset, Exact>, 1, address_bits, data_bits, tables);
   }
 
   /// `low`: where the slice's part begins in the line record.

@@ -20,11 +20,12 @@ class SpecularSlice {
 
   SpecularSlice() = default;
   /// Bit i of `powers`: the table of cosine to the power 2^i is there.
-  SpecularSlice(int channels, unsigned powers, int address_bits, int data_bits)
+  SpecularSlice(int channels, unsigned powers, int address_bits, int data_bits,
+                std::span<const CosineTable> tables = c_cosine_tables)
       : channels_(channels), address_bits_(address_bits) {
     for (std::size_t i = 0; i < roms_.size(); ++i)
       if ((powers >> i & 1U) != 0)
-        roms_[i] = CosineRom(std::is_same_v<Preset, Exact>, 1 << i, address_bits, data_bits);
+        roms_[i] = CosineRom(std::is_same_v<Preset, Exact>, 1 << i, address_bits, data_bits, tables);
     // With one table there is nothing to select.
     selects_ = std::popcount(powers) != 1;
     if (!selects_) selected_ = roms_[static_cast<std::size_t>(std::countr_zero(powers))];

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <type_traits>
 
+#include "golden/cosine_tables.hpp"
 #include "golden/formats.hpp"
 
 namespace halfway::golden {
@@ -16,6 +18,8 @@ struct SphericalConfig {
   int highlight_channels = 3;  ///< 1: every highlight is grey, one multiplier a light does for all channels
   unsigned powers = 2;         ///< bit i: the table of cosine to the power 2^i is there
   int address_bits = 0, data_bits = 0;
+  std::span<const CosineTable> tables =
+      c_cosine_tables;  ///< there is one of this size; they outlive a shader
 };
 
 template <class Preset>

@@ -28,11 +28,11 @@ class SphericalShader {
     assert(config.lights >= 0);
     const auto lights = static_cast<std::size_t>(config.lights);
     if (layout_.has_diffuse_part())
-      diffuse_.assign(
-          lights, DiffuseSlice<Preset>(layout_.diffuse_channels(), config.address_bits, config.data_bits));
+      diffuse_.assign(lights, DiffuseSlice<Preset>(layout_.diffuse_channels(), config.address_bits,
+                                                   config.data_bits, config.tables));
     if (config.specular)
       specular_.assign(lights, SpecularSlice<Preset>(config.highlight_channels, config.powers,
-                                                     config.address_bits, config.data_bits));
+                                                     config.address_bits, config.data_bits, config.tables));
   }
 
   int init_bits() const { return layout_.init_bits(); }

@@ -93,14 +93,16 @@ std::string HardwareKey::name() const {
 
 golden::SphericalConfig golden_config(const HardwareKey& key) {
   const SphericalUnits& s = key.spherical;
-  return {.channels = static_cast<int>(key.channels),
-          .lights = static_cast<int>(s.lights),
-          .diffuse = s.diffuse,
-          .specular = s.specular,
-          .highlight_channels = static_cast<int>(s.highlight_channels),
-          .powers = s.powers,
-          .address_bits = s.tables.address_bits,
-          .data_bits = s.tables.data_bits};
+  golden::SphericalConfig config{.channels = static_cast<int>(key.channels),
+                                 .lights = static_cast<int>(s.lights),
+                                 .diffuse = s.diffuse,
+                                 .specular = s.specular,
+                                 .highlight_channels = static_cast<int>(s.highlight_channels),
+                                 .powers = s.powers,
+                                 .address_bits = s.tables.address_bits,
+                                 .data_bits = s.tables.data_bits};
+  if (s.made_tables) config.tables = s.made_tables->tables();
+  return config;
 }
 
 golden::ProcessorsConfig processors_config(const HardwareKey& key) {

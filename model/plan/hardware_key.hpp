@@ -3,12 +3,14 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "golden/processors_layout.hpp"
 #include "golden/spherical_layout.hpp"
+#include "tables/made_tables.hpp"
 
 namespace halfway {
 
@@ -44,6 +46,7 @@ struct SphericalUnits {
   unsigned highlight_channels = 1;  ///< 1 where every highlight is white: one multiplier for all channels
   unsigned powers = 0;              ///< bit i: there is a table of cosine to the power 2^i for highlights
   TableSize tables;
+  std::shared_ptr<const tables::MadeTables> made_tables;  ///< none: those that the program was built with
   /// Whether lines have records: some light has an effect.
   bool records() const { return lights > 0 && (diffuse || specular); }
 };

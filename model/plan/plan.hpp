@@ -42,6 +42,8 @@ struct PlanRequest {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
   std::optional<TableSize> tables;  ///< of the spherical shader; none: the preset's
+  /// Where the program was not built with that size; the RTL must have it, too (rtl_with_tables).
+  std::shared_ptr<const tables::MadeTables> made_tables;
   /// Elaborate Plan::everything; what the scene has not, setup gives coefficients of zero.
   bool all_effects = false;
   /// Lights that Plan::everything has in the spherical shader and in the processors; none: those of the

@@ -30,7 +30,7 @@ Result<TableSize> table_size(const PlanRequest& request) {
   const golden::CosineSize usual = exact ? golden::c_exact_cosine_size : golden::c_published_cosine_size;
   if (!request.tables) return TableSize{usual.address_bits, usual.data_bits};
   const std::vector<TableSize> sizes = generated_sizes(exact);
-  if (std::ranges::find(sizes, *request.tables) != sizes.end()) return *request.tables;
+  if (request.made_tables || std::ranges::find(sizes, *request.tables) != sizes.end()) return *request.tables;
   std::vector<std::string> there;
   for (const TableSize& size : sizes)
     there.push_back(fmt::format("{}/{}", size.address_bits, size.data_bits));
@@ -205,6 +205,7 @@ Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const P
   key.channels = calls[Effect::colour].called_for ? 3 : 1;
   SphericalUnits& units = key.spherical;
   units.tables = *tables;
+  units.made_tables = request.made_tables;
   units.lights = lights;
   units.diffuse = calls[Effect::diffuse].called_for;
   units.specular = calls[Effect::specular].called_for;

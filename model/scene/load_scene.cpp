@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "common/file.hpp"
+#include "common/to_integer.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
 #include "scene/load_mesh.hpp"
@@ -248,7 +249,8 @@ struct Fit {
 
 class SceneReader {
  public:
-  explicit SceneReader(const std::filesystem::path& path) : path_(path), file_(path.string()) {}
+  SceneReader(const std::filesystem::path& path, const LoadOptions& options)
+      : path_(path), file_(path.string()), options_(options) {}
 
   /// Throws BadScene.
   Scene read() {
@@ -429,23 +431,25 @@ class SceneReader {
       if (kind_node != nullptr)
         Table(node, file_, "mesh", all_mesh_keys()).fail("kind", "cannot be given with file");
       open("file");
+      if (options_.tessellation != 1.0)
+        table->fail("file", "has the triangles it has: no other tessellation");
       loaded = read_mesh_file(*table);
     } else if (kind == "sphere") {
       open("kind", "slices", "stacks", "radius");
-      const std::uint32_t slices = table->count("slices", 24, 3);
-      const std::uint32_t stacks = table->count("stacks", 16, 2);
+      const std::uint32_t slices = parts(*table, "slices", 24, 3);
+      const std::uint32_t stacks = parts(*table, "stacks", 16, 2);
       const double radius = table->number("radius", 1.0, c_positive);
       check_triangles(*table, uv_sphere_triangles(slices, stacks));
       loaded.mesh = make_uv_sphere(slices, stacks, radius);
     } else if (kind == "teapot") {
       open("kind", "divisions");
-      const std::uint32_t divisions = table->count("divisions", 8, 2);
+      const std::uint32_t divisions = parts(*table, "divisions", 8, 2);
       check_triangles(*table, teapot_triangles(divisions));
       loaded.mesh = make_teapot(divisions);
     } else if (kind == "box") {
       open("kind", "size", "divisions");
       const glm::dvec3 size = table->one_or_three("size", glm::dvec3(1.0), c_positive);
-      const std::uint32_t divisions = table->count("divisions", 1, 1);
+      const std::uint32_t divisions = parts(*table, "divisions", 1, 1);
       check_triangles(*table, box_triangles(divisions));
       loaded.mesh = make_box(size, divisions);
     } else {
@@ -455,6 +459,14 @@ class SceneReader {
     }
     check_triangles(*table, loaded.mesh.triangles.size());
     place(*table, loaded);
+  }
+
+  // Of a mesh of our own making, at the tessellation asked for.
+  std::uint32_t parts(const Table& table, std::string_view key, std::uint32_t otherwise,
+                      std::uint32_t least) const {
+    const double wanted = std::round(options_.tessellation * table.count(key, otherwise, least));
+    if (wanted > c_max_triangles) table.fail(key, "is too much at this tessellation");
+    return std::max(least, to_integer<std::uint32_t>(wanted));
   }
 
   static std::vector<std::string_view> all_mesh_keys() {
@@ -596,11 +608,12 @@ class SceneReader {
  private:
   std::filesystem::path path_;
   std::string file_;
+  LoadOptions options_;
   Scene scene_;
   std::unordered_map<std::string, std::uint32_t> named_materials_;
 };
 
-Result<Scene> load_scene_file(const std::filesystem::path& path) {
+Result<Scene> load_scene_file(const std::filesystem::path& path, const LoadOptions& options) {
   if (Status ok = check_readable(path); !ok) return ok.error();
   std::error_code fault;
   if (std::filesystem::file_size(path, fault) > c_max_scene_file_bytes || fault) {
@@ -609,7 +622,7 @@ Result<Scene> load_scene_file(const std::filesystem::path& path) {
                     path.string(), c_max_scene_file_bytes >> 20));
   }
   try {
-    return SceneReader(path).read();
+    return SceneReader(path, options).read();
   } catch (const BadScene& bad) {
     return bad.error();
   }
@@ -648,7 +661,8 @@ std::string known_scenes(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Result<Scene> load_scene(std::string_view name_or_path, const std::filesystem::path& scenes_folder) {
+Result<Scene> load_scene(std::string_view name_or_path, const std::filesystem::path& scenes_folder,
+                         const LoadOptions& options) {
   if (name_or_path.empty()) return bad_input("the scene has no name; give a built-in name or a file");
   // The system would take the part before a zero byte for the path.
   if (name_or_path.find('\0') != std::string_view::npos)
@@ -660,12 +674,16 @@ Result<Scene> load_scene(std::string_view name_or_path, const std::filesystem::p
       std::ranges::any_of(name, [](unsigned char c) { return std::iscntrl(c); }))
     return bad_input(fmt::format("{}: a scene cannot be called '{}'; rename the file", name_or_path, name));
   try {
-    if (lower_ending(path) == ".toml") return load_scene_file(path);
-    if (is_mesh_file_name(path)) return load_mesh_as_scene(path);
+    if (lower_ending(path) == ".toml") return load_scene_file(path, options);
+    if (is_mesh_file_name(path)) {
+      if (options.tessellation != 1.0)
+        return bad_input(path.string() + ": a mesh file has the triangles it has: no other tessellation");
+      return load_mesh_as_scene(path);
+    }
     const std::filesystem::path built_in = scenes_folder / (std::string(name_or_path) + ".toml");
     std::error_code fault;
     if (!path.has_parent_path() && std::filesystem::is_regular_file(built_in, fault)) {
-      return load_scene_file(built_in);
+      return load_scene_file(built_in, options);
     }
     if (std::filesystem::exists(path, fault)) {
       const Status ok = check_readable(path);

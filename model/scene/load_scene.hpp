@@ -10,6 +10,12 @@
 
 namespace halfway {
 
+struct LoadOptions {
+  /// Slices, stacks and divisions of spheres, teapots and boxes are as many times those that the scene names,
+  /// rounded. A mesh file's triangles are what they are: another factor than 1 is an error there.
+  double tessellation = 1.0;
+};
+
 /// Loads a built-in scene by name (`teapot`: scenes_folder/teapot.toml), a scene file (.toml), or a mesh file
 /// alone, which gets a camera that sees all of it, one white light from the camera's upper left, and its own
 /// or the default material.
@@ -20,6 +26,7 @@ namespace halfway {
 /// Scene::notes.
 ///
 /// The keys of a scene file are listed in sim/scenes/README.md.
-Result<Scene> load_scene(std::string_view name_or_path, const std::filesystem::path& scenes_folder);
+Result<Scene> load_scene(std::string_view name_or_path, const std::filesystem::path& scenes_folder,
+                         const LoadOptions& options = {});
 
 }  // namespace halfway

@@ -146,7 +146,8 @@ class Overlap {
 template <class P>
 class ProcessorsSetup final : public Setup {
  public:
-  ProcessorsSetup(const Scene& scene, FrameSize frame, const HardwareKey& key)
+  ProcessorsSetup(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                  const ProcessorsSetupOptions& options)
       : scene_(scene),
         frame_(frame),
         config_(processors_config(key)),
@@ -154,8 +155,9 @@ class ProcessorsSetup final : public Setup {
         view_(scene.camera),
         projector_(scene, frame, {.subpixel_bits = 4, .clip_to_frame = false}),
         lights_(reflected_lights(scene)),
-        has_places_(std::ranges::any_of(
-            lights_, [](LightRef light) { return light.kind != LightKind::directional; })) {
+        has_places_(std::ranges::any_of(lights_,
+                                        [](LightRef light) { return light.kind != LightKind::directional; })),
+        normalizes_(has_places_ || options.normalize) {
     set_scales();
     for (const Material& m : scene.materials) materials_.push_back(material_words(m));
     note_what_is_held();
@@ -395,7 +397,7 @@ class ProcessorsSetup final : public Setup {
       }
       if (!flat) scale(normal);
     } else {
-      surface.normalize = has_places_;
+      surface.normalize = normalizes_;
       for (std::size_t i = 0; i < 3; ++i) {
         normal[i] = surface_point(t, corner(i)).normal_world;
         place[i] = std::ldexp(1.0, -scale_exponent_) * view_.point(t.vertex[i].position_world);
@@ -618,6 +620,7 @@ class ProcessorsSetup final : public Setup {
   Projector projector_;
   std::vector<LightRef> lights_;  // no more than the key has; any further light of the key stays undefined
   bool has_places_;
+  bool normalizes_;  // published
   // Exact: b is 2^ray_exponent_, a 2^distance_exponent_. Published: the scale is 2^scale_exponent_.
   int ray_exponent_ = 0, distance_exponent_ = 0, scale_exponent_ = 0;
   double farthest_ = 0.0;  // published: of a light's place
@@ -634,9 +637,11 @@ class ProcessorsSetup final : public Setup {
 
 }  // namespace
 
-std::unique_ptr<Setup> make_processors_setup(const Scene& scene, FrameSize frame, const HardwareKey& key) {
-  if (key.preset == Preset::exact) return std::make_unique<ProcessorsSetup<Exact>>(scene, frame, key);
-  return std::make_unique<ProcessorsSetup<Published>>(scene, frame, key);
+std::unique_ptr<Setup> make_processors_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                                             const ProcessorsSetupOptions& options) {
+  if (key.preset == Preset::exact)
+    return std::make_unique<ProcessorsSetup<Exact>>(scene, frame, key, options);
+  return std::make_unique<ProcessorsSetup<Published>>(scene, frame, key, options);
 }
 
 }  // namespace halfway

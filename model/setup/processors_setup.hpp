@@ -22,6 +22,7 @@
 namespace halfway {
 
 /// The scene must outlive the setup.
-std::unique_ptr<Setup> make_processors_setup(const Scene& scene, FrameSize frame, const HardwareKey& key);
+std::unique_ptr<Setup> make_processors_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                                             const ProcessorsSetupOptions& options = {});
 
 }  // namespace halfway

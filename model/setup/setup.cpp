@@ -28,7 +28,7 @@ std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const Har
                                   const SetupOptions& options) {
   if (key.shader == Shader::spherical)
     return std::make_unique<SphericalSetup>(scene, frame, key, options.spherical);
-  if (key.shader == Shader::processors) return make_processors_setup(scene, frame, key);
+  if (key.shader == Shader::processors) return make_processors_setup(scene, frame, key, options.processors);
   return std::make_unique<QuadraticSetup>(scene, frame, key, options.quadratic);
 }
 

@@ -45,9 +45,16 @@ struct SphericalSetupOptions {
   double threshold = 2.0;
 };
 
+struct ProcessorsSetupOptions {
+  /// Preset published: N is normalized also where no light has a place, as in the paper's version II. The
+  /// hardware must have what it takes.
+  bool normalize = false;
+};
+
 struct SetupOptions {
   QuadraticSetupOptions quadratic;
   SphericalSetupOptions spherical;
+  ProcessorsSetupOptions processors;
 };
 
 struct SetupCounts {

@@ -1,135 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 // The quadratic paper's figure 7, register by register and clock by clock, in the golden model, in GHDL and
 // in Verilator.
-#include <fmt/format.h>
+#include "figures/figure7.hpp"
+
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdint>
 #include <fstream>
-#include <map>
-#include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "common/file.hpp"
 #include "frame/fragment.hpp"
 #include "frame/init_file.hpp"
-#include "golden/quadratic_shader.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {
 namespace {
 
-using golden::Published;
-using Shader = golden::QuadraticShader<Published, 1>;
-using Words = std::vector<std::uint32_t>;
+using Shader = figures::Figure7Shader;
+using Words = figures::TraceWords;
+using Figure = figures::Figure7;
+using Trace = figures::Figure7Trace;
 
-constexpr std::uint32_t c_triangle = 7, c_x = 20, c_y = 10, c_lines = 4;
-constexpr std::size_t c_pixels = c_lines * (c_lines + 1) / 2;
-const HardwareKey c_key{.preset = Preset::published, .channels = 1, .probe = true};
-
-struct Figure {
-  std::map<std::string, std::uint32_t> step;
-  std::map<std::string, Words> line, pixel;
-};
+constexpr std::uint32_t c_triangle = figures::c_figure7_triangle, c_x = figures::c_figure7_x,
+                        c_y = figures::c_figure7_y, c_lines = figures::c_figure7_lines;
+constexpr std::size_t c_pixels = figures::c_figure7_pixels;
 
 Figure read_figure() {
-  const std::string path = HALFWAY_SOURCE_DIR "/tb/published/figure7.txt";
-  std::ifstream in(path);
-  EXPECT_TRUE(in.is_open()) << path << ": cannot open";
-  Figure figure;
-  for (std::string text; std::getline(in, text);) {
-    if (text.empty() || text[0] == '#') continue;
-    std::istringstream fields(text);
-    std::string kind, name;
-    fields >> kind >> name >> std::hex;
-    Words words;
-    for (std::uint32_t word = 0; fields >> word;) words.push_back(word);
-    EXPECT_TRUE(fields.eof()) << path << ": " << text;
-    if (kind == "step") {
-      EXPECT_EQ(words.size(), 1U) << path << ": " << text;
-      figure.step[name] = words.at(0);
-    } else {
-      EXPECT_TRUE(kind == "line" || kind == "pixel") << path << ": " << text;
-      (kind == "line" ? figure.line : figure.pixel)[name] = words;
-    }
-  }
-  return figure;
-}
-
-// Edges of slope 0 and 1 pixel a line, so that line k has k pixels.
-std::array<std::uint32_t, Shader::c_init_words> init_vector(const Figure& figure) {
-  using At = Published::init_header_at;
-  using ChannelAt = Published::init_channel_at;
-  constexpr std::uint64_t c_one = std::uint64_t{1} << Published::c_edge_x_fraction_bits;
-  std::array<std::uint32_t, Shader::c_init_words> init{};
-  set_bits(init, At::triangle, c_triangle);
-  set_bits(init, At::y, c_y);
-  set_bits(init, At::upper_lines, c_lines);
-  set_bits(init, At::start_x, c_x * c_one);
-  set_bits(init, At::start_slope, 0);
-  set_bits(init, At::upper_x, c_x * c_one);
-  set_bits(init, At::upper_slope, c_one);
-  const auto put = [&](const golden::Field& field, std::uint32_t word) {
-    set_bits(init, field, word, Published::c_init_header_bits);
-  };
-  put(ChannelAt::value, figure.line.at("I_start").at(0));
-  put(ChannelAt::dx, figure.line.at("dI(X_start)").at(0));
-  put(ChannelAt::de0, figure.line.at("dI_start").at(0));
-  put(ChannelAt::dxx, figure.step.at("dI(X,Y)"));
-  put(ChannelAt::dxe0, figure.step.at("dI(X_start)"));
-  put(ChannelAt::de0e0, figure.step.at("dI_start"));
-  return init;
-}
-
-constexpr std::array<std::uint32_t, Shader::c_probe_words> c_known{};
-
-// Registers of the probe, event by event, as the figure names them; clocks where there are any.
-struct Trace {
-  std::map<std::string, Words> line, pixel;
-  Words pixel_x, pixel_y;
-  std::vector<std::uint64_t> line_clock, pixel_clock;
-
-  /// `unknown` has the bits set that the simulator does not know; none of those may be in a field read here.
-  void add(std::span<const std::uint32_t> probe, std::span<const std::uint32_t> unknown,
-           std::uint64_t clock) {
-    using At = Published::probe_header_at;
-    using ChannelAt = Published::probe_channel_at;
-    const auto read = [&](const golden::Field& field, int low) {
-      EXPECT_EQ(get_bits(unknown, field, low), 0U) << field.name << " in clock " << clock;
-      return static_cast<std::uint32_t>(get_bits(probe, field, low));
-    };
-    const auto channel = [&](const golden::Field& field) {
-      return read(field, Published::c_probe_header_bits);
-    };
-    const auto header = [&](const golden::Field& field) { return read(field, 0); };
-    if (header(At::line_event) != 0) {
-      line["dI_start"].push_back(channel(ChannelAt::line_de0));
-      line["I_start"].push_back(channel(ChannelAt::line_value));
-      line["dI(X_start)"].push_back(channel(ChannelAt::line_dx));
-      line_clock.push_back(clock);
-    }
-    if (header(At::span_event) != 0) {
-      pixel["dI(X,Y)"].push_back(channel(ChannelAt::span_dx));
-      pixel["I(X,Y)"].push_back(channel(ChannelAt::span_value));
-      pixel_x.push_back(header(At::span_x));
-      pixel_y.push_back(header(At::span_y));
-      pixel_clock.push_back(clock);
-    }
-  }
-};
-
-std::string hex(const Words& words) {
-  std::string text;
-  for (const std::uint32_t word : words) text += fmt::format("{:08X} ", word);
-  return text;
+  const auto figure = figures::read_figure7(HALFWAY_SOURCE_DIR "/tb/published/figure7.txt");
+  EXPECT_TRUE(figure) << figure.error().message;
+  return figure ? *figure : Figure{};
 }
 
 // The published words, as far as they go, are what the registers held.
 void expect_figure(const Figure& figure, const Trace& trace) {
+  EXPECT_TRUE(trace.known);
   for (const auto& [kind, published, seen, count] :
        {std::tuple{"line", &figure.line, &trace.line, std::size_t{c_lines}},
         std::tuple{"pixel", &figure.pixel, &trace.pixel, c_pixels}})
@@ -138,7 +45,7 @@ void expect_figure(const Figure& figure, const Trace& trace) {
       Words held = seen->at(name);
       EXPECT_EQ(held.size(), count) << kind << ' ' << name;
       held.resize(words.size());
-      EXPECT_EQ(hex(held), hex(words)) << kind << ' ' << name;
+      EXPECT_EQ(figures::hexadecimal(held), figures::hexadecimal(words)) << kind << ' ' << name;
     }
   // Line k has k pixels.
   Words x, y;
@@ -165,20 +72,10 @@ void expect_clocks(const Trace& trace) {
   EXPECT_EQ(trace.pixel_clock, pixels);
 }
 
-std::vector<Fragment> golden_fragments(const Figure& figure, Trace* trace = nullptr) {
-  struct Watch {
-    Trace* trace;
-    void line(const Shader& shader) const {
-      if (trace != nullptr) trace->add(shader.line_probe(), c_known, 0);
-    }
-    void span(const Shader& shader, golden::SpanXWord x) const {
-      if (trace != nullptr) trace->add(shader.span_probe(x), c_known, 0);
-    }
-  };
+std::vector<Fragment> golden_fragments(const Figure& figure) {
   std::vector<Fragment> fragments;
   Shader shader;
-  shader.draw(
-      init_vector(figure), [&](const Fragment& f) { fragments.push_back(f); }, Watch{trace});
+  shader.draw(figures::figure7_init(figure), [&](const Fragment& f) { fragments.push_back(f); });
   return fragments;
 }
 
@@ -220,9 +117,8 @@ TEST(figure7, published_numbers_agree_with_their_differences) {
 
 TEST(figure7, golden_model) {
   const Figure figure = read_figure();
-  Trace trace;
-  const std::vector<Fragment> fragments = golden_fragments(figure, &trace);
-  expect_figure(figure, trace);
+  expect_figure(figure, figures::golden_figure7(figure));
+  const std::vector<Fragment> fragments = golden_fragments(figure);
   ASSERT_EQ(fragments.size(), c_pixels);
   // 06AF.. to 06D3..: 20 bits of fraction leave 106 to 109.
   const Words& pixel = figure.pixel.at("I(X,Y)");
@@ -238,13 +134,13 @@ TEST(figure7, ghdl) {
   const Figure figure = read_figure();
   auto scratch = TemporaryFolder::make(std::filesystem::path(testing::TempDir()) / "figure7");
   ASSERT_TRUE(scratch) << scratch.error().message;
-  const auto init = init_vector(figure);
+  const auto init = figures::figure7_init(figure);
   InitStream stream{Shader::c_init_bits, Words(init.begin(), init.end())};
   const std::filesystem::path init_file = scratch->path() / "init.txt",
                               probe_file = scratch->path() / "probe.txt";
-  const auto written = write_init_file(init_file, c_key.name(), stream);
+  const auto written = write_init_file(init_file, figures::figure7_key().name(), stream);
   ASSERT_TRUE(written) << written.error().message;
-  const auto runner = GhdlRunner::open(c_key, folders());
+  const auto runner = GhdlRunner::open(figures::figure7_key(), folders());
   ASSERT_TRUE(runner) << runner.error().message;
   const auto run = runner->run(init_file, scratch->path() / "trace.txt", {.probe_file = probe_file});
   ASSERT_TRUE(run) << run.error().message;
@@ -270,10 +166,10 @@ TEST(figure7, ghdl) {
 
 TEST(figure7, verilator) {
   const Figure figure = read_figure();
-  auto simulator = VerilatorSimulator::open(c_key, folders(), {.record_probes = true});
+  auto simulator = VerilatorSimulator::open(figures::figure7_key(), folders(), {.record_probes = true});
   ASSERT_TRUE(simulator) << simulator.error().message;
   std::vector<Fragment> fragments;
-  const auto init = init_vector(figure);
+  const auto init = figures::figure7_init(figure);
   const auto ran = simulator->run(init, 1, fragments, 1000);
   ASSERT_TRUE(ran) << ran.error().message;
   const auto finished = simulator->finish(fragments, 1000);
@@ -281,7 +177,7 @@ TEST(figure7, verilator) {
   EXPECT_EQ(fragments, golden_fragments(figure));
 
   Trace trace;
-  for (const ProbeRecord& record : simulator->probes()) trace.add(record.words, c_known, record.cycle);
+  for (const ProbeRecord& record : simulator->probes()) trace.add(record.words, {}, record.cycle);
   expect_figure(figure, trace);
   expect_clocks(trace);
 }

@@ -38,7 +38,6 @@ Status write_diffuse_slice(const std::filesystem::path& folder);
 Status write_specular_slice(const std::filesystem::path& folder);
 Status write_shadow_counter(const std::filesystem::path& folder);
 Status write_shading_processor(const std::filesystem::path& folder);
-Status write_table4(const std::filesystem::path& folder);
 Status write_shading_pipeline(const std::filesystem::path& folder);
 Status write_quadratic_shader(const std::filesystem::path& folder);
 Status write_spherical_shader(const std::filesystem::path& folder);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "vectors/entities.hpp"
+#include "vectors/table4.hpp"
 
 int main(int argc, char** argv) {
   using namespace halfway;

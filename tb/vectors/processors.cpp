@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "golden/shading_pipeline.hpp"
-#include "plan/processor_clocks.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
 #include "vectors/vector_file.hpp"
@@ -351,24 +350,6 @@ Status write_shading_processor(const std::filesystem::path& folder) {
   constexpr int c_tokens = 400;
   if (auto s = write_processors<Exact>(folder, c_tokens); !s) return s;
   return write_processors<Published>(folder, c_tokens);
-}
-
-// A row a line: preset, kind of processor (3: none works), positional, spot, N normalized, view vector, in
-// one word; clocks.
-Status write_table4(const std::filesystem::path& folder) {
-  VectorFile file;
-  for (const ProcessorClocks& row : c_processor_clocks)
-    for (const Preset preset : {Preset::published, Preset::exact}) {
-      const auto clocks = row.clocks(preset);
-      if (!clocks) continue;
-      std::uint64_t work = preset == Preset::exact ? 1 : 0;
-      work = work << 2 | (row.term ? static_cast<std::uint64_t>(*row.term) : 3);
-      for (const bool flag :
-           {row.light == LightKind::positional, row.light == LightKind::spot, row.normalize, row.view})
-        work = work << 1 | (flag ? 1 : 0);
-      file.word(work, 7).word(*clocks, 32).end_vector();
-    }
-  return file.write(folder / "table4.txt");
 }
 
 Status write_shading_pipeline(const std::filesystem::path& folder) {

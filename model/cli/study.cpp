@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway study`: accuracy against time over a space of designs.
+#include "study/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <thread>
+
+#include "cli/options.hpp"
+#include "common/file.hpp"
+#include "scene/load_scene.hpp"
+#include "study/hardware.hpp"
+#include "study/host_setup.hpp"
+#include "study/pictures.hpp"
+#include "study/query.hpp"
+#include "study/slurm.hpp"
+#include "study/table.hpp"
+
+namespace halfway::cli {
+namespace {
+
+constexpr std::size_t c_parts = 64;
+
+struct StudyCommand {
+  std::string scene, space;
+  std::string size;  ///< empty: the space's
+  std::string error, psnr, time;
+  std::optional<double> clock_mhz;
+  std::string out = "build/study";
+  unsigned threads = 0;
+  std::string executor = "local";
+  std::string part;             ///< I/N
+  std::string set_up;           ///< a file of points' names
+  std::size_t parts = c_parts;  ///< of a job array
+  std::vector<std::string> slurm_options;
+};
+
+// What a command asks for, checked.
+struct StudyPlan {
+  study::StudySettings settings;
+  study::Demand demand;
+  std::string space;
+};
+
+Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
+  const std::filesystem::path studies = folders.source / "sim" / "studies";
+  StudyPlan plan;
+  auto demand = study::read_demand(command.error, command.psnr, command.time);
+  if (!demand) return demand.error();
+  plan.demand = *demand;
+  if (command.clock_mhz && !(*command.clock_mhz > 0)) return bad_input("--clock: takes MHz above 0");
+  if (command.executor != "local" && command.executor != "slurm")
+    return bad_input("--executor: '" + command.executor + "' is no executor; take local or slurm");
+  study::StudySettings& settings = plan.settings;
+  if (!command.part.empty() &&
+      (std::sscanf(command.part.c_str(), "%zu/%zu", &settings.part, &settings.parts) != 2 ||
+       settings.part >= settings.parts))
+    return bad_input("--part: '" + command.part + "' is no part; take I/N, I from 0 to N - 1");
+  settings.scene = command.scene.empty() ? (studies / "sphere.toml").string() : command.scene;
+  settings.out = command.out;
+  settings.threads =
+      command.threads != 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency());
+  settings.folders = {folders.source, folders.cache()};
+  // A question is about the scene as it is.
+  plan.space = !command.space.empty()
+                   ? command.space
+                   : (studies / (plan.demand.any() ? "designs.toml" : "small.toml")).string();
+  auto points = study::read_space(plan.space);
+  if (!points) return points.error();
+  if (!command.size.empty()) {
+    const auto size = checked_size(command.size);
+    if (!size) return size.error();
+    for (study::DesignPoint& point : *points) point.size = *size;
+  }
+  settings.points = std::move(*points);
+  return plan;
+}
+
+// Without what cannot draw the scene.
+Status leave_out(study::StudySettings& settings, const std::string& space) {
+  if (const auto scene = load_scene(settings.scene, settings.folders.source / "sim" / "scenes"); !scene)
+    return scene.error();
+  study::Drawable drawable = study::drawable(std::move(settings.points), settings.scene, settings.folders);
+  settings.points = std::move(drawable.points);
+  if (settings.points.empty())
+    return bad_input(fmt::format("{}: no point of it can be drawn: {}", space, drawable.reasons.front()));
+  if (drawable.left_out > 0 && settings.parts == 1) {
+    say(fmt::format("{} points are left out:", drawable.left_out));
+    for (const std::string& reason : drawable.reasons) say("  " + reason);
+  }
+  return Ok{};
+}
+
+std::string absolute_path(const std::filesystem::path& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
+// The program with what every worker is told; the same words wherever it runs.
+std::vector<std::string> worker_of(const Folders& folders, const StudyCommand& command,
+                                   const std::string& space) {
+  std::vector<std::string> words = {absolute_path(std::filesystem::read_symlink("/proc/self/exe")),
+                                    "--source",
+                                    absolute_path(folders.source),
+                                    "study",
+                                    "--space",
+                                    absolute_path(space)};
+  if (!command.size.empty()) words.push_back("--size=" + command.size);
+  if (!command.scene.empty())
+    words.push_back(std::filesystem::exists(command.scene) ? absolute_path(command.scene) : command.scene);
+  return words;
+}
+
+// Makes the init vectors of points, for Callgrind to count.
+int set_up(const study::StudySettings& settings, const std::string& names) {
+  const std::filesystem::path scenes = settings.folders.source / "sim" / "scenes";
+  // Once before all, so that what each finds is the same, whichever they are.
+  if (const auto scene = load_scene(settings.scene, scenes); !scene) return report(scene.error());
+  const Status done = study::in_processes(names, [&](const std::string& name) -> Status {
+    const auto point = std::ranges::find(settings.points, name, &study::DesignPoint::name);
+    if (point == settings.points.end()) return bad_input("--set-up: '" + name + "' is no point of the space");
+    const auto scene = study::drawn_scene(settings.scene, scenes, *point);
+    if (!scene) return scene.error();
+    const auto key = study::hardware_of(*point, *scene);
+    if (!key) return key.error();
+    study::set_up_frame(*scene, point->size, *key, point->setup());
+    return Ok{};
+  });
+  return done ? 0 : report(done.error());
+}
+
+// Measures what is open in a job array; what is left to do then is to gather.
+Status run_on_slurm(study::StudySettings settings, const Folders& folders, const StudyCommand& command,
+                    const std::string& space) {
+  settings.parts = std::clamp<std::size_t>(command.parts, 1, settings.points.size());
+  auto open = study::open_parts(settings);
+  if (!open) return open.error();
+  study::JobArray array{.worker = worker_of(folders, command, space),
+                        .parts = settings.parts,
+                        .open = std::move(*open),
+                        .folder = absolute_path(settings.out / "slurm"),
+                        .options = command.slurm_options};
+  for (const std::string& word :
+       {std::string("--out"), absolute_path(settings.out), std::string("--threads=1")})
+    array.worker.push_back(word);
+  return study::run_job_array(array);
+}
+
+// The table, and the answer to what was asked of each picture.
+int conclude(const StudyPlan& plan, const study::Study& made, const study::HardwareTable& hardware,
+             study::Clock clock) {
+  const std::vector<study::Market> markets = study::markets_of(made.records, hardware, clock);
+  const auto csv = study::to_csv(made.provenance, made.records, hardware, markets);
+  if (!csv) return report(csv.error());
+  const std::filesystem::path table = plan.settings.out / "study.csv";
+  if (Status written = write_file(table, *csv); !written) return report(written.error());
+  fmt::print("{}: {} points, {} measured anew\n", table.string(), made.records.size(), made.measured);
+  bool met = true;
+  for (const study::Market& market : markets) {
+    const auto answer = study::answer(market.offers, plan.demand);
+    if (!answer) return report(answer.error());
+    if (!plan.demand.any()) continue;
+    fmt::print("{}", study::to_text(market, *answer, plan.demand, made.records));
+    met = met && answer->cheapest;
+  }
+  return static_cast<int>(met ? ExitCode::equal : ExitCode::differs);
+}
+
+int run(const Folders& folders, const StudyCommand& command) {
+  auto plan = checked(command, folders);
+  if (!plan) return report(plan.error());
+  study::StudySettings& settings = plan->settings;
+  if (!command.set_up.empty()) return set_up(settings, command.set_up);
+  settings.set_up = worker_of(folders, command, plan->space);
+  if (const Status left = leave_out(settings, plan->space); !left) return report(left.error());
+  if (command.executor == "slurm")
+    if (const Status ran = run_on_slurm(settings, folders, command, plan->space); !ran)
+      return report(ran.error());
+  Progress progress("study");
+  settings.on_progress = [&](const std::string& text) { progress.show(text); };
+  const auto study = study::run_study(settings);
+  progress.clear();
+  if (!study) return report(study.error());
+  if (!command.part.empty()) {
+    fmt::print("part {}: {} points, {} measured anew\n", command.part, study->records.size(),
+               study->measured);
+    return 0;
+  }
+  const auto hardware =
+      study::hardware_figures(settings.scene, study->records, settings.folders, settings.threads,
+                              [&](const std::string& text) { progress.show(text); });
+  progress.clear();
+  if (!hardware) return report(hardware.error());
+  return conclude(*plan, *study, *hardware, {command.clock_mhz});
+}
+
+}  // namespace
+
+void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
+  const auto command = std::make_shared<StudyCommand>();
+  CLI::App* study = app.add_subcommand("study", "measure accuracy against time over a space of designs");
+  study->add_option("SCENE", command->scene, "a built-in scene, a TOML file or a mesh file (a grey sphere)");
+  study->add_option("--space", command->space,
+                    "TOML file of the designs (sim/studies/small.toml; for a question designs.toml)");
+  study->add_option("--size", command->size, "WIDTHxHEIGHT, of every point (the space's)");
+  study->add_option("--error", command->error,
+                    "asks for the cheapest hardware with at most this largest error, in steps of 1/255");
+  study->add_option("--psnr", command->psnr, "asks for at least this PSNR, in dB");
+  study->add_option("--time", command->time, "asks for a frame in at most this time, such as 10ms");
+  study->add_option("--clock", command->clock_mhz, "MHz that hardware is taken to run at");
+  study->add_option("--out", command->out, "folder for results")->capture_default_str();
+  study->add_option("--threads", command->threads, "points at a time (0: all cores)")->capture_default_str();
+  study->add_option("--executor", command->executor, "local, or slurm: as a job array (sbatch)")
+      ->capture_default_str();
+  study->add_option("--parts", command->parts, "slurm: tasks of the array")->capture_default_str();
+  study->add_option("--slurm-option", command->slurm_options,
+                    "slurm: one more of sbatch's, such as --partition=short");
+  study->add_option("--part", command->part, "I/N: measures this part of the points, and writes no table");
+  study->add_option("--set-up", command->set_up,
+                    "a file of points' names: makes their init vectors and no more, to be counted");
+  study->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });
+}
+
+}  // namespace halfway::cli

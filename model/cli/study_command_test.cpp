@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway study` as a user meets it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/command_test.hpp"
+#include "common/file.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class StudyCommandTest : public CommandTest {
+ protected:
+  Outcome study(std::vector<std::string> arguments) const {
+    EXPECT_TRUE(
+        write_file(folder_->path() / "space.toml",
+                   "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
+    std::vector<std::string> words = {"study", "--space", "space.toml", "--out", "out"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return run(words);
+  }
+};
+
+TEST_F(StudyCommandTest, RefusesWhatIsNoQuestion) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"--error", "2%"}, "--error: '2%' is none"},
+      {{"--psnr", "loud"}, "--psnr: 'loud' is none"},
+      {{"--time", "10"}, "--time: '10' is none; take a time with its unit"},
+      {{"--clock", "0"}, "--clock: takes MHz above 0"},
+      {{"--size", "huge"}, "--size: 'huge'"},
+      {{"--executor", "cloud"}, "--executor: 'cloud'"},
+      {{"--part", "3/3"}, "--part: '3/3'"},
+      {{"no-such-scene"}, "no-such-scene"}};
+  for (const auto& [arguments, message] : cases) {
+    const Outcome outcome = study(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(message));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_->path() / "out/study.csv"));
+}
+
+TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
+  const Outcome met = study({"--error", "3"});
+  EXPECT_EQ(met.exit_code, 0) << met.output;
+  EXPECT_THAT(met.output,
+              AllOf(HasSubstr("3 points, 3 measured anew"), HasSubstr("160x120: largest error at most 3/255"),
+                    HasSubstr("cheapest       adaptive exact, threshold 2: largest error"),
+                    HasSubstr("cheaper        quadratic exact: largest error"),
+                    HasSubstr("more accurate  nothing is")));
+  const Outcome missed = study({"--error", "3", "--psnr", "99"});
+  EXPECT_EQ(missed.exit_code, 1) << missed.output;
+  EXPECT_THAT(missed.output, AllOf(HasSubstr("3 points, 0 measured anew"),
+                                   HasSubstr("none of 2 points of hardware meets it"),
+                                   HasSubstr("most accurate  adaptive exact")));
+  const Outcome timed = study({"--time", "1s"});
+  EXPECT_EQ(timed.exit_code, 1) << timed.output;
+  EXPECT_THAT(timed.output, HasSubstr("2 points would be accurate enough, but no clock of theirs is known"));
+  const Outcome fast = study({"--time", "1s", "--clock", "50"});
+  EXPECT_EQ(fast.exit_code, 0) << fast.output;
+  EXPECT_THAT(fast.output, AllOf(HasSubstr("cheapest       quadratic exact"), HasSubstr("us)"),
+                                 Not(HasSubstr("no clock"))));
+}
+
+}  // namespace
+}  // namespace halfway

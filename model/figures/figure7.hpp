@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Figure 7 of the quadratic paper, the trace of the authors' own simulation, and the registers of ours.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/result.hpp"
+#include "golden/quadratic_shader.hpp"
+#include "plan/hardware_key.hpp"
+
+namespace halfway::figures {
+
+/// Words of a register, in the order in which it held them.
+using TraceWords = std::vector<std::uint32_t>;
+
+/// tb/published/figure7.txt, by the registers' names there.
+struct Figure7 {
+  std::map<std::string, std::uint32_t> step;
+  std::map<std::string, TraceWords> line, pixel;
+};
+Result<Figure7> read_figure7(const std::filesystem::path& file);
+
+/// Line k has k pixels; the printed trace breaks off in the fourth.
+inline constexpr std::uint32_t c_figure7_lines = 4,
+                               c_figure7_pixels = c_figure7_lines * (c_figure7_lines + 1) / 2;
+inline constexpr std::uint32_t c_figure7_triangle = 7, c_figure7_x = 20, c_figure7_y = 10;
+
+/// The hardware, and its golden twin.
+const HardwareKey& figure7_key();
+using Figure7Shader = golden::QuadraticShader<golden::Published, 1>;
+
+/// Edges of slope 0 and 1 pixel a line, so that line k has k pixels.
+std::array<std::uint32_t, Figure7Shader::c_init_words> figure7_init(const Figure7& figure);
+
+/// Registers of the probe, event by event, as the figure names them; clocks where there are any.
+struct Figure7Trace {
+  std::map<std::string, TraceWords> line, pixel;
+  TraceWords pixel_x, pixel_y;
+  std::vector<std::uint64_t> line_clock, pixel_clock;
+  bool known = true;  ///< no register read here had a bit without a value
+
+  /// `unknown` has the bits set that the simulator does not know; empty: it knows all.
+  void add(std::span<const std::uint32_t> probe, std::span<const std::uint32_t> unknown, std::uint64_t clock);
+};
+
+/// The golden model's, without clocks.
+Figure7Trace golden_figure7(const Figure7& figure);
+
+/// "FFFD1688 FFFD0626", of so many words at most.
+std::string hexadecimal(std::span<const std::uint32_t> words, std::size_t most = SIZE_MAX);
+
+}  // namespace halfway::figures

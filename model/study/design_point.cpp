@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/design_point.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/file.hpp"
+#include "common/to_integer.hpp"
+#include "frame/frame.hpp"
+#include "scene/load_scene.hpp"
+#include "tables/cosine.hpp"
+
+namespace halfway::study {
+namespace {
+
+// Ends the reading of a space; `read_space` turns it into its error.
+struct BadSpace {
+  Error error;
+};
+
+std::string of_size(FrameSize size) {
+  return fmt::format("{}x{}", size.width, size.height);
+}
+
+// What is read off one sweep: a list for each of its keys.
+class Sweep {
+ public:
+  Sweep(const toml::table& table, std::string file) : table_(table), file_(std::move(file)) {}
+
+  [[noreturn]] void fail(std::string_view key, std::string_view what) const {
+    const toml::node* node = table_.get(key);
+    const auto line = (node == nullptr ? table_.source() : node->source()).begin.line;
+    throw BadSpace{bad_input(fmt::format("{}:{}: {} {}", file_, line, key, what))};
+  }
+
+  void allow(const std::vector<std::string_view>& keys) const {
+    for (const auto& [key, node] : table_)
+      if (std::ranges::find(keys, key.str()) == keys.end())
+        fail(key.str(), fmt::format("is no key here; those are {}", fmt::join(keys, ", ")));
+  }
+
+  // The values under a key, one or a list of them; `otherwise` where there is none.
+  template <class Value, class Read>
+  std::vector<Value> list(std::string_view key, std::vector<Value> otherwise, const Read& read) const {
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) return otherwise;
+    std::vector<Value> values;
+    if (const toml::array* array = node->as_array()) {
+      for (const toml::node& item : *array) values.push_back(read(item));
+    } else {
+      values.push_back(read(*node));
+    }
+    if (values.empty()) fail(key, "is an empty list");
+    return values;
+  }
+
+  std::vector<double> numbers(std::string_view key, std::vector<double> otherwise, double least,
+                              double largest) const {
+    return list<double>(key, std::move(otherwise), [&](const toml::node& node) {
+      const auto value = node.value<double>();
+      if (!value || !(*value >= least && *value <= largest))
+        fail(key, fmt::format("takes numbers from {:g} to {:g}", least, largest));
+      return *value;
+    });
+  }
+
+  template <class Value>
+  std::vector<Value> names(std::string_view key, std::vector<Value> otherwise,
+                           const std::vector<std::pair<std::string_view, Value>>& known) const {
+    return list<Value>(key, std::move(otherwise), [&](const toml::node& node) {
+      const auto text = node.value<std::string>();
+      for (const auto& [name, value] : known)
+        if (text == name) return value;
+      std::vector<std::string_view> all;
+      for (const auto& [name, value] : known) all.push_back(name);
+      fail(key, fmt::format("takes {}", fmt::join(all, ", ")));
+    });
+  }
+
+ private:
+  const toml::table& table_;
+  std::string file_;
+};
+
+// A product of lists, point by point.
+template <class Value, class Set>
+void multiply(std::vector<DesignPoint>& points, const std::vector<Value>& values, const Set& set) {
+  std::vector<DesignPoint> product;
+  for (const DesignPoint& point : points)
+    for (const Value& value : values) {
+      product.push_back(point);
+      set(product.back(), value);
+    }
+  points = std::move(product);
+}
+
+std::vector<DesignPoint> points_of(const Sweep& sweep) {
+  sweep.allow({"method", "preset", "address_bits", "data_bits", "form", "threshold", "tessellation",
+               "exponent", "size"});
+  std::vector<std::pair<std::string_view, Method>> methods;
+  for (std::size_t i = 0; i < c_method_names.size(); ++i)
+    methods.emplace_back(c_method_names[i], static_cast<Method>(i));
+  std::vector<DesignPoint> points(1);
+  multiply(points,
+           sweep.names<FrameSize>("size", {DesignPoint{}.size},
+                                  {{"160x120", {160, 120}},
+                                   {"320x240", {320, 240}},
+                                   {"640x480", {640, 480}},
+                                   {"1280x960", {1280, 960}}}),
+           [](DesignPoint& p, FrameSize size) { p.size = size; });
+  multiply(points, sweep.numbers("tessellation", {1.0}, 0.05, 100.0),
+           [](DesignPoint& p, double factor) { p.tessellation = factor; });
+  // NaN: the scene's own.
+  multiply(points, sweep.numbers("exponent", {std::nan("")}, 1.0, 1e6), [](DesignPoint& p, double exponent) {
+    if (!std::isnan(exponent)) p.exponent = exponent;
+  });
+  multiply(points, sweep.names<Method>("method", {}, methods),
+           [](DesignPoint& p, Method method) { p.method = method; });
+  if (points.empty()) sweep.fail("method", "is missing");
+  multiply(points,
+           sweep.names<Preset>("preset", {Preset::exact},
+                               {{"exact", Preset::exact}, {"published", Preset::published}}),
+           [](DesignPoint& p, Preset preset) { p.preset = preset; });
+  const auto bits = [&](const char* key, int least, int most) {
+    std::vector<int> whole;
+    for (const double value : sweep.numbers(key, {0.0}, least, most)) {
+      whole.push_back(to_integer<int>(value));
+      if (whole.back() != value) sweep.fail(key, "takes whole numbers");
+    }
+    return whole;
+  };
+  multiply(points,
+           bits("address_bits", tables::c_smallest_cosine_size.address_bits,
+                tables::c_largest_cosine_size.address_bits),
+           [&](DesignPoint& p, int address) {
+             if (address > 0) p.tables = TableSize{address, 0};
+           });
+  multiply(
+      points,
+      bits("data_bits", tables::c_smallest_cosine_size.data_bits, tables::c_largest_cosine_size.data_bits),
+      [&](DesignPoint& p, int data) {
+        if ((data > 0) != p.tables.has_value()) sweep.fail("data_bits", "goes with address_bits alone");
+        if (p.tables) p.tables->data_bits = data;
+      });
+  multiply(
+      points,
+      sweep.names<ProcessorForm>("form", {ProcessorForm::unrolled},
+                                 {{"folded", ProcessorForm::folded}, {"unrolled", ProcessorForm::unrolled}}),
+      [](DesignPoint& p, ProcessorForm form) { p.form = form; });
+  // Version I takes N as it is interpolated; in preset exact that is N/w.
+  std::erase_if(points, [](const DesignPoint& p) {
+    return p.method == Method::processors_1 && p.preset == Preset::exact;
+  });
+  multiply(points, sweep.numbers("threshold", {DesignPoint{}.threshold}, 0.01, 255.0),
+           [](DesignPoint& p, double threshold) { p.threshold = threshold; });
+  return points;
+}
+
+bool is_processors(Method method) {
+  return method == Method::processors_1 || method == Method::processors_2;
+}
+
+}  // namespace
+
+bool DesignPoint::has_threshold() const {
+  return method == Method::adaptive || (method == Method::spherical && preset == Preset::exact);
+}
+
+std::string DesignPoint::picture() const {
+  std::string text = of_size(size);
+  if (tessellation != 1.0) text += fmt::format(", tessellation {:g}", tessellation);
+  if (exponent) text += fmt::format(", exponent {:g}", *exponent);
+  return text;
+}
+
+std::string DesignPoint::design() const {
+  std::string text = to_string(method);
+  if (in_hardware(method)) text += fmt::format(" {}", to_string(preset));
+  if (method == Method::spherical && tables)
+    text += fmt::format(" {}x{}", tables->address_bits, tables->data_bits);
+  if (is_processors(method) && form == ProcessorForm::folded) text += " folded";
+  if (has_threshold()) text += fmt::format(", threshold {:g}", threshold);
+  return text;
+}
+
+std::string DesignPoint::name() const {
+  return design() + ", " + picture();
+}
+
+PlanRequest DesignPoint::plan() const {
+  PlanRequest request;
+  request.preset = preset;
+  if (method == Method::spherical) {
+    request.shader = Shader::spherical;
+    request.tables = tables;
+  } else if (is_processors(method)) {
+    request.shader = Shader::processors;
+    request.form = form;
+  }
+  return request;
+}
+
+SetupOptions DesignPoint::setup() const {
+  SetupOptions options;
+  options.quadratic.test = method == Method::adaptive ? HighlightTest::conservative : HighlightTest::none;
+  options.quadratic.threshold = threshold;
+  options.spherical.threshold = threshold;
+  options.processors.normalize = method == Method::processors_2;
+  return options;
+}
+
+Result<std::vector<DesignPoint>> read_space(const std::filesystem::path& path) {
+  const auto text = read_file(path);
+  if (!text) return text.error();
+  try {
+    const toml::table root = toml::parse(*text, path.string());
+    const Sweep top(root, path.string());
+    top.allow({"sweep"});
+    const toml::array* sweeps = root["sweep"].as_array();
+    if (sweeps == nullptr || sweeps->empty())
+      return bad_input(path.string() + ": no sweep; give it a [[sweep]] with a method");
+    std::vector<DesignPoint> points;
+    std::set<std::string> known;
+    for (const toml::node& node : *sweeps) {
+      if (node.as_table() == nullptr) top.fail("sweep", "must be a table: [[sweep]]");
+      for (DesignPoint& point : points_of(Sweep(*node.as_table(), path.string())))
+        if (known.insert(point.name()).second) points.push_back(point);
+    }
+    // Points of one picture stand together: its reference is made once.
+    std::ranges::stable_sort(points, {}, &DesignPoint::picture);
+    return points;
+  } catch (const BadSpace& bad) {
+    return bad.error;
+  } catch (const toml::parse_error& bad) {
+    return bad_input(fmt::format("{}:{}: {}", path.string(), bad.source().begin.line, bad.description()));
+  }
+}
+
+}  // namespace halfway::study

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/design_point.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "common/file.hpp"
+
+namespace halfway::study {
+namespace {
+
+using ::testing::HasSubstr;
+
+class SpaceTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+  }
+  Result<std::vector<DesignPoint>> read(const std::string& text) const {
+    const std::filesystem::path path = folder_->path() / "space.toml";
+    if (const Status written = write_file(path, text); !written) return written.error();
+    return read_space(path);
+  }
+  std::string message_of(const std::string& text) const {
+    const auto points = read(text);
+    return points ? "" : points.error().message;
+  }
+  std::optional<TemporaryFolder> folder_;
+};
+
+TEST_F(SpaceTest, IsTheProductOfEachSweepsLists) {
+  const auto points = read(
+      "[[sweep]]\nmethod = \"quadratic\"\npreset = [\"exact\", \"published\"]\nexponent = [5, 50]\n"
+      "[[sweep]]\nmethod = \"gouraud\"\ntessellation = [0.5, 1, 2]\n");
+  ASSERT_TRUE(points) << points.error().message;
+  EXPECT_EQ(points->size(), 4U + 3U);
+}
+
+TEST_F(SpaceTest, HasNoPointTwice) {
+  // Neither a preset nor a threshold means anything to software, nor a threshold to what is never split.
+  const auto points = read(
+      "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\"]\npreset = [\"exact\", \"published\"]\nthreshold = "
+      "[1, 2]\n"
+      "[[sweep]]\nmethod = \"gouraud\"\n");
+  ASSERT_TRUE(points) << points.error().message;
+  EXPECT_EQ(points->size(), 1U + 2U);
+  std::set<std::string> names;
+  for (const DesignPoint& point : *points) names.insert(point.name());
+  EXPECT_EQ(names.size(), points->size());
+}
+
+TEST_F(SpaceTest, PutsPointsOfAPictureTogether) {
+  const auto points = read(
+      "[[sweep]]\nmethod = \"gouraud\"\nexponent = [5, 50]\n[[sweep]]\nmethod = \"phong\"\nexponent = [50, "
+      "5]\n");
+  ASSERT_TRUE(points) << points.error().message;
+  ASSERT_EQ(points->size(), 4U);
+  EXPECT_EQ((*points)[0].picture(), (*points)[1].picture());
+  EXPECT_EQ((*points)[2].picture(), (*points)[3].picture());
+}
+
+TEST_F(SpaceTest, TellsFileAndLineOfWhatItCannotTake) {
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nexponent = 0.5\n"),
+              HasSubstr("space.toml:3: exponent takes numbers from 1"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratc\"\n"),
+              HasSubstr("space.toml:2: method takes phong"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nexponents = 5\n"),
+              HasSubstr("space.toml:3: exponents is no key here"));
+  EXPECT_THAT(message_of("[[sweep]]\nexponent = 5\n"), HasSubstr("space.toml:1: method is missing"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = []\n"), HasSubstr("space.toml:2: method is an empty list"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"spherical\"\naddress_bits = 6\n"), HasSubstr("data_bits"));
+  EXPECT_THAT(message_of(""), HasSubstr("no sweep"));
+  EXPECT_THAT(message_of("[[sweep]\n"), HasSubstr("space.toml:1:"));
+}
+
+TEST(DesignPoint, NamesAllThatTellsItFromOthers) {
+  DesignPoint point{
+      .method = Method::spherical, .tables = TableSize{9, 8}, .threshold = 4.0, .exponent = 50.0};
+  EXPECT_EQ(point.name(), "spherical exact 9x8, threshold 4, 320x240, exponent 50");
+  point.preset = Preset::published;
+  EXPECT_EQ(point.name(), "spherical published 9x8, 320x240, exponent 50");
+  point = {.method = Method::processors_2, .form = ProcessorForm::folded, .tessellation = 0.5};
+  EXPECT_EQ(point.name(), "processors-2 exact folded, 320x240, tessellation 0.5");
+}
+
+}  // namespace
+}  // namespace halfway::study

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/measure.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "frame/perception.hpp"
+#include "run/limits.hpp"
+#include "run/rtl_stream.hpp"
+#include "run/scene_stream.hpp"
+#include "sim/verilator/verilator_simulator.hpp"
+#include "study/hardware.hpp"
+
+namespace halfway::study {
+namespace {
+
+// Adds what hardware draws and takes; the mask of what it covers.
+Result<std::vector<std::uint8_t>> draw_in_hardware(const DesignPoint& point, const Scene& scene,
+                                                   const SimulatorFolders& folders, Measurement& m) {
+  const auto hardware = hardware_of(point, scene, folders);
+  if (!hardware) return hardware.error();
+  const HardwareKey& key = hardware->key;
+  auto simulator = VerilatorSimulator::open(key, hardware->folders, {.idle_limit = c_idle_limit});
+  if (!simulator) return simulator.error();
+  const std::unique_ptr<Setup> setup = make_setup(scene, point.size, key, point.setup());
+  SceneStream stream(*setup, key, 1, {.ahead = false});
+  RtlStream rtl(point.size, scene.background);
+  VerilatorFeed feed(*simulator, rtl);
+  for (Batch batch; stream.next(batch);) {
+    if (Status status = check_shadow_counts(scene, stream); !status) return status.error();
+    rtl.add_golden(batch.golden);
+    if (Status status = feed.add(batch.init_words); !status) return status.error();
+  }
+  if (Status status = feed.finish(); !status) return status.error();
+  if (Status status = check_projection(scene, stream); !status) return status.error();
+  m.frame = rtl.assembler().frame();
+  m.fragments = rtl.count();
+  m.cycles = simulator->cycles();
+  m.hardware = key.name();
+  m.setup = stream.counts();
+  std::vector<std::uint8_t> mask = rtl.assembler().mask();
+  const SimulatorRun run = rtl.finish("verilator");
+  if (!run.equal())
+    return Error{ExitCode::differs,
+                 fmt::format("{}: the RTL differs from the golden model: {} mismatches {}\n{}", point.name(),
+                             run.mismatches, run.fault, run.description)};
+  return mask;
+}
+
+}  // namespace
+
+Result<Measurement> measure(const DesignPoint& point, const Pictures& pictures,
+                            const SimulatorFolders& folders) {
+  Measurement m;
+  m.triangles = pictures.scene.triangles.size();
+  std::vector<std::uint8_t> mask = pictures.reference.mask;
+  if (in_hardware(point.method)) {
+    const auto covered = draw_in_hardware(point, pictures.scene, folders, m);
+    if (!covered) return covered.error();
+    for (std::size_t i = 0; i < mask.size(); ++i) mask[i] |= (*covered)[i];
+  } else if (point.method == Method::gouraud) {
+    m.frame = render_gouraud(pictures.scene, pictures.triangles,
+                             {.frame = point.size, .subpixel_bits = 4, .threads = 1})
+                  .frame;
+  } else {
+    m.frame = pictures.reference.frame;
+  }
+  const Frame& reference = pictures.reference.frame;
+  const auto picture = frame_distance(m.frame, reference, mask);
+  if (!picture) return picture.error();
+  m.picture = *picture;
+  const auto highlight = frame_distance(m.frame, reference, pictures.highlight);
+  if (!highlight) return highlight.error();
+  m.highlight = *highlight;
+  const auto perceived = perceived_pixels(m.frame, reference);
+  if (!perceived) return perceived.error();
+  m.perceived = *perceived;
+  const auto bands = mach_bands(m.frame, reference, pictures.scene, pictures.triangles);
+  if (!bands) return bands.error();
+  m.mach_bands = *bands;
+  return m;
+}
+
+}  // namespace halfway::study

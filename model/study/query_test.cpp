@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/query.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <regex>
+#include <string>
+
+namespace halfway::study {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double c_infinity = std::numeric_limits<double>::infinity();
+
+TEST(Demand, TakesNumbersWithTheirUnits) {
+  const auto demand = read_demand("2", "45 dB", "10ms");
+  ASSERT_TRUE(demand) << demand.error().message;
+  EXPECT_EQ(demand->largest_error, 2.0);
+  EXPECT_EQ(demand->psnr_db, 45.0);
+  EXPECT_DOUBLE_EQ(*demand->seconds, 0.01);
+  EXPECT_EQ(demand->text(), "largest error at most 2/255, PSNR at least 45 dB, a frame in 10 ms");
+  EXPECT_DOUBLE_EQ(*read_demand("", "", "0.5s")->seconds, 0.5);
+  EXPECT_DOUBLE_EQ(*read_demand("", "", "250us")->seconds, 250e-6);
+  EXPECT_DOUBLE_EQ(*read_demand("", "", "800 ns")->seconds, 800e-9);
+  EXPECT_EQ(read_demand("0", "", "")->largest_error, 0.0);
+  EXPECT_FALSE(read_demand("", "", "")->any());
+}
+
+TEST(Demand, RefusesOtherUnits) {
+  const std::string cases[][4] = {
+      {"2%", "", "", "--error"},   {"-1", "", "", "--error"},  {"256", "", "", "--error"},
+      {"two", "", "", "--error"},  {"", "45db", "", "--psnr"}, {"", "0", "", "--psnr"},
+      {"", "inf", "", "--psnr"},   {"", "nan", "", "--psnr"},  {"", "", "10", "--time"},
+      {"", "", "10min", "--time"}, {"", "", "0ms", "--time"},  {"", "", "ms", "--time"},
+      {"", "", "1e999s", "--time"}};
+  for (const auto& [error, psnr, time, option] : cases) {
+    const auto demand = read_demand(error, psnr, time);
+    ASSERT_FALSE(demand) << error << psnr << time;
+    EXPECT_EQ(demand.error().code, ExitCode::bad_input);
+    EXPECT_THAT(demand.error().message, HasSubstr(option + ": '" + error + psnr + time + "'"));
+  }
+}
+
+Offer random_offer(std::mt19937& random, bool clocks) {
+  const double steps = static_cast<double>(random() % 5);
+  Offer offer{.largest_error = steps,
+              .psnr_db = steps == 0 ? c_infinity : 60.0 - 5.0 * steps - static_cast<double>(random() % 3),
+              .cells = static_cast<double>(100 * (1 + random() % 4)),
+              .cycles = static_cast<double>(1000 * (1 + random() % 3)),
+              .host = static_cast<double>(10 * (random() % 3))};
+  // Some hardware has no clock.
+  if (clocks && random() % 4 != 0) offer.seconds = offer.cycles / (random() % 2 == 0 ? 1e8 : 5e7);
+  return offer;
+}
+
+class RandomMarket : public ::testing::TestWithParam<bool> {};
+
+TEST_P(RandomMarket, AnswersAreWhatTheyAreCalled) {
+  std::mt19937 random(7);
+  int met = 0, missed = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    std::vector<Offer> offers(1 + random() % 12);
+    for (Offer& offer : offers) offer = random_offer(random, GetParam());
+    Demand demand;
+    if (random() % 2 == 0) demand.largest_error = static_cast<double>(random() % 4);
+    if (random() % 2 == 0) demand.psnr_db = 40.0 + static_cast<double>(random() % 20);
+    if (GetParam() && random() % 2 == 0) demand.seconds = 1e-5 * static_cast<double>(1 + random() % 6);
+    const auto meets = [&](const Offer& o) {
+      return (!demand.largest_error || o.largest_error <= *demand.largest_error) &&
+             (!demand.psnr_db || o.psnr_db >= *demand.psnr_db) &&
+             (!demand.seconds || (o.seconds && *o.seconds <= *demand.seconds));
+    };
+    const auto found = answer(offers, demand);
+    ASSERT_TRUE(found) << found.error().message;
+    ASSERT_EQ(found->cheapest.has_value(), std::ranges::any_of(offers, meets));
+    EXPECT_TRUE(std::ranges::none_of(offers, [&](const Offer& o) {
+      return o.largest_error < offers[*found->best].largest_error && !demand.psnr_db;
+    }));
+    if (!found->cheapest) {
+      ++missed;
+      continue;
+    }
+    ++met;
+    const Offer& here = offers[*found->cheapest];
+    EXPECT_TRUE(meets(here));
+    for (const Offer& o : offers) {
+      if (meets(o)) {
+        EXPECT_GE(*o.cells, *here.cells);
+      }
+    }
+    EXPECT_THAT(found->front, Contains(*found->cheapest));
+    const bool by_psnr = demand.psnr_db && !demand.largest_error;
+    const auto better = [&](const Offer& a, const Offer& b) {
+      return by_psnr ? a.psnr_db > b.psnr_db : a.largest_error < b.largest_error;
+    };
+    const auto timely = [&](const Offer& o) {
+      return !demand.seconds || (o.seconds && *o.seconds <= *demand.seconds);
+    };
+    EXPECT_EQ(found->accurate.has_value(),
+              std::ranges::any_of(offers, [&](const Offer& o) { return timely(o) && better(o, here); }));
+    if (found->accurate) {
+      const Offer& next = offers[*found->accurate];
+      EXPECT_TRUE(timely(next) && better(next, here));
+      for (const Offer& o : offers) {
+        if (timely(o) && better(o, here)) {
+          EXPECT_GE(*o.cells, *next.cells);
+        }
+      }
+      EXPECT_THAT(found->front, Contains(*found->accurate));
+    }
+    if (found->cheaper) {
+      const Offer& less = offers[*found->cheaper];
+      EXPECT_LE(*less.cells, *here.cells);
+      EXPECT_FALSE(meets(less));
+      for (const Offer& o : offers) {
+        if (*o.cells < *here.cells) {
+          EXPECT_FALSE(better(o, less));
+        }
+      }
+      EXPECT_THAT(found->front, Contains(*found->cheaper));
+    }
+  }
+  EXPECT_GT(met, 100);
+  EXPECT_GT(missed, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Clocks, RandomMarket, ::testing::Bool());
+
+// A study of three points of hardware and one of software, of two pictures.
+class QueryTest : public ::testing::Test {
+ protected:
+  QueryTest() {
+    add({.method = Method::gouraud}, "", 66, 0, 0);
+    add({.method = Method::quadratic}, "quadratic", 42, 1000, 6360);
+    add({.method = Method::adaptive}, "quadratic", 2, 1010, 18208);
+    add({.method = Method::processors_2}, "processors", 1, 1005, 0);
+    add({.method = Method::processors_2, .exponent = 5.0}, "processors", 1, 1005, 0);
+    hardware_["quadratic"].cells = Cells{.luts = 1500, .flip_flops = 500};
+    hardware_["processors"].cells =
+        Cells{.luts = 9000, .flip_flops = 900, .multipliers = 10, .product_bits = 100};
+  }
+  void add(const DesignPoint& point, const std::string& hardware, unsigned error, std::uint64_t cycles,
+           std::uint64_t shaded) {
+    Record record{point, {}};
+    record.measured.hardware = hardware;
+    record.measured.picture.max_lsb = error;
+    record.measured.picture.psnr_db = 60.0 - error / 2.0;
+    record.measured.cycles = cycles;
+    record.measured.setup.shaded = shaded;
+    records_.push_back(record);
+  }
+  std::string ask(const Demand& demand, Clock clock = {}) const {
+    const auto markets = markets_of(records_, hardware_, clock);
+    const auto found = answer(markets.at(0).offers, demand);
+    return found ? to_text(markets[0], *found, demand, records_) : found.error().message;
+  }
+  std::vector<Record> records_;
+  HardwareTable hardware_;
+};
+
+TEST_F(QueryTest, HasAMarketAPictureAndNoSoftwareInIt) {
+  const auto markets = markets_of(records_, hardware_, {});
+  ASSERT_EQ(markets.size(), 2U);
+  EXPECT_EQ(markets[0].picture, "320x240");
+  EXPECT_EQ(markets[0].offers.size(), 3U);
+  EXPECT_EQ(markets[1].picture, "320x240, exponent 5");
+  EXPECT_EQ(markets[1].offers.size(), 1U);
+  EXPECT_EQ(markets[0].offers[2].cells, 10000.0);
+}
+
+TEST_F(QueryTest, TellsTheCheapestItsNeighboursAndTheNextStepsCost) {
+  EXPECT_EQ(ask({.largest_error = 2.0}),
+            "320x240: largest error at most 2/255\n"
+            "  cheapest       adaptive exact, threshold 2: largest error 2/255, PSNR 59.00 dB, 2000 cells, "
+            "1010 cycles, 18208 host evaluations\n"
+            "  cheaper        quadratic exact: largest error 42/255, PSNR 39.00 dB, 2000 cells, 1000 cycles, "
+            "6360 host evaluations; -10 cycles (-1.0 %), -11848 host evaluations (-65.1 %)\n"
+            "  more accurate  processors-2 exact: largest error 1/255, PSNR 59.50 dB, 10000 cells, "
+            "1005 cycles, 0 host evaluations; +8000 cells (+400.0 %), -5 cycles (-0.5 %), -18208 host "
+            "evaluations (-100.0 %)\n"
+            "  front          3 of 3 points of hardware\n");
+}
+
+TEST_F(QueryTest, TakesTimeByTheClockAlone) {
+  // 1010 cycles are 10.1 us at 100 MHz.
+  EXPECT_THAT(ask({.largest_error = 2.0, .seconds = 10.05e-6}, {100.0}),
+              HasSubstr("cheapest       processors-2 exact: largest error 1/255, PSNR 59.50 dB, 10000 cells, "
+                        "1005 cycles (10.05 us)"));
+  const std::string unknown = ask({.largest_error = 2.0, .seconds = 1.0});
+  EXPECT_THAT(unknown, HasSubstr("none of 3 points of hardware meets it"));
+  EXPECT_THAT(unknown, HasSubstr("2 points would be accurate enough, but no clock of theirs is known"));
+}
+
+TEST_F(QueryTest, TellsTheBestOfWhatIsNotEnough) {
+  const std::string text = ask({.largest_error = 0.0});
+  EXPECT_THAT(text,
+              HasSubstr("none of 3 points of hardware meets it\n  most accurate  processors-2 exact: "));
+  EXPECT_THAT(text, HasSubstr("  fastest        quadratic exact: "));
+  EXPECT_THAT(ask({.largest_error = 1.0}), HasSubstr("  more accurate  nothing is\n"));
+}
+
+TEST_F(QueryTest, WithoutCellsGoesByCyclesAndHost) {
+  hardware_.clear();
+  const std::string text = ask({.largest_error = 2.0});
+  EXPECT_THAT(text, HasSubstr("cheapest       processors-2 exact"));
+  EXPECT_THAT(text, Not(HasSubstr("cells")));
+}
+
+// Whatever a text says is in the offers, or is the difference of two of them.
+TEST_F(QueryTest, EveryFigureIsTheData) {
+  std::mt19937 random(11);
+  const std::regex number(R"([+-]?\d+(\.\d+)?)");
+  for (int trial = 0; trial < 50; ++trial) {
+    for (Record& record : records_) {
+      record.measured.picture.max_lsb = static_cast<unsigned>(1 + random() % 50);
+      record.measured.cycles = 1000 + random() % 1000;
+      record.measured.setup.shaded = 1000 + random() % 1000;
+    }
+    const auto market = markets_of(records_, hardware_, {}).at(0);
+    const std::string text = ask({.largest_error = 25.0});
+    const std::regex line(
+        R"(: largest error (\d+)/255, PSNR [\d.]+ dB, (\d+) cells, (\d+) cycles, (\d+) host)");
+    int lines = 0;
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), line); it != std::sregex_iterator(); ++it) {
+      ++lines;
+      EXPECT_TRUE(std::ranges::any_of(market.offers, [&](const Offer& o) {
+        return fmt::format("{:g} {:g} {:g} {:g}", o.largest_error, *o.cells, o.cycles, o.host) ==
+               fmt::format("{} {} {} {}", (*it)[1].str(), (*it)[2].str(), (*it)[3].str(), (*it)[4].str());
+      })) << text;
+    }
+    EXPECT_GE(lines, 1) << text;
+  }
+}
+
+}  // namespace
+}  // namespace halfway::study

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+#include "study/figures.hpp"
+
+namespace halfway::study {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no infinity: a PSNR of equal pictures is null there, as is what was not counted.
+template <class Value>
+Json told(const Value& value) {
+  if constexpr (std::floating_point<Value>)
+    if (!std::isfinite(value)) return nullptr;
+  return value;
+}
+Json told(const std::optional<std::uint64_t>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+template <class Value>
+void take(const Json& json, Value& value) {
+  if constexpr (std::floating_point<Value>)
+    if (json.is_null()) {
+      value = std::numeric_limits<Value>::infinity();
+      return;
+    }
+  json.get_to(value);
+}
+void take(const Json& json, std::optional<std::uint64_t>& value) {
+  if (!json.is_null()) value = json.get<std::uint64_t>();
+}
+
+Json told(const Provenance& p) {
+  return {{"scene", p.scene},
+          {"scene_hash", p.scene_hash},
+          {"program", p.program},
+          {"rtl", p.rtl},
+          {"tools", p.tools}};
+}
+
+std::string first_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
+Result<std::string> version_of(const char* program) {
+  const auto said = run_process({.arguments = {program, "--version"}}, "");
+  if (!said) return said.error();
+  return first_line(said->output);
+}
+
+template <class Numbers>
+void add_numbers(ContentHash& hash, const Numbers& numbers) {
+  hash.add(
+      {reinterpret_cast<const char*>(std::data(numbers)), std::size(numbers) * sizeof(*std::data(numbers))});
+}
+void add_numbers(ContentHash& hash, std::initializer_list<double> numbers) {
+  hash.add({reinterpret_cast<const char*>(numbers.begin()), numbers.size() * sizeof(double)});
+}
+void add_vector(ContentHash& hash, const glm::dvec3& v) {
+  add_numbers(hash, {v.x, v.y, v.z});
+}
+
+// Every file of the folder, by name.
+Result<std::string> hash_of(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  if (error) return tool_failed(fmt::format("{}: {}", folder.string(), error.message()));
+  std::ranges::sort(files);
+  ContentHash hash;
+  for (const std::filesystem::path& file : files) {
+    const auto text = read_file(file);
+    if (!text) return text.error();
+    hash.add(file.lexically_relative(folder).string()).add(*text);
+  }
+  return hash.hex();
+}
+
+}  // namespace
+
+std::string scene_hash(const Scene& scene) {
+  ContentHash hash;
+  const Camera& c = scene.camera;
+  for (const glm::dvec3& v : {c.eye_world, c.target_world, c.up_world, scene.ambient, scene.background})
+    add_vector(hash, v);
+  add_numbers(hash, {c.vertical_fov_degrees, c.near, c.far, scene.shadows ? 1.0 : 0.0});
+  for (const DirectionalLight& light : scene.directional) {
+    add_vector(hash, light.to_light_world);
+    add_vector(hash, light.intensity);
+  }
+  hash.add("positional");
+  for (const PositionalLight& light : scene.positional) {
+    add_vector(hash, light.position_world);
+    add_vector(hash, light.intensity);
+  }
+  hash.add("spots");
+  for (const SpotLight& light : scene.spots) {
+    add_vector(hash, light.position_world);
+    add_vector(hash, light.axis_world);
+    add_numbers(hash, {light.cos_inner, light.cos_outer});
+    add_vector(hash, light.intensity);
+  }
+  hash.add("materials");
+  for (const Material& m : scene.materials) {
+    add_vector(hash, m.colour);
+    add_vector(hash, m.specular_colour);
+    add_numbers(hash, {static_cast<double>(m.brdf), m.ambient, m.diffuse, m.specular, m.exponent, m.roughness,
+                       m.reflectance});
+  }
+  add_numbers(hash, scene.positions_world);
+  add_numbers(hash, scene.normals_world);
+  add_numbers(hash, scene.triangles);
+  return hash.hex();
+}
+
+Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& folders) {
+  const auto program = read_file("/proc/self/exe");
+  if (!program) return program.error();
+  const auto rtl = hash_of(folders.source / "rtl");
+  if (!rtl) return rtl.error();
+  const auto ghdl = version_of("ghdl");
+  if (!ghdl) return ghdl.error();
+  const auto verilator = version_of("verilator");
+  if (!verilator) return verilator.error();
+  std::string tools = *ghdl + ", " + *verilator;
+  if (!find_program("valgrind").empty()) {
+    const auto valgrind = version_of("valgrind");
+    if (!valgrind) return valgrind.error();
+    tools += ", " + *valgrind;
+  }
+  return Provenance{scene.name, scene_hash(scene), ContentHash().add(*program).hex(), *rtl, tools};
+}
+
+std::filesystem::path Records::file(const DesignPoint& point) const {
+  ContentHash hash;
+  for (const std::string* part : {&provenance_.scene, &provenance_.scene_hash, &provenance_.program,
+                                  &provenance_.rtl, &provenance_.tools})
+    hash.add(*part);
+  return folder_ / (hash.add(point.name()).hex() + ".json");
+}
+
+std::optional<Record> Records::find(const DesignPoint& point) const {
+  const auto text = read_file(file(point));
+  if (!text) return std::nullopt;
+  // Files are written whole: one that cannot be read is none of ours, and is written anew.
+  const Json json = Json::parse(*text, nullptr, false);
+  try {
+    Record record{point, {}};
+    for_each_figure(record.measured,
+                    [&](const char* name, auto& value) { take(json.at("figures").at(name), value); });
+    return record;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
+Status Records::add(const Record& record) const {
+  Json figures;
+  for_each_figure(record.measured, [&](const char* name, const auto& value) { figures[name] = told(value); });
+  const Json json = {{"point", record.point.name()}, {"provenance", told(provenance_)}, {"figures", figures}};
+  return write_file(file(record.point), json.dump(2) + "\n");
+}
+
+}  // namespace halfway::study

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a study keeps of a point: one JSON file, written whole or not at all, and one line of a table.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "common/result.hpp"
+#include "study/design_point.hpp"
+#include "study/measure.hpp"
+
+namespace halfway::study {
+
+/// What a point's figures depend on beside the point: a record of another provenance is measured anew.
+struct Provenance {
+  std::string scene;       ///< by name
+  std::string scene_hash;  ///< of all its numbers
+  std::string program;     ///< hash of this program
+  std::string rtl;         ///< hash of every file of the RTL
+  std::string tools;       ///< versions of those that make hardware of the RTL
+};
+/// Of all numbers of the scene that a picture depends on.
+std::string scene_hash(const Scene& scene);
+
+/// The scene is the one at tessellation 1.
+Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& folders);
+
+/// Without the frame.
+struct Record {
+  DesignPoint point;
+  Measurement measured;
+};
+
+/// Records of one study in a folder: one file a point.
+class Records {
+ public:
+  Records(std::filesystem::path folder, Provenance provenance)
+      : folder_(std::move(folder)), provenance_(std::move(provenance)) {}
+
+  /// None where there is no whole one of this provenance.
+  std::optional<Record> find(const DesignPoint& point) const;
+  Status add(const Record& record) const;
+  std::filesystem::path file(const DesignPoint& point) const;
+
+ private:
+  std::filesystem::path folder_;
+  Provenance provenance_;
+};
+
+}  // namespace halfway::study

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// A study: every point of a design space measured, and which of them are worth building.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/result.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+#include "study/design_point.hpp"
+#include "study/record.hpp"
+
+namespace halfway::study {
+
+struct StudySettings {
+  std::string scene;  ///< as load_scene takes it
+  std::vector<DesignPoint> points;
+  std::filesystem::path out;  ///< records of all studies lie in out/points, tables in out
+  unsigned threads = 1;
+  /// Points that follow each other are cut into `parts`; measured is only this one's. All: part 0 of 1.
+  std::size_t part = 0, parts = 1;
+  SimulatorFolders folders;
+  /// What host_instructions takes as its worker. Empty: they are not counted.
+  std::vector<std::string> set_up;
+  /// Told what is done; points that were measured before count.
+  std::function<void(const std::string&)> on_progress = [](const std::string&) {};
+};
+
+struct Study {
+  Provenance provenance;
+  std::vector<Record> records;  ///< in the points' order; of the part alone
+  std::size_t measured = 0;     ///< anew, in this run
+};
+
+/// The points that can be drawn of the scene. What is left out is told: each reason once.
+struct Drawable {
+  std::vector<DesignPoint> points;
+  std::size_t left_out = 0;
+  std::vector<std::string> reasons;
+};
+Drawable drawable(std::vector<DesignPoint> points, const std::string& scene, const SimulatorFolders& folders);
+
+/// Numbers of the parts with points that were not measured before.
+Result<std::vector<std::size_t>> open_parts(const StudySettings& settings);
+
+/// Measures what was not measured before, on all threads. Each point's record is written as it comes, so that
+/// a run that is broken off goes on where it was. The first point that fails ends the study.
+Result<Study> run_study(const StudySettings& settings);
+
+}  // namespace halfway::study

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/study.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+#include "study/host_setup.hpp"
+#include "study/table.hpp"
+#include "tables/made_tables.hpp"
+
+namespace halfway::study {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
+
+std::string table_of(const Study& study) {
+  const auto csv = to_csv(study.provenance, study.records, {}, markets_of(study.records, {}, {}));
+  EXPECT_TRUE(csv) << csv.error().message;
+  return csv ? *csv : "";
+}
+
+class StudyTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    settings_.scene = c_source / "sim/studies/sphere.toml";
+    settings_.out = folder_->path();
+    settings_.threads = 2;
+    settings_.folders = {c_source, c_source / "build" / "cache"};
+    for (const Method method : {Method::phong, Method::gouraud, Method::quadratic, Method::adaptive})
+      settings_.points.push_back(
+          {.method = method, .tessellation = 0.5, .exponent = 50.0, .size = {160, 120}});
+  }
+  Study study() const {
+    auto made = run_study(settings_);
+    EXPECT_TRUE(made) << made.error().message;
+    return made ? std::move(*made) : Study{};
+  }
+  std::optional<TemporaryFolder> folder_;
+  StudySettings settings_;
+};
+
+TEST_F(StudyTest, MeasuresEachMethodAsWhatItIs) {
+  const Study made = study();
+  ASSERT_EQ(made.records.size(), 4U);
+  EXPECT_EQ(made.measured, 4U);
+  const Measurement &phong = made.records[0].measured, &gouraud = made.records[1].measured,
+                    &quadratic = made.records[2].measured, &adaptive = made.records[3].measured;
+  EXPECT_EQ(phong.picture.max_lsb, 0U);
+  EXPECT_EQ(phong.mach_bands.rms, 0.0);
+  EXPECT_GT(phong.mach_bands.edges, 10U);
+  EXPECT_GT(phong.highlight.pixels, 100U);
+  EXPECT_LT(phong.highlight.pixels, phong.picture.pixels / 2);
+  EXPECT_GT(gouraud.picture.rms, quadratic.picture.rms);
+  EXPECT_GT(quadratic.picture.rms, adaptive.picture.rms);
+  EXPECT_GT(gouraud.highlight.rms, gouraud.picture.rms);
+  EXPECT_GT(gouraud.perceived, adaptive.perceived);
+  EXPECT_LE(adaptive.picture.max_lsb, 4U);
+  EXPECT_EQ(gouraud.cycles, 0U);
+  EXPECT_GE(quadratic.cycles, quadratic.fragments);
+  EXPECT_GT(quadratic.fragments, 1000U);
+  EXPECT_EQ(quadratic.hardware, adaptive.hardware);
+  EXPECT_GT(adaptive.setup.leaves, quadratic.setup.leaves);
+}
+
+TEST_F(StudyTest, GoesOnWhereItWasBrokenOff) {
+  const std::string first = table_of(study());
+  EXPECT_EQ(study().measured, 0U);
+  std::size_t removed = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder_->path() / "points"))
+    if (removed < 2 && std::filesystem::remove(file.path())) ++removed;
+  const Study again = study();
+  EXPECT_EQ(again.measured, 2U);
+  EXPECT_EQ(table_of(again), first);
+}
+
+TEST_F(StudyTest, MeasuresAnewWhatIsDamagedOrOfAnotherScene) {
+  study();
+  const auto file = std::filesystem::directory_iterator(folder_->path() / "points")->path();
+  ASSERT_TRUE(write_file(file, "{\"figures\": {}}"));
+  EXPECT_EQ(study().measured, 1U);
+  settings_.scene = "matte";
+  EXPECT_EQ(study().measured, 4U);
+}
+
+TEST_F(StudyTest, PartsAreTheWhole) {
+  settings_.parts = 3;
+  std::vector<std::string> names;
+  for (settings_.part = 0; settings_.part < settings_.parts; ++settings_.part)
+    for (const Record& record : study().records) names.push_back(record.point.name());
+  std::vector<std::string> all;
+  for (const DesignPoint& point : settings_.points) all.push_back(point.name());
+  EXPECT_EQ(names, all);
+  const auto open = open_parts(settings_);
+  ASSERT_TRUE(open) << open.error().message;
+  EXPECT_TRUE(open->empty());
+  std::filesystem::remove_all(folder_->path() / "points");
+  settings_.part = 1;
+  study();
+  EXPECT_THAT(*open_parts(settings_), ::testing::ElementsAre(0U, 2U));
+}
+
+TEST_F(StudyTest, TellsThePointThatFails) {
+  settings_.scene = "lights";
+  settings_.points = {{.method = Method::processors_1, .preset = Preset::published}};
+  const auto made = run_study(settings_);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, ExitCode::bad_input);
+  EXPECT_THAT(made.error().message, HasSubstr("processors-1 published"));
+  EXPECT_THAT(made.error().message, HasSubstr("version II"));
+}
+
+// Tables that the program was not built with, in RTL and golden model alike: measure() compares each
+// fragment.
+TEST_F(StudyTest, DrawsWithTablesOfAnySize) {
+  settings_.points.clear();
+  for (const auto size :
+       {std::optional<TableSize>{}, std::optional(TableSize{5, 4}), std::optional(TableSize{3, 2})})
+    settings_.points.push_back(
+        {.method = Method::spherical, .tables = size, .tessellation = 0.5, .size = {160, 120}});
+  const Study made = study();
+  ASSERT_EQ(made.records.size(), 3U);
+  const Measurement &usual = made.records[0].measured, &coarse = made.records[1].measured,
+                    &least = made.records[2].measured;
+  EXPECT_THAT(usual.hardware, HasSubstr("rom9x8"));
+  EXPECT_THAT(coarse.hardware, HasSubstr("rom5x4"));
+  EXPECT_THAT(least.hardware, HasSubstr("rom3x2"));
+  EXPECT_LT(usual.picture.rms, coarse.picture.rms);
+  EXPECT_LT(coarse.picture.rms, least.picture.rms);
+  EXPECT_EQ(usual.fragments, least.fragments);
+}
+
+TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
+  const DesignPoint point{.method = Method::spherical, .tables = TableSize{5, 4}, .size = {160, 120}};
+  // What would be made stands there already, with one entry another.
+  const auto folder = tables::rtl_with_tables(true, {5, 4}, c_source, folder_->path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const std::filesystem::path package = *folder / "rtl/tables/cosine_pkg.vhd";
+  auto text = read_file(package);
+  ASSERT_TRUE(text);
+  const std::size_t at = text->find("c_exact_cosine_1_5_4");
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t entry = text->find("15", text->find('(', text->find(":=", at)));
+  ASSERT_NE(entry, std::string::npos);
+  ASSERT_TRUE(write_file(package, text->replace(entry, 2, "14")));
+  settings_.folders.cache = folder_->path();
+  settings_.points = {point};
+  const auto made = run_study(settings_);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, ExitCode::differs);
+  EXPECT_THAT(made.error().message, HasSubstr("the RTL differs from the golden model"));
+}
+
+TEST_F(StudyTest, LeavesOutWhatCannotDrawTheScene) {
+  const std::vector<DesignPoint> points = {{.method = Method::gouraud},
+                                           {.method = Method::processors_1, .preset = Preset::published},
+                                           {.method = Method::processors_2, .preset = Preset::published}};
+  const Drawable all = drawable(points, "matte", settings_.folders);
+  EXPECT_EQ(all.points.size(), 3U);
+  EXPECT_EQ(all.left_out, 0U);
+  const Drawable some = drawable(points, "lights", settings_.folders);
+  ASSERT_EQ(some.points.size(), 2U);
+  EXPECT_EQ(some.points[1].method, Method::processors_2);
+  EXPECT_EQ(some.left_out, 1U);
+  ASSERT_EQ(some.reasons.size(), 1U);
+  EXPECT_THAT(some.reasons[0], HasSubstr("processors-1: lights: version I"));
+}
+
+TEST_F(StudyTest, TheTableTellsTheFront) {
+  settings_.points.push_back({.method = Method::gouraud, .size = {160, 120}});
+  const Study made = study();
+  HardwareTable hardware;
+  hardware[made.records[2].measured.hardware].cells = Cells{.luts = 100, .flip_flops = 20};
+  const auto csv = to_csv(made.provenance, made.records, hardware, markets_of(made.records, hardware, {}));
+  ASSERT_TRUE(csv) << csv.error().message;
+  std::vector<std::string> lines;
+  std::istringstream stream(*csv);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 1 + made.records.size());
+  EXPECT_THAT(lines[0],
+              EndsWith(",host_instructions,luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,"
+                       "cycles_a_fragment,host_instructions_a_triangle"));
+  EXPECT_THAT(lines[1], EndsWith(",,,,,,,,,,"));
+  EXPECT_THAT(lines[3], HasSubstr(",100,20,0,0,0,120,1,1."));
+  EXPECT_THAT(lines[4], HasSubstr(",100,20,0,0,0,120,1,1."));
+  const auto commas = [](const std::string& line) {
+    bool quoted = false;
+    return std::ranges::count_if(line, [&](char c) { return (quoted ^= c == '"', c == ',' && !quoted); });
+  };
+  for (const std::string& line : lines) EXPECT_EQ(commas(line), commas(lines[0])) << line;
+}
+
+TEST_F(StudyTest, CountsTheHostsInstructions) {
+  if (find_program("valgrind").empty()) GTEST_SKIP() << "no Valgrind: " << c_install_valgrind;
+  ASSERT_TRUE(write_file(folder_->path() / "space.toml",
+                         "[[sweep]]\nmethod = [\"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
+  const auto points = read_space(folder_->path() / "space.toml");
+  ASSERT_TRUE(points);
+  settings_.points = *points;
+  settings_.set_up = {HALFWAY_PROGRAM, "study", "--space", (folder_->path() / "space.toml").string()};
+  const Study made = study();
+  ASSERT_EQ(made.records.size(), 2U);
+  const auto of = [](const Record& record) { return record.measured.host_instructions; };
+  ASSERT_TRUE(of(made.records[0]) && of(made.records[1]));
+  EXPECT_GT(of(made.records[1]), of(made.records[0]));
+  // In the other's place: the same.
+  const auto again =
+      host_instructions(settings_.set_up, {points->at(1).name(), points->at(0).name()}, folder_->path());
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ((*again)->at(0), of(made.records[1]));
+  EXPECT_EQ((*again)->at(1), of(made.records[0]));
+  EXPECT_FALSE(host_instructions(settings_.set_up, {"no such point"}, folder_->path()));
+  // Kept with the record.
+  settings_.set_up.clear();
+  EXPECT_EQ(of(study().records[1]), of(made.records[1]));
+}
+
+}  // namespace
+}  // namespace halfway::study

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tables/made_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/file.hpp"
+#include "tables/compiled_sizes.hpp"
+
+namespace halfway::tables {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* c_package = "tables/cosine_pkg.vhd";
+
+CosineSizes sizes_with(bool exact, CosineSize size) {
+  CosineSizes sizes;
+  (exact ? sizes.exact : sizes.published) = {size};
+  return sizes;
+}
+
+struct Source {
+  fs::path path;  // from rtl/
+  std::string text;
+};
+
+Result<std::vector<Source>> rtl_sources(const fs::path& rtl, const std::string& package) {
+  std::vector<Source> sources;
+  std::error_code error;
+  for (const auto& entry : fs::recursive_directory_iterator(rtl, error)) {
+    if (!entry.is_regular_file()) continue;
+    const fs::path path = entry.path().lexically_relative(rtl);
+    auto text = read_file(entry.path());
+    if (!text) return text.error();
+    sources.push_back({path, path == c_package ? package : std::move(*text)});
+  }
+  if (error) return tool_failed(fmt::format("{}: {}", rtl.string(), error.message()));
+  std::ranges::sort(sources, {}, &Source::path);
+  return sources;
+}
+
+}  // namespace
+
+MadeTables::MadeTables(bool exact, CosineSize size) {
+  for (const CosineTable& made : cosine_tables(sizes_with(exact, size))) {
+    if (made.exact != exact) continue;
+    // Entries have 12 bits at most.
+    std::vector<std::uint16_t> entries;
+    for (const std::uint32_t entry : made.entries) entries.push_back(static_cast<std::uint16_t>(entry));
+    entries_.push_back(std::move(entries));
+    tables_.push_back({exact, made.power, made.address_bits, made.data_bits, entries_.back()});
+  }
+}
+
+bool compiled_in(bool exact, CosineSize size) {
+  const CosineSizes sizes = compiled_sizes();
+  const auto& list = exact ? sizes.exact : sizes.published;
+  return std::ranges::find(list, size) != list.end();
+}
+
+Result<fs::path> rtl_with_tables(bool exact, CosineSize size, const fs::path& checkout,
+                                 const fs::path& cache) {
+  const auto sources = rtl_sources(checkout / "rtl", cosine_vhdl_package(sizes_with(exact, size)));
+  if (!sources) return sources.error();
+  ContentHash hash;
+  hash.add(fs::absolute(checkout).string());
+  for (const Source& source : *sources) hash.add(source.path.string()).add(source.text);
+  const fs::path parent = fs::absolute(cache) / "tables";
+  const fs::path folder = parent / fmt::format("{}-{}x{}-{}", exact ? "exact" : "published",
+                                               size.address_bits, size.data_bits, hash.hex());
+  if (fs::exists(folder)) return folder;
+  auto fresh = TemporaryFolder::make(parent);
+  if (!fresh) return fresh.error();
+  for (const Source& source : *sources) {
+    const fs::path path = fresh->path() / "rtl" / source.path;
+    if (Status made = make_folders(path.parent_path()); !made) return made.error();
+    if (Status written = write_file(path, source.text); !written) return written.error();
+  }
+  for (const char* name : {"sim", "tb"}) {
+    std::error_code error;
+    fs::create_directory_symlink(fs::absolute(checkout) / name, fresh->path() / name, error);
+    if (error) return tool_failed(fmt::format("{}: {}", fresh->path().string(), error.message()));
+  }
+  if (Status moved = fresh->move_to(folder); !moved) return moved.error();
+  return folder;
+}
+
+}  // namespace halfway::tables
