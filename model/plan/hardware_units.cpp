@@ -73,6 +73,9 @@ class Units {
     add_walker();
     add_z_interpolator(kHalves);
     for (unsigned c = 0; c < key_.channels; ++c) add_quadratic_interpolator();
+    // The second place of their words.
+    const int channels = static_cast<int>(key_.channels);
+    add("parameter_register", kHalves * (exact_ ? 4 + 10 * channels : 3 + 6 * channels));
     add("saturate", static_cast<int>(key_.channels));
   }
   void add_spherical_shader() {
