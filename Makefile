@@ -31,8 +31,9 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help sim view compare why plan study slurm-test figures gallery tables check-tables test sanitize fuzz kills mutate prove \
-  stability search bounds synth bench build program generator configure setup doctor format check-format clean
+.PHONY: help sim view compare why plan study slurm-test figures report check-report diagrams gallery tables \
+  check-tables test sanitize fuzz kills mutate prove stability search bounds synth bench build program generator configure \
+  setup doctor format check-format clean
 
 help: ## this list
 	@echo 'Halfway: shading hardware in VHDL, checked bit for bit against C++'
@@ -98,6 +99,22 @@ slurm-test: configure ## a study as a job array on a Slurm that the test starts 
 
 figures: program ## what the papers print, drawn and measured anew: published beside measured, in sim/figures
 	@build/halfway figures --out build/figures --page sim/figures
+
+# What the page is made of is made first where it is missing; GHDL draws by shading processors for minutes.
+report: program ## one HTML page: frames, accuracy against time, effects, figures, waveforms, tables
+	@for shader in quadratic spherical processors; do \
+	  ls build/out/*/$$shader/summary.json >/dev/null 2>&1 || build/halfway sim --shader $$shader \
+	    $$([ $$shader != processors ] || echo --simulator verilator) || [ $$? = 1 ] || exit 3; done
+	@[ -f build/study/study.csv ] || $(MAKE) study
+	@[ -f build/figures/figures.json ] || [ -f sim/figures/figures.json ] || $(MAKE) figures
+	@build/halfway report
+
+check-report: build ## the page of make report in headless Chromium, by mouse and by keys
+	@ctest --test-dir build --output-on-failure --no-tests=error -R '^ReportPage'
+
+diagrams: setup ## the shaders' block diagrams in rtl/diagrams, drawn from their text
+	@for text in rtl/diagrams/*.dot; do dot -Tsvg "$$text" >build/diagram.svg && \
+	  mv build/diagram.svg "$${text%.dot}.svg" || exit 3; done
 
 gallery: program ## the pictures in sim/gallery, drawn anew by the RTL
 	@scripts/gallery.sh build/gallery
@@ -174,10 +191,11 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs some packages more, and so
-# do `make plan MEASURE=1`, `make synth`, `make prove`, `make bounds`, `make mutate`, `make fuzz` and `make sanitize`.
+# do `make plan MEASURE=1`, `make synth`, `make prove`, `make bounds`, `make mutate`, `make fuzz`, `make sanitize`,
+# `make diagrams` and `make check-report`.
 setup:
 	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate synth,$(MAKECMDGOALS)) \
-	  $(if $(filter fuzz sanitize,$(MAKECMDGOALS)),fuzz) \
+	  $(if $(filter fuzz sanitize,$(MAKECMDGOALS)),fuzz) $(if $(filter check-report diagrams,$(MAKECMDGOALS)),report) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth))
 
 doctor: ## tools and libraries found, and the command that mends what is missing

@@ -13,6 +13,7 @@
 
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
+#include "frame/image.hpp"
 #include "study/figures.hpp"
 
 namespace halfway::study {
@@ -145,17 +146,24 @@ Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& fol
   return Provenance{scene.name, scene_hash(scene), ContentHash().add(*program).hex(), *rtl, tools};
 }
 
-std::filesystem::path Records::file(const DesignPoint& point) const {
+std::string record_name(const Provenance& provenance, const DesignPoint& point) {
   ContentHash hash;
-  for (const std::string* part : {&provenance_.scene, &provenance_.scene_hash, &provenance_.program,
-                                  &provenance_.rtl, &provenance_.tools})
+  for (const std::string* part :
+       {&provenance.scene, &provenance.scene_hash, &provenance.program, &provenance.rtl, &provenance.tools})
     hash.add(*part);
-  return folder_ / (hash.add(point.name()).hex() + ".json");
+  return hash.add(point.name()).hex();
+}
+
+std::filesystem::path Records::file(const DesignPoint& point) const {
+  return folder_ / (record_name(provenance_, point) + ".json");
+}
+std::filesystem::path Records::picture(const DesignPoint& point) const {
+  return folder_ / (record_name(provenance_, point) + ".png");
 }
 
 std::optional<Record> Records::find(const DesignPoint& point) const {
   const auto text = read_file(file(point));
-  if (!text) return std::nullopt;
+  if (!text || !std::filesystem::exists(picture(point))) return std::nullopt;
   // Files are written whole: one that cannot be read is none of ours, and is written anew.
   const Json json = Json::parse(*text, nullptr, false);
   try {
@@ -166,6 +174,10 @@ std::optional<Record> Records::find(const DesignPoint& point) const {
   } catch (const Json::exception&) {
     return std::nullopt;
   }
+}
+
+Status Records::add_frame(const DesignPoint& point, const Frame& frame) const {
+  return write_png(picture(point), frame);
 }
 
 Status Records::add(const Record& record) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a study keeps of a point: one JSON file, written whole or not at all, and one line of a table.
+// What a study keeps of a point: its frame as PNG, one JSON file, each written whole or not at all, and one
+// line of a table.
 #pragma once
 
 #include <filesystem>
@@ -33,16 +34,22 @@ struct Record {
   Measurement measured;
 };
 
-/// Records of one study in a folder: one file a point.
+/// By which a point's files are called, without ending.
+std::string record_name(const Provenance& provenance, const DesignPoint& point);
+
+/// Records of one study in a folder: two files a point.
 class Records {
  public:
   Records(std::filesystem::path folder, Provenance provenance)
       : folder_(std::move(folder)), provenance_(std::move(provenance)) {}
 
-  /// None where there is no whole one of this provenance.
+  /// None where there is no whole one of this provenance, or no frame of it.
   std::optional<Record> find(const DesignPoint& point) const;
   Status add(const Record& record) const;
+  /// Of a point whose record follows.
+  Status add_frame(const DesignPoint& point, const Frame& frame) const;
   std::filesystem::path file(const DesignPoint& point) const;
+  std::filesystem::path picture(const DesignPoint& point) const;
 
  private:
   std::filesystem::path folder_;

@@ -132,6 +132,8 @@ TEST_F(RecordsTest, AreFoundByWhatTheyWereMeasuredWithAlone) {
   record.measured.picture.psnr_db = std::numeric_limits<double>::infinity();
   record.measured.cycles = 77;
   ASSERT_TRUE(Records(folder_->path(), here).add(record));
+  EXPECT_FALSE(Records(folder_->path(), here).find(record.point));  // without its frame
+  ASSERT_TRUE(Records(folder_->path(), here).add_frame(record.point, Frame({2, 2})));
   const auto found = Records(folder_->path(), here).find(record.point);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->measured.cycles, 77U);

@@ -132,6 +132,7 @@ Result<Study> run_study(const StudySettings& settings) {
     auto figures = measure(point, **pictures, settings.folders);
     if (!figures) return figures.error();
     Record record{point, std::move(*figures)};
+    if (Status added = kept.add_frame(point, record.measured.frame); !added) return added.error();
     record.measured.frame = {};
     if (Status added = kept.add(record); !added) return added.error();
     return record;

@@ -77,9 +77,13 @@ TEST_F(StudyTest, MeasuresEachMethodAsWhatItIs) {
 TEST_F(StudyTest, GoesOnWhereItWasBrokenOff) {
   const std::string first = table_of(study());
   EXPECT_EQ(study().measured, 0U);
-  std::size_t removed = 0;
-  for (const auto& file : std::filesystem::directory_iterator(folder_->path() / "points"))
-    if (removed < 2 && std::filesystem::remove(file.path())) ++removed;
+  // A point without its figures, and another without its frame.
+  const Provenance provenance = study().provenance;
+  const auto lose = [&](std::size_t point, const char* ending) {
+    return std::filesystem::remove(folder_->path() / "points" /
+                                   (record_name(provenance, settings_.points[point]) + ending));
+  };
+  EXPECT_TRUE(lose(0, ".json") && lose(1, ".png"));
   const Study again = study();
   EXPECT_EQ(again.measured, 2U);
   EXPECT_EQ(table_of(again), first);
@@ -87,7 +91,8 @@ TEST_F(StudyTest, GoesOnWhereItWasBrokenOff) {
 
 TEST_F(StudyTest, MeasuresAnewWhatIsDamagedOrOfAnotherScene) {
   study();
-  const auto file = std::filesystem::directory_iterator(folder_->path() / "points")->path();
+  const auto file =
+      folder_->path() / "points" / (record_name(study().provenance, settings_.points[0]) + ".json");
   ASSERT_TRUE(write_file(file, "{\"figures\": {}}"));
   EXPECT_EQ(study().measured, 1U);
   settings_.scene = "matte";

@@ -57,7 +57,7 @@ Result<std::string> to_csv(const Provenance& provenance, std::span<const Record>
   for_each_figure(none, [&](const char* name, const auto&) { text += fmt::format(",{}", name); });
   text +=
       ",luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,cycles_a_fragment,"
-      "host_instructions_a_triangle\n";
+      "host_instructions_a_triangle,record\n";
   for (std::size_t at = 0; at < records.size(); ++at) {
     const auto& [p, measured] = records[at];
     text += fmt::format(
@@ -72,7 +72,8 @@ Result<std::string> to_csv(const Provenance& provenance, std::span<const Record>
     const std::optional<bool> front = (*on_front)[at];
     text += !front ? "," : *front ? ",1" : ",0";
     text += ratio(measured.cycles, measured.fragments) +
-            ratio(measured.host_instructions.value_or(0), measured.triangles) + "\n";
+            ratio(measured.host_instructions.value_or(0), measured.triangles) + "," +
+            record_name(provenance, p) + "\n";
   }
   return text;
 }

@@ -17,8 +17,8 @@
 namespace halfway::stability {
 
 inline constexpr int c_subpixel_bits = 4;
-inline constexpr HardwareKey c_exact_key{.shader = Shader::quadratic, .preset = Preset::exact, .channels = 1};
-inline constexpr HardwareKey c_published_key{
+inline const HardwareKey c_exact_key{.shader = Shader::quadratic, .preset = Preset::exact, .channels = 1};
+inline const HardwareKey c_published_key{
     .shader = Shader::quadratic, .preset = Preset::published, .channels = 1};
 
 /// A triangle or a piece of one, with samples of one channel in colour steps and depths in steps.

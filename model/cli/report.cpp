@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway report`: one HTML page of all that the other commands left.
+#include "report/report.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/options.hpp"
+
+namespace halfway::cli {
+namespace {
+
+struct ReportCommand {
+  std::string out = "build/report/index.html";
+  std::string results = "build/out", study = "build/study";
+  std::optional<std::string> figures;  ///< none: those of the last make figures, or the checkout's
+  bool no_timing = false;
+};
+
+int run(const Folders& folders, const ReportCommand& command) {
+  std::filesystem::path figures = command.figures.value_or("build/figures");
+  if (!command.figures && !std::filesystem::exists(figures / "figures.json"))
+    figures = folders.source / "sim" / "figures";
+  Progress progress("report");
+  const auto made =
+      report::write_report({.page = command.out,
+                            .results = command.results,
+                            .study = command.study,
+                            .figures = figures,
+                            .folders = {folders.source, folders.cache()},
+                            .timing = !command.no_timing,
+                            .on_progress = [&](const std::string& what) { progress.show(what); }});
+  progress.clear();
+  if (!made) return report(made.error());
+  for (const std::string& note : made->notes) say(note);
+  fmt::print("{}: {} frames, {} points, {} figures, {:.1f} MB\n", command.out, made->frames, made->points,
+             made->figures, static_cast<double>(made->bytes) / 1e6);
+  return 0;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, const Folders& folders, int& exit_code) {
+  const auto command = std::make_shared<ReportCommand>();
+  CLI::App* sub = app.add_subcommand("report", "write one HTML page of what the other commands left");
+  sub->add_option("--out", command->out, "file to write")->capture_default_str();
+  sub->add_option("--results", command->results, "what sim left")->capture_default_str();
+  sub->add_option("--study", command->study, "what study left")->capture_default_str();
+  sub->add_option("--figures", command->figures, "what figures left (build/figures, else sim/figures)");
+  sub->add_flag("--no-timing", command->no_timing, "no timing diagrams, and so no GHDL");
+  sub->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });
+}
+
+}  // namespace halfway::cli

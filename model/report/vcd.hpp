@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What signals of a VCD trace hold before each rising edge of a clock, as a register would sample them.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/result.hpp"
+
+namespace halfway::report {
+
+struct SampledSignals {
+  std::size_t edges = 0;
+  /// By path, such as "frame_tb/dut/x"; a value a clock edge, as bits.
+  std::map<std::string, std::vector<std::string>> values;
+};
+
+/// Reads the first `most_edges` clocks. `clock` and `paths` are scopes and name joined by '/'; a path that
+/// the trace lacks is an error.
+Result<SampledSignals> sample_vcd(const std::filesystem::path& file, const std::string& clock,
+                                  const std::vector<std::string>& paths, std::size_t most_edges);
+
+}  // namespace halfway::report
