@@ -8,7 +8,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 # used: neither make nor a shell ever reads them as code.
 variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS \
   ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE TRIANGLES SEED SECONDS TARGET FRAMES VIDEO TERMINAL \
-  SPACE FULL ERROR PSNR TIME CLOCK EXECUTOR PARTS
+  SPACE FULL ERROR PSNR TIME CLOCK EXECUTOR PARTS DESIGN SEEDS PIN
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
 
@@ -32,7 +32,7 @@ table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--add
   $(call option,DATA_BITS,--data-bits)
 
 .PHONY: help sim view compare why plan study slurm-test figures report check-report diagrams gallery tables \
-  check-tables test sanitize fuzz kills mutate prove stability search bounds bench build program generator configure \
+  check-tables test sanitize fuzz kills mutate prove stability search bounds synth bench build program generator configure \
   setup doctor format check-format clean
 
 help: ## this list
@@ -64,6 +64,8 @@ help: ## this list
 	@echo '  TESTS      a regular expression: make test runs only the tests that match'
 	@echo '  JOBS       parallel compilations, tests and fuzzers       (default: all cores)'
 	@echo '  SECONDS, TARGET   make fuzz: for how long each (default: 60), and one target alone'
+	@echo '  DESIGN, SEEDS  make synth: only designs with this in their names; seeds of placement  (default: all, 5)'
+	@echo '  PIN        1: make synth pins the figures in place of comparing'
 
 sim: program ## scenes through golden model, GHDL and Verilator: compare, write frames
 	@build/halfway sim $(sim_options) $(scene)
@@ -161,6 +163,12 @@ bounds: configure ## every bound of formats and tables: derived, proved, and how
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds
 	@build/tb/halfway_bounds --page tb/bounds/README.md build/bounds
 
+synth: configure ## cells on two FPGAs, and the clock on one, against what is pinned (DESIGN, SEEDS, PIN=1)
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth synth_frames
+	@build/tb/synth_frames
+	@build/tb/halfway_synth --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin) \
+	  --page tb/synth/README.md . build/cache $${DESIGN:+"$$DESIGN"}
+
 bench: configure ## speed: other ways to the same picture, growth, small triangles, cores; writes its page
 	@scripts/unpack.sh build/tools/ghdl-mcode ghdl-mcode ghdl-common || true
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_bench
@@ -183,10 +191,10 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs some packages more, and so
-# do `make plan MEASURE=1`, `make prove`, `make bounds`, `make mutate`, `make fuzz`, `make sanitize`, `make diagrams`
-# and `make check-report`.
+# do `make plan MEASURE=1`, `make synth`, `make prove`, `make bounds`, `make mutate`, `make fuzz`, `make sanitize`,
+# `make diagrams` and `make check-report`.
 setup:
-	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate,$(MAKECMDGOALS)) \
+	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate synth,$(MAKECMDGOALS)) \
 	  $(if $(filter fuzz sanitize,$(MAKECMDGOALS)),fuzz) $(if $(filter check-report diagrams,$(MAKECMDGOALS)),report) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth))
 

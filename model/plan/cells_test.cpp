@@ -94,14 +94,14 @@ TEST_F(CellsTest, ChangedRtlIsCountedAnew) {
   folders_.source = copy;
   ASSERT_TRUE(count(grey_));
   EXPECT_EQ(cached(), 1U);
-  const auto adder = copy / "rtl" / "interpolation" / "line_interpolator.vhd";
+  const auto adder = copy / "rtl" / "interpolation" / "part_interpolator.vhd";
   const auto text = read_file(adder);
   ASSERT_TRUE(text);
-  const std::string from = "r.value + signed(increment)";
+  const std::string from = "unsigned(increment) & carry_in";
   const std::size_t at = text->find(from);
   ASSERT_NE(at, std::string::npos) << "mend this test";
   std::string changed = *text;
-  ASSERT_TRUE(write_file(adder, changed.replace(at, from.size(), "r.value - signed(increment)")));
+  ASSERT_TRUE(write_file(adder, changed.replace(at, from.size(), "unsigned(not increment) & carry_in")));
   ASSERT_TRUE(count(grey_));
   EXPECT_EQ(cached(), 2U);
 }

@@ -31,7 +31,7 @@ Status add_figures(Page& page) {
     for (const Json& figure : figures) {
       const std::string id = text_of(figure, "id");
       const std::string name = text_of(figure, "paper") + ", " + text_of(figure, "number");
-      html += fmt::format("<details id=\"figure/{}\"><summary>{}: {}</summary>\n<p>{}</p>\n", id, name,
+      html += fmt::format("<details id=\"figure/{}\"><summary>{}: {}</summary>\n<p>Here: {}</p>\n", id, name,
                           text_of(figure, "caption"), text_of(figure, "shows"));
       for (const Json& picture : figure.at("pictures")) {
         const std::filesystem::path path = page.settings.figures / picture.at("file").get<std::string>();
@@ -53,9 +53,9 @@ Status add_figures(Page& page) {
   } catch (const Json::exception& bad) {
     return bad_input(fmt::format("{}: {}; run make figures again", file.string(), bad.what()));
   }
-  page.parts["figures"] =
-      html + table("Published against measured",
-                   {"figure", "what", "published", "measured", "agrees if", "verdict"}, rows);
+  page.parts["figures"] = table("Published against measured",
+                                {"figure", "what", "published", "measured", "agrees if", "verdict"}, rows) +
+                          html;
   return Ok{};
 }
 

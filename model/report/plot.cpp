@@ -16,9 +16,9 @@ namespace halfway::report {
 namespace {
 
 // Of middling lightness, for white and for dark paper; shapes tell series apart without colours.
-constexpr std::array c_colours = {"#767676", "#b8860b", "#0072b2", "#2a9df4", "#009e73",
-                                  "#d55e00", "#cc5fa0", "#8a63d2", "#7a9a01", "#c0392b"};
-constexpr std::array c_shapes = {2, 1, 6, 7, 5, 9, 13, 11, 4, 8};
+constexpr std::array c_colours = {"#767676", "#b8860b", "#0072b2", "#2a9df4", "#009e73", "#d55e00",
+                                  "#cc5fa0", "#8a63d2", "#7a9a01", "#c0392b", "#17a2b8", "#a0522d"};
+constexpr std::array c_shapes = {2, 1, 6, 7, 5, 9, 13, 11, 4, 8, 12, 10};
 static_assert(c_colours.size() == c_shapes.size());
 
 // Between double quotes in a gnuplot script.

@@ -25,7 +25,7 @@ struct Plot {
   std::vector<std::string> legend;               ///< of each series; empty: none is drawn
 };
 
-/// How a series is drawn: colours and gnuplot's types of points, which differ among the first ten.
+/// How a series is drawn: colours and gnuplot's types of points, which differ among the first twelve.
 struct PointLook {
   const char* colour;
   int shape;  ///< the SVG has it as an element called gpPt<shape - 1>

@@ -79,11 +79,14 @@ std::string told(const Table& table, std::size_t row, const char* column) {
   return value ? fmt::format("{:.6g}", *value) : table.text(row, column);
 }
 
-// The method and what sets its hardware apart, as one series of a plot.
+// The method and what sets its hardware apart, but for sizes of tables and thresholds, as one series of a
+// plot.
 std::string series_of(const Table& table, std::size_t row) {
   const std::string& method = table.text(row, "method");
   const std::string& preset = table.text(row, "preset");
-  return preset.empty() ? method + " (software)" : preset == "exact" ? method : method + ", " + preset;
+  if (preset.empty()) return method + " (software)";
+  const std::string& form = table.text(row, "form");
+  return method + (preset == "exact" ? "" : ", " + preset) + (form == "folded" ? ", folded" : "");
 }
 
 // What points of equal pictures share.

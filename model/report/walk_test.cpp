@@ -23,9 +23,9 @@ std::string squeezed(const std::string& text) {
   return out;
 }
 
-class Walk : public CommandTest {};
+class PixelWalk : public CommandTest {};
 
-TEST_F(Walk, IsWhatWhyPrints) {
+TEST_F(PixelWalk, IsWhatWhyPrints) {
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const auto page = read_file(source / "rtl/README.md");
   ASSERT_TRUE(page);

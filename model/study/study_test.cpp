@@ -195,8 +195,8 @@ TEST_F(StudyTest, TheTableTellsTheFront) {
   ASSERT_EQ(lines.size(), 1 + made.records.size());
   EXPECT_THAT(lines[0],
               EndsWith(",host_instructions,luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,"
-                       "cycles_a_fragment,host_instructions_a_triangle"));
-  EXPECT_THAT(lines[1], EndsWith(",,,,,,,,,,"));
+                       "cycles_a_fragment,host_instructions_a_triangle,record"));
+  EXPECT_THAT(lines[1], EndsWith(",,,,,,,,,,," + record_name(made.provenance, made.records[0].point)));
   EXPECT_THAT(lines[3], HasSubstr(",100,20,0,0,0,120,1,1."));
   EXPECT_THAT(lines[4], HasSubstr(",100,20,0,0,0,120,1,1."));
   const auto commas = [](const std::string& line) {

@@ -19,7 +19,7 @@ use work.formats_pkg.all;
 entity edge_walker is
   port (
     clk            : in  std_logic;
-    load           : in  std_logic; -- wins over step
+    load           : in  std_logic; -- where step = '1': take another edge in place of the step
     load_x         : in  std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
     load_quotient  : in  std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
     load_remainder : in  std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
@@ -41,7 +41,7 @@ architecture rtl of edge_walker is
     x         : span_x_t;
     quotient  : span_x_t;
     remainder : error_t;
-    divisor   : error_t;
+    rise      : error_t; -- divisor - remainder
     error     : error_t;
     carry     : std_logic;
   end record;
@@ -51,25 +51,24 @@ architecture rtl of edge_walker is
 begin
 
   combinational : process (all)
-    variable v : reg_t;
+    variable v      : reg_t;
+    variable next_x : signed(span_x_t'length downto 0);
   begin
-    v := r;
-    if load = '1' then
+    v      := r;
+    next_x := (r.x & '1') + (r.quotient & r.carry); -- one sum takes the carry
+    if load = '1' and step = '1' then
       v.x         := signed(load_x);
       v.quotient  := signed(load_quotient);
       v.remainder := unsigned(load_remainder);
-      v.divisor   := unsigned(load_divisor);
+      v.rise      := unsigned(load_divisor) - unsigned(load_remainder);
       v.error     := unsigned(load_error);
       v.carry     := load_carry;
     elsif step = '1' then
-      v.x := r.x + r.quotient;
-      if r.carry = '1' then
-        v.x := r.x + r.quotient + 1;
-      end if;
+      v.x     := next_x(next_x'high downto 1);
       v.error := r.error - r.remainder;
       v.carry := '0';
       if r.error < r.remainder then
-        v.error := r.error - r.remainder + r.divisor;
+        v.error := r.error + r.rise;
         v.carry := '1';
       end if;
     end if;

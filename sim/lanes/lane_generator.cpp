@@ -26,6 +26,7 @@ constexpr std::uint64_t ones(unsigned width) {
 struct Piece {
   int node;
   unsigned low, width;
+  friend auto operator<=>(const Piece&, const Piece&) = default;
 };
 using Bits = std::vector<Piece>;
 
@@ -40,6 +41,17 @@ struct Rom {
   std::vector<std::uint64_t> data;
 };
 
+/// A memory that is written: each of its places is a register.
+struct Memory {
+  unsigned bits = 0;  ///< of a datum
+  std::size_t places = 0;
+};
+constexpr std::size_t kMostPlaces = 16;  ///< every access looks at all
+
+std::string place_of(std::string_view memory, std::size_t index) {
+  return fmt::format("{}[{}]", memory, index);
+}
+
 /// The netlist by names. The nodes stay in the document.
 struct Netlist {
   std::map<std::string, unsigned> types;                             ///< width by the type's number
@@ -49,6 +61,7 @@ struct Netlist {
   std::map<std::string, unsigned> registers;                         ///< width
   std::vector<pugi::xml_node> clocked;                               ///< the statements of `always` blocks
   std::map<std::string, Rom> roms;
+  std::map<std::string, Memory> memories;
 };
 
 /// A part of a register or an input, of up to 64 bits, that lies in a variable of its own.
@@ -64,6 +77,7 @@ struct Layout {
   std::map<std::string, std::set<unsigned>> cuts;
   std::map<std::string, std::set<std::pair<unsigned, unsigned>>> wholes;
   std::set<std::pair<std::string, unsigned>> dirty;
+  std::map<std::string, std::string> twins;  ///< registers that are always what another one is
   bool words = false;  ///< cells have at most 64 bits; at first they are not cut where nothing asks for it
   friend bool operator==(const Layout&, const Layout&) = default;
 
@@ -105,12 +119,16 @@ struct Update {
   int value;
 };
 
+/// What a register becomes, and when: registers for which it is the same are twins.
+using Writes = std::vector<std::pair<Guard, Bits>>;
+
 /// One function: the graph for one value of `reset`.
 struct Step {
   LaneGraph graph;
   std::vector<Cell> cells;
   std::map<Guard, std::vector<Update>> updates;
   std::map<std::string, std::vector<int>> outputs;  ///< words, or one mask
+  std::map<std::string, Writes> writes;
 };
 
 class Builder {
@@ -119,6 +137,7 @@ class Builder {
       : netlist_(netlist), ports_(ports), reset_(reset), layout_(layout) {
     for (const auto& [variables, input] : {std::pair(&netlist.inputs, true), {&netlist.registers, false}}) {
       for (const auto& [name, width] : *variables) {
+        if (layout.twins.count(name) != 0) continue;
         first_cell_[name] = step_.cells.size();
         for (Cell& cell : layout.cells_of(name, width, input)) step_.cells.push_back(std::move(cell));
       }
@@ -301,6 +320,7 @@ class Builder {
     if (const auto fixed = ports_.fixed.find(name); fixed != ports_.fixed.end())
       return whole(graph().mask_constant(fixed->second), 1);
     if (name == "reset") return whole(graph().mask_constant(reset_), 1);
+    if (const auto twin = layout_.twins.find(name); twin != layout_.twins.end()) return signal(twin->second);
     if (const auto cells = first_cell_.find(name); cells != first_cell_.end()) {
       Bits bits;
       for (std::size_t i = cells->second; i < step_.cells.size() && step_.cells[i].variable == name; ++i) {
@@ -406,6 +426,23 @@ class Builder {
     return whole(graph().invert(to_vector(a)), width);
   }
 
+  /// The lowest bit alone, a constant one.
+  bool is_one(const Bits& bits) {
+    const Piece& low = bits.front();
+    const LaneNode& node = graph()[low.node];
+    return low.width == 1 && node.op == LaneOp::constant && (node.value >> low.low & 1) != 0;
+  }
+  /// (x, 1) + (y, carry), as the RTL takes a carry by one sum: x + y + carry behind the bit that makes it.
+  Bits sum_with_carry(const Bits& a, const Bits& b) {
+    const unsigned width = width_of(a) - 1;
+    const int carry = to_mask(slice(b, 0, 1));
+    const int sum =
+        graph().operate(LaneOp::add, to_vector(slice(a, 1, width)), to_vector(slice(b, 1, width)));
+    Bits bits = whole(graph().mask_invert(carry), 1);
+    append(bits, whole(graph().operate(LaneOp::add, sum, graph().fill(carry, 1)), width));
+    return bits;
+  }
+
   Bits binary(pugi::xml_node node, std::string_view op, const Bits& a, const Bits& b) {
     const unsigned width = type_width(node), operand = width_of(a);
     if (!fits(node, std::max(operand, width_of(b)))) return {};
@@ -416,6 +453,10 @@ class Builder {
     if (const auto found = bitwise.find(op); found != bitwise.end()) {
       if (width == 1) return whole(graph().mask_operate(found->second.second, to_mask(a), to_mask(b)), 1);
       return whole(graph().operate(found->second.first, to_vector(a), to_vector(b)), width);
+    }
+    if (op == "add" && width > 1 && operand == width && width_of(b) == width) {
+      if (is_one(a)) return sum_with_carry(a, b);
+      if (is_one(b)) return sum_with_carry(b, a);
     }
     static const std::map<std::string_view, LaneOp> arithmetic = {{"add", LaneOp::add},
                                                                   {"sub", LaneOp::subtract},
@@ -474,9 +515,15 @@ class Builder {
   }
 
   Bits element(pugi::xml_node node) {
-    const std::string name = node.first_child().attribute("name").value();
+    std::string name = node.first_child().attribute("name").value();
+    // Where it is read before it is declared Verilator leaves the module out of its name.
+    for (const auto& [whole, memory] : netlist_.memories)
+      if (std::string_view(whole).substr(whole.find('.') + 1) == name) name = whole;
+    if (const auto memory = netlist_.memories.find(name); memory != netlist_.memories.end())
+      return read(node, name, memory->second);
     const auto rom = netlist_.roms.find(name);
-    if (rom == netlist_.roms.end()) return fail(fmt::format("{}: {}: a memory", line_of(node), name));
+    if (rom == netlist_.roms.end())
+      return fail(fmt::format("{}: {}: nothing that the lanes know is in there", line_of(node), name));
     const Bits address = value(node.last_child());
     const unsigned width = width_of(address);
     if (width > 16 || rom->second.data.size() != std::size_t{1} << width)
@@ -487,6 +534,51 @@ class Builder {
     const auto table = static_cast<std::size_t>(std::distance(netlist_.roms.begin(), first));
     return whole(graph().rom(table, graph().clean(to_vector(address), width), rom->second.bits),
                  rom->second.bits);
+  }
+
+  /// The place that the element `node` names, as a mask's bits; nothing where it may lie outside.
+  Bits address_of(pugi::xml_node node, const std::string& name, const Memory& memory) {
+    const Bits address = value(node.last_child());
+    if (address.empty()) return {};
+    if (memory.places > kMostPlaces)
+      return fail(fmt::format("{}: {}: a memory of {} places: lanes have up to {}", line_of(node), name,
+                              memory.places, kMostPlaces));
+    if (memory.places != std::size_t{1} << width_of(address))
+      return fail(fmt::format("{}: {}: an address that may lie outside", line_of(node), name));
+    for (std::size_t i = 0; i < memory.places; ++i)
+      layout_.wholes[place_of(name, i)].insert({0, memory.bits});
+    return address;
+  }
+
+  Bits read(pugi::xml_node node, const std::string& name, const Memory& memory) {
+    const Bits address = address_of(node, name, memory);
+    if (address.empty()) return {};
+    std::vector<Bits> left;
+    for (std::size_t i = 0; i < memory.places; ++i) left.push_back(signal(place_of(name, i)));
+    for (unsigned bit = 0; left.size() > 1; ++bit) {
+      const int upper = to_mask(slice(address, bit, 1));
+      for (std::size_t i = 0; i < left.size() / 2; ++i) left[i] = choose(upper, left[2 * i + 1], left[2 * i]);
+      left.resize(left.size() / 2);
+    }
+    return left[0];
+  }
+
+  void write(pugi::xml_node assignment, const Memory& memory, const Guard& guard) {
+    const pugi::xml_node target = assignment.last_child();
+    const std::string name = target.first_child().attribute("name").value();
+    const Bits address = address_of(target, name, memory), datum = value(assignment.first_child());
+    if (address.empty() || datum.empty()) return;
+    Bits words;  // put together once, not at each place
+    for (unsigned low = 0; low < memory.bits; low += kWord) {
+      const unsigned width = std::min(memory.bits - low, kWord);
+      append(words, whole(to_vector(slice(datum, low, width), false), width));
+    }
+    const int index = graph().clean(to_vector(address), width_of(address));
+    for (std::size_t i = 0; i < memory.places; ++i) {
+      const int here = graph().compare(LaneOp::equal, index, graph().constant(i));
+      const std::string place = place_of(name, i);
+      assign(assignment, place, choose(here, words, signal(place)), guard);
+    }
   }
 
   // Statements
@@ -515,25 +607,32 @@ class Builder {
       if (const auto other = narrow(guard, mask, false); other && then_part.next_sibling())
         execute(then_part.next_sibling(), *other);
     } else if (op == "assigndly" && std::string_view(node.last_child().name()) == "varref") {
-      const std::string name = node.last_child().attribute("name").value();
-      const Bits bits = value(node.first_child());
-      for (const Guard& other : writes_[name]) {
-        if (!excludes(guard, other)) fail(fmt::format("{}: {}: assigned twice", line_of(node), name));
-      }
-      writes_[name].push_back(guard);
-      if (!error_.empty()) return;
-      unsigned at = 0;
-      for (const Piece& piece : bits) layout_.cuts[name].insert(at += piece.width);
-      for (std::size_t i = first_cell_[name]; i < step_.cells.size() && step_.cells[i].variable == name;
-           ++i) {
-        const Cell& cell = step_.cells[i];
-        const Bits part = slice(bits, cell.low, cell.width);
-        const int next = cell.width == 1 ? to_mask(part) : to_vector(part, false);
-        if (cell.width > 1 && graph()[next].bits > cell.width) layout_.dirty.insert({name, cell.low});
-        step_.updates[guard].push_back({i, next});
-      }
+      assign(node, node.last_child().attribute("name").value(), value(node.first_child()), guard);
+    } else if (const auto memory =
+                   netlist_.memories.find(node.last_child().first_child().attribute("name").value());
+               op == "assigndly" && memory != netlist_.memories.end()) {
+      write(node, memory->second, guard);
     } else {
       fail(fmt::format("{}: the lanes do not know '{}' there", line_of(node), op));
+    }
+  }
+
+  void assign(pugi::xml_node node, const std::string& name, const Bits& bits, const Guard& guard) {
+    if (layout_.twins.count(name) != 0) return;
+    Writes& writes = step_.writes[name];
+    for (const auto& other : writes) {
+      if (!excludes(guard, other.first)) fail(fmt::format("{}: {}: assigned twice", line_of(node), name));
+    }
+    writes.emplace_back(guard, bits);
+    if (!error_.empty()) return;
+    unsigned at = 0;
+    for (const Piece& piece : bits) layout_.cuts[name].insert(at += piece.width);
+    for (std::size_t i = first_cell_[name]; i < step_.cells.size() && step_.cells[i].variable == name; ++i) {
+      const Cell& cell = step_.cells[i];
+      const Bits part = slice(bits, cell.low, cell.width);
+      const int next = cell.width == 1 ? to_mask(part) : to_vector(part, false);
+      if (cell.width > 1 && graph()[next].bits > cell.width) layout_.dirty.insert({name, cell.low});
+      step_.updates[guard].push_back({i, next});
     }
   }
 
@@ -544,7 +643,6 @@ class Builder {
   Step step_;
   std::map<std::string, std::size_t> first_cell_;
   std::map<std::string, Bits> signals_;
-  std::map<std::string, std::vector<Guard>> writes_;
   std::string error_;
 };
 
@@ -827,8 +925,17 @@ Result<Netlist> read_netlist(const pugi::xml_document& document) {
   }
   const std::function<void(pugi::xml_node)> targets = [&](pugi::xml_node node) {
     if (std::string_view(node.name()) == "assigndly") {
-      const std::string name = node.last_child().attribute("name").value();
-      netlist.registers[name] = netlist.types[type_of[name]];
+      const pugi::xml_node target = node.last_child();
+      const bool element = std::string_view(target.name()) == "arraysel";
+      const std::string name = (element ? target.first_child() : target).attribute("name").value();
+      if (const auto room = netlist.rooms.find(type_of[name]); element && room != netlist.rooms.end()) {
+        const Memory& memory =
+            netlist.memories[name] = {netlist.types[room->second.first], room->second.second};
+        for (std::size_t i = 0; i < std::min(memory.places, kMostPlaces); ++i)
+          netlist.registers[place_of(name, i)] = memory.bits;
+      } else {
+        netlist.registers[name] = netlist.types[type_of[name]];
+      }
     }
     for (const pugi::xml_node inner : node.children()) targets(inner);
   };
@@ -877,6 +984,10 @@ Result<Netlist> read_netlist(const pugi::xml_document& document) {
   }
   netlist.inputs.erase("clk");
   for (const auto& [name, width] : netlist.registers) netlist.roms.erase(name);
+  for (const auto& [name, memory] : netlist.memories) {
+    if (netlist.roms.erase(name) != 0)
+      return tool_failed(fmt::format("{}: the lanes do not know what a memory begins with", name));
+  }
   return netlist;
 }
 
@@ -898,6 +1009,11 @@ Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports)
     if (!step) return step.error();
     auto reset_step = Builder(*netlist, ports, true, next).build();
     if (!reset_step) return reset_step.error();
+    std::map<std::pair<Writes, Writes>, std::string> first;
+    for (const auto& [name, writes] : step->writes) {
+      const auto [twin, alone] = first.try_emplace({writes, reset_step->writes[name]}, name);
+      if (!alone) next.twins[name] = twin->second;
+    }
     if (next != layout || !layout.words) {
       next.words = layout.words || next == layout;
       layout = std::move(next);

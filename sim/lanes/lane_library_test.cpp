@@ -74,6 +74,8 @@ ROM
   reg [99:0] wide;
   reg [18:0] mixed;
   reg [7:0] read;
+  reg [69:0] places[7:0];
+  reg [69:0] place;
   reg [31:0] product;
   reg one, two;
   wire [39:0] next;
@@ -91,13 +93,17 @@ ROM
   always @(posedge clk)
     if (f | g) begin read <= rom[n]; end
   always @(posedge clk)
+    if (g) begin places[n[2:0]] <= {mixed, b, d[10:0]}; end
+  always @(posedge clk)
+    if (h) begin place <= places[n[5:3]]; end
+  always @(posedge clk)
     product <= {20'b0, c} * {20'b0, d};
   always @(posedge clk)
     if (reset) begin one <= 1'b0; end else begin one <= two ^ e; end
   always @(posedge clk)
     if (reset) begin two <= 1'b1; end else begin if (e) begin two <= one | ~f; end end
   assign response = {
-    2038'b0, c != d ? a : b,
+    1748'b0, {a[38:0], 1'b1} + {b[38:0], e}, {b[38:0], f} + {a[38:0], 1'b1}, places[n[4:2]], place, {f, place[68:0]}, c != d ? a : b,
     {40{two}}, {24'b0, c, mixed[18], n, d[3:0]}, one, two, product, read, mixed, wide, q, p, sum,
     a << 5, a >> 7, a << n, a >> n, {52'b0, c} << n, $signed(c) >>> 3, $signed(d) >>> n[3:0],
     ~a, -a, a & b, a | b, a ^ b, a * b, $signed(c) * $signed(d), {16'b0, a[39:16]},
@@ -189,9 +195,12 @@ TEST_F(Lanes, WhatTheyCannotDoIsRefused) {
   expect_refused(respond("{3199'b0, stimulus[71:0] < stimulus[151:80]}"), "'lt' on 72 bits");
   expect_refused(respond("{3192'b0, stimulus[7:0] / stimulus[15:8]}"), "do not know 'div'");
   expect_refused(respond("{3199'b0, ^stimulus[7:0]}"), "do not know 'redxor'");
-  expect_refused("  reg [3:0] m[15:0];\n  always @(posedge clk) m[stimulus[3:0]] <= stimulus[7:4];\n" +
+  expect_refused("  reg [3:0] m[31:0];\n  always @(posedge clk) m[stimulus[4:0]] <= stimulus[8:5];\n" +
+                     respond("{3196'b0, m[stimulus[12:8]]}"),
+                 "m.m: a memory of 32 places");
+  expect_refused("  reg [3:0] m[11:0];\n  always @(posedge clk) m[stimulus[3:0]] <= stimulus[7:4];\n" +
                      respond("{3196'b0, m[stimulus[11:8]]}"),
-                 "m.m: a memory");
+                 "m.m: an address that may lie outside");
   expect_refused("  reg q;\n  always @(negedge clk) q <= stimulus[0];\n" + respond("{3199'b0, q}"),
                  "rising edge");
   expect_refused(
