@@ -106,7 +106,7 @@ std::string difference_text(const Offer& here, const Offer& there) {
   const auto add = [&](double from, double to, const char* what) {
     if (from == to) return;
     std::string text = fmt::format("{:+.0f} {}", to - from, what);
-    if (from > 0) text += fmt::format(" ({:+.1f} %)", 100.0 * (to / from - 1.0));
+    if (from > 0) text += fmt::format(" ({:+.3g} %)", 100.0 * (to / from - 1.0));
     texts.push_back(std::move(text));
   };
   if (here.cells && there.cells) add(*here.cells, *there.cells, "cells");

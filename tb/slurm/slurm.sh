@@ -135,7 +135,7 @@ cat >"$scratch/space.toml" <<END
 [[sweep]]
 method = "gouraud"
 exponent = [5, 20, 50, 80]
-size = "1280x960"
+size = "640x480"
 [[sweep]]
 method = ["quadratic", "adaptive"]
 size = "160x120"
