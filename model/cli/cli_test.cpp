@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -373,6 +375,17 @@ TEST_F(CliTest, CompareSaysWhatIsNotThere) {
 }
 
 // Without a terminal too, whoever waits says so, once; and neither looks at what the other is writing.
+/// Whether some process stands before the lock on the file, as the system tells.
+bool is_waited_for(const std::filesystem::path& file) {
+  struct stat status;
+  if (::stat(file.c_str(), &status) != 0) return false;
+  const std::string inode = fmt::format(":{} ", status.st_ino);
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);)
+    if (line.find("->") != std::string::npos && line.find(inode) != std::string::npos) return true;
+  return false;
+}
+
 TEST_F(CliTest, SimAndCompareWaitForAnotherRunInTheirFolder) {
   const auto mesh = write("one.obj", c_triangle);
   const std::vector<std::string> sim = {"sim",    mesh,    "--out",       out(),
@@ -392,7 +405,9 @@ TEST_F(CliTest, SimAndCompareWaitForAnotherRunInTheirFolder) {
       outcome = run(arguments);
       ended = true;
     });
-    std::this_thread::sleep_for(std::chrono::seconds(1));
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (!ended && !is_waited_for(folder / ".lock") && std::chrono::steady_clock::now() < deadline)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
     EXPECT_FALSE(ended) << arguments[0] << " did not wait";
     ASSERT_TRUE(write_file(folder / "summary.json", *summary));
     held.reset();

@@ -95,7 +95,8 @@ Result<Entry> drawn(const Figure& figure, const Context& context) {
     drawing.measured.erase(found);
   }
   for (const auto& [what, measured] : drawing.measured) {
-    const bool known = std::ranges::any_of(figure.claims, [&](const Claim& c) { return c.what == what; });
+    const bool known =
+        std::ranges::any_of(figure.claims, [&, &what = what](const Claim& c) { return c.what == what; });
     if (!known)
       return tool_failed(fmt::format("{}: '{}' was measured, which no claim names", figure.id, what));
   }

@@ -208,7 +208,7 @@ Status draw_figure_8(const Context& context, Drawing& out) {
   std::vector<Frame> pictures;
   for (const auto& [name, scene] :
        {std::pair{c_meshes[0], hen_scene()}, std::pair{c_meshes[1], std::move(*teapot)}}) {
-    const auto draw = [&](const QuadraticWay& way, FrameSize size) {
+    const auto draw = [&, &scene = scene](const QuadraticWay& way, FrameSize size) {
       return draw_in_hardware(context, scene, size, {.shader = Shader::quadratic, .preset = way.preset},
                               split_by(way.test));
     };

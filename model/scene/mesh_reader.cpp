@@ -30,6 +30,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/sanitizers.hpp"
 #include "scene/check_mesh_file.hpp"
 #include "scene/mesh.hpp"
 #include "scene/mesh_reply.hpp"
@@ -39,14 +40,6 @@ namespace {
 
 // What we may take. A million triangles of OBJ take assimp 240 MiB.
 constexpr rlim_t c_memory_bytes = rlim_t{8} << 30;
-// Sanitizers reserve terabytes of addresses. GCC tells of itself by these names, Clang by __has_feature.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool c_limits_addresses = false;
-#elif defined(__has_feature)
-constexpr bool c_limits_addresses = !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer);
-#else
-constexpr bool c_limits_addresses = true;
-#endif
 
 class Refused {
  public:
@@ -311,7 +304,7 @@ int run(int argument_count, char** arguments) {
 
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, c_reader_cpu_seconds);
-  if (c_limits_addresses) limit(RLIMIT_AS, c_memory_bytes);
+  if (!c_sanitized) limit(RLIMIT_AS, c_memory_bytes);
   // What a library prints must not stand in the reply.
   const int reply = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   if (reply < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 1;

@@ -183,7 +183,7 @@ TEST_F(QueryTest, TellsTheCheapestItsNeighboursAndTheNextStepsCost) {
             "  cheapest       adaptive exact, threshold 2: largest error 2/255, PSNR 59.00 dB, 2000 cells, "
             "1010 cycles, 18208 host evaluations\n"
             "  cheaper        quadratic exact: largest error 42/255, PSNR 39.00 dB, 2000 cells, 1000 cycles, "
-            "6360 host evaluations; -10 cycles (-1 %), -11848 host evaluations (-65.1 %)\n"
+            "6360 host evaluations; -10 cycles (-0.99 %), -11848 host evaluations (-65.1 %)\n"
             "  more accurate  processors-2 exact: largest error 1/255, PSNR 59.50 dB, 10000 cells, "
             "1005 cycles, 0 host evaluations; +8000 cells (+400 %), -5 cycles (-0.495 %), -18208 host "
             "evaluations (-100 %)\n"

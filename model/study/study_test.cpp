@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "common/file.hpp"
+#include "common/sanitizers.hpp"
 #include "common/subprocess.hpp"
 #include "study/host_setup.hpp"
 #include "study/table.hpp"
@@ -208,6 +209,7 @@ TEST_F(StudyTest, TheTableTellsTheFront) {
 
 TEST_F(StudyTest, CountsTheHostsInstructions) {
   if (find_program("valgrind").empty()) GTEST_SKIP() << "no Valgrind: " << c_install_valgrind;
+  if (c_sanitized) GTEST_SKIP() << "Valgrind cannot run a program built with sanitizers";
   ASSERT_TRUE(write_file(folder_->path() / "space.toml",
                          "[[sweep]]\nmethod = [\"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
   const auto points = read_space(folder_->path() / "space.toml");

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace halfway {
+
+/// Built with AddressSanitizer or ThreadSanitizer: terabytes of addresses are reserved, and Valgrind cannot
+/// run us. GCC tells of itself by these names, Clang by __has_feature.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool c_sanitized = true;
+#elif defined(__has_feature)
+inline constexpr bool c_sanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+inline constexpr bool c_sanitized = false;
+#endif
+
+}  // namespace halfway
