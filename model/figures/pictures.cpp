@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "figures/pictures.hpp"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -131,19 +129,13 @@ Frame sheet(std::span<const Frame> frames, std::uint32_t columns) {
   const auto count = static_cast<std::uint32_t>(frames.size());
   const std::uint32_t rows = (count + columns - 1) / columns;
   Frame whole({columns * (one.width + c_gap) - c_gap, rows * (one.height + c_gap) - c_gap});
-  const auto spec = [](FrameSize size) {
-    return OIIO::ImageSpec(static_cast<int>(size.width), static_cast<int>(size.height), 3,
-                           OIIO::TypeDesc::UINT8);
-  };
-  OIIO::ImageBuf paper(spec(whole.size));
-  OIIO::ImageBufAlgo::fill(paper, {1.0F, 1.0F, 1.0F});
-  for (std::uint32_t i = 0; i < count; ++i) {
-    std::vector<std::uint8_t> rgb = frames[i].rgb;  // ImageBuf takes no const
-    const OIIO::ImageBuf picture(spec(one), rgb.data());
-    OIIO::ImageBufAlgo::paste(paper, static_cast<int>(i % columns * (one.width + c_gap)),
-                              static_cast<int>(i / columns * (one.height + c_gap)), 0, 0, picture);
-  }
-  paper.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::UINT8, whole.rgb.data());
+  std::fill(whole.rgb.begin(), whole.rgb.end(), std::uint8_t{255});
+  for (std::uint32_t i = 0; i < count; ++i)
+    for (std::uint32_t y = 0; y < one.height; ++y)
+      std::copy_n(
+          &frames[i].rgb[frames[i].offset(0, y)], std::size_t{3} * one.width,
+          &whole
+               .rgb[whole.offset(i % columns * (one.width + c_gap), i / columns * (one.height + c_gap) + y)]);
   return whole;
 }
 
