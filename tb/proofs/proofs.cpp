@@ -263,18 +263,30 @@ std::vector<Proof> all_proofs() {
          8,
          true});
 
+  const std::vector<Width> narrow_box = {
+      {"span_x", 3, 0}, {"edge_error", 2, 0}, {"lines", 2, 0}, {"pixel_y", 3, 0}, {"triangle", 1, 0}};
+  proofs.push_back({"raster/edge_walker",
+                    "raster/edge_walker_box.psl",
+                    "An edge that begins and ends between two pixels leaves them on no line between: any edge "
+                    "of 6 lines, 8 columns, divisors up to 3",
+                    Method::pdr,
+                    8,
+                    false,
+                    {},
+                    {{"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '1')"},
+                     {"raster/edge_walker.vhd", "r.error + r.rise", "r.error - r.remainder"}},
+                    narrow_box});
   proofs.push_back(
       {"raster/triangle_walker",
        "raster/triangle_walker_box.psl",
        "No fragment outside its triangle's box, and every line's start, stop and carry those of exact edges: "
-       "any "
-       "edges that begin and end in the box, 6 lines, 8 columns, divisors up to 3",
-       Method::unrolled,
+       "any edges whose lines lie in the box, 6 lines, 8 columns, divisors up to 3",
+       Method::pdr,
        12,
        false,
        {},
        box_faults,
-       {{"span_x", 3, 0}, {"edge_error", 2, 0}, {"lines", 2, 0}, {"pixel_y", 3, 0}, {"triangle", 1, 0}}});
+       narrow_box});
 
   proofs.push_back(
       {"raster/object_stage",
@@ -733,6 +745,7 @@ std::vector<Proof> all_proofs() {
        {},
        true,
        11});
+  proofs.back().any_entities = {"triangle_walker"};
   return proofs;
 }
 

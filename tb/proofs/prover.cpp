@@ -164,8 +164,16 @@ int count_of(std::string_view unit, std::string_view word) {
 }
 
 constexpr std::string_view kPrepared =
-    "read_verilog -formal formal.v; prep -flatten -top {0}; {1}setundef -undriven -anyseq; opt -full; "
+    "read_verilog -formal formal.v; {1}prep -flatten -top {0}; {2}setundef -undriven -anyseq; opt -full; "
     "opt_clean -purge; async2sync; dffunmap; opt_clean; ";
+
+// Empties the entities that may do anything: what they drove is undriven then, and becomes any word.
+std::string emptied(const Proof& proof) {
+  std::string script;
+  for (const char* entity : proof.any_entities)
+    script += fmt::format("select -assert-any {0}_*; delete {0}_*/c:* {0}_*/p:*; ", entity);
+  return script;
+}
 
 // A unit is bound to its entity, or an entity around it.
 std::string top_of(const Proof& proof, std::string_view unit) {
@@ -323,8 +331,10 @@ Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fa
   if (!top) return top.error();
 
   // A fault is refuted by clocks that show it, whatever proves that there are none without it.
-  const bool bits = proof.method == Method::pdr || proof.method == Method::unrolled;
-  std::string script = fmt::format(kPrepared, *top, proof.any_products ? "cutpoint t:$mul; " : "");
+  const bool bits = proof.method == Method::pdr || proof.method == Method::unrolled ||
+                    (fault != nullptr && proof.bit_faults);
+  std::string script =
+      fmt::format(kPrepared, *top, emptied(proof), proof.any_products ? "cutpoint t:$mul; " : "");
   script +=
       bits
           ? "delete -output; techmap; opt -fast; memory_map; techmap; opt -full; dffunmap; abc -g AND -fast; "
