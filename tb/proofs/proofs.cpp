@@ -674,6 +674,7 @@ std::vector<Proof> all_proofs() {
        true,
        {{"g_channels", "1"}, {"g_probe", "true"}},
        {{"shaders/quadratic_shader.vhd", "waiting or walking or coming", "walking or coming"},
+        {"shaders/quadratic_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
         {"shaders/quadratic_shader.vhd", "pixel_valid <= r.span_step(2)", "pixel_valid <= r.span_step(1)"},
         {"shaders/quadratic_shader.vhd", "v.span_step := ('0', '0')", "v.span_step := v.span_step"},
         {"shaders/quadratic_shader.vhd", "(r.walk_valid and not walk_ready) or", "waiting or"},
@@ -690,6 +691,7 @@ std::vector<Proof> all_proofs() {
        {},
        false,
        12});
+  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
   proofs.push_back(
       {"shaders/spherical_shader",
        "shaders/spherical_shader.psl",
@@ -700,6 +702,7 @@ std::vector<Proof> all_proofs() {
        false,
        {{"g_channels", "1"}, {"g_highlight_channels", "1"}},
        {{"shaders/spherical_shader.vhd", "waiting or walking or coming", "walking or coming"},
+        {"shaders/spherical_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
         {"shaders/spherical_shader.vhd", "span_step & r.filled(1 to c_summed - 1)",
          "span_load & r.filled(1 to c_summed - 1)"},
         {"shaders/spherical_shader.vhd", "span_ambient & ambients(1 to c_multiplied - 1)",
@@ -713,6 +716,7 @@ std::vector<Proof> all_proofs() {
        {},
        true,
        14});
+  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
   proofs.push_back(
       {"shaders/processors_shader",
        "shaders/processors_shader.psl",
@@ -745,7 +749,7 @@ std::vector<Proof> all_proofs() {
        {},
        true,
        11});
-  proofs.back().any_entities = {"triangle_walker"};
+  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
   return proofs;
 }
 

@@ -164,16 +164,8 @@ int count_of(std::string_view unit, std::string_view word) {
 }
 
 constexpr std::string_view kPrepared =
-    "read_verilog -formal formal.v; {1}prep -flatten -top {0}; {2}setundef -undriven -anyseq; opt -full; "
+    "read_verilog -formal formal.v; prep -flatten -top {0}; {1}setundef -undriven -anyseq; opt -full; "
     "opt_clean -purge; async2sync; dffunmap; opt_clean; ";
-
-// Empties the entities that may do anything: what they drove is undriven then, and becomes any word.
-std::string emptied(const Proof& proof) {
-  std::string script;
-  for (const char* entity : proof.any_entities)
-    script += fmt::format("select -assert-any {0}_*; delete {0}_*/c:* {0}_*/p:*; ", entity);
-  return script;
-}
 
 // A unit is bound to its entity, or an entity around it.
 std::string top_of(const Proof& proof, std::string_view unit) {
@@ -203,6 +195,13 @@ Result<std::string> make_netlist(const Folders& folders, const std::filesystem::
   if (!sources) return sources.error();
   auto unit = read_file(folders.source / "tb/proofs" / proof.unit);
   if (!unit) return tool_failed(unit.error().message);
+  // An architecture that is analysed last is the one that is taken.
+  std::string contracts;
+  for (const char* contract : proof.contracts) {
+    const auto text = read_file(folders.source / "tb/proofs" / contract);
+    if (!text) return tool_failed(text.error().message);
+    contracts += *text;
+  }
   if (const std::size_t at = unit->find("\n$entries\n"); at != std::string::npos)
     unit->replace(at + 1, std::string_view("$entries\n").size(), vhdl_of_entries(proof));
   // GHDL drops what stands under `when others`.
@@ -213,8 +212,9 @@ Result<std::string> make_netlist(const Folders& folders, const std::filesystem::
     if (auto written = write_file(folder / source.name, source.content); !written) return written.error();
     command.push_back(source.name);
   }
-  if (auto written = write_file(folder / "unit.psl", *unit); !written) return written.error();
   const std::string top = top_of(proof, *unit);
+  unit->insert(0, contracts);
+  if (auto written = write_file(folder / "unit.psl", *unit); !written) return written.error();
   command.insert(command.end(), {"unit.psl", "-e", top});
   const auto synthesized = run(folder, command, folder / "netlist.v");
   if (!synthesized) return synthesized.error();
@@ -331,10 +331,9 @@ Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fa
   if (!top) return top.error();
 
   // A fault is refuted by clocks that show it, whatever proves that there are none without it.
-  const bool bits = proof.method == Method::pdr || proof.method == Method::unrolled ||
-                    (fault != nullptr && proof.bit_faults);
+  const bool bits = proof.method == Method::pdr || proof.method == Method::unrolled;
   std::string script =
-      fmt::format(kPrepared, *top, emptied(proof), proof.any_products ? "cutpoint t:$mul; " : "");
+      fmt::format(kPrepared, *top, proof.any_products ? "cutpoint t:$mul; " : "");
   script +=
       bits
           ? "delete -output; techmap; opt -fast; memory_map; techmap; opt -full; dffunmap; abc -g AND -fast; "
