@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
+#include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -46,6 +48,16 @@ std::string version_of(std::string_view said) {
   const std::size_t from =
       version == std::string_view::npos ? digit : version + std::string_view("Version ").size();
   return std::string(said.substr(from, said.find_first_of(" )\n", from) - from));
+}
+
+Result<std::string> netlist_of(const GhdlLibrary& library, const Design& design) {
+  const auto text = library.synthesize(design.entity, design.generics);
+  if (!text) return text.error();
+  return mend_netlist(*text);
+}
+
+std::string hash_of(const std::string& netlist, const Design& design) {
+  return ContentHash().add("netlist 1").add(design.entity).add(netlist).hex();
 }
 
 struct Port {
@@ -175,6 +187,11 @@ Result<CriticalPath> read_path(const json& path, const Registers& registers) {
 
 }  // namespace
 
+struct Synthesizer::Netlists {
+  std::mutex mutex;
+  std::map<std::string, std::string> texts;  // by entity and generics
+};
+
 Result<std::string> wrapper(std::string_view netlist, std::string_view top, unsigned most_inputs) {
   const auto ports = ports_of(netlist, top);
   if (!ports) return ports.error();
@@ -255,11 +272,9 @@ Result<Packing> read_packing(std::string_view said) {
 }
 
 Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design) {
-  const auto text = library.synthesize(design.entity, design.generics);
+  const auto text = netlist_of(library, design);
   if (!text) return text.error();
-  const auto mended = mend_netlist(*text);
-  if (!mended) return mended.error();
-  return ContentHash().add("netlist 1").add(design.entity).add(*mended).hex();
+  return hash_of(*text, design);
 }
 
 Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool place,
@@ -291,10 +306,21 @@ Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool plac
   return synthesizer;
 }
 
+Synthesizer::Synthesizer(GhdlLibrary library, std::filesystem::path cache)
+    : library_(std::move(library)), cache_(std::move(cache)), netlists_(std::make_shared<Netlists>()) {}
+
+// GHDL takes seconds, and each figure of a design asks for its netlist.
 Result<std::string> Synthesizer::netlist(const Design& design) const {
-  const auto text = library_.synthesize(design.entity, design.generics);
+  std::string key = design.entity;
+  for (const auto& [name, value] : design.generics) key += fmt::format(" {}={}", name, value);
+  {
+    const std::scoped_lock lock(netlists_->mutex);
+    if (const auto found = netlists_->texts.find(key); found != netlists_->texts.end()) return found->second;
+  }
+  auto text = netlist_of(library_, design);
   if (!text) return text.error();
-  return mend_netlist(*text);
+  const std::scoped_lock lock(netlists_->mutex);
+  return netlists_->texts.emplace(std::move(key), std::move(*text)).first->second;
 }
 
 Result<std::filesystem::path> Synthesizer::synthesized(const Design& design, const std::string& family,
@@ -432,7 +458,9 @@ std::vector<std::string> Synthesizer::nextpnr_arguments() const {
 }
 
 Result<std::string> Synthesizer::netlist_hash(const Design& design) const {
-  return synth::netlist_hash(library_, design);
+  const auto text = netlist(design);
+  if (!text) return text.error();
+  return hash_of(*text, design);
 }
 
 Result<Packing> Synthesizer::pack(const Design& design) const {
