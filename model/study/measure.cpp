@@ -13,7 +13,7 @@ namespace {
 // Adds what hardware draws and takes; the mask of what it covers.
 Result<std::vector<std::uint8_t>> draw_in_hardware(const DesignPoint& point, const Scene& scene,
                                                    const SimulatorFolders& folders, Measurement& m) {
-  const auto hardware = hardware_of(point, scene);
+  const auto hardware = drawing_hardware_of(point, scene, folders);
   if (!hardware) return hardware.error();
   const auto rtl_folders = rtl_of(point, folders);
   if (!rtl_folders) return rtl_folders.error();
