@@ -8,7 +8,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 # used: neither make nor a shell ever reads them as code.
 variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS \
   ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE TRIANGLES SEED SECONDS TARGET FRAMES VIDEO TERMINAL \
-  SPACE FULL ERROR PSNR TIME CLOCK EXECUTOR PARTS
+  SPACE FULL ERROR PSNR TIME CLOCK EXECUTOR PARTS DESIGN SEEDS PIN
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
 
@@ -32,7 +32,7 @@ table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--add
   $(call option,DATA_BITS,--data-bits)
 
 .PHONY: help sim view compare why plan study slurm-test figures report check-report diagrams gallery tables \
-  check-tables test sanitize fuzz kills mutate prove stability search bounds bench build program generator configure \
+  check-tables test sanitize fuzz kills mutate prove stability search bounds synth bench build program generator configure \
   setup doctor format check-format clean
 
 help: ## this list
@@ -55,7 +55,8 @@ help: ## this list
 	@echo '  MEASURE    1: make plan counts cells by Yosys, and cycles and seconds by simulation'
 	@echo '  OBJECTS, RATE  make plan: how many shading processors draw so many objects a pixel, frames a second'
 	@echo '  ERROR, PSNR, TIME  make study: the cheapest hardware within so many steps of 1/255, of so many dB, in 10ms'
-	@echo '  CLOCK      make study: MHz that hardware is taken to run at'
+	@echo '  CLOCK      make study: MHz that hardware is taken to run at whose clock is not known'
+	@echo '  PLACE      1: make study places and routes hardware for its clock, minutes for each design'
 	@echo '  FULL, SPACE  make study: 1: the whole space; or a TOML file of designs'
 	@echo '  EXECUTOR, PARTS  make study: slurm: as a job array of so many tasks   (default: local; 64)'
 	@echo '  TRIANGLES, SEED  make search: how many, and which ones     (default: 10000000, 1)'
@@ -64,6 +65,8 @@ help: ## this list
 	@echo '  TESTS      a regular expression: make test runs only the tests that match'
 	@echo '  JOBS       parallel compilations, tests and fuzzers       (default: all cores)'
 	@echo '  SECONDS, TARGET   make fuzz: for how long each (default: 60), and one target alone'
+	@echo '  DESIGN, SEEDS  make synth: only designs with this in their names; seeds of placement  (default: all, 5)'
+	@echo '  PIN        1: make synth pins the figures in place of comparing'
 
 sim: program ## scenes through golden model, GHDL and Verilator: compare, write frames
 	@build/halfway sim $(sim_options) $(scene)
@@ -87,7 +90,7 @@ plan: program ## the hardware that a scene calls for, and why (SCENE; MEASURE=1:
 study: program ## accuracy against time over the design space (FULL=1; SCENE; ERROR, PSNR, TIME ask; EXECUTOR=slurm)
 	@build/halfway study $${SPACE:+--space "$$SPACE"} $$(case "$$SPACE$${FULL:-0}" in \
 	  0) ;; 1) echo --space sim/studies/full.toml ;; esac) $(call option,SIZE,--size) $(call option,ERROR,--error) \
-	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) \
+	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) \
 	  $(call option,EXECUTOR,--executor) $(call option,PARTS,--parts) $(call option,THREADS,--threads) \
 	  $(call option,OUT,--out) $(scene)
 
@@ -161,6 +164,12 @@ bounds: configure ## every bound of formats and tables: derived, proved, and how
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds
 	@build/tb/halfway_bounds --page tb/bounds/README.md build/bounds
 
+synth: configure ## cells on two FPGAs, and the clock on one, against what is pinned (DESIGN, SEEDS, PIN=1)
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth synth_frames
+	@build/tb/synth_frames
+	@build/tb/halfway_synth --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin) \
+	  --page tb/synth/README.md . build/cache $${DESIGN:+"$$DESIGN"}
+
 bench: configure ## speed: other ways to the same picture, growth, small triangles, cores; writes its page
 	@scripts/unpack.sh build/tools/ghdl-mcode ghdl-mcode ghdl-common || true
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_bench
@@ -183,10 +192,10 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs some packages more, and so
-# do `make plan MEASURE=1`, `make prove`, `make bounds`, `make mutate`, `make fuzz`, `make sanitize`, `make diagrams`
-# and `make check-report`.
+# do `make plan MEASURE=1`, `make synth`, `make prove`, `make bounds`, `make mutate`, `make fuzz`, `make sanitize`,
+# `make diagrams` and `make check-report`.
 setup:
-	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate,$(MAKECMDGOALS)) \
+	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate synth,$(MAKECMDGOALS)) \
 	  $(if $(filter fuzz sanitize,$(MAKECMDGOALS)),fuzz) $(if $(filter check-report diagrams,$(MAKECMDGOALS)),report) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth))
 

@@ -17,11 +17,14 @@ arithmetic/power.vhd
 stream/parameter_register.vhd
 stream/stream_register.vhd
 stream/delay_line.vhd
+stream/stream_queue.vhd
 interpolation/line_interpolator.vhd
+interpolation/part_interpolator.vhd
 interpolation/plane_interpolator.vhd
 interpolation/z_interpolator.vhd
 interpolation/quadratic_interpolator.vhd
 raster/edge_walker.vhd
+raster/slope_walker.vhd
 raster/triangle_walker.vhd
 raster/object_stage.vhd
 illumination/diffuse_slice.vhd

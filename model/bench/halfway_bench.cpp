@@ -700,7 +700,9 @@ std::string small_section(const std::vector<SmallRow>& rows) {
       "pixel a clock: "
       "clocks are lost where a span has fewer\npixels than there are lines up to the next span. In the "
       "spherical shader "
-      "a triangle's header is one more for the line stage.\n*Expected* is counted from the init vectors "
+      "a triangle's header takes two clocks before its lines; elsewhere a triangle of a single line takes "
+      "two, "
+      "if it has not waited for another's pixels.\n*Expected* is counted from the init vectors "
       "alone: that the "
       "RTL takes as many says that nothing else bounds it. The quadratic shader's\ntriangles are those after "
       "subdivision.\n\n"
@@ -713,13 +715,12 @@ std::string small_section(const std::vector<SmallRow>& rows) {
     const auto a_fragment = [&](std::uint64_t n) {
       return fmt::format("{:.3f}", static_cast<double>(n) / static_cast<double>(walk.pixels));
     };
-    const std::uint64_t headers = row.records != 0 ? walk.lost_to_headers : 0;
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", to_string(row.shader),
-                        count(row.triangles),
-                        figure(static_cast<double>(walk.pixels) / static_cast<double>(walk.headers)),
-                        a_fragment(row.cycles), a_fragment(walk.pixels + walk.lost_to_lines + headers),
-                        a_fragment(walk.lost_to_lines), a_fragment(headers), a_fragment(walk.headers),
-                        a_fragment(row.records), a_fragment(walk.lines), a_fragment(walk.empty_lines));
+    text += fmt::format(
+        "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", to_string(row.shader),
+        count(row.triangles), figure(static_cast<double>(walk.pixels) / static_cast<double>(walk.headers)),
+        a_fragment(row.cycles), a_fragment(walk.pixels + walk.lost_to_lines + walk.lost_to_headers),
+        a_fragment(walk.lost_to_lines), a_fragment(walk.lost_to_headers), a_fragment(walk.headers),
+        a_fragment(row.records), a_fragment(walk.lines), a_fragment(walk.empty_lines));
   }
   return text;
 }

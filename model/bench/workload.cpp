@@ -22,6 +22,7 @@
 #include "frame/assemble.hpp"
 #include "golden/processors_layout.hpp"
 #include "golden/triangle_walker.hpp"
+#include "golden/walker_clock.hpp"
 #include "run/golden_run.hpp"
 #include "run/scene_stream.hpp"
 #include "run/stream_comparator.hpp"
@@ -265,16 +266,10 @@ WalkCounts count_walk(const InitBatches& batches) {
   const std::unique_ptr<GoldenModel> golden = make_golden_model(batches.key);
   WalkCounts n;
   golden::TriangleWalker<golden::Exact> walker;
-  // The line stage takes an item a clock, the span stage a pixel: whichever has more to do until the next
-  // span begins is waited for. One with a header a clock, one without.
-  std::uint64_t span = 0, lines = 0, items = 0;
-  std::uint64_t waited_lines = 0, waited_items = 0;
-  const auto begin_span = [&](std::uint64_t pixels) {
-    waited_lines += std::max(span, lines) - span;
-    waited_items += std::max(span, items) - span;
-    span = pixels;
-    lines = items = 0;
-  };
+  golden::WalkerClock clock(batches.key.shader == Shader::spherical);
+  // With lines alone: the line stage takes one a clock, the span stage a pixel, and whichever has more to do
+  // until the next span begins is waited for.
+  std::uint64_t span = 0, lines = 0;
   const bool processors = batches.key.shader == Shader::processors;
   for (auto rest = std::span<const std::uint32_t>(batches.words); !rest.empty();) {
     const auto vector = rest;
@@ -289,22 +284,25 @@ WalkCounts count_walk(const InitBatches& batches) {
                            processors ? golden::ProcessorsLayout<golden::Exact>::walk_low() : 0));
     walker.line_load(header);
     ++n.headers;
-    ++items;
+    clock.take_init();
     walker.walk([&] {
       ++n.lines;
       ++lines;
-      ++items;
       if (walker.line_empty()) {
         ++n.empty_lines;
+        clock.take_line(0);
         return;
       }
+      const std::uint64_t pixels = walker.pixels();
       ++n.spans;
-      n.pixels += walker.pixels();
-      begin_span(walker.pixels());
+      n.pixels += pixels;
+      clock.take_line(static_cast<std::int64_t>(pixels));
+      n.lost_to_lines += std::max(span, lines) - span;
+      span = pixels;
+      lines = 0;
     });
   }
-  n.lost_to_lines = waited_lines;
-  n.lost_to_headers = waited_items - waited_lines;
+  n.lost_to_headers = static_cast<std::uint64_t>(clock.last_pixel()) - n.pixels - n.lost_to_lines;
   return n;
 }
 

@@ -89,7 +89,8 @@ struct WalkCounts {
   std::uint64_t headers = 0, lines = 0, empty_lines = 0, spans = 0, pixels = 0;
   /// With a line in a clock, beside the pixels of the span before it: the clocks in which no pixel is walked.
   std::uint64_t lost_to_lines = 0;
-  /// With the header of each triangle a clock more: those that come on top.
+  /// Those that come on top: a header's two clocks before line records, the second clock of a triangle with a
+  /// single line elsewhere.
   std::uint64_t lost_to_headers = 0;
 };
 /// Of preset exact, without shadows.

@@ -7,6 +7,9 @@
 namespace halfway {
 namespace {
 
+// The quadratic shader cuts the words of its interpolators in halves, the spherical one those of depth.
+constexpr int kHalves = 2;
+
 // Entities below one, with all that lies below them.
 class Units {
  public:
@@ -31,18 +34,19 @@ class Units {
     add("line_interpolator", exact_ ? 0 : 2);
     add("parameter_register", exact_ ? 1 : 2);  // the lower section, or the slopes
   }
-  void add_z_interpolator() {
+  // `parts`: of each word
+  void add_z_interpolator(int parts = 1) {
     add("z_interpolator");
     add("plane_interpolator");
-    add("line_interpolator", 2);
-    add("parameter_register", exact_ ? 4 : 3);
+    add("part_interpolator", 2 * parts);
+    add("parameter_register", (exact_ ? 4 : 3) * parts);
   }
-  // The spherical shader's: in the stages of line, span, sample and product.
-  void add_ambient() { add("parameter_register", 4); }
+  // The spherical shader's: in the stages of line and span.
+  void add_ambient() { add("parameter_register", 2); }
   void add_quadratic_interpolator() {
     add("quadratic_interpolator");
-    add("line_interpolator", exact_ ? 6 : 5);
-    add("parameter_register", exact_ ? 7 : 4);
+    add("part_interpolator", (exact_ ? 6 : 5) * kHalves);
+    add("parameter_register", (exact_ ? 7 : 4) * kHalves);
   }
   // channels 0: the light's horizon alone
   void add_diffuse_slice(int channels) {
@@ -64,22 +68,26 @@ class Units {
     add("multiplier", static_cast<int>(key_.spherical.highlight_channels));
   }
   void add_quadratic_shader() {
-    add_stream_registers(2);
-    add("parameter_register", 3);  // what a fragment has beside its tag
+    add_stream_registers(1);
+    add("stream_queue");
     add_walker();
-    add_z_interpolator();
+    add_z_interpolator(kHalves);
     for (unsigned c = 0; c < key_.channels; ++c) add_quadratic_interpolator();
+    // The second place of their words.
+    const int channels = static_cast<int>(key_.channels);
+    add("parameter_register", kHalves * (exact_ ? 4 + 10 * channels : 3 + 6 * channels));
     add("saturate", static_cast<int>(key_.channels));
   }
   void add_spherical_shader() {
     const golden::SphericalConfig config = golden_config(key_);
     const bool diffuse_part = exact_ ? golden::SphericalLayout<golden::Exact>(config).has_diffuse_part()
                                      : golden::SphericalLayout<golden::Published>(config).has_diffuse_part();
-    add_stream_registers(4);       // the buffer in front, the stages of sample, product and fragment
-    add("parameter_register", 4);  // depth in three stages, colour
+    add_stream_registers(1);
+    add("stream_queue");
+    add("parameter_register");  // the header, for depth
     add_ambient();
     add_walker();
-    add_z_interpolator();
+    add_z_interpolator(kHalves);
     for (int light = 0; light < config.lights; ++light) {
       if (diffuse_part) add_diffuse_slice(config.diffuse ? config.channels : 0);
       if (config.specular) add_specular_slice();
@@ -159,7 +167,7 @@ class Units {
     add_walker();
     add_z_interpolator();
     add("plane_interpolator", planes);
-    add("line_interpolator", 2 * planes);
+    add("part_interpolator", 2 * planes);
     add("parameter_register", 4 * planes);
     if (config.shadows) {
       add("object_stage");

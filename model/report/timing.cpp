@@ -32,6 +32,9 @@ struct ShownSignal {
 
 // As the data goes: in at the top, out at the bottom.
 std::vector<ShownSignal> signals_of(Shader shader) {
+  const bool stalls =
+      shader == Shader::processors;  // behind the walker, too; elsewhere only the walker waits
+  const char* const walked = stalls ? "dut/drawn" : "dut/span_step";
   std::vector<ShownSignal> signals = {
       {"init_valid", "init_valid", Shown::wire},
       {"init_ready", "init_ready", Shown::wire},
@@ -42,13 +45,10 @@ std::vector<ShownSignal> signals_of(Shader shader) {
       {"line_stop", "dut/line_stop", Shown::decimal, "dut/walking"},
       {"span_load", "dut/span_load", Shown::wire},
       {"span_step", "dut/span_step", Shown::wire},
-      {"y", "dut/y", Shown::decimal, "dut/drawn"},
-      {"x", "dut/x", Shown::decimal, "dut/drawn"},
+      {"y", "dut/y", Shown::decimal, walked},
+      {"x", "dut/x", Shown::decimal, walked},
   };
-  if (shader == Shader::spherical) {
-    signals.push_back({"sample_valid", "dut/sample_valid", Shown::wire});
-    signals.push_back({"product_valid", "dut/product_valid", Shown::wire});
-  }
+  if (!stalls) signals.push_back({"pixel_valid", "dut/pixel_valid", Shown::wire});  // to the queue
   if (shader == Shader::processors) {
     signals.push_back({"token_valid", "dut/token_valid", Shown::wire});
     signals.push_back({"shaded_valid", "dut/shaded_valid", Shown::wire});

@@ -40,6 +40,7 @@ struct ProbedStage {
 struct Layouts {
   std::vector<PlacedField> init, record, probe;
   std::vector<ProbedStage> stages;
+  unsigned clocks_to_fragment = 1;  ///< from the last stage's event, where nothing waits
 };
 
 std::vector<ProbedStage> walked_stages(std::initializer_list<const char*> names) {
@@ -79,6 +80,7 @@ Layouts quadratic_layouts(const HardwareKey& key) {
   const unsigned channels = key.channels;
   Layouts layouts;
   layouts.stages = walked_stages({"line", "span"});
+  layouts.clocks_to_fragment = 2;  // a span's pixel goes into the queue
   for (const golden::Field& f : P::c_init_header) layouts.init.push_back({std::string(f.name), f, 0});
   place_probe_header<P>(layouts, key.entity());
   for (unsigned c = 0; c < channels; ++c) {
@@ -381,7 +383,7 @@ class Explainer {
       };
       for (std::size_t stage = layouts_.stages.size(); stage-- > 0;)
         if (happens(layouts_.stages[stage])) check(record, stage);
-      if (happens(layouts_.stages.back())) fragment_cycles_.push_back(record.cycle + 1);
+      if (happens(layouts_.stages.back())) fragment_cycles_.push_back(record.cycle + layouts_.clocks_to_fragment);
     }
     simulator.probes().clear();
     for (const Fragment& f : rtl_fragments_) check_fragment(f);

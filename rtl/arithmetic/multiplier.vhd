@@ -1,8 +1,9 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Product of two unsigned words, a clock later.
+-- Purpose     Product of two unsigned words: the quarters of a times b in one clock, their sums by two in the next, and
+--             the sum of these in the one after.
 -- Formats     a: g_a_bits, b: g_b_bits, product: as many as both together
--- Latency     1 clock from operands with enable to their product
+-- Latency     3 clocks from operands with enable to their product
 -- Throughput  1 product a clock
 -- Error       none
 -- Source      spherical paper, figure 12
@@ -28,23 +29,56 @@ end entity;
 
 architecture rtl of multiplier is
 
+  -- Of a with zeros before it: no quarter is without a bit.
+  constant c_digit : positive := (g_a_bits + 3) / 4; -- elaboration only
+
+  subtype digit_t is unsigned(c_digit + g_b_bits - 1 downto 0);
+  subtype half_t  is unsigned(2 * c_digit + g_b_bits - 1 downto 0);
+  subtype whole_t is unsigned(4 * c_digit + g_b_bits - 1 downto 0);
+
+  type digits_t is array (0 to 3) of digit_t;
+
+  type halves_t is array (0 to 1) of half_t;
+
   type reg_t is record
-    product : unsigned(g_a_bits + g_b_bits - 1 downto 0);
+    filled  : std_logic_vector(1 to 2); -- quarters, or halves, are of new operands
+    digits  : digits_t;
+    halves  : halves_t;
+    product : whole_t;
   end record;
 
   signal r : reg_t;
 
+  signal padded : std_logic_vector(4 * c_digit - 1 downto 0);
+
 begin
+
+  padded <= std_logic_vector(resize(unsigned(a), padded'length));
 
   registers : process (clk)
   begin
     if rising_edge(clk) then
+      r.filled <= enable & r.filled(1);
       if enable = '1' then
-        r.product <= unsigned(a) * unsigned(b);
+        for i in digits_t'range loop
+          r.digits(i) <= unsigned(padded((i + 1) * c_digit - 1 downto i * c_digit)) * unsigned(b);
+        end loop;
+      end if;
+      if r.filled(1) = '1' then
+        for i in halves_t'range loop
+          r.halves(i)(half_t'high downto c_digit) <= resize(r.digits(2 * i + 1), half_t'length - c_digit)
+            + r.digits(2 * i)(digit_t'high downto c_digit);
+          r.halves(i)(c_digit - 1 downto 0) <= r.digits(2 * i)(c_digit - 1 downto 0);
+        end loop;
+      end if;
+      if r.filled(2) = '1' then
+        r.product(whole_t'high downto 2 * c_digit) <= resize(r.halves(1), whole_t'length - 2 * c_digit)
+          + r.halves(0)(half_t'high downto 2 * c_digit);
+        r.product(2 * c_digit - 1 downto 0) <= r.halves(0)(2 * c_digit - 1 downto 0);
       end if;
     end if;
   end process;
 
-  product <= std_logic_vector(r.product);
+  product <= std_logic_vector(r.product(product'range));
 
 end architecture;

@@ -5,7 +5,7 @@
 --             gives the largest. The 0.5 that makes this rounding stands in one of the terms.
 -- Formats     terms: g_terms of g_term_bits each, g_fraction_bits of them fraction, the first lowest; result: unsigned,
 --             g_result_bits
--- Latency     0 (combinational)
+-- Latency     1 clock from terms with enable to their result
 -- Throughput  1 result a clock
 -- Error       [0, 1) below the sum inside the range
 -- Source      spherical paper, figure 12 (the adders of red, green and blue)
@@ -23,6 +23,8 @@ entity saturating_sum is
     g_result_bits   : positive
   );
   port (
+    clk    : in  std_logic;
+    enable : in  std_logic;
     terms  : in  std_logic_vector(g_terms * g_term_bits - 1 downto 0);
     result : out std_logic_vector(g_result_bits - 1 downto 0)
   );
@@ -42,22 +44,31 @@ architecture rtl of saturating_sum is
 
   constant c_sum_bits : positive := g_term_bits + carry_bits;
 
-  signal sum   : unsigned(c_sum_bits - 1 downto 0);
+  type reg_t is record
+    sum : unsigned(c_sum_bits - 1 downto 0);
+  end record;
+
+  signal r : reg_t;
+
   signal value : std_logic_vector(c_sum_bits downto 0);
 
 begin
 
-  add : process (all)
+  registers : process (clk)
     variable v : unsigned(c_sum_bits - 1 downto 0);
   begin
-    v := resize(unsigned(terms(g_term_bits - 1 downto 0)), c_sum_bits);
-    for i in 1 to g_terms - 1 loop
-      v := v + resize(unsigned(terms((i + 1) * g_term_bits - 1 downto i * g_term_bits)), c_sum_bits);
-    end loop;
-    sum <= v;
+    if rising_edge(clk) then
+      if enable = '1' then
+        v := resize(unsigned(terms(g_term_bits - 1 downto 0)), c_sum_bits);
+        for i in 1 to g_terms - 1 loop
+          v := v + resize(unsigned(terms((i + 1) * g_term_bits - 1 downto i * g_term_bits)), c_sum_bits);
+        end loop;
+        r.sum <= v;
+      end if;
+    end if;
   end process;
 
-  value <= '0' & std_logic_vector(sum);
+  value <= '0' & std_logic_vector(r.sum);
 
   to_result : entity work.saturate
     generic map (

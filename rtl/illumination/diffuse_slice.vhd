@@ -11,7 +11,7 @@
 --             goes to the next one; sample_step hands the pixel from there to the product stage.
 -- Formats     formats_pkg: angle in units of half a bell (preset published: of a whole one), factor; sample: unsigned,
 --             of 2**g_data_bits - 1; product: factor's bits and g_data_bits together
--- Latency     1 clock from span_load to angle and lit, 1 from span_step to sample, 1 from sample_step to products
+-- Latency     1 clock from span_load to angle and lit, 1 from span_step to sample, 3 from sample_step to products
 -- Throughput  1 pixel a clock
 -- Error       angle: see formats_pkg; sample: see cosine_rom
 -- Source      spherical paper, section 5 and figure 12 (diffuse part)

@@ -12,7 +12,7 @@
 --             select, and the record's power is not read; else the sample of a power without a table is zero.
 -- Formats     formats_pkg: angle, power, factor; sample: unsigned, of 2**g_data_bits - 1; product: factor's bits and
 --             g_data_bits together
--- Latency     1 clock from span_load to angle, 1 from span_step to sample, 1 from sample_step to products
+-- Latency     1 clock from span_load to angle, 1 from span_step to sample, 3 from sample_step to products
 -- Throughput  1 pixel a clock
 -- Error       angle: see formats_pkg; sample: see cosine_rom
 -- Source      spherical paper, section 5 and figure 12 (specular part): cosine squared alone, and no end to the

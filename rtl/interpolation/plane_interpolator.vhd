@@ -7,7 +7,8 @@
 --               v(x +- 1,    y)     = v(x, y) + dx     the sign is the span's direction
 -- Formats     plane: value, dx, de0 and, with g_carries, de1, the first lowest, g_bits each, signed; sums wrap, the value
 --             at a covered pixel fits
--- Latency     1 clock from a load or step to its value
+-- Contract    with g_split the upper halves of the plane's words stand still in the clock behind line_load too
+-- Latency     1 clock from a load or step to its value, with g_split 2
 -- Throughput  1 line and 1 pixel a clock
 -- Error       each word half a unit off, so the value (1 + lines + steps)/2 units at most: see plane_sum and depth_sum
 --             in formats_pkg
@@ -20,7 +21,8 @@ use ieee.std_logic_1164.all;
 entity plane_interpolator is
   generic (
     g_bits    : positive;
-    g_carries : boolean := true -- false: edges step by a real slope, and de1 does not exist
+    g_carries : boolean := true; -- false: edges step by a real slope, and de1 does not exist
+    g_split   : boolean := false -- words in two halves, the upper one a clock behind the lower
   );
   port (
     clk        : in  std_logic;
@@ -37,95 +39,161 @@ end entity;
 
 architecture rtl of plane_interpolator is
 
-  subtype word_t is std_logic_vector(g_bits - 1 downto 0);
+  constant c_parts : positive := 1 + boolean'pos(g_split);
 
-  signal dx, de0, de, span_dx : word_t;
+  -- The strobes, as each part of the words takes them, the lowest first.
+  subtype strobe_t is std_logic_vector(c_parts - 1 downto 0);
+
+  signal line_loads, line_steps, line_carries, span_loads, span_steps : strobe_t;
+
+  -- From part to part.
+  signal edge_carries, span_carries : std_logic_vector(c_parts downto 0);
 
 begin
 
-  dx_register : entity work.parameter_register
-    generic map (
-      g_bits => g_bits
-      )
-    port map (
-      clk   => clk,
-      load  => line_load,
-      start => plane(2 * g_bits - 1 downto g_bits),
-      value => dx
-      );
+  line_loads(0)   <= line_load;
+  line_steps(0)   <= line_step;
+  line_carries(0) <= line_carry;
+  span_loads(0)   <= span_load;
+  span_steps(0)   <= span_step;
+  edge_carries(0) <= '0';
+  span_carries(0) <= '0';
 
-  de0_register : entity work.parameter_register
-    generic map (
-      g_bits => g_bits
-      )
-    port map (
-      clk   => clk,
-      load  => line_load,
-      start => plane(3 * g_bits - 1 downto 2 * g_bits),
-      value => de0
-      );
+  later : if g_split generate
 
-  carried : if g_carries generate
-
-    signal de1 : word_t;
-
+    registers : process (clk)
     begin
-
-      de1_register : entity work.parameter_register
-        generic map (
-          g_bits => g_bits
-          )
-        port map (
-          clk   => clk,
-          load  => line_load,
-          start => plane(4 * g_bits - 1 downto 3 * g_bits),
-          value => de1
-          );
-
-      de <= de1 when line_carry = '1' else de0;
-
-  else generate
-
-    de <= de0;
+      if rising_edge(clk) then
+        line_loads(1)   <= line_load;
+        line_steps(1)   <= line_step;
+        line_carries(1) <= line_carry;
+        span_loads(1)   <= span_load;
+        span_steps(1)   <= span_step;
+      end if;
+    end process;
 
   end generate;
 
-  along_edge : entity work.line_interpolator
-    generic map (
-      g_bits => g_bits
-      )
-    port map (
-      clk       => clk,
-      load      => line_load,
-      start     => plane(g_bits - 1 downto 0),
-      step      => line_step,
-      increment => de,
-      value     => line_value
-      );
+  parts : for part in 0 to c_parts - 1 generate
 
-    -- The line stage may hold the next triangle already, so the span keeps its own step.
-  span_dx_register : entity work.parameter_register
-    generic map (
-      g_bits => g_bits
-      )
-    port map (
-      clk   => clk,
-      load  => span_load,
-      start => dx,
-      value => span_dx
-      );
+    constant c_low       : natural  := part * g_bits / c_parts; -- elaboration only
+    constant c_high      : natural  := (part + 1) * g_bits / c_parts - 1; -- elaboration only
+    constant c_part_bits : positive := c_high - c_low + 1;
 
-  along_line : entity work.line_interpolator
-    generic map (
-      g_bits => g_bits
-      )
-    port map (
-      clk       => clk,
-      load      => span_load,
-      start     => line_value,
-      step      => span_step,
-      increment => span_dx,
-      value     => value
-      );
+    subtype part_t is std_logic_vector(c_part_bits - 1 downto 0);
+
+    signal dx, de0, de, span_dx    : part_t;
+    signal part_value, pixel_value : part_t; -- along the edge, along the line
+
+    begin
+
+      dx_register : entity work.parameter_register
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk   => clk,
+          load  => line_loads(part),
+          start => plane(1 * g_bits + c_high downto 1 * g_bits + c_low),
+          value => dx
+          );
+
+      de0_register : entity work.parameter_register
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk   => clk,
+          load  => line_loads(part),
+          start => plane(2 * g_bits + c_high downto 2 * g_bits + c_low),
+          value => de0
+          );
+
+      carried : if g_carries generate
+
+        signal de1 : part_t;
+
+        begin
+
+          de1_register : entity work.parameter_register
+            generic map (
+              g_bits => c_part_bits
+              )
+            port map (
+              clk   => clk,
+              load  => line_loads(part),
+              start => plane(3 * g_bits + c_high downto 3 * g_bits + c_low),
+              value => de1
+              );
+
+          de <= de1 when line_carries(part) = '1' else de0;
+
+      else generate
+
+        de <= de0;
+
+      end generate;
+
+      along_edge : entity work.part_interpolator
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk       => clk,
+          load      => line_loads(part),
+          start     => plane(0 * g_bits + c_high downto 0 * g_bits + c_low),
+          step      => line_steps(part),
+          increment => de,
+          carry_in  => edge_carries(part),
+          value     => part_value,
+          carry_out => edge_carries(part + 1)
+          );
+
+        -- The line stage may hold the next triangle already, so the span keeps its own step.
+      span_dx_register : entity work.parameter_register
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk   => clk,
+          load  => span_loads(part),
+          start => dx,
+          value => span_dx
+          );
+
+      along_line : entity work.part_interpolator
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk       => clk,
+          load      => span_loads(part),
+          start     => part_value,
+          step      => span_steps(part),
+          increment => span_dx,
+          carry_in  => span_carries(part),
+          value     => pixel_value,
+          carry_out => span_carries(part + 1)
+          );
+
+        -- A lower part waits for the upper one.
+      in_step : if part < c_parts - 1 generate
+
+        registers : process (clk)
+        begin
+          if rising_edge(clk) then
+            line_value(c_high downto c_low) <= part_value;
+            value(c_high downto c_low)      <= pixel_value;
+          end if;
+        end process;
+
+      else generate
+
+        line_value(c_high downto c_low) <= part_value;
+        value(c_high downto c_low)      <= pixel_value;
+
+      end generate;
+
+  end generate;
 
 end architecture;

@@ -7,7 +7,8 @@
 --               pixel  value += dx     dx += dxx
 --             In preset published the edge steps by its real slope: e0 = (A, 1), and there is no e1.
 -- Formats     formats_pkg: intensity; sums wrap, the value at a covered pixel fits
--- Latency     1 clock from a load or step to its value
+-- Contract    with g_split the upper halves of init's words stand still in the clock behind line_load too
+-- Latency     1 clock from a load or step to its value, with g_split 2
 -- Throughput  1 line and 1 pixel a clock
 -- Error       0.15 of a colour step at most in preset exact, 16 in published: see intensity in formats_pkg
 -- Source      quadratic paper, section 5 (the nested loops) and figure 6
@@ -19,7 +20,8 @@ use work.formats_pkg.all;
 
 entity quadratic_interpolator is
   generic (
-    g_exact : boolean := true
+    g_exact : boolean := true;
+    g_split : boolean := false -- words in two halves, the upper one a clock behind the lower
   );
   port (
     clk        : in  std_logic;
@@ -40,195 +42,285 @@ end entity;
 
 architecture rtl of quadratic_interpolator is
 
-  constant c_bits : positive       := formats(g_exact).intensity.bits;
-  constant c_init : init_channel_t := init_channel(g_exact);
+  constant c_bits  : positive       := formats(g_exact).intensity.bits;
+  constant c_init  : init_channel_t := init_channel(g_exact);
+  constant c_parts : positive       := 1 + boolean'pos(g_split);
 
-  subtype word_t is std_logic_vector(c_bits - 1 downto 0);
+  -- The strobes, as each part of the words takes them, the lowest first.
+  subtype strobe_t is std_logic_vector(c_parts - 1 downto 0);
 
-  -- Constant over the triangle, and over the span.
-  signal dxx, dxe0, de0e0 : word_t;
-  signal span_dxx         : word_t;
+  signal line_loads, line_steps, line_carries, span_loads, span_steps : strobe_t;
 
-  -- What the next step along the edge adds.
-  signal value_step, dx_step, de0_step : word_t;
+  -- The sums, and what each carries from part to part.
+  type sum_t is (edge_value, edge_dx, edge_de0, edge_de1, span_value, span_dx);
+
+  type carries_t is array (sum_t) of std_logic_vector(c_parts downto 0);
+
+  signal carries : carries_t;
 
 begin
 
-  dxx_register : entity work.parameter_register
-    generic map (
-      g_bits => c_bits
-      )
-    port map (
-      clk   => clk,
-      load  => line_load,
-      start => init(c_init.dxx.high downto c_init.dxx.low),
-      value => dxx
-      );
+  line_loads(0)   <= line_load;
+  line_steps(0)   <= line_step;
+  line_carries(0) <= line_carry;
+  span_loads(0)   <= span_load;
+  span_steps(0)   <= span_step;
 
-  dxe0_register : entity work.parameter_register
-    generic map (
-      g_bits => c_bits
-      )
-    port map (
-      clk   => clk,
-      load  => line_load,
-      start => init(c_init.dxe0.high downto c_init.dxe0.low),
-      value => dxe0
-      );
+  later : if g_split generate
 
-  de0e0_register : entity work.parameter_register
-    generic map (
-      g_bits => c_bits
-      )
-    port map (
-      clk   => clk,
-      load  => line_load,
-      start => init(c_init.de0e0.high downto c_init.de0e0.low),
-      value => de0e0
-      );
-
-  carried : if g_exact generate
-
-    signal dxe1, de0e1, de1e1 : word_t;
-    signal de1_step           : word_t;
-
+    registers : process (clk)
     begin
-
-      dxe1_register : entity work.parameter_register
-        generic map (
-          g_bits => c_bits
-          )
-        port map (
-          clk   => clk,
-          load  => line_load,
-          start => init(c_init.dxe1.high downto c_init.dxe1.low),
-          value => dxe1
-          );
-
-      de0e1_register : entity work.parameter_register
-        generic map (
-          g_bits => c_bits
-          )
-        port map (
-          clk   => clk,
-          load  => line_load,
-          start => init(c_init.de0e1.high downto c_init.de0e1.low),
-          value => de0e1
-          );
-
-      de1e1_register : entity work.parameter_register
-        generic map (
-          g_bits => c_bits
-          )
-        port map (
-          clk   => clk,
-          load  => line_load,
-          start => init(c_init.de1e1.high downto c_init.de1e1.low),
-          value => de1e1
-          );
-
-      de1_along_edge : entity work.line_interpolator
-        generic map (
-          g_bits => c_bits
-          )
-        port map (
-          clk       => clk,
-          load      => line_load,
-          start     => init(c_init.de1.high downto c_init.de1.low),
-          step      => line_step,
-          increment => de1_step,
-          value     => line_de1
-          );
-
-      value_step <= line_de1 when line_carry = '1' else line_de0;
-      dx_step    <= dxe1 when line_carry = '1' else dxe0;
-      de0_step   <= de0e1 when line_carry = '1' else de0e0;
-      de1_step   <= de1e1 when line_carry = '1' else de0e1;
-
-  else generate
-
-    line_de1   <= (others => '0');
-    value_step <= line_de0;
-    dx_step    <= dxe0;
-    de0_step   <= de0e0;
+      if rising_edge(clk) then
+        line_loads(1)   <= line_load;
+        line_steps(1)   <= line_step;
+        line_carries(1) <= line_carry;
+        span_loads(1)   <= span_load;
+        span_steps(1)   <= span_step;
+      end if;
+    end process;
 
   end generate;
 
-  value_along_edge : entity work.line_interpolator
-    generic map (
-      g_bits => c_bits
-      )
-    port map (
-      clk       => clk,
-      load      => line_load,
-      start     => init(c_init.value.high downto c_init.value.low),
-      step      => line_step,
-      increment => value_step,
-      value     => line_value
-      );
+  lowest : for sum in sum_t generate
+    carries(sum)(0) <= '0';
+  end generate;
 
-  dx_along_edge : entity work.line_interpolator
-    generic map (
-      g_bits => c_bits
-      )
-    port map (
-      clk       => clk,
-      load      => line_load,
-      start     => init(c_init.dx.high downto c_init.dx.low),
-      step      => line_step,
-      increment => dx_step,
-      value     => line_dx
-      );
+  parts : for part in 0 to c_parts - 1 generate
 
-  de0_along_edge : entity work.line_interpolator
-    generic map (
-      g_bits => c_bits
-      )
-    port map (
-      clk       => clk,
-      load      => line_load,
-      start     => init(c_init.de0.high downto c_init.de0.low),
-      step      => line_step,
-      increment => de0_step,
-      value     => line_de0
-      );
+    constant c_low       : natural  := part * c_bits / c_parts; -- elaboration only
+    constant c_high      : natural  := (part + 1) * c_bits / c_parts - 1; -- elaboration only
+    constant c_part_bits : positive := c_high - c_low + 1;
 
-    -- The line stage may hold the next triangle already, so the span keeps its own second difference.
-  span_dxx_register : entity work.parameter_register
-    generic map (
-      g_bits => c_bits
-      )
-    port map (
-      clk   => clk,
-      load  => span_load,
-      start => dxx,
-      value => span_dxx
-      );
+    subtype part_t is std_logic_vector(c_part_bits - 1 downto 0);
 
-  value_along_line : entity work.line_interpolator
-    generic map (
-      g_bits => c_bits
-      )
-    port map (
-      clk       => clk,
-      load      => span_load,
-      start     => line_value,
-      step      => span_step,
-      increment => dx,
-      value     => value
-      );
+    -- Constant over the triangle, and over the span.
+    signal dxx, dxe0, de0e0 : part_t;
+    signal span_dxx         : part_t;
 
-  dx_along_line : entity work.line_interpolator
-    generic map (
-      g_bits => c_bits
-      )
-    port map (
-      clk       => clk,
-      load      => span_load,
-      start     => line_dx,
-      step      => span_step,
-      increment => span_dxx,
-      value     => dx
-      );
+    -- What the next step along the edge adds.
+    signal value_step, dx_step, de0_step : part_t;
+
+    signal part_value, part_dx, part_de0, part_de1 : part_t; -- along the edge
+    signal pixel_value, pixel_dx                   : part_t; -- along the line
+
+    begin
+
+      dxx_register : entity work.parameter_register
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk   => clk,
+          load  => line_loads(part),
+          start => init(c_init.dxx.low + c_high downto c_init.dxx.low + c_low),
+          value => dxx
+          );
+
+      dxe0_register : entity work.parameter_register
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk   => clk,
+          load  => line_loads(part),
+          start => init(c_init.dxe0.low + c_high downto c_init.dxe0.low + c_low),
+          value => dxe0
+          );
+
+      de0e0_register : entity work.parameter_register
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk   => clk,
+          load  => line_loads(part),
+          start => init(c_init.de0e0.low + c_high downto c_init.de0e0.low + c_low),
+          value => de0e0
+          );
+
+      carried : if g_exact generate
+
+        signal dxe1, de0e1, de1e1 : part_t;
+        signal de1_step           : part_t;
+
+        begin
+
+          dxe1_register : entity work.parameter_register
+            generic map (
+              g_bits => c_part_bits
+              )
+            port map (
+              clk   => clk,
+              load  => line_loads(part),
+              start => init(c_init.dxe1.low + c_high downto c_init.dxe1.low + c_low),
+              value => dxe1
+              );
+
+          de0e1_register : entity work.parameter_register
+            generic map (
+              g_bits => c_part_bits
+              )
+            port map (
+              clk   => clk,
+              load  => line_loads(part),
+              start => init(c_init.de0e1.low + c_high downto c_init.de0e1.low + c_low),
+              value => de0e1
+              );
+
+          de1e1_register : entity work.parameter_register
+            generic map (
+              g_bits => c_part_bits
+              )
+            port map (
+              clk   => clk,
+              load  => line_loads(part),
+              start => init(c_init.de1e1.low + c_high downto c_init.de1e1.low + c_low),
+              value => de1e1
+              );
+
+          de1_along_edge : entity work.part_interpolator
+            generic map (
+              g_bits => c_part_bits
+              )
+            port map (
+              clk       => clk,
+              load      => line_loads(part),
+              start     => init(c_init.de1.low + c_high downto c_init.de1.low + c_low),
+              step      => line_steps(part),
+              increment => de1_step,
+              carry_in  => carries(edge_de1)(part),
+              value     => part_de1,
+              carry_out => carries(edge_de1)(part + 1)
+              );
+
+          value_step <= part_de1 when line_carries(part) = '1' else part_de0;
+          dx_step    <= dxe1 when line_carries(part) = '1' else dxe0;
+          de0_step   <= de0e1 when line_carries(part) = '1' else de0e0;
+          de1_step   <= de1e1 when line_carries(part) = '1' else de0e1;
+
+      else generate
+
+        part_de1                    <= (others => '0');
+        carries(edge_de1)(part + 1) <= '0';
+        value_step                  <= part_de0;
+        dx_step                     <= dxe0;
+        de0_step                    <= de0e0;
+
+      end generate;
+
+      value_along_edge : entity work.part_interpolator
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk       => clk,
+          load      => line_loads(part),
+          start     => init(c_init.value.low + c_high downto c_init.value.low + c_low),
+          step      => line_steps(part),
+          increment => value_step,
+          carry_in  => carries(edge_value)(part),
+          value     => part_value,
+          carry_out => carries(edge_value)(part + 1)
+          );
+
+      dx_along_edge : entity work.part_interpolator
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk       => clk,
+          load      => line_loads(part),
+          start     => init(c_init.dx.low + c_high downto c_init.dx.low + c_low),
+          step      => line_steps(part),
+          increment => dx_step,
+          carry_in  => carries(edge_dx)(part),
+          value     => part_dx,
+          carry_out => carries(edge_dx)(part + 1)
+          );
+
+      de0_along_edge : entity work.part_interpolator
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk       => clk,
+          load      => line_loads(part),
+          start     => init(c_init.de0.low + c_high downto c_init.de0.low + c_low),
+          step      => line_steps(part),
+          increment => de0_step,
+          carry_in  => carries(edge_de0)(part),
+          value     => part_de0,
+          carry_out => carries(edge_de0)(part + 1)
+          );
+
+        -- The line stage may hold the next triangle already, so the span keeps its own second difference.
+      span_dxx_register : entity work.parameter_register
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk   => clk,
+          load  => span_loads(part),
+          start => dxx,
+          value => span_dxx
+          );
+
+      value_along_line : entity work.part_interpolator
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk       => clk,
+          load      => span_loads(part),
+          start     => part_value,
+          step      => span_steps(part),
+          increment => pixel_dx,
+          carry_in  => carries(span_value)(part),
+          value     => pixel_value,
+          carry_out => carries(span_value)(part + 1)
+          );
+
+      dx_along_line : entity work.part_interpolator
+        generic map (
+          g_bits => c_part_bits
+          )
+        port map (
+          clk       => clk,
+          load      => span_loads(part),
+          start     => part_dx,
+          step      => span_steps(part),
+          increment => span_dxx,
+          carry_in  => carries(span_dx)(part),
+          value     => pixel_dx,
+          carry_out => carries(span_dx)(part + 1)
+          );
+
+        -- A lower part waits for the upper one.
+      in_step : if part < c_parts - 1 generate
+
+        registers : process (clk)
+        begin
+          if rising_edge(clk) then
+            line_value(c_high downto c_low) <= part_value;
+            line_dx(c_high downto c_low)    <= part_dx;
+            line_de0(c_high downto c_low)   <= part_de0;
+            line_de1(c_high downto c_low)   <= part_de1;
+            value(c_high downto c_low)      <= pixel_value;
+            dx(c_high downto c_low)         <= pixel_dx;
+          end if;
+        end process;
+
+      else generate
+
+        line_value(c_high downto c_low) <= part_value;
+        line_dx(c_high downto c_low)    <= part_dx;
+        line_de0(c_high downto c_low)   <= part_de0;
+        line_de1(c_high downto c_low)   <= part_de1;
+        value(c_high downto c_low)      <= pixel_value;
+        dx(c_high downto c_low)         <= pixel_dx;
+
+      end generate;
+
+  end generate;
 
 end architecture;

@@ -2,7 +2,8 @@
 --
 -- Purpose     Depth at every pixel: the plane that the header of the init vector holds.
 -- Formats     formats_pkg: depth_sum; sums wrap, the value at a covered pixel fits
--- Latency     1 clock from a load or step to its value
+-- Contract    with g_split the upper halves of the plane's words stand still in the clock behind line_load too
+-- Latency     1 clock from a load or step to its value, with g_split 2
 -- Throughput  1 line and 1 pixel a clock
 -- Error       0.19 of a depth step at most: see depth_sum in formats_pkg
 -- Source      plane_interpolator; the papers leave depth to the host
@@ -14,7 +15,8 @@ use work.formats_pkg.all;
 
 entity z_interpolator is
   generic (
-    g_exact : boolean := true -- false: edges step by a real slope, and de1 does not exist
+    g_exact : boolean := true; -- false: edges step by a real slope, and de1 does not exist
+    g_split : boolean := false -- words in two halves, the upper one a clock behind the lower
   );
   port (
     clk        : in  std_logic;
@@ -42,7 +44,8 @@ begin
   depth : entity work.plane_interpolator
     generic map (
       g_bits    => c_bits,
-      g_carries => g_exact
+      g_carries => g_exact,
+      g_split   => g_split
       )
     port map (
       clk        => clk,

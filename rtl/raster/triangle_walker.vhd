@@ -1,19 +1,22 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     Walks one triangle after the other: lines down the start edge, pixels from the start edge to the stop
---             edge, and tells the interpolators when to load and when to step. Two stages overlap: the line stage
---             stands one line ahead of the span stage, so that neither a new line nor a new triangle costs a clock,
+--             edge, and tells the interpolators when to load and when to step. Three stages overlap: the edge stage
+--             stands one line ahead of the line stage, so that how many pixels a line covers is a register there, and
+--             the line stage one ahead of the span stage, so that neither a new line nor a new triangle costs a clock,
 --             and lines that cover no pixel are passed over while a span is drawn.
 -- Init        preset exact: the start edge is the triangle's long one, spans run away from it (backward: to smaller x);
 --             the stop edge has an upper and a lower section. preset published: a horizontal-sided triangle, both
 --             edges stepped by a real slope, lines and spans inclusive at both ends.
 -- Contract    init is taken where init_valid and init_ready are '1', a fragment where fragment_valid and
---             fragment_ready are; x, y and triangle stand still while a fragment waits. The line stage goes on only
---             where line_ready = '1': what the line needs beside the walker has come. line_held: it holds a line.
+--             fragment_ready are; x, y and triangle stand still while a fragment waits. init stands still from
+--             init_valid = '1' until it is taken. It may stand longer, until line_load: none is taken before. The line
+--             stage goes on only where line_ready = '1': what the line needs beside the walker has come. line_held: it
+--             holds a line.
 -- Formats     formats_pkg: the header of init; x span_x, y pixel_y
--- Latency     2 clocks from init taken to the triangle's first fragment
--- Throughput  with line_ready = '1' 1 fragment a clock, within and between spans and triangles; a line without a pixel
---             costs a clock only where no span is being drawn meanwhile
+-- Latency     3 clocks from init taken to the triangle's first fragment, 2 from line_load
+-- Throughput  with line_ready = '1' 1 fragment a clock, within and between spans and triangles, but that a triangle takes
+--             2 clocks at least; a line without a pixel costs a clock only where no span is being drawn meanwhile
 -- Error       none in preset exact: a pixel belongs to the triangle by its centre, top-left rule
 -- Source      quadratic paper, section 5 and figure 6 (X counter, Y counter)
 -- Golden twin model/golden/triangle_walker.hpp
@@ -31,11 +34,11 @@ entity triangle_walker is
     clk            : in  std_logic;
     reset          : in  std_logic;
     init_valid     : in  std_logic;
-    init_ready     : out std_logic;
+    init_ready     : out std_logic; -- the edge stage reads the init vector
     init           : in  std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0); -- header of the init vector
     line_ready     : in  std_logic;                                                   -- the line may go on
     line_held      : out std_logic;                                                   -- a line waits for line_ready
-    line_load      : out std_logic;                                                   -- take the init vector
+    line_load      : out std_logic;                                                   -- begin the triangle
     line_step      : out std_logic;                                                   -- go to the next line
     line_carry     : out std_logic;                                                   -- that step goes a pixel further
     span_load      : out std_logic;                                                   -- begin the line
@@ -62,13 +65,37 @@ architecture rtl of triangle_walker is
   subtype span_x_t   is signed(c_formats.span_x.bits - 1 downto 0);
   subtype lines_t    is unsigned(c_formats.lines.bits - 1 downto 0);
 
+  -- What a line covers: pixels behind its first; below zero where it covers none.
+  subtype more_t is signed(c_formats.span_x.bits downto 0);
+
+  -- Lines of a section less three, with a sign.
+  subtype left_t is unsigned(c_formats.lines.bits downto 0);
+
+  type edge_stage_t is record
+    valid        : std_logic;
+    first        : std_logic; -- the triangle's first line
+    triangle     : triangle_t;
+    y            : pixel_y_t;
+    left         : left_t; -- lines in this section of the stop edge, this one included, less three
+    lower_lines  : lines_t; -- in the section below
+    section_last : std_logic; -- this line is its section's last
+    lower_none   : std_logic; -- lower_lines = 0
+    lower_one    : std_logic; -- lower_lines = 1
+    reads        : std_logic; -- the next thing here is an init vector
+    leaves       : std_logic; -- reads, or the triangle ends here: the start edge takes what init has
+    follows      : std_logic; -- the stop edge goes on; else it takes another section
+    backward     : std_logic;
+  end record;
+
   type line_stage_t is record
-    valid       : std_logic;
-    triangle    : triangle_t;
-    y           : pixel_y_t;
-    lines       : lines_t; -- left in this section of the stop edge, this one included
-    lower_lines : lines_t; -- in the section below
-    backward    : std_logic;
+    valid    : std_logic;
+    triangle : triangle_t;
+    y        : pixel_y_t;
+    start    : span_x_t;
+    stop     : span_x_t;
+    more     : more_t; -- pixels behind the first; below zero where the line covers none
+    backward : std_logic;
+    carry    : std_logic; -- of the step to the next line
   end record;
 
   type span_stage_t is record
@@ -76,89 +103,163 @@ architecture rtl of triangle_walker is
     triangle : triangle_t;
     y        : pixel_y_t;
     x        : span_x_t;
-    stop     : span_x_t;
+    more     : more_t; -- pixels behind x, less one; below zero where no span is here, too
     backward : std_logic;
   end record;
 
   type reg_t is record
-    line : line_stage_t;
-    span : span_stage_t;
+    edges : edge_stage_t;
+    line  : line_stage_t;
+    span  : span_stage_t;
   end record;
 
   signal r, r_next : reg_t;
 
-  -- From the edges, for the line that the line stage holds.
+  -- From the edges, for the line that the edge stage holds.
   signal start, stop : span_x_t;
+  signal more        : more_t;
+  signal edge_carry  : std_logic;
 
   -- From the init vector, where the preset has them.
+  signal init_upper_lines : lines_t;
   signal init_lower_lines : lines_t;
+  signal init_none        : std_logic; -- no line: counted as 2**bits, as golden
   signal init_backward    : std_logic;
 
-  signal next_x       : span_x_t;
-  signal span_last    : std_logic;
-  signal span_free    : std_logic;
-  signal line_empty   : std_logic;
-  signal section_last : std_logic;
-  signal line_last    : std_logic;
-  signal to_lower     : std_logic; -- this step enters the lower section
+  signal draws     : std_logic; -- the line stage holds a line that covers a pixel
+  signal ends      : std_logic; -- the span stage's pixel is its span's last, or there is none
+  signal next_x    : span_x_t;
+  signal moves     : std_logic; -- the line that the line stage holds need not wait, or there is none
+  signal edge_load : std_logic; -- read the init vector
+  signal edge_step : std_logic; -- hand the line on, and go to the next one
+  signal edge_goes : std_logic; -- either, or neither where nothing is here
+  signal edge_last : std_logic; -- the triangle's last line
+  signal turns     : std_logic; -- the stop edge takes another section
 
 begin
 
-  next_x    <= r.span.x - 1 when r.span.backward = '1' else r.span.x + 1;
-  span_last <= '1' when next_x = r.span.stop else '0';
+  init_upper_lines <= unsigned(init(c_init.upper_lines.high downto c_init.upper_lines.low));
+
+  init_none <= '1' when init_upper_lines = 0 else '0';
+
+  next_x <= r.span.x - 1 when r.span.backward = '1' else r.span.x + 1;
+
+  -- While a fragment waits all stages stand: so what moves hangs on registers, and on few.
+  draws <= r.line.valid and not r.line.more(more_t'high);
+  ends  <= r.span.more(more_t'high);
+  moves <= fragment_ready and (ends or not draws) and (line_ready or not r.line.valid);
 
   span_step <= r.span.valid and fragment_ready;
-  span_free <= not r.span.valid or (fragment_ready and span_last);
+  span_load <= draws and moves;
+  line_step <= r.line.valid and moves;
 
-  line_empty <= '1' when (r.line.backward = '0' and start >= stop) or (r.line.backward = '1' and start <= stop) else
-    '0';
+  edge_last <= r.edges.section_last and r.edges.lower_none;
+  turns     <= not r.edges.follows;
+  edge_step <= r.edges.valid and moves;
+  edge_goes <= moves or not r.edges.valid;
+  line_load <= edge_step and r.edges.first;
 
-  section_last <= '1' when r.line.lines = 1 else '0';
-  line_last    <= '1' when section_last = '1' and r.line.lower_lines = 0 else '0';
-  to_lower     <= section_last and not line_last;
-
-  span_load  <= r.line.valid and line_ready and not line_empty and span_free;
-  line_step  <= r.line.valid and line_ready and (line_empty or span_free);
-  init_ready <= not r.line.valid or (line_step and line_last);
-  line_load  <= init_valid and init_ready;
+  edge_load  <= init_valid and r.edges.reads and edge_goes;
+  init_ready <= edge_load;
 
   combinational : process (all)
-    variable v : reg_t;
+    variable v      : reg_t;
+    variable begins : std_logic; -- a span does, where the one before ends
+    variable pixels : more_t;
+    variable lines  : left_t;
+    variable fewer  : left_t;
   begin
     v := r;
 
-    if span_load = '1' then
-      v.span.valid    := '1';
-      v.span.triangle := r.line.triangle;
-      v.span.y        := r.line.y;
-      v.span.x        := start;
-      v.span.stop     := stop;
-      v.span.backward := r.line.backward;
-    elsif span_step = '1' then
-      v.span.x     := next_x;
-      v.span.valid := not span_last;
+    -- Behind a span's last pixel comes what the line stage holds, be it a line or not.
+    begins := draws and line_ready;
+    pixels := r.span.more;
+    if ends = '1' then
+      pixels := r.line.more;
     end if;
-
-    if line_load = '1' then
-      v.line.valid       := '1';
-      v.line.triangle    := init(c_init.triangle.high downto c_init.triangle.low);
-      v.line.y           := unsigned(init(c_init.y.high downto c_init.y.low));
-      v.line.lines       := unsigned(init(c_init.upper_lines.high downto c_init.upper_lines.low));
-      v.line.lower_lines := init_lower_lines;
-      v.line.backward    := init_backward;
-    elsif line_step = '1' then
-      v.line.valid := not line_last;
-      v.line.y     := r.line.y + 1;
-      v.line.lines := r.line.lines - 1;
-      if to_lower = '1' then
-        v.line.lines       := r.line.lower_lines;
-        v.line.lower_lines := (others => '0');
+    if fragment_ready = '1' then
+      v.span.x := next_x;
+      if ends = '1' then
+        v.span.valid    := begins;
+        v.span.triangle := r.line.triangle;
+        v.span.y        := r.line.y;
+        v.span.x        := r.line.start;
+        v.span.backward := r.line.backward;
       end if;
     end if;
 
+    if moves = '1' then
+      v.line.valid    := r.edges.valid;
+      v.line.triangle := r.edges.triangle;
+      v.line.y        := r.edges.y;
+      v.line.start    := start;
+      v.line.stop     := stop;
+      v.line.more     := more;
+      v.line.backward := r.edges.backward;
+      v.line.carry    := edge_carry;
+    end if;
+
+    -- The sign is state. As it is reset, the bits that stand in a chain of carries with it are let in then, too.
+    if fragment_ready = '1' or reset = '1' then
+      v.span.more               := pixels - 1;
+      v.span.more(more_t'high) := v.span.more(more_t'high) or reset or (ends and not begins);
+    end if;
+    -- Lines are counted so that a sign says that one is behind this, or none.
+    lines := r.edges.left;
+    if r.edges.reads = '1' then
+      lines := init_none & init_upper_lines;
+    elsif r.edges.section_last = '1' then
+      lines := '0' & r.edges.lower_lines;
+    end if;
+    fewer    := (others => '1'); -- a line less, or three where lines are counted anew
+    fewer(1) := r.edges.follows;
+    if edge_goes = '1' then
+      v.edges.left := lines + fewer;
+      if r.edges.reads = '1' then
+        v.edges.valid        := init_valid;
+        v.edges.first        := '1';
+        v.edges.triangle     := init(c_init.triangle.high downto c_init.triangle.low);
+        v.edges.y            := unsigned(init(c_init.y.high downto c_init.y.low));
+        v.edges.lower_lines  := init_lower_lines;
+        v.edges.section_last := '0';
+        if init_upper_lines = 1 then
+          v.edges.section_last := '1';
+        end if;
+        v.edges.lower_none := '0';
+        if init_lower_lines = 0 then
+          v.edges.lower_none := '1';
+        end if;
+        v.edges.lower_one := '0';
+        if init_lower_lines = 1 then
+          v.edges.lower_one := '1';
+        end if;
+        v.edges.backward := init_backward;
+        -- While the first line is here init may still be this triangle's.
+        v.edges.reads := not init_valid;
+      else
+        v.edges.valid        := not edge_last;
+        v.edges.first        := '0';
+        v.edges.y            := r.edges.y + 1;
+        v.edges.section_last := r.edges.left(left_t'high);
+        v.edges.reads        := r.edges.lower_none and r.edges.left(left_t'high);
+        if r.edges.section_last = '1' then
+          v.edges.section_last := r.edges.lower_one;
+          v.edges.lower_none   := '1';
+          v.edges.reads        := r.edges.lower_none or r.edges.lower_one;
+        end if;
+      end if;
+      -- Three registers, so that none has all the edges' bits to choose: with one its wires bound the clock.
+      v.edges.leaves  := v.edges.reads or (v.edges.section_last and v.edges.lower_none);
+      v.edges.follows := not (v.edges.reads or v.edges.section_last);
+    end if;
+
     if reset = '1' then
-      v.line.valid := '0';
-      v.span.valid := '0';
+      v.edges.valid := '0';
+      v.edges.reads := '1';
+      v.edges.leaves := '1';
+      v.edges.follows := '0';
+      v.line.valid  := '0';
+      v.span.valid  := '0';
     end if;
     r_next <= v;
   end process;
@@ -179,7 +280,7 @@ begin
 
     signal upper, lower, held_lower, section : section_t;
     signal start_x, stop_x                   : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
-    signal stop_load                         : std_logic;
+    signal from_x, to_x                      : more_t;
 
     function part (whole : section_t; field : slice_t) return std_logic_vector is
     begin
@@ -194,16 +295,16 @@ begin
       start_edge : entity work.edge_walker
         port map (
           clk            => clk,
-          load           => line_load,
+          load           => r.edges.leaves,
           load_x         => init(c_init.start_x.high downto c_init.start_x.low),
           load_quotient  => init(c_init.start_quotient.high downto c_init.start_quotient.low),
           load_remainder => init(c_init.start_remainder.high downto c_init.start_remainder.low),
           load_divisor   => init(c_init.start_divisor.high downto c_init.start_divisor.low),
           load_error     => init(c_init.start_error.high downto c_init.start_error.low),
           load_carry     => init(c_init.start_carry.low),
-          step           => line_step,
+          step           => edge_goes,
           x              => start_x,
-          carry          => line_carry
+          carry          => edge_carry
           );
 
       upper <= init(c_init.upper_carry.high downto c_init.upper_x.low);
@@ -215,25 +316,24 @@ begin
           )
         port map (
           clk   => clk,
-          load  => line_load,
+          load  => r.edges.reads,
           start => lower,
           value => held_lower
           );
 
-      section   <= upper when line_load = '1' else held_lower;
-      stop_load <= line_load or (line_step and to_lower);
+      section <= upper when r.edges.reads = '1' else held_lower;
 
       stop_edge : entity work.edge_walker
         port map (
           clk            => clk,
-          load           => stop_load,
+          load           => turns,
           load_x         => part(section, c_init.upper_x),
           load_quotient  => part(section, c_init.upper_quotient),
           load_remainder => part(section, c_init.upper_remainder),
           load_divisor   => part(section, c_init.upper_divisor),
           load_error     => part(section, c_init.upper_error),
           load_carry     => section(c_section_bits - 1),
-          step           => line_step,
+          step           => edge_goes,
           x              => stop_x,
           carry          => open
           );
@@ -241,87 +341,64 @@ begin
       start <= signed(start_x);
       stop  <= signed(stop_x);
 
+      -- One pixel less than lies between them: the complement is the negative less one.
+      from_x <= resize(stop, more_t'length) when r.edges.backward = '1' else resize(start, more_t'length);
+      to_x   <= resize(start, more_t'length) when r.edges.backward = '1' else resize(stop, more_t'length);
+      more   <= to_x + not from_x;
+
   else generate
 
-    constant c_fraction : natural := c_formats.edge_x.fraction;
+    signal start_x, stop_x : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
+    signal last            : span_x_t; -- pixel of the line
+    signal below           : std_logic; -- its end is below zero
 
-    subtype edge_t is std_logic_vector(c_formats.edge_x.bits - 1 downto 0);
-
-    signal start_x, start_slope, stop_x, stop_slope : edge_t;
+    constant c_highest : span_x_t := to_signed(2 ** (span_x_t'length - 1) - 1, span_x_t'length);
 
     begin
 
-      assert c_formats.edge_x.bits - c_fraction = c_formats.span_x.bits
-        report "triangle_walker: edge_x has " & integer'image(c_formats.edge_x.bits - c_fraction)
-        & " whole bits, span_x " & integer'image(c_formats.span_x.bits)
-        severity failure;
-
       init_lower_lines <= (others => '0');
       init_backward    <= '0';
-      line_carry       <= '0';
+      edge_carry       <= '0';
 
-      start_slope_register : entity work.parameter_register
-        generic map (
-          g_bits => c_formats.edge_x.bits
-          )
+      start_edge : entity work.slope_walker
         port map (
-          clk   => clk,
-          load  => line_load,
-          start => init(c_init.start_slope.high downto c_init.start_slope.low),
-          value => start_slope
+          clk        => clk,
+          load       => r.edges.leaves,
+          load_x     => init(c_init.start_x.high downto c_init.start_x.low),
+          load_slope => init(c_init.start_slope.high downto c_init.start_slope.low),
+          step       => edge_goes,
+          x          => start_x
           );
 
-      start_edge : entity work.line_interpolator
-        generic map (
-          g_bits => c_formats.edge_x.bits
-          )
+      stop_edge : entity work.slope_walker
         port map (
-          clk       => clk,
-          load      => line_load,
-          start     => init(c_init.start_x.high downto c_init.start_x.low),
-          step      => line_step,
-          increment => start_slope,
-          value     => start_x
+          clk        => clk,
+          load       => turns,
+          load_x     => init(c_init.upper_x.high downto c_init.upper_x.low),
+          load_slope => init(c_init.upper_slope.high downto c_init.upper_slope.low),
+          step       => edge_goes,
+          x          => stop_x
           );
 
-      stop_slope_register : entity work.parameter_register
-        generic map (
-          g_bits => c_formats.edge_x.bits
-          )
-        port map (
-          clk   => clk,
-          load  => line_load,
-          start => init(c_init.upper_slope.high downto c_init.upper_slope.low),
-          value => stop_slope
-          );
-
-      stop_edge : entity work.line_interpolator
-        generic map (
-          g_bits => c_formats.edge_x.bits
-          )
-        port map (
-          clk       => clk,
-          load      => line_load,
-          start     => init(c_init.upper_x.high downto c_init.upper_x.low),
-          step      => line_step,
-          increment => stop_slope,
-          value     => stop_x
-          );
-
-      start <= signed(start_x(c_formats.edge_x.bits - 1 downto c_fraction));
-      stop  <= signed(stop_x(c_formats.edge_x.bits - 1 downto c_fraction)) + 1;
+      start <= signed(start_x);
+      last  <= signed(stop_x);
+      stop  <= last + 1;
+      -- Behind the highest pixel lies the lowest.
+      below <= '1' when last(last'high) = '1' or last = c_highest else '0';
+      more  <= (below & last) - resize(start, more_t'length);
 
   end generate;
 
   line_held  <= r.line.valid;
+  line_carry <= r.line.carry;
   line_y     <= std_logic_vector(r.line.y);
-  line_start <= std_logic_vector(start);
-  line_stop  <= std_logic_vector(stop);
+  line_start <= std_logic_vector(r.line.start);
+  line_stop  <= std_logic_vector(r.line.stop);
 
   fragment_valid <= r.span.valid;
   triangle       <= r.span.triangle;
   y              <= std_logic_vector(r.span.y);
   x              <= std_logic_vector(r.span.x);
-  busy           <= r.line.valid or r.span.valid;
+  busy           <= r.edges.valid or r.line.valid or r.span.valid;
 
 end architecture;

@@ -12,10 +12,10 @@
 --             pixel, or at another one. One channel (g_channels = 1) is given out as red, green and blue.
 --             fault stays '1' from when a shadow counter has left its range: the fragments are worth nothing then.
 -- Formats     formats_pkg: depth, colour; processors_pkg says where the blocks of a vector lie
--- Latency     3 clocks from a vector taken to its first object at the pipeline (its first line covering a pixel), 1 more
+-- Latency     4 clocks from a vector taken to its first object at the pipeline (its first line covering a pixel), 1 more
 --             with shadows; then shading_pipeline's, and 1
 -- Throughput  what shading_pipeline takes: unrolled 1 fragment a clock, with no bubble between spans, lines and
---             triangles; a load costs 3 clocks, a line that covers no pixel one where no span is drawn meanwhile
+--             triangles, but that a triangle takes 2 clocks at least; a load costs 3 clocks, a line that covers no pixel one where no span is drawn meanwhile
 -- Error       see plane_sum in formats_pkg, shading_processor; the colour is rounded once
 -- Source      processors paper, sections 3 and 4
 -- Golden twin model/golden/processors_shader.hpp
@@ -185,7 +185,7 @@ begin
   -- A load goes past the walker, which holds nothing then.
   walk_valid <= waiting and not loads;
   load_valid <= waiting and loads and not walking and objects_idle;
-  taken      <= token_ready and load_valid when loads = '1' else walk_ready;
+  taken      <= token_ready and load_valid when loads = '1' else line_load;
 
   walk <= init(walk_low(c_config) + c_walk_bits - 1 downto walk_low(c_config));
 

@@ -2,13 +2,15 @@
 --
 -- Purpose     The quadratic shader: an init vector a triangle in, a fragment for each pixel that the triangle covers out.
 --             stream_register -> triangle_walker -> z_interpolator and a quadratic_interpolator a channel -> saturate
---             -> stream_register
+--             -> stream_queue
+--             The walker alone waits for whoever takes the fragments. What it tells the interpolators goes through
+--             registers, and all behind it runs on; the queue has a place for every pixel that is on its way.
 -- Contract    Both streams are valid/ready; a fragment stands still while it waits. One channel (g_channels = 1) is
 --             given out as red, green and blue.
 -- Formats     formats_pkg: init (header, then a block a channel), depth, colour
--- Latency     4 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel)
--- Throughput  1 fragment a clock, with no bubble between spans, lines and triangles; lines that cover no pixel cost a
---             clock each where no span is being drawn meanwhile
+-- Latency     8 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel)
+-- Throughput  1 fragment a clock, with no bubble between spans, lines and triangles, but that a triangle takes 2 clocks
+--             at least; lines that cover no pixel cost a clock each where no span is being drawn meanwhile
 -- Error       preset exact: the colour is within 0.65 steps of the quadratic through the six samples (0.5 rounding,
 --             0.15 differences), depth within 0.69 of the triangle's plane, and a step more within a step of 0 or of
 --             its largest value, which setup keeps clear
@@ -55,11 +57,58 @@ architecture rtl of quadratic_shader is
   constant c_channel_bits : positive        := init_channel_low(g_exact, 1) - c_header_bits;
   constant c_colour       : positive        := c_formats.colour.bits;
 
-  subtype intensity_t is std_logic_vector(c_formats.intensity.bits - 1 downto 0);
+  -- The interpolators' words: depth's are the header's last.
+  constant c_depth_low     : positive := init_header(g_exact).z.low;
+  constant c_depth_bits    : positive := c_formats.depth_sum.bits;
+  constant c_depth_words   : positive := (c_header_bits - c_depth_low) / c_depth_bits; -- elaboration only
+  constant c_value_bits    : positive := c_formats.intensity.bits;
+  constant c_channel_words : positive := c_channel_bits / c_value_bits; -- elaboration only
 
-  signal init                          : std_logic_vector(init_data'range);
-  signal waiting                       : std_logic;
-  signal taken                         : std_logic;
+  subtype intensity_t is std_logic_vector(c_formats.intensity.bits - 1 downto 0);
+  subtype span_x_t    is std_logic_vector(c_formats.span_x.bits - 1 downto 0);
+
+  -- A pixel of the walker's.
+  type pixel_t is record
+    triangle : std_logic_vector(fragment_triangle'range);
+    y        : std_logic_vector(fragment_y'range);
+    x        : span_x_t;
+  end record;
+
+  type pixels_t is array (1 to 2) of pixel_t;
+
+  -- What the walker has said, one clock ago and two: the lower halves of the interpolators' words follow at once, the
+  -- upper ones a clock later. Then a word is whole.
+  type strobe_t is array (1 to 2) of std_logic;
+
+  -- Behind the buffer the interpolators' words have a second place, from which they load: so the buffer is free a clock
+  -- after the walker has read it. The upper halves go there, too, a clock behind the lower ones.
+  type reg_t is record
+    walk_valid : std_logic; -- the buffer holds a triangle that the walker has not taken
+    walk_taken : std_logic; -- the walker took it in the clock before: the buffer lets it go
+    copy_waits : std_logic; -- the buffer holds a triangle whose words have not gone on
+    placed     : std_logic; -- the second place holds words of a triangle that has not begun
+    copy       : strobe_t;  -- words go on, now (the lower halves) or a clock ago
+    line_load  : strobe_t;
+    line_step  : std_logic;
+    line_carry : std_logic;
+    span_load  : std_logic;
+    span_step  : strobe_t;
+  end record;
+
+  -- Where a fragment's fields begin in the queue's words.
+  constant c_triangle_low : natural := 0;
+  constant c_y_low        : natural := c_triangle_low + fragment_triangle'length;
+  constant c_x_low        : natural := c_y_low + fragment_y'length;
+  constant c_z_low        : natural := c_x_low + fragment_x'length;
+  constant c_red_low      : natural := c_z_low + fragment_z'length;
+  constant c_green_low    : natural := c_red_low + fragment_red'length;
+  constant c_blue_low     : natural := c_green_low + fragment_green'length;
+
+  signal r, r_next : reg_t;
+  signal pixels    : pixels_t;
+
+  signal init, words                   : std_logic_vector(init_data'range); -- in the buffer; in the second place
+  signal waiting, walk_ready           : std_logic;
   signal line_load, line_step          : std_logic;
   signal line_carry                    : std_logic;
   signal span_load, span_step          : std_logic;
@@ -69,10 +118,12 @@ architecture rtl of quadratic_shader is
   signal line_z, z                     : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
   signal whole_z                       : std_logic_vector(fragment_z'range);
   signal colours                       : std_logic_vector(3 * c_colour - 1 downto 0); -- red lowest
-  signal fragment_colours              : std_logic_vector(colours'range);
-  signal pixel, fragment_pixel         : std_logic_vector(fragment_y'length + fragment_x'length - 1 downto 0);
-  signal drawn, drawn_ready, out_valid : std_logic;
+  signal buffer_free                   : std_logic;
+  signal room, coming                  : std_logic;
+  signal pixel_valid                   : std_logic;
   signal walking                       : std_logic;
+  signal pixel, fragment_pixel         : std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length
+    + fragment_z'length + 3 * c_colour - 1 downto 0);
 
 begin
 
@@ -92,10 +143,10 @@ begin
       clk       => clk,
       reset     => reset,
       in_valid  => init_valid,
-      in_ready  => init_ready,
+      in_ready  => buffer_free,
       in_data   => init_data,
       out_valid => waiting,
-      out_ready => taken,
+      out_ready => r.walk_taken,
       out_data  => init
       );
 
@@ -106,8 +157,8 @@ begin
     port map (
       clk            => clk,
       reset          => reset,
-      init_valid     => waiting,
-      init_ready     => taken,
+      init_valid     => r.walk_valid,
+      init_ready     => walk_ready,
       init           => init(c_header_bits - 1 downto 0),
       line_ready     => '1',
       line_held      => open,
@@ -119,26 +170,88 @@ begin
       line_y         => line_y,
       line_start     => line_start,
       line_stop      => line_stop,
-      fragment_valid => drawn,
-      fragment_ready => drawn_ready,
+      fragment_valid => open,
+      fragment_ready => room,
       triangle       => triangle,
       y              => y,
       x              => x,
       busy           => walking
       );
 
+  combinational : process (all)
+    variable v : reg_t;
+  begin
+    v            := r;
+    v.walk_taken := r.walk_valid and walk_ready;
+    v.walk_valid := (r.walk_valid and not walk_ready) or (init_valid and buffer_free);
+    -- Known a clock before: a register lets all these words in.
+    v.copy_waits := (r.copy_waits and not r.copy(1)) or (init_valid and buffer_free);
+    v.placed     := r.copy(1) or (r.placed and not line_load);
+    v.copy       := (v.copy_waits and not v.placed, r.copy(1));
+    v.line_load  := (line_load, r.line_load(1));
+    v.line_step  := line_step;
+    v.line_carry := line_carry;
+    v.span_load  := span_load;
+    v.span_step  := (span_step, r.span_step(1));
+    if reset = '1' then
+      v.walk_valid := '0';
+      v.walk_taken := '0';
+      v.copy_waits := '0';
+      v.placed := '0';
+      v.copy := ('0', '0');
+      v.line_load := ('0', '0');
+      v.span_step := ('0', '0');
+    end if;
+    r_next <= v;
+  end process;
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      r      <= r_next;
+      pixels <= ((triangle, y, x), pixels(1));
+    end if;
+  end process;
+
+  words(c_depth_low - 1 downto 0) <= (others => '0'); -- the walker's alone
+
+  depth_words : for word in 0 to c_depth_words - 1 generate
+
+    halves : for half in 0 to 1 generate
+
+      constant c_low  : natural := c_depth_low + word * c_depth_bits + half * c_depth_bits / 2; -- elaboration only
+      constant c_high : natural := c_depth_low + word * c_depth_bits + (half + 1) * c_depth_bits / 2 - 1; -- elaboration only
+
+      begin
+
+        place : entity work.parameter_register
+          generic map (
+            g_bits => c_high - c_low + 1
+            )
+          port map (
+            clk   => clk,
+            load  => r.copy(1 + half),
+            start => init(c_high downto c_low),
+            value => words(c_high downto c_low)
+            );
+
+    end generate;
+
+  end generate;
+
   depth : entity work.z_interpolator
     generic map (
-      g_exact => g_exact
+      g_exact => g_exact,
+      g_split => true
       )
     port map (
       clk        => clk,
-      init       => init(c_header_bits - 1 downto 0),
-      line_load  => line_load,
-      line_step  => line_step,
-      line_carry => line_carry,
-      span_load  => span_load,
-      span_step  => span_step,
+      init       => words(c_header_bits - 1 downto 0),
+      line_load  => r.line_load(1),
+      line_step  => r.line_step,
+      line_carry => r.line_carry,
+      span_load  => r.span_load,
+      span_step  => r.span_step(1),
       line_value => line_z,
       value      => z
       );
@@ -153,18 +266,43 @@ begin
 
     begin
 
+      channel_words : for word in 0 to c_channel_words - 1 generate
+
+        halves : for half in 0 to 1 generate
+
+          constant c_half : natural := c_low + word * c_value_bits + half * c_value_bits / 2; -- elaboration only
+          constant c_high : natural := c_low + word * c_value_bits + (half + 1) * c_value_bits / 2 - 1; -- elaboration only
+
+          begin
+
+            place : entity work.parameter_register
+              generic map (
+                g_bits => c_high - c_half + 1
+                )
+              port map (
+                clk   => clk,
+                load  => r.copy(1 + half),
+                start => init(c_high downto c_half),
+                value => words(c_high downto c_half)
+                );
+
+        end generate;
+
+      end generate;
+
       interpolator : entity work.quadratic_interpolator
         generic map (
-          g_exact => g_exact
+          g_exact => g_exact,
+          g_split => true
           )
         port map (
           clk        => clk,
-          init       => init(c_low + c_channel_bits - 1 downto c_low),
-          line_load  => line_load,
-          line_step  => line_step,
-          line_carry => line_carry,
-          span_load  => span_load,
-          span_step  => span_step,
+          init       => words(c_low + c_channel_bits - 1 downto c_low),
+          line_load  => r.line_load(1),
+          line_step  => r.line_step,
+          line_carry => r.line_carry,
+          span_load  => r.span_load,
+          span_step  => r.span_step(1),
           line_value => line_value,
           line_dx    => line_dx,
           line_de0   => line_de0,
@@ -204,85 +342,83 @@ begin
     colours(3 * c_colour - 1 downto c_colour) <= colours(c_colour - 1 downto 0) & colours(c_colour - 1 downto 0);
   end generate;
 
-  -- The register behind the shader: one stream_register, its payload field by field.
-  handshake : entity work.stream_register
-    generic map (
-      g_bits => c_formats.triangle.bits
-      )
-    port map (
-      clk       => clk,
-      reset     => reset,
-      in_valid  => drawn,
-      in_ready  => drawn_ready,
-      in_data   => triangle,
-      out_valid => out_valid,
-      out_ready => fragment_ready,
-      out_data  => fragment_triangle
-      );
+  whole_z     <= z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction);
+  pixel_valid <= r.span_step(2);
+  pixel       <= colours & whole_z & pixels(2).x(fragment_x'range) & pixels(2).y & pixels(2).triangle;
 
-  position : entity work.parameter_register
+  queue : entity work.stream_queue
     generic map (
       g_bits => pixel'length
       )
     port map (
-      clk   => clk,
-      load  => span_step,
-      start => pixel,
-      value => fragment_pixel
+      clk       => clk,
+      reset     => reset,
+      claim     => span_step,
+      room      => room,
+      holds     => coming,
+      in_valid  => pixel_valid,
+      in_data   => pixel,
+      out_valid => fragment_valid,
+      out_ready => fragment_ready,
+      out_data  => fragment_pixel
       );
 
-  whole_z    <= z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction);
-  pixel      <= y & x(fragment_x'range);
-  fragment_y <= fragment_pixel(fragment_pixel'high downto fragment_x'length);
-  fragment_x <= fragment_pixel(fragment_x'range);
+  fragment_triangle <= fragment_pixel(c_triangle_low + fragment_triangle'length - 1 downto c_triangle_low);
+  fragment_y        <= fragment_pixel(c_y_low + fragment_y'length - 1 downto c_y_low);
+  fragment_x        <= fragment_pixel(c_x_low + fragment_x'length - 1 downto c_x_low);
+  fragment_z        <= fragment_pixel(c_z_low + fragment_z'length - 1 downto c_z_low);
+  fragment_red      <= fragment_pixel(c_red_low + fragment_red'length - 1 downto c_red_low);
+  fragment_green    <= fragment_pixel(c_green_low + fragment_green'length - 1 downto c_green_low);
+  fragment_blue     <= fragment_pixel(c_blue_low + fragment_blue'length - 1 downto c_blue_low);
 
-  depth_out : entity work.parameter_register
-    generic map (
-      g_bits => fragment_z'length
-      )
-    port map (
-      clk   => clk,
-      load  => span_step,
-      start => whole_z,
-      value => fragment_z
-      );
+  init_ready <= buffer_free;
 
-  colour_out : entity work.parameter_register
-    generic map (
-      g_bits => 3 * c_colour
-      )
-    port map (
-      clk   => clk,
-      load  => span_step,
-      start => colours,
-      value => fragment_colours
-      );
-
-  fragment_red   <= fragment_colours(c_colour - 1 downto 0);
-  fragment_green <= fragment_colours(2 * c_colour - 1 downto c_colour);
-  fragment_blue  <= fragment_colours(3 * c_colour - 1 downto 2 * c_colour);
-
-  fragment_valid <= out_valid;
-  busy           <= waiting or walking or out_valid;
-  fault          <= '0';
+  busy  <= waiting or walking or coming;
+  fault <= '0';
 
   probed : if g_probe generate
 
-    probe(c_probe.line_event.low)                                  <= span_load;
-    probe(c_probe.span_event.low)                                  <= span_step;
-    probe(c_probe.sample_event.low)                                <= '0'; -- stages of another shader
-    probe(c_probe.product_event.low)                               <= '0';
-    probe(c_probe.line_y.high downto c_probe.line_y.low)           <= line_y;
-    probe(c_probe.line_start.high downto c_probe.line_start.low)   <= line_start;
-    probe(c_probe.line_stop.high downto c_probe.line_stop.low)     <= line_stop;
-    probe(c_probe.line_z.high downto c_probe.line_z.low)           <= line_z;
-    probe(c_probe.span_y.high downto c_probe.span_y.low)           <= y;
-    probe(c_probe.span_x.high downto c_probe.span_x.low)           <= x;
-    probe(c_probe.span_z.high downto c_probe.span_z.low)           <= z;
+    -- The line that a span begins with, till the interpolators' words are there.
+    type line_t is record
+      begins : std_logic;
+      carry  : std_logic;
+      y      : std_logic_vector(fragment_y'range);
+      start  : span_x_t;
+      stop   : span_x_t;
+    end record;
 
-    probed_carry : if g_exact generate
-      probe(c_probe.line_carry.low) <= line_carry;
-    end generate;
+    type lines_t is array (1 to 2) of line_t;
+
+    signal lines : lines_t;
+
+    begin
+
+      beside_lines : process (clk)
+      begin
+        if rising_edge(clk) then
+          lines <= ((span_load, line_carry, line_y, line_start, line_stop), lines(1));
+          if reset = '1' then
+            lines(1).begins <= '0';
+            lines(2).begins <= '0';
+          end if;
+        end if;
+      end process;
+
+      probe(c_probe.line_event.low)                                <= lines(2).begins;
+      probe(c_probe.span_event.low)                                <= r.span_step(2);
+      probe(c_probe.sample_event.low)                              <= '0'; -- stages of another shader
+      probe(c_probe.product_event.low)                             <= '0';
+      probe(c_probe.line_y.high downto c_probe.line_y.low)         <= lines(2).y;
+      probe(c_probe.line_start.high downto c_probe.line_start.low) <= lines(2).start;
+      probe(c_probe.line_stop.high downto c_probe.line_stop.low)   <= lines(2).stop;
+      probe(c_probe.line_z.high downto c_probe.line_z.low)         <= line_z;
+      probe(c_probe.span_y.high downto c_probe.span_y.low)         <= pixels(2).y;
+      probe(c_probe.span_x.high downto c_probe.span_x.low)         <= pixels(2).x;
+      probe(c_probe.span_z.high downto c_probe.span_z.low)         <= z;
+
+      probed_carry : if g_exact generate
+        probe(c_probe.line_carry.low) <= lines(2).carry;
+      end generate;
 
   else generate
 

@@ -3,7 +3,9 @@
 -- Purpose     The spherical shader: a header a triangle and a record for each of its lines in, a fragment for each
 --             pixel that the triangle covers out.
 --             stream_register -> triangle_walker -> z_interpolator, a diffuse_slice and a specular_slice a light
---             -> a saturating_sum a channel -> stream_register
+--             -> a saturating_sum a channel -> stream_queue
+--             The walker alone waits for whoever takes the fragments; all behind it runs on, and the queue has a place
+--             for every pixel that is on its way.
 --             What no effect asks for is not there: no diffuse_slice where neither diffuse light nor (preset exact) the
 --             horizon of a highlight needs one, no line records where a light has no part in them.
 -- Contract    Both streams are valid/ready; a fragment stands still while it waits. A triangle's header (walk, depth,
@@ -11,9 +13,10 @@
 --             spherical_pkg says where the lights' parts lie. One channel (g_channels = 1) is given out as red, green
 --             and blue.
 -- Formats     formats_pkg: init (header), ambient, diffuse, specular, depth, colour
--- Latency     6 clocks from a header taken to the triangle's first fragment (its first line covering a pixel)
--- Throughput  1 fragment a clock, with no bubble between spans and lines; between triangles one clock is lost where the
---             last span has a single pixel, none without line records. Lines that cover no pixel cost a clock each
+-- Latency     11 clocks from a header taken to the triangle's first fragment (its first line covering a pixel)
+-- Throughput  1 fragment a clock, with no bubble between spans and lines; between triangles two clocks are lost where
+--             the last span has a single pixel, one where it has two; without line records one behind a triangle of a
+--             single pixel. Lines that cover no pixel cost a clock each
 --             where no span is being drawn meanwhile.
 -- Error       the sum of the terms is exact, and rounded once; their factors and samples: see formats_pkg, cosine_rom
 -- Source      spherical paper, section 5 and figure 12
@@ -83,10 +86,13 @@ architecture rtl of spherical_shader is
   constant c_light_terms : natural  := boolean'pos(g_diffuse) + boolean'pos(g_specular);
   constant c_terms       : positive := 1 + g_lights * c_light_terms;
 
-  subtype pixel_t   is std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length - 1 downto 0);
+  subtype place_t   is std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length - 1 downto 0);
   subtype depth_t   is std_logic_vector(c_formats.depth.bits - 1 downto 0);
   subtype ambient_t is std_logic_vector(ambient_bits(g_exact, g_channels) - 1 downto 0);
+  subtype probe_t   is std_logic_vector(probe'length - 1 downto 0);
   subtype terms_t   is std_logic_vector(c_terms * c_term_bits - 1 downto 0);
+
+  type probes_t is array (1 to 2) of probe_t;
 
   type terms_of_channels_t is array (0 to g_channels - 1) of terms_t;
 
@@ -103,22 +109,53 @@ architecture rtl of spherical_shader is
   signal triangle                     : std_logic_vector(fragment_triangle'range);
   signal line_z, z                    : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
   signal walking                      : std_logic;
-  signal drawn, drawn_ready           : std_logic;
-  signal sample_valid, sample_ready   : std_logic;
-  signal product_valid, product_ready : std_logic;
-  signal out_valid                    : std_logic;
+  signal room, coming                 : std_logic;
+  signal pixel_valid                  : std_logic;
 
-  -- The strobes that hand a pixel on to the next stage.
-  signal sample_step, product_step : std_logic;
+  -- Behind the span stage, clock by clock: samples, products in three, sums.
+  constant c_sampled    : positive := 1;
+  constant c_multiplied : positive := 4;
+  constant c_summed     : positive := 5;
 
-  -- Beside the angles, stage by stage.
-  signal span_pixel, sample_pixel, product_pixel, out_pixel  : pixel_t;
-  signal span_depth, sample_depth, product_depth             : depth_t;
-  signal line_ambient, span_ambient                          : ambient_t;
-  signal sample_ambient, product_ambient                     : ambient_t;
+  -- Depth comes two clocks behind its pixel: its words are in halves, and it takes the strobes from registers.
+  constant c_depth : positive := 2;
+
+  type places_t is array (1 to c_summed) of place_t;
+
+  type depths_t is array (c_depth + 1 to c_summed) of depth_t;
+
+  type ambients_t is array (1 to c_multiplied) of ambient_t;
+
+  type reg_t is record
+    filled     : std_logic_vector(1 to c_summed);
+    line_load  : std_logic;
+    line_step  : std_logic;
+    line_carry : std_logic;
+    span_load  : std_logic;
+  end record;
+
+  -- Where a fragment's fields begin in the queue's words.
+  constant c_x_low        : natural := 0;
+  constant c_y_low        : natural := c_x_low + fragment_x'length;
+  constant c_triangle_low : natural := c_y_low + fragment_y'length;
+  constant c_z_low        : natural := c_triangle_low + fragment_triangle'length;
+  constant c_red_low      : natural := c_z_low + fragment_z'length;
+  constant c_green_low    : natural := c_red_low + fragment_red'length;
+  constant c_blue_low     : natural := c_green_low + fragment_green'length;
+
+  signal r, r_next : reg_t;
+
+  signal places                       : places_t;
+  signal depths                       : depths_t;
+  signal ambients                     : ambients_t;
+  signal header                       : std_logic_vector(c_header_bits - 1 downto 0); -- for depth
+  signal span_place                   : place_t;
+  signal line_ambient, span_ambient   : ambient_t;
+  signal pixel, fragment_pixel        : std_logic_vector(place_t'length + depth_t'length + 3 * c_colour - 1 downto 0);
   signal terms                                               : terms_of_channels_t;
+  signal early                                               : probe_t; -- but for depth
   signal results                                             : std_logic_vector(g_channels * c_colour - 1 downto 0);
-  signal colours, fragment_colours                           : std_logic_vector(3 * c_colour - 1 downto 0); -- red lowest
+  signal colours                                             : std_logic_vector(3 * c_colour - 1 downto 0); -- red lowest
 
 begin
 
@@ -169,8 +206,8 @@ begin
       line_y         => line_y,
       line_start     => line_start,
       line_stop      => line_stop,
-      fragment_valid => drawn,
-      fragment_ready => drawn_ready,
+      fragment_valid => open,
+      fragment_ready => room,
       triangle       => triangle,
       y              => y,
       x              => x,
@@ -182,28 +219,66 @@ begin
 
     header_valid <= waiting and not line_held;
     line_ready   <= waiting;
-    taken        <= line_step or not line_held;
+    taken        <= line_step or line_load;
 
   else generate
 
     header_valid <= waiting;
     line_ready   <= '1';
-    taken        <= header_ready;
+    taken        <= line_load;
 
   end generate;
 
+  combinational : process (all)
+    variable v : reg_t;
+  begin
+    v := r;
+    v.filled     := span_step & r.filled(1 to c_summed - 1);
+    v.line_load  := line_load;
+    v.line_step  := line_step;
+    v.line_carry := line_carry;
+    v.span_load  := span_load;
+    if reset = '1' then
+      v.filled := (others => '0');
+    end if;
+    r_next <= v;
+  end process;
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      r        <= r_next;
+      places   <= span_place & places(1 to c_summed - 1);
+      depths   <= z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction) & depths(c_depth + 1 to c_summed - 1);
+      ambients <= span_ambient & ambients(1 to c_multiplied - 1);
+    end if;
+  end process;
+
+  -- A record takes the header's place in the buffer at once.
+  header_register : entity work.parameter_register
+    generic map (
+      g_bits => c_header_bits
+      )
+    port map (
+      clk   => clk,
+      load  => line_load,
+      start => init(c_header_bits - 1 downto 0),
+      value => header
+      );
+
   depth : entity work.z_interpolator
     generic map (
-      g_exact => g_exact
+      g_exact => g_exact,
+      g_split => true
       )
     port map (
       clk        => clk,
-      init       => init(c_header_bits - 1 downto 0),
-      line_load  => line_load,
-      line_step  => line_step,
-      line_carry => line_carry,
-      span_load  => span_load,
-      span_step  => span_step,
+      init       => header,
+      line_load  => r.line_load,
+      line_step  => r.line_step,
+      line_carry => r.line_carry,
+      span_load  => r.span_load,
+      span_step  => r.filled(1),
       line_value => line_z,
       value      => z
       );
@@ -231,88 +306,7 @@ begin
       value => span_ambient
       );
 
-  span_pixel <= triangle & y & x(fragment_x'range);
-  span_depth <= z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction);
-
-  -- The sample stage: one stream_register, its payload in words of at most 64 bits.
-  sample_stage : entity work.stream_register
-    generic map (
-      g_bits => pixel_t'length
-      )
-    port map (
-      clk       => clk,
-      reset     => reset,
-      in_valid  => drawn,
-      in_ready  => drawn_ready,
-      in_data   => span_pixel,
-      out_valid => sample_valid,
-      out_ready => sample_ready,
-      out_data  => sample_pixel
-      );
-
-  sample_depth_register : entity work.parameter_register
-    generic map (
-      g_bits => depth_t'length
-      )
-    port map (
-      clk   => clk,
-      load  => span_step,
-      start => span_depth,
-      value => sample_depth
-      );
-
-  sample_ambient_register : entity work.parameter_register
-    generic map (
-      g_bits => ambient_t'length
-      )
-    port map (
-      clk   => clk,
-      load  => span_step,
-      start => span_ambient,
-      value => sample_ambient
-      );
-
-  sample_step <= sample_valid and sample_ready;
-
-  -- The product stage, alike.
-  product_stage : entity work.stream_register
-    generic map (
-      g_bits => pixel_t'length
-      )
-    port map (
-      clk       => clk,
-      reset     => reset,
-      in_valid  => sample_valid,
-      in_ready  => sample_ready,
-      in_data   => sample_pixel,
-      out_valid => product_valid,
-      out_ready => product_ready,
-      out_data  => product_pixel
-      );
-
-  product_depth_register : entity work.parameter_register
-    generic map (
-      g_bits => depth_t'length
-      )
-    port map (
-      clk   => clk,
-      load  => sample_step,
-      start => sample_depth,
-      value => product_depth
-      );
-
-  product_ambient_register : entity work.parameter_register
-    generic map (
-      g_bits => ambient_t'length
-      )
-    port map (
-      clk   => clk,
-      load  => sample_step,
-      start => sample_ambient,
-      value => product_ambient
-      );
-
-  product_step <= product_valid and product_ready;
+  span_place <= triangle & y & x(fragment_x'range);
 
   lights : for light in 0 to g_lights - 1 generate
 
@@ -351,7 +345,7 @@ begin
               part        => init(c_low + c_diffuse_bits - 1 downto c_low),
               span_load   => span_load,
               span_step   => span_step,
-              sample_step => sample_step,
+              sample_step => r.filled(c_sampled),
               lit         => lit,
               angle       => angle,
               in_range    => in_range,
@@ -368,9 +362,9 @@ begin
 
           probed_diffuse : if g_probe generate
 
-            probe(c_probe_low + c_fields.angle.high downto c_probe_low + c_fields.angle.low) <= angle;
-            probe(c_probe_low + c_fields.in_range.low)                                         <= in_range;
-            probe(c_probe_low + c_fields.sample.high downto c_probe_low + c_fields.sample.low) <=
+            early(c_probe_low + c_fields.angle.high downto c_probe_low + c_fields.angle.low) <= angle;
+            early(c_probe_low + c_fields.in_range.low)                                         <= in_range;
+            early(c_probe_low + c_fields.sample.high downto c_probe_low + c_fields.sample.low) <=
               std_logic_vector(resize(unsigned(sample), c_formats.sample_word.bits));
 
             probed_products : for channel in 0 to c_diffuse_channels - 1 generate
@@ -379,7 +373,7 @@ begin
 
               begin
 
-                probe(c_block + c_product.product.high downto c_block + c_product.product.low) <=
+                early(c_block + c_product.product.high downto c_block + c_product.product.low) <=
                   std_logic_vector(resize(unsigned(products((channel + 1) * c_term_bits - 1 downto channel
                   * c_term_bits)), c_formats.product_word.bits));
 
@@ -418,7 +412,7 @@ begin
               part        => init(c_low + c_diffuse_bits + c_specular_bits - 1 downto c_low + c_diffuse_bits),
               span_load   => span_load,
               span_step   => span_step,
-              sample_step => sample_step,
+              sample_step => r.filled(c_sampled),
               lit         => lit,
               angle       => angle,
               in_range    => in_range,
@@ -440,9 +434,9 @@ begin
 
           probed_specular : if g_probe generate
 
-            probe(c_specular_low + c_fields.angle.high downto c_specular_low + c_fields.angle.low) <= angle;
-            probe(c_specular_low + c_fields.in_range.low)                                            <= in_range;
-            probe(c_specular_low + c_fields.sample.high downto c_specular_low + c_fields.sample.low) <=
+            early(c_specular_low + c_fields.angle.high downto c_specular_low + c_fields.angle.low) <= angle;
+            early(c_specular_low + c_fields.in_range.low)                                            <= in_range;
+            early(c_specular_low + c_fields.sample.high downto c_specular_low + c_fields.sample.low) <=
               std_logic_vector(resize(unsigned(sample), c_formats.sample_word.bits));
 
             probed_products : for channel in 0 to g_highlight_channels - 1 generate
@@ -451,7 +445,7 @@ begin
 
               begin
 
-                probe(c_block + c_product.product.high downto c_block + c_product.product.low) <=
+                early(c_block + c_product.product.high downto c_block + c_product.product.low) <=
                   std_logic_vector(resize(unsigned(products((channel + 1) * c_term_bits - 1 downto channel
                   * c_term_bits)), c_formats.product_word.bits));
 
@@ -472,7 +466,7 @@ begin
 
       -- As many fraction bits as a product has.
       terms(channel)(c_term_bits - 1 downto 0) <=
-        product_ambient(c_low + c_ambient.high downto c_low + c_ambient.low) & (g_data_bits - 1 downto 0 => '0');
+        ambients(c_multiplied)(c_low + c_ambient.high downto c_low + c_ambient.low) & (g_data_bits - 1 downto 0 => '0');
 
       sum : entity work.saturating_sum
         generic map (
@@ -482,6 +476,8 @@ begin
           g_result_bits   => c_colour
           )
         port map (
+          clk    => clk,
+          enable => r.filled(c_multiplied),
           terms  => terms(channel),
           result => results((channel + 1) * c_colour - 1 downto channel * c_colour)
           );
@@ -499,73 +495,80 @@ begin
 
   end generate;
 
-  -- The register behind the shader.
-  out_stage : entity work.stream_register
+  pixel_valid <= r.filled(c_summed);
+  pixel       <= colours & depths(c_summed) & places(c_summed);
+
+  -- A pixel comes five clocks after its claim: seven places would not do.
+  queue : entity work.stream_queue
     generic map (
-      g_bits => pixel_t'length
+      g_bits       => pixel'length,
+      g_index_bits => 4
       )
     port map (
       clk       => clk,
       reset     => reset,
-      in_valid  => product_valid,
-      in_ready  => product_ready,
-      in_data   => product_pixel,
-      out_valid => out_valid,
+      claim     => span_step,
+      room      => room,
+      holds     => coming,
+      in_valid  => pixel_valid,
+      in_data   => pixel,
+      out_valid => fragment_valid,
       out_ready => fragment_ready,
-      out_data  => out_pixel
+      out_data  => fragment_pixel
       );
 
-  depth_out : entity work.parameter_register
-    generic map (
-      g_bits => depth_t'length
-      )
-    port map (
-      clk   => clk,
-      load  => product_step,
-      start => product_depth,
-      value => fragment_z
-      );
+  fragment_x        <= fragment_pixel(c_x_low + fragment_x'length - 1 downto c_x_low);
+  fragment_y        <= fragment_pixel(c_y_low + fragment_y'length - 1 downto c_y_low);
+  fragment_triangle <= fragment_pixel(c_triangle_low + fragment_triangle'length - 1 downto c_triangle_low);
+  fragment_z        <= fragment_pixel(c_z_low + fragment_z'length - 1 downto c_z_low);
+  fragment_red      <= fragment_pixel(c_red_low + fragment_red'length - 1 downto c_red_low);
+  fragment_green    <= fragment_pixel(c_green_low + fragment_green'length - 1 downto c_green_low);
+  fragment_blue     <= fragment_pixel(c_blue_low + fragment_blue'length - 1 downto c_blue_low);
 
-  colour_out : entity work.parameter_register
-    generic map (
-      g_bits => 3 * c_colour
-      )
-    port map (
-      clk   => clk,
-      load  => product_step,
-      start => colours,
-      value => fragment_colours
-      );
-
-  fragment_x        <= out_pixel(fragment_x'range);
-  fragment_y        <= out_pixel(fragment_x'length + fragment_y'length - 1 downto fragment_x'length);
-  fragment_triangle <= out_pixel(out_pixel'high downto fragment_x'length + fragment_y'length);
-
-  fragment_red   <= fragment_colours(c_colour - 1 downto 0);
-  fragment_green <= fragment_colours(2 * c_colour - 1 downto c_colour);
-  fragment_blue  <= fragment_colours(3 * c_colour - 1 downto 2 * c_colour);
-
-  fragment_valid <= out_valid;
-  busy           <= waiting or walking or sample_valid or product_valid or out_valid;
-  fault          <= '0';
+  busy  <= waiting or walking or coming;
+  fault <= '0';
 
   probed : if g_probe generate
 
-    probe(c_probe.line_event.low)                                <= span_load;
-    probe(c_probe.span_event.low)                                <= span_step;
-    probe(c_probe.sample_event.low)                              <= sample_step;
-    probe(c_probe.product_event.low)                             <= product_step;
-    probe(c_probe.line_y.high downto c_probe.line_y.low)         <= line_y;
-    probe(c_probe.line_start.high downto c_probe.line_start.low) <= line_start;
-    probe(c_probe.line_stop.high downto c_probe.line_stop.low)   <= line_stop;
-    probe(c_probe.line_z.high downto c_probe.line_z.low)         <= line_z;
-    probe(c_probe.span_y.high downto c_probe.span_y.low)         <= y;
-    probe(c_probe.span_x.high downto c_probe.span_x.low)         <= x;
-    probe(c_probe.span_z.high downto c_probe.span_z.low)         <= z;
+    -- All but depth waits for depth.
+    signal later : probes_t;
 
-    probed_carry : if g_exact generate
-      probe(c_probe.line_carry.low) <= line_carry;
-    end generate;
+    begin
+
+      early(c_probe.line_event.low)                                <= span_load;
+      early(c_probe.span_event.low)                                <= span_step;
+      early(c_probe.sample_event.low)                              <= r.filled(c_sampled);
+      early(c_probe.product_event.low)                             <= r.filled(c_multiplied);
+      early(c_probe.line_y.high downto c_probe.line_y.low)         <= line_y;
+      early(c_probe.line_start.high downto c_probe.line_start.low) <= line_start;
+      early(c_probe.line_stop.high downto c_probe.line_stop.low)   <= line_stop;
+      early(c_probe.line_z.high downto c_probe.line_z.low)         <= (others => '0');
+      early(c_probe.span_y.high downto c_probe.span_y.low)         <= y;
+      early(c_probe.span_x.high downto c_probe.span_x.low)         <= x;
+      early(c_probe.span_z.high downto c_probe.span_z.low)         <= (others => '0');
+
+      probed_carry : if g_exact generate
+        early(c_probe.line_carry.low) <= line_carry;
+      end generate;
+
+      wait_for_depth : process (clk)
+      begin
+        if rising_edge(clk) then
+          later <= early & later(1);
+          if reset = '1' then
+            later <= (others => (others => '0'));
+          end if;
+        end if;
+      end process;
+
+      with_depth : process (all)
+        variable v : probe_t;
+      begin
+        v := later(c_depth);
+        v(c_probe.line_z.high downto c_probe.line_z.low) := line_z;
+        v(c_probe.span_z.high downto c_probe.span_z.low) := z;
+        probe <= v;
+      end process;
 
   else generate
 

@@ -69,9 +69,11 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
     return tool_failed(
         fmt::format("{}: the netlist has no module with the ports init_data and probe", key.name()));
   }
+  if (!options.netlist.empty()) *netlist = options.netlist;
   const std::filesystem::path folder = folders.source / "sim/verilator";
   const VerilatedBuild build{
-      .name = key.name() + (options.wave_file.empty() ? "" : "-waves") + (options.plain_eval ? "-plain" : ""),
+      .name = key.name() + (options.wave_file.empty() ? "" : "-waves") +
+              (options.plain_eval ? "-plain" : "") + (options.netlist.empty() ? "" : "-mapped"),
       .netlist = std::move(*netlist),
       .top = key.entity(),
       .harness = folder / "harness.cpp",
@@ -81,7 +83,8 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
                       fmt::format("HALFWAY_PROBE_BITS={}", probe_bits),
                       options.plain_eval ? "HALFWAY_PLAIN_EVAL=1" : "HALFWAY_DIRECT_EVAL=1"},
       .waves = !options.wave_file.empty(),
-      .fast = options.wave_file.empty() && !key.probe,  // those are for looking at a few cycles
+      // The others are for looking at a few cycles.
+      .fast = options.wave_file.empty() && !key.probe && options.netlist.empty(),
       .compiler = options.compiler};
   auto library = open_verilated(build, folders.cache);
   if (!library) return library.error();

@@ -31,6 +31,9 @@ struct VerilatorOptions {
   std::uint64_t waves_from = 0, waves_to = UINT64_MAX;  ///< cycles [from, to)
   std::string compiler{};                               ///< empty: clang++ where it is installed, else g++
   bool plain_eval = false;  ///< only through Verilator's eval(), to test the harness's shorter way
+  /// Verilog with the key's top and its ports, in place of what GHDL makes of the RTL; such as what Yosys
+  /// makes of that.
+  std::string netlist{};
 };
 
 class VerilatorSimulator {

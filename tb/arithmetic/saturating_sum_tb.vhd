@@ -19,6 +19,8 @@ entity saturating_sum_run is
 end entity;
 
 architecture sim of saturating_sum_run is
+  signal clk    : std_logic := '0';
+  signal enable : std_logic := '0';
   signal terms  : std_logic_vector(g_terms * g_term_bits - 1 downto 0) := (others => '0');
   signal result : std_logic_vector(g_result_bits - 1 downto 0);
 begin
@@ -28,7 +30,9 @@ begin
       g_term_bits     => g_term_bits,
       g_fraction_bits => g_fraction_bits,
       g_result_bits   => g_result_bits)
-    port map (terms => terms, result => result);
+    port map (clk => clk, enable => enable, terms => terms, result => result);
+
+  clk <= not clk after c_half_period when not finished;
 
   run : process is
     variable vectors : vectors_t;
@@ -38,8 +42,14 @@ begin
       & to_string(g_fraction_bits) & "_" & to_string(g_result_bits) & ".txt");
     while vectors.next_vector loop
       vectors.read_word(word);
-      terms <= word;
-      wait for 1 ns;
+      terms  <= word;
+      enable <= '1';
+      wait until rising_edge(clk);
+      -- It stands still without enable.
+      terms  <= not word;
+      enable <= '0';
+      wait until rising_edge(clk);
+      wait until falling_edge(clk);
       vectors.check_word("result of " & to_hstring(word), result);
     end loop;
     finished <= true;

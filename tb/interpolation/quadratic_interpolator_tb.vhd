@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets: every combination of the walker's strobes at random, clock by clock against the golden twin.
+-- Both presets: every combination of the walker's strobes at random, clock by clock against the golden twin;
+-- in halves the same a clock later.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -29,6 +30,8 @@ architecture sim of quadratic_interpolator_run is
   signal span_step  : std_logic := '0';
 
   signal line_value, line_dx, line_de0, line_de1, value, dx : word_t;
+
+  signal split_line_value, split_line_dx, split_line_de0, split_line_de1, split_value, split_dx : word_t;
 begin
   dut : entity work.quadratic_interpolator
     generic map (g_exact => g_exact)
@@ -47,11 +50,36 @@ begin
       value      => value,
       dx         => dx);
 
+    -- A clock later the same.
+  split : entity work.quadratic_interpolator
+    generic map (g_exact => g_exact, g_split => true)
+    port map (
+      clk        => clk,
+      init       => init,
+      line_load  => line_load,
+      line_step  => line_step,
+      line_carry => line_carry,
+      span_load  => span_load,
+      span_step  => span_step,
+      line_value => split_line_value,
+      line_dx    => split_line_dx,
+      line_de0   => split_line_de0,
+      line_de1   => split_line_de1,
+      value      => split_value,
+      dx         => split_dx);
+
   clk <= not clk after c_half_period when not finished;
 
   run : process is
     variable vectors  : vectors_t;
     variable checked  : std_logic;
+    variable before   : std_logic := '0'; -- checked, in the clock before
+    variable before_line_value : word_t;
+    variable before_line_dx : word_t;
+    variable before_line_de0 : word_t;
+    variable before_line_de1 : word_t;
+    variable before_value : word_t;
+    variable before_dx : word_t;
     variable init_now : std_logic_vector(init'range);
     variable strobe   : std_logic_vector(1 to 5);
   begin
@@ -71,6 +99,31 @@ begin
       vectors.check_word_if(checked, "line_de1", line_de1);
       vectors.check_word_if(checked, "value", value);
       vectors.check_word_if(checked, "dx", dx);
+      assert before = '0' or split_line_value = before_line_value
+        report "quadratic_interpolator: split, line_value is " & to_hstring(split_line_value) & ", expected " & to_hstring(before_line_value)
+        severity failure;
+      assert before = '0' or split_line_dx = before_line_dx
+        report "quadratic_interpolator: split, line_dx is " & to_hstring(split_line_dx) & ", expected " & to_hstring(before_line_dx)
+        severity failure;
+      assert before = '0' or split_line_de0 = before_line_de0
+        report "quadratic_interpolator: split, line_de0 is " & to_hstring(split_line_de0) & ", expected " & to_hstring(before_line_de0)
+        severity failure;
+      assert before = '0' or split_line_de1 = before_line_de1
+        report "quadratic_interpolator: split, line_de1 is " & to_hstring(split_line_de1) & ", expected " & to_hstring(before_line_de1)
+        severity failure;
+      assert before = '0' or split_value = before_value
+        report "quadratic_interpolator: split, value is " & to_hstring(split_value) & ", expected " & to_hstring(before_value)
+        severity failure;
+      assert before = '0' or split_dx = before_dx
+        report "quadratic_interpolator: split, dx is " & to_hstring(split_dx) & ", expected " & to_hstring(before_dx)
+        severity failure;
+      before_line_value := line_value;
+      before_line_dx := line_dx;
+      before_line_de0 := line_de0;
+      before_line_de1 := line_de1;
+      before_value := value;
+      before_dx := dx;
+      before := checked;
     end loop;
     finished <= true;
     wait;

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets: every combination of the walker's strobes at random, clock by clock against the golden twin.
+-- Both presets: every combination of the walker's strobes at random, clock by clock against the golden twin;
+-- in halves the same a clock later.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -25,6 +26,8 @@ architecture sim of z_interpolator_run is
   signal span_step  : std_logic := '0';
   signal line_value : std_logic_vector(formats(g_exact).depth_sum.bits - 1 downto 0);
   signal value      : std_logic_vector(line_value'range);
+
+  signal split_line_value, split_value : std_logic_vector(line_value'range);
 begin
   dut : entity work.z_interpolator
     generic map (g_exact => g_exact)
@@ -39,11 +42,28 @@ begin
       line_value => line_value,
       value      => value);
 
+    -- A clock later the same.
+  split : entity work.z_interpolator
+    generic map (g_exact => g_exact, g_split => true)
+    port map (
+      clk        => clk,
+      init       => init,
+      line_load  => line_load,
+      line_step  => line_step,
+      line_carry => line_carry,
+      span_load  => span_load,
+      span_step  => span_step,
+      line_value => split_line_value,
+      value      => split_value);
+
   clk <= not clk after c_half_period when not finished;
 
   run : process is
     variable vectors  : vectors_t;
     variable checked  : std_logic;
+    variable before   : std_logic := '0'; -- checked, in the clock before
+    variable before_line_value : std_logic_vector(line_value'range);
+    variable before_value : std_logic_vector(line_value'range);
     variable init_now : std_logic_vector(init'range);
     variable strobe   : std_logic_vector(1 to 5);
   begin
@@ -59,6 +79,15 @@ begin
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "line_value", line_value);
       vectors.check_word_if(checked, "value", value);
+      assert before = '0' or split_line_value = before_line_value
+        report "z_interpolator: split, line_value is " & to_hstring(split_line_value) & ", expected " & to_hstring(before_line_value)
+        severity failure;
+      assert before = '0' or split_value = before_value
+        report "z_interpolator: split, value is " & to_hstring(split_value) & ", expected " & to_hstring(before_value)
+        severity failure;
+      before_line_value := line_value;
+      before_value := value;
+      before := checked;
     end loop;
     finished <= true;
     wait;

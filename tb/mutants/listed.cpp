@@ -16,9 +16,9 @@ constexpr Listed c_listed[] = {
     {"arithmetic/saturate.vhd", "value(c_sign - 1 downto c_result_high + 1) & '0'",
      "value(c_sign - 2 downto c_result_high + 1) & \"00\""},
     {"arithmetic/saturate.vhd", "result <= (others => '0')", "result <= (others => '1')"},
-    // Signed operands; a product that does not stand still.
-    {"arithmetic/multiplier.vhd", "unsigned(a) * unsigned(b)", "unsigned(signed(a) * signed(b))"},
-    {"arithmetic/multiplier.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
+    // One half for the other; halves taken a clock early.
+    {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"},
+    {"arithmetic/multiplier.vhd", "enable & r.filled(1)", "enable & enable"},
     // The bell is not folded; it has a second one beside it; preset published takes the lower bits.
     {"arithmetic/angle_address.vhd", "magnitude <= not angle when", "magnitude <= angle when"},
     {"arithmetic/angle_address.vhd", "magnitude(c_sign downto c_fraction) = c_inside",
@@ -89,12 +89,19 @@ constexpr Listed c_listed[] = {
     // Overwrites a word that waits; survives reset.
     {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= '1'"},
     {"stream/stream_register.vhd", "v.valid := '0'", "v.valid := r.valid"},
+    // A word given out twice; a word too many; a claim that a reset leaves.
+    {"stream/stream_queue.vhd", "v.read      := r.read + 1", "v.read      := r.read"},
+    {"stream/stream_queue.vhd", "if v.claimed = c_most then", "if r.claimed = c_most then"},
+    {"stream/stream_queue.vhd", "v.claimed   := (others => '0')", "v.claimed   := r.claimed"},
+    // A carry lost, and one that comes too high.
+    {"interpolation/part_interpolator.vhd", "& carry_in)", "& '0')"},
+    {"interpolation/part_interpolator.vhd", "r.carry <= sum(g_bits + 1)", "r.carry <= sum(g_bits)"},
     // The wrong sign; step wins over load.
     {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
     {"interpolation/line_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '0' then"},
     // Carry turned round; the span takes the next triangle's step.
-    {"interpolation/plane_interpolator.vhd", "de <= de1 when line_carry = '1' else de0",
-     "de <= de0 when line_carry = '1' else de1"},
+    {"interpolation/plane_interpolator.vhd", "de <= de1 when line_carries(part) = '1' else de0",
+     "de <= de0 when line_carries(part) = '1' else de1"},
     {"interpolation/plane_interpolator.vhd", "increment => span_dx", "increment => dx"},
     // Depth that never takes the carry.
     {"interpolation/z_interpolator.vhd", "line_carry => line_carry", "line_carry => line_load"},
@@ -102,16 +109,20 @@ constexpr Listed c_listed[] = {
     {"interpolation/quadratic_interpolator.vhd", "de0_step   <= de0e1 when", "de0_step   <= de0e0 when"},
     {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
     // No carry into x; a carry too early.
-    {"raster/edge_walker.vhd", "r.x + r.quotient + 1", "r.x + r.quotient"},
+    {"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '0')"},
     {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
-    // A clock lost between triangles, and between lines; a line lost to a stall; the stop edge never bends.
-    {"raster/triangle_walker.vhd", "not r.line.valid or (line_step and line_last)", "not r.line.valid"},
-    {"raster/triangle_walker.vhd", "not r.span.valid or (fragment_ready and span_last)", "not r.span.valid"},
-    {"raster/triangle_walker.vhd", "(fragment_ready and span_last)", "span_last"},
-    {"raster/triangle_walker.vhd", "line_load or (line_step and to_lower)", "line_load"},
+    // A clock lost between lines of different triangles, and between lines; a line lost to a stall; the stop
+    // edge never bends.
+    {"raster/triangle_walker.vhd", "(edge_step and r.edges.last_behind)", "'0'"},
+    {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "r.span.ends"},
+    {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "'0'"},
+    {"raster/triangle_walker.vhd", "edge_load or (edge_step and to_lower)", "edge_load"},
+    // An init vector read twice; one that nobody is told of until its first line is handed on.
+    {"raster/triangle_walker.vhd", "v.edges.lower_none and not v.edges.first", "v.edges.lower_none"},
+    {"raster/triangle_walker.vhd", "init_ready <= edge_load", "init_ready <= line_load"},
     // A line, or a span, that does not wait for what it needs.
-    {"raster/triangle_walker.vhd", "r.line.valid and line_ready and (", "r.line.valid and ("},
-    {"raster/triangle_walker.vhd", "r.line.valid and line_ready and not", "r.line.valid and not"},
+    {"raster/triangle_walker.vhd", "(r.line.valid and not line_ready)", "'0'"},
+    {"raster/triangle_walker.vhd", "(r.line.draws and (r.span.goes_on", "(r.line.valid and (r.span.goes_on"},
     // Of equal depths the last; a polygon on the surface is before it; a pixel shaded twice; a column that
     // the
     // token before has just changed; its change that does not go on with it; columns that a clear leaves; a
@@ -183,19 +194,30 @@ constexpr Listed c_listed[] = {
     {"shaders/shading_pipeline.vhd", "(processor - 1) / c_terms + 1",
      "(processor - 1) / c_terms + 2 - c_terms"},
     {"shaders/shading_pipeline.vhd", "or faults", "faults(0)"},
-    // Not busy while only the buffer in front holds a triangle; the colour of a fragment that waits moves on.
-    {"shaders/quadratic_shader.vhd", "waiting or walking or out_valid", "walking or out_valid"},
-    {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => colours",
-     "load  => drawn,\n      start => colours"},
+    // Not busy while only the buffer in front holds a triangle; pixels that nothing has a place for; a pixel
+    // with
+    // the position of the next; a triangle let go before the upper halves have it.
+    {"shaders/quadratic_shader.vhd", "waiting or walking or coming", "walking or coming"},
+    {"shaders/quadratic_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
+    {"shaders/quadratic_shader.vhd", "pixels <= ((triangle, y, x), pixels(1))",
+     "pixels <= ((triangle, y, x), (triangle, y, x))"},
+    {"shaders/quadratic_shader.vhd", "out_ready => r.walk_taken", "out_ready => walk_ready"},
+    {"shaders/quadratic_shader.vhd", "v.copy_waits and not v.placed", "v.copy_waits"},
+    {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + half),\n                start",
+     "load  => r.copy(1),\n                start"},
     // A record taken as a header; an empty line's record taken for the next line's; the ambient light of the
-    // triangle behind; not busy while only the sample
-    // stage holds a pixel; a sample that moves on without its pixel; white highlights all red.
+    // triangle behind; not busy while only
+    // the buffer holds a vector; pixels that nothing has a place for; another line's ambient light; white
+    // highlights all
+    // red.
     {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
-    {"shaders/spherical_shader.vhd", "line_step or not line_held", "line_load or span_load"},
+    {"shaders/spherical_shader.vhd", "line_step or line_load", "line_load or span_load"},
     {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
      "load  => line_load,\n      start => line_ambient"},
-    {"shaders/spherical_shader.vhd", "walking or sample_valid or product_valid", "walking or product_valid"},
-    {"shaders/spherical_shader.vhd", "sample_valid and sample_ready", "sample_valid"},
+    {"shaders/spherical_shader.vhd", "waiting or walking or coming", "walking or coming"},
+    {"shaders/spherical_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
+    {"shaders/spherical_shader.vhd", "span_ambient & ambients(1 to c_multiplied - 1)",
+     "line_ambient & ambients(1 to c_multiplied - 1)"},
     {"shaders/spherical_shader.vhd", "channel * boolean'pos(g_highlight_channels > 1)",
      "channel * boolean'pos(g_highlight_channels > 3)"},
     // A load taken for a triangle, one that overtakes objects in the walker or in the object stage, one that

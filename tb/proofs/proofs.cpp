@@ -27,6 +27,23 @@ std::vector<Proof> all_proofs() {
         {"stream/stream_register.vhd", "v.valid := in_valid", "v.valid := in_valid or r.valid"},
         {"stream/stream_register.vhd", "take     <= in_valid and free", "take     <= in_valid"},
         {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= not r.valid"}}});
+  proofs.push_back(
+      {"stream/stream_queue",
+       "stream/stream_queue.psl",
+       "Numbered words come out with every number, in order, two clocks behind when nothing waits; never "
+       "more "
+       "are claimed than it has places for: 3 places, 3 bits",
+       Method::pdr,
+       12,
+       true,
+       {{"g_bits", "3"}, {"g_index_bits", "2"}},
+       {{"stream/stream_queue.vhd", "stored and (out_ready or not r.out_valid)",
+         "stored and not r.out_valid"},
+        {"stream/stream_queue.vhd", "stored and (out_ready or not r.out_valid)", "stored"},
+        {"stream/stream_queue.vhd", "r.out_valid and out_ready;", "r.out_valid;"},
+        {"stream/stream_queue.vhd", "if v.claimed = c_most then", "if r.claimed = c_most then"},
+        {"stream/stream_queue.vhd", "v.claimed   := (others => '0')", "v.claimed   := r.claimed"},
+        {"stream/stream_queue.vhd", "memory(to_integer(r.read))", "memory(to_integer(r.write))"}}});
   proofs.push_back({"stream/delay_line",
                     "stream/delay_line.psl",
                     "The word of g_depth = 5 enabled clocks ago, whatever stalls",
@@ -79,15 +96,16 @@ std::vector<Proof> all_proofs() {
   proofs.push_back(
       {"arithmetic/multiplier",
        "arithmetic/multiplier.psl",
-       "The sum of a's multiples that b's bits ask for, a clock later, and it stands still without enable: 6 "
-       "by 6 "
-       "bits",
+       "The sum of a's multiples that b's bits ask for, three clocks later, and it stands still without "
+       "enable: "
+       "6 by 6 bits",
        Method::induction,
-       1,
+       5,
        true,
        {{"g_a_bits", "6"}, {"g_b_bits", "6"}},
-       {{"arithmetic/multiplier.vhd", "unsigned(a) * unsigned(b)", "unsigned(a) * unsigned(b) + 1"},
-        {"arithmetic/multiplier.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"}}});
+       {{"arithmetic/multiplier.vhd", "unsigned(padded((i + 1)", "1 + unsigned(padded((i + 1)"},
+        {"arithmetic/multiplier.vhd", "enable & r.filled(1)", "enable & enable"},
+        {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"}}});
   proofs.push_back(
       {"arithmetic/angle_address",
        "arithmetic/angle_address.psl",
@@ -171,44 +189,59 @@ std::vector<Proof> all_proofs() {
        3,
        true,
        {},
-       {{"raster/edge_walker.vhd", "r.x + r.quotient + 1", "r.x + r.quotient"},
+       {{"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '0')"},
         {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
-        {"raster/edge_walker.vhd", "r.error - r.remainder + r.divisor", "r.error + r.remainder"}}});
+        {"raster/edge_walker.vhd", "r.error + r.rise", "r.error + r.remainder"}}});
   const std::vector<Fault> walker_faults = {
-      {"raster/triangle_walker.vhd", "not r.line.valid or (line_step and line_last)", "not r.line.valid"},
-      {"raster/triangle_walker.vhd", "not r.line.valid or (line_step and line_last)",
-       "not r.line.valid or line_step"},
-      {"raster/triangle_walker.vhd", "not r.span.valid or (fragment_ready and span_last)",
-       "not r.span.valid"},
-      {"raster/triangle_walker.vhd", "(fragment_ready and span_last)", "span_last"},
-      {"raster/triangle_walker.vhd", "(fragment_ready and span_last)", "fragment_ready"},
-      {"raster/triangle_walker.vhd", "v.span.valid := not span_last", "v.span.valid := '1'"},
+      {"raster/triangle_walker.vhd", "init_ready <= edge_load", "init_ready <= line_load"},
+      {"raster/triangle_walker.vhd", "v.edges.lower_none and not v.edges.first", "v.edges.lower_none"},
+      {"raster/triangle_walker.vhd", "edge_step and r.edges.last_behind", "edge_step"},
+      {"raster/triangle_walker.vhd", "edge_step <= r.edges.valid and not blocked",
+       "edge_step <= r.edges.valid and not r.line.valid"},
+      {"raster/triangle_walker.vhd", "edge_step <= r.edges.valid and not blocked",
+       "edge_step <= r.edges.valid"},
+      {"raster/triangle_walker.vhd", "edge_step and r.edges.first;", "edge_step;"},
+      {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "r.span.ends"},
+      {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "'0'"},
+      {"raster/triangle_walker.vhd", "(r.span.goes_on or (", "('0' or ("},
+      {"raster/triangle_walker.vhd", "v.span.valid := r.span.goes_on", "v.span.valid := '1'"},
+      {"raster/triangle_walker.vhd", "if r.line.more = 0 then", "if r.line.more = 1 then"},
+      {"raster/triangle_walker.vhd", "if r.span.more = 1 then", "if r.span.more = 0 then"},
+      {"raster/triangle_walker.vhd", "v.span.more := r.span.more - 1", "v.span.more := r.span.more"},
       {"raster/triangle_walker.vhd", "span_step <= r.span.valid and fragment_ready",
        "span_step <= r.span.valid"},
-      {"raster/triangle_walker.vhd", "v.span.x        := start", "v.span.x        := stop"},
-      {"raster/triangle_walker.vhd", "start >= stop", "start > stop"},
-      {"raster/triangle_walker.vhd", "line_ready and not line_empty and span_free",
-       "not line_empty and span_free"},
-      {"raster/triangle_walker.vhd", "(line_empty or span_free)", "span_free"},
-      {"raster/triangle_walker.vhd", "v.line.y     := r.line.y + 1", "v.line.y     := r.line.y"},
-      {"raster/triangle_walker.vhd", "v.line.lines := r.line.lines - 1", "v.line.lines := r.line.lines"},
+      {"raster/triangle_walker.vhd", "v.span.x        := r.line.start", "v.span.x        := r.line.stop"},
+      {"raster/triangle_walker.vhd", "(r.line.valid and not line_ready)", "'0'"},
+      {"raster/triangle_walker.vhd", "(r.line.draws and (r.span.goes_on",
+       "(r.line.valid and (r.span.goes_on"},
+      {"raster/triangle_walker.vhd", "r.edges.y + 1", "r.edges.y"},
+      {"raster/triangle_walker.vhd", "r.edges.lines - 1", "r.edges.lines"},
+      {"raster/triangle_walker.vhd", "if r.edges.lines = 2 then", "if r.edges.lines = 1 then"},
+      {"raster/triangle_walker.vhd", "if init_upper_lines = 1 then", "if init_upper_lines = 0 then"},
   };
   std::vector<Fault> exact_faults = walker_faults;
   exact_faults.push_back(
-      {"raster/triangle_walker.vhd", "section_last = '1' and r.line.lower_lines = 0", "section_last = '1'"});
-  exact_faults.push_back({"raster/triangle_walker.vhd", "when r.span.backward = '1' else r.span.x + 1",
-                          "when r.line.backward = '1' else r.span.x + 1"});
+      {"raster/triangle_walker.vhd", "if init_lower_lines = 0 then", "if init_lower_lines = 1 then"});
+  exact_faults.push_back(
+      {"raster/triangle_walker.vhd", "if r.edges.lower_lines = 1 then", "if r.edges.lower_lines = 0 then"});
+  exact_faults.push_back(
+      {"raster/triangle_walker.vhd", "v.edges.lower_none   := '1'", "v.edges.lower_none   := '0'"});
+  exact_faults.push_back({"raster/triangle_walker.vhd", "to_x + not from_x", "to_x - from_x"});
+  std::vector<Fault> published_faults = walker_faults;
+  published_faults.push_back(
+      {"raster/triangle_walker.vhd", "more(more'high) = '1' or last = c_highest", "more(more'high) = '1'"});
+  const std::vector<Width> narrow_walk = {
+      {"span_x", 4, 0}, {"edge_error", 3, 0}, {"lines", 3, 0}, {"pixel_y", 3, 0}, {"triangle", 2, 0}};
   const std::vector<Fault> box_faults = {
-      {"raster/triangle_walker.vhd", "stop_load <= line_load or (line_step and to_lower)",
-       "stop_load <= line_load or (line_step and line_last)"},
-      {"raster/triangle_walker.vhd", "section   <= upper when line_load = '1' else held_lower",
-       "section   <= upper when line_load = '1' else lower"},
+      {"raster/triangle_walker.vhd", "stop_load <= edge_load or (edge_step and to_lower)",
+       "stop_load <= edge_load or (edge_step and edge_last)"},
+      {"raster/triangle_walker.vhd", "section   <= held_lower when", "section   <= lower when"},
       {"raster/triangle_walker.vhd", "load_carry     => section(c_section_bits - 1)",
        "load_carry     => upper(c_section_bits - 1)"},
-      {"raster/triangle_walker.vhd", "r.line.backward = '0' and start >= stop",
-       "r.line.backward = '0' and start = stop"},
-      {"raster/triangle_walker.vhd", "v.line.y     := r.line.y + 1", "v.line.y     := r.line.y + 2"},
-      {"raster/edge_walker.vhd", "r.error - r.remainder + r.divisor", "r.error - r.remainder"},
+      {"raster/triangle_walker.vhd", "empty  <= more(more'high)", "empty  <= '0'"},
+      {"raster/triangle_walker.vhd", "r.edges.y + 1", "r.edges.y + 2"},
+      {"raster/triangle_walker.vhd", "v.line.carry    := edge_carry", "v.line.carry    := not edge_carry"},
+      {"raster/edge_walker.vhd", "r.error + r.rise", "r.error - r.remainder"},
   };
   for (const bool exact : {true, false})
     proofs.push_back(
@@ -224,23 +257,36 @@ std::vector<Proof> all_proofs() {
          3,
          exact,
          {{"g_exact", exact ? "true" : "false"}},
-         exact ? exact_faults : walker_faults,
-         {},
+         exact ? exact_faults : published_faults,
+         exact ? narrow_walk : std::vector<Width>{},
          false,
-         8});
+         8,
+         true});
 
+  const std::vector<Width> narrow_box = {
+      {"span_x", 3, 0}, {"edge_error", 2, 0}, {"lines", 2, 0}, {"pixel_y", 3, 0}, {"triangle", 1, 0}};
+  proofs.push_back({"raster/edge_walker",
+                    "raster/edge_walker_box.psl",
+                    "An edge that begins and ends between two pixels leaves them on no line between: any edge "
+                    "of 6 lines, 8 columns, divisors up to 3",
+                    Method::pdr,
+                    8,
+                    false,
+                    {},
+                    {{"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '1')"},
+                     {"raster/edge_walker.vhd", "r.error + r.rise", "r.error - r.remainder"}},
+                    narrow_box});
   proofs.push_back(
       {"raster/triangle_walker",
        "raster/triangle_walker_box.psl",
        "No fragment outside its triangle's box, and every line's start, stop and carry those of exact edges: "
-       "any "
-       "edges that begin and end in the box, 6 lines, 8 columns, divisors up to 3",
-       Method::unrolled,
+       "any edges whose lines lie in the box, 6 lines, 8 columns, divisors up to 3",
+       Method::pdr,
        12,
        false,
        {},
        box_faults,
-       {{"span_x", 3, 0}, {"edge_error", 2, 0}, {"lines", 2, 0}, {"pixel_y", 3, 0}, {"triangle", 1, 0}}});
+       narrow_box});
 
   proofs.push_back(
       {"raster/object_stage",
@@ -507,15 +553,23 @@ std::vector<Proof> all_proofs() {
   const std::vector<Fault> quadratic_faults = {
       {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
       {"interpolation/quadratic_interpolator.vhd", "increment => dx_step", "increment => dxx"},
-      {"interpolation/quadratic_interpolator.vhd", "start     => line_dx", "start     => dxx"},
-      {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
+      {"interpolation/quadratic_interpolator.vhd", "start     => part_dx", "start     => dxx"},
+      {"interpolation/part_interpolator.vhd", "'0' & unsigned(increment)", "'0' & unsigned(not increment)"},
+  };
+  const std::vector<Fault> split_faults = {
+      {"interpolation/part_interpolator.vhd", "r.carry <= sum(g_bits + 1)", "r.carry <= sum(g_bits)"},
+      {"interpolation/quadratic_interpolator.vhd", "span_steps(1)   <= span_step",
+       "span_steps(1)   <= span_load"},
+      {"interpolation/quadratic_interpolator.vhd", "carry_in  => carries(span_dx)(part)",
+       "carry_in  => carries(span_value)(part)"},
   };
   std::vector<Fault> carried_faults = quadratic_faults;
-  for (const auto& [from, to] : {std::pair{"de1_step   <= de1e1 when", "de1_step   <= de0e1 when"},
-                                 std::pair{"dx_step    <= dxe1 when", "dx_step    <= dxe0 when"},
-                                 std::pair{"line_de1 when line_carry", "line_de1 when not line_carry"},
-                                 std::pair{"de0_step   <= de0e1 when line_carry = '1' else de0e0;",
-                                           "de0_step   <= de0e0 when line_carry = '1' else de0e1;"}})
+  for (const auto& [from, to] :
+       {std::pair{"de1_step   <= de1e1 when", "de1_step   <= de0e1 when"},
+        std::pair{"dx_step    <= dxe1 when", "dx_step    <= dxe0 when"},
+        std::pair{"part_de1 when line_carries(part) = '1'", "part_de1 when line_carries(part) = '0'"},
+        std::pair{"de0_step   <= de0e1 when line_carries(part) = '1' else de0e0;",
+                  "de0_step   <= de0e0 when line_carries(part) = '1' else de0e1;"}})
     carried_faults.push_back({"interpolation/quadratic_interpolator.vhd", from, to});
   proofs.push_back(
       {"interpolation/line_interpolator",
@@ -538,29 +592,35 @@ std::vector<Proof> all_proofs() {
        5,
        false,
        {{"g_bits", "12"}},
-       {{"interpolation/plane_interpolator.vhd", "de <= de1 when line_carry = '1' else de0",
-         "de <= de0 when line_carry = '1' else de1"},
+       {{"interpolation/plane_interpolator.vhd", "de <= de1 when line_carries(part) = '1' else de0",
+         "de <= de0 when line_carries(part) = '1' else de1"},
         {"interpolation/plane_interpolator.vhd", "increment => span_dx", "increment => dx"},
-        {"interpolation/plane_interpolator.vhd", "load      => span_load", "load      => line_load"}},
+        {"interpolation/plane_interpolator.vhd", "load      => span_loads(part)",
+         "load      => line_loads(part)"}},
        {},
        false,
        6});
-  for (const bool exact : {true, false})
-    proofs.push_back(
-        {"interpolation/quadratic_interpolator",
-         "interpolation/quadratic_interpolator.psl",
-         exact
-             ? "Every line's and every pixel's words are what the second differences make of the triangle's, "
-               "bit for bit, full width"
-             : "The same in preset `published`",
-         Method::induction,
-         2,
-         true,
-         {{"g_exact", exact ? "true" : "false"}},
-         exact ? carried_faults : quadratic_faults,
-         {},
-         false,
-         5});
+  for (const bool split : {false, true})
+    for (const bool exact : {true, false}) {
+      proofs.push_back(
+          {"interpolation/quadratic_interpolator",
+           "interpolation/quadratic_interpolator.psl",
+           fmt::format("{}{}",
+                       exact ? "Every line's and every pixel's words are what the second differences make of "
+                               "the triangle's, bit for bit, full width"
+                             : "The same in preset `published`",
+                       split ? "; words in two halves" : ""),
+           Method::induction,
+           split ? 4 : 2,
+           true,
+           {{"g_exact", exact ? "true" : "false"}, {"g_split", split ? "true" : "false"}},
+           exact ? carried_faults : quadratic_faults,
+           {},
+           false,
+           split ? 7 : 5});
+      if (split)
+        proofs.back().faults.insert(proofs.back().faults.end(), split_faults.begin(), split_faults.end());
+    }
   proofs.push_back(
       {"interpolation/quadratic_interpolator",
        "interpolation/quadratic_interpolator_error.psl",
@@ -605,46 +665,58 @@ std::vector<Proof> all_proofs() {
   proofs.push_back(
       {"shaders/quadratic_shader",
        "shaders/quadratic_shader.psl",
-       "Each pixel of the walker comes out once, with its own depth and colours, and stands still while it "
-       "waits; double buffer: the next triangle is taken while one is drawn, and goes to the walker once, as "
-       "it "
-       "came",
+       "Each pixel of the walker has a place in the queue and comes there once, in order, with its own "
+       "position; two buffers: the next triangles are taken while one is drawn, each goes to the walker "
+       "once, and "
+       "its words stand still until the interpolators have them",
        Method::induction,
        3,
        true,
-       {{"g_channels", "3"}, {"g_probe", "true"}},
-       {{"shaders/quadratic_shader.vhd", "waiting or walking or out_valid", "walking or out_valid"},
-        {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => colours",
-         "load  => drawn,\n      start => colours"},
-        {"shaders/quadratic_shader.vhd", "load  => span_step,\n      start => whole_z",
-         "load  => span_load,\n      start => whole_z"},
-        {"shaders/quadratic_shader.vhd", "out_ready => taken", "out_ready => taken and not walking"},
-        {"shaders/quadratic_shader.vhd", "init_valid     => waiting", "init_valid     => init_valid"},
+       {{"g_channels", "1"}, {"g_probe", "true"}},
+       {{"shaders/quadratic_shader.vhd", "waiting or walking or coming", "walking or coming"},
+        {"shaders/quadratic_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
+        {"shaders/quadratic_shader.vhd", "pixel_valid <= r.span_step(2)", "pixel_valid <= r.span_step(1)"},
+        {"shaders/quadratic_shader.vhd", "v.span_step := ('0', '0')", "v.span_step := v.span_step"},
+        {"shaders/quadratic_shader.vhd", "(r.walk_valid and not walk_ready) or", "waiting or"},
+        {"shaders/quadratic_shader.vhd", "out_ready => r.walk_taken", "out_ready => walk_ready"},
+        {"shaders/quadratic_shader.vhd", "v.copy_waits and not v.placed", "v.copy_waits"},
+        {"shaders/quadratic_shader.vhd", "(r.placed and not line_load)", "r.placed"},
+        {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + half),\n            start",
+         "load  => r.copy(1),\n            start"},
+        {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + half),\n                start",
+         "load  => r.copy(1),\n                start"},
+        {"shaders/quadratic_shader.vhd", "pixels <= ((triangle, y, x), pixels(1))",
+         "pixels <= ((triangle, y, x), (triangle, y, x))"},
         {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= not r.valid"}},
        {},
        false,
-       8});
+       12});
+  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
   proofs.push_back(
       {"shaders/spherical_shader",
        "shaders/spherical_shader.psl",
-       "The same through both stages behind the walker, in order, each with its own depth, ambient "
-       "light and colour; a record goes to its line; any products",
+       "The same five clocks later, each with its own depth and ambient light and the sum of its products; a "
+       "record goes to its line; any products",
        Method::induction,
        3,
        false,
        {{"g_channels", "1"}, {"g_highlight_channels", "1"}},
-       {{"shaders/spherical_shader.vhd", "walking or sample_valid or product_valid",
-         "walking or product_valid"},
-        {"shaders/spherical_shader.vhd", "product_valid and product_ready", "product_valid"},
-        {"shaders/spherical_shader.vhd", "load  => sample_step,\n      start => sample_depth",
-         "load  => span_step,\n      start => sample_depth"},
+       {{"shaders/spherical_shader.vhd", "waiting or walking or coming", "walking or coming"},
+        {"shaders/spherical_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
+        {"shaders/spherical_shader.vhd", "span_step & r.filled(1 to c_summed - 1)",
+         "span_load & r.filled(1 to c_summed - 1)"},
+        {"shaders/spherical_shader.vhd", "span_ambient & ambients(1 to c_multiplied - 1)",
+         "line_ambient & ambients(1 to c_multiplied - 1)"},
         {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
          "load  => line_load,\n      start => line_ambient"},
+        {"shaders/spherical_shader.vhd", "span_place & places(1 to c_summed - 1)",
+         "places(c_summed) & places(1 to c_summed - 1)"},
         {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
-        {"shaders/spherical_shader.vhd", "line_step or not line_held", "line_step or not waiting"}},
+        {"shaders/spherical_shader.vhd", "line_step or line_load", "line_step or not waiting"}},
        {},
        true,
-       10});
+       14});
+  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
   proofs.push_back(
       {"shaders/processors_shader",
        "shaders/processors_shader.psl",
@@ -677,6 +749,7 @@ std::vector<Proof> all_proofs() {
        {},
        true,
        11});
+  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
   return proofs;
 }
 

@@ -58,11 +58,12 @@ void expect_figure(const Figure& figure, const Trace& trace) {
   EXPECT_EQ(trace.pixel_y, y);
 }
 
-// One pixel a clock, each line handed over in the clock of the last line's last pixel. The first pixel stands
-// in the span stage 3 clocks after the vector is taken: buffer, line stage, span stage.
+// One pixel a clock, each line handed over in the clock of the last line's last pixel. The first pixel's
+// words are whole 6 clocks after the vector is taken: buffer, edge stage, line stage, span stage, both
+// halves.
 void expect_clocks(const Trace& trace) {
   std::vector<std::uint64_t> lines, pixels;
-  std::uint64_t clock = 3;
+  std::uint64_t clock = 6;
   for (std::uint64_t k = 1; k <= c_lines; ++k) {
     lines.push_back(clock - 1);
     for (std::uint64_t i = 0; i < k; ++i) pixels.push_back(clock++);
@@ -147,7 +148,7 @@ TEST(figure7, ghdl) {
 
   Trace trace;
   std::ifstream in(probe_file);
-  std::uint64_t clock = 0;
+  std::uint64_t clock = 6;
   for (std::string bits; in >> clock >> bits;) {
     Words words(Shader::c_probe_words), unknown(Shader::c_probe_words);
     ASSERT_EQ(bits.size(), Shader::c_probe_bits);

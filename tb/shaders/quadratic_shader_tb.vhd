@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, one and three channels, by shader_checker. Without empty lines there is a fragment a clock from the
--- first to the last.
+-- Both presets, one and three channels, by shader_checker. Without empty lines there is a fragment a clock, but
+-- behind a triangle of a single pixel.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -96,8 +96,9 @@ begin
       g_probe_bits => c_probe_bits,
       g_probe      => g_probe,
       g_fields     => c_no_fields & c_no_fields & fields_of(false) & fields_of(true),
-      g_latency    => 4,
+      g_latency    => 8,
       g_gapless    => true,
+      g_least      => 2,
       g_stem       => g_stem)
     port map (
       clk               => clk,

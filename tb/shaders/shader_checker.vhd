@@ -21,7 +21,8 @@ entity shader_checker is
     g_events     : integer_vector(0 to 3) := (0, 1, 2, 3); -- their bits of the probe
     g_timed      : boolean  := true; -- the files give the clocks
     g_latency    : positive := 1;    -- clocks from a triangle's first init vector taken to its first fragment, where timed
-    g_gapless    : boolean;          -- no clock is lost between triangles without an empty line
+    g_gapless    : boolean;          -- between triangles without an empty line no clock is lost
+    g_least      : positive := 2;    -- but where one has less pixels than this: as many clocks as are missing
     g_resets     : natural  := 10;   -- passes that a reset ends
     g_faults     : boolean  := false; -- there is a set, "fault", at the end of which the hardware says that it went wrong
     g_stem       : string            -- of the files' names
@@ -136,7 +137,10 @@ begin
       variable taken      : natural := 0;
       variable given      : natural := 0;
       variable init_clock : natural;
-      variable first      : natural := g_latency; -- the clock of the first fragment
+      variable before     : natural := 0;         -- the clock of the fragment before
+      variable pixels     : natural := 0;         -- of its triangle
+      variable last       : std_logic_vector(fragment_triangle'range);
+      variable last_y     : unsigned(fragment_y'range);
     begin
       inits.open_file(g_stem & set & "_init.txt");
       fragments.open_file(g_stem & set & "_fragments.txt");
@@ -191,12 +195,23 @@ begin
             if c_full then
               if g_timed then
                 fragments.check_word("clock", std_logic_vector(to_unsigned(clock, 32)));
-              elsif given = 1 then
-                first := clock;
               end if;
-              if set = "dense" and (given = 1 or g_gapless) and clock /= given - 1 + first then
-                fragments.fail("comes in clock " & to_string(clock) & ", expected " & to_string(given - 1 + first));
+              if given = 1 and g_timed and clock /= g_latency then
+                fragments.fail("comes in clock " & to_string(clock) & ", expected " & to_string(g_latency));
               end if;
+              -- Neighbours may have the same number.
+              if given = 1 or fragment_triangle /= last or unsigned(fragment_y) - last_y > 1 then
+                if set = "dense" and given > 1 and g_gapless and clock > before + 1 + maximum(0, g_least - pixels) then
+                  fragments.fail("of another triangle comes " & to_string(clock - before) & " clocks after the one before");
+                end if;
+                pixels := 0;
+              elsif set = "dense" and g_gapless and clock /= before + 1 then
+                fragments.fail("comes " & to_string(clock - before) & " clocks after the one before");
+              end if;
+              last   := fragment_triangle;
+              last_y := unsigned(fragment_y);
+              before := clock;
+              pixels := pixels + 1;
             end if;
           else
             assert payload = held

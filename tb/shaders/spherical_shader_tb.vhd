@@ -152,7 +152,7 @@ begin
       g_probe      => g_probe,
       g_fields     => fields_of(product_stage) & fields_of(sample_stage) & fields_of(span_stage)
       & fields_of(line_stage),
-      g_latency    => 6,
+      g_latency    => 11,
       g_gapless    => c_diffuse_bits + c_specular_bits = 0 or g_lights = 0,
       g_stem       => g_stem)
     port map (

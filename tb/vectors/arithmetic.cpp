@@ -49,17 +49,20 @@ Status write_saturate(const std::filesystem::path& folder) {
 Status write_multiplier_of(const std::filesystem::path& folder, int a_bits, int b_bits) {
   Random random(static_cast<std::uint64_t>(a_bits + b_bits));
   VectorFile file;
-  std::uint64_t product = 0;
-  bool first = true;
+  std::uint64_t quarters = 0, halves = 0, product = 0;
+  int filled = 0;
   const auto add = [&](bool enable, std::uint64_t a, std::uint64_t b) {
-    file.flag(!first)
+    file.flag(filled > 2)
         .flag(enable)
         .word(a, a_bits)
         .word(b, b_bits)
         .word(product, a_bits + b_bits)
         .end_vector();
-    first = false;
-    if (enable) product = golden::multiply(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+    ++filled;
+    // The quarters of the last product become halves, and these one.
+    product = halves;
+    halves = quarters;
+    if (enable) quarters = golden::multiply(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
   };
   if (a_bits + b_bits <= 16) {
     for (std::uint64_t a = 0; a < std::uint64_t{1} << a_bits; ++a)

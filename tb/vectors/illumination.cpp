@@ -59,17 +59,19 @@ Status write_diffuse(const std::filesystem::path& folder, const SliceSize& size)
   Random random(static_cast<std::uint64_t>(bits));
   VectorFile file;
   golden::DiffuseSlice<Preset> twin(size.channels, size.address_bits, size.data_bits);
-  Pixel sampled, multiplied;
+  Pixel sampled, quarters, halves, multiplied;
   for (int i = 0; i < 3000; ++i) {
     InitVector part = random_vector(random, bits);
     put_diffuse_part<Preset>(part, random, size.channels, 1, 0);
     const Strobes s = random_strobes(random, i);
-    file.flag(i >= c_filling).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
+    file.flag(i > c_filling + 1).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
     file.flag(twin.lit()).word(twin.angle());
     add_pixel(file, sampled, multiplied, size.channels, Preset::c_factor_bits, size.data_bits);
     file.end_vector();
     // Each stage takes what the one before held, so the last goes first.
-    if (s.sample_step) multiplied = sampled;
+    multiplied = halves;
+    halves = quarters;
+    if (s.sample_step) quarters = sampled;
     if (s.span_step) {
       sampled = {twin.lit(), twin.sample(), {}};
       for (int c = 0; c < size.channels; ++c) sampled.products[static_cast<std::size_t>(c)] = twin.product(c);
@@ -91,17 +93,19 @@ Status write_specular(const std::filesystem::path& folder, const SliceSize& size
   Random random(static_cast<std::uint64_t>(bits));
   VectorFile file;
   golden::SpecularSlice<Preset> twin(size.channels, size.powers, size.address_bits, size.data_bits);
-  Pixel sampled, multiplied;
+  Pixel sampled, quarters, halves, multiplied;
   for (int i = 0; i < 3000; ++i) {
     InitVector part = random_vector(random, bits);
     put_specular_part<Preset>(part, random, size.channels, 1, 0);
     const Strobes s = random_strobes(random, i);
     const bool lit = !random.one_in(5);
-    file.flag(i >= c_filling).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
+    file.flag(i > c_filling + 1).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
     file.flag(lit).word(twin.angle());
     add_pixel(file, sampled, multiplied, size.channels, Preset::c_factor_bits, size.data_bits);
     file.end_vector();
-    if (s.sample_step) multiplied = sampled;
+    multiplied = halves;
+    halves = quarters;
+    if (s.sample_step) quarters = sampled;
     if (s.span_step) {
       sampled = {twin.in_range(lit), twin.sample(), {}};
       for (int c = 0; c < size.channels; ++c)

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "golden/line_interpolator.hpp"
+#include "golden/part_interpolator.hpp"
 #include "golden/quadratic_interpolator.hpp"
 #include "golden/z_interpolator.hpp"
 #include "vectors/entities.hpp"
@@ -31,23 +32,44 @@ Status write_line(const std::filesystem::path& folder) {
   return file.write(folder / (std::to_string(W) + ".txt"));
 }
 
+// A line: checked, load, start, step, increment, carry_in; value and carry, before the edge that may load or
+// step.
+template <int W>
+Status write_part(const std::filesystem::path& folder) {
+  Random random(W);
+  VectorFile file;
+  golden::PartInterpolator<W> twin;
+  for (int i = 0; i < 4000; ++i) {
+    const bool load = i == 0 || random.one_in(12), step = !random.one_in(5), carry = random.one_in(2);
+    const auto start = random.word<W>(), increment = random.word<W>();
+    file.flag(i > 0).flag(load).word(start).flag(step).word(increment).flag(carry);
+    file.word(twin.value()).flag(twin.carry()).end_vector();
+    if (load)
+      twin.load(start);
+    else if (step)
+      twin.step(increment, carry);
+  }
+  return file.write(folder / (std::to_string(W) + ".txt"));
+}
+
 // What the walker tells the interpolators in one clock.
 struct Strobes {
   bool line_load, line_step, line_carry, span_load, span_step;
 };
 
-// Every combination comes up, though the walker does not give them all. The first two fill the registers.
-Strobes random_strobes(Random& random, int i) {
+// Every combination comes up, though the walker does not give them all. The first two fill the registers. A
+// load `held` behind another does not come: the words stand still for it.
+Strobes random_strobes(Random& random, int i, bool held) {
   if (i == 0) return {true, false, false, false, false};
   if (i == 1) return {false, false, false, true, false};
   const bool busy = i / 200 % 2 == 0;
-  return {random.one_in(busy ? 4 : 40), !random.one_in(3), random.one_in(2), random.one_in(busy ? 3 : 20),
-          !random.one_in(4)};
+  return {!held && random.one_in(busy ? 4 : 40), !random.one_in(3), random.one_in(2),
+          random.one_in(busy ? 3 : 20), !random.one_in(4)};
 }
 
 // The span stage takes what the line stage held before this edge, so it goes first.
 template <class Twin, class LineLoad>
-void clock(Twin& twin, const Strobes& s, LineLoad&& line_load) {
+void strobe(Twin& twin, const Strobes& s, LineLoad&& line_load) {
   if (s.span_load)
     twin.span_load();
   else if (s.span_step)
@@ -69,19 +91,21 @@ Status write_plane(const std::filesystem::path& path) {
   Random random(W);
   VectorFile file;
   golden::PlaneInterpolator<W> twin;
+  std::array<std::uint32_t, (c_bits + 31) / 32> plane{};
+  std::array<golden::Word<W>, 4> words;
+  bool held = false;
   for (int i = 0; i < 2500; ++i) {
-    std::array<std::uint32_t, (c_bits + 31) / 32> plane{};
-    std::array<golden::Word<W>, 4> words;
-    for (int w = 0; w < 4; ++w) {
+    for (int w = 0; !held && w < 4; ++w) {
       words[static_cast<std::size_t>(w)] = random.word<W>();
       if (w * W < c_bits)
         golden::set_bits(plane, {"", w * W, W, true, 0}, words[static_cast<std::size_t>(w)].bits());
     }
-    const Strobes s = random_strobes(random, i);
+    const Strobes s = random_strobes(random, i, held);
+    held = s.line_load;
     file.flag(i > 1).words_of(plane, c_bits);
     add_strobes(file, s);
     file.word(twin.line_value()).word(twin.value()).end_vector();
-    clock(twin, s, [&] { twin.line_load(words[0], words[1], words[2], words[Carries ? 3 : 2]); });
+    strobe(twin, s, [&] { twin.line_load(words[0], words[1], words[2], words[Carries ? 3 : 2]); });
   }
   return file.write(path);
 }
@@ -93,16 +117,20 @@ Status write_z(const std::filesystem::path& folder) {
   Random random(40);
   VectorFile file;
   golden::ZInterpolator<Preset> twin;
+  std::array<std::uint32_t, (Preset::c_init_header_bits + 31) / 32> init;
+  bool held = false;
   for (int i = 0; i < 2500; ++i) {
-    std::array<std::uint32_t, (Preset::c_init_header_bits + 31) / 32> init;
-    random.fill(init);
-    for (const golden::Field* field : {&At::z, &At::z_dx, &At::z_de0})
-      set_bits(init, *field, random.word(field->bits));
-    const Strobes s = random_strobes(random, i);
+    if (!held) {
+      random.fill(init);
+      for (const golden::Field* field : {&At::z, &At::z_dx, &At::z_de0})
+        set_bits(init, *field, random.word(field->bits));
+    }
+    const Strobes s = random_strobes(random, i, held);
+    held = s.line_load;
     file.flag(i > 1).words_of(init, Preset::c_init_header_bits);
     add_strobes(file, s);
     file.word(twin.line_value()).word(twin.value()).end_vector();
-    clock(twin, s, [&] { twin.line_load(init); });
+    strobe(twin, s, [&] { twin.line_load(init); });
   }
   return file.write(folder / (std::string(Preset::c_name) + ".txt"));
 }
@@ -113,16 +141,21 @@ Status write_quadratic(const std::filesystem::path& folder) {
   Random random(41);
   VectorFile file;
   golden::QuadraticInterpolator<Preset> twin;
+  std::array<std::uint32_t, (Preset::c_init_channel_bits + 31) / 32> init;
+  bool held = false;
   for (int i = 0; i < 3000; ++i) {
-    std::array<std::uint32_t, (Preset::c_init_channel_bits + 31) / 32> init;
-    random.fill(init);
-    for (const golden::Field& field : Preset::c_init_channel) set_bits(init, field, random.word(field.bits));
-    const Strobes s = random_strobes(random, i);
+    if (!held) {
+      random.fill(init);
+      for (const golden::Field& field : Preset::c_init_channel)
+        set_bits(init, field, random.word(field.bits));
+    }
+    const Strobes s = random_strobes(random, i, held);
+    held = s.line_load;
     file.flag(i > 1).words_of(init, Preset::c_init_channel_bits);
     add_strobes(file, s);
     file.word(twin.line_value()).word(twin.line_dx()).word(twin.line_de0()).word(twin.line_de1());
     file.word(twin.value()).word(twin.dx()).end_vector();
-    clock(twin, s, [&] { twin.line_load(init, 0); });
+    strobe(twin, s, [&] { twin.line_load(init, 0); });
   }
   return file.write(folder / (std::string(Preset::c_name) + ".txt"));
 }
@@ -133,6 +166,12 @@ Status write_line_interpolator(const std::filesystem::path& folder) {
   if (auto s = write_line<3>(folder); !s) return s;
   if (auto s = write_line<Published::c_intensity_bits>(folder); !s) return s;
   return write_line<Exact::c_intensity_bits>(folder);
+}
+
+Status write_part_interpolator(const std::filesystem::path& folder) {
+  if (auto s = write_part<3>(folder); !s) return s;
+  if (auto s = write_part<Published::c_intensity_bits / 2>(folder); !s) return s;
+  return write_part<Exact::c_intensity_bits / 2>(folder);
 }
 
 Status write_plane_interpolator(const std::filesystem::path& folder) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include "golden/edge_walker.hpp"
 #include "golden/object_stage.hpp"
 #include "vectors/entities.hpp"
@@ -37,7 +39,8 @@ struct SetNames {
 constexpr SetNames c_sets[] = {{Mix::dense, "dense"}, {Mix::mixed, "mixed"}};
 
 // init: the header, and the clock in which it is taken at full speed; lines: y, start, stop, empty, last,
-// carry; fragments: triangle, y, x, and the clock in which it is given out at full speed.
+// carry; fragments: triangle, y, x, and the clock in which it is given out at full speed. Clocks count from
+// the first init vector taken, a clock before its triangle begins.
 template <class Preset>
 Status write_walker(const std::filesystem::path& folder) {
   using At = typename Preset::init_header_at;
@@ -62,13 +65,19 @@ Status write_walker(const std::filesystem::path& folder) {
     }
     VectorFile inits, line_file, fragments;
     WalkerClock clock;
+    LostClocks losses;
+    std::int64_t pixels_before = 0;
     for (const InitVector& init : set) {
+      clock.take_init();
       inits.words_of(init, Preset::c_init_header_bits);
-      inits.word(static_cast<std::uint64_t>(clock.take_init()), 32).end_vector();
+      inits.word(static_cast<std::uint64_t>(clock.read() + 1), 32).end_vector();
+      std::int64_t first_clock = -1, pixels = 0;
       for (const WalkedLine& line : walk_lines<Preset>(init)) {
         line_file.word(line.y, Preset::c_pixel_y_bits).word(line.start).word(line.stop);
         line_file.flag(line.pixels() == 0).flag(line.last).flag(line.carry).end_vector();
-        const std::int64_t first = clock.take_line(line.pixels()) + 1;
+        const std::int64_t first = clock.take_line(line.pixels()) + 2;
+        if (pixels == 0) first_clock = first;
+        pixels += line.pixels();
         for (std::int64_t i = 0; i < line.pixels(); ++i) {
           const std::int64_t x = line.start.value() + (line.backward ? -i : i);
           fragments.word(line.triangle, Preset::c_triangle_bits).word(line.y, Preset::c_pixel_y_bits);
@@ -76,6 +85,11 @@ Status write_walker(const std::filesystem::path& folder) {
           fragments.word(static_cast<std::uint64_t>(first + i), 32).end_vector();
         }
       }
+      // What the header of triangle_walker.vhd promises: a triangle takes two clocks at least.
+      if (const std::int64_t lost = losses.triangle(first_clock, pixels);
+          mix == Mix::dense && (lost < 0 || lost > (pixels_before == 1 ? 1 : 0)))
+        return tool_failed(fmt::format("triangle_walker: {} clocks lost before clock {}", lost, first_clock));
+      pixels_before = pixels;
     }
     const std::string stem = std::string(Preset::c_name) + '_' + name;
     if (auto s = inits.write(folder / (stem + "_init.txt")); !s) return s;
@@ -147,6 +161,7 @@ Status write_edge_walker(const std::filesystem::path& folder) {
   VectorFile file;
   golden::EdgeWalker twin;
   std::vector<EdgeStart> edges;
+  bool waits = false;  // a load, for its step
   for (int i = 0; i < 6000; ++i) {
     if (edges.empty()) {
       for (const Walk& walk : random_walks(random))
@@ -155,12 +170,13 @@ Status write_edge_walker(const std::filesystem::path& folder) {
       edges.push_back(garbage_edge(random));
     }
     const EdgeStart& e = edges.back();
-    const bool load = i == 0 || random.one_in(16), step = !random.one_in(5);
+    const bool load = i == 0 || waits || random.one_in(16), step = i == 0 || !random.one_in(5);
+    waits = load && !step;
     file.flag(i > 0).flag(load).word(e.x).word(e.quotient);
     for (const std::uint32_t word : {e.remainder, e.divisor, e.error})
       file.word(word, Exact::c_edge_error_bits);
     file.flag(e.carry).flag(step).word(twin.x()).flag(twin.carry()).end_vector();
-    if (load) {
+    if (load && step) {
       twin.load(e);
       edges.pop_back();
     } else if (step) {

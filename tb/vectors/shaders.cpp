@@ -64,20 +64,32 @@ Status write_quadratic(const std::filesystem::path& folder) {
       }
     };
     Shader twin;
-    WalkerClock clock;
-    std::int64_t taken = 0;
+    constexpr std::int64_t c_held = 1, c_least = 2;  // clocks in the buffer when read; clocks of a triangle
+    WalkerClock clock(false, c_held);
+    LostClocks losses;
+    std::int64_t taken = 0, pixels_before = 0;
     for (InitVector init :
          random_triangles<Preset>(random, mix, Shader::c_init_bits, mix == Mix::dense ? 700 : 1000)) {
       put_colours<Preset>(init, random, Channels);
       add_clock(inits.words_of(init, Shader::c_init_bits), taken);
-      // The buffer in front takes the next vector in the clock in which the walker, a clock behind, takes
-      // this one.
-      taken = clock.take_init() + 1;
+      clock.take_init();
+      // The buffer in front takes the next vector a clock after the walker has read this one.
+      taken = clock.read() + 2 + c_held;
       std::vector<std::int64_t> clocks;
       for (const WalkedLine& line : walk_lines<Preset>(init)) {
-        // A clock in the buffer in front, one to the span stage, and one in the register behind.
-        const std::int64_t first = clock.take_line(line.pixels()) + 3;
+        // A clock in the buffer in front, one in the edge stage, one to the span stage, two for both halves
+        // of the words, two in the queue.
+        const std::int64_t first = clock.take_line(line.pixels()) + 7;
         for (std::int64_t i = 0; i < line.pixels(); ++i) clocks.push_back(first + i);
+      }
+      // What the header of quadratic_shader.vhd promises.
+      if (mix == Mix::dense) {
+        const auto pixels = static_cast<std::int64_t>(clocks.size());
+        const std::int64_t lost = losses.triangle(clocks.front(), pixels);
+        if (lost < 0 || lost > (pixels_before > 0 ? std::max<std::int64_t>(c_least - pixels_before, 0) : 0))
+          return tool_failed(
+              fmt::format("quadratic_shader: {} clocks lost before clock {}", lost, clocks.front()));
+        pixels_before = pixels;
       }
       auto at = clocks.begin();
       twin.draw(
@@ -155,14 +167,14 @@ Status write_spherical(const std::filesystem::path& folder, const Spherical& sph
     const auto add_init = [&](const InitVector& vector) {
       add_clock(inits.words_of(vector, layout.init_bits()), taken);
     };
-    std::int64_t given = 0, last_pixels = 0;
+    std::int64_t given = 0, last_pixels = 0, pixels_before = 0;
     for (InitVector group : random_triangles<Preset>(random, mix, layout.init_bits(), spherical.pixels)) {
       for (int c = 0; c < spherical.config.channels; ++c)
         put_colour(group, Preset::ambient_channel_at::ambient, random, 5, layout.ambient_low(c));
       const auto lines = walk_lines<Preset>(group);
       add_init(group);
       // As in write_quadratic; a line's record leaves the buffer with its line.
-      taken = clock.take_init() + 1;
+      taken = clock.take_init() + 2;
       std::vector<std::int64_t> clocks;
       for (const WalkedLine& line : lines) {
         const std::int64_t line_taken = clock.take_line(line.pixels());
@@ -170,10 +182,11 @@ Status write_spherical(const std::filesystem::path& folder, const Spherical& sph
           const InitVector record = random_record<Preset>(spherical.config, random);
           add_init(record);
           group.insert(group.end(), record.begin(), record.end());
-          taken = line_taken + 1;
+          taken = line_taken + 2;
         }
-        // Two clocks more than in the quadratic shader: samples and products.
-        const std::int64_t first = line_taken + 5;
+        // A clock in the buffer in front, one in the edge stage, one to the span stage, one for the samples,
+        // two for the products, one for their sum, two in the queue.
+        const std::int64_t first = line_taken + 10;
         for (std::int64_t i = 0; i < line.pixels(); ++i) clocks.push_back(first + i);
       }
       if (twin.group(group) * twin.init_words() != group.size())
@@ -181,14 +194,19 @@ Status write_spherical(const std::filesystem::path& folder, const Spherical& sph
                                        twin.group(group), group.size() / twin.init_words()));
       // What the header of spherical_shader.vhd promises.
       for (std::size_t i = 0; mix == Mix::dense && i < clocks.size(); ++i) {
-        const bool may_lose = i == 0 && layout.record_bits() != 0 && last_pixels == 1;
         const std::int64_t lost = given == 0 ? 0 : clocks[i] - given - 1;
-        if (lost != (may_lose ? 1 : 0))
+        // With records always, without only where nothing was ahead of the triangle before.
+        const std::int64_t most = i > 0                       ? 0
+                                  : layout.record_bits() != 0 ? std::max<std::int64_t>(3 - last_pixels, 0)
+                                  : pixels_before == 1        ? 1
+                                                              : 0;
+        if (lost < 0 || lost > most || (layout.record_bits() != 0 && given != 0 && lost != most))
           return tool_failed(
               fmt::format("{}: {} clocks lost before clock {}", spherical.name, lost, clocks[i]));
         given = clocks[i];
       }
       last_pixels = lines.back().pixels();
+      pixels_before = static_cast<std::int64_t>(clocks.size());
       auto at = clocks.begin();
       const auto emit = [&](const Fragment& f) { add_fragment<Preset>(fragments, f, *at++); };
       if (spherical.probe)

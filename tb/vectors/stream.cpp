@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <optional>
 
 #include "golden/parameter_register.hpp"
+#include "golden/stream_queue.hpp"
 #include "golden/stream_register.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
@@ -56,6 +58,34 @@ Status write_stream(const std::filesystem::path& folder) {
   return file.write(folder / (std::to_string(Bits) + ".txt"));
 }
 
+// A line: reset, claim, in_valid, in_data, out_ready; room, holds, out_valid, out_data (meant where
+// out_valid).
+template <int Bits, int IndexBits>
+Status write_queue(const std::filesystem::path& folder) {
+  Random random(Bits);
+  VectorFile file;
+  golden::StreamQueue<FlatWord<Bits>> twin((1 << IndexBits) - 1);
+  constexpr int c_vectors = 4000, c_soon = 2;
+  int claimed = 0;                    // words to come
+  std::array<bool, c_soon> before{};  // the claims of the last clocks
+  for (int i = 0; i < c_vectors; ++i) {
+    // Full speed, each word a fixed time behind its claim; then a fast source, a fast sink, both at random.
+    const int part = i * 4 / c_vectors;
+    const bool reset = i == 0 || (i > c_vectors / 8 && random.one_in(80));
+    const bool claim = twin.room() && (part < 2 || random.one_in(2));
+    const bool comes = part == 0 ? before.back() : claimed > 0 && random.one_in(2);
+    const bool out_ready = part == 0 || part == 2 || random.one_in(2);
+    const auto data = random_word<Bits>(random);
+    file.flag(i > 0).flag(reset).flag(claim).flag(comes && !reset).words_of(data, Bits).flag(out_ready);
+    const auto shown = twin.out_valid() ? twin.out_data() : FlatWord<Bits>{};
+    file.flag(twin.room()).flag(twin.holds()).flag(twin.out_valid()).words_of(shown, Bits).end_vector();
+    twin.clock(reset, claim, comes ? std::optional(data) : std::nullopt, out_ready);
+    claimed = reset ? 0 : claimed + claim - comes;
+    before = {claim && !reset, before.front() && !reset};
+  }
+  return file.write(folder / (std::to_string(Bits) + ".txt"));
+}
+
 }  // namespace
 
 Status write_parameter_register(const std::filesystem::path& folder) {
@@ -68,6 +98,12 @@ Status write_stream_register(const std::filesystem::path& folder) {
   if (auto s = write_stream<1>(folder); !s) return s;
   if (auto s = write_stream<32>(folder); !s) return s;
   return write_stream<497>(folder);
+}
+
+Status write_stream_queue(const std::filesystem::path& folder) {
+  if (auto s = write_queue<1, 2>(folder); !s) return s;
+  if (auto s = write_queue<32, 3>(folder); !s) return s;
+  return write_queue<97, 3>(folder);
 }
 
 }  // namespace halfway::vectors

@@ -2,17 +2,18 @@
 // Random triangles as init vectors, what the golden walker makes of them, and when the hardware must show it.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "golden/triangle_walker.hpp"
+#include "golden/walker_clock.hpp"
 #include "setup/walk.hpp"
 #include "vectors/random.hpp"
 
 namespace halfway::vectors {
 
+using golden::WalkerClock;
 using InitVector = std::vector<std::uint32_t>;
 
 /// `bits` random bits; those above are zero.
@@ -48,30 +49,19 @@ std::vector<WalkedLine> walk_lines(const InitVector& init) {
   }
 }
 
-/// When things happen at full speed, in clocks since the first init vector was taken, from what the header of
-/// rtl/raster/triangle_walker.vhd promises: the line stage stands a line ahead of the span stage.
-class WalkerClock {
+/// The clocks that are lost between triangles of which every line covers a pixel, held against a promise.
+class LostClocks {
  public:
-  /// `records`: the buffer in front holds a record a line, so the next header comes only after the last line.
-  explicit WalkerClock(bool records = false) : header_delay_(records ? 1 : 0), line_free_(-header_delay_) {}
-
-  /// The clock in which the next init vector is taken.
-  std::int64_t take_init() {
-    const std::int64_t taken = line_free_ + header_delay_;
-    line_there_ = taken + 1;
-    return taken;
-  }
-  /// The clock in which the line, and its record, is taken. Its first pixel stands at the output a clock
-  /// later and leaves in that clock, the others follow.
-  std::int64_t take_line(std::int64_t pixels) {
-    line_free_ = pixels == 0 ? line_there_ : std::max(line_there_, span_free_);
-    line_there_ = line_free_ + 1;
-    if (pixels != 0) span_free_ = line_free_ + pixels;
-    return line_free_;
+  /// A triangle's fragments come out from `first` on, one a clock, `pixels` in all.
+  std::int64_t triangle(std::int64_t first, std::int64_t pixels) {
+    const std::int64_t lost = next_ == c_none ? 0 : first - next_;
+    next_ = first + pixels;
+    return lost;
   }
 
  private:
-  std::int64_t header_delay_, line_free_, line_there_ = 0, span_free_ = 0;
+  static constexpr std::int64_t c_none = -1;
+  std::int64_t next_ = c_none;
 };
 
 /// What a set of triangles is for.

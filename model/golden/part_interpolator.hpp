@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of rtl/interpolation/part_interpolator.vhd.
+#pragma once
+
+#include "golden/word.hpp"
+
+namespace halfway::golden {
+
+template <int W>
+class PartInterpolator {
+ public:
+  void load(Word<W> start) {
+    value_ = start;
+    carry_ = false;
+  }
+  void step(Word<W> increment, bool carry) {
+    const Word<W> before = value_;
+    value_ += increment;
+    if (carry) value_ += Word<W>::from_bits(1);
+    // Less than it was, or as much though a carry came to an increment of ones.
+    carry_ = value_.bits() < before.bits() || (carry && value_.bits() == before.bits());
+  }
+  Word<W> value() const { return value_; }
+  bool carry() const { return carry_; }
+
+ private:
+  Word<W> value_;
+  bool carry_ = false;
+};
+
+}  // namespace halfway::golden

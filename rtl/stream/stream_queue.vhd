@@ -1,0 +1,139 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     The end of a pipeline that never stalls: places for all words that are on their way, so that whoever begins
+--             one need only look at a register, `room`.
+-- Contract    A word is claimed where claim and room are both '1' at a rising edge; claim is '0' where room is. It comes
+--             later, in any clock behind that one: in_valid = '1', and it is taken. Words come in the order of their
+--             claims. One leaves where out_valid and out_ready are both '1'; out_data does not change while
+--             out_valid = '1' and out_ready = '0'. holds: words are claimed, or in the queue.
+-- Formats     g_bits of anything
+-- Latency     2 clocks from in_valid to out_valid
+-- Throughput  1 word a clock, where a word comes 2**g_index_bits - 4 clocks after its claim or sooner
+-- Error       none: words come out as they went in, each once, in their order
+-- Source      ours: the papers have no receiver that waits
+-- Golden twin model/golden/stream_queue.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+
+entity stream_queue is
+  generic (
+    g_bits       : positive;
+    g_index_bits : positive := 3 -- 2**g_index_bits - 1 words may be claimed at once
+  );
+  port (
+    clk       : in  std_logic;
+    reset     : in  std_logic;
+    claim     : in  std_logic;
+    room      : out std_logic; -- a register
+    holds     : out std_logic;
+    in_valid  : in  std_logic;
+    in_data   : in  std_logic_vector(g_bits - 1 downto 0);
+    out_valid : out std_logic;
+    out_ready : in  std_logic;
+    out_data  : out std_logic_vector(g_bits - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of stream_queue is
+
+  constant c_words_bits : positive := 64; -- Verilator copies so many as one word
+  constant c_words      : positive := (g_bits + c_words_bits - 1) / c_words_bits; -- elaboration only
+
+  subtype index_t is unsigned(g_index_bits - 1 downto 0);
+
+  constant c_most : index_t := (others => '1');
+
+  type reg_t is record
+    claimed   : index_t; -- words claimed and not given out
+    room      : std_logic;
+    write     : index_t;
+    read      : index_t;
+    out_valid : std_logic;
+  end record;
+
+  signal r, r_next : reg_t;
+
+  signal stored  : std_logic; -- a word lies in memory
+  signal advance : std_logic; -- and goes to the output
+  signal leaves  : std_logic;
+
+begin
+
+  -- One word less is claimed than there are places: indices that are the same say that there is none.
+  stored  <= '1' when r.write /= r.read else '0';
+  advance <= stored and (out_ready or not r.out_valid);
+  leaves  <= r.out_valid and out_ready;
+
+  combinational : process (all)
+    variable v : reg_t;
+  begin
+    v := r;
+    if claim = '1' and leaves = '0' then
+      v.claimed := r.claimed + 1;
+    elsif claim = '0' and leaves = '1' then
+      v.claimed := r.claimed - 1;
+    end if;
+    v.room := '1';
+    if v.claimed = c_most then
+      v.room := '0';
+    end if;
+    if in_valid = '1' then
+      v.write := r.write + 1;
+    end if;
+    if advance = '1' then
+      v.read      := r.read + 1;
+      v.out_valid := '1';
+    elsif out_ready = '1' then
+      v.out_valid := '0';
+    end if;
+    if reset = '1' then
+      v.claimed   := (others => '0');
+      v.room      := '1';
+      v.write     := (others => '0');
+      v.read      := (others => '0');
+      v.out_valid := '0';
+    end if;
+    r_next <= v;
+  end process;
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      r <= r_next;
+    end if;
+  end process;
+
+  words : for word in 0 to c_words - 1 generate
+
+    constant c_low  : natural := word * g_bits / c_words; -- elaboration only
+    constant c_high : natural := (word + 1) * g_bits / c_words - 1; -- elaboration only
+
+    subtype word_t is std_logic_vector(c_high downto c_low);
+
+    type memory_t is array (2 ** g_index_bits - 1 downto 0) of word_t;
+
+    begin
+
+      -- A variable: GHDL need not keep a driver for each bit of it.
+      places : process (clk)
+        variable memory : memory_t;
+      begin
+        if rising_edge(clk) then
+          if advance = '1' then
+            out_data(word_t'range) <= memory(to_integer(r.read));
+          end if;
+          if in_valid = '1' then
+            memory(to_integer(r.write)) := in_data(word_t'range);
+          end if;
+        end if;
+      end process;
+
+  end generate;
+
+  room      <= r.room;
+  holds     <= '1' when r.claimed /= 0 else '0';
+  out_valid <= r.out_valid;
+
+end architecture;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/synth/pinned.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "common/file.hpp"
+
+namespace halfway::synth {
+namespace {
+
+constexpr std::size_t c_hash_digits = 32;
+
+}  // namespace
+
+Result<Pins> read_pins(const std::filesystem::path& path) {
+  auto reader = LineReader::open(path);
+  if (!reader) return reader.error();
+  Pins pins;
+  std::string_view line;
+  for (auto next = reader->next(line); next != LineReader::Next::end_of_file; next = reader->next(line)) {
+    if (next == LineReader::Next::failed) return reader->error();
+    if (line.empty() || line.front() == '#') continue;
+    std::istringstream words{std::string(line)};
+    std::string name, more;
+    Pin pin;
+    Ice40Cells& cells = pin.cells;
+    words >> name >> cells.luts >> cells.carries >> cells.flip_flops >> cells.rams >> pin.mhz;
+    const bool figures = !words.fail();
+    words >> pin.netlist;
+    if (!figures || words >> more ||
+        !(pin.netlist.empty() || (pin.netlist.size() == c_hash_digits &&
+                                  pin.netlist.find_first_not_of("0123456789abcdef") == std::string::npos)))
+      return reader->at(
+          "not a name, four numbers of cells, a clock and a netlist's hash; write it anew with make synth "
+          "PIN=1");
+    if (!pins.emplace(name, pin).second) return reader->at("a second line of this name");
+  }
+  return pins;
+}
+
+Status write_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions) {
+  std::string text = fmt::format(
+      "# Cells of each design on an iCE40 by itself, and its clock on an HX8K with registered ports, median "
+      "seed.\n"
+      "# Written by `make synth PIN=1` with {}.\n"
+      "# `make synth` and ctest -R synth fail where flip-flops or RAMs differ, LUTs or carries by more than "
+      "{:.0f} %\n"
+      "# (and {}), or where the clock is more than {:.0f} % slower or faster.\n"
+      "# name luts carries flip_flops rams mhz netlist\n",
+      versions, 100 * c_lut_share, c_lut_slack, 100 * c_clock_share);
+  for (const auto& [name, pin] : pins)
+    text += fmt::format("{} {} {} {} {} {:.1f}{}{}\n", name, pin.cells.luts, pin.cells.carries,
+                        pin.cells.flip_flops, pin.cells.rams, pin.mhz, pin.netlist.empty() ? "" : " ",
+                        pin.netlist);
+  return write_file(path, text);
+}
+
+std::string compare(const std::string& name, const Pins& pins, const Ice40Cells& cells, double mhz) {
+  const auto found = pins.find(name);
+  if (found == pins.end()) return fmt::format("{}: nothing is pinned; pin it with make synth PIN=1\n", name);
+  const Pin& pin = found->second;
+  std::string wrong;
+  const auto exactly = [&](const char* what, std::uint64_t is, std::uint64_t was) {
+    if (is != was) wrong += fmt::format("{}: {} {}, {} are pinned\n", name, is, what, was);
+  };
+  const auto about = [&](const char* what, std::uint64_t is, std::uint64_t was) {
+    const auto slack =
+        std::max(c_lut_slack, static_cast<std::uint64_t>(std::floor(c_lut_share * static_cast<double>(was))));
+    if (is > was + slack || is + slack < was)
+      wrong +=
+          fmt::format("{}: {} {}, {} are pinned, and {} more or fewer may be\n", name, is, what, was, slack);
+  };
+  about("LUTs", cells.luts, pin.cells.luts);
+  about("carries", cells.carries, pin.cells.carries);
+  exactly("flip-flops", cells.flip_flops, pin.cells.flip_flops);
+  exactly("RAMs", cells.rams, pin.cells.rams);
+  if (mhz > 0 && pin.mhz == 0) wrong += fmt::format("{}: {:.1f} MHz, and no clock is pinned\n", name, mhz);
+  if (mhz > 0 && pin.mhz > 0 && std::fabs(mhz - pin.mhz) > c_clock_share * pin.mhz)
+    wrong +=
+        fmt::format("{}: {:.1f} MHz, {:.1f} are pinned, and {:.0f} % {} is not within tolerance\n", name, mhz,
+                    pin.mhz, 100 * std::fabs(mhz / pin.mhz - 1), mhz < pin.mhz ? "slower" : "faster");
+  return wrong;
+}
+
+}  // namespace halfway::synth

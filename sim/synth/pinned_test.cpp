@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/synth/pinned.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/file.hpp"
+
+namespace halfway::synth {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr Ice40Cells kCells{.luts = 200, .carries = 39, .flip_flops = 40, .rams = 1};
+
+TEST(SynthPins, SayWhatIsNotAsPinned) {
+  const Pins pins = {{"a", {kCells, 100}}};
+  EXPECT_EQ(compare("a", pins, kCells, 100), "");
+  EXPECT_EQ(compare("a", pins, kCells, 0), "");  // not measured
+  EXPECT_THAT(compare("b", pins, kCells, 100), HasSubstr("nothing is pinned"));
+  const auto with = [&](std::uint64_t luts, std::uint64_t carries, std::uint64_t flip_flops,
+                        std::uint64_t rams) {
+    return compare("a", pins, {luts, carries, flip_flops, rams}, 0);
+  };
+  EXPECT_EQ(with(206, 42, 40, 1), "");
+  EXPECT_EQ(with(194, 36, 40, 1), "");
+  EXPECT_THAT(with(207, 39, 40, 1), HasSubstr("207 LUTs, 200 are pinned"));
+  EXPECT_THAT(with(193, 39, 40, 1), HasSubstr("LUTs"));
+  EXPECT_THAT(with(200, 43, 40, 1), HasSubstr("carries"));
+  EXPECT_THAT(with(200, 39, 41, 1), HasSubstr("41 flip-flops, 40 are pinned"));
+  EXPECT_THAT(with(200, 39, 39, 1), HasSubstr("flip-flops"));
+  EXPECT_THAT(with(200, 39, 40, 2), HasSubstr("RAMs"));
+  EXPECT_EQ(compare("a", pins, kCells, 92.5), "");
+  EXPECT_EQ(compare("a", pins, kCells, 107.5), "");
+  EXPECT_THAT(compare("a", pins, kCells, 91.5), HasSubstr("slower"));
+  EXPECT_THAT(compare("a", pins, kCells, 108.5), HasSubstr("faster"));
+}
+
+TEST(SynthPins, ComeBackFromTheirFile) {
+  auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const auto path = folder->path() / "pinned.txt";
+  const std::string hash = "0123456789abcdef0123456789abcdef";
+  ASSERT_TRUE(write_pins(path, {{"a", {kCells, 123.4, hash}}, {"b", {{1, 2, 3, 4}, 0}}}, "Yosys 0.23"));
+  const auto pins = read_pins(path);
+  ASSERT_TRUE(pins) << pins.error().message;
+  ASSERT_EQ(pins->size(), 2U);
+  EXPECT_EQ(pins->at("a").cells, kCells);
+  EXPECT_EQ(pins->at("a").mhz, 123.4);
+  EXPECT_EQ(pins->at("a").netlist, hash);
+  EXPECT_EQ(pins->at("b").netlist, "");
+  EXPECT_EQ(pins->at("b").cells, (Ice40Cells{1, 2, 3, 4}));
+  for (const std::string& wrong :
+       std::initializer_list<std::string>{"a 1 2 3 4\n", "a 1 2 3 4 5 6\n", "a 1 2 3 4 5 " + hash + " 6\n",
+                                          "a 1 2 3 x 5\n", "a 1 2 3 4 5\na 1 2 3 4 5\n"}) {
+    ASSERT_TRUE(write_file(path, wrong));
+    const auto read = read_pins(path);
+    ASSERT_FALSE(read) << wrong;
+    EXPECT_THAT(read.error().message, HasSubstr("pinned.txt:"));
+  }
+}
+
+}  // namespace
+}  // namespace halfway::synth

@@ -1,0 +1,520 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/synth/synthesis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+#include "sim/verilator/netlist.hpp"
+
+namespace halfway::synth {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::chrono::minutes kTimeout{60};
+constexpr unsigned kMostInputs = 256;  // flip-flops in front of a design
+constexpr int kFrequency = 200;        // MHz asked for: more than any design comes to
+
+// Before the file's name is looked up: nextpnr ends with it where logic cells run out.
+constexpr std::string_view kTooLarge = "Unable to place cell";
+
+Result<std::string> run(Command command, const std::string& doing) {
+  command.timeout = kTimeout;
+  const auto end = run_process(command, kInstallTools);
+  if (!end) return end.error();
+  if (end->succeeded()) return end->output;
+  return tool_failed(fmt::format("{}: {} failed ({}):\n{}\n  while running: {}", doing,
+                                 command.arguments.front(), end->how(), end->output, to_string(command)));
+}
+
+std::string first_line(std::string_view text) {
+  return std::string(text.substr(0, text.find('\n')));
+}
+
+// "Yosys 0.23 (git ...)" and "nextpnr-ice40 -- ... (Version 0.4-1+b1)", with the tool's name alone before the
+// version.
+std::string version_of(std::string_view said) {
+  const std::size_t digit = said.find_first_of("0123456789", said.find(' '));
+  const std::size_t version = said.find("Version ");
+  const std::size_t from =
+      version == std::string_view::npos ? digit : version + std::string_view("Version ").size();
+  return std::string(said.substr(from, said.find_first_of(" )\n", from) - from));
+}
+
+Result<std::string> netlist_of(const GhdlLibrary& library, const Design& design) {
+  const auto text = library.synthesize(design.entity, design.generics);
+  if (!text) return text.error();
+  return mend_netlist(*text);
+}
+
+std::string hash_of(const std::string& netlist, const Design& design) {
+  return ContentHash().add("netlist 1").add(design.entity).add(netlist).hex();
+}
+
+struct Port {
+  std::string name;
+  bool output = false;
+  unsigned bits = 1;
+};
+
+Result<std::vector<Port>> ports_of(std::string_view netlist, std::string_view top) {
+  const std::string head = fmt::format("module {}\n", top);
+  const std::size_t at = netlist.find(head);
+  const std::size_t end = at == std::string_view::npos ? at : netlist.find(';', at);
+  if (end == std::string_view::npos)
+    return tool_failed(fmt::format("{}: the netlist has no such module", top));
+  std::string_view text = netlist.substr(at + head.size(), end - at - head.size());
+  std::vector<Port> ports;
+  while (!text.empty()) {
+    const std::size_t line_end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, line_end);
+    text.remove_prefix(std::min(line_end + 1, text.size()));
+    Port port;
+    std::size_t from = line.find("output ");
+    port.output = from != std::string_view::npos;
+    if (!port.output && (from = line.find("input ")) == std::string_view::npos) continue;
+    line.remove_prefix(line.find(' ', from) + 1);
+    if (const std::size_t open = line.find('['); open != std::string_view::npos) {
+      port.bits = static_cast<unsigned>(std::stoul(std::string(line.substr(open + 1)))) + 1;
+      line.remove_prefix(line.find(']') + 1);
+    }
+    line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+    port.name = line.substr(0, line.find_first_of(",) "));
+    ports.push_back(std::move(port));
+  }
+  return ports;
+}
+
+// A figure of the whole design in what Yosys's stat wrote: cells by their type.
+Result<json> read_types(const std::filesystem::path& path) {
+  const auto text = read_file(path);
+  if (!text) return tool_failed(text.error().message);
+  const json whole = json::parse(*text, nullptr, false);
+  if (whole.is_object()) {
+    json types = whole.value("design", json::object()).value("num_cells_by_type", json());
+    if (types.is_object()) return types;
+  }
+  return tool_failed(fmt::format("{}: not what Yosys's stat writes; delete it and try again", path.string()));
+}
+
+Error unknown_cells(const Design& design, const std::string& type) {
+  return tool_failed(fmt::format("{}: cells of type {}, which nothing counts", design.name, type));
+}
+
+// The registers of a netlist for nextpnr, by the names of the logic cells that nextpnr packs them into.
+class Registers {
+ public:
+  explicit Registers(const json& module) : cells_(module.at("cells")), names_(module.at("netnames")) {}
+
+  /// Its output's name in the RTL.
+  std::string name(std::string cell) const {
+    for (const std::string_view suffix : {"_DFFLC", "_LC", "_RAM", "$nextpnr_RAM"})
+      if (cell.ends_with(suffix)) {
+        cell.resize(cell.size() - suffix.size());
+        break;
+      }
+    const auto found = cells_.find(cell);
+    if (found == cells_.end()) return tidy(cell);
+    const auto& pins = found->at("connections");
+    if (is_register(*found)) return name_of(pins.at("Q").at(0));
+    if (found->value("type", "") != "SB_LUT4") return tidy(cell);
+    const json& made = pins.at("O").at(0);
+    for (const auto& other : cells_)
+      if (is_register(other) && other.at("connections").at("D").at(0) == made)
+        return name_of(other.at("connections").at("Q").at(0));
+    return name_of(made);
+  }
+
+ private:
+  static bool is_register(const json& cell) { return cell.value("type", "").starts_with("SB_DFF"); }
+
+  // Without the wrapper, and without what Yosys appends.
+  static std::string tidy(std::string name) {
+    if (name.starts_with("dut.")) name.erase(0, 4);
+    return name.substr(0, name.find("_SB_"));
+  }
+
+  // GHDL's own names say nothing, Yosys's little.
+  static int worth(std::string_view name) {
+    if (name.find("_SB_") != std::string_view::npos) return 0;
+    const std::string_view last = name.substr(name.rfind('.') + 1);
+    const std::size_t digits = last.find_first_not_of("0123456789", 1);
+    if (last.starts_with('n') && digits != 1 && (last.substr(digits) == "_q" || last.substr(digits) == "_o"))
+      return 1;
+    return name.starts_with("dut.") ? 3 : 2;
+  }
+
+  std::string name_of(const json& bit) const {
+    std::string best;
+    for (const auto& [name, net] : names_.items()) {
+      const json& bits = net.at("bits");
+      const auto at = std::find(bits.begin(), bits.end(), bit);
+      if (at == bits.end() || net.value("hide_name", 0) != 0) continue;
+      const std::string whole = bits.size() == 1 ? name : fmt::format("{}[{}]", name, at - bits.begin());
+      const int more = worth(name) - (best.empty() ? -1 : worth(best.substr(0, best.find('['))));
+      if (more > 0 || (more == 0 && whole.size() < best.size())) best = whole;
+    }
+    return tidy(best.empty() ? "?" : best);
+  }
+
+  const json& cells_;
+  const json& names_;
+};
+
+Result<CriticalPath> read_path(const json& path, const Registers& registers) {
+  CriticalPath result;
+  for (const json& part : path) {
+    const double delay = part.value("delay", 0.0);
+    const std::string type = part.value("type", "");
+    (type == "routing" ? result.routing : result.logic) += delay;
+    if (type != "logic") continue;
+    const std::string port = part.at("to").value("port", "");
+    ++(port == "COUT" ? result.carries : result.luts);
+  }
+  result.from = registers.name(path.front().at("from").value("cell", ""));
+  result.to = registers.name(path.back().at("to").value("cell", ""));
+  return result;
+}
+
+}  // namespace
+
+struct Synthesizer::Netlists {
+  std::mutex mutex;
+  std::map<std::string, std::string> texts;  // by entity and generics
+};
+
+Result<std::string> wrapper(std::string_view netlist, std::string_view top, unsigned most_inputs) {
+  const auto ports = ports_of(netlist, top);
+  if (!ports) return ports.error();
+  unsigned inputs = 0, outputs = 0;
+  bool clocked = false;
+  std::string wires, pins, connections;
+  for (const Port& port : *ports) {
+    if (port.name == "clk" || port.name == "probe") {
+      clocked = clocked || port.name == "clk";
+      connections += fmt::format(",\n    .{}({})", port.name, port.name == "clk" ? "clk" : "");
+      continue;
+    }
+    connections += fmt::format(",\n    .{0}({0})", port.name);
+    if (port.bits > 1)
+      wires += fmt::format("  wire [{}:0] {};\n", port.bits - 1, port.name);
+    else
+      wires += fmt::format("  wire {};\n", port.name);
+    if (port.output) {
+      pins = port.name + (pins.empty() ? "" : ", ") + pins;
+      outputs += port.bits;
+      continue;
+    }
+    std::string bits;
+    for (unsigned i = 0; i < port.bits; ++i)
+      bits = fmt::format("in[{}]{}{}", (inputs + i) % most_inputs, i == 0 ? "" : ", ", bits);
+    wires += fmt::format("  assign {} = {{{}}};\n", port.name, bits);
+    inputs += port.bits;
+  }
+  if (outputs == 0) return tool_failed(fmt::format("{}: has no output to register", top));
+  inputs = std::max(std::min(inputs, most_inputs), 1U);
+  return fmt::format(
+      "module wrapped (input clk, input serial_in, output serial_out);\n"
+      "  reg [{0}:0] in;\n  wire [{1}:0] out;\n  reg [{1}:0] folded;\n{2}"
+      "  assign out = {{{3}}};\n  assign serial_out = folded[{1}];\n"
+      "  always @(posedge clk) begin\n    in <= {{in, serial_in}};\n    folded <= out ^ {{folded, 1'b0}};\n  "
+      "end\n"
+      "  {4} dut ({5});\nendmodule\n",
+      inputs - 1, outputs - 1, wires, pins, top, connections.substr(1));
+}
+
+Result<Placement> read_placement(std::string_view report, std::string_view netlist, unsigned seed) {
+  Placement placement{.seed = seed};
+  const json figures = json::parse(report, nullptr, false);
+  const json design = json::parse(netlist, nullptr, false);
+  try {
+    const Registers registers(design.at("modules").at("wrapped"));
+    const json& logic_cells = figures.at("utilization").at("ICESTORM_LC");
+    placement.cells_used = logic_cells.at("used");
+    placement.cells_there = logic_cells.at("available");
+    if (figures.at("fmax").size() != 1)
+      return tool_failed(fmt::format("nextpnr reports {} clocks, not one", figures.at("fmax").size()));
+    const auto clock = figures.at("fmax").begin();
+    placement.mhz = clock->at("achieved");
+    for (const json& path : figures.at("critical_paths")) {
+      const std::string edge = "posedge " + clock.key();
+      if (path.value("from", "") != edge || path.value("to", "") != edge) continue;
+      auto read = read_path(path.at("path"), registers);
+      if (!read) return read.error();
+      placement.path = std::move(*read);
+    }
+  } catch (const json::exception& error) {
+    return tool_failed(fmt::format("not what nextpnr 0.4 reports: {}", error.what()));
+  }
+  return placement;
+}
+
+Result<Packing> read_packing(std::string_view said) {
+  constexpr std::string_view c_cells = "ICESTORM_LC:";
+  const std::size_t at = said.find(c_cells);
+  Packing packing;
+  if (at != std::string_view::npos) {
+    const std::string figures(said.substr(at + c_cells.size(), 40));
+    if (std::sscanf(figures.c_str(), "%" SCNu64 " / %" SCNu64, &packing.cells_used, &packing.cells_there) ==
+        2)
+      return packing;
+  }
+  return tool_failed(fmt::format("not what nextpnr 0.4 says of a device's utilisation:\n{}", said));
+}
+
+Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design) {
+  const auto text = netlist_of(library, design);
+  if (!text) return text.error();
+  return hash_of(*text, design);
+}
+
+Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool place,
+                                      const std::vector<std::string>& more) {
+  const auto tool = GhdlTool::find();
+  if (!tool) return tool.error();
+  auto yosys = run({.arguments = {"yosys", "-V"}}, "looking for yosys");
+  if (!yosys) return yosys.error();
+  std::string nextpnr;
+  if (place) {
+    const auto said = run({.arguments = {"nextpnr-ice40", "--version"}}, "looking for nextpnr-ice40");
+    if (!said) return said.error();
+    nextpnr = first_line(*said);
+  }
+  auto sources = read_rtl_sources(folders.source);
+  if (!sources) return sources.error();
+  for (const std::string& file : more) {
+    auto source = read_vhdl_source(folders.source, file);
+    if (!source) return source.error();
+    sources->push_back(std::move(*source));
+  }
+  auto library = GhdlLibrary::open(*tool, *sources, "", folders.cache);
+  if (!library) return library.error();
+  Synthesizer synthesizer(std::move(*library), std::filesystem::absolute(folders.cache) / "synth");
+  synthesizer.yosys_ = *yosys;
+  synthesizer.nextpnr_ = nextpnr;
+  synthesizer.versions_ = fmt::format("GHDL {}, Yosys {}{}", version_of(tool->version), version_of(*yosys),
+                                      nextpnr.empty() ? "" : ", nextpnr-ice40 " + version_of(nextpnr));
+  return synthesizer;
+}
+
+Synthesizer::Synthesizer(GhdlLibrary library, std::filesystem::path cache)
+    : library_(std::move(library)), cache_(std::move(cache)), netlists_(std::make_shared<Netlists>()) {}
+
+// GHDL takes seconds, and each figure of a design asks for its netlist.
+Result<std::string> Synthesizer::netlist(const Design& design) const {
+  std::string key = design.entity;
+  for (const auto& [name, value] : design.generics) key += fmt::format(" {}={}", name, value);
+  {
+    const std::scoped_lock lock(netlists_->mutex);
+    if (const auto found = netlists_->texts.find(key); found != netlists_->texts.end()) return found->second;
+  }
+  auto text = netlist_of(library_, design);
+  if (!text) return text.error();
+  const std::scoped_lock lock(netlists_->mutex);
+  return netlists_->texts.emplace(std::move(key), std::move(*text)).first->second;
+}
+
+Result<std::filesystem::path> Synthesizer::synthesized(const Design& design, const std::string& family,
+                                                       const std::string& script) const {
+  const auto text = netlist(design);
+  if (!text) return text.error();
+  ContentHash hash;
+  hash.add("synth 1").add(yosys_).add(script).add(*text);
+  const std::filesystem::path folder = cache_ / fmt::format("{}-{}-{}", design.name, family, hash.hex());
+  if (std::filesystem::exists(folder)) return folder;
+  auto fresh = TemporaryFolder::make(cache_);
+  if (!fresh) return fresh.error();
+  if (Status written = write_file(fresh->path() / "netlist.v", *text); !written) return written.error();
+  const auto done =
+      run({.arguments = {"yosys", "-q", "-p", script}, .working_folder = fresh->path()}, design.name);
+  if (!done) return done.error();
+  if (Status moved = fresh->move_to(folder); !moved) return moved.error();
+  return folder;
+}
+
+Result<std::filesystem::path> Synthesizer::ice40_folder(const Design& design) const {
+  return synthesized(
+      design, "ice40",
+      fmt::format("read_verilog netlist.v; synth_ice40 -device hx -top {}; tee -q -o cells.json stat "
+                  "-json; write_rtlil mapped.il",
+                  design.entity));
+}
+
+Result<Ice40Cells> Synthesizer::ice40(const Design& design) const {
+  const auto folder = ice40_folder(design);
+  if (!folder) return folder.error();
+  const auto types = read_types(*folder / "cells.json");
+  if (!types) return types.error();
+  Ice40Cells cells;
+  for (const auto& [type, count] : types->items()) {
+    const auto n = count.get<std::uint64_t>();
+    if (type == "SB_LUT4")
+      cells.luts += n;
+    else if (type == "SB_CARRY")
+      cells.carries += n;
+    else if (type.starts_with("SB_DFF"))
+      cells.flip_flops += n;
+    else if (type.starts_with("SB_RAM40_4K"))
+      cells.rams += n;
+    else
+      return unknown_cells(design, type);
+  }
+  return cells;
+}
+
+Result<std::filesystem::path> Synthesizer::from_mapped(const Design& design, const std::string& kind,
+                                                       const std::string& script,
+                                                       const std::string& around) const {
+  const auto core = ice40_folder(design);
+  if (!core) return core.error();
+  ContentHash hash;
+  hash.add("mapped 1").add(yosys_).add(script).add(around).add(core->filename().string());
+  const std::filesystem::path folder = cache_ / fmt::format("{}-{}-{}", design.name, kind, hash.hex());
+  if (std::filesystem::exists(folder)) return folder;
+  auto fresh = TemporaryFolder::make(cache_);
+  if (!fresh) return fresh.error();
+  std::error_code error;
+  std::filesystem::copy(*core / "mapped.il", fresh->path() / "mapped.il", error);
+  if (error) return tool_failed(fmt::format("{}: cannot be copied: {}", core->string(), error.message()));
+  if (!around.empty())
+    if (Status written = write_file(fresh->path() / "wrapper.v", around); !written) return written.error();
+  const auto done =
+      run({.arguments = {"yosys", "-q", "-p", script}, .working_folder = fresh->path()}, design.name);
+  if (!done) return done.error();
+  if (Status moved = fresh->move_to(folder); !moved) return moved.error();
+  return folder;
+}
+
+// splitnets: Verilator takes a carry chain in one vector for a loop.
+Result<std::string> Synthesizer::simulated(const Design& design) const {
+  const auto folder = from_mapped(
+      design, "simulated",
+      fmt::format(
+          "read_rtlil mapped.il; delete =A:blackbox; read_verilog -defer -D ICE40_HX +/ice40/cells_sim.v; "
+          "hierarchy -top {}; proc; flatten; opt_clean -purge; splitnets; write_verilog -noattr simulated.v",
+          design.entity),
+      "");
+  if (!folder) return folder.error();
+  return read_file(*folder / "simulated.v");
+}
+
+Result<Ecp5Cells> Synthesizer::ecp5(const Design& design) const {
+  const auto folder =
+      synthesized(design, "ecp5",
+                  fmt::format("read_verilog netlist.v; synth_ecp5 -top {}; tee -q -o cells.json stat -json",
+                              design.entity));
+  if (!folder) return folder.error();
+  const auto types = read_types(*folder / "cells.json");
+  if (!types) return types.error();
+  Ecp5Cells cells;
+  for (const auto& [type, count] : types->items()) {
+    const auto n = count.get<std::uint64_t>();
+    if (type == "LUT4")
+      cells.luts += n;
+    else if (type == "CCU2C")
+      cells.luts += 2 * n;
+    else if (type == "TRELLIS_FF")
+      cells.flip_flops += n;
+    else if (type == "DP16KD")
+      cells.rams += n;
+    else if (type == "MULT18X18D")
+      cells.multipliers += n;
+    else if (type == "TRELLIS_DPR16X4")
+      cells.luts += 4 * n;
+    else if (type != "PFUMX" && type != "L6MUX21")  // between the LUTs of a slice
+      return unknown_cells(design, type);
+  }
+  return cells;
+}
+
+Result<std::filesystem::path> Synthesizer::wrapped_folder(const Design& design) const {
+  const auto text = netlist(design);
+  if (!text) return text.error();
+  const auto around = wrapper(*text, design.entity, kMostInputs);
+  if (!around) return around.error();
+  // The wrapper first, then the design that it holds as it was counted: nothing of one is optimized into the
+  // other.
+  return from_mapped(
+      design, "wrapped",
+      fmt::format("read_rtlil mapped.il; blackbox {0}; setattr -mod -unset top {0}; read_verilog wrapper.v; "
+                  "synth_ice40 -device hx -top wrapped; read_rtlil -overwrite mapped.il; setattr -mod -unset "
+                  "top {0}; "
+                  "hierarchy -top wrapped; flatten; opt_clean -purge; write_json wrapped.json",
+                  design.entity),
+      *around);
+}
+
+std::vector<std::string> Synthesizer::nextpnr_arguments() const {
+  return {"nextpnr-ice40", "--hx8k", "--package", "ct256", "--freq", std::to_string(kFrequency)};
+}
+
+Result<std::string> Synthesizer::netlist_hash(const Design& design) const {
+  const auto text = netlist(design);
+  if (!text) return text.error();
+  return hash_of(*text, design);
+}
+
+Result<Packing> Synthesizer::pack(const Design& design) const {
+  const auto wrapped = wrapped_folder(design);
+  if (!wrapped) return wrapped.error();
+  std::vector<std::string> arguments = nextpnr_arguments();
+  ContentHash hash;
+  hash.add("packed 1").add(nextpnr_).add(wrapped->filename().string());
+  for (const std::string& argument : arguments) hash.add(argument);
+  arguments.insert(arguments.end(), {"--pack-only", "--json", (*wrapped / "wrapped.json").string()});
+  const std::filesystem::path folder = cache_ / fmt::format("{}-packed-{}", design.name, hash.hex());
+  if (!std::filesystem::exists(folder)) {
+    auto fresh = TemporaryFolder::make(cache_);
+    if (!fresh) return fresh.error();
+    const auto said = run({.arguments = arguments, .working_folder = fresh->path()}, design.name);
+    if (!said) return said.error();
+    if (const auto read = read_packing(*said); !read) return read.error();
+    if (Status written = write_file(fresh->path() / "said", *said); !written) return written.error();
+    if (Status moved = fresh->move_to(folder); !moved) return moved.error();
+  }
+  const auto said = read_file(folder / "said");
+  if (!said) return said.error();
+  return read_packing(*said);
+}
+
+Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const {
+  const auto wrapped = wrapped_folder(design);
+  if (!wrapped) return wrapped.error();
+  const std::string net = (*wrapped / "wrapped.json").string();
+  std::vector<std::string> arguments = nextpnr_arguments();
+  arguments.insert(arguments.end(), {"--seed", std::to_string(seed), "--timing-allow-fail", "--quiet",
+                                     "--report", "report.json"});
+  ContentHash hash;
+  hash.add("placed 1").add(nextpnr_).add(wrapped->filename().string());
+  for (const std::string& argument : arguments) hash.add(argument);
+  arguments.insert(arguments.end(), {"--json", net});
+  const std::filesystem::path folder = cache_ / fmt::format("{}-placed{}-{}", design.name, seed, hash.hex());
+  if (!std::filesystem::exists(folder)) {
+    auto fresh = TemporaryFolder::make(cache_);
+    if (!fresh) return fresh.error();
+    const Command command{.arguments = arguments, .working_folder = fresh->path(), .timeout = kTimeout};
+    const auto end = run_process(command, kInstallTools);
+    if (!end) return end.error();
+    // Too large is an answer, and no report.
+    if (!end->succeeded() && end->output.find(kTooLarge) == std::string::npos)
+      return tool_failed(fmt::format("{}: nextpnr-ice40 failed ({}):\n{}\n  while running: {}", design.name,
+                                     end->how(), end->output, to_string(command)));
+    if (Status moved = fresh->move_to(folder); !moved) return moved.error();
+  }
+  const auto report = read_file(folder / "report.json");
+  if (!report) return Placement{.seed = seed};
+  const auto text = read_file(net);
+  if (!text) return text.error();
+  return read_placement(*report, *text, seed);
+}
+
+}  // namespace halfway::synth

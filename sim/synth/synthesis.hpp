@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// An entity through GHDL, Yosys and nextpnr: its cells on two FPGA families, its clock on an iCE40 HX8K.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/result.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+
+namespace halfway::synth {
+
+inline constexpr const char* kInstallTools = "apt-get install yosys nextpnr-ice40";
+
+/// Logic cells of an HX8K, and of how many nextpnr 0.4's placers come to an end: not of 95 in 100.
+inline constexpr std::uint64_t kDeviceCells = 7680, kMostPlaced = kDeviceCells * 9 / 10;
+
+/// What is synthesized: an entity of rtl/, or of what `open` is given beside it.
+struct Design {
+  std::string name;  ///< without spaces: messages and the cache's folders begin with it
+  std::string entity;
+  std::vector<std::pair<std::string, std::string>> generics;
+};
+
+/// Of an entity by itself, without what stands around it for its clock.
+struct Ice40Cells {
+  std::uint64_t luts = 0, carries = 0, flip_flops = 0, rams = 0;  ///< SB_LUT4, SB_CARRY, SB_DFF*, SB_RAM40_*
+  friend bool operator==(Ice40Cells, Ice40Cells) = default;
+};
+struct Ecp5Cells {
+  std::uint64_t luts = 0;  ///< LUT4, with the two of a CCU2C and the four of a TRELLIS_DPR16X4
+  std::uint64_t flip_flops = 0, rams = 0, multipliers = 0;  ///< TRELLIS_FF, DP16KD, MULT18X18D
+};
+
+/// From register to register, the routed one that limits the clock.
+struct CriticalPath {
+  std::string from, to;            ///< registers, or what is left of their names
+  unsigned luts = 0, carries = 0;  ///< on the way
+  double logic = 0, routing = 0;   ///< ns; logic with clock-to-output and set-up
+};
+
+/// One placement and routing.
+struct Placement {
+  unsigned seed = 0;
+  std::uint64_t cells_used = 0, cells_there = 0;  ///< logic cells with those of the wrapper
+  double mhz = 0;                                 ///< 0 where it does not fit
+  CriticalPath path{};
+  bool fits() const { return mhz > 0; }
+};
+
+/// What nextpnr packs a design with its wrapper into; it does not say into what where it has no room.
+struct Packing {
+  std::uint64_t cells_used = 0, cells_there = 0;
+};
+
+/// From what nextpnr says of a device's utilisation.
+Result<Packing> read_packing(std::string_view said);
+
+/// Of what GHDL and mend_netlist make of a design: of one hash is the same hardware, whatever its name.
+Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design);
+
+/// The wrapper around `top` for nextpnr: a flip-flop in front of every input but the clock, and one behind
+/// every output bit that is connected. Input flip-flops are a shift register of at most `most_inputs`; wider
+/// inputs share them. `probe` is left open. Outputs are folded, bit by bit, into a chain of flip-flops: its
+/// exclusive or goes into the lookup table that every flip-flop's input passes on this family.
+Result<std::string> wrapper(std::string_view netlist, std::string_view top, unsigned most_inputs);
+
+/// What nextpnr reports with --report of the design's clock; `netlist`, what it was given, names the
+/// registers at both ends of the path.
+Result<Placement> read_placement(std::string_view report, std::string_view netlist, unsigned seed);
+
+class Synthesizer {
+ public:
+  /// An error (exit code tool_failed) names what installs a missing tool. Without `place` nextpnr need not be
+  /// there. `more`: VHDL sources beside those of rtl/, under the project's root.
+  static Result<Synthesizer> open(const SimulatorFolders& folders, bool place,
+                                  const std::vector<std::string>& more = {});
+
+  /// Of GHDL, Yosys and nextpnr, for the page.
+  const std::string& versions() const { return versions_; }
+  const std::string& yosys_version() const { return yosys_; }
+
+  /// Each from the cache where it is there. Threads may call them at once.
+  Result<Ice40Cells> ice40(const Design& design) const;
+  Result<Ecp5Cells> ecp5(const Design& design) const;
+  Result<Placement> place(const Design& design, unsigned seed) const;
+  /// A matter of seconds, where a placement may be one of an hour.
+  Result<Packing> pack(const Design& design) const;
+  Result<std::string> netlist_hash(const Design& design) const;
+  /// The design after synthesis for iCE40, in Verilog without modules: every cell as the model that Yosys has
+  /// of it.
+  Result<std::string> simulated(const Design& design) const;
+
+ private:
+  Synthesizer(GhdlLibrary library, std::filesystem::path cache);
+  Result<std::string> netlist(const Design& design) const;
+  std::vector<std::string> nextpnr_arguments() const;
+  /// Where Yosys has left what `script` makes of the netlist, netlist.v.
+  Result<std::filesystem::path> synthesized(const Design& design, const std::string& family,
+                                            const std::string& script) const;
+  Result<std::filesystem::path> ice40_folder(const Design& design) const;
+  Result<std::filesystem::path> wrapped_folder(const Design& design) const;
+  /// Where Yosys has left what `script` makes of mapped.il and, where it is not empty, wrapper.v.
+  Result<std::filesystem::path> from_mapped(const Design& design, const std::string& kind,
+                                            const std::string& script, const std::string& around) const;
+  struct Netlists;
+  GhdlLibrary library_;
+  std::filesystem::path cache_;
+  std::string yosys_, nextpnr_, versions_;
+  std::shared_ptr<Netlists> netlists_;  ///< made so far
+};
+
+}  // namespace halfway::synth

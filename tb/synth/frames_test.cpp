@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The netlist after synthesis for iCE40, lookup tables and flip-flops, draws a small frame: every fragment
+// equals the golden model's.
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "common/subprocess.hpp"
+#include "plan/plan.hpp"
+#include "run/limits.hpp"
+#include "run/scene_stream.hpp"
+#include "scene/load_scene.hpp"
+#include "sim/synth/synthesis.hpp"
+#include "sim/verilator/verilator_simulator.hpp"
+
+namespace halfway::synth {
+namespace {
+
+constexpr FrameSize c_frame{16, 12};
+
+struct Drawn {
+  const char* scene;
+  Shader shader;
+  Preset preset;
+  std::uint32_t stall_seed;  ///< 0: full speed
+};
+void PrintTo(const Drawn& drawn, std::ostream* out) {
+  *out << drawn.scene << ' ' << to_string(drawn.shader) << ' ' << to_string(drawn.preset);
+}
+
+class MappedFrame : public ::testing::TestWithParam<Drawn> {};
+
+TEST_P(MappedFrame, EqualsTheGoldenModels) {
+  if (find_program("yosys").empty()) GTEST_SKIP() << "no yosys: " << kInstallTools;
+  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
+  const SimulatorFolders folders{source, HALFWAY_CACHE_DIR};
+  const auto scene = load_scene(GetParam().scene, source / "sim" / "scenes");
+  ASSERT_TRUE(scene) << scene.error().message;
+  const auto plan = plan_scene(*scene, {.shader = GetParam().shader, .preset = GetParam().preset});
+  ASSERT_TRUE(plan) << plan.error().message;
+  const HardwareKey key = plan->key;
+
+  const auto synthesizer = Synthesizer::open(folders, false);
+  ASSERT_TRUE(synthesizer) << synthesizer.error().message;
+  const auto netlist =
+      synthesizer->simulated({.name = key.name(), .entity = key.entity(), .generics = key.generics()});
+  ASSERT_TRUE(netlist) << netlist.error().message;
+  auto simulator = VerilatorSimulator::open(
+      key, folders, {.stall_seed = GetParam().stall_seed, .idle_limit = c_idle_limit, .netlist = *netlist});
+  ASSERT_TRUE(simulator) << simulator.error().message;
+
+  const auto setup = make_setup(*scene, c_frame, key, {});
+  SceneStream stream(*setup, key, 1);
+  std::vector<Fragment> golden, drawn;
+  const std::size_t words = (simulator->init_bits() + 31) / 32;
+  for (Batch batch; stream.next(batch);) {
+    golden.insert(golden.end(), batch.golden.begin(), batch.golden.end());
+    const Status ran = simulator->run(batch.init_words, batch.init_words.size() / words, drawn,
+                                      golden.size() + c_most_surplus);
+    ASSERT_TRUE(ran) << ran.error().message;
+  }
+  const Status ended = simulator->finish(drawn, golden.size() + c_most_surplus);
+  ASSERT_TRUE(ended) << ended.error().message;
+  ASSERT_GT(golden.size(), 20U);
+  ASSERT_EQ(drawn.size(), golden.size());
+  for (std::size_t i = 0; i < golden.size(); ++i) ASSERT_EQ(drawn[i], golden[i]) << "fragment " << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(Small, MappedFrame,
+                         ::testing::Values(Drawn{"matte", Shader::quadratic, Preset::exact, 7}));
+INSTANTIATE_TEST_SUITE_P(Whole, MappedFrame,
+                         ::testing::Values(Drawn{"spheres", Shader::spherical, Preset::published, 0},
+                                           Drawn{"spheres", Shader::spherical, Preset::exact, 7},
+                                           Drawn{"spheres", Shader::quadratic, Preset::exact, 0},
+                                           Drawn{"spheres", Shader::quadratic, Preset::published, 0}));
+
+}  // namespace
+}  // namespace halfway::synth
