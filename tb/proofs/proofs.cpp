@@ -265,17 +265,18 @@ std::vector<Proof> all_proofs() {
 
   const std::vector<Width> narrow_box = {
       {"span_x", 3, 0}, {"edge_error", 2, 0}, {"lines", 2, 0}, {"pixel_y", 3, 0}, {"triangle", 1, 0}};
-  proofs.push_back({"raster/edge_walker",
-                    "raster/edge_walker_box.psl",
-                    "An edge that begins and ends between two pixels leaves them on no line between: any edge "
-                    "of 6 lines, 8 columns, divisors up to 3",
-                    Method::pdr,
-                    8,
-                    false,
-                    {},
-                    {{"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '1')"},
-                     {"raster/edge_walker.vhd", "r.error + r.rise", "r.error - r.remainder"}},
-                    narrow_box});
+  proofs.push_back(
+      {"raster/edge_walker",
+       "raster/edge_walker_box.psl",
+       "An edge that begins and ends between two pixels leaves them on no line between: any edge "
+       "of 6 lines, 8 columns, divisors up to 3",
+       Method::pdr,
+       8,
+       false,
+       {},
+       {{"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '1')"},
+        {"raster/edge_walker.vhd", "r.error + r.rise", "r.error - r.remainder"}},
+       narrow_box});
   proofs.push_back(
       {"raster/triangle_walker",
        "raster/triangle_walker_box.psl",
@@ -662,6 +663,9 @@ std::vector<Proof> all_proofs() {
        {{"tables/formats_pkg.vhd", "plane_sum => (44, 42)", "plane_sum => (44, 41)"}}});
 
   // Shaders.
+  const std::vector<Width> narrow_pixels = {{"span_x", 4, 0}, {"pixel_x", 3, 0},   {"edge_error", 3, 0},
+                                            {"lines", 3, 0},  {"pixel_y", 3, 0},   {"triangle", 2, 0},
+                                            {"depth", 4, 0},  {"depth_sum", 4, 1}, {"intensity", 9, 2}};
   proofs.push_back(
       {"shaders/quadratic_shader",
        "shaders/quadratic_shader.psl",
@@ -691,7 +695,9 @@ std::vector<Proof> all_proofs() {
        {},
        false,
        12});
-  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
+  proofs.back().widths = narrow_pixels;
+  proofs.back().full_width = true;
+  proofs.back().contracts = {"raster/triangle_walker_any.psl", "interpolation/interpolators_any.psl"};
   proofs.push_back(
       {"shaders/spherical_shader",
        "shaders/spherical_shader.psl",
@@ -715,8 +721,10 @@ std::vector<Proof> all_proofs() {
         {"shaders/spherical_shader.vhd", "line_step or line_load", "line_step or not waiting"}},
        {},
        true,
-       14});
-  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
+       20});
+  proofs.back().widths = narrow_pixels;
+  proofs.back().full_width = true;
+  proofs.back().contracts = {"raster/triangle_walker_any.psl", "interpolation/interpolators_any.psl"};
   proofs.push_back(
       {"shaders/processors_shader",
        "shaders/processors_shader.psl",
@@ -749,7 +757,7 @@ std::vector<Proof> all_proofs() {
        {},
        true,
        11});
-  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
+  proofs.back().contracts = {"raster/triangle_walker_any.psl", "interpolation/interpolators_any.psl"};
   return proofs;
 }
 
