@@ -292,7 +292,7 @@ std::vector<Proof> all_proofs() {
        false,
        {},
        {{"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '1')"},
-        {"raster/edge_walker.vhd", "r.error + r.rise", "r.error - r.remainder"}},
+        {"raster/edge_walker.vhd", "increment := '0' & r.rise", "increment := '0' & r.remainder"}},
        narrow_box});
   proofs.push_back(
       {"raster/triangle_walker",
