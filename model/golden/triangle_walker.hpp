@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "golden/edge_walker.hpp"
-#include "golden/line_interpolator.hpp"
+#include "golden/slope_walker.hpp"
 
 namespace halfway::golden {
 
@@ -32,10 +32,8 @@ class TriangleWalker {
                 word(At::lower_remainder), word(At::lower_divisor),
                 word(At::lower_error),     word(At::lower_carry) != 0};
     } else {
-      start_edge_.load(EdgeX::from_bits(get_bits(init, At::start_x)));
-      stop_edge_.load(EdgeX::from_bits(get_bits(init, At::upper_x)));
-      start_slope_ = EdgeX::from_bits(get_bits(init, At::start_slope));
-      stop_slope_ = EdgeX::from_bits(get_bits(init, At::upper_slope));
+      start_edge_.load(edge_x(init, At::start_x), edge_x(init, At::start_slope));
+      stop_edge_.load(edge_x(init, At::upper_x), edge_x(init, At::upper_slope));
     }
   }
 
@@ -49,17 +47,12 @@ class TriangleWalker {
       return false;
   }
   /// First pixel of the line, and the one after its last.
-  SpanXWord start() const {
-    if constexpr (c_exact)
-      return start_edge_.x();
-    else
-      return whole(start_edge_.value());
-  }
+  SpanXWord start() const { return start_edge_.x(); }
   SpanXWord stop() const {
     if constexpr (c_exact)
       return stop_edge_.x();
     else
-      return whole(stop_edge_.value()) + SpanXWord::from_bits(1);
+      return stop_edge_.x() + SpanXWord::from_bits(1);
   }
   bool line_empty() const {
     return backward_ ? start().value() <= stop().value() : start().value() >= stop().value();
@@ -99,8 +92,8 @@ class TriangleWalker {
       else
         stop_edge_.step();
     } else {
-      start_edge_.step(start_slope_);
-      stop_edge_.step(stop_slope_);
+      start_edge_.step();
+      stop_edge_.step();
     }
     y_ = static_cast<std::uint32_t>(low_bits(y_ + 1, Preset::c_pixel_y_bits));
     lines_ = static_cast<std::uint32_t>(low_bits(lines_ - 1, Preset::c_lines_bits));
@@ -111,22 +104,19 @@ class TriangleWalker {
   }
 
  private:
-  static constexpr int c_edge_x_bits = Preset::c_edge_x_bits;
-  using EdgeX = Word<c_edge_x_bits>;
-  using StepEdge = std::conditional_t<c_exact, EdgeWalker, LineInterpolator<c_edge_x_bits>>;
+  using StepEdge = std::conditional_t<c_exact, EdgeWalker, SlopeWalker>;
 
   static SpanXWord span_x(std::span<const std::uint32_t> init, const Field& field) {
     return SpanXWord::from_bits(get_bits(init, field));
   }
-  static SpanXWord whole(EdgeX x) {
-    return SpanXWord::from_bits(static_cast<std::uint64_t>(x.value() >> Preset::c_edge_x_fraction_bits));
+  static SlopeWalker::EdgeX edge_x(std::span<const std::uint32_t> init, const Field& field) {
+    return SlopeWalker::EdgeX::from_bits(get_bits(init, field));
   }
 
   std::uint32_t triangle_ = 0, y_ = 0, lines_ = 0, lower_lines_ = 0;
   bool backward_ = false;
   StepEdge start_edge_, stop_edge_;
   EdgeStart lower_;
-  EdgeX start_slope_, stop_slope_;
 };
 
 }  // namespace halfway::golden

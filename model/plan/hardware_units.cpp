@@ -31,8 +31,8 @@ class Units {
   void add_walker() {
     add("triangle_walker");
     add("edge_walker", exact_ ? 2 : 0);
-    add("line_interpolator", exact_ ? 0 : 2);
-    add("parameter_register", exact_ ? 1 : 2);  // the lower section, or the slopes
+    add("slope_walker", exact_ ? 0 : 2);
+    add("parameter_register", exact_ ? 1 : 0);  // the lower section
   }
   // `parts`: of each word
   void add_z_interpolator(int parts = 1) {

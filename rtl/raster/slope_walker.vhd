@@ -8,7 +8,7 @@
 -- Throughput  1 line a clock
 -- Error       none of its own; k steps carry k times the slope's rounding
 -- Source      quadratic paper, section 5 and figure 6 (X counter); ours
--- Golden twin model/golden/line_interpolator.hpp
+-- Golden twin model/golden/slope_walker.hpp
 
 library ieee;
 use ieee.std_logic_1164.all;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "golden/edge_walker.hpp"
+#include "golden/slope_walker.hpp"
 #include "golden/object_stage.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
@@ -182,6 +183,30 @@ Status write_edge_walker(const std::filesystem::path& folder) {
     } else if (step) {
       twin.step();
     }
+  }
+  return file.write(folder / "edges.txt");
+}
+
+// A line: checked, load, x, slope, step; x, before the edge. Words of all kinds: sums wrap.
+Status write_slope_walker(const std::filesystem::path& folder) {
+  using EdgeX = golden::SlopeWalker::EdgeX;
+  Random random(15);
+  VectorFile file;
+  golden::SlopeWalker twin;
+  bool waits = false;  // a load, for its step
+  EdgeX x, slope;
+  for (int i = 0; i < 6000; ++i) {
+    if (!waits) {
+      x = EdgeX::from_bits(random.word(Published::c_edge_x_bits));
+      slope = EdgeX::from_bits(random.word(Published::c_edge_x_bits));
+    }
+    const bool load = i == 0 || waits || random.one_in(12), step = i == 0 || !random.one_in(5);
+    waits = load && !step;
+    file.flag(i > 0).flag(load).word(x).word(slope).flag(step).word(twin.x()).end_vector();
+    if (load && step)
+      twin.load(x, slope);
+    else if (step)
+      twin.step();
   }
   return file.write(folder / "edges.txt");
 }
