@@ -132,7 +132,7 @@ Status take_pinned(std::vector<Open>& open, const SimulatorFolders& folders, con
   return do_all(open.size(), options, "pinned clocks", [&](std::size_t at) -> Status {
     const auto sources = read_rtl_sources(open[at].folders.source);
     if (!sources) return sources.error();
-    const auto library = GhdlLibrary::open(*tool, *sources, "", open[at].folders.cache);
+    const auto library = GhdlLibrary::for_synthesis(*tool, *sources, open[at].folders.cache);
     if (!library) return library.error();
     const auto hash = synth::netlist_hash(*library, open[at].design());
     if (!hash) return hash.error();

@@ -111,7 +111,7 @@ TEST_F(HardwareFiguresTest, AClockIsThePinnedOneOfTheSameNetlistAlone) {
   ASSERT_TRUE(tool) << tool.error().message;
   const auto sources = read_rtl_sources(c_source);
   ASSERT_TRUE(sources);
-  const auto library = GhdlLibrary::open(*tool, *sources, "", folders_.cache);
+  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders_.cache);
   ASSERT_TRUE(library) << library.error().message;
   const auto hash = synth::netlist_hash(
       *library, {.name = "another", .entity = key_.entity(), .generics = key_.generics()});

@@ -296,7 +296,7 @@ Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool plac
     if (!source) return source.error();
     sources->push_back(std::move(*source));
   }
-  auto library = GhdlLibrary::open(*tool, *sources, "", folders.cache);
+  auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders.cache);
   if (!library) return library.error();
   Synthesizer synthesizer(std::move(*library), std::filesystem::absolute(folders.cache) / "synth");
   synthesizer.yosys_ = *yosys;

@@ -33,23 +33,36 @@ Result<std::vector<std::string>> generated_sources(const std::filesystem::path& 
   return names;
 }
 
-/// Verilator's runtime, most of what there is to compile for a small shader: once for all of them.
-Result<std::filesystem::path> runtime_object(const std::filesystem::path& parent, const std::string& key,
-                                             const std::string& compiler,
-                                             const std::vector<std::string>& flags) {
+/// Verilator's runtime, most of what there is to compile for a small shader, and its header, most of what
+/// there is to read: once for all of them.
+struct Runtime {
+  std::filesystem::path object;
+  std::filesystem::path header;  ///< precompiled, which is there for clang++ alone
+};
+
+Result<Runtime> runtime_of(const std::filesystem::path& parent, const std::string& key,
+                           const std::string& compiler, const std::string& headers,
+                           const std::vector<std::string>& flags) {
   const std::filesystem::path folder = parent / ("runtime-" + key);
-  const std::filesystem::path object = folder / "runtime.o";
-  if (std::filesystem::exists(folder)) return object;
+  const Runtime runtime{folder / "runtime.o", folder / "verilated.pch"};
+  if (std::filesystem::exists(folder)) return runtime;
   auto fresh = TemporaryFolder::make(parent);
   if (!fresh) return fresh.error();
   const std::string source = "#include \"verilated.cpp\"\n#include \"verilated_threads.cpp\"\n";
   if (auto written = write_file(fresh->path() / "runtime.cpp", source); !written) return written.error();
   Command compile{.arguments = {compiler}, .working_folder = fresh->path()};
   compile.arguments.insert(compile.arguments.end(), flags.begin(), flags.end());
-  compile.arguments.insert(compile.arguments.end(), {"-O1", "-c", "runtime.cpp", "-o", "runtime.o"});
+  compile.arguments.emplace_back("-O1");
+  Command precompile = compile;
+  compile.arguments.insert(compile.arguments.end(), {"-c", "runtime.cpp", "-o", "runtime.o"});
   if (auto done = run_tool(compile, kInstallCompiler, "Verilator's runtime"); !done) return done.error();
+  if (compiler.find("clang") != std::string::npos) {
+    precompile.arguments.insert(precompile.arguments.end(), {"-x", "c++-header", headers + "/verilated.h",
+                                                             "-o", runtime.header.filename().string()});
+    if (auto done = run_tool(precompile, kInstallCompiler, "Verilator's header"); !done) return done.error();
+  }
   if (auto moved = fresh->move_to(folder); !moved) return moved.error();
-  return object;
+  return runtime;
 }
 
 }  // namespace
@@ -73,7 +86,7 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
                {"-I" + *verilator_root + "/include", "-I" + *verilator_root + "/include/vltstd"});
 
   ContentHash tools;
-  tools.add("verilated library 2").add(*verilator_version).add(*verilator_root).add(compiler->identity);
+  tools.add("verilated library 3").add(*verilator_version).add(*verilator_root).add(compiler->identity);
   for (const std::string& flag : flags) tools.add(flag);
   ContentHash hash;
   hash.add(tools.hex()).add(build.netlist).add(build.top).add(*harness).add(build.fast ? "-O3" : "-O1");
@@ -90,7 +103,8 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
   const std::filesystem::path folder = parent / fmt::format("{}-{}", build.name, hash.hex());
 
   if (!std::filesystem::exists(folder)) {
-    const auto runtime = runtime_object(parent, tools.hex(), compiler->program, flags);
+    const auto runtime =
+        runtime_of(parent, tools.hex(), compiler->program, *verilator_root + "/include", flags);
     if (!runtime) return runtime.error();
     auto fresh = TemporaryFolder::make(parent);
     if (!fresh) return fresh.error();
@@ -121,10 +135,18 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
     for (const std::string& definition : build.definitions) arguments.push_back("-D" + definition);
     arguments.insert(arguments.end(),
                      {"-I" + std::filesystem::absolute(build.include_folder).string(), "-Iverilated",
-                      "unity.cpp", std::filesystem::absolute(*runtime).string(), "-o", kLibraryName});
+                      "unity.cpp", std::filesystem::absolute(runtime->object).string(), "-o", kLibraryName});
     arguments.insert(arguments.end(), kLinkFlags.begin(), kLinkFlags.end());
     if (build.waves) arguments.emplace_back("-lz");
-    if (auto done = run_tool(compile, kInstallCompiler, build.name); !done) return done.error();
+    bool compiled = false;
+    if (std::filesystem::exists(runtime->header)) {
+      // clang++ refuses one whose headers have changed since.
+      Command quick = compile;
+      quick.arguments.insert(quick.arguments.end(), {"-include-pch", runtime->header.string()});
+      compiled = static_cast<bool>(run_tool(quick, kInstallCompiler, build.name));
+    }
+    if (!compiled)
+      if (auto done = run_tool(compile, kInstallCompiler, build.name); !done) return done.error();
     if (auto moved = fresh->move_to(folder); !moved) return moved.error();
   }
 
