@@ -59,7 +59,7 @@ constexpr Listed c_listed[] = {
      "'0' & x(c_high - 1 downto c_high - c_address + 1)"},
     {"arithmetic/reciprocal_root.vhd", "product(r.square_x, r.entry_square)",
      "product(r.table_x, r.entry_square)"},
-    {"arithmetic/reciprocal_root.vhd", "c_rest_fraction + 17", "c_rest_fraction + 16"},
+    {"arithmetic/reciprocal_root.vhd", "+ root_raise(g_exact)", "+ root_raise(g_exact) - 1"},
     {"arithmetic/reciprocal_root.vhd", "entry & '0' when r.below_one = '1'",
      "entry & '0' when below_one = '1'"},
     // 0 to a power; 1 not quite 1; a stage's exponent for another's; a product's high bits; rounding.
@@ -108,21 +108,32 @@ constexpr Listed c_listed[] = {
     // Carry ignored in one register; the span takes the next triangle's step.
     {"interpolation/quadratic_interpolator.vhd", "de0_step   <= de0e1 when", "de0_step   <= de0e0 when"},
     {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
-    // No carry into x; a carry too early.
+    // No carry into x; a remainder that is taken once too little; another edge's error below zero.
     {"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '0')"},
-    {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
+    {"raster/edge_walker.vhd", "(increment & not below)", "(increment & '0')"},
+    {"raster/edge_walker.vhd", "v.reduced := '0' & unsigned(load_error)",
+     "v.reduced := r.carry & unsigned(load_error)"},
+    // A carry lost; the first step's slope of the edge before; a carry where the fraction is large.
+    {"raster/slope_walker.vhd", "(r.whole & r.carry)", "(r.whole & '0')", "raster/triangle_walker.vhd"},
+    {"raster/slope_walker.vhd", "part     := unsigned(load_slope(c_fraction - 1 downto 0))",
+     "part     := r.part", "raster/triangle_walker.vhd"},
+    {"raster/slope_walker.vhd", "next_fraction(c_fraction) xor fraction(fraction_t'high)",
+     "next_fraction(c_fraction)", "raster/triangle_walker.vhd"},
     // A clock lost between lines of different triangles, and between lines; a line lost to a stall; the stop
     // edge never bends.
-    {"raster/triangle_walker.vhd", "(edge_step and r.edges.last_behind)", "'0'"},
-    {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "r.span.ends"},
-    {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "'0'"},
-    {"raster/triangle_walker.vhd", "edge_load or (edge_step and to_lower)", "edge_load"},
+    {"raster/triangle_walker.vhd", "v.edges.reads        := r.edges.lower_none and r.edges.left(left_t'high)",
+     "v.edges.reads        := '0'"},
+    {"raster/triangle_walker.vhd", "moves <= fragment_ready and (ends or not draws)",
+     "moves <= fragment_ready and (not r.span.valid or not draws)"},
+    {"raster/triangle_walker.vhd", "moves <= fragment_ready and", "moves <="},
+    {"raster/triangle_walker.vhd", "load           => turns", "load           => r.edges.leaves"},
     // An init vector read twice; one that nobody is told of until its first line is handed on.
-    {"raster/triangle_walker.vhd", "v.edges.lower_none and not v.edges.first", "v.edges.lower_none"},
+    {"raster/triangle_walker.vhd", "v.edges.reads := not init_valid", "v.edges.reads := '1'"},
     {"raster/triangle_walker.vhd", "init_ready <= edge_load", "init_ready <= line_load"},
     // A line, or a span, that does not wait for what it needs.
-    {"raster/triangle_walker.vhd", "(r.line.valid and not line_ready)", "'0'"},
-    {"raster/triangle_walker.vhd", "(r.line.draws and (r.span.goes_on", "(r.line.valid and (r.span.goes_on"},
+    {"raster/triangle_walker.vhd", "(line_ready or not r.line.valid)", "'1'"},
+    {"raster/triangle_walker.vhd", "moves <= fragment_ready and (ends or not draws)",
+     "moves <= fragment_ready"},
     // Of equal depths the last; a polygon on the surface is before it; a pixel shaded twice; a column that
     // the
     // token before has just changed; its change that does not go on with it; columns that a clear leaves; a

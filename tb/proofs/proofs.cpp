@@ -190,58 +190,75 @@ std::vector<Proof> all_proofs() {
        true,
        {},
        {{"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '0')"},
-        {"raster/edge_walker.vhd", "if r.error < r.remainder then", "if r.error <= r.remainder then"},
-        {"raster/edge_walker.vhd", "r.error + r.rise", "r.error + r.remainder"}}});
+        {"raster/edge_walker.vhd", "(increment & not below)", "(increment & '0')"},
+        {"raster/edge_walker.vhd", "increment := '0' & r.rise", "increment := '0' & r.remainder"},
+        {"raster/edge_walker.vhd", "v.carry   := next_reduced(next_reduced'high)", "v.carry   := below"}}});
+  proofs.push_back({"raster/slope_walker",
+                    "raster/slope_walker.psl",
+                    "The whole part of what the start and all slopes that were stepped make together",
+                    Method::induction,
+                    2,
+                    true,
+                    {},
+                    {{"raster/slope_walker.vhd", "(r.whole & r.carry)", "(r.whole & '0')"},
+                     {"raster/slope_walker.vhd", "part     := unsigned(load_slope(c_fraction - 1 downto 0))",
+                      "part     := r.part"},
+                     {"raster/slope_walker.vhd", "next_fraction(c_fraction) xor fraction(fraction_t'high)",
+                      "next_fraction(c_fraction)"}}});
   const std::vector<Fault> walker_faults = {
       {"raster/triangle_walker.vhd", "init_ready <= edge_load", "init_ready <= line_load"},
-      {"raster/triangle_walker.vhd", "v.edges.lower_none and not v.edges.first", "v.edges.lower_none"},
-      {"raster/triangle_walker.vhd", "edge_step and r.edges.last_behind", "edge_step"},
-      {"raster/triangle_walker.vhd", "edge_step <= r.edges.valid and not blocked",
-       "edge_step <= r.edges.valid and not r.line.valid"},
-      {"raster/triangle_walker.vhd", "edge_step <= r.edges.valid and not blocked",
-       "edge_step <= r.edges.valid"},
-      {"raster/triangle_walker.vhd", "edge_step and r.edges.first;", "edge_step;"},
-      {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "r.span.ends"},
-      {"raster/triangle_walker.vhd", "(r.span.ends and not fragment_ready)", "'0'"},
-      {"raster/triangle_walker.vhd", "(r.span.goes_on or (", "('0' or ("},
-      {"raster/triangle_walker.vhd", "v.span.valid := r.span.goes_on", "v.span.valid := '1'"},
-      {"raster/triangle_walker.vhd", "if r.line.more = 0 then", "if r.line.more = 1 then"},
-      {"raster/triangle_walker.vhd", "if r.span.more = 1 then", "if r.span.more = 0 then"},
-      {"raster/triangle_walker.vhd", "v.span.more := r.span.more - 1", "v.span.more := r.span.more"},
+      {"raster/triangle_walker.vhd", "v.edges.reads := not init_valid", "v.edges.reads := '1'"},
+      {"raster/triangle_walker.vhd", "init_valid and r.edges.reads and edge_goes",
+       "init_valid and r.edges.reads"},
+      {"raster/triangle_walker.vhd", "edge_step <= r.edges.valid and moves", "edge_step <= r.edges.valid"},
+      {"raster/triangle_walker.vhd", "line_load <= edge_step and r.edges.first;", "line_load <= edge_step;"},
+      {"raster/triangle_walker.vhd", "moves <= fragment_ready and (ends or not draws)",
+       "moves <= fragment_ready and ends"},
+      {"raster/triangle_walker.vhd", "moves <= fragment_ready and (ends or not draws)",
+       "moves <= fragment_ready"},
+      {"raster/triangle_walker.vhd", "moves <= fragment_ready and", "moves <="},
+      {"raster/triangle_walker.vhd", "(line_ready or not r.line.valid)", "'1'"},
+      {"raster/triangle_walker.vhd", "(line_ready or not r.line.valid)", "line_ready"},
+      {"raster/triangle_walker.vhd", "begins := draws and line_ready", "begins := draws"},
+      {"raster/triangle_walker.vhd", "v.line.valid    := r.edges.valid", "v.line.valid    := '1'"},
+      {"raster/triangle_walker.vhd", "pixels - 1;", "pixels;"},
+      {"raster/triangle_walker.vhd", "v.span.x        := r.line.start", "v.span.x        := r.line.stop"},
       {"raster/triangle_walker.vhd", "span_step <= r.span.valid and fragment_ready",
        "span_step <= r.span.valid"},
-      {"raster/triangle_walker.vhd", "v.span.x        := r.line.start", "v.span.x        := r.line.stop"},
-      {"raster/triangle_walker.vhd", "(r.line.valid and not line_ready)", "'0'"},
-      {"raster/triangle_walker.vhd", "(r.line.draws and (r.span.goes_on",
-       "(r.line.valid and (r.span.goes_on"},
+      {"raster/triangle_walker.vhd", "not r.line.more(more_t'high)", "'1'"},
       {"raster/triangle_walker.vhd", "r.edges.y + 1", "r.edges.y"},
-      {"raster/triangle_walker.vhd", "r.edges.lines - 1", "r.edges.lines"},
-      {"raster/triangle_walker.vhd", "if r.edges.lines = 2 then", "if r.edges.lines = 1 then"},
+      {"raster/triangle_walker.vhd", "fewer(1) := r.edges.follows", "fewer(1) := '1'"},
+      {"raster/triangle_walker.vhd", "v.edges.section_last := r.edges.left(left_t'high)",
+       "v.edges.section_last := '0'"},
       {"raster/triangle_walker.vhd", "if init_upper_lines = 1 then", "if init_upper_lines = 0 then"},
+      {"raster/triangle_walker.vhd", "not (v.edges.reads or v.edges.section_last)", "not v.edges.reads"},
   };
   std::vector<Fault> exact_faults = walker_faults;
   exact_faults.push_back(
       {"raster/triangle_walker.vhd", "if init_lower_lines = 0 then", "if init_lower_lines = 1 then"});
   exact_faults.push_back(
-      {"raster/triangle_walker.vhd", "if r.edges.lower_lines = 1 then", "if r.edges.lower_lines = 0 then"});
+      {"raster/triangle_walker.vhd", "if init_lower_lines = 1 then", "if init_lower_lines = 0 then"});
   exact_faults.push_back(
       {"raster/triangle_walker.vhd", "v.edges.lower_none   := '1'", "v.edges.lower_none   := '0'"});
+  exact_faults.push_back({"raster/triangle_walker.vhd", "r.edges.lower_none and r.edges.left(left_t'high)",
+                          "r.edges.left(left_t'high)"});
+  exact_faults.push_back(
+      {"raster/triangle_walker.vhd", "r.edges.lower_none or r.edges.lower_one", "r.edges.lower_none"});
   exact_faults.push_back({"raster/triangle_walker.vhd", "to_x + not from_x", "to_x - from_x"});
   std::vector<Fault> published_faults = walker_faults;
   published_faults.push_back(
-      {"raster/triangle_walker.vhd", "more(more'high) = '1' or last = c_highest", "more(more'high) = '1'"});
+      {"raster/triangle_walker.vhd", "last(last'high) = '1' or last = c_highest", "last(last'high) = '1'"});
   const std::vector<Width> narrow_walk = {
       {"span_x", 4, 0}, {"edge_error", 3, 0}, {"lines", 3, 0}, {"pixel_y", 3, 0}, {"triangle", 2, 0}};
   const std::vector<Fault> box_faults = {
-      {"raster/triangle_walker.vhd", "stop_load <= edge_load or (edge_step and to_lower)",
-       "stop_load <= edge_load or (edge_step and edge_last)"},
-      {"raster/triangle_walker.vhd", "section   <= held_lower when", "section   <= lower when"},
+      {"raster/triangle_walker.vhd", "load           => turns", "load           => r.edges.leaves"},
+      {"raster/triangle_walker.vhd", "else held_lower;", "else lower;"},
       {"raster/triangle_walker.vhd", "load_carry     => section(c_section_bits - 1)",
        "load_carry     => upper(c_section_bits - 1)"},
-      {"raster/triangle_walker.vhd", "empty  <= more(more'high)", "empty  <= '0'"},
+      {"raster/triangle_walker.vhd", "not r.line.more(more_t'high)", "'1'"},
       {"raster/triangle_walker.vhd", "r.edges.y + 1", "r.edges.y + 2"},
       {"raster/triangle_walker.vhd", "v.line.carry    := edge_carry", "v.line.carry    := not edge_carry"},
-      {"raster/edge_walker.vhd", "r.error + r.rise", "r.error - r.remainder"},
+      {"raster/edge_walker.vhd", "increment := '0' & r.rise", "increment := '0' & r.remainder"},
   };
   for (const bool exact : {true, false})
     proofs.push_back(
@@ -265,17 +282,18 @@ std::vector<Proof> all_proofs() {
 
   const std::vector<Width> narrow_box = {
       {"span_x", 3, 0}, {"edge_error", 2, 0}, {"lines", 2, 0}, {"pixel_y", 3, 0}, {"triangle", 1, 0}};
-  proofs.push_back({"raster/edge_walker",
-                    "raster/edge_walker_box.psl",
-                    "An edge that begins and ends between two pixels leaves them on no line between: any edge "
-                    "of 6 lines, 8 columns, divisors up to 3",
-                    Method::pdr,
-                    8,
-                    false,
-                    {},
-                    {{"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '1')"},
-                     {"raster/edge_walker.vhd", "r.error + r.rise", "r.error - r.remainder"}},
-                    narrow_box});
+  proofs.push_back(
+      {"raster/edge_walker",
+       "raster/edge_walker_box.psl",
+       "An edge that begins and ends between two pixels leaves them on no line between: any edge "
+       "of 6 lines, 8 columns, divisors up to 3",
+       Method::pdr,
+       8,
+       false,
+       {},
+       {{"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '1')"},
+        {"raster/edge_walker.vhd", "increment := '0' & r.rise", "increment := '0' & r.remainder"}},
+       narrow_box});
   proofs.push_back(
       {"raster/triangle_walker",
        "raster/triangle_walker_box.psl",
@@ -662,6 +680,9 @@ std::vector<Proof> all_proofs() {
        {{"tables/formats_pkg.vhd", "plane_sum => (44, 42)", "plane_sum => (44, 41)"}}});
 
   // Shaders.
+  const std::vector<Width> narrow_pixels = {{"span_x", 4, 0}, {"pixel_x", 3, 0},   {"edge_error", 3, 0},
+                                            {"lines", 3, 0},  {"pixel_y", 3, 0},   {"triangle", 2, 0},
+                                            {"depth", 4, 0},  {"depth_sum", 4, 1}, {"intensity", 9, 2}};
   proofs.push_back(
       {"shaders/quadratic_shader",
        "shaders/quadratic_shader.psl",
@@ -691,7 +712,9 @@ std::vector<Proof> all_proofs() {
        {},
        false,
        12});
-  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
+  proofs.back().widths = narrow_pixels;
+  proofs.back().full_width = true;
+  proofs.back().contracts = {"raster/triangle_walker_any.psl", "interpolation/interpolators_any.psl"};
   proofs.push_back(
       {"shaders/spherical_shader",
        "shaders/spherical_shader.psl",
@@ -715,8 +738,10 @@ std::vector<Proof> all_proofs() {
         {"shaders/spherical_shader.vhd", "line_step or line_load", "line_step or not waiting"}},
        {},
        true,
-       14});
-  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
+       20});
+  proofs.back().widths = narrow_pixels;
+  proofs.back().full_width = true;
+  proofs.back().contracts = {"raster/triangle_walker_any.psl", "interpolation/interpolators_any.psl"};
   proofs.push_back(
       {"shaders/processors_shader",
        "shaders/processors_shader.psl",
@@ -749,7 +774,7 @@ std::vector<Proof> all_proofs() {
        {},
        true,
        11});
-  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
+  proofs.back().contracts = {"raster/triangle_walker_any.psl", "interpolation/interpolators_any.psl"};
   return proofs;
 }
 
