@@ -207,7 +207,7 @@ Result<CellCounter> CellCounter::open(const SimulatorFolders& folders) {
   if (!tool) return tool.error();
   const auto sources = read_rtl_sources(folders.source);
   if (!sources) return sources.error();
-  auto library = GhdlLibrary::open(*tool, *sources, "", folders.cache);
+  auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders.cache);
   if (!library) return library.error();
   return CellCounter(std::move(*version), std::move(*library),
                      std::filesystem::absolute(folders.cache) / "yosys");

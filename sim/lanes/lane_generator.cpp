@@ -15,10 +15,12 @@
 namespace halfway {
 namespace {
 
-constexpr unsigned kWord = 64;
+constexpr unsigned kWord = kLaneWord;
+
+constexpr std::size_t kRow = 4;  ///< words of a bank's place
 
 constexpr std::uint64_t ones(unsigned width) {
-  return width >= kWord ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1;
+  return (std::uint64_t{1} << std::min(width, kWord)) - 1;
 }
 
 /// `width` bits of a vector from `low` up, or a mask repeated. A signal is a list of pieces, the least
@@ -29,6 +31,7 @@ struct Piece {
   friend auto operator<=>(const Piece&, const Piece&) = default;
 };
 using Bits = std::vector<Piece>;
+using Words = std::vector<int>;  ///< vectors that are one number, the least significant first
 
 unsigned width_of(const Bits& bits) {
   unsigned width = 0;
@@ -41,16 +44,14 @@ struct Rom {
   std::vector<std::uint64_t> data;
 };
 
-/// A memory that is written: each of its places is a register.
+/// A memory that is written. Its places lie in rows of words, a bank for each four words; memories that are
+/// written together share a bank.
 struct Memory {
   unsigned bits = 0;  ///< of a datum
   std::size_t places = 0;
+  std::size_t words() const { return (bits + kWord - 1) / kWord; }
 };
-constexpr std::size_t kMostPlaces = 16;  ///< every access looks at all
-
-std::string place_of(std::string_view memory, std::size_t index) {
-  return fmt::format("{}[{}]", memory, index);
-}
+constexpr std::size_t kMostPlaces = 1024;  ///< each lane has its own
 
 /// The netlist by names. The nodes stay in the document.
 struct Netlist {
@@ -64,12 +65,14 @@ struct Netlist {
   std::map<std::string, Memory> memories;
 };
 
-/// A part of a register or an input, of up to 64 bits, that lies in a variable of its own.
+/// A part of a register or an input, of up to a word's bits, that lies in a variable of its own.
 struct Cell {
   std::string variable;
   unsigned low, width;
   bool input, dirty;  ///< dirty: bits above `width` mean nothing
 };
+
+using Rooms = std::map<std::string, std::size_t>;  ///< a memory's first word, counted through all banks
 
 /// How registers and inputs are cut into cells, found by building the graph until nothing new is asked for:
 /// where a slice begins or ends there is a cut, but none inside what arithmetic takes as a whole.
@@ -77,8 +80,10 @@ struct Layout {
   std::map<std::string, std::set<unsigned>> cuts;
   std::map<std::string, std::set<std::pair<unsigned, unsigned>>> wholes;
   std::set<std::pair<std::string, unsigned>> dirty;
-  std::map<std::string, std::string> twins;  ///< registers that are always what another one is
-  bool words = false;  ///< cells have at most 64 bits; at first they are not cut where nothing asks for it
+  std::set<std::pair<std::string, unsigned>> cleaned;  ///< would be dirty, but who reads them minds
+  std::map<std::string, std::string> twins;            ///< registers that are always what another one is
+  Rooms rooms;
+  bool words = false;  ///< cells have a word at most; at first they are not cut where nothing asks for it
   friend bool operator==(const Layout&, const Layout&) = default;
 
   std::vector<Cell> cells_of(const std::string& variable, unsigned width, bool input) const {
@@ -93,7 +98,7 @@ struct Layout {
       const unsigned longest = words ? kWord : *next - begin;
       for (unsigned low = begin; low < *next; low += longest) {
         cells.push_back({variable, low, std::min(*next - low, longest), input,
-                         !input && dirty.count({variable, low}) != 0});
+                         !input && dirty.count({variable, low}) != 0 && cleaned.count({variable, low}) == 0});
       }
     }
     return cells;
@@ -119,6 +124,15 @@ struct Update {
   int value;
 };
 
+/// What a place of a memory, or of a bank, becomes.
+struct Store {
+  Guard guard;
+  int address;
+  Words words;
+};
+/// Among the cells that a group reads and writes: banks come behind them.
+constexpr std::size_t kFirstBank = std::size_t{1} << 32;
+
 /// What a register becomes, and when: registers for which it is the same are twins.
 using Writes = std::vector<std::pair<Guard, Bits>>;
 
@@ -127,6 +141,7 @@ struct Step {
   LaneGraph graph;
   std::vector<Cell> cells;
   std::map<Guard, std::vector<Update>> updates;
+  std::map<std::string, Store> stores;              ///< by memory
   std::map<std::string, std::vector<int>> outputs;  ///< words, or one mask
   std::map<std::string, Writes> writes;
 };
@@ -152,10 +167,9 @@ class Builder {
       if (width == 1) {
         words.push_back(to_mask(bits));
       } else {
-        for (unsigned low = 0; low < width; low += kWord) {
-          const unsigned part = std::min(width - low, kWord);
-          words.push_back(graph().clean(to_vector(slice(bits, low, part), false), part));
-        }
+        if (bits.empty()) continue;
+        words = to_words(bits, false);
+        words.back() = graph().clean(words.back(), top_width(width));
       }
     }
     for (const pugi::xml_node statement : netlist_.clocked) execute(statement, {});
@@ -241,6 +255,14 @@ class Builder {
     if (arithmetic) layout_.wholes[cell.variable].insert({low, high});
   }
 
+  /// Nothing must lie above this: if it is a whole cell, better there than wherever that is read.
+  void note_clean(const Piece& piece) {
+    const LaneNode& node = graph()[piece.node];
+    if (node.op != LaneOp::cell) return;
+    const Cell& cell = step_.cells[node.value];
+    if (cell.dirty && cell.width == piece.width) layout_.cleaned.insert({cell.variable, cell.low});
+  }
+
   /// As one vector; what lies above the bits' width means nothing.
   int to_vector(const Bits& bits, bool arithmetic = true) {
     int sum = graph().constant(0);
@@ -264,6 +286,7 @@ class Builder {
         int part = graph().shift(piece.node, static_cast<int>(at) - static_cast<int>(piece.low));
         const bool dirty_below = piece.low > 0 && at > 0;
         const bool dirty_above = at + piece.width < width && graph()[part].bits > at + piece.width;
+        if (dirty_above && piece.low == 0) note_clean(piece);
         if (dirty_below || dirty_above) part = graph().operate(LaneOp::both, part, graph().constant(field));
         sum = graph().operate(LaneOp::either, sum, part);
       }
@@ -271,6 +294,24 @@ class Builder {
     }
     return graph().operate(LaneOp::either, sum, graph().constant(constants));
   }
+
+  /// As vectors of a word each, the least significant first.
+  Words to_words(const Bits& bits, bool arithmetic = true) {
+    Words words;
+    const unsigned width = width_of(bits);
+    for (const Piece& piece : bits) note(piece, arithmetic);
+    for (unsigned low = 0; low < width; low += kWord)
+      words.push_back(to_vector(slice(bits, low, std::min(width - low, kWord)), arithmetic));
+    return words;
+  }
+  Bits from_words(const Words& words, unsigned width) {
+    Bits bits;
+    for (unsigned low = 0; low < width; low += kWord)
+      append(bits, {words[low / kWord], 0, std::min(width - low, kWord)});
+    return bits;
+  }
+  /// Bits of the last word.
+  static unsigned top_width(unsigned width) { return (width - 1) % kWord + 1; }
 
   int to_mask(const Bits& bits) {
     if (bits.empty()) return graph().mask_constant(false);
@@ -373,23 +414,21 @@ class Builder {
     if (!first) return fail(fmt::format("{}: the lanes do not know '{}'", line_of(node), op));
     if (op == "arraysel") return element(node);
     const Bits a = value(first);
+    if (a.empty()) return {};
     if (op == "sel") {
       const auto low = number(second), count = number(second.next_sibling());
       if (!low || !count) return fail(line_of(node) + ": a slice whose place is not constant");
       return slice(a, static_cast<unsigned>(*low), static_cast<unsigned>(*count));
     }
     if (op == "extend" || op == "extends") {
-      if (a.empty() || width_of(a) > width) return fail(line_of(node) + ": an extension that narrows");
+      if (width_of(a) > width) return fail(line_of(node) + ": an extension that narrows");
       Bits bits = a;
       const unsigned more = width - width_of(a);
       append(bits, op == "extend" ? zeros(more) : whole(to_mask(slice(a, width_of(a) - 1, 1)), more));
       return bits;
     }
-    if (op == "not") return invert(node, a);
-    if (op == "negate") {
-      if (!fits(node, width)) return {};
-      return whole(graph().operate(LaneOp::subtract, graph().constant(0), to_vector(a)), width);
-    }
+    if (op == "not") return invert(a);
+    if (op == "negate") return difference(zeros(width), a);
     if (op == "replicate") {
       const auto count = number(second);
       if (!count) return fail(line_of(node) + ": a replication whose count is not constant");
@@ -400,7 +439,7 @@ class Builder {
     }
     if (!second) return fail(fmt::format("{}: the lanes do not know '{}'", line_of(node), op));
     const Bits b = value(second);
-    if (a.empty() || b.empty()) return {};
+    if (b.empty()) return {};
     if (op == "concat") {
       Bits bits = b;
       append(bits, a);
@@ -413,17 +452,46 @@ class Builder {
     return binary(node, op, a, b);
   }
 
-  bool fits(pugi::xml_node node, unsigned width) {
-    if (width <= kWord) return true;
-    fail(fmt::format("{}: '{}' on {} bits: lanes have {}", line_of(node), node.name(), width, kWord));
-    return false;
-  }
-
-  Bits invert(pugi::xml_node node, const Bits& a) {
+  Bits invert(const Bits& a) {
     const unsigned width = width_of(a);
     if (width == 1) return whole(graph().mask_invert(to_mask(a)), 1);
-    if (!fits(node, width)) return {};
-    return whole(graph().invert(to_vector(a)), width);
+    Words words = to_words(a);
+    for (int& word : words) word = graph().invert(word);
+    return from_words(words, width);
+  }
+
+  // Sums and products of any number of words: a carry is a mask.
+
+  Bits sum(const Bits& a, const Bits& b, int carry) {
+    const Words x = to_words(a), y = to_words(b);
+    Words words;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const int part = graph().operate(LaneOp::add, x[i], y[i]);
+      words.push_back(graph().operate(LaneOp::add, part, graph().fill(carry, 1)));
+      const int wraps = graph().compare(LaneOp::equal, words.back(), graph().constant(0));
+      carry = graph().mask_operate(LaneOp::mask_either, graph().compare(LaneOp::less, part, x[i]),
+                                   graph().mask_operate(LaneOp::mask_both, carry, wraps));
+    }
+    return from_words(words, width_of(a));
+  }
+  Bits difference(const Bits& a, const Bits& b) {
+    const unsigned width = width_of(a);
+    if (width <= kWord) return whole(graph().operate(LaneOp::subtract, to_vector(a), to_vector(b)), width);
+    return sum(a, invert(b), graph().mask_constant(true));
+  }
+  Bits product(const Bits& a, const Bits& b) {
+    const unsigned width = width_of(a);
+    const Words x = to_words(a), y = to_words(b);
+    Bits total = zeros(width);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      for (std::size_t j = 0; i + j < x.size(); ++j) {
+        Words words(x.size(), graph().constant(0));
+        words[i + j] = graph().operate(LaneOp::multiply, x[i], y[j]);
+        if (i + j + 1 < x.size()) words[i + j + 1] = graph().operate(LaneOp::multiply_high, x[i], y[j]);
+        total = sum(total, from_words(words, width), graph().mask_constant(false));
+      }
+    }
+    return total;
   }
 
   /// The lowest bit alone, a constant one.
@@ -436,35 +504,33 @@ class Builder {
   Bits sum_with_carry(const Bits& a, const Bits& b) {
     const unsigned width = width_of(a) - 1;
     const int carry = to_mask(slice(b, 0, 1));
-    const int sum =
-        graph().operate(LaneOp::add, to_vector(slice(a, 1, width)), to_vector(slice(b, 1, width)));
     Bits bits = whole(graph().mask_invert(carry), 1);
-    append(bits, whole(graph().operate(LaneOp::add, sum, graph().fill(carry, 1)), width));
+    append(bits, sum(slice(a, 1, width), slice(b, 1, width), carry));
     return bits;
   }
 
   Bits binary(pugi::xml_node node, std::string_view op, const Bits& a, const Bits& b) {
     const unsigned width = type_width(node), operand = width_of(a);
-    if (!fits(node, std::max(operand, width_of(b)))) return {};
+    if (op == "shiftl" || op == "shiftr" || op == "shiftrs") return shift(op, a, b);
+    if (operand != width_of(b)) return fail(fmt::format("{}: '{}' on different widths", line_of(node), op));
     static const std::map<std::string_view, std::pair<LaneOp, LaneOp>> bitwise = {
         {"and", {LaneOp::both, LaneOp::mask_both}},
         {"or", {LaneOp::either, LaneOp::mask_either}},
         {"xor", {LaneOp::differ, LaneOp::mask_differ}}};
     if (const auto found = bitwise.find(op); found != bitwise.end()) {
       if (width == 1) return whole(graph().mask_operate(found->second.second, to_mask(a), to_mask(b)), 1);
-      return whole(graph().operate(found->second.first, to_vector(a), to_vector(b)), width);
+      Words words = to_words(a), others = to_words(b);
+      for (std::size_t i = 0; i < words.size(); ++i)
+        words[i] = graph().operate(found->second.first, words[i], others[i]);
+      return from_words(words, width);
     }
-    if (op == "add" && width > 1 && operand == width && width_of(b) == width) {
+    if (op == "add" && width > 1 && operand == width) {
       if (is_one(a)) return sum_with_carry(a, b);
       if (is_one(b)) return sum_with_carry(b, a);
     }
-    static const std::map<std::string_view, LaneOp> arithmetic = {{"add", LaneOp::add},
-                                                                  {"sub", LaneOp::subtract},
-                                                                  {"mul", LaneOp::multiply},
-                                                                  {"muls", LaneOp::multiply}};
-    if (const auto found = arithmetic.find(op); found != arithmetic.end())
-      return whole(graph().operate(found->second, to_vector(a), to_vector(b)), width);
-    if (op == "shiftl" || op == "shiftr" || op == "shiftrs") return shift(op, a, b);
+    if (op == "add") return sum(a, b, graph().mask_constant(false));
+    if (op == "sub") return difference(a, b);
+    if (op == "mul" || op == "muls") return product(a, b);
 
     // a OP b as a < b or a == b, perhaps the other way round, perhaps not.
     struct Order {
@@ -484,24 +550,54 @@ class Builder {
     if (order.op == LaneOp::equal && operand == 1) {
       mask = graph().mask_invert(graph().mask_operate(LaneOp::mask_differ, to_mask(a), to_mask(b)));
     } else {
-      const auto side = [&](const Bits& bits) {
-        const int vector = to_vector(bits);
-        // The sign at the top, or nothing above the number.
-        return order.op == LaneOp::signed_less ? graph().shift(vector, static_cast<int>(kWord - operand))
-                                               : graph().clean(vector, operand);
-      };
-      const int x = side(a), y = side(b);
-      mask = order.swap ? graph().compare(order.op, y, x) : graph().compare(order.op, x, y);
+      mask = order.swap ? compare(order.op, b, a) : compare(order.op, a, b);
     }
     return whole(order.invert ? graph().mask_invert(mask) : mask, 1);
   }
 
+  /// The uppermost word that differs says which is less.
+  int compare(LaneOp op, const Bits& a, const Bits& b) {
+    const unsigned top = top_width(width_of(a));
+    Words x = to_words(a), y = to_words(b);
+    for (Words* words : {&x, &y}) {
+      // The sign at the top, or nothing above the number.
+      int& last = words->back();
+      last = op == LaneOp::signed_less ? graph().shift(last, static_cast<int>(kWord - top))
+                                       : graph().clean(last, top);
+    }
+    int mask = graph().mask_constant(op == LaneOp::equal);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const int same =
+          graph().mask_operate(LaneOp::mask_both, graph().compare(LaneOp::equal, x[i], y[i]), mask);
+      const LaneOp here = op == LaneOp::signed_less && i + 1 < x.size() ? LaneOp::less : op;
+      mask = op == LaneOp::equal
+                 ? same
+                 : graph().mask_operate(LaneOp::mask_either, graph().compare(here, x[i], y[i]), same);
+    }
+    return mask;
+  }
+
+  /// By a constant.
+  Bits moved(std::string_view op, const Bits& a, unsigned distance) {
+    const unsigned width = width_of(a), kept = width - distance;
+    Bits bits = op == "shiftl" ? zeros(distance) : slice(a, distance, kept);
+    append(bits, op == "shiftl"   ? slice(a, 0, kept)
+                 : op == "shiftr" ? zeros(distance)
+                                  : whole(to_mask(slice(a, width - 1, 1)), distance));
+    return bits;
+  }
+
   Bits shift(std::string_view op, const Bits& a, const Bits& by) {
     const unsigned width = width_of(a);
-    if (by.size() == 1 && graph()[by[0].node].op == LaneOp::constant && op != "shiftrs") {
-      const auto distance = static_cast<unsigned>(std::min<std::uint64_t>(graph()[by[0].node].value, width));
-      Bits bits = op == "shiftl" ? zeros(distance) : slice(a, distance, width - distance);
-      append(bits, op == "shiftl" ? slice(a, 0, width - distance) : zeros(distance));
+    if (by.size() == 1 && graph()[by[0].node].op == LaneOp::constant)
+      return moved(op, a, static_cast<unsigned>(std::min<std::uint64_t>(graph()[by[0].node].value, width)));
+    if (width > kWord) {
+      Bits bits = a;
+      for (unsigned bit = 0; bit < width_of(by); ++bit) {
+        const unsigned distance = std::min(width, 1U << std::min(bit, kWord - 1));
+        bits = choose(to_mask(slice(by, bit, 1)), moved(op, bits, distance), bits);
+        bits = from_words(to_words(bits), width);
+      }
       return bits;
     }
     const int distance = graph().clean(to_vector(by), width_of(by));
@@ -545,22 +641,21 @@ class Builder {
                               memory.places, kMostPlaces));
     if (memory.places != std::size_t{1} << width_of(address))
       return fail(fmt::format("{}: {}: an address that may lie outside", line_of(node), name));
-    for (std::size_t i = 0; i < memory.places; ++i)
-      layout_.wholes[place_of(name, i)].insert({0, memory.bits});
     return address;
   }
 
   Bits read(pugi::xml_node node, const std::string& name, const Memory& memory) {
     const Bits address = address_of(node, name, memory);
     if (address.empty()) return {};
-    std::vector<Bits> left;
-    for (std::size_t i = 0; i < memory.places; ++i) left.push_back(signal(place_of(name, i)));
-    for (unsigned bit = 0; left.size() > 1; ++bit) {
-      const int upper = to_mask(slice(address, bit, 1));
-      for (std::size_t i = 0; i < left.size() / 2; ++i) left[i] = choose(upper, left[2 * i + 1], left[2 * i]);
-      left.resize(left.size() / 2);
+    const int index = graph().clean(to_vector(address), width_of(address));
+    Bits bits;
+    for (std::size_t i = 0; i < memory.words(); ++i) {
+      const std::size_t word = layout_.rooms.at(name) + i;
+      const unsigned low = static_cast<unsigned>(i) * kWord;
+      append(bits, {graph().word(graph().row(word / kRow, index), word % kRow), 0,
+                    std::min(memory.bits - low, kWord)});
     }
-    return left[0];
+    return bits;
   }
 
   void write(pugi::xml_node assignment, const Memory& memory, const Guard& guard) {
@@ -568,17 +663,9 @@ class Builder {
     const std::string name = target.first_child().attribute("name").value();
     const Bits address = address_of(target, name, memory), datum = value(assignment.first_child());
     if (address.empty() || datum.empty()) return;
-    Bits words;  // put together once, not at each place
-    for (unsigned low = 0; low < memory.bits; low += kWord) {
-      const unsigned width = std::min(memory.bits - low, kWord);
-      append(words, whole(to_vector(slice(datum, low, width), false), width));
-    }
     const int index = graph().clean(to_vector(address), width_of(address));
-    for (std::size_t i = 0; i < memory.places; ++i) {
-      const int here = graph().compare(LaneOp::equal, index, graph().constant(i));
-      const std::string place = place_of(name, i);
-      assign(assignment, place, choose(here, words, signal(place)), guard);
-    }
+    if (!step_.stores.try_emplace(name, Store{guard, index, to_words(datum, false)}).second)
+      fail(fmt::format("{}: {}: written in two places", line_of(assignment), name));
   }
 
   // Statements
@@ -630,7 +717,9 @@ class Builder {
     for (std::size_t i = first_cell_[name]; i < step_.cells.size() && step_.cells[i].variable == name; ++i) {
       const Cell& cell = step_.cells[i];
       const Bits part = slice(bits, cell.low, cell.width);
-      const int next = cell.width == 1 ? to_mask(part) : to_vector(part, false);
+      int next = cell.width == 1 ? to_mask(part) : to_vector(part, false);
+      if (cell.width > 1 && layout_.cleaned.count({name, cell.low}) != 0)
+        next = graph().clean(next, cell.width);
       if (cell.width > 1 && graph()[next].bits > cell.width) layout_.dirty.insert({name, cell.low});
       step_.updates[guard].push_back({i, next});
     }
@@ -646,34 +735,104 @@ class Builder {
   std::string error_;
 };
 
+// Registers that only delay others: a ring of places, one a clock, in which nothing moves.
+
+struct Ring {
+  std::size_t head;  ///< the cell that is written
+  unsigned age;      ///< clocks behind it
+};
+using Rings = std::map<std::size_t, Ring>;     ///< by cell
+constexpr unsigned kRingPlaces = 8;            ///< a power of two
+constexpr unsigned kOldest = kRingPlaces - 2;  ///< the place beyond is being written
+
+/// What a cell becomes at each edge in both steps; nothing where that depends.
+std::optional<std::pair<int, int>> always_becomes(const Step& step, const Step& reset_step,
+                                                  std::size_t cell) {
+  std::array<std::optional<int>, 2> values;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const auto& [guard, updates] : (i == 0 ? step : reset_step).updates) {
+      for (const Update& update : updates) {
+        if (update.cell != cell) continue;
+        if (!guard.empty()) return std::nullopt;
+        values[i] = update.value;
+      }
+    }
+  }
+  if (!values[0] || !values[1]) return std::nullopt;
+  return std::pair(*values[0], *values[1]);
+}
+
+Rings find_rings(const Step& step, const Step& reset_step, const std::set<std::size_t>& live) {
+  std::map<std::size_t, std::vector<std::size_t>> followers;
+  std::set<std::size_t> heads;
+  for (const std::size_t cell : live) {
+    if (cell >= kFirstBank || step.cells[cell].input || step.cells[cell].width == 1) continue;
+    const auto values = always_becomes(step, reset_step, cell);
+    if (!values) continue;
+    heads.insert(cell);
+    const LaneNode &a = step.graph[values->first], &b = reset_step.graph[values->second];
+    if (a.op == LaneOp::cell && b.op == LaneOp::cell && a.value == b.value)
+      followers[a.value].push_back(cell);
+  }
+  for (const auto& [source, cells] : followers)
+    if (heads.count(source) != 0)
+      for (const std::size_t cell : cells) heads.erase(cell);
+  Rings rings;
+  const std::function<void(std::size_t, Ring)> add = [&](std::size_t cell, Ring ring) {
+    if (ring.age > kOldest) ring = {cell, 0};
+    if (const auto found = followers.find(cell); found != followers.end())
+      for (const std::size_t follower : found->second) add(follower, {ring.head, ring.age + 1});
+    if (ring.age > 0 || followers.count(cell) != 0) rings[cell] = ring;
+  };
+  for (const std::size_t head : heads) add(head, {head, 0});
+  return rings;
+}
+
 // The text
 
 struct Group {
   Guard guard;
   std::vector<Update> updates;
+  std::map<std::size_t, Store> banks;  ///< what their places become
   int mask;
   std::set<std::size_t> reads, writes;
 };
 
 class Writer {
  public:
-  Writer(Step& step, const std::set<std::size_t>& live) : step_(step), live_(live) {
+  Writer(Step& step, const Rooms& rooms, const std::set<std::size_t>& live, const Rings& rings)
+      : step_(step), live_(live), rings_(rings) {
     for (const auto& [guard, updates] : step.updates) {
-      Group group{guard, {}, step.graph.mask_constant(true), {}, {}};
+      Group group{guard, {}, {}, mask_of(guard), {}, {}};
       for (const Update& update : updates)
-        if (live.count(update.cell) != 0) group.updates.push_back(update);
-      if (group.updates.empty()) continue;
-      for (const auto& [mask, wanted] : guard) {
-        if (has_parts(step.graph[mask], wanted)) continue;
-        group.mask = step.graph.mask_operate(LaneOp::mask_both, group.mask,
-                                             wanted ? mask : step.graph.mask_invert(mask));
-      }
-      groups_.push_back(std::move(group));
+        if (live.count(update.cell) != 0 && !is_late(update.cell)) group.updates.push_back(update);
+      if (!group.updates.empty()) groups_.push_back(std::move(group));
+    }
+    for (const auto& [guard, banks] : banks_of(step, rooms)) {
+      Group group{guard, {}, {}, mask_of(guard), {}, {}};
+      for (const auto& [bank, store] : banks)
+        if (live.count(kFirstBank + bank) != 0) group.banks.emplace(bank, store);
+      if (!group.banks.empty()) groups_.push_back(std::move(group));
     }
   }
 
+  /// The memories' words as they lie in banks.
+  static std::map<Guard, std::map<std::size_t, Store>> banks_of(const Step& step, const Rooms& rooms) {
+    std::map<Guard, std::map<std::size_t, Store>> banks;
+    for (const auto& [name, store] : step.stores) {
+      for (std::size_t i = 0; i < store.words.size(); ++i) {
+        const std::size_t word = rooms.at(name) + i;
+        Store& bank = banks[store.guard][word / kRow];
+        bank.address = store.address;
+        bank.words.resize(kRow, store.words[0]);
+        bank.words[word % kRow] = store.words[i];
+      }
+    }
+    return banks;
+  }
+
   /// The cells that the outputs depend on, over any number of clocks.
-  static std::set<std::size_t> live_cells(const Step& step) {
+  static std::set<std::size_t> live_cells(const Step& step, const Rooms& rooms) {
     std::vector<bool> seen(static_cast<std::size_t>(step.graph.size()));
     std::set<std::size_t> live;
     const auto see = [&](int node) { visit(step.graph, node, seen, live); };
@@ -688,11 +847,19 @@ class Writer {
           for (const auto& literal : guard) see(literal.first);
         }
       }
+      for (const auto& [guard, banks] : banks_of(step, rooms)) {
+        for (const auto& [bank, store] : banks) {
+          if (live.count(kFirstBank + bank) == 0) continue;
+          see(store.address);
+          for (const int word : store.words) see(word);
+          for (const auto& literal : guard) see(literal.first);
+        }
+      }
     }
     return live;
   }
 
-  std::string function(const std::string& name) {
+  Result<std::string> function(const std::string& name) {
     std::vector<bool> first(static_cast<std::size_t>(step_.graph.size()));
     std::set<std::size_t> cells;
     for (const auto& [output, words] : step_.outputs)
@@ -708,12 +875,24 @@ class Writer {
       visit(step_.graph, group.mask, seen, group.reads);
       for (const Update& update : group.updates) {
         visit(step_.graph, update.value, seen, group.reads);
-        group.writes.insert(update.cell);
+        if (rings_.count(update.cell) == 0) group.writes.insert(update.cell);
+      }
+      for (const auto& [bank, store] : group.banks) {
+        visit(step_.graph, store.address, seen, group.reads);
+        for (const int word : store.words) visit(step_.graph, word, seen, group.reads);
+        group.writes.insert(kFirstBank + bank);
       }
     }
     order();
+    if (!saved_.empty() && *saved_.rbegin() >= kFirstBank)
+      return tool_failed("the lanes do not know memories that take from one another at one edge");
 
-    std::string text = "LANE_FUNCTION void " + name + "(State& s, const Inputs& in, Outputs& out) {\n";
+    std::string text = "LANE_STEP void " + name + "(State& s, const Inputs& in, Outputs& out) {\n";
+    if (!rings_.empty()) {
+      text += fmt::format("  Late& next = s.late[(s.clock + 1) % {}];\n", kRingPlaces);
+      for (unsigned age = 0; age <= kOldest; ++age)
+        text += fmt::format("  const Late& late{0} = s.late[(s.clock - {0}) % {1}];\n", age, kRingPlaces);
+    }
     for (const std::size_t cell : saved_)
       text += fmt::format("  const {0} o{1} = s.c{1};\n", type_of(cell), cell);
     in_group_ = false;
@@ -728,31 +907,73 @@ class Writer {
     for (const Group& group : groups_) {
       auto seen = first;
       std::set<std::size_t> reads;
-      for (const Update& update : group.updates) visit(step_.graph, update.value, seen, reads);
+      for (const Update& update : group.updates) {
+        const auto [where, value] = changed(update.cell, update.value);
+        for (const int node : {where, value})
+          if (node >= 0) visit(step_.graph, node, seen, reads);
+      }
+      for (const auto& [bank, store] : group.banks) {
+        visit(step_.graph, store.address, seen, reads);
+        for (const int word : store.words) visit(step_.graph, word, seen, reads);
+      }
       const bool always = step_.graph[group.mask].op == LaneOp::mask_constant;
       text += always ? "  {\n" : fmt::format("  if ({}) {{\n", reference(group.mask));
       nodes(text, seen, first);
+      for (const auto& [cell, value] : group.updates)
+        text += fmt::format("  const {} n{} = {};\n", type_of(cell), cell,
+                            reference(changed(cell, value).second));
       for (const auto& [cell, value] : group.updates) {
-        text += fmt::format("  const {} n{} = ", type_of(cell), cell);
-        text += always ? reference(value)
-                       : fmt::format("select({}, {}, s.c{})", reference(group.mask), reference(value), cell);
-        text += ";\n";
+        const int where = changed(cell, value).first;
+        std::string mask = always ? "" : reference(group.mask);
+        if (where >= 0) mask += (always ? "" : " & ") + reference(where);
+        text += mask.empty()
+                    ? fmt::format("  {1}.c{0} = n{0};\n", cell, rings_.count(cell) != 0 ? "next" : "s")
+                    : fmt::format("  assign({1}, s.c{0}, n{0});\n", cell, mask);
       }
-      for (const auto& [cell, value] : group.updates) text += fmt::format("  s.c{0} = n{0};\n", cell);
+      for (const auto& [bank, store] : group.banks) {
+        text += fmt::format("  store(s.bank{}, {}, {}, {{", bank, reference(group.mask),
+                            reference(store.address));
+        for (const int word : store.words) text += reference(word) + ", ";
+        text += "});\n";
+      }
       text += "  }\n";
     }
-    return text + "}\n";
+    return text + (rings_.empty() ? "}\n" : "  ++s.clock;\n}\n");
   }
 
  private:
+  int mask_of(const Guard& guard) {
+    int all = step_.graph.mask_constant(true);
+    for (const auto& [mask, wanted] : guard) {
+      if (has_parts(step_.graph[mask], wanted)) continue;
+      all = step_.graph.mask_operate(LaneOp::mask_both, all, wanted ? mask : step_.graph.mask_invert(mask));
+    }
+    return all;
+  }
+
+  bool is_late(std::size_t cell) const {
+    const auto ring = rings_.find(cell);
+    return ring != rings_.end() && ring->second.age > 0;
+  }
+
   static void visit(const LaneGraph& graph, int node, std::vector<bool>& seen, std::set<std::size_t>& cells) {
     if (static_cast<std::size_t>(node) >= seen.size()) seen.resize(static_cast<std::size_t>(graph.size()));
     if (seen[static_cast<std::size_t>(node)]) return;
     seen[static_cast<std::size_t>(node)] = true;
     const LaneNode& at = graph[node];
     if (at.op == LaneOp::cell || at.op == LaneOp::mask_cell) cells.insert(at.value);
+    if (at.op == LaneOp::row) cells.insert(kFirstBank + at.value);
     for (const int operand : at.operands)
       if (operand >= 0) visit(graph, operand, seen, cells);
+  }
+
+  /// Where and to what a cell changes, of a value that else is the cell's own; -1: everywhere.
+  std::pair<int, int> changed(std::size_t cell, int value) const {
+    const LaneNode& node = step_.graph[value];
+    if (node.op != LaneOp::select || rings_.count(cell) != 0) return {-1, value};
+    const LaneNode& other = step_.graph[node.operands[2]];
+    if (other.op != LaneOp::cell || other.value != cell) return {-1, value};
+    return {node.operands[0], node.operands[1]};
   }
 
   /// Who reads a register's old value comes before who writes it; where there is no such order, the old value
@@ -769,7 +990,12 @@ class Writer {
           std::set_intersection(left[i].writes.begin(), left[i].writes.end(), left[k].reads.begin(),
                                 left[k].reads.end(), std::inserter(broken, broken.end()));
         }
-        if (i == 0 || broken.size() < best_broken.size()) {
+        // A bank is too large to be kept: what stores writes nothing else, and can wait.
+        const auto banks = [](const std::set<std::size_t>& cells) {
+          return std::distance(cells.lower_bound(kFirstBank), cells.end());
+        };
+        if (i == 0 ||
+            std::pair(banks(broken), broken.size()) < std::pair(banks(best_broken), best_broken.size())) {
           best = i;
           best_broken = std::move(broken);
         }
@@ -793,7 +1019,11 @@ class Writer {
       case LaneOp::cell:
       case LaneOp::mask_cell: {
         const Cell& cell = step_.cells[node.value];
-        if (cell.input && cell.width == 1 && cell.low == 0) return "in." + cell.variable;
+        const bool first = cell.low == 0, last = node.value + 1 == step_.cells.size() ||
+                                                 step_.cells[node.value + 1].variable != cell.variable;
+        if (cell.input && cell.width == 1 && first && last) return "in." + cell.variable;
+        if (const auto ring = rings_.find(node.value); ring != rings_.end())
+          return fmt::format("late{}.c{}", ring->second.age, ring->second.head);
         return fmt::format("{}{}",
                            cell.input                                   ? "in.c"
                            : in_group_ && saved_.count(node.value) != 0 ? "o"
@@ -813,17 +1043,14 @@ class Writer {
       const LaneNode& node = step_.graph[number];
       const std::string expression = expression_of(node);
       if (expression.empty()) continue;
-      text += fmt::format("  const {} {} = {};\n", node.is_mask() ? "M" : "V", reference(number), expression);
+      const char* type = node.is_mask() ? "M" : node.op == LaneOp::row ? "Row" : "V";
+      text += fmt::format("  const {} {} = {};\n", type, reference(number), expression);
     }
   }
 
   std::string expression_of(const LaneNode& node) const {
     std::array<std::string, 3> x;
-    bool small = true;
-    for (std::size_t i = 0; i < 3 && node.operands[i] >= 0; ++i) {
-      x[i] = reference(node.operands[i]);
-      small = small && step_.graph[node.operands[i]].bits <= 32;
-    }
+    for (std::size_t i = 0; i < 3 && node.operands[i] >= 0; ++i) x[i] = reference(node.operands[i]);
     const auto infix = [&](const char* op) { return fmt::format("{} {} {}", x[0], op, x[1]); };
     const auto call = [&](const char* f) { return fmt::format("{}({}, {})", f, x[0], x[1]); };
     switch (node.op) {
@@ -837,7 +1064,9 @@ class Writer {
       case LaneOp::subtract:
         return infix("-");
       case LaneOp::multiply:
-        return small ? call("multiply32") : infix("*");
+        return infix("*");
+      case LaneOp::multiply_high:
+        return call("multiply_high");
       case LaneOp::both:
         return infix("&");
       case LaneOp::either:
@@ -862,6 +1091,10 @@ class Writer {
         return fmt::format("fill({}, {:#x}u)", x[0], node.value);
       case LaneOp::rom:
         return fmt::format("lookup(c_rom{}, {})", node.value, x[0]);
+      case LaneOp::row:
+        return fmt::format("load(s.bank{}, {})", node.value, x[0]);
+      case LaneOp::word:
+        return fmt::format("{}.words[{}]", x[0], node.value);
       case LaneOp::mask_both:
         return infix("&");
       case LaneOp::mask_either:
@@ -884,6 +1117,7 @@ class Writer {
 
   Step& step_;
   const std::set<std::size_t>& live_;
+  const Rings& rings_;
   std::vector<Group> groups_;
   std::set<std::size_t> saved_;
   bool in_group_ = false;
@@ -929,10 +1163,7 @@ Result<Netlist> read_netlist(const pugi::xml_document& document) {
       const bool element = std::string_view(target.name()) == "arraysel";
       const std::string name = (element ? target.first_child() : target).attribute("name").value();
       if (const auto room = netlist.rooms.find(type_of[name]); element && room != netlist.rooms.end()) {
-        const Memory& memory =
-            netlist.memories[name] = {netlist.types[room->second.first], room->second.second};
-        for (std::size_t i = 0; i < std::min(memory.places, kMostPlaces); ++i)
-          netlist.registers[place_of(name, i)] = memory.bits;
+        netlist.memories[name] = {netlist.types[room->second.first], room->second.second};
       } else {
         netlist.registers[name] = netlist.types[type_of[name]];
       }
@@ -991,6 +1222,34 @@ Result<Netlist> read_netlist(const pugi::xml_document& document) {
   return netlist;
 }
 
+/// Memories that are written together lie together, others in banks of their own.
+Rooms rooms_of(const std::map<std::string, Memory>& memories, const Step& step, const Step& reset_step) {
+  using When = std::pair<Guard, int>;
+  std::map<std::tuple<std::size_t, When, When>, std::vector<std::string>> together;
+  Rooms rooms;
+  std::size_t words = 0;
+  const auto add = [&](const std::string& name) {
+    rooms[name] = words;
+    words += memories.at(name).words();
+  };
+  const auto end_bank = [&] { words = (words + kRow - 1) / kRow * kRow; };
+  for (const auto& [name, memory] : memories) {
+    const auto a = step.stores.find(name), b = reset_step.stores.find(name);
+    if (a != step.stores.end() && b != reset_step.stores.end()) {
+      together[{memory.places, {a->second.guard, a->second.address}, {b->second.guard, b->second.address}}]
+          .push_back(name);
+    } else {
+      add(name);
+      end_bank();
+    }
+  }
+  for (const auto& [when, names] : together) {
+    for (const std::string& name : names) add(name);
+    end_bank();
+  }
+  return rooms;
+}
+
 }  // namespace
 
 Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports) {
@@ -1003,6 +1262,7 @@ Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports)
   for (const auto& fixed : ports.fixed) netlist->inputs.erase(fixed.first);
 
   Layout layout;
+  layout.rooms = rooms_of(netlist->memories, {}, {});
   while (true) {
     Layout next = layout;
     auto step = Builder(*netlist, ports, false, next).build();
@@ -1014,19 +1274,29 @@ Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports)
       const auto [twin, alone] = first.try_emplace({writes, reset_step->writes[name]}, name);
       if (!alone) next.twins[name] = twin->second;
     }
+    next.rooms = rooms_of(netlist->memories, *step, *reset_step);
     if (next != layout || !layout.words) {
       next.words = layout.words || next == layout;
       layout = std::move(next);
       continue;
     }
 
-    const std::set<std::size_t> live = Writer::live_cells(*step);
-    std::string state, inputs, outputs, setters, tables;
+    const std::set<std::size_t> live = Writer::live_cells(*step, layout.rooms);
+    const Rings rings = find_rings(*step, *reset_step, live);
+    std::string state, masks, late, inputs, outputs, setters, tables;
     std::map<std::string, std::string> fields;
     for (std::size_t i = 0; i < step->cells.size(); ++i) {
       const Cell& cell = step->cells[i];
       if (!cell.input) {
-        if (live.count(i) != 0) state += fmt::format("  {} c{}{{}};\n", cell.width == 1 ? "M" : "V", i);
+        if (live.count(i) == 0) continue;
+        const auto ring = rings.find(i);
+        if (cell.width == 1) {
+          masks += fmt::format("  M c{}{{}};\n", i);
+        } else if (ring == rings.end()) {
+          state += fmt::format("  V c{}{{}};\n", i);
+        } else if (ring->second.age == 0) {
+          late += fmt::format("  V c{}{{}};\n", i);
+        }
       } else if (netlist->inputs[cell.variable] == 1) {
         inputs += fmt::format("  M {}{{}};\n", cell.variable);
       } else {
@@ -1049,15 +1319,27 @@ Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports)
     std::set<std::vector<std::uint64_t>> written;
     for (const auto& [name, rom] : netlist->roms) {
       if (written.insert(rom.data).second) {
-        tables += fmt::format("constexpr std::uint64_t c_rom{}[{}] = {{", number, rom.data.size());
+        tables += fmt::format("constexpr std::uint32_t c_rom{}[{}] = {{", number, rom.data.size());
         for (const std::uint64_t datum : rom.data) tables += fmt::format("{}u,", datum);
         tables += "};\n";
       }
       ++number;
     }
-    return "struct State {\n" + state + "};\nstruct Inputs {\n" + inputs + "};\nstruct Outputs {\n" +
-           outputs + "};\n" + tables + setters + Writer(*step, live).function("step") +
-           Writer(*reset_step, live).function("reset_step");
+    std::map<std::size_t, std::size_t> banks;
+    for (const auto& [name, memory] : netlist->memories)
+      for (std::size_t i = 0; i < memory.words(); ++i) banks[(layout.rooms[name] + i) / kRow] = memory.places;
+    for (const auto& [bank, places] : banks)
+      if (live.count(kFirstBank + bank) != 0) masks += fmt::format("  Memory<{}> bank{};\n", places, bank);
+    if (!late.empty()) {
+      late = "struct Late {\n" + late + "};\n";
+      masks += fmt::format("  Late late[{}];\n  unsigned clock = 0;\n", kRingPlaces);
+    }
+    const auto function = Writer(*step, layout.rooms, live, rings).function("step");
+    if (!function) return function.error();
+    const auto reset_function = Writer(*reset_step, layout.rooms, live, rings).function("reset_step");
+    if (!reset_function) return reset_function.error();
+    return late + "struct State {\n" + state + masks + "};\nstruct Inputs {\n" + inputs +
+           "};\nstruct Outputs {\n" + outputs + "};\n" + tables + setters + *function + *reset_function;
   }
 }
 

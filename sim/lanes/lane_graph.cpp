@@ -9,7 +9,7 @@ namespace halfway {
 namespace {
 
 constexpr std::uint64_t ones(unsigned width) {
-  return width >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1;
+  return (std::uint64_t{1} << std::min(width, kLaneWord)) - 1;
 }
 
 }  // namespace
@@ -26,13 +26,13 @@ int LaneGraph::constant(std::uint64_t value) {
 
 int LaneGraph::operate(LaneOp op, int a, int b) {
   const LaneNode &x = (*this)[a], &y = (*this)[b];
-  unsigned bits = 64;
+  unsigned bits = kLaneWord;
   switch (op) {
     case LaneOp::add:
-      bits = std::min(64U, std::max(x.bits, y.bits) + 1);
+      bits = std::min(kLaneWord, std::max(x.bits, y.bits) + 1);
       break;
     case LaneOp::multiply:
-      bits = std::min(64U, x.bits + y.bits);
+      bits = std::min(kLaneWord, x.bits + y.bits);
       break;
     case LaneOp::both:
       bits = std::min(x.bits, y.bits);
@@ -47,8 +47,8 @@ int LaneGraph::operate(LaneOp op, int a, int b) {
     default:
       break;
   }
-  const bool commutes = op == LaneOp::add || op == LaneOp::multiply || op == LaneOp::both ||
-                        op == LaneOp::either || op == LaneOp::differ;
+  const bool commutes = op == LaneOp::add || op == LaneOp::multiply || op == LaneOp::multiply_high ||
+                        op == LaneOp::both || op == LaneOp::either || op == LaneOp::differ;
   if (commutes && a > b) std::swap(a, b);
   if (bits == 0) return constant(0);
   if ((op == LaneOp::add || op == LaneOp::either) && (*this)[a].bits == 0) return b;
@@ -64,12 +64,13 @@ int LaneGraph::shift(int a, int by) {
   const LaneNode& x = (*this)[a];
   if (by == 0 || x.bits == 0) return a;
   const auto distance = static_cast<unsigned>(std::abs(by));
-  if (x.op == LaneOp::constant) return constant(by > 0 ? x.value << distance : x.value >> distance);
+  if (x.op == LaneOp::constant)
+    return constant(by > 0 ? x.value << distance & ones(kLaneWord) : x.value >> distance);
   if (by < 0 && x.bits <= distance) return constant(0);
   return add({.op = by > 0 ? LaneOp::left : LaneOp::right,
               .operands = {a, -1, -1},
               .value = distance,
-              .bits = by > 0 ? std::min(64U, x.bits + distance) : x.bits - distance});
+              .bits = by > 0 ? std::min(kLaneWord, x.bits + distance) : x.bits - distance});
 }
 
 int LaneGraph::clean(int a, unsigned width) {
@@ -133,7 +134,7 @@ int LaneGraph::compare(LaneOp op, int a, int b) {
   if (a == b) return mask_constant(op == LaneOp::equal);
   const LaneNode &x = (*this)[a], &y = (*this)[b];
   if (x.op == LaneOp::constant && y.op == LaneOp::constant) {
-    const auto p = static_cast<std::int64_t>(x.value), q = static_cast<std::int64_t>(y.value);
+    const auto p = static_cast<std::int32_t>(x.value), q = static_cast<std::int32_t>(y.value);
     return mask_constant(op == LaneOp::equal ? p == q : op == LaneOp::less ? x.value < y.value : p < q);
   }
   if (op == LaneOp::equal && a > b) std::swap(a, b);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a netlist works out in a clock, as a graph of operations on lanes: each node is a vector of 64-bit
+// What a netlist works out in a clock, as a graph of operations on lanes: each node is a vector of 32-bit
 // numbers, one a lane, or a mask, one bit a lane. Equal nodes are one node; operands come before their users.
 #pragma once
 
@@ -11,6 +11,8 @@
 
 namespace halfway {
 
+constexpr unsigned kLaneWord = 32;  ///< bits of a number in a lane
+
 enum class LaneOp {
   // Vectors
   constant,  ///< value
@@ -18,18 +20,21 @@ enum class LaneOp {
   add,
   subtract,
   multiply,
-  both,    ///< bitwise and
-  either,  ///< bitwise or
-  differ,  ///< bitwise exclusive or
+  multiply_high,  ///< the product's upper word
+  both,           ///< bitwise and
+  either,         ///< bitwise or
+  differ,         ///< bitwise exclusive or
   invert,
   left,  ///< by value
   right,
-  left_by,  ///< by another vector; from 64 on nothing is left
+  left_by,  ///< by another vector; from 32 on nothing is left
   right_by,
   signed_right_by,
   select,  ///< mask ? a : b
   fill,    ///< mask ? value : 0
   rom,     ///< value: number of the table
+  row,     ///< four words of a place: value is the bank's number
+  word,    ///< of a row, by number
   // Masks
   mask_constant,
   mask_cell,
@@ -47,7 +52,7 @@ struct LaneNode {
   LaneOp op;
   std::array<int, 3> operands{-1, -1, -1};
   std::uint64_t value = 0;
-  unsigned bits = 64;  ///< all from here up are zero
+  unsigned bits = kLaneWord;  ///< all from here up are zero
 
   bool is_mask() const { return op >= LaneOp::mask_constant; }
 };
@@ -70,6 +75,12 @@ class LaneGraph {
   int select(int mask, int a, int b);
   int fill(int mask, std::uint64_t value);
   int rom(std::size_t table, int address, unsigned bits);
+  int row(std::size_t bank, int address) {
+    return add({.op = LaneOp::row, .operands = {address, -1, -1}, .value = bank});
+  }
+  int word(int row, std::size_t number) {
+    return add({.op = LaneOp::word, .operands = {row, -1, -1}, .value = number});
+  }
   int mask_operate(LaneOp op, int a, int b);
   int mask_invert(int a);
   int bit(int a, unsigned index);

@@ -131,12 +131,9 @@ class Lanes {
       const M offered = in_.init_valid;
       step(state_, in_, out);
       const M take = offered & out.init_ready;
-      const V a = out.fragment_triangle | out.fragment_z << 32;
-      const V b = out.fragment_y | out.fragment_x << 16 | out.fragment_red << 32 | out.fragment_green << 40 |
-                  out.fragment_blue << 48;
-      write(a, b, clock++);
+      write(out, clock++);
       // Most lanes have a fragment in most clocks: only where there is none the place does not move.
-      for (M none = ~out.fragment_valid; none != 0; none &= static_cast<M>(none - 1))
+      for (M none = active_ & ~out.fragment_valid; none != 0; none &= static_cast<M>(none - 1))
         --lanes_[std::countr_zero(none)].next;
       moved |= take | out.fragment_valid;
       faults_ |= out.fault;
@@ -145,17 +142,15 @@ class Lanes {
       const M idle = active_ & ~(offered | out.fragment_valid | out.busy);
       if (idle != 0) ended(idle, clock);
     }
-    for (Lane& lane : lanes_) count(lane, clock);
+    for (M left = active_; left != 0; left &= static_cast<M>(left - 1))
+      count(lanes_[std::countr_zero(left)], clock);
     return moved;
   }
 
-  // Each lane's two halves of a fragment.
-  void write(V a, V b, std::size_t clock) {
-    const V even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
-    const V odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-    for (unsigned i = 0; i < kLanes; ++i)
-      std::memcpy(lanes_[i].next + clock,
-                  reinterpret_cast<const char*>(i % 2 == 0 ? &even : &odd) + 16 * (i / 2), 16);
+  void write(const Outputs& out, std::size_t clock) {
+    Row row = turn({out.fragment_triangle, out.fragment_z, out.fragment_y | out.fragment_x << 16,
+                    out.fragment_red | out.fragment_green << 8 | out.fragment_blue << 16});
+    for (unsigned i = 0; i < kLanes; ++i) std::memcpy(lanes_[i].next + clock, of_lane(row, i), 16);
   }
 
   State state_;

@@ -14,8 +14,20 @@ const std::vector<std::string> kVerilatorFlags = {
     "--xml-only",  "--flatten", "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE", "--x-assign", "fast",
     "--x-initial", "fast",      "--noassert",   "--xml-output",        "netlist.xml"};
 const std::vector<std::string> kCompilerFlags = {
-    "-std=gnu++20", "-march=native",       "-fPIC",          "-shared",
-    "-w",           "-fvisibility=hidden", "-Wl,-Bsymbolic", "-Wl,-z,defs"};
+    "-std=gnu++20",
+    "-march=native",
+    "-fPIC",
+    "-shared",
+    "-w",
+    "-fvisibility=hidden",
+    "-Wl,-Bsymbolic",
+    "-Wl,-z,defs",
+    // clang++ 14 aligns the vectors that it keeps on the stack only where that has a frame pointer.
+    "-fno-omit-frame-pointer",
+#ifdef __x86_64__
+    "-mprefer-vector-width=512",
+#endif
+};
 // What the text depends on beside the netlist.
 const std::vector<std::string> kSources = {"sim/lanes/lane_generator.cpp", "sim/lanes/lane_generator.hpp",
                                            "sim/lanes/lane_graph.cpp",     "sim/lanes/lane_graph.hpp",

@@ -23,7 +23,7 @@ namespace {
 constexpr double kShortestPart = 100;
 /// Fragments a thread, about, that are drawn before they are handed on: they stay in the processor's second
 /// cache.
-constexpr double kBatch = 48 * 1024;
+constexpr double kBatch = 64 * 1024;
 
 }  // namespace
 

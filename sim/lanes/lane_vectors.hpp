@@ -1,52 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operations of the generated lanes: vectors of a 64-bit number a lane, and masks of a bit a lane. With
+// Operations of the generated lanes: vectors of a 32-bit number a lane, and masks of a bit a lane. With
 // AVX-512 a mask is a mask register's; elsewhere the compiler does what it can.
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #ifdef __AVX512F__
 #include <immintrin.h>
 #endif
 
 #define LANE_FUNCTION static inline __attribute__((always_inline))
+#define LANE_STEP static __attribute__((noinline))
 
 namespace halfway::lanes {
 
-constexpr unsigned kLanes = 8;
-using V = std::uint64_t __attribute__((vector_size(8 * kLanes)));
-using S = std::int64_t __attribute__((vector_size(8 * kLanes)));
-using M = std::uint8_t;
-constexpr M kAll = 0xff;
+constexpr unsigned kLanes = 16;
+using V = std::uint32_t __attribute__((vector_size(4 * kLanes)));
+using S = std::int32_t __attribute__((vector_size(4 * kLanes)));
+using M = std::uint16_t;
+constexpr M kAll = 0xffff;
 
-LANE_FUNCTION V splat(std::uint64_t value) {
+LANE_FUNCTION V splat(std::uint32_t value) {
   return V{} + value;
 }
 #ifdef __AVX512F__
 LANE_FUNCTION V select(M mask, V a, V b) {
-  return (V)_mm512_mask_blend_epi64(mask, (__m512i)b, (__m512i)a);
+  return (V)_mm512_mask_blend_epi32(mask, (__m512i)b, (__m512i)a);
 }
-LANE_FUNCTION V fill(M mask, std::uint64_t value) {
-  return (V)_mm512_maskz_mov_epi64(mask, (__m512i)splat(value));
+LANE_FUNCTION V fill(M mask, std::uint32_t value) {
+  return (V)_mm512_maskz_mov_epi32(mask, (__m512i)splat(value));
 }
-LANE_FUNCTION M test(V a, std::uint64_t bit) {
-  return _mm512_test_epi64_mask((__m512i)a, (__m512i)splat(bit));
+LANE_FUNCTION void assign(M mask, V& to, V value) {
+  _mm512_mask_store_epi32(&to, mask, (__m512i)value);
+}
+LANE_FUNCTION M test(V a, std::uint32_t bit) {
+  return _mm512_test_epi32_mask((__m512i)a, (__m512i)splat(bit));
 }
 LANE_FUNCTION M equal(V a, V b) {
-  return _mm512_cmpeq_epu64_mask((__m512i)a, (__m512i)b);
+  return _mm512_cmpeq_epu32_mask((__m512i)a, (__m512i)b);
 }
 LANE_FUNCTION M less(V a, V b) {
-  return _mm512_cmplt_epu64_mask((__m512i)a, (__m512i)b);
+  return _mm512_cmplt_epu32_mask((__m512i)a, (__m512i)b);
 }
 LANE_FUNCTION M signed_less(V a, V b) {
-  return _mm512_cmplt_epi64_mask((__m512i)a, (__m512i)b);
+  return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b);
 }
-LANE_FUNCTION V lookup(const std::uint64_t* table, V address) {
-  return (V)_mm512_i64gather_epi64((__m512i)address, table, 8);
+LANE_FUNCTION V lookup(const std::uint32_t* table, V address) {
+  return (V)_mm512_i32gather_epi32((__m512i)address, table, 4);
 }
 #else
 LANE_FUNCTION V spread(M mask) {  // a lane's bit as all ones or zeros
   V bits{};
-  for (unsigned i = 0; i < kLanes; ++i) bits[i] = -(std::uint64_t{mask} >> i & 1);
+  for (unsigned i = 0; i < kLanes; ++i) bits[i] = -(std::uint32_t{mask} >> i & 1);
   return bits;
 }
 LANE_FUNCTION M gather_bits(V bits) {
@@ -58,10 +63,13 @@ LANE_FUNCTION V select(M mask, V a, V b) {
   const V m = spread(mask);
   return (m & a) | (~m & b);
 }
-LANE_FUNCTION V fill(M mask, std::uint64_t value) {
+LANE_FUNCTION V fill(M mask, std::uint32_t value) {
   return spread(mask) & value;
 }
-LANE_FUNCTION M test(V a, std::uint64_t bit) {
+LANE_FUNCTION void assign(M mask, V& to, V value) {
+  to = select(mask, value, to);
+}
+LANE_FUNCTION M test(V a, std::uint32_t bit) {
   return gather_bits((V)((a & bit) != 0));
 }
 LANE_FUNCTION M equal(V a, V b) {
@@ -73,7 +81,7 @@ LANE_FUNCTION M less(V a, V b) {
 LANE_FUNCTION M signed_less(V a, V b) {
   return gather_bits((V)((S)a < (S)b));
 }
-LANE_FUNCTION V lookup(const std::uint64_t* table, V address) {
+LANE_FUNCTION V lookup(const std::uint32_t* table, V address) {
   V data{};
   for (unsigned i = 0; i < kLanes; ++i) data[i] = table[address[i]];
   return data;
@@ -82,33 +90,77 @@ LANE_FUNCTION V lookup(const std::uint64_t* table, V address) {
 LANE_FUNCTION M select(M mask, M a, M b) {
   return static_cast<M>((mask & a) | (~mask & b));
 }
-LANE_FUNCTION V multiply32(V a, V b) {  // of numbers below 2^32
-  return (a & 0xffffffffu) * (b & 0xffffffffu);
+LANE_FUNCTION void assign(M mask, M& to, M value) {
+  to = select(mask, value, to);
 }
 LANE_FUNCTION V left_by(V a, V distance) {
-  return select(less(distance, splat(64)), a << (distance & 63), V{});
+  return select(less(distance, splat(32)), a << (distance & 31), V{});
 }
 LANE_FUNCTION V right_by(V a, V distance) {
-  return select(less(distance, splat(64)), a >> (distance & 63), V{});
+  return select(less(distance, splat(32)), a >> (distance & 31), V{});
 }
 LANE_FUNCTION V signed_right_by(V a, V distance) {
-  return (V)((S)a >> (S)select(less(distance, splat(63)), distance, splat(63)));
+  return (V)((S)a >> (S)select(less(distance, splat(31)), distance, splat(31)));
+}
+LANE_FUNCTION V multiply_high(V a, V b) {  // the product's upper word
+  const V al = a & 0xffff, ah = a >> 16, bl = b & 0xffff, bh = b >> 16;
+  const V low = al * bl, left = ah * bl + (low >> 16), right = al * bh + (left & 0xffff);
+  return ah * bh + (left >> 16) + (right >> 16);
 }
 
-/// `width` bits of an array of words from bit `low` up; reads no word but those they lie in.
+/// Four words a lane: of all lanes by word, or, turned, by lane: lane 4 q + j is the q-th quarter of the j-th
+/// vector.
+struct Row {
+  V words[4];
+};
+// Of each four words of `a` and `b`: words i and j of both, by turns; two of each, from word i on.
+#define LANE_PAIRS(a, b, i, j)                                                                            \
+  __builtin_shufflevector(a, b, i, 16 + i, j, 16 + j, 4 + i, 20 + i, 4 + j, 20 + j, 8 + i, 24 + i, 8 + j, \
+                          24 + j, 12 + i, 28 + i, 12 + j, 28 + j)
+#define LANE_HALVES(a, b, i)                                                                          \
+  __builtin_shufflevector(a, b, i, 1 + i, 16 + i, 17 + i, 4 + i, 5 + i, 20 + i, 21 + i, 8 + i, 9 + i, \
+                          24 + i, 25 + i, 12 + i, 13 + i, 28 + i, 29 + i)
+LANE_FUNCTION Row turn(const Row& row) {
+  const V* w = row.words;
+  const V low[] = {LANE_PAIRS(w[0], w[1], 0, 1), LANE_PAIRS(w[2], w[3], 0, 1)};
+  const V high[] = {LANE_PAIRS(w[0], w[1], 2, 3), LANE_PAIRS(w[2], w[3], 2, 3)};
+  return {LANE_HALVES(low[0], low[1], 0), LANE_HALVES(low[0], low[1], 2), LANE_HALVES(high[0], high[1], 0),
+          LANE_HALVES(high[0], high[1], 2)};
+}
+LANE_FUNCTION char* of_lane(Row& turned, unsigned lane) {
+  return reinterpret_cast<char*>(&turned.words[lane % 4]) + lane / 4 * 16;
+}
+
+/// A memory: each lane's places lie together, and behind them one for what is not written.
+template <unsigned places>
+struct Memory {
+  alignas(64) std::uint32_t of[kLanes][places + 1][4]{};
+};
+template <unsigned places>
+LANE_FUNCTION void store(Memory<places>& memory, M mask, V address, const Row& row) {
+  Row turned = turn(row);
+  const V where = select(mask, address, splat(places));
+  for (unsigned i = 0; i < kLanes; ++i) std::memcpy(memory.of[i][where[i]], of_lane(turned, i), 16);
+}
+template <unsigned places>
+LANE_FUNCTION Row load(const Memory<places>& memory, V address) {
+  Row turned;
+  for (unsigned i = 0; i < kLanes; ++i) std::memcpy(of_lane(turned, i), memory.of[i][address[i]], 16);
+  return turn(turned);
+}
+
+/// `width` bits, 32 at most, of an array of words from bit `low` up; reads no word but those they lie in.
 template <unsigned low, unsigned width>
-LANE_FUNCTION std::uint64_t field(const std::uint32_t* words) {
+LANE_FUNCTION std::uint32_t field(const std::uint32_t* words) {
   constexpr unsigned first = low / 32, shift = low % 32;
-  std::uint64_t value = words[first] >> shift;
-  if constexpr (shift + width > 32) value |= static_cast<std::uint64_t>(words[first + 1]) << (32 - shift);
-  if constexpr (shift + width > 64) value |= static_cast<std::uint64_t>(words[first + 2]) << (64 - shift);
-  if constexpr (width < 64) value &= (std::uint64_t{1} << width) - 1;
-  return value;
+  std::uint64_t value = words[first];
+  if constexpr (shift + width > 32) value |= static_cast<std::uint64_t>(words[first + 1]) << 32;
+  return static_cast<std::uint32_t>(value >> shift & ((std::uint64_t{1} << width) - 1));
 }
-LANE_FUNCTION void set_lane(V& vector, unsigned lane, std::uint64_t value) {
-  reinterpret_cast<std::uint64_t __attribute__((may_alias))*>(&vector)[lane] = value;
+LANE_FUNCTION void set_lane(V& vector, unsigned lane, std::uint32_t value) {
+  reinterpret_cast<std::uint32_t __attribute__((may_alias))*>(&vector)[lane] = value;
 }
-LANE_FUNCTION void set_lane(M& mask, unsigned lane, std::uint64_t value) {
+LANE_FUNCTION void set_lane(M& mask, unsigned lane, std::uint32_t value) {
   mask = static_cast<M>((mask & ~(1u << lane)) | value << lane);
 }
 
