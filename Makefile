@@ -55,7 +55,8 @@ help: ## this list
 	@echo '  MEASURE    1: make plan counts cells by Yosys, and cycles and seconds by simulation'
 	@echo '  OBJECTS, RATE  make plan: how many shading processors draw so many objects a pixel, frames a second'
 	@echo '  ERROR, PSNR, TIME  make study: the cheapest hardware within so many steps of 1/255, of so many dB, in 10ms'
-	@echo '  CLOCK      make study: MHz that hardware is taken to run at'
+	@echo '  CLOCK      make study: MHz that hardware is taken to run at whose clock is not known'
+	@echo '  PLACE      1: make study places and routes hardware for its clock, minutes for each design'
 	@echo '  FULL, SPACE  make study: 1: the whole space; or a TOML file of designs'
 	@echo '  EXECUTOR, PARTS  make study: slurm: as a job array of so many tasks   (default: local; 64)'
 	@echo '  TRIANGLES, SEED  make search: how many, and which ones     (default: 10000000, 1)'
@@ -89,7 +90,7 @@ plan: program ## the hardware that a scene calls for, and why (SCENE; MEASURE=1:
 study: program ## accuracy against time over the design space (FULL=1; SCENE; ERROR, PSNR, TIME ask; EXECUTOR=slurm)
 	@build/halfway study $${SPACE:+--space "$$SPACE"} $$(case "$$SPACE$${FULL:-0}" in \
 	  0) ;; 1) echo --space sim/studies/full.toml ;; esac) $(call option,SIZE,--size) $(call option,ERROR,--error) \
-	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) \
+	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) \
 	  $(call option,EXECUTOR,--executor) $(call option,PARTS,--parts) $(call option,THREADS,--threads) \
 	  $(call option,OUT,--out) $(scene)
 

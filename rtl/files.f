@@ -24,6 +24,7 @@ interpolation/plane_interpolator.vhd
 interpolation/z_interpolator.vhd
 interpolation/quadratic_interpolator.vhd
 raster/edge_walker.vhd
+raster/slope_walker.vhd
 raster/triangle_walker.vhd
 raster/object_stage.vhd
 illumination/diffuse_slice.vhd

@@ -545,10 +545,7 @@ class WrongRtl : public CliTest, public ::testing::WithParamInterface<Fault> {
   /// The sources with the first `from` after `after` changed in a file of rtl/.
   void change(const std::string& file, const std::string& after, const std::string& from,
               const std::string& to) const {
-    const std::filesystem::path source = HALFWAY_SOURCE_DIR;
-    ASSERT_TRUE(make_folders(copy() / "model"));
-    for (const char* part : {"rtl", "tb", "sim", "model/golden"})
-      std::filesystem::copy(source / part, copy() / part, std::filesystem::copy_options::recursive);
+    ASSERT_EQ(copy_checkout(), copy());
     const auto text = read_file(copy() / "rtl" / file);
     ASSERT_TRUE(text);
     const std::size_t at = text->find(from, text->find(after));

@@ -31,6 +31,20 @@ class CommandTest : public ::testing::Test {
     folder_.emplace(std::move(*folder));
   }
 
+  /// A checkout that a test may spoil. Its caches are this one's: what they hold goes by its content.
+  std::filesystem::path copy_checkout() const {
+    namespace fs = std::filesystem;
+    const fs::path source = HALFWAY_SOURCE_DIR, copy = folder_->path() / "source";
+    for (const char* part : {"rtl", "tb", "sim", "model/golden"}) {
+      fs::create_directories((copy / part).parent_path());
+      fs::copy(source / part, copy / part, fs::copy_options::recursive);
+    }
+    fs::create_directories(source / "build" / "cache");
+    fs::create_directories(copy / "build");
+    fs::create_directory_symlink(source / "build" / "cache", copy / "build" / "cache");
+    return copy;
+  }
+
   Outcome run_as(std::vector<std::string> arguments, Environment environment = {},
                  std::chrono::milliseconds timeout = std::chrono::minutes(5)) const {
     Command command;

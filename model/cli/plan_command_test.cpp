@@ -185,11 +185,7 @@ TEST_F(PlanCommand, MeasuresShadingProcessors) {
 
 // RTL whose fault only hardware with all effects has: factors of zero that are not.
 TEST_F(PlanCommand, MeasuringTellsFramesThatDiffer) {
-  const std::filesystem::path source = HALFWAY_SOURCE_DIR, copy = folder_->path() / "source";
-  for (const char* part : {"rtl", "tb", "sim", "model/golden"}) {
-    ASSERT_TRUE(make_folders((copy / part).parent_path()));
-    std::filesystem::copy(source / part, copy / part, std::filesystem::copy_options::recursive);
-  }
+  const std::filesystem::path copy = copy_checkout();
   const auto slice = copy / "rtl" / "illumination" / "specular_slice.vhd";
   const auto text = read_file(slice);
   ASSERT_TRUE(text);

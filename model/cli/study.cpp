@@ -29,6 +29,7 @@ struct StudyCommand {
   std::string size;  ///< empty: the space's
   std::string error, psnr, time;
   std::optional<double> clock_mhz;
+  bool place = false;
   std::string out = "build/study";
   unsigned threads = 0;
   std::string executor = "local";
@@ -123,7 +124,7 @@ int set_up(const study::StudySettings& settings, const std::string& names) {
     if (point == settings.points.end()) return bad_input("--set-up: '" + name + "' is no point of the space");
     const auto scene = study::drawn_scene(settings.scene, scenes, *point);
     if (!scene) return scene.error();
-    const auto hardware = study::hardware_of(*point, *scene);
+    const auto hardware = study::drawing_hardware_of(*point, *scene, settings.folders);
     if (!hardware) return hardware.error();
     study::set_up_frame(*scene, point->size, hardware->key, point->setup());
     return Ok{};
@@ -188,9 +189,11 @@ int run(const Folders& folders, const StudyCommand& command) {
                study->measured);
     return 0;
   }
-  const auto hardware =
-      study::hardware_figures(settings.scene, study->records, settings.folders, settings.threads,
-                              [&](const std::string& text) { progress.show(text); });
+  const auto hardware = study::hardware_figures(
+      settings.scene, study->records, settings.folders,
+      {.threads = settings.threads, .place = command.place, .on_progress = [&](const std::string& text) {
+         progress.show(text);
+       }});
   progress.clear();
   if (!hardware) return report(hardware.error());
   return conclude(*plan, *study, *hardware, {command.clock_mhz});
@@ -209,7 +212,10 @@ void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
                     "asks for the cheapest hardware with at most this largest error, in steps of 1/255");
   study->add_option("--psnr", command->psnr, "asks for at least this PSNR, in dB");
   study->add_option("--time", command->time, "asks for a frame in at most this time, such as 10ms");
-  study->add_option("--clock", command->clock_mhz, "MHz that hardware is taken to run at");
+  study->add_option("--clock", command->clock_mhz,
+                    "MHz that hardware is taken to run at whose clock is not known");
+  study->add_flag("--place", command->place,
+                  "place and route the hardware whose clock is not known: minutes for each design");
   study->add_option("--out", command->out, "folder for results")->capture_default_str();
   study->add_option("--threads", command->threads, "points at a time (0: all cores)")->capture_default_str();
   study->add_option("--executor", command->executor, "local, or slurm: as a job array (sbatch)")

@@ -61,7 +61,8 @@ TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
   EXPECT_THAT(missed.output, AllOf(HasSubstr("3 points, 0 measured anew"),
                                    HasSubstr("none of 2 points of hardware meets it"),
                                    HasSubstr("most accurate  adaptive exact")));
-  const Outcome timed = study({"--time", "1s"});
+  // In three channels, which no pinned clock is of.
+  const Outcome timed = study({"spheres", "--time", "1s"});
   EXPECT_EQ(timed.exit_code, 1) << timed.output;
   EXPECT_THAT(timed.output, HasSubstr("2 points would be accurate enough, but no clock of theirs is known"));
   const Outcome fast = study({"--time", "1s", "--clock", "50"});

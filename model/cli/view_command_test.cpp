@@ -251,11 +251,7 @@ TEST_F(ViewCommand, BrokenOffLeavesNoHalfFile) {
 
 // Hardware whose fault shows from the third place alone: the only triangle is averted before.
 TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
-  const std::filesystem::path source = HALFWAY_SOURCE_DIR, copy = at("source");
-  for (const char* part : {"rtl", "tb", "sim", "model/golden"}) {
-    ASSERT_TRUE(make_folders((copy / part).parent_path()));
-    std::filesystem::copy(source / part, copy / part, std::filesystem::copy_options::recursive);
-  }
+  const std::filesystem::path copy = copy_checkout();
   const auto interpolator = copy / "rtl" / "interpolation" / "line_interpolator.vhd";
   const auto text = read_file(interpolator);
   ASSERT_TRUE(text);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "figures/pictures.hpp"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,9 +12,8 @@
 #include "frame/image.hpp"
 #include "frame/perception.hpp"
 #include "reference/visible_pixels.hpp"
-#include "run/limits.hpp"
-#include "run/rtl_stream.hpp"
 #include "run/scene_stream.hpp"
+#include "run/verilator_frame.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
 #include "scene/hen_mesh.hpp"
@@ -78,10 +75,10 @@ Result<Hardware> draw_in_hardware(const Context& context, const Scene& scene, Fr
                                   const PlanRequest& request, const SetupOptions& options) {
   const auto plan = plan_scene(scene, request);
   if (!plan) return plan.error();
-  const std::unique_ptr<Setup> setup = make_setup(scene, size, plan->key, options);
-  SceneStream stream(*setup, plan->key, context.threads);
   Hardware drawn{.key = plan->key};
   if (context.quick) {
+    const std::unique_ptr<Setup> setup = make_setup(scene, size, plan->key, options);
+    SceneStream stream(*setup, plan->key, context.threads);
     FrameAssembler assembler(size, scene.background);
     for (Batch batch; stream.next(batch);)
       if (const Status added = assembler.add(batch.golden); !added) return added.error();
@@ -90,22 +87,13 @@ Result<Hardware> draw_in_hardware(const Context& context, const Scene& scene, Fr
     drawn.counts = stream.counts();
     return drawn;
   }
-  auto simulator = VerilatorSimulator::open(plan->key, context.folders, {.idle_limit = c_idle_limit});
-  if (!simulator) return simulator.error();
-  RtlStream rtl(size, scene.background);
-  VerilatorFeed feed(*simulator, rtl);
-  for (Batch batch; stream.next(batch);) {
-    rtl.add_golden(batch.golden);
-    if (const Status fed = feed.add(batch.init_words); !fed) return fed.error();
-  }
-  if (const Status ended = feed.finish(); !ended) return ended.error();
-  drawn.frame = rtl.assembler().frame();
-  drawn.fragments = rtl.count();
-  drawn.cycles = simulator->cycles();
-  drawn.counts = stream.counts();
-  const SimulatorRun run = rtl.finish("verilator");
-  if (run.equal()) return drawn;
-  return Error{ExitCode::differs, fmt::format("{}: {}{}", plan->key.name(), run.fault, run.description)};
+  auto by_rtl = draw_in_verilator(scene, size, plan->key, options, context.folders, context.threads);
+  if (!by_rtl) return by_rtl.error();
+  drawn.frame = std::move(by_rtl->frame);
+  drawn.fragments = by_rtl->fragments;
+  drawn.cycles = by_rtl->cycles;
+  drawn.counts = by_rtl->counts;
+  return drawn;
 }
 
 Frame draw_mesh(const Scene& scene, FrameSize size, unsigned threads) {
@@ -141,19 +129,13 @@ Frame sheet(std::span<const Frame> frames, std::uint32_t columns) {
   const auto count = static_cast<std::uint32_t>(frames.size());
   const std::uint32_t rows = (count + columns - 1) / columns;
   Frame whole({columns * (one.width + c_gap) - c_gap, rows * (one.height + c_gap) - c_gap});
-  const auto spec = [](FrameSize size) {
-    return OIIO::ImageSpec(static_cast<int>(size.width), static_cast<int>(size.height), 3,
-                           OIIO::TypeDesc::UINT8);
-  };
-  OIIO::ImageBuf paper(spec(whole.size));
-  OIIO::ImageBufAlgo::fill(paper, {1.0F, 1.0F, 1.0F});
-  for (std::uint32_t i = 0; i < count; ++i) {
-    std::vector<std::uint8_t> rgb = frames[i].rgb;  // ImageBuf takes no const
-    const OIIO::ImageBuf picture(spec(one), rgb.data());
-    OIIO::ImageBufAlgo::paste(paper, static_cast<int>(i % columns * (one.width + c_gap)),
-                              static_cast<int>(i / columns * (one.height + c_gap)), 0, 0, picture);
-  }
-  paper.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::UINT8, whole.rgb.data());
+  std::fill(whole.rgb.begin(), whole.rgb.end(), std::uint8_t{255});
+  for (std::uint32_t i = 0; i < count; ++i)
+    for (std::uint32_t y = 0; y < one.height; ++y)
+      std::copy_n(
+          &frames[i].rgb[frames[i].offset(0, y)], std::size_t{3} * one.width,
+          &whole
+               .rgb[whole.offset(i % columns * (one.width + c_gap), i / columns * (one.height + c_gap) + y)]);
   return whole;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "frame/image.hpp"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -10,13 +8,12 @@
 
 #include <cerrno>
 #include <cstring>
-#include <exception>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "common/file.hpp"
+#include "frame/image_library.hpp"
 
 namespace halfway {
 namespace {
@@ -84,39 +81,14 @@ Status check_picture(const std::string& path, const Frame& frame) {
   return Ok{};
 }
 
-Result<std::vector<unsigned char>> encode_png(const std::string& path, const Frame& frame,
-                                              Compression compression) {
-  std::vector<unsigned char> bytes;
-  const auto failed = [&](const std::string& why) {
-    return tool_failed(
-        fmt::format("{}: OpenImageIO cannot encode the PNG ({}); check its installation", path, why));
-  };
-  try {
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png", &memory);
-    if (!output) return failed(OIIO::geterror());
-    if (!output->set_ioproxy(&memory)) return failed("it does not encode to memory");
-    OIIO::ImageSpec spec(static_cast<int>(frame.size.width), static_cast<int>(frame.size.height), 3,
-                         OIIO::TypeDesc::UINT8);
-    if (compression == Compression::quick) {
-      constexpr int c_filter_up = 0x20;  // PNG_FILTER_UP
-      spec.attribute("png:compressionLevel", 1);
-      spec.attribute("png:filter", c_filter_up);
-    }
-    if (!output->open(path, spec) || !output->write_image(OIIO::TypeDesc::UINT8, frame.rgb.data()) ||
-        !output->close())
-      return failed(output->geterror());
-  } catch (const std::exception& e) {
-    return failed(e.what());
-  }
-  return bytes;
-}
-
 }  // namespace
 
 Status write_png(const std::filesystem::path& path, const Frame& frame, Compression compression) {
   if (Status status = check_picture(path.string(), frame); !status) return status;
-  const Result<std::vector<unsigned char>> bytes = encode_png(path.string(), frame, compression);
+  const auto library = image_library();
+  if (!library) return library.error();
+  Result<std::vector<unsigned char>> bytes = std::vector<unsigned char>{};
+  library->encode_png(path.string(), frame, compression == Compression::quick, bytes);
   if (!bytes) return bytes.error();
   return write_whole(path.string(), *bytes);
 }
@@ -130,31 +102,11 @@ Status write_ppm(const std::filesystem::path& path, const Frame& frame) {
 }
 
 Result<Frame> read_png(const std::filesystem::path& path) {
-  const auto unreadable = [&](const std::string& why) {
-    return bad_input(fmt::format("{}: cannot be read as a PNG ({}); render it again", path.string(), why));
-  };
-  try {
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("png");
-    if (!input)
-      return tool_failed(fmt::format("{}: OpenImageIO has no PNG reader ({}); check its installation",
-                                     path.string(), OIIO::geterror()));
-    OIIO::ImageSpec spec;
-    if (!input->open(path.string(), spec)) return unreadable(input->geterror());
-    if (spec.nchannels != 3 || spec.format != OIIO::TypeDesc::UINT8)
-      return unreadable(
-          fmt::format("{} channels of {}, not 3 of 8 bits", spec.nchannels, spec.format.c_str()));
-    const auto fits = [](int side) {
-      return side > 0 && static_cast<std::uint32_t>(side) <= c_max_frame_side;
-    };
-    if (!fits(spec.width) || !fits(spec.height))
-      return unreadable(fmt::format("{}x{} pixels, not up to {}", spec.width, spec.height, c_max_frame_side));
-    Frame frame({static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height)});
-    if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, frame.rgb.data()))
-      return unreadable(input->geterror());
-    return frame;
-  } catch (const std::exception& e) {
-    return unreadable(e.what());
-  }
+  const auto library = image_library();
+  if (!library) return library.error();
+  Result<Frame> frame = Frame{};
+  library->decode_png(path.string(), frame);
+  return frame;
 }
 
 }  // namespace halfway

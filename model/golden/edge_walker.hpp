@@ -17,22 +17,31 @@ struct EdgeStart {
 
 class EdgeWalker {
  public:
-  void load(const EdgeStart& start) { r_ = start; }
-  void step() {
-    r_.x += r_.quotient;
-    if (r_.carry) r_.x += SpanXWord::from_bits(1);
-    r_.carry = r_.error < r_.remainder;
-    r_.error = wrapped(r_.error - r_.remainder + (r_.carry ? r_.divisor : 0));
+  void load(const EdgeStart& start) {
+    x_ = start.x;
+    quotient_ = start.quotient;
+    remainder_ = start.remainder;
+    rise_ = static_cast<std::uint32_t>(
+        low_bits(std::uint64_t{start.divisor} - start.remainder, Exact::c_edge_error_bits));
+    reduced_ = Reduced::from_bits(start.error);
+    carry_ = start.carry;
   }
-  SpanXWord x() const { return r_.x; }
-  bool carry() const { return r_.carry; }
-  const EdgeStart& registers() const { return r_; }
+  void step() {
+    x_ += quotient_;
+    if (carry_) x_ += SpanXWord::from_bits(1);
+    const bool below = reduced_.value() < 0;
+    reduced_ += Reduced::from_bits(below ? std::uint64_t{rise_} : ~std::uint64_t{remainder_} + 1);
+    carry_ = reduced_.value() < 0;
+  }
+  SpanXWord x() const { return x_; }
+  bool carry() const { return carry_; }
 
  private:
-  static std::uint32_t wrapped(std::uint32_t value) {
-    return static_cast<std::uint32_t>(low_bits(value, Exact::c_edge_error_bits));
-  }
-  EdgeStart r_;
+  using Reduced = Word<Exact::c_edge_error_bits + 1>;
+  SpanXWord x_, quotient_;
+  std::uint32_t remainder_ = 0, rise_ = 0;
+  Reduced reduced_;  ///< the error less the remainder; before the first step the error
+  bool carry_ = false;
 };
 
 }  // namespace halfway::golden

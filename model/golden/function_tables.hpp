@@ -138,6 +138,10 @@ inline constexpr std::array<std::uint32_t, 64> c_published_decay_values = {
     129
 };
 
+// Added to twice a root after a Newton step, in units of 2^-23: half of what the step falls short at most.
+inline constexpr std::uint32_t c_exact_root_raise = 17;
+inline constexpr std::uint32_t c_published_root_raise = 1064;
+
 inline constexpr std::array<FunctionTable, 3> c_exact_functions = {{
     {9, 12, 12, 0, c_exact_reciprocal_root_values},
     {9, 24, 24, 16, c_exact_logarithm_values},

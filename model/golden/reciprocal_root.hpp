@@ -49,7 +49,9 @@ class ReciprocalRoot {
   // Of the Newton step's x and 3 - x entry^2.
   static constexpr int c_x_fraction = 22, c_rest_fraction = 23;
   // The step falls short of the root by up to 3/2 of the entry's error squared: raised by half of that.
-  static constexpr std::uint64_t c_three = (std::uint64_t{3} << c_rest_fraction) + 17;
+  static constexpr std::uint64_t c_three =
+      (std::uint64_t{3} << c_rest_fraction) +
+      (std::is_same_v<Preset, Exact> ? c_exact_root_raise : c_published_root_raise);
 };
 
 }  // namespace halfway::golden

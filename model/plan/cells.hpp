@@ -2,7 +2,11 @@
 // How large a shader's netlist is, by Yosys.
 #pragma once
 
+#include <compare>
 #include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "common/result.hpp"
 #include "plan/hardware_key.hpp"
@@ -18,8 +22,21 @@ inline constexpr const char* kInstallYosys = "apt-get install yosys";
 struct Cells {
   std::uint64_t luts = 0, flip_flops = 0, memory_bits = 0;
   std::uint64_t multipliers = 0, product_bits = 0;  ///< the latter of all multipliers' products together
+  /// What Yosys makes of the multipliers on an iCE40, which has none: of each by itself, and as wide as its
+  /// operands are without copies of their signs.
+  std::uint64_t multiplier_luts = 0;
   friend bool operator==(Cells, Cells) = default;
 };
+
+/// A multiplier by itself. `square`: both operands are the same word.
+struct MultiplierShape {
+  bool is_signed = false, square = false;
+  unsigned a_bits = 0, b_bits = 0, product_bits = 0;
+  friend auto operator<=>(const MultiplierShape&, const MultiplierShape&) = default;
+};
+
+/// Of the cells of this type in what Yosys's `dump` wrote, in its order.
+Result<std::vector<MultiplierShape>> read_multiplier_shapes(std::string_view dump, std::string_view type);
 
 class CellCounter {
  public:
@@ -32,6 +49,8 @@ class CellCounter {
  private:
   CellCounter(std::string version, GhdlLibrary library, std::filesystem::path cache)
       : version_(std::move(version)), library_(std::move(library)), cache_(std::move(cache)) {}
+  Result<Cells> read(const std::filesystem::path& folder) const;
+  Result<std::uint64_t> luts_of(const MultiplierShape& shape) const;
   std::string version_;
   GhdlLibrary library_;
   std::filesystem::path cache_;

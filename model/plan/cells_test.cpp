@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan/cells.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -57,10 +58,11 @@ TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
   const auto grey = count(grey_), coloured = count(coloured_);
   ASSERT_TRUE(grey) << grey.error().message;
   ASSERT_TRUE(coloured) << coloured.error().message;
-  // Six line interpolators of 40 bits and six words that stand still make a channel.
+  // Six line interpolators of 40 bits and six words that stand still make a channel, and ten words each of the
+  // triangles that wait.
   const std::uint64_t flip_flops = coloured->flip_flops - grey->flip_flops;
   EXPECT_GT(flip_flops, 2 * 6 * 40U);
-  EXPECT_LT(flip_flops, 2 * 30 * 40U);
+  EXPECT_LT(flip_flops, 2 * 40 * 40U);
   EXPECT_GT(coloured->luts, grey->luts + 2 * 6 * 40U);  // an adder takes one a bit or more
   EXPECT_EQ(cached(), 2U);
 
@@ -125,8 +127,43 @@ TEST_F(CellsTest, MultipliersOfTheShadingProcessorsAreNoLuts) {
   EXPECT_EQ(lit->multipliers, 1 + 3 + 2U);
   EXPECT_GT(lit->luts, ambient->luts);
   EXPECT_GT(lit->flip_flops, ambient->flip_flops);
+  // A bit of a product takes a LUT or two for each of the multiplier's.
+  EXPECT_GT(ambient->multiplier_luts, static_cast<std::uint64_t>(k_bits * i_bits / 2));
+  EXPECT_LT(ambient->multiplier_luts, static_cast<std::uint64_t>(3 * k_bits * i_bits));
+  EXPECT_GT(lit->multiplier_luts, 5 * ambient->multiplier_luts);
   // Table and adders are LUTs; so many multipliers would be as many again.
   EXPECT_LT(lit->luts, 4000U);
+}
+
+// As Yosys's `dump` writes them: words with copies of their signs, with zeros before them, as they are.
+TEST(MultiplierShapes, AreWithoutCopiesOfSigns) {
+  const auto cell = [](const std::string& a, const std::string& b, int a_bits, int b_bits) {
+    return fmt::format(
+        "  attribute \\src \"netlist.v:1.2-3.4\"\n  cell \\mul $name$1\n    parameter \\A_SIGNED 0\n    "
+        "parameter "
+        "\\A_WIDTH {}\n    parameter \\B_SIGNED 0\n    parameter \\B_WIDTH {}\n    parameter \\Y_WIDTH 12\n  "
+        "  "
+        "connect \\A {}\n    connect \\B {}\n    connect \\Y \\y\n  end\n",
+        a_bits, b_bits, a, b);
+  };
+  const auto shape = [&](const std::string& a, const std::string& b, int a_bits, int b_bits) {
+    const auto shapes = read_multiplier_shapes(cell(a, b, a_bits, b_bits), "mul");
+    EXPECT_TRUE(shapes) << shapes.error().message;
+    return shapes && shapes->size() == 1 ? shapes->front() : MultiplierShape{};
+  };
+  EXPECT_EQ(shape("\\u [7:0]", "\\v", 8, 4), (MultiplierShape{false, false, 8, 4, 12}));
+  EXPECT_EQ(shape("\\u [7:0]", "\\u [7:0]", 8, 8), (MultiplierShape{false, true, 8, 8, 12}));
+  EXPECT_EQ(shape("{ \\u [5] \\u [5] \\u [5:2] }", "{ \\v [3] \\v [3] \\v [3] \\v [3:0] }", 6, 7),
+            (MultiplierShape{true, false, 4, 4, 12}));
+  EXPECT_EQ(shape("{ \\u [5] \\u [5] \\w }", "\\v", 6, 7), (MultiplierShape{true, false, 5, 7, 12}));
+  EXPECT_EQ(shape("{ 3'000 \\u [4:0] }", "\\v", 8, 7), (MultiplierShape{false, false, 5, 7, 12}));
+  // Beside a signed word one of the zeros is its sign.
+  EXPECT_EQ(shape("{ 3'000 \\u [4:0] }", "{ \\v [3] \\v [3:0] }", 8, 5),
+            (MultiplierShape{true, false, 6, 4, 12}));
+  EXPECT_EQ(read_multiplier_shapes(cell("\\u", "\\v", 3, 3) + cell("\\u", "\\v", 3, 3), "mul")->size(), 2U);
+  EXPECT_TRUE(read_multiplier_shapes(cell("\\u", "\\v", 3, 3), "other")->empty());
+  EXPECT_FALSE(read_multiplier_shapes(cell("", "\\v", 3, 3), "mul"));
+  EXPECT_FALSE(read_multiplier_shapes(cell("8'00000000", "\\v", 8, 3), "mul"));
 }
 
 // What Yosys might leave, and what then is said; nothing of it stays in the cache.

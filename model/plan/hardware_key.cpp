@@ -90,6 +90,7 @@ std::string HardwareKey::name() const {
     if (p.shadows) text += "-shadows";
     text += fmt::format("-{}", to_string(p.form));
   }
+  if (words.any()) text += "-" + words.name();
   return text + (probe ? "-probe" : "");
 }
 

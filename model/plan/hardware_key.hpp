@@ -9,6 +9,7 @@
 
 #include "golden/processors_layout.hpp"
 #include "golden/spherical_layout.hpp"
+#include "tables/word_lengths.hpp"
 
 namespace halfway {
 
@@ -73,6 +74,8 @@ struct ProcessorUnits {
   unsigned lights() const { return directional + positional + spots; }
 };
 
+class MadeFormats;
+
 struct HardwareKey {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
@@ -80,6 +83,10 @@ struct HardwareKey {
   bool probe = false;         ///< brings the stages' registers out, for `halfway why` and the register tests
   SphericalUnits spherical;   ///< of the spherical shader
   ProcessorUnits processors;  ///< of the shading processors
+  /// Other word lengths than the preset's: what draws by the key is then of made_formats, which must outlive
+  /// both.
+  tables::WordLengths words{};
+  const MadeFormats* made_formats = nullptr;
 
   /// Top entity in rtl/shaders.
   std::string entity() const;

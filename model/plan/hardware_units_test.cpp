@@ -5,7 +5,6 @@
 
 #include <map>
 #include <optional>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -20,15 +19,18 @@ namespace {
 class Netlist {
  public:
   Netlist(const std::string& text, std::set<std::string> entities) : entities_(std::move(entities)) {
-    static const std::regex c_module(R"(^module (\w+)\s*$)"), c_instance(R"(^  (\w+) (\w+) \(\s*$)");
+    // `module NAME` and, two blanks in, `ENTITY instance (`, as GHDL puts them.
     std::istringstream lines(text);
     std::string module;
     for (std::string line; std::getline(lines, line);) {
-      std::smatch match;
-      if (std::regex_match(line, match, c_module))
-        module = match[1];
-      else if (std::regex_match(line, match, c_instance) && !entity(match[1]).empty())
-        instances_[module].push_back(match[1]);
+      std::istringstream words(line);
+      std::string first, second, third;
+      if (!(words >> first >> second)) continue;
+      words >> third;
+      if (line.starts_with("module "))
+        module = second;
+      else if (line.starts_with("  ") && third == "(" && !entity(first).empty())
+        instances_[module].push_back(first);
     }
   }
   void count(const std::string& module, std::map<std::string, int>& units) const {
@@ -68,8 +70,8 @@ class HardwareUnits : public ::testing::Test {
     const auto sources = read_rtl_sources(HALFWAY_SOURCE_DIR);
     ASSERT_TRUE(sources) << sources.error().message;
     for (const VhdlSource& source : *sources) entities_.insert(std::filesystem::path(source.name).stem());
-    auto library =
-        GhdlLibrary::open(*tool, *sources, "", std::filesystem::path(HALFWAY_SOURCE_DIR) / "build" / "cache");
+    auto library = GhdlLibrary::for_synthesis(*tool, *sources,
+                                              std::filesystem::path(HALFWAY_SOURCE_DIR) / "build" / "cache");
     ASSERT_TRUE(library) << library.error().message;
     library_.emplace(std::move(*library));
   }
@@ -78,14 +80,15 @@ class HardwareUnits : public ::testing::Test {
     EXPECT_TRUE(text) << text.error().message;
     return text ? *text : "";
   }
-  std::map<std::string, int> found(const HardwareKey& key) const {
-    std::map<std::string, int> units;
-    Netlist(netlist(key), entities_).count(key.entity(), units);
-    return units;
+  std::map<std::string, int> found(const HardwareKey& key) {
+    const auto [at, is_new] = found_.try_emplace(key.name());
+    if (is_new) Netlist(netlist(key), entities_).count(key.entity(), at->second);
+    return at->second;
   }
 
   std::set<std::string> entities_;
   std::optional<GhdlLibrary> library_;
+  std::map<std::string, std::map<std::string, int>> found_;  ///< by the key's name
 };
 
 TEST_F(HardwareUnits, AreThoseOfTheNetlist) {

@@ -32,7 +32,7 @@ constexpr std::array c_axes = {
          "pixels seen to differ (Yee)"},
     Axes{"mach-clocks", "cycles", "mach_rms", "clocks of the frame, RTL",
          "rms of Mach bands, steps of 1/255 a pixel"},
-    Axes{"rms-cells", "cells", "rms", "cells: LUTs, flip-flops, bits of products",
+    Axes{"rms-cells", "cells", "rms", "cells: LUTs (multipliers among them), flip-flops, memory",
          "rms error, steps of 1/255"},
     Axes{"rms-host", "host_evaluations", "rms", "evaluations on the host", "rms error, steps of 1/255"},
 };
@@ -57,9 +57,11 @@ constexpr std::array c_told = {
     std::pair{"multipliers", "multipliers"},
     std::pair{"memory_bits", "bits of memory"},
     std::pair{"product_bits", "bits of products"},
+    std::pair{"multiplier_luts", "LUTs of the multipliers"},
     std::pair{"cells", "cells in all"},
     std::pair{"clock_mhz", "clock, MHz"},
-    std::pair{"frame_seconds", "seconds a frame"},
+    std::pair{"frame_ns", "ns a frame"},
+    std::pair{"fragment_ns", "ns a fragment"},
     std::pair{"rms", "rms error, /255"},
     std::pair{"largest_error", "largest error, /255"},
     std::pair{"psnr_db", "PSNR, dB"},
@@ -112,8 +114,8 @@ Status write_front(const Page& page, const Table& table, const std::vector<std::
       std::ranges::max_element(of, {}, [](const auto& plot) { return plot.second.points.size(); });
   if (most == of.end()) return Ok{};
   Plot& plot = most->second;
-  plot.x_label =
-      std::string(cost) == "cells" ? "cells: LUTs, flip-flops, bits of products" : "clocks of the frame";
+  plot.x_label = std::string(cost) == "cells" ? "cells: LUTs (multipliers among them), flip-flops, memory"
+                                              : "clocks of the frame";
   plot.y_label = "rms error, steps of 1/255";
   plot.front = lower_left(plot.points);
   plot.legend = series;

@@ -8,6 +8,7 @@
 #include "golden/processors_shader.hpp"
 #include "golden/quadratic_shader.hpp"
 #include "golden/spherical_shader.hpp"
+#include "setup/made_formats.hpp"
 
 namespace halfway {
 namespace {
@@ -142,6 +143,11 @@ class Model final : public GoldenModel {
   Room room_;
 };
 
+}  // namespace
+
+#ifndef HALFWAY_MODELS_ALONE  // sim/formats/harness.cpp makes one of them, of other formats
+namespace {
+
 template <class Preset>
 std::unique_ptr<GoldenModel> make(const HardwareKey& key) {
   if (key.shader == Shader::spherical)
@@ -155,7 +161,9 @@ std::unique_ptr<GoldenModel> make(const HardwareKey& key) {
 }  // namespace
 
 std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key) {
+  if (key.made_formats != nullptr) return key.made_formats->make_golden_model(key);
   return key.preset == Preset::exact ? make<golden::Exact>(key) : make<golden::Published>(key);
 }
+#endif
 
 }  // namespace halfway

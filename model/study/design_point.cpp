@@ -12,6 +12,7 @@
 #include "common/file.hpp"
 #include "common/to_integer.hpp"
 #include "frame/frame.hpp"
+#include "golden/formats.hpp"
 #include "scene/load_scene.hpp"
 #include "tables/cosine.hpp"
 
@@ -99,9 +100,13 @@ void multiply(std::vector<DesignPoint>& points, const std::vector<Value>& values
   points = std::move(product);
 }
 
+bool is_processors(Method method) {
+  return method == Method::processors_1 || method == Method::processors_2;
+}
+
 std::vector<DesignPoint> points_of(const Sweep& sweep) {
-  sweep.allow({"method", "preset", "address_bits", "data_bits", "form", "threshold", "tessellation",
-               "exponent", "size"});
+  sweep.allow({"method", "preset", "address_bits", "data_bits", "angle_bits", "fraction_bits", "seed_bits",
+               "newton", "form", "threshold", "tessellation", "exponent", "size"});
   std::vector<std::pair<std::string_view, Method>> methods;
   for (std::size_t i = 0; i < c_method_names.size(); ++i)
     methods.emplace_back(c_method_names[i], static_cast<Method>(i));
@@ -147,6 +152,45 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
         if ((data > 0) != p.tables.has_value()) sweep.fail("data_bits", "goes with address_bits alone");
         if (p.tables) p.tables->data_bits = data;
       });
+  // A word length means something in some methods alone, and the preset's own is no other.
+  const auto length = [&](const char* key, tables::Range range, bool (*has)(Method),
+                          std::optional<int> tables::WordLengths::*word, int exact, int published) {
+    multiply(points, bits(key, range.least, range.most), [&](DesignPoint& p, int value) {
+      const int own = p.preset == Preset::exact ? exact : published;
+      if (value != 0 && value != own && has(p.method)) p.words.*word = value;
+    });
+  };
+  length(
+      "angle_bits", tables::c_angle_range, [](Method m) { return m == Method::spherical; },
+      &tables::WordLengths::angle_bits, golden::Exact::c_angle_fraction_bits,
+      golden::Published::c_angle_fraction_bits);
+  length(
+      "fraction_bits", tables::c_fraction_range,
+      [](Method m) { return m == Method::quadratic || m == Method::adaptive; },
+      &tables::WordLengths::fraction_bits, golden::Exact::c_intensity_fraction_bits,
+      golden::Published::c_intensity_fraction_bits);
+  length("seed_bits", tables::c_seed_range, is_processors, &tables::WordLengths::seed_bits,
+         golden::Exact::c_root_entry_fraction_bits, golden::Published::c_root_entry_fraction_bits);
+  multiply(points,
+           sweep.list<std::optional<bool>>("newton", {std::nullopt},
+                                           [&](const toml::node& node) {
+                                             const auto value = node.value_exact<bool>();
+                                             if (!value) sweep.fail("newton", "takes true or false");
+                                             return value;
+                                           }),
+           [&](DesignPoint& p, std::optional<bool> newton) {
+             if (!newton || !is_processors(p.method)) return;
+             // A square of published is no longer than the table's entry is good for.
+             if (*newton && p.preset == Preset::published)
+               sweep.fail("newton", "goes with preset exact alone");
+             if (*newton != (p.preset == Preset::exact)) p.words.newton = newton;
+           });
+  for (const DesignPoint& p : points)
+    if (p.method == Method::spherical && p.words.angle_bits) {
+      const int address = p.tables ? p.tables->address_bits : p.preset == Preset::exact ? 9 : 6;
+      if (*p.words.angle_bits < address)
+        sweep.fail("angle_bits", fmt::format("must be {} at least, the table's address", address));
+    }
   multiply(
       points,
       sweep.names<ProcessorForm>("form", {ProcessorForm::unrolled},
@@ -159,10 +203,6 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
   multiply(points, sweep.numbers("threshold", {DesignPoint{}.threshold}, 0.01, 255.0),
            [](DesignPoint& p, double threshold) { p.threshold = threshold; });
   return points;
-}
-
-bool is_processors(Method method) {
-  return method == Method::processors_1 || method == Method::processors_2;
 }
 
 }  // namespace
@@ -183,6 +223,10 @@ std::string DesignPoint::design() const {
   if (in_hardware(method)) text += fmt::format(" {}", to_string(preset));
   if (method == Method::spherical && tables)
     text += fmt::format(" {}x{}", tables->address_bits, tables->data_bits);
+  if (words.angle_bits) text += fmt::format(" angle {}", *words.angle_bits);
+  if (words.fraction_bits) text += fmt::format(" fraction {}", *words.fraction_bits);
+  if (words.seed_bits) text += fmt::format(" seed {}", *words.seed_bits);
+  if (words.newton) text += *words.newton ? " with Newton" : " without Newton";
   if (is_processors(method) && form == ProcessorForm::folded) text += " folded";
   if (has_threshold()) text += fmt::format(", threshold {:g}", threshold);
   return text;

@@ -12,6 +12,7 @@
 #include "frame/frame_size.hpp"
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
+#include "tables/word_lengths.hpp"
 
 namespace halfway::study {
 
@@ -38,6 +39,7 @@ struct DesignPoint {
   Method method = Method::quadratic;
   Preset preset = Preset::exact;                 ///< of hardware
   std::optional<TableSize> tables;               ///< of spherical; none: the preset's
+  tables::WordLengths words{};                   ///< of what the method has; none: the preset's
   ProcessorForm form = ProcessorForm::unrolled;  ///< of the processors
   double threshold = 2.0;                        ///< colour steps; of adaptive, and of spherical in exact
   double tessellation = 1.0;                     ///< of the scene's own meshes, as load_scene takes it

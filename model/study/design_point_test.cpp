@@ -63,6 +63,28 @@ TEST_F(SpaceTest, PutsPointsOfAPictureTogether) {
   EXPECT_EQ((*points)[2].picture(), (*points)[3].picture());
 }
 
+TEST_F(SpaceTest, HasWordLengthsWhereTheyMeanSomething) {
+  const auto points = read(
+      "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\", \"spherical\", \"processors-2\"]\nangle_bits = [22, "
+      "16]\n"
+      "fraction_bits = [28, 20]\nseed_bits = [12, 8]\nnewton = [true, false]\n");
+  ASSERT_TRUE(points) << points.error().message;
+  std::vector<std::string> designs;
+  for (const DesignPoint& point : *points) designs.push_back(point.design());
+  EXPECT_THAT(designs, ::testing::UnorderedElementsAre(
+                           "gouraud", "quadratic exact", "quadratic exact fraction 20",
+                           "spherical exact, threshold 2", "spherical exact angle 16, threshold 2",
+                           "processors-2 exact", "processors-2 exact without Newton",
+                           "processors-2 exact seed 8", "processors-2 exact seed 8 without Newton"));
+  EXPECT_THAT(
+      message_of("[[sweep]]\nmethod = \"spherical\"\naddress_bits = 10\ndata_bits = 8\nangle_bits = 9\n"),
+      HasSubstr("space.toml:5: angle_bits must be 10 at least"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"processors-2\"\npreset = \"published\"\nnewton = true\n"),
+              HasSubstr("space.toml:4: newton goes with preset exact alone"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nfraction_bits = 60\n"),
+              HasSubstr("space.toml:3: fraction_bits takes numbers from 2 to 40"));
+}
+
 TEST_F(SpaceTest, TellsFileAndLineOfWhatItCannotTake) {
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nexponent = 0.5\n"),
               HasSubstr("space.toml:3: exponent takes numbers from 1"));

@@ -3,14 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "common/subprocess.hpp"
 #include "common/threads.hpp"
+#include "sim/synth/pinned.hpp"
 #include "study/pictures.hpp"
 #include "tables/made_tables.hpp"
 
@@ -37,6 +41,7 @@ Result<PointHardware> hardware_of(const DesignPoint& point, const Scene& scene) 
   auto plan = plan_scene(scene, request);
   if (!plan) return plan.error();
   hardware.key = plan->key;
+  hardware.key.words = point.words;
   if (point.method == Method::processors_1 || point.method == Method::processors_2) {
     ProcessorUnits& units = hardware.key.processors;
     if (point.method == Method::processors_1 && units.positional + units.spots > 0)
@@ -47,28 +52,175 @@ Result<PointHardware> hardware_of(const DesignPoint& point, const Scene& scene) 
   return hardware;
 }
 
+Result<PointHardware> drawing_hardware_of(const DesignPoint& point, const Scene& scene,
+                                          const SimulatorFolders& folders) {
+  auto hardware = hardware_of(point, scene);
+  if (!hardware || !point.words.any()) return hardware;
+  auto formats = MadeFormats::open(hardware->key, folders);
+  if (!formats) return formats.error();
+  hardware->formats = std::move(*formats);
+  hardware->key.made_formats = hardware->formats.get();
+  return hardware;
+}
+
 Result<SimulatorFolders> rtl_of(const DesignPoint& point, const SimulatorFolders& folders) {
   const auto size = made_size(point);
-  if (!size) return folders;
+  if (!size && !point.words.any()) return folders;
   const auto source =
-      tables::rtl_with_tables(point.preset == Preset::exact, *size, folders.source, folders.cache);
+      tables::rtl_with(point.preset == Preset::exact, size, point.words, folders.source, folders.cache);
   if (!source) return source.error();
   return SimulatorFolders{*source, folders.cache};
 }
 
 double cell_count(const Cells& cells) {
-  return static_cast<double>(cells.luts + cells.flip_flops + cells.product_bits);
+  constexpr double c_lut_bits = 16;
+  return static_cast<double>(cells.luts + cells.flip_flops + cells.multiplier_luts) +
+         static_cast<double>(cells.memory_bits) / c_lut_bits;
 }
 
-Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const Record> records,
-                                       const SimulatorFolders& folders, unsigned threads,
-                                       const std::function<void(const std::string&)>& on_progress) {
-  HardwareTable table;
-  struct Open {
-    PointHardware hardware;
-    SimulatorFolders folders;
-    HardwareFigures* figures;
+namespace {
+
+struct Open {
+  PointHardware hardware;
+  SimulatorFolders folders;
+  HardwareFigures* figures;
+  synth::Design design() const {
+    const HardwareKey& key = hardware.key;
+    return {.name = key.name(), .entity = key.entity(), .generics = key.generics()};
+  }
+};
+
+// Each of `count` things on all threads, until one fails; `what` is said with how many are done.
+Status do_all(std::size_t count, const FiguresOptions& options, const std::string& what,
+              const std::function<Status(std::size_t)>& each) {
+  std::atomic<std::size_t> next = 0;
+  std::size_t done = 0;
+  std::mutex mutex;
+  std::optional<Error> error;
+  if (count > 0) options.on_progress(fmt::format("{} of {} designs", what, count));
+  work_on_threads(options.threads, [&] {
+    for (std::size_t at; (at = next++) < count;) {
+      const Status status = each(at);
+      const std::scoped_lock lock(mutex);
+      if (!status) {
+        if (!error) error = status.error();
+        next = count;
+      }
+      options.on_progress(fmt::format("{}: {} of {}", what, ++done, count));
+    }
+  });
+  if (error) return *error;
+  return Ok{};
+}
+
+// Clocks of netlists, by their hashes.
+Result<std::map<std::string, double>> pinned_clocks(const SimulatorFolders& folders) {
+  const auto pins = synth::read_pins(folders.source / synth::kPins);
+  if (!pins) return pins.error();
+  std::map<std::string, double> clocks;
+  for (const auto& [name, pin] : *pins)
+    if (!pin.netlist.empty() && pin.mhz > 0) clocks[pin.netlist] = pin.mhz;
+  return clocks;
+}
+
+Status take_pinned(std::vector<Open>& open, const SimulatorFolders& folders, const FiguresOptions& options) {
+  const auto clocks = pinned_clocks(folders);
+  if (!clocks) return clocks.error();
+  if (clocks->empty()) return Ok{};
+  const auto tool = GhdlTool::find();
+  if (!tool) return tool.error();
+  return do_all(open.size(), options, "pinned clocks", [&](std::size_t at) -> Status {
+    const auto sources = read_rtl_sources(open[at].folders.source);
+    if (!sources) return sources.error();
+    const auto library = GhdlLibrary::open(*tool, *sources, "", open[at].folders.cache);
+    if (!library) return library.error();
+    const auto hash = synth::netlist_hash(*library, open[at].design());
+    if (!hash) return hash.error();
+    if (const auto found = clocks->find(*hash); found != clocks->end()) {
+      open[at].figures->mhz = found->second;
+      open[at].figures->clock = "pinned";
+    }
+    return Ok{};
+  });
+}
+
+// Why cells that Yosys counted for no family cannot be on the device: each takes a logic cell there, too.
+std::string too_large(const std::optional<Cells>& cells) {
+  if (!cells) return {};
+  if (cells->flip_flops > synth::kDeviceCells)
+    return fmt::format("does not fit the HX8K: {} flip-flops", cells->flip_flops);
+  if (cells->multiplier_luts > synth::kDeviceCells)
+    return fmt::format("does not fit the HX8K: multipliers of {} LUTs", cells->multiplier_luts);
+  return {};
+}
+
+// Each seed of each design, so that all threads have work to the end.
+Status place_all(std::vector<Open>& open, const FiguresOptions& options) {
+  struct Placed {
+    Open* open;
+    synth::Synthesizer synthesizer;
+    std::vector<double> mhz{};
   };
+  std::vector<Placed> placed;
+  for (Open& each : open) {
+    HardwareFigures& figures = *each.figures;
+    if (figures.mhz) continue;
+    if (std::string reason = too_large(figures.cells); !reason.empty()) {
+      figures.clock = std::move(reason);
+      figures.fits = false;
+      continue;
+    }
+    auto synthesizer = synth::Synthesizer::open(each.folders, true);
+    if (!synthesizer) return synthesizer.error();
+    placed.push_back({&each, std::move(*synthesizer)});
+  }
+  Status packed = do_all(placed.size(), options, "logic cells", [&](std::size_t at) -> Status {
+    const auto& [each, synthesizer, mhz] = placed[at];
+    HardwareFigures& figures = *each->figures;
+    const auto cells = synthesizer.ice40(each->design());
+    if (!cells) return cells.error();
+    figures.ice40 = *cells;
+    const auto packing = synthesizer.pack(each->design());
+    if (!packing) return packing.error();
+    if (packing->cells_used > synth::kMostPlaced) {
+      figures.clock =
+          fmt::format("too full: {} of the HX8K's {} logic cells", packing->cells_used, packing->cells_there);
+      figures.fits = false;
+    }
+    return Ok{};
+  });
+  if (!packed) return packed;
+  std::erase_if(placed, [](const Placed& each) { return !each.open->figures->fits; });
+  std::mutex mutex;
+  Status routed = do_all(placed.size() * c_placements, options, "placements", [&](std::size_t job) -> Status {
+    Placed& each = placed[job / c_placements];
+    const auto placement =
+        each.synthesizer.place(each.open->design(), static_cast<unsigned>(1 + job % c_placements));
+    if (!placement) return placement.error();
+    const std::scoped_lock lock(mutex);
+    each.mhz.push_back(placement->mhz);
+    return Ok{};
+  });
+  if (!routed) return routed;
+  for (Placed& each : placed) {
+    HardwareFigures& figures = *each.open->figures;
+    std::ranges::sort(each.mhz);
+    if (each.mhz.front() > 0) {
+      figures.mhz = each.mhz[each.mhz.size() / 2];
+      figures.clock = "placed";
+    } else {
+      figures.clock = "does not fit the HX8K";
+      figures.fits = false;
+    }
+  }
+  return Ok{};
+}
+
+}  // namespace
+
+Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const Record> records,
+                                       const SimulatorFolders& folders, const FiguresOptions& options) {
+  HardwareTable table;
   std::vector<Open> open;
   for (const Record& record : records) {
     if (!in_hardware(record.point.method)) continue;
@@ -82,25 +234,20 @@ Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const
     if (!rtl) return rtl.error();
     open.push_back({std::move(*hardware), std::move(*rtl), &entry->second});
   }
-  if (open.empty() || find_program("yosys").empty()) return table;
-  std::atomic<std::size_t> next = 0, done = 0;
-  std::mutex mutex;
-  std::optional<Error> error;
-  on_progress(fmt::format("cells of {} designs", open.size()));
-  work_on_threads(threads, [&] {
-    for (std::size_t at; (at = next++) < open.size();) {
-      const auto& [hardware, rtl, figures] = open[at];
-      const auto counter = CellCounter::open(rtl);
-      const auto cells = counter ? counter->count(hardware.key) : Result<Cells>(counter.error());
-      const std::scoped_lock lock(mutex);
-      if (cells)
-        figures->cells = *cells;
-      else if (!error)
-        error = cells.error();
-      on_progress(fmt::format("cells of {} of {} designs", ++done, open.size()));
-    }
-  });
-  if (error) return *error;
+  if (Status pinned = take_pinned(open, folders, options); !pinned) return pinned.error();
+  if (!find_program("yosys").empty()) {
+    const Status counted = do_all(open.size(), options, "cells", [&](std::size_t at) -> Status {
+      const auto counter = CellCounter::open(open[at].folders);
+      if (!counter) return counter.error();
+      const auto cells = counter->count(open[at].hardware.key);
+      if (!cells) return cells.error();
+      open[at].figures->cells = *cells;
+      return Ok{};
+    });
+    if (!counted) return counted.error();
+  }
+  if (options.place)
+    if (Status placed = place_all(open, options); !placed) return placed.error();
   return table;
 }
 

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/measure.hpp"
 
-#include <fmt/format.h>
-
-#include <memory>
+#include <utility>
 
 #include "frame/perception.hpp"
-#include "run/limits.hpp"
-#include "run/rtl_stream.hpp"
-#include "run/scene_stream.hpp"
-#include "sim/verilator/verilator_simulator.hpp"
+#include "run/verilator_frame.hpp"
 #include "study/hardware.hpp"
 
 namespace halfway::study {
@@ -18,36 +13,19 @@ namespace {
 // Adds what hardware draws and takes; the mask of what it covers.
 Result<std::vector<std::uint8_t>> draw_in_hardware(const DesignPoint& point, const Scene& scene,
                                                    const SimulatorFolders& folders, Measurement& m) {
-  const auto hardware = hardware_of(point, scene);
+  const auto hardware = drawing_hardware_of(point, scene, folders);
   if (!hardware) return hardware.error();
   const auto rtl_folders = rtl_of(point, folders);
   if (!rtl_folders) return rtl_folders.error();
   const HardwareKey& key = hardware->key;
-  auto simulator = VerilatorSimulator::open(key, *rtl_folders, {.idle_limit = c_idle_limit});
-  if (!simulator) return simulator.error();
-  const std::unique_ptr<Setup> setup = make_setup(scene, point.size, key, point.setup());
-  SceneStream stream(*setup, key, 1, {.ahead = false});
-  RtlStream rtl(point.size, scene.background);
-  VerilatorFeed feed(*simulator, rtl);
-  for (Batch batch; stream.next(batch);) {
-    if (Status status = check_shadow_counts(scene, stream); !status) return status.error();
-    rtl.add_golden(batch.golden);
-    if (Status status = feed.add(batch.init_words); !status) return status.error();
-  }
-  if (Status status = feed.finish(); !status) return status.error();
-  if (Status status = check_projection(scene, stream); !status) return status.error();
-  m.frame = rtl.assembler().frame();
-  m.fragments = rtl.count();
-  m.cycles = simulator->cycles();
+  auto drawn = draw_in_verilator(scene, point.size, key, point.setup(), *rtl_folders, 1);
+  if (!drawn) return drawn.error();
+  m.frame = std::move(drawn->frame);
+  m.fragments = drawn->fragments;
+  m.cycles = drawn->cycles;
   m.hardware = key.name();
-  m.setup = stream.counts();
-  std::vector<std::uint8_t> mask = rtl.assembler().mask();
-  const SimulatorRun run = rtl.finish("verilator");
-  if (!run.equal())
-    return Error{ExitCode::differs,
-                 fmt::format("{}: the RTL differs from the golden model: {} mismatches {}\n{}", point.name(),
-                             run.mismatches, run.fault, run.description)};
-  return mask;
+  m.setup = drawn->counts;
+  return std::move(drawn->mask);
 }
 
 }  // namespace

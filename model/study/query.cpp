@@ -42,20 +42,22 @@ std::string time_text(double seconds) {
 
 // What the offers of a market can be compared by.
 struct Scales {
-  bool cells, seconds, cycles;
+  bool cells;
+  bool seconds;  ///< of some
+  bool cycles;   ///< besides, because the seconds of others are not known
 };
 Scales scales_of(std::span<const Offer> offers) {
   const auto timed = [](const Offer& o) { return o.seconds.has_value(); };
   return {.cells = std::ranges::all_of(offers, [](const Offer& o) { return o.cells.has_value(); }),
           .seconds = std::ranges::any_of(offers, timed),
-          .cycles = !std::ranges::all_of(offers, timed)};
+          .cycles = !std::ranges::all_of(offers, [](const Offer& o) { return o.seconds || !o.fits; })};
 }
 
 // Cells, time, host: the order of prices is the dictionary's.
 Costs price_of(const Offer& offer, Scales scales) {
-  constexpr double c_unknown = std::numeric_limits<double>::infinity();
-  return {scales.cells ? *offer.cells : 0.0, scales.seconds ? offer.seconds.value_or(c_unknown) : 0.0,
-          scales.cycles ? offer.cycles : 0.0, offer.host};
+  constexpr double c_none = std::numeric_limits<double>::infinity();
+  return {scales.cells ? *offer.cells : 0.0, scales.seconds ? offer.seconds.value_or(c_none) : 0.0,
+          scales.cycles || !offer.seconds ? offer.cycles : 0.0, offer.host};
 }
 
 bool accurate_enough(const Offer& offer, const Demand& demand) {
@@ -100,6 +102,11 @@ std::string offer_text(const Offer& o) {
   return text + fmt::format(", {:.0f} host evaluations", o.host);
 }
 
+const char* time_scale(Scales scales) {
+  if (!scales.cycles) return "nanoseconds";
+  return scales.seconds ? "cycles, and in nanoseconds where the clock is known" : "cycles";
+}
+
 // How much more `there` takes than `here`, figure by figure.
 std::string difference_text(const Offer& here, const Offer& there) {
   std::vector<std::string> texts;
@@ -111,6 +118,10 @@ std::string difference_text(const Offer& here, const Offer& there) {
   };
   if (here.cells && there.cells) add(*here.cells, *there.cells, "cells");
   add(here.cycles, there.cycles, "cycles");
+  if (here.seconds && there.seconds && *here.seconds != *there.seconds)
+    texts.push_back(fmt::format("{}{} ({:+.3g} %)", *there.seconds < *here.seconds ? '-' : '+',
+                                time_text(std::fabs(*there.seconds - *here.seconds)),
+                                100.0 * (*there.seconds / *here.seconds - 1.0)));
   add(here.host, there.host, "host evaluations");
   return texts.empty() ? "no other cost" : fmt::format("{}", fmt::join(texts, ", "));
 }
@@ -162,9 +173,14 @@ std::vector<Market> markets_of(std::span<const Record> records, const HardwareTa
                 .psnr_db = measured.picture.psnr_db,
                 .cycles = static_cast<double>(measured.cycles),
                 .host = static_cast<double>(measured.setup.shaded)};
-    if (const auto found = hardware.find(measured.hardware); found != hardware.end() && found->second.cells)
-      offer.cells = cell_count(*found->second.cells);
-    if (clock.mhz) offer.seconds = offer.cycles / (*clock.mhz * 1e6);
+    std::optional<double> mhz = clock.mhz;
+    if (const auto found = hardware.find(measured.hardware); found != hardware.end()) {
+      const HardwareFigures& figures = found->second;
+      if (figures.cells) offer.cells = cell_count(*figures.cells);
+      if (figures.mhz) mhz = figures.mhz;
+      offer.fits = figures.fits;
+    }
+    if (mhz) offer.seconds = offer.cycles / (*mhz * 1e6);
     const std::string picture = point.picture();
     auto market = std::ranges::find(markets, picture, &Market::picture);
     if (market == markets.end()) market = markets.insert(market, Market{picture, {}});
@@ -196,8 +212,9 @@ Result<Answer> answer(std::span<const Offer> offers, const Demand& demand) {
 
   found.cheapest = least(offers, cheapest_first,
                          [&](const Offer& o) { return accurate_enough(o, demand) && in_time(o, demand); });
-  found.unknown = static_cast<std::size_t>(std::ranges::count_if(
-      offers, [&](const Offer& o) { return demand.seconds && !o.seconds && accurate_enough(o, demand); }));
+  found.unknown = static_cast<std::size_t>(std::ranges::count_if(offers, [&](const Offer& o) {
+    return demand.seconds && !o.seconds && o.fits && accurate_enough(o, demand);
+  }));
   found.best = least(offers, best_first, any);
   found.fastest = least(
       offers,
@@ -239,10 +256,11 @@ std::string to_text(const Market& market, const Answer& answer, const Demand& de
     neighbour("more accurate", answer.accurate, demand.seconds ? "nothing is, in that time" : "nothing is");
   }
   if (answer.unknown > 0)
-    text += fmt::format("  {} points would be accurate enough, but no clock of theirs is known (--clock)\n",
-                        answer.unknown);
-  return text + fmt::format("  front          {} of {} points of hardware\n", answer.front.size(),
-                            market.offers.size());
+    text += fmt::format(
+        "  {} points would be accurate enough, but no clock of theirs is known (--place, or --clock)\n",
+        answer.unknown);
+  return text + fmt::format("  front          {} of {} points of hardware, time in {}\n", answer.front.size(),
+                            market.offers.size(), time_scale(scales_of(market.offers)));
 }
 
 }  // namespace halfway::study

@@ -36,6 +36,7 @@ struct Offer {
   std::optional<double> cells;
   double cycles = 0;              ///< for the frame
   std::optional<double> seconds;  ///< the same at the hardware's clock
+  bool fits = true;               ///< else the device that clocks are of has no room for it
   double host = 0;                ///< evaluations for the frame
 };
 
@@ -53,8 +54,9 @@ struct Clock {
 /// One a picture, in the records' order.
 std::vector<Market> markets_of(std::span<const Record> records, const HardwareTable& hardware, Clock clock);
 
-/// Largest error, PSNR, cells, time and host, as costs. Cells count where they are known of all; time is in
-/// seconds, and where some offer's is not known, in cycles too.
+/// Largest error, PSNR, cells, time and host, as costs. Cells count where they are known of all. Time is in
+/// seconds where they are known of all that fit the device, and what does not is slower than that, among its
+/// like by cycles; else it is in cycles for all, and in seconds besides for those of which they are known.
 std::vector<Costs> costs_of(std::span<const Offer> offers);
 
 /// Numbers of offers. All but `fastest` and `best` are on the front.

@@ -145,8 +145,8 @@ class QueryTest : public ::testing::Test {
     add({.method = Method::processors_2}, "processors", 1, 1005, 0);
     add({.method = Method::processors_2, .exponent = 5.0}, "processors", 1, 1005, 0);
     hardware_["quadratic"].cells = Cells{.luts = 1500, .flip_flops = 500};
-    hardware_["processors"].cells =
-        Cells{.luts = 9000, .flip_flops = 900, .multipliers = 10, .product_bits = 100};
+    hardware_["processors"].cells = Cells{
+        .luts = 1000, .flip_flops = 800, .memory_bits = 3200, .multipliers = 10, .multiplier_luts = 8000};
   }
   void add(const DesignPoint& point, const std::string& hardware, unsigned error, std::uint64_t cycles,
            std::uint64_t shaded) {
@@ -175,6 +175,7 @@ TEST_F(QueryTest, HasAMarketAPictureAndNoSoftwareInIt) {
   EXPECT_EQ(markets[1].picture, "320x240, exponent 5");
   EXPECT_EQ(markets[1].offers.size(), 1U);
   EXPECT_EQ(markets[0].offers[2].cells, 10000.0);
+  EXPECT_FALSE(markets[0].offers[2].seconds);
 }
 
 TEST_F(QueryTest, TellsTheCheapestItsNeighboursAndTheNextStepsCost) {
@@ -187,7 +188,7 @@ TEST_F(QueryTest, TellsTheCheapestItsNeighboursAndTheNextStepsCost) {
             "  more accurate  processors-2 exact: largest error 1/255, PSNR 59.50 dB, 10000 cells, "
             "1005 cycles, 0 host evaluations; +8000 cells (+400 %), -5 cycles (-0.495 %), -18208 host "
             "evaluations (-100 %)\n"
-            "  front          3 of 3 points of hardware\n");
+            "  front          3 of 3 points of hardware, time in cycles\n");
 }
 
 TEST_F(QueryTest, TakesTimeByTheClockAlone) {
@@ -198,6 +199,34 @@ TEST_F(QueryTest, TakesTimeByTheClockAlone) {
   const std::string unknown = ask({.largest_error = 2.0, .seconds = 1.0});
   EXPECT_THAT(unknown, HasSubstr("none of 3 points of hardware meets it"));
   EXPECT_THAT(unknown, HasSubstr("2 points would be accurate enough, but no clock of theirs is known"));
+}
+
+TEST_F(QueryTest, TakesTimeByTheHardwaresOwnClockBeforeAnyOther) {
+  hardware_["quadratic"].mhz = 50.0;
+  const std::string mixed = ask({.largest_error = 2.0, .seconds = 20.3e-6}, {100.0});
+  EXPECT_THAT(mixed, HasSubstr("1010 cycles (20.2 us)"));
+  EXPECT_THAT(mixed, HasSubstr("1005 cycles (10.05 us)"));
+  EXPECT_THAT(mixed, HasSubstr("-10.15 us (-50.2 %)"));
+  EXPECT_THAT(mixed, HasSubstr("time in nanoseconds\n"));
+  // Of one of the three no clock is known.
+  EXPECT_THAT(ask({.largest_error = 2.0}), HasSubstr("time in cycles, and in nanoseconds where"));
+  // None fits: slower than what does, whatever its cycles are, and not unknown.
+  hardware_["processors"].fits = false;
+  const std::string fitting = ask({.seconds = 1.0});
+  EXPECT_THAT(fitting, HasSubstr("time in nanoseconds\n"));
+  EXPECT_THAT(fitting, Not(HasSubstr("no clock of theirs")));
+}
+
+TEST_F(QueryTest, WhatDoesNotFitTheDeviceIsSlowerThanWhatDoes) {
+  const std::vector<Offer> offers = {{.cells = 1.0, .cycles = 10.0, .seconds = 1.0},
+                                     {.cells = 1.0, .cycles = 5.0, .seconds = 2.0},
+                                     {.cells = 1.0, .cycles = 1.0, .fits = false},
+                                     {.cells = 0.5, .cycles = 2.0, .fits = false},
+                                     {.cells = 0.5, .cycles = 3.0, .fits = false}};
+  const auto found = answer(offers, {});
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_THAT(found->front, ::testing::UnorderedElementsAre(0U, 3U));
+  EXPECT_EQ(found->fastest, 0U);
 }
 
 TEST_F(QueryTest, TellsTheBestOfWhatIsNotEnough) {

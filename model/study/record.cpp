@@ -14,7 +14,10 @@
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
 #include "frame/image.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/verilator/shared_library.hpp"
 #include "study/figures.hpp"
+#include "study/host_setup.hpp"
 
 namespace halfway::study {
 namespace {
@@ -56,10 +59,10 @@ std::string first_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
-Result<std::string> version_of(const char* program) {
-  const auto said = run_process({.arguments = {program, "--version"}}, "");
+Result<std::string> version_of(const char* program, const char* install) {
+  const auto said = ask({program, "--version"}, install);
   if (!said) return said.error();
-  return first_line(said->output);
+  return first_line(*said);
 }
 
 template <class Numbers>
@@ -133,13 +136,13 @@ Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& fol
   if (!program) return program.error();
   const auto rtl = hash_of(folders.source / "rtl");
   if (!rtl) return rtl.error();
-  const auto ghdl = version_of("ghdl");
+  const auto ghdl = version_of("ghdl", kInstallGhdl);
   if (!ghdl) return ghdl.error();
-  const auto verilator = version_of("verilator");
+  const auto verilator = version_of("verilator", kInstallVerilator);
   if (!verilator) return verilator.error();
   std::string tools = *ghdl + ", " + *verilator;
   if (!find_program("valgrind").empty()) {
-    const auto valgrind = version_of("valgrind");
+    const auto valgrind = version_of("valgrind", c_install_valgrind);
     if (!valgrind) return valgrind.error();
     tools += ", " + *valgrind;
   }

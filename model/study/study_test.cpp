@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -147,6 +148,22 @@ TEST_F(StudyTest, DrawsWithTablesOfAnySize) {
   EXPECT_EQ(usual.fragments, least.fragments);
 }
 
+// Word lengths that the program was not built with, in setup, golden model and RTL alike: 16 bits in all, 4
+// of them behind the point.
+TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
+  settings_.points = {
+      {.method = Method::quadratic, .tessellation = 0.5, .size = {160, 120}},
+      {.method = Method::quadratic, .words = {.fraction_bits = 4}, .tessellation = 0.5, .size = {160, 120}}};
+  const Study made = study();
+  ASSERT_EQ(made.records.size(), 2U);
+  const Measurement &usual = made.records[0].measured, &coarse = made.records[1].measured;
+  EXPECT_THAT(coarse.hardware, EndsWith("-fraction4"));
+  EXPECT_LT(usual.picture.rms, coarse.picture.rms);
+  EXPECT_EQ(usual.fragments, coarse.fragments);
+  EXPECT_EQ(usual.setup.shaded, coarse.setup.shaded);
+  EXPECT_THAT(table_of(made), HasSubstr(",,4,,\n"));
+}
+
 TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
   const DesignPoint point{.method = Method::spherical, .tables = TableSize{5, 4}, .size = {160, 120}};
   // What would be made stands there already, with one entry another.
@@ -187,18 +204,29 @@ TEST_F(StudyTest, TheTableTellsTheFront) {
   settings_.points.push_back({.method = Method::gouraud, .size = {160, 120}});
   const Study made = study();
   HardwareTable hardware;
-  hardware[made.records[2].measured.hardware].cells = Cells{.luts = 100, .flip_flops = 20};
+  HardwareFigures& figures = hardware[made.records[2].measured.hardware];
+  figures.cells = Cells{.luts = 100, .flip_flops = 20};
+  figures.mhz = 80.0;
+  figures.clock = "pinned";
   const auto csv = to_csv(made.provenance, made.records, hardware, markets_of(made.records, hardware, {}));
   ASSERT_TRUE(csv) << csv.error().message;
   std::vector<std::string> lines;
   std::istringstream stream(*csv);
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   ASSERT_EQ(lines.size(), 1 + made.records.size());
-  EXPECT_THAT(lines[0],
-              EndsWith(",host_instructions,luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,"
-                       "cycles_a_fragment,host_instructions_a_triangle,record"));
-  EXPECT_THAT(lines[1], EndsWith(",,,,,,,,,,," + record_name(made.provenance, made.records[0].point)));
+  EXPECT_THAT(
+      lines[0],
+      EndsWith(",host_instructions,luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,"
+               "cycles_a_fragment,host_instructions_a_triangle,record,multiplier_luts,clock_mhz,clock,"
+               "frame_ns,fragment_ns,ice40_luts,ice40_carries,ice40_flip_flops,ice40_rams,"
+               "angle_bits,fraction_bits,seed_bits,newton"));
+  EXPECT_THAT(lines[1], EndsWith(",,,,,,,,,,," + record_name(made.provenance, made.records[0].point) +
+                                 ",,,,,,,,,,,,,"));
   EXPECT_THAT(lines[3], HasSubstr(",100,20,0,0,0,120,1,1."));
+  const auto cycles = static_cast<double>(made.records[2].measured.cycles),
+             fragments = static_cast<double>(made.records[2].measured.fragments);
+  EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"pinned\",{:.6g},{:.6g},,,,,,,,", 12.5 * cycles,
+                                             12.5 * cycles / fragments)));
   EXPECT_THAT(lines[4], HasSubstr(",100,20,0,0,0,120,1,1."));
   const auto commas = [](const std::string& line) {
     bool quoted = false;

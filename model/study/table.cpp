@@ -36,12 +36,44 @@ std::string ratio(std::uint64_t part, std::uint64_t whole) {
   return fmt::format(",{:.6g}", static_cast<double>(part) / static_cast<double>(whole));
 }
 
+template <class Value>
+std::string ratio_of(const std::optional<Value>& value, double more) {
+  return value ? fmt::format(",{:.6g}", more / *value) : ",";
+}
+
+// The period in ns, for a frame and for a fragment; then what the hardware was made of for that.
+std::string clock_columns(const HardwareTable& hardware, const Measurement& m) {
+  const auto found = hardware.find(m.hardware);
+  if (found == hardware.end()) return ",,,,,,,,";
+  const HardwareFigures& f = found->second;
+  const auto cycles = static_cast<double>(m.cycles);
+  std::string text = f.mhz ? fmt::format(",{:.1f}", *f.mhz) : ",";
+  text += fmt::format(",\"{}\"", f.clock) + ratio_of(f.mhz, 1e3 * cycles);
+  text += m.fragments == 0 ? "," : ratio_of(f.mhz, 1e3 * cycles / static_cast<double>(m.fragments));
+  if (!f.ice40) return text + ",,,,";
+  return text +
+         fmt::format(",{},{},{},{}", f.ice40->luts, f.ice40->carries, f.ice40->flip_flops, f.ice40->rams);
+}
+
 std::string cells_columns(const HardwareTable& hardware, const std::string& key) {
   const auto found = hardware.find(key);
   if (found == hardware.end() || !found->second.cells) return ",,,,,,";
   const Cells& c = *found->second.cells;
   return fmt::format(",{},{},{},{},{},{:.0f}", c.luts, c.flip_flops, c.memory_bits, c.multipliers,
                      c.product_bits, cell_count(c));
+}
+
+std::string words_columns(const tables::WordLengths& words) {
+  std::string text;
+  for (const std::optional<int>& bits : {words.angle_bits, words.fraction_bits, words.seed_bits})
+    text += bits ? fmt::format(",{}", *bits) : ",";
+  return text + (!words.newton ? "," : *words.newton ? ",1" : ",0");
+}
+
+std::string multiplier_column(const HardwareTable& hardware, const std::string& key) {
+  const auto found = hardware.find(key);
+  if (found == hardware.end() || !found->second.cells) return ",";
+  return fmt::format(",{}", found->second.cells->multiplier_luts);
 }
 
 }  // namespace
@@ -57,7 +89,8 @@ Result<std::string> to_csv(const Provenance& provenance, std::span<const Record>
   for_each_figure(none, [&](const char* name, const auto&) { text += fmt::format(",{}", name); });
   text +=
       ",luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,cycles_a_fragment,"
-      "host_instructions_a_triangle,record\n";
+      "host_instructions_a_triangle,record,multiplier_luts,clock_mhz,clock,frame_ns,fragment_ns,ice40_luts,"
+      "ice40_carries,ice40_flip_flops,ice40_rams,angle_bits,fraction_bits,seed_bits,newton\n";
   for (std::size_t at = 0; at < records.size(); ++at) {
     const auto& [p, measured] = records[at];
     text += fmt::format(
@@ -73,7 +106,8 @@ Result<std::string> to_csv(const Provenance& provenance, std::span<const Record>
     text += !front ? "," : *front ? ",1" : ",0";
     text += ratio(measured.cycles, measured.fragments) +
             ratio(measured.host_instructions.value_or(0), measured.triangles) + "," +
-            record_name(provenance, p) + "\n";
+            record_name(provenance, p) + multiplier_column(hardware, measured.hardware) +
+            clock_columns(hardware, measured) + words_columns(p.words) + "\n";
   }
   return text;
 }

@@ -2,6 +2,7 @@
 #include "tables/formats.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -570,6 +571,35 @@ std::vector<PresetFormats> preset_formats() {
       {"published", joined(common_formats(), published_formats()),
        joined(joined(published_layouts(), spherical_layouts(false)), processors_layouts(false))},
   };
+}
+
+std::string WordLengths::name() const {
+  std::vector<std::string> parts;
+  if (angle_bits) parts.push_back(fmt::format("angle{}", *angle_bits));
+  if (fraction_bits) parts.push_back(fmt::format("fraction{}", *fraction_bits));
+  if (seed_bits) parts.push_back(fmt::format("seed{}", *seed_bits));
+  if (newton) parts.emplace_back(*newton ? "newton" : "plain");
+  return fmt::format("{}", fmt::join(parts, "-"));
+}
+
+std::vector<PresetFormats> preset_formats(bool exact, const WordLengths& words) {
+  std::vector<PresetFormats> presets = preset_formats();
+  PresetFormats& preset = presets[exact ? 0 : 1];
+  const auto format = [&](std::string_view name) -> Format& {
+    const Format& found = format_of(preset, name);
+    return preset.formats[static_cast<std::size_t>(&found - preset.formats.data())];
+  };
+  Format &entry = format("root_entry"), &root = format("root");
+  // Without a Newton step the root is the table's entry.
+  const bool newton = words.newton.value_or(root.fraction_bits > entry.fraction_bits);
+  if (words.angle_bits) format("angle").fraction_bits = *words.angle_bits;
+  if (words.fraction_bits) format("intensity").fraction_bits = *words.fraction_bits;
+  if (words.seed_bits) entry.fraction_bits = *words.seed_bits;
+  if (!newton) {
+    root.integer_bits = entry.integer_bits;
+    root.fraction_bits = entry.fraction_bits;
+  }
+  return presets;
 }
 
 double derived(const PresetFormats& preset, const Format& format, const Bound& bound,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tables/bound.hpp"
+#include "tables/word_lengths.hpp"
 
 namespace halfway::tables {
 
@@ -46,6 +47,9 @@ struct PresetFormats {
 
 /// Both presets; every format name occurs in both.
 std::vector<PresetFormats> preset_formats();
+
+/// The same with other word lengths in one of them. What the formats say of their bounds stays the preset's.
+std::vector<PresetFormats> preset_formats(bool exact, const WordLengths& words);
 
 /// What a bound's derivation comes to with the preset's formats; where it grows with the exponent, at the one
 /// given, else at the largest.

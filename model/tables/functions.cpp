@@ -69,6 +69,15 @@ std::string constant_name(const FunctionTable& table) {
 
 constexpr std::string_view c_notice = "Made by `make tables` from model/tables/functions.cpp; edit that.";
 
+// What a Newton step from an entry of 1/sqrt(x) falls short of twice the root, halved: 3/2 of the square of
+// the entry's relative error, in units of 2^-23. The error is sqrt(2) u / 2 for the rounding and w / 2 for
+// the cell.
+int root_raise(const FunctionTable& table) {
+  const double error =
+      std::numbers::sqrt2 * std::ldexp(0.5, -table.fraction_bits) + std::ldexp(0.5, -table.address_bits);
+  return to_integer<int>(std::round(std::ldexp(1.5 * error * error, 23)));
+}
+
 constexpr Function c_functions[] = {Function::reciprocal_root, Function::logarithm, Function::decay};
 
 }  // namespace
@@ -100,6 +109,20 @@ std::vector<FunctionTable> function_tables() {
       made({false, Function::decay, 6, 8, 8, 0, off_by(0.0074, "", "u / 2 + w / 2 * ln2"), {}})};
 }
 
+std::vector<FunctionTable> function_tables(bool exact, const WordLengths& words) {
+  std::vector<FunctionTable> tables = function_tables();
+  if (!words.seed_bits) return tables;
+  for (FunctionTable& table : tables) {
+    if (table.exact != exact || table.function != Function::reciprocal_root) continue;
+    table.value_bits = table.fraction_bits = *words.seed_bits;
+    table.address_bits = *words.seed_bits - c_seed_cells;
+    table.values.clear();
+    table = made(std::move(table));
+    table.error.value = derived(table);
+  }
+  return tables;
+}
+
 double derived(const FunctionTable& table) {
   const Quantity quantities[] = {{"u", std::ldexp(1.0, -table.fraction_bits)},
                                  {"w", std::ldexp(1.0, -table.address_bits)},
@@ -107,8 +130,7 @@ double derived(const FunctionTable& table) {
   return evaluated(table.error.derivation, quantities);
 }
 
-std::string function_vhdl_package() {
-  const std::vector<FunctionTable> tables = function_tables();
+std::string function_vhdl_package(const std::vector<FunctionTable>& tables) {
   std::string out = fmt::format(
       "-- SPDX-License-Identifier: Apache-2.0\n-- {}\n"
       "-- Functions over cells, correctly rounded. With slope bits a value is the function at its cell's "
@@ -126,6 +148,9 @@ std::string function_vhdl_package() {
       "  type function_table_t is array (natural range <>) of natural;\n\n"
       "  function function_format (exact : boolean; which : natural) return function_format_t;\n\n"
       "  function function_table (exact : boolean; which : natural) return function_table_t;\n\n"
+      "  -- Added to twice a root after a Newton step, in units of 2**-23: half of what the step falls short "
+      "at most.\n"
+      "  function root_raise (exact : boolean) return natural;\n\n"
       "end package;\n\npackage body function_pkg is\n\n";
   for (const FunctionTable& table : tables)
     fmt::format_to(to, "  -- {}, w a cell\n  constant {} : function_table_t(0 to {}) := (\n{});\n\n",
@@ -147,12 +172,17 @@ std::string function_vhdl_package() {
                        table.slope_bits);
   });
   choose("function_table", "function_table_t", constant_name);
+  out += "  function root_raise (exact : boolean) return natural is\n  begin\n";
+  for (const FunctionTable& table : tables)
+    if (table.function == Function::reciprocal_root)
+      fmt::format_to(to, "{}    return {};\n{}", table.exact ? "    if exact then\n  " : "",
+                     root_raise(table), table.exact ? "    end if;\n" : "");
+  out += "  end function;\n\n";
   out += "end package body;\n";
   return out;
 }
 
-std::string function_cpp_header() {
-  const std::vector<FunctionTable> tables = function_tables();
+std::string function_cpp_header(const std::vector<FunctionTable>& tables) {
   std::string out = fmt::format(
       "// SPDX-License-Identifier: Apache-2.0\n// {}\n"
       "// Functions over cells, correctly rounded. With slope bits a value is the function at its cell's "
@@ -174,6 +204,13 @@ std::string function_cpp_header() {
         to, "\n// {}, w a cell\ninline constexpr std::array<std::uint32_t, {}> {}_values = {{\n{}\n}};\n",
         to_string(table.error), table.values.size(), constant_name(table),
         wrapped_numbers(table.values, "    ", 110));
+  out +=
+      "\n// Added to twice a root after a Newton step, in units of 2^-23: half of what the step falls short "
+      "at most.\n";
+  for (const FunctionTable& table : tables)
+    if (table.function == Function::reciprocal_root)
+      fmt::format_to(to, "inline constexpr std::uint32_t c_{}_root_raise = {};\n", preset_name(table.exact),
+                     root_raise(table));
   // By preset, then by function.
   for (const bool exact : {true, false}) {
     fmt::format_to(to, "\ninline constexpr std::array<FunctionTable, {}> c_{}_functions = {{{{\n",

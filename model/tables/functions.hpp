@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tables/bound.hpp"
+#include "tables/word_lengths.hpp"
 
 namespace halfway::tables {
 
@@ -33,10 +34,19 @@ struct FunctionTable {
 /// The three of preset exact, then of published.
 std::vector<FunctionTable> function_tables();
 
+/// The same with another table of 1/sqrt(x) in one preset.
+std::vector<FunctionTable> function_tables(bool exact, const WordLengths& words);
+
 /// What the derivation of its bound comes to.
 double derived(const FunctionTable& table);
 
-std::string function_vhdl_package();
-std::string function_cpp_header();
+std::string function_vhdl_package(const std::vector<FunctionTable>& tables);
+std::string function_cpp_header(const std::vector<FunctionTable>& tables);
+inline std::string function_vhdl_package() {
+  return function_vhdl_package(function_tables());
+}
+inline std::string function_cpp_header() {
+  return function_cpp_header(function_tables());
+}
 
 }  // namespace halfway::tables

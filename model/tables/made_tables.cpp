@@ -4,16 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "common/file.hpp"
 #include "tables/compiled_sizes.hpp"
+#include "tables/formats.hpp"
+#include "tables/functions.hpp"
 
 namespace halfway::tables {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* c_package = "tables/cosine_pkg.vhd";
+// Paths from rtl/, and what they hold.
+using Packages = std::map<std::string, std::string>;
 
 CosineSizes sizes_with(bool exact, CosineSize size) {
   CosineSizes sizes;
@@ -26,7 +30,7 @@ struct Source {
   std::string text;
 };
 
-Result<std::vector<Source>> rtl_sources(const fs::path& rtl, const std::string& package) {
+Result<std::vector<Source>> rtl_sources(const fs::path& rtl, const Packages& packages) {
   std::vector<Source> sources;
   std::error_code error;
   for (const auto& entry : fs::recursive_directory_iterator(rtl, error)) {
@@ -34,7 +38,8 @@ Result<std::vector<Source>> rtl_sources(const fs::path& rtl, const std::string& 
     const fs::path path = entry.path().lexically_relative(rtl);
     auto text = read_file(entry.path());
     if (!text) return text.error();
-    sources.push_back({path, path == c_package ? package : std::move(*text)});
+    const auto made = packages.find(path.string());
+    sources.push_back({path, made != packages.end() ? made->second : std::move(*text)});
   }
   if (error) return tool_failed(fmt::format("{}: {}", rtl.string(), error.message()));
   std::ranges::sort(sources, {}, &Source::path);
@@ -62,14 +67,29 @@ bool compiled_in(bool exact, CosineSize size) {
 
 Result<fs::path> rtl_with_tables(bool exact, CosineSize size, const fs::path& checkout,
                                  const fs::path& cache) {
-  const auto sources = rtl_sources(checkout / "rtl", cosine_vhdl_package(sizes_with(exact, size)));
+  return rtl_with(exact, size, {}, checkout, cache);
+}
+
+Result<fs::path> rtl_with(bool exact, const std::optional<CosineSize>& size, const WordLengths& words,
+                          const fs::path& checkout, const fs::path& cache) {
+  Packages packages;
+  std::string name = exact ? "exact" : "published";
+  if (size) {
+    packages["tables/cosine_pkg.vhd"] = cosine_vhdl_package(sizes_with(exact, *size));
+    name += fmt::format("-{}x{}", size->address_bits, size->data_bits);
+  }
+  if (words.any()) {
+    packages["tables/formats_pkg.vhd"] = vhdl_package(preset_formats(exact, words));
+    packages["tables/function_pkg.vhd"] = function_vhdl_package(function_tables(exact, words));
+    name += "-" + words.name();
+  }
+  const auto sources = rtl_sources(checkout / "rtl", packages);
   if (!sources) return sources.error();
   ContentHash hash;
   hash.add(fs::absolute(checkout).string());
   for (const Source& source : *sources) hash.add(source.path.string()).add(source.text);
   const fs::path parent = fs::absolute(cache) / "tables";
-  const fs::path folder = parent / fmt::format("{}-{}x{}-{}", exact ? "exact" : "published",
-                                               size.address_bits, size.data_bits, hash.hex());
+  const fs::path folder = parent / fmt::format("{}-{}", name, hash.hex());
   if (fs::exists(folder)) return folder;
   auto fresh = TemporaryFolder::make(parent);
   if (!fresh) return fresh.error();
@@ -78,9 +98,9 @@ Result<fs::path> rtl_with_tables(bool exact, CosineSize size, const fs::path& ch
     if (Status made = make_folders(path.parent_path()); !made) return made.error();
     if (Status written = write_file(path, source.text); !written) return written.error();
   }
-  for (const char* name : {"sim", "tb"}) {
+  for (const char* kept : {"sim", "tb"}) {
     std::error_code error;
-    fs::create_directory_symlink(fs::absolute(checkout) / name, fresh->path() / name, error);
+    fs::create_directory_symlink(fs::absolute(checkout) / kept, fresh->path() / kept, error);
     if (error) return tool_failed(fmt::format("{}: {}", fresh->path().string(), error.message()));
   }
   if (Status moved = fresh->move_to(folder); !moved) return moved.error();

@@ -5,12 +5,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "common/result.hpp"
 #include "golden/cosine_tables.hpp"
 #include "tables/cosine.hpp"
+#include "tables/word_lengths.hpp"
 
 namespace halfway::tables {
 
@@ -32,8 +34,13 @@ class MadeTables {
 /// Whether the program was built with tables of that size.
 bool compiled_in(bool exact, CosineSize size);
 
-/// A folder in the cache that stands for the checkout: its sim/ and tb/, and its rtl/ with tables of that
-/// size alone in the preset.
+/// A folder in the cache that stands for the checkout: its sim/ and tb/, and its rtl/ with what is asked for
+/// in the preset: tables of that size alone, other word lengths.
+Result<std::filesystem::path> rtl_with(bool exact, const std::optional<CosineSize>& size,
+                                       const WordLengths& words, const std::filesystem::path& checkout,
+                                       const std::filesystem::path& cache);
+
+/// The same with tables alone.
 Result<std::filesystem::path> rtl_with_tables(bool exact, CosineSize size,
                                               const std::filesystem::path& checkout,
                                               const std::filesystem::path& cache);

@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "common/file.hpp"
+#include "tables/formats.hpp"
+#include "tables/functions.hpp"
 
 namespace halfway::tables {
 namespace {
@@ -64,6 +66,56 @@ TEST(MadeTables, TheRtlHasThemAndIsElseTheCheckouts) {
   ASSERT_TRUE(again);
   EXPECT_EQ(*again, *folder);
   EXPECT_NE(*rtl_with_tables(true, {5, 4}, c_source, cache->path()), *folder);
+}
+
+TEST(MadeWords, AreInOnePresetAlone) {
+  EXPECT_FALSE(WordLengths{}.any());
+  const WordLengths words{.angle_bits = 12, .fraction_bits = 6, .seed_bits = 8, .newton = false};
+  EXPECT_EQ(words.name(), "angle12-fraction6-seed8-plain");
+  const auto own = preset_formats(), made = preset_formats(true, words);
+  const auto format = [](const PresetFormats& preset, std::string_view name) {
+    for (const Format& f : preset.formats)
+      if (f.name == name) return std::pair(f.integer_bits, f.fraction_bits);
+    return std::pair(-1, -1);
+  };
+  EXPECT_EQ(format(made[0], "angle"), std::pair(10, 12));
+  EXPECT_EQ(format(made[0], "intensity"), std::pair(11, 6));
+  EXPECT_EQ(format(made[0], "root_entry"), std::pair(0, 8));
+  EXPECT_EQ(format(made[0], "root"), std::pair(0, 8));  // the entry itself
+  EXPECT_EQ(format(made[0], "depth_sum"), format(own[0], "depth_sum"));
+  for (const Format& f : own[1].formats) EXPECT_EQ(format(made[1], f.name), format(own[1], f.name));
+  EXPECT_EQ(format(preset_formats(true, {.seed_bits = 8})[0], "root"), format(own[0], "root"));
+  EXPECT_EQ(format(preset_formats(false, {.seed_bits = 8})[1], "root"), std::pair(0, 8));
+}
+
+TEST(MadeWords, TheRootsTableGoesWithItsSeed) {
+  const auto own = function_tables(), made = function_tables(true, {.seed_bits = 8});
+  ASSERT_EQ(made.size(), own.size());
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (!made[i].exact || made[i].function != Function::reciprocal_root) {
+      EXPECT_EQ(made[i].values, own[i].values);
+      continue;
+    }
+    EXPECT_EQ(made[i].values.size(), 32U);
+    EXPECT_EQ(made[i].value_bits, 8);
+    EXPECT_EQ(made[i].values.front(), 252U);  // 1/sqrt(1 + 1/32), of 256
+  }
+  // What the committed files have, with the lengths that they have.
+  const WordLengths same{.seed_bits = 12, .newton = true};
+  EXPECT_EQ(function_vhdl_package(function_tables(true, same)), function_vhdl_package());
+  EXPECT_EQ(vhdl_package(preset_formats(true, same)), vhdl_package(preset_formats()));
+}
+
+TEST(MadeWords, TheRtlHasThem) {
+  auto cache = TemporaryFolder::make(fs::temp_directory_path());
+  ASSERT_TRUE(cache) << cache.error().message;
+  const auto folder = rtl_with(true, CosineSize{5, 4}, {.angle_bits = 12}, c_source, cache->path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const auto formats = read_file(*folder / "rtl/tables/formats_pkg.vhd");
+  ASSERT_TRUE(formats);
+  EXPECT_THAT(*formats, HasSubstr("angle => (23, 12)"));
+  EXPECT_THAT(*formats, HasSubstr("angle => (12, 11)"));
+  EXPECT_THAT(*read_file(*folder / "rtl/tables/cosine_pkg.vhd"), HasSubstr("c_exact_cosine_1_5_4"));
 }
 
 }  // namespace

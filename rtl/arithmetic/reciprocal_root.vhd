@@ -62,7 +62,7 @@ begin
       sample  => entry
       );
 
-  newton : if g_exact generate
+  newton : if c_formats.root.fraction > c_formats.root_entry.fraction generate
 
     constant c_x_bits        : positive := 24; -- 2 of them whole
     constant c_x_fraction    : positive := c_x_bits - 2;
@@ -72,7 +72,8 @@ begin
     constant c_square_bits   : positive := 2 * c_entry_bits;
     constant c_cut           : natural  := c_x_fraction + c_square_bits - c_rest_fraction; -- of x T**2
     -- The step falls short of the root by up to 3/2 of the entry's error squared: raised by half of that.
-    constant c_three : unsigned(c_rest_bits - 1 downto 0) := to_unsigned(3 * 2 ** c_rest_fraction + 17, c_rest_bits);
+    constant c_raised : natural                            := 3 * 2 ** c_rest_fraction + root_raise(g_exact);
+    constant c_three  : unsigned(c_rest_bits - 1 downto 0) := to_unsigned(c_raised, c_rest_bits);
     -- Of T (3 - x T**2), which is twice the root.
     constant c_root_low : natural := c_entry_bits + c_rest_fraction + 1 - c_formats.root.fraction;
 

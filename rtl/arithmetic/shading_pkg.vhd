@@ -57,7 +57,7 @@ package body shading_pkg is
 
   function reciprocal_root_latency (exact : boolean) return positive is
   begin
-    if exact then
+    if formats(exact).root.fraction > formats(exact).root_entry.fraction then
       return 4;
     end if;
     return 1;

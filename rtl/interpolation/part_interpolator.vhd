@@ -51,9 +51,10 @@ begin
         r.value <= unsigned(start);
         r.carry <= '0'; -- nobody asks; so that neither register changes but where the part loads or steps
       elsif step = '1' then
-        sum := ('0' & r.value & '1') + ('0' & unsigned(increment) & carry_in);
+        -- The highest bit cancels: so a cell of the sum's own, and none behind it, gives what is carried.
+        sum := (r.value(g_bits - 1) & r.value & '1') + ('0' & unsigned(increment) & carry_in);
         r.value <= sum(g_bits downto 1);
-        r.carry <= sum(g_bits + 1);
+        r.carry <= sum(g_bits + 1) xor r.value(g_bits - 1);
       end if;
     end if;
   end process;

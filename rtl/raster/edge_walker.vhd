@@ -3,7 +3,9 @@
 -- Purpose     An edge, exactly: the first pixel whose centre is at or right of it, line by line, by integer quotient and
 --             remainder. With dx/dy = quotient + remainder/divisor, a step adds the quotient, and one pixel more where
 --             the error, the pixel's distance right of the edge in 1/divisor pixels, is less than the remainder.
---             The error register runs a line ahead of x, so that the carry of the next step is a register.
+--             The error runs a line ahead of x, less the remainder, so that the carry of the next step is a register and
+--             the error takes one sum: its sign is what the comparison would say.
+-- Contract    load = '1' stays until step is; where both are, the edge is taken
 -- Formats     formats_pkg: x and quotient span_x; error, remainder and divisor edge_error
 -- Latency     1 clock from a load or step to x and carry
 -- Throughput  1 line a clock
@@ -19,7 +21,7 @@ use work.formats_pkg.all;
 entity edge_walker is
   port (
     clk            : in  std_logic;
-    load           : in  std_logic; -- where step = '1': take another edge in place of the step
+    load           : in  std_logic; -- take another edge in place of the next step
     load_x         : in  std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
     load_quotient  : in  std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
     load_remainder : in  std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
@@ -34,15 +36,16 @@ end entity;
 
 architecture rtl of edge_walker is
 
-  subtype span_x_t is signed(c_exact_formats.span_x.bits - 1 downto 0);
-  subtype error_t  is unsigned(c_exact_formats.edge_error.bits - 1 downto 0);
+  subtype span_x_t  is signed(c_exact_formats.span_x.bits - 1 downto 0);
+  subtype error_t   is unsigned(c_exact_formats.edge_error.bits - 1 downto 0);
+  subtype reduced_t is unsigned(c_exact_formats.edge_error.bits downto 0); -- two's complement
 
   type reg_t is record
     x         : span_x_t;
     quotient  : span_x_t;
     remainder : error_t;
     rise      : error_t; -- divisor - remainder
-    error     : error_t;
+    reduced   : reduced_t; -- the error less the remainder; where no step was taken, the error
     carry     : std_logic;
   end record;
 
@@ -51,25 +54,36 @@ architecture rtl of edge_walker is
 begin
 
   combinational : process (all)
-    variable v      : reg_t;
-    variable next_x : signed(span_x_t'length downto 0);
+    variable v            : reg_t;
+    variable below        : std_logic; -- the error is less than the remainder
+    variable next_x       : signed(span_x_t'length downto 0);
+    variable increment    : reduced_t;
+    variable next_reduced : unsigned(reduced_t'length downto 0);
   begin
     v      := r;
+    below  := r.reduced(r.reduced'high);
     next_x := (r.x & '1') + (r.quotient & r.carry); -- one sum takes the carry
-    if load = '1' and step = '1' then
-      v.x         := signed(load_x);
+
+    increment := '1' & not r.remainder;
+    if below = '1' then
+      increment := '0' & r.rise;
+    end if;
+    next_reduced := (r.reduced & '1') + (increment & not below);
+
+    -- What the steps add is taken while load waits for its step: no sum of the edge before is wanted then.
+    if load = '1' then
       v.quotient  := signed(load_quotient);
       v.remainder := unsigned(load_remainder);
       v.rise      := unsigned(load_divisor) - unsigned(load_remainder);
-      v.error     := unsigned(load_error);
-      v.carry     := load_carry;
-    elsif step = '1' then
-      v.x     := next_x(next_x'high downto 1);
-      v.error := r.error - r.remainder;
-      v.carry := '0';
-      if r.error < r.remainder then
-        v.error := r.error + r.rise;
-        v.carry := '1';
+    end if;
+    if step = '1' then
+      v.x       := next_x(next_x'high downto 1);
+      v.reduced := next_reduced(next_reduced'high downto 1);
+      v.carry   := next_reduced(next_reduced'high);
+      if load = '1' then
+        v.x       := signed(load_x);
+        v.reduced := '0' & unsigned(load_error);
+        v.carry   := load_carry;
       end if;
     end if;
     r_next <= v;

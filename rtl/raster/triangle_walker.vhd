@@ -67,18 +67,23 @@ architecture rtl of triangle_walker is
 
   -- What a line covers: pixels behind its first; below zero where it covers none.
   subtype more_t is signed(c_formats.span_x.bits downto 0);
-  subtype rest_t is unsigned(c_formats.span_x.bits - 1 downto 0);
+
+  -- Lines of a section less three, with a sign.
+  subtype left_t is unsigned(c_formats.lines.bits downto 0);
 
   type edge_stage_t is record
     valid        : std_logic;
     first        : std_logic; -- the triangle's first line
     triangle     : triangle_t;
     y            : pixel_y_t;
-    lines        : lines_t; -- left in this section of the stop edge, this one included
+    left         : left_t; -- lines in this section of the stop edge, this one included, less three
     lower_lines  : lines_t; -- in the section below
-    section_last : std_logic; -- lines = 1
+    section_last : std_logic; -- this line is its section's last
     lower_none   : std_logic; -- lower_lines = 0
-    last_behind  : std_logic; -- the triangle's last line, and not its first
+    lower_one    : std_logic; -- lower_lines = 1
+    reads        : std_logic; -- the next thing here is an init vector
+    leaves       : std_logic; -- reads, or the triangle ends here: the start edge takes what init has
+    follows      : std_logic; -- the stop edge goes on; else it takes another section
     backward     : std_logic;
   end record;
 
@@ -88,8 +93,7 @@ architecture rtl of triangle_walker is
     y        : pixel_y_t;
     start    : span_x_t;
     stop     : span_x_t;
-    more     : rest_t; -- pixels behind the first
-    draws    : std_logic; -- valid, and the line covers a pixel
+    more     : more_t; -- pixels behind the first; below zero where the line covers none
     backward : std_logic;
     carry    : std_logic; -- of the step to the next line
   end record;
@@ -99,10 +103,8 @@ architecture rtl of triangle_walker is
     triangle : triangle_t;
     y        : pixel_y_t;
     x        : span_x_t;
-    more     : rest_t; -- pixels behind x
+    more     : more_t; -- pixels behind x, less one; below zero where no span is here, too
     backward : std_logic;
-    goes_on  : std_logic; -- valid, and a pixel is behind x
-    ends     : std_logic; -- valid, and none is
   end record;
 
   type reg_t is record
@@ -116,133 +118,148 @@ architecture rtl of triangle_walker is
   -- From the edges, for the line that the edge stage holds.
   signal start, stop : span_x_t;
   signal more        : more_t;
-  signal empty       : std_logic;
   signal edge_carry  : std_logic;
 
   -- From the init vector, where the preset has them.
   signal init_upper_lines : lines_t;
   signal init_lower_lines : lines_t;
+  signal init_none        : std_logic; -- no line: counted as 2**bits, as golden
   signal init_backward    : std_logic;
 
+  signal draws     : std_logic; -- the line stage holds a line that covers a pixel
+  signal ends      : std_logic; -- the span stage's pixel is its span's last, or there is none
   signal next_x    : span_x_t;
-  signal blocked   : std_logic; -- the line that the line stage holds has to wait
+  signal moves     : std_logic; -- the line that the line stage holds need not wait, or there is none
   signal edge_load : std_logic; -- read the init vector
   signal edge_step : std_logic; -- hand the line on, and go to the next one
-  signal edge_goes : std_logic; -- either
+  signal edge_goes : std_logic; -- either, or neither where nothing is here
   signal edge_last : std_logic; -- the triangle's last line
-  signal to_lower  : std_logic; -- this step enters the lower section
+  signal turns     : std_logic; -- the stop edge takes another section
 
 begin
 
   init_upper_lines <= unsigned(init(c_init.upper_lines.high downto c_init.upper_lines.low));
 
+  init_none <= '1' when init_upper_lines = 0 else '0';
+
   next_x <= r.span.x - 1 when r.span.backward = '1' else r.span.x + 1;
 
-  span_step <= r.span.valid and fragment_ready;
-  blocked   <= (r.line.draws and (r.span.goes_on or (r.span.ends and not fragment_ready)))
-    or (r.line.valid and not line_ready);
+  -- While a fragment waits all stages stand: so what moves hangs on registers, and on few.
+  draws <= r.line.valid and not r.line.more(more_t'high);
+  ends  <= r.span.more(more_t'high);
+  moves <= fragment_ready and (ends or not draws) and (line_ready or not r.line.valid);
 
-  span_load <= r.line.draws and not blocked;
-  line_step <= r.line.valid and not blocked;
+  span_step <= r.span.valid and fragment_ready;
+  span_load <= draws and moves;
+  line_step <= r.line.valid and moves;
 
   edge_last <= r.edges.section_last and r.edges.lower_none;
-  to_lower  <= r.edges.section_last and not r.edges.lower_none;
-  edge_step <= r.edges.valid and not blocked;
-  edge_goes <= edge_step or (init_valid and not r.edges.valid);
+  turns     <= not r.edges.follows;
+  edge_step <= r.edges.valid and moves;
+  edge_goes <= moves or not r.edges.valid;
   line_load <= edge_step and r.edges.first;
 
-  -- While the first line is here init may still be this triangle's.
-  edge_load  <= init_valid and (not r.edges.valid or (edge_step and r.edges.last_behind));
+  edge_load  <= init_valid and r.edges.reads and edge_goes;
   init_ready <= edge_load;
 
   combinational : process (all)
-    variable v : reg_t;
+    variable v      : reg_t;
+    variable begins : std_logic; -- a span does, where the one before ends
+    variable pixels : more_t;
+    variable lines  : left_t;
+    variable fewer  : left_t;
   begin
     v := r;
 
-    if span_load = '1' then
-      v.span.valid    := '1';
-      v.span.triangle := r.line.triangle;
-      v.span.y        := r.line.y;
-      v.span.x        := r.line.start;
-      v.span.more     := r.line.more;
-      v.span.backward := r.line.backward;
-      v.span.goes_on  := '1';
-      v.span.ends     := '0';
-      if r.line.more = 0 then
-        v.span.goes_on := '0';
-        v.span.ends    := '1';
+    -- Behind a span's last pixel comes what the line stage holds, be it a line or not.
+    begins := draws and line_ready;
+    pixels := r.span.more;
+    if ends = '1' then
+      pixels := r.line.more;
+    end if;
+    if fragment_ready = '1' then
+      v.span.x := next_x;
+      if ends = '1' then
+        v.span.valid    := begins;
+        v.span.triangle := r.line.triangle;
+        v.span.y        := r.line.y;
+        v.span.x        := r.line.start;
+        v.span.backward := r.line.backward;
       end if;
-    elsif span_step = '1' then
-      v.span.x    := next_x;
-      v.span.more := r.span.more - 1;
-      v.span.ends := '0';
-      if r.span.more = 1 then
-        v.span.goes_on := '0';
-        v.span.ends    := r.span.goes_on;
-      end if;
-      v.span.valid := r.span.goes_on;
     end if;
 
-    if edge_step = '1' then
-      v.line.valid    := '1';
+    if moves = '1' then
+      v.line.valid    := r.edges.valid;
       v.line.triangle := r.edges.triangle;
       v.line.y        := r.edges.y;
       v.line.start    := start;
       v.line.stop     := stop;
-      v.line.more     := unsigned(more(rest_t'range));
-      v.line.draws    := not empty;
+      v.line.more     := more;
       v.line.backward := r.edges.backward;
       v.line.carry    := edge_carry;
-    elsif line_step = '1' then
-      v.line.valid := '0';
-      v.line.draws := '0';
     end if;
 
-    if edge_goes = '1' and edge_load = '1' then
-      v.edges.valid        := '1';
-      v.edges.first        := '1';
-      v.edges.triangle     := init(c_init.triangle.high downto c_init.triangle.low);
-      v.edges.y            := unsigned(init(c_init.y.high downto c_init.y.low));
-      v.edges.lines        := init_upper_lines;
-      v.edges.lower_lines  := init_lower_lines;
-      v.edges.section_last := '0';
-      if init_upper_lines = 1 then
-        v.edges.section_last := '1';
-      end if;
-      v.edges.lower_none := '0';
-      if init_lower_lines = 0 then
-        v.edges.lower_none := '1';
-      end if;
-      v.edges.backward := init_backward;
-    elsif edge_goes = '1' then
-      v.edges.valid        := not edge_last;
-      v.edges.first        := '0';
-      v.edges.y            := r.edges.y + 1;
-      v.edges.lines        := r.edges.lines - 1;
-      v.edges.section_last := '0';
-      if r.edges.lines = 2 then
-        v.edges.section_last := '1';
-      end if;
-      if to_lower = '1' then
-        v.edges.lines        := r.edges.lower_lines;
-        v.edges.lower_none   := '1';
+    -- The sign is state. As it is reset, the bits that stand in a chain of carries with it are let in then, too.
+    if fragment_ready = '1' or reset = '1' then
+      v.span.more               := pixels - 1;
+      v.span.more(more_t'high) := v.span.more(more_t'high) or reset or (ends and not begins);
+    end if;
+    -- Lines are counted so that a sign says that one is behind this, or none.
+    lines := r.edges.left;
+    if r.edges.reads = '1' then
+      lines := init_none & init_upper_lines;
+    elsif r.edges.section_last = '1' then
+      lines := '0' & r.edges.lower_lines;
+    end if;
+    fewer    := (others => '1'); -- a line less, or three where lines are counted anew
+    fewer(1) := r.edges.follows;
+    if edge_goes = '1' then
+      v.edges.left := lines + fewer;
+      if r.edges.reads = '1' then
+        v.edges.valid        := init_valid;
+        v.edges.first        := '1';
+        v.edges.triangle     := init(c_init.triangle.high downto c_init.triangle.low);
+        v.edges.y            := unsigned(init(c_init.y.high downto c_init.y.low));
+        v.edges.lower_lines  := init_lower_lines;
         v.edges.section_last := '0';
-        if r.edges.lower_lines = 1 then
+        if init_upper_lines = 1 then
           v.edges.section_last := '1';
         end if;
+        v.edges.lower_none := '0';
+        if init_lower_lines = 0 then
+          v.edges.lower_none := '1';
+        end if;
+        v.edges.lower_one := '0';
+        if init_lower_lines = 1 then
+          v.edges.lower_one := '1';
+        end if;
+        v.edges.backward := init_backward;
+        -- While the first line is here init may still be this triangle's.
+        v.edges.reads := not init_valid;
+      else
+        v.edges.valid        := not edge_last;
+        v.edges.first        := '0';
+        v.edges.y            := r.edges.y + 1;
+        v.edges.section_last := r.edges.left(left_t'high);
+        v.edges.reads        := r.edges.lower_none and r.edges.left(left_t'high);
+        if r.edges.section_last = '1' then
+          v.edges.section_last := r.edges.lower_one;
+          v.edges.lower_none   := '1';
+          v.edges.reads        := r.edges.lower_none or r.edges.lower_one;
+        end if;
       end if;
+      -- Three registers, so that none has all the edges' bits to choose: with one its wires bound the clock.
+      v.edges.leaves  := v.edges.reads or (v.edges.section_last and v.edges.lower_none);
+      v.edges.follows := not (v.edges.reads or v.edges.section_last);
     end if;
 
-    v.edges.last_behind := v.edges.section_last and v.edges.lower_none and not v.edges.first;
-
     if reset = '1' then
-      v.edges.valid   := '0';
-      v.line.valid   := '0';
-      v.line.draws   := '0';
-      v.span.valid   := '0';
-      v.span.goes_on := '0';
-      v.span.ends    := '0';
+      v.edges.valid := '0';
+      v.edges.reads := '1';
+      v.edges.leaves := '1';
+      v.edges.follows := '0';
+      v.line.valid  := '0';
+      v.span.valid  := '0';
     end if;
     r_next <= v;
   end process;
@@ -263,7 +280,6 @@ begin
 
     signal upper, lower, held_lower, section : section_t;
     signal start_x, stop_x                   : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
-    signal stop_load                         : std_logic;
     signal from_x, to_x                      : more_t;
 
     function part (whole : section_t; field : slice_t) return std_logic_vector is
@@ -279,7 +295,7 @@ begin
       start_edge : entity work.edge_walker
         port map (
           clk            => clk,
-          load           => edge_load,
+          load           => r.edges.leaves,
           load_x         => init(c_init.start_x.high downto c_init.start_x.low),
           load_quotient  => init(c_init.start_quotient.high downto c_init.start_quotient.low),
           load_remainder => init(c_init.start_remainder.high downto c_init.start_remainder.low),
@@ -300,19 +316,17 @@ begin
           )
         port map (
           clk   => clk,
-          load  => edge_load,
+          load  => r.edges.reads,
           start => lower,
           value => held_lower
           );
 
-        -- Where the next section waits there is no other triangle to load: edge_load comes too late to choose by it.
-      section   <= held_lower when r.edges.valid = '1' and to_lower = '1' else upper;
-      stop_load <= edge_load or (edge_step and to_lower);
+      section <= upper when r.edges.reads = '1' else held_lower;
 
       stop_edge : entity work.edge_walker
         port map (
           clk            => clk,
-          load           => stop_load,
+          load           => turns,
           load_x         => part(section, c_init.upper_x),
           load_quotient  => part(section, c_init.upper_quotient),
           load_remainder => part(section, c_init.upper_remainder),
@@ -331,84 +345,47 @@ begin
       from_x <= resize(stop, more_t'length) when r.edges.backward = '1' else resize(start, more_t'length);
       to_x   <= resize(start, more_t'length) when r.edges.backward = '1' else resize(stop, more_t'length);
       more   <= to_x + not from_x;
-      empty  <= more(more'high);
 
   else generate
 
-    constant c_fraction : natural := c_formats.edge_x.fraction;
-
-    subtype edge_t is std_logic_vector(c_formats.edge_x.bits - 1 downto 0);
-
-    signal start_x, start_slope, stop_x, stop_slope : edge_t;
-    signal last                                     : span_x_t; -- pixel of the line
+    signal start_x, stop_x : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
+    signal last            : span_x_t; -- pixel of the line
+    signal below           : std_logic; -- its end is below zero
 
     constant c_highest : span_x_t := to_signed(2 ** (span_x_t'length - 1) - 1, span_x_t'length);
 
     begin
 
-      assert c_formats.edge_x.bits - c_fraction = c_formats.span_x.bits
-        report "triangle_walker: edge_x has " & integer'image(c_formats.edge_x.bits - c_fraction)
-        & " whole bits, span_x " & integer'image(c_formats.span_x.bits)
-        severity failure;
-
       init_lower_lines <= (others => '0');
       init_backward    <= '0';
       edge_carry       <= '0';
 
-      start_slope_register : entity work.parameter_register
-        generic map (
-          g_bits => c_formats.edge_x.bits
-          )
+      start_edge : entity work.slope_walker
         port map (
-          clk   => clk,
-          load  => edge_load,
-          start => init(c_init.start_slope.high downto c_init.start_slope.low),
-          value => start_slope
+          clk        => clk,
+          load       => r.edges.leaves,
+          load_x     => init(c_init.start_x.high downto c_init.start_x.low),
+          load_slope => init(c_init.start_slope.high downto c_init.start_slope.low),
+          step       => edge_goes,
+          x          => start_x
           );
 
-      start_edge : entity work.line_interpolator
-        generic map (
-          g_bits => c_formats.edge_x.bits
-          )
+      stop_edge : entity work.slope_walker
         port map (
-          clk       => clk,
-          load      => edge_load,
-          start     => init(c_init.start_x.high downto c_init.start_x.low),
-          step      => edge_step,
-          increment => start_slope,
-          value     => start_x
+          clk        => clk,
+          load       => turns,
+          load_x     => init(c_init.upper_x.high downto c_init.upper_x.low),
+          load_slope => init(c_init.upper_slope.high downto c_init.upper_slope.low),
+          step       => edge_goes,
+          x          => stop_x
           );
 
-      stop_slope_register : entity work.parameter_register
-        generic map (
-          g_bits => c_formats.edge_x.bits
-          )
-        port map (
-          clk   => clk,
-          load  => edge_load,
-          start => init(c_init.upper_slope.high downto c_init.upper_slope.low),
-          value => stop_slope
-          );
-
-      stop_edge : entity work.line_interpolator
-        generic map (
-          g_bits => c_formats.edge_x.bits
-          )
-        port map (
-          clk       => clk,
-          load      => edge_load,
-          start     => init(c_init.upper_x.high downto c_init.upper_x.low),
-          step      => edge_step,
-          increment => stop_slope,
-          value     => stop_x
-          );
-
-      start <= signed(start_x(c_formats.edge_x.bits - 1 downto c_fraction));
-      last  <= signed(stop_x(c_formats.edge_x.bits - 1 downto c_fraction));
+      start <= signed(start_x);
+      last  <= signed(stop_x);
       stop  <= last + 1;
-      more  <= resize(last, more_t'length) - resize(start, more_t'length);
       -- Behind the highest pixel lies the lowest.
-      empty <= '1' when more(more'high) = '1' or last = c_highest else '0';
+      below <= '1' when last(last'high) = '1' or last = c_highest else '0';
+      more  <= (below & last) - resize(start, more_t'length);
 
   end generate;
 

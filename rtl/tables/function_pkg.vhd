@@ -22,6 +22,9 @@ package function_pkg is
 
   function function_table (exact : boolean; which : natural) return function_table_t;
 
+  -- Added to twice a root after a Newton step, in units of 2**-23: half of what the step falls short at most.
+  function root_raise (exact : boolean) return natural;
+
 end package;
 
 package body function_pkg is
@@ -176,6 +179,14 @@ package body function_pkg is
     end if;
     report "function_table: there is no function " & integer'image(which) severity failure;
     return c_exact_reciprocal_root;
+  end function;
+
+  function root_raise (exact : boolean) return natural is
+  begin
+    if exact then
+      return 17;
+    end if;
+    return 1064;
   end function;
 
 end package body;

@@ -49,6 +49,29 @@ Status check_choices(const std::string& entity, std::string_view vhdl) {
   return Ok{};
 }
 
+/// build/cache/ghdl/<hash> and the hash.
+std::pair<std::filesystem::path, std::string> place_of(const char* kind, const GhdlTool& tool,
+                                                       const std::vector<VhdlSource>& sources,
+                                                       const std::string& top,
+                                                       const std::filesystem::path& cache) {
+  ContentHash hash;
+  hash.add(kind).add(tool.version).add(top);
+  for (const std::string& flag : kAnalysisFlags) hash.add(flag);
+  for (const VhdlSource& source : sources) hash.add(source.name).add(source.content);
+  return {std::filesystem::absolute(cache) / "ghdl" / hash.hex(), hash.hex()};
+}
+
+/// Puts the sources into the command's folder and their names behind it.
+Result<std::string> run_on(Command command, const std::vector<VhdlSource>& sources) {
+  command.arguments.insert(command.arguments.end(), kAnalysisFlags.begin(), kAnalysisFlags.end());
+  for (const VhdlSource& source : sources) {
+    if (auto written = write_file(command.working_folder / source.name, source.content); !written)
+      return written.error();
+    command.arguments.push_back(source.name);
+  }
+  return run_ghdl(std::move(command), "analysis of the VHDL");
+}
+
 }  // namespace
 
 Result<GhdlTool> GhdlTool::find(const std::string& program) {
@@ -92,31 +115,52 @@ Result<std::vector<VhdlSource>> read_rtl_sources(const std::filesystem::path& so
 
 Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
                                       const std::string& top, const std::filesystem::path& cache) {
-  ContentHash hash;
-  hash.add("ghdl library 1").add(tool.version).add(top);
-  for (const std::string& flag : kAnalysisFlags) hash.add(flag);
-  for (const VhdlSource& source : sources) hash.add(source.name).add(source.content);
-
   // GHDL's library file holds absolute names of folders where given such: all commands run inside the folder.
-  const std::filesystem::path folder = std::filesystem::absolute(cache) / "ghdl" / hash.hex();
-  GhdlLibrary library(tool, folder, hash.hex());
+  const auto [folder, hash] = place_of("ghdl library 2", tool, sources, top, cache);
+  GhdlLibrary library(tool, folder, hash);
   if (std::filesystem::exists(folder)) return library;
 
   auto fresh = TemporaryFolder::make(folder.parent_path());
   if (!fresh) return fresh.error();
+  const auto first_testbench = std::find_if(sources.begin(), sources.end(), [](const VhdlSource& source) {
+    return !source.name.starts_with("rtl/");
+  });
+  auto first = sources.begin();
+  if (first_testbench != sources.begin() && first_testbench != sources.end()) {
+    const auto rtl = open(tool, {sources.begin(), first_testbench}, "", cache);
+    if (!rtl) return rtl.error();
+    std::error_code error;
+    constexpr auto whole =
+        std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing;
+    std::filesystem::copy(rtl->folder(), fresh->path(), whole, error);
+    if (error)
+      return tool_failed(fmt::format("{}: cannot be copied: {}", rtl->folder().string(), error.message()));
+    first = first_testbench;
+  }
   Command analyse{.arguments = {tool.program, "-a"}, .working_folder = fresh->path()};
   if (tool.back_end != GhdlBackEnd::mcode) analyse.arguments.emplace_back("-O2");
-  analyse.arguments.insert(analyse.arguments.end(), kAnalysisFlags.begin(), kAnalysisFlags.end());
-  for (const VhdlSource& source : sources) {
-    if (auto written = write_file(fresh->path() / source.name, source.content); !written)
-      return written.error();
-    analyse.arguments.push_back(source.name);
-  }
-  if (auto done = run_ghdl(analyse, "analysis of the VHDL"); !done) return done.error();
+  if (auto done = run_on(std::move(analyse), {first, sources.end()}); !done) return done.error();
   if (!top.empty() && tool.back_end != GhdlBackEnd::mcode) {
     Command elaborate{.arguments = {tool.program, "-e", "--std=08", top}, .working_folder = fresh->path()};
     if (auto done = run_ghdl(elaborate, "elaboration of " + top); !done) return done.error();
   }
+  if (auto moved = fresh->move_to(folder); !moved) return moved.error();
+  return library;
+}
+
+Result<GhdlLibrary> GhdlLibrary::for_synthesis(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
+                                               const std::filesystem::path& cache) {
+  const auto [folder, hash] = place_of("ghdl sources 1", tool, sources, "", cache);
+  GhdlLibrary library(tool, folder, hash);
+  for (const VhdlSource& source : sources) library.to_read_.push_back(source.name);
+  if (std::filesystem::exists(folder)) return library;
+
+  auto fresh = TemporaryFolder::make(folder.parent_path());
+  if (!fresh) return fresh.error();
+  // --synth shows no warnings of its own.
+  if (auto done = run_on({.arguments = {tool.program, "-s"}, .working_folder = fresh->path()}, sources);
+      !done)
+    return done.error();
   if (auto moved = fresh->move_to(folder); !moved) return moved.error();
   return library;
 }
@@ -131,6 +175,8 @@ Result<std::string> GhdlLibrary::synthesize(
                     .working_folder = folder_,
                     .standard_output = scratch->path() / "netlist"};
     for (const auto& [name, value] : generics) command.arguments.push_back("-g" + name + '=' + value);
+    command.arguments.insert(command.arguments.end(), to_read_.begin(), to_read_.end());
+    if (!to_read_.empty()) command.arguments.emplace_back("-e");
     command.arguments.push_back(entity);
     if (auto done = run_ghdl(command, "synthesis of " + entity); !done) return done.error();
     return read_file(command.standard_output);

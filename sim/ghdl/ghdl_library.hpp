@@ -45,9 +45,13 @@ Result<VhdlSource> read_vhdl_source(const std::filesystem::path& source_folder, 
 class GhdlLibrary {
  public:
   /// Analyses the sources in order, warnings as errors, unless the cache has them. `top` is elaborated too
-  /// where the back end makes a program of it (llvm, gcc); empty: nothing to elaborate.
+  /// where the back end makes a program of it (llvm, gcc); empty: nothing to elaborate. The RTL that the
+  /// sources begin with is analysed once for all testbenches.
   static Result<GhdlLibrary> open(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
                                   const std::string& top, const std::filesystem::path& cache);
+  /// For `synthesize` alone: the same checks, and no code generated, which is nearly all of the time.
+  static Result<GhdlLibrary> for_synthesis(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
+                                           const std::filesystem::path& cache);
 
   const std::filesystem::path& folder() const { return folder_; }
   const GhdlTool& tool() const { return tool_; }
@@ -66,6 +70,7 @@ class GhdlLibrary {
   GhdlTool tool_;
   std::filesystem::path folder_;
   std::string hash_;
+  std::vector<std::string> to_read_;  ///< the sources' names, where nothing is analysed
 };
 
 }  // namespace halfway

@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+#include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -44,6 +48,16 @@ std::string version_of(std::string_view said) {
   const std::size_t from =
       version == std::string_view::npos ? digit : version + std::string_view("Version ").size();
   return std::string(said.substr(from, said.find_first_of(" )\n", from) - from));
+}
+
+Result<std::string> netlist_of(const GhdlLibrary& library, const Design& design) {
+  const auto text = library.synthesize(design.entity, design.generics);
+  if (!text) return text.error();
+  return mend_netlist(*text);
+}
+
+std::string hash_of(const std::string& netlist, const Design& design) {
+  return ContentHash().add("netlist 1").add(design.entity).add(netlist).hex();
 }
 
 struct Port {
@@ -173,6 +187,11 @@ Result<CriticalPath> read_path(const json& path, const Registers& registers) {
 
 }  // namespace
 
+struct Synthesizer::Netlists {
+  std::mutex mutex;
+  std::map<std::string, std::string> texts;  // by entity and generics
+};
+
 Result<std::string> wrapper(std::string_view netlist, std::string_view top, unsigned most_inputs) {
   const auto ports = ports_of(netlist, top);
   if (!ports) return ports.error();
@@ -239,6 +258,25 @@ Result<Placement> read_placement(std::string_view report, std::string_view netli
   return placement;
 }
 
+Result<Packing> read_packing(std::string_view said) {
+  constexpr std::string_view c_cells = "ICESTORM_LC:";
+  const std::size_t at = said.find(c_cells);
+  Packing packing;
+  if (at != std::string_view::npos) {
+    const std::string figures(said.substr(at + c_cells.size(), 40));
+    if (std::sscanf(figures.c_str(), "%" SCNu64 " / %" SCNu64, &packing.cells_used, &packing.cells_there) ==
+        2)
+      return packing;
+  }
+  return tool_failed(fmt::format("not what nextpnr 0.4 says of a device's utilisation:\n{}", said));
+}
+
+Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design) {
+  const auto text = netlist_of(library, design);
+  if (!text) return text.error();
+  return hash_of(*text, design);
+}
+
 Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool place,
                                       const std::vector<std::string>& more) {
   const auto tool = GhdlTool::find();
@@ -268,10 +306,21 @@ Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool plac
   return synthesizer;
 }
 
+Synthesizer::Synthesizer(GhdlLibrary library, std::filesystem::path cache)
+    : library_(std::move(library)), cache_(std::move(cache)), netlists_(std::make_shared<Netlists>()) {}
+
+// GHDL takes seconds, and each figure of a design asks for its netlist.
 Result<std::string> Synthesizer::netlist(const Design& design) const {
-  const auto text = library_.synthesize(design.entity, design.generics);
+  std::string key = design.entity;
+  for (const auto& [name, value] : design.generics) key += fmt::format(" {}={}", name, value);
+  {
+    const std::scoped_lock lock(netlists_->mutex);
+    if (const auto found = netlists_->texts.find(key); found != netlists_->texts.end()) return found->second;
+  }
+  auto text = netlist_of(library_, design);
   if (!text) return text.error();
-  return mend_netlist(*text);
+  const std::scoped_lock lock(netlists_->mutex);
+  return netlists_->texts.emplace(std::move(key), std::move(*text)).first->second;
 }
 
 Result<std::filesystem::path> Synthesizer::synthesized(const Design& design, const std::string& family,
@@ -404,22 +453,46 @@ Result<std::filesystem::path> Synthesizer::wrapped_folder(const Design& design) 
       *around);
 }
 
+std::vector<std::string> Synthesizer::nextpnr_arguments() const {
+  return {"nextpnr-ice40", "--hx8k", "--package", "ct256", "--freq", std::to_string(kFrequency)};
+}
+
+Result<std::string> Synthesizer::netlist_hash(const Design& design) const {
+  const auto text = netlist(design);
+  if (!text) return text.error();
+  return hash_of(*text, design);
+}
+
+Result<Packing> Synthesizer::pack(const Design& design) const {
+  const auto wrapped = wrapped_folder(design);
+  if (!wrapped) return wrapped.error();
+  std::vector<std::string> arguments = nextpnr_arguments();
+  ContentHash hash;
+  hash.add("packed 1").add(nextpnr_).add(wrapped->filename().string());
+  for (const std::string& argument : arguments) hash.add(argument);
+  arguments.insert(arguments.end(), {"--pack-only", "--json", (*wrapped / "wrapped.json").string()});
+  const std::filesystem::path folder = cache_ / fmt::format("{}-packed-{}", design.name, hash.hex());
+  if (!std::filesystem::exists(folder)) {
+    auto fresh = TemporaryFolder::make(cache_);
+    if (!fresh) return fresh.error();
+    const auto said = run({.arguments = arguments, .working_folder = fresh->path()}, design.name);
+    if (!said) return said.error();
+    if (const auto read = read_packing(*said); !read) return read.error();
+    if (Status written = write_file(fresh->path() / "said", *said); !written) return written.error();
+    if (Status moved = fresh->move_to(folder); !moved) return moved.error();
+  }
+  const auto said = read_file(folder / "said");
+  if (!said) return said.error();
+  return read_packing(*said);
+}
+
 Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const {
   const auto wrapped = wrapped_folder(design);
   if (!wrapped) return wrapped.error();
   const std::string net = (*wrapped / "wrapped.json").string();
-  std::vector<std::string> arguments = {"nextpnr-ice40",
-                                        "--hx8k",
-                                        "--package",
-                                        "ct256",
-                                        "--freq",
-                                        std::to_string(kFrequency),
-                                        "--seed",
-                                        std::to_string(seed),
-                                        "--timing-allow-fail",
-                                        "--quiet",
-                                        "--report",
-                                        "report.json"};
+  std::vector<std::string> arguments = nextpnr_arguments();
+  arguments.insert(arguments.end(), {"--seed", std::to_string(seed), "--timing-allow-fail", "--quiet",
+                                     "--report", "report.json"});
   ContentHash hash;
   hash.add("placed 1").add(nextpnr_).add(wrapped->filename().string());
   for (const std::string& argument : arguments) hash.add(argument);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,9 @@
 namespace halfway::synth {
 
 inline constexpr const char* kInstallTools = "apt-get install yosys nextpnr-ice40";
+
+/// Logic cells of an HX8K, and of how many nextpnr 0.4's placers come to an end: not of 95 in 100.
+inline constexpr std::uint64_t kDeviceCells = 7680, kMostPlaced = kDeviceCells * 9 / 10;
 
 /// What is synthesized: an entity of rtl/, or of what `open` is given beside it.
 struct Design {
@@ -49,6 +53,17 @@ struct Placement {
   bool fits() const { return mhz > 0; }
 };
 
+/// What nextpnr packs a design with its wrapper into; it does not say into what where it has no room.
+struct Packing {
+  std::uint64_t cells_used = 0, cells_there = 0;
+};
+
+/// From what nextpnr says of a device's utilisation.
+Result<Packing> read_packing(std::string_view said);
+
+/// Of what GHDL and mend_netlist make of a design: of one hash is the same hardware, whatever its name.
+Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design);
+
 /// The wrapper around `top` for nextpnr: a flip-flop in front of every input but the clock, and one behind
 /// every output bit that is connected. Input flip-flops are a shift register of at most `most_inputs`; wider
 /// inputs share them. `probe` is left open. Outputs are folded, bit by bit, into a chain of flip-flops: its
@@ -74,14 +89,17 @@ class Synthesizer {
   Result<Ice40Cells> ice40(const Design& design) const;
   Result<Ecp5Cells> ecp5(const Design& design) const;
   Result<Placement> place(const Design& design, unsigned seed) const;
+  /// A matter of seconds, where a placement may be one of an hour.
+  Result<Packing> pack(const Design& design) const;
+  Result<std::string> netlist_hash(const Design& design) const;
   /// The design after synthesis for iCE40, in Verilog without modules: every cell as the model that Yosys has
   /// of it.
   Result<std::string> simulated(const Design& design) const;
 
  private:
-  Synthesizer(GhdlLibrary library, std::filesystem::path cache)
-      : library_(std::move(library)), cache_(std::move(cache)) {}
+  Synthesizer(GhdlLibrary library, std::filesystem::path cache);
   Result<std::string> netlist(const Design& design) const;
+  std::vector<std::string> nextpnr_arguments() const;
   /// Where Yosys has left what `script` makes of the netlist, netlist.v.
   Result<std::filesystem::path> synthesized(const Design& design, const std::string& family,
                                             const std::string& script) const;
@@ -90,9 +108,11 @@ class Synthesizer {
   /// Where Yosys has left what `script` makes of mapped.il and, where it is not empty, wrapper.v.
   Result<std::filesystem::path> from_mapped(const Design& design, const std::string& kind,
                                             const std::string& script, const std::string& around) const;
+  struct Netlists;
   GhdlLibrary library_;
   std::filesystem::path cache_;
   std::string yosys_, nextpnr_, versions_;
+  std::shared_ptr<Netlists> netlists_;  ///< made so far
 };
 
 }  // namespace halfway::synth

@@ -78,5 +78,17 @@ TEST(SynthPlacement, RefusesWhatItCannotRead) {
   EXPECT_FALSE(read_placement(kReport, "{}", 1));
 }
 
+TEST(SynthPacking, ReadsWhatNextpnrSays) {
+  const auto packing = read_packing(
+      "Info: Packing..\nInfo: Device utilisation:\nInfo: \t         ICESTORM_LC:  2814/ 7680    36%\nInfo: "
+      "\t        "
+      "ICESTORM_RAM:     8/   32    25%\n");
+  ASSERT_TRUE(packing) << packing.error().message;
+  EXPECT_EQ(packing->cells_used, 2814U);
+  EXPECT_EQ(packing->cells_there, 7680U);
+  EXPECT_FALSE(read_packing("ERROR: no such file"));
+  EXPECT_FALSE(read_packing("ICESTORM_LC: many"));
+}
+
 }  // namespace
 }  // namespace halfway::synth

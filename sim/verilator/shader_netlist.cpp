@@ -10,7 +10,7 @@ Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& f
   if (!tool) return tool.error();
   const auto sources = read_rtl_sources(folders.source);
   if (!sources) return sources.error();
-  const auto library = GhdlLibrary::open(*tool, *sources, "", folders.cache);
+  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders.cache);
   if (!library) return library.error();
   const auto netlist = library->synthesize(key.entity(), key.generics());
   if (!netlist) return netlist.error();

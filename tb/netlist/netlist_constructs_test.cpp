@@ -129,7 +129,7 @@ class NetlistConstructs : public testing::Test {
   /// The same through the netlist and Verilator.
   Result<std::vector<std::string>> verilate(const std::string& entity, const Generics& generics,
                                             Netlist kind) {
-    const auto library = GhdlLibrary::open(*tool_, sources(false), "", HALFWAY_CACHE_DIR);
+    const auto library = GhdlLibrary::for_synthesis(*tool_, sources(false), HALFWAY_CACHE_DIR);
     if (!library) return library.error();
     auto netlist = library->synthesize(entity, generics);
     if (!netlist) return netlist.error();

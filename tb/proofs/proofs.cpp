@@ -263,18 +263,30 @@ std::vector<Proof> all_proofs() {
          8,
          true});
 
+  const std::vector<Width> narrow_box = {
+      {"span_x", 3, 0}, {"edge_error", 2, 0}, {"lines", 2, 0}, {"pixel_y", 3, 0}, {"triangle", 1, 0}};
+  proofs.push_back({"raster/edge_walker",
+                    "raster/edge_walker_box.psl",
+                    "An edge that begins and ends between two pixels leaves them on no line between: any edge "
+                    "of 6 lines, 8 columns, divisors up to 3",
+                    Method::pdr,
+                    8,
+                    false,
+                    {},
+                    {{"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '1')"},
+                     {"raster/edge_walker.vhd", "r.error + r.rise", "r.error - r.remainder"}},
+                    narrow_box});
   proofs.push_back(
       {"raster/triangle_walker",
        "raster/triangle_walker_box.psl",
        "No fragment outside its triangle's box, and every line's start, stop and carry those of exact edges: "
-       "any "
-       "edges that begin and end in the box, 6 lines, 8 columns, divisors up to 3",
-       Method::unrolled,
+       "any edges whose lines lie in the box, 6 lines, 8 columns, divisors up to 3",
+       Method::pdr,
        12,
        false,
        {},
        box_faults,
-       {{"span_x", 3, 0}, {"edge_error", 2, 0}, {"lines", 2, 0}, {"pixel_y", 3, 0}, {"triangle", 1, 0}}});
+       narrow_box});
 
   proofs.push_back(
       {"raster/object_stage",
@@ -662,6 +674,7 @@ std::vector<Proof> all_proofs() {
        true,
        {{"g_channels", "1"}, {"g_probe", "true"}},
        {{"shaders/quadratic_shader.vhd", "waiting or walking or coming", "walking or coming"},
+        {"shaders/quadratic_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
         {"shaders/quadratic_shader.vhd", "pixel_valid <= r.span_step(2)", "pixel_valid <= r.span_step(1)"},
         {"shaders/quadratic_shader.vhd", "v.span_step := ('0', '0')", "v.span_step := v.span_step"},
         {"shaders/quadratic_shader.vhd", "(r.walk_valid and not walk_ready) or", "waiting or"},
@@ -678,6 +691,7 @@ std::vector<Proof> all_proofs() {
        {},
        false,
        12});
+  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
   proofs.push_back(
       {"shaders/spherical_shader",
        "shaders/spherical_shader.psl",
@@ -688,6 +702,7 @@ std::vector<Proof> all_proofs() {
        false,
        {{"g_channels", "1"}, {"g_highlight_channels", "1"}},
        {{"shaders/spherical_shader.vhd", "waiting or walking or coming", "walking or coming"},
+        {"shaders/spherical_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
         {"shaders/spherical_shader.vhd", "span_step & r.filled(1 to c_summed - 1)",
          "span_load & r.filled(1 to c_summed - 1)"},
         {"shaders/spherical_shader.vhd", "span_ambient & ambients(1 to c_multiplied - 1)",
@@ -701,6 +716,7 @@ std::vector<Proof> all_proofs() {
        {},
        true,
        14});
+  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
   proofs.push_back(
       {"shaders/processors_shader",
        "shaders/processors_shader.psl",
@@ -733,6 +749,7 @@ std::vector<Proof> all_proofs() {
        {},
        true,
        11});
+  proofs.back().contracts = {"raster/triangle_walker_any.psl"};
   return proofs;
 }
 

@@ -195,6 +195,13 @@ Result<std::string> make_netlist(const Folders& folders, const std::filesystem::
   if (!sources) return sources.error();
   auto unit = read_file(folders.source / "tb/proofs" / proof.unit);
   if (!unit) return tool_failed(unit.error().message);
+  // An architecture that is analysed last is the one that is taken.
+  std::string contracts;
+  for (const char* contract : proof.contracts) {
+    const auto text = read_file(folders.source / "tb/proofs" / contract);
+    if (!text) return tool_failed(text.error().message);
+    contracts += *text;
+  }
   if (const std::size_t at = unit->find("\n$entries\n"); at != std::string::npos)
     unit->replace(at + 1, std::string_view("$entries\n").size(), vhdl_of_entries(proof));
   // GHDL drops what stands under `when others`.
@@ -205,8 +212,9 @@ Result<std::string> make_netlist(const Folders& folders, const std::filesystem::
     if (auto written = write_file(folder / source.name, source.content); !written) return written.error();
     command.push_back(source.name);
   }
-  if (auto written = write_file(folder / "unit.psl", *unit); !written) return written.error();
   const std::string top = top_of(proof, *unit);
+  unit->insert(0, contracts);
+  if (auto written = write_file(folder / "unit.psl", *unit); !written) return written.error();
   command.insert(command.end(), {"unit.psl", "-e", top});
   const auto synthesized = run(folder, command, folder / "netlist.v");
   if (!synthesized) return synthesized.error();
@@ -324,7 +332,8 @@ Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fa
 
   // A fault is refuted by clocks that show it, whatever proves that there are none without it.
   const bool bits = proof.method == Method::pdr || proof.method == Method::unrolled;
-  std::string script = fmt::format(kPrepared, *top, proof.any_products ? "cutpoint t:$mul; " : "");
+  std::string script =
+      fmt::format(kPrepared, *top, proof.any_products ? "cutpoint t:$mul; " : "");
   script +=
       bits
           ? "delete -output; techmap; opt -fast; memory_map; techmap; opt -full; dffunmap; abc -g AND -fast; "

@@ -51,6 +51,8 @@ struct Proof {
   bool full_width = false;      ///< `widths` are the faults' alone
   std::vector<std::uint64_t> entries{};  ///< of the golden model's table, for `$entries` in the unit
   int entry_bits = 0;
+  std::vector<const char*> contracts{};  ///< files beside `unit`: architectures that give out anything that their
+                                         ///< entity's contract lets them, in place of the RTL's
 };
 
 /// All of them, in the order of the page.

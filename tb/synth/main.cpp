@@ -18,14 +18,13 @@
 #include "common/file.hpp"
 #include "common/threads.hpp"
 #include "designs.hpp"
-#include "pinned.hpp"
+#include "sim/synth/pinned.hpp"
 #include "sim/synth/synthesis.hpp"
 
 namespace halfway::synth {
 namespace {
 
-constexpr int kSkipped = 77;  // as CMakeLists.txt has it in SKIP_RETURN_CODE
-constexpr const char* kPins = "tb/synth/pinned.txt";
+constexpr int kSkipped = 77;                         // as CMakeLists.txt has it in SKIP_RETURN_CODE
 constexpr std::string_view kTable = "## Figures\n";  // of the page: what stands behind it is written anew
 constexpr std::string_view kHead =
     "| design | LUTs | carries | flip-flops | RAMs | clock, MHz | seeds, MHz | ns a pixel | critical path | "
@@ -45,6 +44,7 @@ struct Options {
 struct Figures {
   std::optional<Ice40Cells> ice40{};
   std::optional<Ecp5Cells> ecp5{};
+  std::string netlist{};
   std::vector<Placement> placements{};  ///< slowest first, once all are there
   const Placement* median() const {
     return placements.empty() ? nullptr : &placements[placements.size() / 2];
@@ -181,8 +181,11 @@ class Run {
     if (job.kind == Job::Kind::ice40) {
       const auto cells = synthesizer_.ice40(design);
       if (!cells) return cells.error();
+      const auto netlist = synthesizer_.netlist_hash(design);
+      if (!netlist) return netlist.error();
       const std::lock_guard lock(mutex_);
       f.ice40 = *cells;
+      f.netlist = *netlist;
       return fmt::format("iCE40: {} LUTs, {} flip-flops", cells->luts, cells->flip_flops);
     }
     if (job.kind == Job::Kind::ecp5) {
@@ -227,6 +230,7 @@ class Run {
         Pin& pin = pins[designs_[i].design.name];
         pin.cells = *f.ice40;
         if (f.fits()) pin.mhz = f.mhz();  // else as it was
+        if (f.fits() || pin.mhz == 0) pin.netlist = f.netlist;
       } else if (const std::string text = compare(designs_[i].design.name, pins, *f.ice40, f.mhz());
                  !text.empty()) {
         fmt::print("{}", text);

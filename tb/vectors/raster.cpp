@@ -161,6 +161,7 @@ Status write_edge_walker(const std::filesystem::path& folder) {
   VectorFile file;
   golden::EdgeWalker twin;
   std::vector<EdgeStart> edges;
+  bool waits = false;  // a load, for its step
   for (int i = 0; i < 6000; ++i) {
     if (edges.empty()) {
       for (const Walk& walk : random_walks(random))
@@ -169,7 +170,8 @@ Status write_edge_walker(const std::filesystem::path& folder) {
       edges.push_back(garbage_edge(random));
     }
     const EdgeStart& e = edges.back();
-    const bool load = i == 0 || random.one_in(16), step = i == 0 || !random.one_in(5);
+    const bool load = i == 0 || waits || random.one_in(16), step = i == 0 || !random.one_in(5);
+    waits = load && !step;
     file.flag(i > 0).flag(load).word(e.x).word(e.quotient);
     for (const std::uint32_t word : {e.remainder, e.divisor, e.error})
       file.word(word, Exact::c_edge_error_bits);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pinned.hpp"
+#include "sim/synth/pinned.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,15 +40,19 @@ TEST(SynthPins, ComeBackFromTheirFile) {
   auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
   ASSERT_TRUE(folder) << folder.error().message;
   const auto path = folder->path() / "pinned.txt";
-  ASSERT_TRUE(write_pins(path, {{"a", {kCells, 123.4}}, {"b", {{1, 2, 3, 4}, 0}}}, "Yosys 0.23"));
+  const std::string hash = "0123456789abcdef0123456789abcdef";
+  ASSERT_TRUE(write_pins(path, {{"a", {kCells, 123.4, hash}}, {"b", {{1, 2, 3, 4}, 0}}}, "Yosys 0.23"));
   const auto pins = read_pins(path);
   ASSERT_TRUE(pins) << pins.error().message;
   ASSERT_EQ(pins->size(), 2U);
   EXPECT_EQ(pins->at("a").cells, kCells);
   EXPECT_EQ(pins->at("a").mhz, 123.4);
+  EXPECT_EQ(pins->at("a").netlist, hash);
+  EXPECT_EQ(pins->at("b").netlist, "");
   EXPECT_EQ(pins->at("b").cells, (Ice40Cells{1, 2, 3, 4}));
-  for (const char* wrong :
-       {"a 1 2 3 4\n", "a 1 2 3 4 5 6\n", "a 1 2 3 x 5\n", "a 1 2 3 4 5\na 1 2 3 4 5\n"}) {
+  for (const std::string& wrong :
+       std::initializer_list<std::string>{"a 1 2 3 4\n", "a 1 2 3 4 5 6\n", "a 1 2 3 4 5 " + hash + " 6\n",
+                                          "a 1 2 3 x 5\n", "a 1 2 3 4 5\na 1 2 3 4 5\n"}) {
     ASSERT_TRUE(write_file(path, wrong));
     const auto read = read_pins(path);
     ASSERT_FALSE(read) << wrong;

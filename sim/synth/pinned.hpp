@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures that are pinned, and what may differ from them.
+// The figures that are pinned, tb/synth/pinned.txt, and what may differ from them.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +10,8 @@
 
 namespace halfway::synth {
 
+inline constexpr const char* kPins = "tb/synth/pinned.txt";  ///< from the project's root
+
 /// Luts and carries may differ by this share and this many, whichever is more: another Yosys maps a little
 /// differently. Flip-flops and RAMs are what the RTL says, to one.
 inline constexpr double c_lut_share = 0.03;
@@ -19,11 +21,13 @@ inline constexpr double c_clock_share = 0.08;
 
 struct Pin {
   Ice40Cells cells;
-  double mhz = 0;  ///< of the median seed; 0 where the design is not placed
+  double mhz = 0;         ///< of the median seed; 0 where the design is not placed
+  std::string netlist{};  ///< what the clock is of: Synthesizer::netlist_hash; empty: not known
 };
 using Pins = std::map<std::string, Pin>;
 
-/// A line a design: name luts carries flip-flops RAMs MHz; `#` begins a comment.
+/// A line a design: name luts carries flip-flops RAMs MHz netlist; `#` begins a comment. The netlist's hash
+/// may be missing.
 Result<Pins> read_pins(const std::filesystem::path& path);
 Status write_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions);
 

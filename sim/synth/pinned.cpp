@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pinned.hpp"
+#include "sim/synth/pinned.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,11 @@
 #include "common/file.hpp"
 
 namespace halfway::synth {
+namespace {
+
+constexpr std::size_t c_hash_digits = 32;
+
+}  // namespace
 
 Result<Pins> read_pins(const std::filesystem::path& path) {
   auto reader = LineReader::open(path);
@@ -24,8 +29,14 @@ Result<Pins> read_pins(const std::filesystem::path& path) {
     Pin pin;
     Ice40Cells& cells = pin.cells;
     words >> name >> cells.luts >> cells.carries >> cells.flip_flops >> cells.rams >> pin.mhz;
-    if (!words || words >> more)
-      return reader->at("not a name, four numbers of cells and a clock; write it anew with make synth PIN=1");
+    const bool figures = !words.fail();
+    words >> pin.netlist;
+    if (!figures || words >> more ||
+        !(pin.netlist.empty() || (pin.netlist.size() == c_hash_digits &&
+                                  pin.netlist.find_first_not_of("0123456789abcdef") == std::string::npos)))
+      return reader->at(
+          "not a name, four numbers of cells, a clock and a netlist's hash; write it anew with make synth "
+          "PIN=1");
     if (!pins.emplace(name, pin).second) return reader->at("a second line of this name");
   }
   return pins;
@@ -39,11 +50,12 @@ Status write_pins(const std::filesystem::path& path, const Pins& pins, const std
       "# `make synth` and ctest -R synth fail where flip-flops or RAMs differ, LUTs or carries by more than "
       "{:.0f} %\n"
       "# (and {}), or where the clock is more than {:.0f} % slower or faster.\n"
-      "# name luts carries flip_flops rams mhz\n",
+      "# name luts carries flip_flops rams mhz netlist\n",
       versions, 100 * c_lut_share, c_lut_slack, 100 * c_clock_share);
   for (const auto& [name, pin] : pins)
-    text += fmt::format("{} {} {} {} {} {:.1f}\n", name, pin.cells.luts, pin.cells.carries,
-                        pin.cells.flip_flops, pin.cells.rams, pin.mhz);
+    text += fmt::format("{} {} {} {} {} {:.1f}{}{}\n", name, pin.cells.luts, pin.cells.carries,
+                        pin.cells.flip_flops, pin.cells.rams, pin.mhz, pin.netlist.empty() ? "" : " ",
+                        pin.netlist);
   return write_file(path, text);
 }
 

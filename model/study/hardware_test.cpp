@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/hardware.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <optional>
+#include <vector>
+
+#include "common/file.hpp"
+#include "study/pictures.hpp"
+
+namespace halfway::study {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const fs::path c_source = HALFWAY_SOURCE_DIR;
+
+// Stand for Yosys and nextpnr, which would take minutes: figures in, figures out. A placement's clock is 100
+// MHz and its seed, in an order of their own.
+constexpr const char* c_yosys = R"(#!/bin/sh
+[ "$1" = -V ] && echo 'Yosys 0.23' && exit
+echo >mapped.il
+echo '{"modules": {"wrapped": {"cells": {}, "netnames": {}}}}' >wrapped.json
+case "$*" in
+  *synth_ice40*) echo '{"design": {"num_cells_by_type": {"SB_LUT4": 30, "SB_DFF": 4}}}' >cells.json ;;
+  *) echo '{"design": {"num_cells_by_type": {"$lut": 20, "$_DFF_P_": FLIP_FLOPS}}}' >cells.json ;;
+esac
+)";
+constexpr const char* c_nextpnr = R"(#!/bin/sh
+[ "$1" = --version ] && echo 'nextpnr-ice40 (Version 0.4)' && exit
+case "$*" in
+  *--pack-only*) echo 'Info: 	 ICESTORM_LC:  PACKED/ 7680    1%' ; exit ;;
+esac
+seed=${*##*--seed } ; seed=${seed%% *}
+echo "$seed" >>'LOG'
+echo '{"utilization": {"ICESTORM_LC": {"used": 40, "available": 7680}}, "critical_paths": [],
+  "fmax": {"clk": {"achieved": '$((100 + seed * 7 % 5))'}}}' >report.json
+)";
+
+class HardwareFiguresTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(fs::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    folders_ = {folder_->path() / "source", folder_->path() / "cache"};
+    ASSERT_TRUE(make_folders(folders_.source / "tb/synth"));
+    for (const char* name : {"rtl", "sim"})
+      fs::create_directory_symlink(c_source / name, folders_.source / name);
+    pin("");
+    put_tools("4", "40");
+    const auto scene = drawn_scene(scene_, c_source / "sim/scenes", point_);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto hardware = hardware_of(point_, *scene);
+    ASSERT_TRUE(hardware) << hardware.error().message;
+    key_ = hardware->key;
+    Record record{point_, {}};
+    record.measured.hardware = key_.name();
+    records_ = {record};
+  }
+  void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
+
+  void pin(const std::string& lines) const {
+    ASSERT_TRUE(write_file(folders_.source / "tb/synth/pinned.txt", lines));
+  }
+  void put_tools(const std::string& flip_flops, const std::string& packed) {
+    const fs::path bin = folder_->path() / "bin";
+    ASSERT_TRUE(make_folders(bin));
+    const auto put = [&](const char* name, std::string text, const std::string& what, const std::string& by) {
+      const std::size_t at = text.find(what);
+      ASSERT_NE(at, std::string::npos);
+      ASSERT_TRUE(write_file(bin / name, text.replace(at, what.size(), by)));
+      fs::permissions(bin / name, fs::perms::all);
+    };
+    put("yosys", c_yosys, "FLIP_FLOPS", flip_flops);
+    std::string nextpnr = c_nextpnr;
+    nextpnr.replace(nextpnr.find("LOG"), 3, log().string());
+    put("nextpnr-ice40", nextpnr, "PACKED", packed);
+    ::setenv("PATH", (bin.string() + ":" + path_).c_str(), 1);
+  }
+  fs::path log() const { return folder_->path() / "placements"; }
+  std::size_t placements() const {
+    const auto text = read_file(log());
+    return text ? static_cast<std::size_t>(std::ranges::count(*text, '\n')) : 0;
+  }
+  HardwareFigures figures(bool place) const {
+    const auto table = hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place});
+    EXPECT_TRUE(table) << table.error().message;
+    return table ? table->at(key_.name()) : HardwareFigures{};
+  }
+
+  const std::string path_ = std::getenv("PATH");
+  const std::string scene_ = c_source / "sim/studies/sphere.toml";
+  const DesignPoint point_{.method = Method::quadratic, .preset = Preset::published, .size = {160, 120}};
+  std::optional<TemporaryFolder> folder_;
+  SimulatorFolders folders_;
+  HardwareKey key_;
+  std::vector<Record> records_;
+};
+
+TEST_F(HardwareFiguresTest, AClockIsThePinnedOneOfTheSameNetlistAlone) {
+  const HardwareFigures none = figures(false);
+  EXPECT_FALSE(none.mhz);
+  EXPECT_EQ(none.clock, "not placed");
+  const auto tool = GhdlTool::find();
+  ASSERT_TRUE(tool) << tool.error().message;
+  const auto sources = read_rtl_sources(c_source);
+  ASSERT_TRUE(sources);
+  const auto library = GhdlLibrary::open(*tool, *sources, "", folders_.cache);
+  ASSERT_TRUE(library) << library.error().message;
+  const auto hash = synth::netlist_hash(
+      *library, {.name = "another", .entity = key_.entity(), .generics = key_.generics()});
+  ASSERT_TRUE(hash) << hash.error().message;
+  pin(fmt::format("any 1 2 3 4 87.5 {}\n", *hash));
+  const HardwareFigures pinned = figures(true);
+  EXPECT_EQ(pinned.mhz, 87.5);
+  EXPECT_EQ(pinned.clock, "pinned");
+  EXPECT_EQ(placements(), 0U);
+  std::string other = *hash;
+  other[0] = other[0] == '0' ? '1' : '0';
+  pin(fmt::format("any 1 2 3 4 87.5 {}\n", other));
+  EXPECT_FALSE(figures(false).mhz);
+}
+
+TEST_F(HardwareFiguresTest, AClockIsTheMedianOfAllSeedsAndIsKept) {
+  const HardwareFigures placed = figures(true);
+  // 102, 104, 101, 103, 100
+  EXPECT_EQ(placed.mhz, 102.0);
+  EXPECT_EQ(placed.clock, "placed");
+  EXPECT_TRUE(placed.fits);
+  EXPECT_EQ(placed.ice40, (synth::Ice40Cells{.luts = 30, .flip_flops = 4}));
+  EXPECT_EQ(placements(), c_placements);
+  EXPECT_EQ(figures(true).mhz, 102.0);
+  EXPECT_EQ(placements(), c_placements);
+}
+
+TEST_F(HardwareFiguresTest, WhatTheDeviceHasNoRoomForHasNoClockAndSaysWhy) {
+  put_tools("4", "7000");
+  const HardwareFigures full = figures(true);
+  EXPECT_FALSE(full.mhz);
+  EXPECT_FALSE(full.fits);
+  EXPECT_EQ(full.clock, "too full: 7000 of the HX8K's 7680 logic cells");
+  fs::remove_all(folders_.cache);
+  put_tools("7681", "40");
+  const HardwareFigures large = figures(true);
+  EXPECT_FALSE(large.mhz);
+  EXPECT_FALSE(large.fits);
+  EXPECT_THAT(large.clock, HasSubstr("7681 flip-flops"));
+  EXPECT_EQ(placements(), 0U);
+}
+
+}  // namespace
+}  // namespace halfway::study

@@ -1,0 +1,100 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     An edge by its real slope, line by line: a line_interpolator's whole part. The fraction runs a line ahead, so
+--             that what it carries into the next step is a register and no sum is longer than a part.
+-- Contract    load = '1' stays until step is; where both are, the edge is taken
+-- Formats     formats_pkg, preset published: edge_x, and x span_x; sums wrap
+-- Latency     1 clock from a load or step to x
+-- Throughput  1 line a clock
+-- Error       none of its own; k steps carry k times the slope's rounding
+-- Source      quadratic paper, section 5 and figure 6 (X counter); ours
+-- Golden twin model/golden/line_interpolator.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.formats_pkg.all;
+
+entity slope_walker is
+  port (
+    clk        : in  std_logic;
+    load       : in  std_logic; -- take another edge in place of the next step
+    load_x     : in  std_logic_vector(c_published_formats.edge_x.bits - 1 downto 0);
+    load_slope : in  std_logic_vector(c_published_formats.edge_x.bits - 1 downto 0);
+    step       : in  std_logic;
+    x          : out std_logic_vector(c_published_formats.span_x.bits - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of slope_walker is
+
+  constant c_fraction : natural := c_published_formats.edge_x.fraction;
+  constant c_high     : natural := c_published_formats.edge_x.bits - 1;
+
+  subtype span_x_t   is unsigned(c_published_formats.span_x.bits - 1 downto 0);
+  subtype fraction_t is unsigned(c_fraction - 1 downto 0);
+
+  type reg_t is record
+    x        : span_x_t;
+    whole    : span_x_t; -- of the slope
+    part     : fraction_t;
+    fraction : fraction_t; -- of the next line's x
+    carry    : std_logic; -- of the step to it
+  end record;
+
+  signal r, r_next : reg_t;
+
+begin
+
+  assert c_high - c_fraction + 1 = span_x_t'length
+    report "slope_walker: edge_x has " & integer'image(c_high - c_fraction + 1) & " whole bits, span_x "
+    & integer'image(span_x_t'length)
+    severity failure;
+
+  combinational : process (all)
+    variable v              : reg_t;
+    variable fraction, part : fraction_t;
+    variable next_fraction  : unsigned(c_fraction downto 0);
+    variable next_carry     : std_logic;
+    variable next_x         : unsigned(span_x_t'length downto 0);
+  begin
+    v      := r;
+    next_x := (r.x & '1') + (r.whole & r.carry); -- one sum takes the carry
+
+    -- Chosen in front of the sum: a load has its own first step.
+    fraction := r.fraction;
+    part     := r.part;
+    if load = '1' then
+      fraction := unsigned(load_x(c_fraction - 1 downto 0));
+      part     := unsigned(load_slope(c_fraction - 1 downto 0));
+    end if;
+    -- The highest bit cancels: so a cell of the sum's own, and none behind it, gives what is carried.
+    next_fraction := (fraction(fraction_t'high) & fraction) + ('0' & part);
+    next_carry    := next_fraction(c_fraction) xor fraction(fraction_t'high);
+
+    -- What the steps add is taken while load waits for its step: no sum of the edge before is wanted then.
+    if load = '1' then
+      v.whole := unsigned(load_slope(c_high downto c_fraction));
+      v.part  := unsigned(load_slope(c_fraction - 1 downto 0));
+    end if;
+    if step = '1' then
+      v.x        := next_x(next_x'high downto 1);
+      v.fraction := next_fraction(c_fraction - 1 downto 0);
+      v.carry    := next_carry;
+      if load = '1' then
+        v.x := unsigned(load_x(c_high downto c_fraction));
+      end if;
+    end if;
+    r_next <= v;
+  end process;
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      r <= r_next;
+    end if;
+  end process;
+
+  x <= std_logic_vector(r.x);
+
+end architecture;
