@@ -70,6 +70,7 @@ struct Cell {
   std::string variable;
   unsigned low, width;
   bool input, dirty;  ///< dirty: bits above `width` mean nothing
+  bool mask;
 };
 
 using Rooms = std::map<std::string, std::size_t>;  ///< a memory's first word, counted through all banks
@@ -82,6 +83,7 @@ struct Layout {
   std::set<std::pair<std::string, unsigned>> dirty;
   std::set<std::pair<std::string, unsigned>> cleaned;  ///< would be dirty, but who reads them minds
   std::map<std::string, std::string> twins;            ///< registers that are always what another one is
+  std::set<std::pair<std::string, unsigned>> numbers;  ///< of one bit, but no masks: sums take them
   Rooms rooms;
   bool words = false;  ///< cells have a word at most; at first they are not cut where nothing asks for it
   friend bool operator==(const Layout&, const Layout&) = default;
@@ -97,8 +99,10 @@ struct Layout {
       const unsigned begin = *next++;
       const unsigned longest = words ? kWord : *next - begin;
       for (unsigned low = begin; low < *next; low += longest) {
-        cells.push_back({variable, low, std::min(*next - low, longest), input,
-                         !input && dirty.count({variable, low}) != 0 && cleaned.count({variable, low}) == 0});
+        const unsigned bits = std::min(*next - low, longest);
+        cells.push_back({variable, low, bits, input,
+                         !input && dirty.count({variable, low}) != 0 && cleaned.count({variable, low}) == 0,
+                         bits == 1 && numbers.count({variable, low}) == 0});
       }
     }
     return cells;
@@ -367,7 +371,7 @@ class Builder {
       for (std::size_t i = cells->second; i < step_.cells.size() && step_.cells[i].variable == name; ++i) {
         const Cell& cell = step_.cells[i];
         const unsigned known = cell.dirty ? std::max(cell.width, kWord) : cell.width;
-        bits.push_back({cell.width == 1 ? graph().mask_cell(i) : graph().cell(i, known), 0, cell.width});
+        bits.push_back({cell.mask ? graph().mask_cell(i) : graph().cell(i, known), 0, cell.width});
       }
       return bits;
     }
@@ -462,12 +466,16 @@ class Builder {
 
   // Sums and products of any number of words: a carry is a mask.
 
+  /// `carry`: a mask, or a number of one bit.
   Bits sum(const Bits& a, const Bits& b, int carry) {
     const Words x = to_words(a), y = to_words(b);
     Words words;
     for (std::size_t i = 0; i < x.size(); ++i) {
       const int part = graph().operate(LaneOp::add, x[i], y[i]);
-      words.push_back(graph().operate(LaneOp::add, part, graph().fill(carry, 1)));
+      words.push_back(
+          graph().operate(LaneOp::add, part, graph()[carry].is_mask() ? graph().fill(carry, 1) : carry));
+      if (i + 1 == x.size()) break;
+      if (!graph()[carry].is_mask()) carry = graph().bit(carry, 0);
       const int wraps = graph().compare(LaneOp::equal, words.back(), graph().constant(0));
       carry = graph().mask_operate(LaneOp::mask_either, graph().compare(LaneOp::less, part, x[i]),
                                    graph().mask_operate(LaneOp::mask_both, carry, wraps));
@@ -503,9 +511,14 @@ class Builder {
   /// (x, 1) + (y, carry), as the RTL takes a carry by one sum: x + y + carry behind the bit that makes it.
   Bits sum_with_carry(const Bits& a, const Bits& b) {
     const unsigned width = width_of(a) - 1;
-    const int carry = to_mask(slice(b, 0, 1));
-    Bits bits = whole(graph().mask_invert(carry), 1);
-    append(bits, sum(slice(a, 1, width), slice(b, 1, width), carry));
+    const Bits carry = slice(b, 0, 1);
+    Bits bits = whole(graph().mask_invert(to_mask(carry)), 1);
+    int node = carry.front().node;
+    if (const LaneNode& at = graph()[node]; at.op == LaneOp::mask_cell && !step_.cells[at.value].input)
+      layout_.numbers.insert({step_.cells[at.value].variable, step_.cells[at.value].low});
+    else if (at.op != LaneOp::cell || at.bits != 1)
+      node = to_mask(carry);
+    append(bits, sum(slice(a, 1, width), slice(b, 1, width), node));
     return bits;
   }
 
@@ -717,10 +730,10 @@ class Builder {
     for (std::size_t i = first_cell_[name]; i < step_.cells.size() && step_.cells[i].variable == name; ++i) {
       const Cell& cell = step_.cells[i];
       const Bits part = slice(bits, cell.low, cell.width);
-      int next = cell.width == 1 ? to_mask(part) : to_vector(part, false);
-      if (cell.width > 1 && layout_.cleaned.count({name, cell.low}) != 0)
+      int next = cell.mask ? to_mask(part) : to_vector(part, false);
+      if (!cell.mask && (cell.width == 1 || layout_.cleaned.count({name, cell.low}) != 0))
         next = graph().clean(next, cell.width);
-      if (cell.width > 1 && graph()[next].bits > cell.width) layout_.dirty.insert({name, cell.low});
+      if (!cell.mask && graph()[next].bits > cell.width) layout_.dirty.insert({name, cell.low});
       step_.updates[guard].push_back({i, next});
     }
   }
@@ -764,18 +777,19 @@ std::optional<std::pair<int, int>> always_becomes(const Step& step, const Step& 
 
 Rings find_rings(const Step& step, const Step& reset_step, const std::set<std::size_t>& live) {
   std::map<std::size_t, std::vector<std::size_t>> followers;
-  std::set<std::size_t> heads;
+  std::set<std::size_t> always;
   for (const std::size_t cell : live) {
-    if (cell >= kFirstBank || step.cells[cell].input || step.cells[cell].width == 1) continue;
+    if (cell >= kFirstBank || step.cells[cell].input || step.cells[cell].mask) continue;
     const auto values = always_becomes(step, reset_step, cell);
     if (!values) continue;
-    heads.insert(cell);
+    always.insert(cell);
     const LaneNode &a = step.graph[values->first], &b = reset_step.graph[values->second];
     if (a.op == LaneOp::cell && b.op == LaneOp::cell && a.value == b.value)
       followers[a.value].push_back(cell);
   }
+  std::set<std::size_t> heads = always;
   for (const auto& [source, cells] : followers)
-    if (heads.count(source) != 0)
+    if (always.count(source) != 0)
       for (const std::size_t cell : cells) heads.erase(cell);
   Rings rings;
   const std::function<void(std::size_t, Ring)> add = [&](std::size_t cell, Ring ring) {
@@ -1007,7 +1021,7 @@ class Writer {
     groups_ = std::move(ordered);
   }
 
-  const char* type_of(std::size_t cell) const { return step_.cells[cell].width == 1 ? "M" : "V"; }
+  const char* type_of(std::size_t cell) const { return step_.cells[cell].mask ? "M" : "V"; }
 
   std::string reference(int number) const {
     const LaneNode& node = step_.graph[number];
@@ -1290,7 +1304,7 @@ Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports)
       if (!cell.input) {
         if (live.count(i) == 0) continue;
         const auto ring = rings.find(i);
-        if (cell.width == 1) {
+        if (cell.mask) {
           masks += fmt::format("  M c{}{{}};\n", i);
         } else if (ring == rings.end()) {
           state += fmt::format("  V c{}{{}};\n", i);
@@ -1302,7 +1316,7 @@ Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports)
       } else {
         std::string& field = fields[cell.variable];
         if (live.count(i) == 0) continue;
-        inputs += fmt::format("  {} c{}{{}};\n", cell.width == 1 ? "M" : "V", i);
+        inputs += fmt::format("  {} c{}{{}};\n", cell.mask ? "M" : "V", i);
         field += fmt::format("  set_lane(in.c{}, lane, field<{}, {}>(words));\n", i, cell.low, cell.width);
       }
     }
