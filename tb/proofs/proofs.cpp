@@ -232,6 +232,11 @@ std::vector<Proof> all_proofs() {
        "v.edges.section_last := '0'"},
       {"raster/triangle_walker.vhd", "if init_upper_lines = 1 then", "if init_upper_lines = 0 then"},
       {"raster/triangle_walker.vhd", "not (v.edges.reads or v.edges.section_last)", "not v.edges.reads"},
+      {"raster/triangle_walker.vhd", "edge_load  <= init_valid and r.edges.reads",
+       "edge_load  <= r.edges.reads"},
+      {"raster/triangle_walker.vhd", "busy           <= r.edges.valid or r.line.valid",
+       "busy           <= r.line.valid"},
+      {"raster/triangle_walker.vhd", "v.line.valid  := '0'", "v.line.valid  := v.line.valid"},
   };
   std::vector<Fault> exact_faults = walker_faults;
   exact_faults.push_back(
