@@ -58,8 +58,8 @@ TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
   const auto grey = count(grey_), coloured = count(coloured_);
   ASSERT_TRUE(grey) << grey.error().message;
   ASSERT_TRUE(coloured) << coloured.error().message;
-  // Six line interpolators of 40 bits and six words that stand still make a channel, and ten words each of the
-  // triangles that wait.
+  // Six line interpolators of 40 bits and six words that stand still make a channel, and ten words each of
+  // the triangles that wait.
   const std::uint64_t flip_flops = coloured->flip_flops - grey->flip_flops;
   EXPECT_GT(flip_flops, 2 * 6 * 40U);
   EXPECT_LT(flip_flops, 2 * 40 * 40U);
