@@ -383,7 +383,8 @@ class Explainer {
       };
       for (std::size_t stage = layouts_.stages.size(); stage-- > 0;)
         if (happens(layouts_.stages[stage])) check(record, stage);
-      if (happens(layouts_.stages.back())) fragment_cycles_.push_back(record.cycle + layouts_.clocks_to_fragment);
+      if (happens(layouts_.stages.back()))
+        fragment_cycles_.push_back(record.cycle + layouts_.clocks_to_fragment);
     }
     simulator.probes().clear();
     for (const Fragment& f : rtl_fragments_) check_fragment(f);

@@ -9,10 +9,10 @@
 --             the stop edge has an upper and a lower section. preset published: a horizontal-sided triangle, both
 --             edges stepped by a real slope, lines and spans inclusive at both ends.
 -- Contract    init is taken where init_valid and init_ready are '1', a fragment where fragment_valid and
---             fragment_ready are; x, y and triangle stand still while a fragment waits. init stands still from
---             init_valid = '1' until it is taken. It may stand longer, until line_load: none is taken before. The line
---             stage goes on only where line_ready = '1': what the line needs beside the walker has come. line_held: it
---             holds a line.
+--             fragment_ready are; x, y and triangle stand still while a fragment waits, and so do all stages that hold
+--             anything. init stands still from init_valid = '1' until it is taken. It may stand longer, until line_load:
+--             none is taken before. The line stage goes on only where line_ready = '1': what the line needs beside the
+--             walker has come. line_held: it holds a line.
 -- Formats     formats_pkg: the header of init; x span_x, y pixel_y
 -- Latency     3 clocks from init taken to the triangle's first fragment, 2 from line_load
 -- Throughput  with line_ready = '1' 1 fragment a clock, within and between spans and triangles, but that a triangle takes

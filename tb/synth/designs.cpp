@@ -99,6 +99,7 @@ std::vector<ListedDesign> all_designs() {
     add("z_interpolator", {is_exact, split}, true);
     add("quadratic_interpolator", {is_exact, split}, true);
     if (exact) add("edge_walker", {}, true);
+    if (!exact) add("slope_walker", {}, true);
     add("triangle_walker", {is_exact}, true);
     add("saturate",
         {{"g_value_bits", of("intensity")},

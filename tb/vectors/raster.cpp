@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "golden/edge_walker.hpp"
-#include "golden/slope_walker.hpp"
 #include "golden/object_stage.hpp"
+#include "golden/slope_walker.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
 #include "vectors/triangles.hpp"
