@@ -80,7 +80,7 @@ ROM
   reg [69:0] place;
   reg [31:0] product;
   reg one, two;
-  reg [31:0] late0, late1, late2, late3, late4, late5, late6, late7, late8, late9;
+  reg [31:0] late0, late1, late2, late3, late4, late5, late6, late7, late8, late9, taken;
   reg [11:0] left, right;
   wire [39:0] next;
   assign next = e ? sum + a : sum - b;
@@ -112,8 +112,10 @@ ROM
     late6 <= late5; late7 <= late6; late8 <= late7; late9 <= late8;
     if (reset) begin left <= 12'd5; right <= 12'd9; end else begin left <= right; right <= left; end
   end
+  always @(posedge clk)
+    if (g) begin taken <= late7; end
   assign response = {
-    888'b0, left, right, k + l, k - l, k * l, -k, k << n, k >> n, $signed(k) >>> n, {k[70:0], 1'b1} + {l[70:0], e},
+    856'b0, left, right, k + l, k - l, k * l, -k, k << n, k >> n, $signed(k) >>> n, {k[70:0], 1'b1} + {l[70:0], e},
     k == l, k < l, k >= l, $signed(k) < $signed(l), {a[38:0], 1'b1} + {b[38:0], e}, {b[38:0], f} + {a[38:0], 1'b1}, places[n[4:2]], place, {f, place[68:0]}, c != d ? a : b,
     {40{two}}, {24'b0, c, mixed[18], n, d[3:0]}, one, two, product, read, mixed, wide, q, p, sum,
     a << 5, a >> 7, a << n, a >> n, {52'b0, c} << n, $signed(c) >>> 3, $signed(d) >>> n[3:0],
@@ -122,7 +124,7 @@ ROM
     $signed(c) < $signed(d), $signed(c) <= $signed(d), $signed(c) > $signed(d), $signed(c) >= $signed(d),
     $signed({{8{c[11]}}, c}) == $signed(b[19:0]), {3{c}},
     e ? {c, 1'b0, d} : {13'b1, n, n}, f ? a : {b[38:0], e}, g ? wide : {wide[98:0], f},
-    late0, late1, late4, late6, late7, late8, late9, late9 ^ late2};
+    late0, late1, late4, late6, late7, late8, late9, late9 ^ late2, taken};
 )";
 
 class Lanes : public testing::Test {
