@@ -42,27 +42,19 @@ architecture rtl of part_interpolator is
 
 begin
 
-  -- One clocked process, as in line_interpolator. The carry comes in through a bit below, so that one sum takes it. What is
-  -- summed is chosen in front, where a load adds nothing to start: behind the sum nothing is left to choose.
+  -- One clocked process, as in line_interpolator. The carry comes in through a bit below, so that one sum takes it.
   registers : process (clk)
-    variable base, more : unsigned(g_bits - 1 downto 0);
-    variable carry      : std_logic;
-    variable sum        : unsigned(g_bits + 1 downto 0);
+    variable sum : unsigned(g_bits + 1 downto 0);
   begin
     if rising_edge(clk) then
-      if load = '1' or step = '1' then
-        base  := r.value;
-        more  := unsigned(increment);
-        carry := carry_in;
-        if load = '1' then
-          base  := unsigned(start);
-          more  := (others => '0');
-          carry := '0';
-        end if;
+      if load = '1' then
+        r.value <= unsigned(start);
+        r.carry <= '0'; -- nobody asks; so that neither register changes but where the part loads or steps
+      elsif step = '1' then
         -- The highest bit cancels: so a cell of the sum's own, and none behind it, gives what is carried.
-        sum := (base(g_bits - 1) & base & '1') + ('0' & more & carry);
+        sum := (r.value(g_bits - 1) & r.value & '1') + ('0' & unsigned(increment) & carry_in);
         r.value <= sum(g_bits downto 1);
-        r.carry <= sum(g_bits + 1) xor base(g_bits - 1);
+        r.carry <= sum(g_bits + 1) xor r.value(g_bits - 1);
       end if;
     end if;
   end process;

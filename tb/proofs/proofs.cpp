@@ -580,7 +580,7 @@ std::vector<Proof> all_proofs() {
       {"interpolation/part_interpolator.vhd", "unsigned(increment)", "unsigned(not increment)"},
   };
   const std::vector<Fault> split_faults = {
-      {"interpolation/part_interpolator.vhd", "sum(g_bits + 1) xor base(g_bits - 1)", "sum(g_bits)"},
+      {"interpolation/part_interpolator.vhd", "sum(g_bits + 1) xor r.value(g_bits - 1)", "sum(g_bits)"},
       {"interpolation/quadratic_interpolator.vhd", "span_steps(1)   <= span_step",
        "span_steps(1)   <= span_load"},
       {"interpolation/quadratic_interpolator.vhd", "carry_in  => carries(span_dx)(part)",
