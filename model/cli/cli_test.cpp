@@ -618,8 +618,8 @@ TEST_F(RunawayRtl, HasNoCyclesThatNobodyCounted) {
 
 INSTANTIATE_TEST_SUITE_P(
     Mutants, WrongRtl,
-    ::testing::Values(Fault{"line_interpolator_sign", "quadratic", "interpolation/line_interpolator.vhd",
-                            "r.value + signed(increment)", "r.value - signed(increment)", "line stage"},
+    ::testing::Values(Fault{"part_interpolator_sign", "quadratic", "interpolation/part_interpolator.vhd",
+                            "'0' & unsigned(increment)", "'0' & not unsigned(increment)", "line stage"},
                       Fault{"edge_without_carry", "quadratic", "raster/edge_walker.vhd",
                             "(r.quotient & r.carry)", "(r.quotient & '0')", "edge_walker"},
                       Fault{"saturate_off_by_a_bit", "quadratic", "arithmetic/saturate.vhd",

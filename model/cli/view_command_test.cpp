@@ -252,14 +252,14 @@ TEST_F(ViewCommand, BrokenOffLeavesNoHalfFile) {
 // Hardware whose fault shows from the third place alone: the only triangle is averted before.
 TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
   const std::filesystem::path copy = copy_checkout();
-  const auto interpolator = copy / "rtl" / "interpolation" / "line_interpolator.vhd";
+  const auto interpolator = copy / "rtl" / "interpolation" / "part_interpolator.vhd";
   const auto text = read_file(interpolator);
   ASSERT_TRUE(text);
-  const std::string from = "r.value + signed(increment)";
+  const std::string from = "'0' & unsigned(increment)";
   const std::size_t place = text->find(from);
   ASSERT_NE(place, std::string::npos) << "mend this test";
   std::string changed = *text;
-  changed.replace(place, from.size(), "r.value - signed(increment)");
+  changed.replace(place, from.size(), "'0' & not unsigned(increment)");
   ASSERT_TRUE(write_file(interpolator, changed));
   ASSERT_TRUE(write_file(at("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
   ASSERT_TRUE(
