@@ -37,6 +37,10 @@ new_disk() { # size free
   head -c "$((($1 - $2) * 1024))" /dev/zero >"$disk/ballast"
 }
 
+sums() { # folder
+  (cd "$1" && find . -name '*.vhd' -exec cksum {} + | sort)
+}
+
 # The command must fail for want of room and leave no file but those allowed.
 expect_full() { # what allowed-pattern command...
   local what=$1 allowed=$2 status left
@@ -78,7 +82,12 @@ for part in rtl tb sim model; do ln -s "$checkout/$part" "$scratch/source/$part"
 ln -s "$disk" "$scratch/source/build"
 for free in 0 300 1200; do
   new_disk 8192 "$free"
-  expect_full "cache, $free KiB" '^$' "$halfway" --source "$scratch/source" "${sim[@]:1}" --out "$scratch/out"
+  # What is there under its last name is whole: the sources, where what is made of them had no room.
+  expect_full "cache, $free KiB" '/cache/ghdl/[0-9a-f]*/rtl/[a-z_/]*\.vhd$' \
+    "$halfway" --source "$scratch/source" "${sim[@]:1}" --out "$scratch/out"
+  for entry in "$disk"/cache/ghdl/[0-9a-f]*/rtl; do
+    [ ! -d "$entry" ] || [ "$(sums "$entry")" = "$(sums "$checkout/rtl")" ] || fail "$entry is not whole"
+  done
 done
 
 # Tables: the files as they were.
