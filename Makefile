@@ -192,12 +192,13 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs some packages more, and so
-# do `make plan MEASURE=1`, `make synth`, `make prove`, `make bounds`, `make mutate`, `make fuzz`, `make sanitize`,
+# do `make plan MEASURE=1`, `make study PLACE=1`, `make synth`, `make prove`, `make bounds`, `make mutate`, `make fuzz`, `make sanitize`,
 # `make diagrams` and `make check-report`.
 setup:
 	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate synth,$(MAKECMDGOALS)) \
 	  $(if $(filter fuzz sanitize,$(MAKECMDGOALS)),fuzz) $(if $(filter check-report diagrams,$(MAKECMDGOALS)),report) \
-	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth))
+	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth)) \
+	  $(if $(filter study,$(MAKECMDGOALS)),$(call flag,PLACE,synth))
 
 doctor: ## tools and libraries found, and the command that mends what is missing
 	@sh scripts/setup.sh --doctor

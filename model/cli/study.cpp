@@ -11,7 +11,9 @@
 
 #include "cli/options.hpp"
 #include "common/file.hpp"
+#include "common/subprocess.hpp"
 #include "scene/load_scene.hpp"
+#include "sim/synth/synthesis.hpp"
 #include "study/hardware.hpp"
 #include "study/host_setup.hpp"
 #include "study/pictures.hpp"
@@ -53,6 +55,9 @@ Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
   if (!demand) return demand.error();
   plan.demand = *demand;
   if (command.clock_mhz && !(*command.clock_mhz > 0)) return bad_input("--clock: takes MHz above 0");
+  if (command.place && (find_program("yosys").empty() || find_program("nextpnr-ice40").empty()))
+    return tool_failed(
+        fmt::format("--place: yosys or nextpnr-ice40 is not found; install both: {}", synth::kInstallTools));
   if (command.executor != "local" && command.executor != "slurm")
     return bad_input("--executor: '" + command.executor + "' is no executor; take local or slurm");
   study::StudySettings& settings = plan.settings;
