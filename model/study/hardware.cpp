@@ -97,7 +97,7 @@ Status do_all(std::size_t count, const FiguresOptions& options, const std::strin
   std::size_t done = 0;
   std::mutex mutex;
   std::optional<Error> error;
-  if (count > 0) options.on_progress(fmt::format("{} of {} designs", what, count));
+  if (count > 0) options.on_progress(fmt::format("{}: {}", what, count));
   work_on_threads(options.threads, [&] {
     for (std::size_t at; (at = next++) < count;) {
       const Status status = each(at);
@@ -197,6 +197,7 @@ Status place_all(std::vector<Open>& open, const FiguresOptions& options) {
     const auto placement =
         each.synthesizer.place(each.open->design(), static_cast<unsigned>(1 + job % c_placements));
     if (!placement) return placement.error();
+    if (!placement->ended) return Ok{};  // another seed's may
     const std::scoped_lock lock(mutex);
     each.mhz.push_back(placement->mhz);
     return Ok{};
@@ -205,7 +206,9 @@ Status place_all(std::vector<Open>& open, const FiguresOptions& options) {
   for (Placed& each : placed) {
     HardwareFigures& figures = *each.open->figures;
     std::ranges::sort(each.mhz);
-    if (each.mhz.front() > 0) {
+    if (each.mhz.empty()) {
+      figures.clock = "not placed: nextpnr's router does not end";
+    } else if (each.mhz.front() > 0) {
       figures.mhz = each.mhz[each.mhz.size() / 2];
       figures.clock = "placed";
     } else {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/file.hpp"
+#include "common/to_integer.hpp"
 
 namespace halfway::synth {
 namespace {
@@ -69,7 +70,7 @@ std::string compare(const std::string& name, const Pins& pins, const Ice40Cells&
   };
   const auto about = [&](const char* what, std::uint64_t is, std::uint64_t was) {
     const auto slack =
-        std::max(c_lut_slack, static_cast<std::uint64_t>(std::floor(c_lut_share * static_cast<double>(was))));
+        std::max(c_lut_slack, to_integer<std::uint64_t>(std::floor(c_lut_share * static_cast<double>(was))));
     if (is > was + slack || is + slack < was)
       wrong +=
           fmt::format("{}: {} {}, {} are pinned, and {} more or fewer may be\n", name, is, what, was, slack);

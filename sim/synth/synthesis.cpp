@@ -21,6 +21,9 @@ namespace {
 using nlohmann::json;
 
 constexpr std::chrono::minutes kTimeout{60};
+// A placement that ends takes a tenth of it; there are some of which the router makes none.
+constexpr std::chrono::minutes kPlaceTimeout{20};
+constexpr const char* kNoEnd = "no_end";
 constexpr unsigned kMostInputs = 256;  // flip-flops in front of a design
 constexpr int kFrequency = 200;        // MHz asked for: more than any design comes to
 
@@ -43,7 +46,7 @@ std::string first_line(std::string_view text) {
 // "Yosys 0.23 (git ...)" and "nextpnr-ice40 -- ... (Version 0.4-1+b1)", with the tool's name alone before the
 // version.
 std::string version_of(std::string_view said) {
-  const std::size_t digit = said.find_first_of("0123456789", said.find(' '));
+  const std::size_t digit = std::min(said.find_first_of("0123456789", said.find(' ')), said.size());
   const std::size_t version = said.find("Version ");
   const std::size_t from =
       version == std::string_view::npos ? digit : version + std::string_view("Version ").size();
@@ -501,15 +504,18 @@ Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const 
   if (!std::filesystem::exists(folder)) {
     auto fresh = TemporaryFolder::make(cache_);
     if (!fresh) return fresh.error();
-    const Command command{.arguments = arguments, .working_folder = fresh->path(), .timeout = kTimeout};
+    const Command command{.arguments = arguments, .working_folder = fresh->path(), .timeout = kPlaceTimeout};
     const auto end = run_process(command, kInstallTools);
     if (!end) return end.error();
-    // Too large is an answer, and no report.
-    if (!end->succeeded() && end->output.find(kTooLarge) == std::string::npos)
+    // That there is no end is an answer, and so is too large, without a report.
+    if (end->timed_out) {
+      if (Status kept = write_file(fresh->path() / kNoEnd, ""); !kept) return kept.error();
+    } else if (!end->succeeded() && end->output.find(kTooLarge) == std::string::npos)
       return tool_failed(fmt::format("{}: nextpnr-ice40 failed ({}):\n{}\n  while running: {}", design.name,
                                      end->how(), end->output, to_string(command)));
     if (Status moved = fresh->move_to(folder); !moved) return moved.error();
   }
+  if (std::filesystem::exists(folder / kNoEnd)) return Placement{.seed = seed, .ended = false};
   const auto report = read_file(folder / "report.json");
   if (!report) return Placement{.seed = seed};
   const auto text = read_file(net);

@@ -50,6 +50,7 @@ struct Placement {
   std::uint64_t cells_used = 0, cells_there = 0;  ///< logic cells with those of the wrapper
   double mhz = 0;                                 ///< 0 where it does not fit
   CriticalPath path{};
+  bool ended = true;  ///< false: nextpnr's router found no end
   bool fits() const { return mhz > 0; }
 };
 

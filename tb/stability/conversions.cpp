@@ -97,7 +97,9 @@ constexpr Site c_sites[] = {
     {"model/setup/spherical_setup.cpp", 4, "places to look at along a span; Extreme numbers"},
     {"model/study/design_point.cpp", 1, "bits of tables, in range and whole; design_point_test"},
     {"model/tables/cosine.cpp", 1, "entries, checked sizes; cosine_test"},
-    {"model/tables/functions.cpp", 1, "entries; functions_test"},
+    {"model/tables/functions.cpp", 2,
+     "entries, and the root's raise, less than 2^24 of relative errors below 1; functions_test"},
+    {"sim/synth/pinned.cpp", 1, "a share of a count of cells; pinned_test"},
     {"sim/lanes/lane_simulator.cpp", 2, "vectors of a batch and of a part, by how much the last one drew"},
 };
 

@@ -16,6 +16,7 @@
 
 #include "cli/program.hpp"
 #include "common/file.hpp"
+#include "common/subprocess.hpp"
 #include "common/threads.hpp"
 #include "designs.hpp"
 #include "sim/synth/pinned.hpp"
@@ -31,6 +32,8 @@ constexpr std::string_view kHead =
     "ECP5: LUTs | "
     "flip-flops | RAMs | multipliers |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | "
     "--- | --- |\n";
+
+constexpr const char* kEndless = "nextpnr's router does not end";
 
 struct Options {
   bool quick = false, cells = false, pin = false;
@@ -80,6 +83,12 @@ std::string row_begin(const std::string& name) {
   return fmt::format("| `{}` |", name);
 }
 
+std::string not_placed(const ListedDesign& listed, const Figures& f) {
+  if (!listed.without.empty()) return "not placed: " + listed.without;
+  if (!f.placements.empty()) return "does not fit the HX8K's 7680 cells";
+  return listed.placed ? fmt::format("not placed: {}", kEndless) : "not placed";
+}
+
 std::string row(const ListedDesign& listed, const Figures& f) {
   std::string text = row_begin(listed.design.name);
   if (f.ice40)
@@ -92,9 +101,7 @@ std::string row(const ListedDesign& listed, const Figures& f) {
                         f.placements.back().mhz, f.placements.size(), 1000 / f.mhz(),
                         path_text(f.median()->path));
   else
-    text += fmt::format(" – | – | – | {} |", !listed.without.empty() ? "not placed: " + listed.without
-                                             : f.placements.empty()  ? "not placed"
-                                                                     : "does not fit the HX8K's 7680 cells");
+    text += fmt::format(" – | – | – | {} |", not_placed(listed, f));
   if (f.ecp5)
     text += fmt::format(" {} | {} | {} | {} |\n", f.ecp5->luts, f.ecp5->flip_flops, f.ecp5->rams,
                         f.ecp5->multipliers);
@@ -197,6 +204,7 @@ class Run {
     }
     const auto placement = synthesizer_.place(design, job.seed);
     if (!placement) return placement.error();
+    if (!placement->ended) return fmt::format("seed {}: {}", job.seed, kEndless);
     const std::lock_guard lock(mutex_);
     f.placements.push_back(*placement);
     if (!placement->fits()) return std::string("does not fit the HX8K");
@@ -271,8 +279,11 @@ int main_of(const Options& options) {
   }
   const auto synthesizer = Synthesizer::open(options.folders, !options.cells, {kAccumulator});
   if (!synthesizer) {
-    fmt::print(stderr, "{}{}\n", options.quick ? "skipped: " : "", synthesizer.error().message);
-    return options.quick ? kSkipped : static_cast<int>(synthesizer.error().code);
+    const bool missing =
+        find_program("yosys").empty() || (!options.cells && find_program("nextpnr-ice40").empty());
+    const bool skipped = options.quick && missing;
+    fmt::print(stderr, "{}{}\n", skipped ? "skipped: " : "", synthesizer.error().message);
+    return skipped ? kSkipped : static_cast<int>(synthesizer.error().code);
   }
   return static_cast<int>(Run(options, *synthesizer, std::move(designs)).run());
 }
