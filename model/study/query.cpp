@@ -180,7 +180,7 @@ std::vector<Market> markets_of(std::span<const Record> records, const HardwareTa
       if (figures.mhz) mhz = figures.mhz;
       offer.fits = figures.fits;
     }
-    if (mhz) offer.seconds = offer.cycles / (*mhz * 1e6);
+    if (mhz && offer.fits) offer.seconds = offer.cycles / (*mhz * 1e6);
     const std::string picture = point.picture();
     auto market = std::ranges::find(markets, picture, &Market::picture);
     if (market == markets.end()) market = markets.insert(market, Market{picture, {}});
