@@ -2,6 +2,8 @@
 --
 -- Purpose     Product of two unsigned words: the quarters of a times b in one clock, their sums by two in the next, and
 --             the sum of these in the one after.
+-- Contract    no reset: what was in its stages comes out; the product stands still but where operands came three clocks
+--             before
 -- Formats     a: g_a_bits, b: g_b_bits, product: as many as both together
 -- Latency     3 clocks from operands with enable to their product
 -- Throughput  1 product a clock

@@ -3,6 +3,7 @@
 -- Purpose     Sum of unsigned fixed-point terms to a whole number of fewer bits: the sum is as wide as all terms at
 --             their largest ask for, so it never wraps; its fraction is dropped, and above the largest result it
 --             gives the largest. The 0.5 that makes this rounding stands in one of the terms.
+-- Contract    result stands still without enable
 -- Formats     terms: g_terms of g_term_bits each, g_fraction_bits of them fraction, the first lowest; result: unsigned,
 --             g_result_bits
 -- Latency     1 clock from terms with enable to their result

@@ -7,7 +7,7 @@
 --             the error takes one sum: its sign is what the comparison would say.
 -- Contract    load = '1' stays until step is; where both are, the edge is taken
 -- Formats     formats_pkg: x and quotient span_x; error, remainder and divisor edge_error
--- Latency     1 clock from a load or step to x and carry
+-- Latency     1 clock from a step to x and carry
 -- Throughput  1 line a clock
 -- Error       none; x never leaves the edge
 -- Source      Bresenham; the quadratic paper steps a rounded slope instead (preset published)

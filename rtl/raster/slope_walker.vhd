@@ -4,7 +4,7 @@
 --             that what it carries into the next step is a register and no sum is longer than a part.
 -- Contract    load = '1' stays until step is; where both are, the edge is taken
 -- Formats     formats_pkg, preset published: edge_x, and x span_x; sums wrap
--- Latency     1 clock from a load or step to x
+-- Latency     1 clock from a step to x
 -- Throughput  1 line a clock
 -- Error       none of its own; k steps carry k times the slope's rounding
 -- Source      quadratic paper, section 5 and figure 6 (X counter); ours

@@ -3,8 +3,8 @@
 -- Purpose     Walks one triangle after the other: lines down the start edge, pixels from the start edge to the stop
 --             edge, and tells the interpolators when to load and when to step. Three stages overlap: the edge stage
 --             stands one line ahead of the line stage, so that how many pixels a line covers is a register there, and
---             the line stage one ahead of the span stage, so that neither a new line nor a new triangle costs a clock,
---             and lines that cover no pixel are passed over while a span is drawn.
+--             the line stage one ahead of the span stage, so that neither a new line nor, behind two pixels or more, a
+--             new triangle costs a clock, and lines that cover no pixel are passed over while a span is drawn.
 -- Init        preset exact: the start edge is the triangle's long one, spans run away from it (backward: to smaller x);
 --             the stop edge has an upper and a lower section. preset published: a horizontal-sided triangle, both
 --             edges stepped by a real slope, lines and spans inclusive at both ends.
