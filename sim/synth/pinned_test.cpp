@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/synth/pinned.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <regex>
+#include <string>
 
 #include "common/file.hpp"
 
@@ -58,6 +63,25 @@ TEST(SynthPins, ComeBackFromTheirFile) {
     ASSERT_FALSE(read) << wrong;
     EXPECT_THAT(read.error().message, HasSubstr("pinned.txt:"));
   }
+}
+
+TEST(SynthPins, AreWhatReadmeSays) {
+  const std::filesystem::path root = HALFWAY_SOURCE_DIR;
+  const auto pins = read_pins(root / kPins);
+  ASSERT_TRUE(pins) << pins.error().message;
+  const auto readme = read_file(root / "README.md");
+  ASSERT_TRUE(readme);
+  const std::regex row(R"(\n\| `([a-z_]+_shader_[a-z_]+)` \| ([^\n]*) \| [56]0 \|)");
+  int rows = 0;
+  for (std::sregex_iterator it(readme->begin(), readme->end(), row), end; it != end; ++it, ++rows) {
+    const auto found = pins->find((*it)[1]);
+    ASSERT_NE(found, pins->end()) << (*it)[1];
+    const Pin& pin = found->second;
+    EXPECT_EQ((*it)[2], fmt::format("{} | {} | {} | {:.0f} | {:.1f}", pin.cells.luts, pin.cells.flip_flops,
+                                    pin.cells.rams, pin.mhz, 1000 / pin.mhz))
+        << (*it)[1];
+  }
+  EXPECT_GE(rows, 6);
 }
 
 }  // namespace
