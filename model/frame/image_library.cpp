@@ -33,4 +33,8 @@ Result<ImageLibrary> image_library() {
   return loaded->functions;
 }
 
+std::filesystem::path image_library_file() {
+  return HALFWAY_IMAGES;
+}
+
 }  // namespace halfway

@@ -3,6 +3,7 @@
 // behind it, it would cost every start of a program a quarter of a second of processor time.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -32,5 +33,8 @@ struct ImageLibrary {
 
 /// Loaded by the first who asks, and never unloaded: it has threads.
 Result<ImageLibrary> image_library();
+
+/// Where it lies: what is measured hangs on it as on the program.
+std::filesystem::path image_library_file();
 
 }  // namespace halfway

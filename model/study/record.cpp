@@ -14,6 +14,7 @@
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
 #include "frame/image.hpp"
+#include "frame/image_library.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/verilator/shared_library.hpp"
 #include "study/figures.hpp"
@@ -134,6 +135,8 @@ std::string scene_hash(const Scene& scene) {
 Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& folders) {
   const auto program = read_file("/proc/self/exe");
   if (!program) return program.error();
+  const auto images = read_file(image_library_file());
+  if (!images) return images.error();
   const auto rtl = hash_of(folders.source / "rtl");
   if (!rtl) return rtl.error();
   const auto ghdl = version_of("ghdl", kInstallGhdl);
@@ -146,7 +149,8 @@ Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& fol
     if (!valgrind) return valgrind.error();
     tools += ", " + *valgrind;
   }
-  return Provenance{scene.name, scene_hash(scene), ContentHash().add(*program).hex(), *rtl, tools};
+  return Provenance{scene.name, scene_hash(scene), ContentHash().add(*program).add(*images).hex(), *rtl,
+                    tools};
 }
 
 std::string record_name(const Provenance& provenance, const DesignPoint& point) {

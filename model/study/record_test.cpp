@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/file.hpp"
+#include "frame/image_library.hpp"
 #include "scene/load_scene.hpp"
 
 namespace halfway::study {
@@ -178,10 +179,12 @@ TEST_F(RecordsTest, ProvenanceIsOfEveryFileOfTheRtl) {
 TEST_F(RecordsTest, ProvenanceIsOfTheProgram) {
   const auto mine = read_file("/proc/self/exe");
   ASSERT_TRUE(mine);
+  const auto images = read_file(image_library_file());
+  ASSERT_TRUE(images);
   const auto provenance = provenance_of(scene_of_everything(), {c_source, folder_->path()});
   ASSERT_TRUE(provenance) << provenance.error().message;
-  EXPECT_EQ(provenance->program, ContentHash().add(*mine).hex());
-  EXPECT_NE(provenance->program, ContentHash().add(*mine + '\0').hex());
+  EXPECT_EQ(provenance->program, ContentHash().add(*mine).add(*images).hex());
+  EXPECT_NE(provenance->program, ContentHash().add(*mine + '\0').add(*images).hex());
 }
 
 }  // namespace
