@@ -109,6 +109,18 @@ Result<std::string> read_file(const std::filesystem::path& path) {
   return content;
 }
 
+Result<std::vector<std::filesystem::path>> files_below(const std::filesystem::path& folder,
+                                                       std::string_view extension) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error))
+    if (entry.is_regular_file() && (extension.empty() || entry.path().extension() == extension))
+      files.push_back(entry.path().lexically_relative(folder));
+  if (error) return tool_failed(fmt::format("{}: {}", folder.string(), error.message()));
+  std::ranges::sort(files);
+  return files;
+}
+
 Status write_file(const std::filesystem::path& path, std::string_view content) {
   auto writer = LineWriter::open(path);
   if (!writer) return writer.error();

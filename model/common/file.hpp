@@ -16,6 +16,10 @@ namespace halfway {
 /// The whole file, byte for byte.
 Result<std::string> read_file(const std::filesystem::path& path);
 
+/// Every file below the folder, by name, as it is called from there; `extension`, if any, with its dot.
+Result<std::vector<std::filesystem::path>> files_below(const std::filesystem::path& folder,
+                                                       std::string_view extension = {});
+
 /// Writes beside `path` and renames, so that a reader sees the old file or the new one, never a part.
 Status write_file(const std::filesystem::path& path, std::string_view content);
 

@@ -55,6 +55,21 @@ TEST_F(File, WithoutCommitThereIsNoFile) {
   EXPECT_EQ(files(), 0U);
 }
 
+TEST_F(File, OfAFolderComeByName) {
+  const auto& folder = folder_->path();
+  ASSERT_TRUE(make_folders(folder / "b"));
+  for (const char* name : {"c.vhd", "b/d.vhd", "b/a.txt", "a.vhd"})
+    ASSERT_TRUE(write_file(folder / name, ""));
+  const auto all = files_below(folder), some = files_below(folder, ".vhd");
+  ASSERT_TRUE(all && some);
+  using Files = std::vector<std::filesystem::path>;
+  EXPECT_EQ(*all, (Files{"a.vhd", "b/a.txt", "b/d.vhd", "c.vhd"}));
+  EXPECT_EQ(*some, (Files{"a.vhd", "b/d.vhd", "c.vhd"}));
+  const auto none = files_below(folder / "none");
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("none: No such file or directory"), std::string::npos);
+}
+
 TEST_F(File, ReadsLines) {
   const std::string longest(100, 'l');
   ASSERT_TRUE(write_file(*this / "a", "one\n\nthree\n" + longest + "\nlast"));

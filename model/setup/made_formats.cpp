@@ -36,16 +36,12 @@ constexpr std::array c_flags = {
 
 // Every header under model/: what the library's objects are laid out by.
 Status add_headers(ContentHash& hash, const fs::path& model) {
-  std::vector<fs::path> headers;
-  std::error_code error;
-  for (const auto& entry : fs::recursive_directory_iterator(model, error))
-    if (entry.path().extension() == ".hpp") headers.push_back(entry.path());
-  if (error) return tool_failed(fmt::format("{}: {}", model.string(), error.message()));
-  std::ranges::sort(headers);
-  for (const fs::path& header : headers) {
-    const auto text = read_file(header);
+  const auto headers = files_below(model, ".hpp");
+  if (!headers) return headers.error();
+  for (const fs::path& header : *headers) {
+    const auto text = read_file(model / header);
     if (!text) return text.error();
-    hash.add(header.lexically_relative(model).string()).add(*text);
+    hash.add(header.string()).add(*text);
   }
   return Ok{};
 }

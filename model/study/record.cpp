@@ -80,17 +80,13 @@ void add_vector(ContentHash& hash, const glm::dvec3& v) {
 
 // Every file of the folder, by name.
 Result<std::string> hash_of(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error))
-    if (entry.is_regular_file()) files.push_back(entry.path());
-  if (error) return tool_failed(fmt::format("{}: {}", folder.string(), error.message()));
-  std::ranges::sort(files);
+  const auto files = files_below(folder);
+  if (!files) return files.error();
   ContentHash hash;
-  for (const std::filesystem::path& file : files) {
-    const auto text = read_file(file);
+  for (const std::filesystem::path& file : *files) {
+    const auto text = read_file(folder / file);
     if (!text) return text.error();
-    hash.add(file.lexically_relative(folder).string()).add(*text);
+    hash.add(file.string()).add(*text);
   }
   return hash.hex();
 }

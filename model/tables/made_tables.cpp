@@ -31,18 +31,15 @@ struct Source {
 };
 
 Result<std::vector<Source>> rtl_sources(const fs::path& rtl, const Packages& packages) {
+  const auto files = files_below(rtl);
+  if (!files) return files.error();
   std::vector<Source> sources;
-  std::error_code error;
-  for (const auto& entry : fs::recursive_directory_iterator(rtl, error)) {
-    if (!entry.is_regular_file()) continue;
-    const fs::path path = entry.path().lexically_relative(rtl);
-    auto text = read_file(entry.path());
+  for (const fs::path& path : *files) {
+    auto text = read_file(rtl / path);
     if (!text) return text.error();
     const auto made = packages.find(path.string());
     sources.push_back({path, made != packages.end() ? made->second : std::move(*text)});
   }
-  if (error) return tool_failed(fmt::format("{}: {}", rtl.string(), error.message()));
-  std::ranges::sort(sources, {}, &Source::path);
   return sources;
 }
 
