@@ -81,6 +81,12 @@ std::string ProcessEnd::how() const {
   return fmt::format("exit status {}", exit_status);
 }
 
+std::string shell_word(std::string_view word) {
+  std::string text = "'";
+  for (const char c : word) c == '\'' ? text += "'\\''" : text += c;
+  return text + "'";
+}
+
 std::string to_string(const Command& command) {
   std::string text;
   for (const std::string& argument : command.arguments) {
@@ -89,13 +95,7 @@ std::string to_string(const Command& command) {
         !argument.empty() && argument.find_first_not_of(
                                  "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
                                  "_-+=./:,@%") == std::string::npos;
-    if (plain) {
-      text += argument;
-      continue;
-    }
-    text += '\'';
-    for (const char c : argument) c == '\'' ? text += "'\\''" : text += c;
-    text += '\'';
+    text += plain ? argument : shell_word(argument);
   }
   return text;
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,9 @@ struct ProcessEnd {
 /// Runs the command to its end. An error (exit code tool_failed) only where it could not be started;
 /// `install` is the command that brings a missing program, for the message.
 Result<ProcessEnd> run_process(const Command& command, const std::string& install);
+
+/// The word in quotes, as a shell takes it for itself.
+std::string shell_word(std::string_view word);
 
 /// Where PATH finds the program; empty where it does not.
 std::filesystem::path find_program(const std::string& name);

@@ -13,13 +13,6 @@ namespace {
 constexpr const char* c_install = "apt-get install slurm-client, on a machine of the cluster";
 constexpr std::size_t c_shown = 2000;  // characters of what a task said
 
-// As one word of a shell.
-std::string shell_word(std::string_view word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 std::filesystem::path task_log(const JobArray& array, std::size_t part) {
   return array.folder / fmt::format("task-{}.log", part);
 }
