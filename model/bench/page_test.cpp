@@ -2,18 +2,19 @@
 // README's figures of speed are those of the page that `make bench` wrote last.
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
+#include <filesystem>
 #include <regex>
 #include <string>
 #include <vector>
+
+#include "common/file.hpp"
 
 namespace halfway {
 namespace {
 
 std::string text_of(const char* page) {
-  std::ifstream stream(std::string(HALFWAY_SOURCE_DIR "/") + page);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  const auto text = read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / page);
+  return text ? *text : "";
 }
 
 /// A heading and what stands below it, up to the next one of its kind.
