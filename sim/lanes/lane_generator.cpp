@@ -464,7 +464,7 @@ class Builder {
     return from_words(words, width);
   }
 
-  // Sums and products of any number of words: a carry is a mask.
+  // Sums and products of any number of words: a carry is a mask, or a number of one bit.
 
   /// `carry`: a mask, or a number of one bit.
   Bits sum(const Bits& a, const Bits& b, int carry) {

@@ -199,11 +199,9 @@ Result<std::string> wrapper(std::string_view netlist, std::string_view top, unsi
   const auto ports = ports_of(netlist, top);
   if (!ports) return ports.error();
   unsigned inputs = 0, outputs = 0;
-  bool clocked = false;
   std::string wires, pins, connections;
   for (const Port& port : *ports) {
     if (port.name == "clk" || port.name == "probe") {
-      clocked = clocked || port.name == "clk";
       connections += fmt::format(",\n    .{}({})", port.name, port.name == "clk" ? "clk" : "");
       continue;
     }
