@@ -59,15 +59,6 @@ Scene builtin(const char* name) {
   return must(load_scene(name, c_source / "sim" / "scenes"));
 }
 
-/// Each number below `count` once, on so many threads.
-template <class Work>
-void on_threads(unsigned threads, std::size_t count, const Work& work) {
-  std::atomic<std::size_t> next = 0;
-  work_on_threads(threads, [&] {
-    for (std::size_t i; (i = next++) < count;) work(i);
-  });
-}
-
 // What is measured: a shader, the shading processors in either form.
 struct Hardware {
   const char* name;
@@ -219,17 +210,19 @@ WayTable make_ways(Measurements& measurements, unsigned jobs) {
             .push_back({way, column});
   // What is compared is built already, by the same hardware alone.
   for (std::vector<Job>* jobs_now : {&work, &with_comparison}) {
-    on_threads(jobs, jobs_now->size(), [&](std::size_t i) {
+    must(for_each_on_threads(jobs, jobs_now->size(), [&](std::size_t i) -> Status {
       Job& job = (*jobs_now)[i];
       fmt::print(stderr, "building {}\n", WayTable::name(job.way, job.column));
       const auto& hardware = c_hardware[job.column];
-      job.go =
-          must(make_way(job.way, {.scene = &table.columns[job.column].scene,
-                                  .size = WayTable::in_ghdl(job.way) ? hardware.ghdl_size : hardware.size,
-                                  .batches = &table.batches(job.way, job.column),
-                                  .folders = c_folders,
-                                  .scratch = c_scratch}));
-    });
+      auto go = make_way(job.way, {.scene = &table.columns[job.column].scene,
+                                   .size = WayTable::in_ghdl(job.way) ? hardware.ghdl_size : hardware.size,
+                                   .batches = &table.batches(job.way, job.column),
+                                   .folders = c_folders,
+                                   .scratch = c_scratch});
+      if (!go) return go.error();
+      job.go = std::move(*go);
+      return Ok{};
+    }));
     for (Job& job : *jobs_now)
       measurements.add(WayTable::name(job.way, job.column), WayTable::in_ghdl(job.way) ? 2 : 11,
                        std::move(job.go));
@@ -364,11 +357,14 @@ void add_growth(Measurements& measurements, std::vector<Series>& all, unsigned j
   for (const Job& job : work)
     if (models.try_emplace(job.point->key.name()).second) keys.emplace_back(job.point->key, job.lanes);
   std::reverse(keys.begin(), keys.end());
-  on_threads(jobs, keys.size(), [&](std::size_t i) {
+  must(for_each_on_threads(jobs, keys.size(), [&](std::size_t i) -> Status {
     const auto& [key, lanes] = keys[i];
     fmt::print(stderr, "building {}\n", key.name());
-    models.at(key.name()) = std::make_shared<RtlModel>(must(RtlModel::open(key, c_folders, lanes)));
-  });
+    auto model = RtlModel::open(key, c_folders, lanes);
+    if (!model) return model.error();
+    models.at(key.name()) = std::make_shared<RtlModel>(std::move(*model));
+    return Ok{};
+  }));
   for (const Job& job : work) {
     Point& point = *job.point;
     measurements.add(

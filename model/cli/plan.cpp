@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -115,17 +115,17 @@ Result<CellsByKey> count_all(const Plan& plan, const SimulatorFolders& folders, 
 
   const auto counter = CellCounter::open(folders);
   if (!counter) return counter.error();
-  std::vector<std::optional<Result<Cells>>> counted(keys.size());
-  std::atomic<std::size_t> next = 0;
   progress.show(fmt::format("Yosys synthesizes {} netlists", keys.size()));
-  work_on_threads(static_cast<unsigned>(std::min<std::size_t>(threads, keys.size())), [&] {
-    for (std::size_t n = next++; n < keys.size(); n = next++) counted[n] = counter->count(keys[n]);
-  });
+  std::mutex mutex;
   CellsByKey cells;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (!*counted[i]) return counted[i]->error();
-    cells[keys[i].name()] = **counted[i];
-  }
+  Status all = for_each_on_threads(threads, keys.size(), [&](std::size_t i) -> Status {
+    const auto counted = counter->count(keys[i]);
+    if (!counted) return counted.error();
+    const std::scoped_lock lock(mutex);
+    cells[keys[i].name()] = *counted;
+    return Ok{};
+  });
+  if (!all) return all.error();
   return cells;
 }
 

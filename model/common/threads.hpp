@@ -2,11 +2,17 @@
 // Work shared by threads, whose faults come out in the one that asked for it.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <exception>
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
+
+#include "common/result.hpp"
 
 namespace halfway {
 
@@ -34,6 +40,35 @@ void work_on_threads(unsigned threads, const Work& work) {
     guarded();
   }
   if (first) std::rethrow_exception(first);
+}
+
+/// Calls `each`, which returns a Status, with every number below `count` once, in order, on `threads` threads
+/// at most. Behind a failure or an exception none is begun; what is returned then is the failure of the
+/// smallest number that fails, whatever the threads.
+template <class Each>
+Status for_each_on_threads(unsigned threads, std::size_t count, const Each& each) {
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  std::size_t failed = count;
+  Status result = Ok{};
+  work_on_threads(static_cast<unsigned>(std::min<std::size_t>(threads, count)), [&] {
+    for (std::size_t at; (at = next++) < count;) {
+      try {
+        Status done = each(at);
+        if (done) continue;
+        next = count;
+        const std::scoped_lock lock(mutex);
+        if (at < failed) {
+          failed = at;
+          result = std::move(done);
+        }
+      } catch (...) {
+        next = count;
+        throw;
+      }
+    }
+  });
+  return result;
 }
 
 }  // namespace halfway

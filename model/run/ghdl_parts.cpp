@@ -4,12 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <limits>
 #include <mutex>
 #include <numeric>
-#include <optional>
 
 #include "common/file.hpp"
 #include "common/seconds.hpp"
@@ -110,31 +108,25 @@ Result<GhdlRun> run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
 
   std::mutex mutex;
   std::vector<std::uintmax_t> bytes(parts, 0);
-  std::vector<std::optional<Result<GhdlRun>>> runs(parts);
-  std::atomic<std::size_t> next = 0;
-  std::atomic<bool> failed = false;
-  work_on_threads(static_cast<unsigned>(std::min<std::size_t>(threads, parts)), [&] {
-    for (std::size_t part = next++; part < parts && !failed; part = next++) {
-      GhdlRunOptions of_part = options;
-      if (options.on_progress)
-        of_part.on_progress = [&, part](std::uintmax_t written) {
-          const std::scoped_lock lock(mutex);
-          bytes[part] = written;
-          options.on_progress(std::accumulate(bytes.begin(), bytes.end(), std::uintmax_t{0}));
-        };
-      runs[part] = runner.run(inits[part], traces[part], of_part);
-      if (!*runs[part]) failed = true;
-    }
-  });
   GhdlRun sum;
-  for (std::size_t part = 0; part < parts; ++part) {
-    if (!runs[part]) continue;  // behind one that failed
-    if (const Result<GhdlRun>& run = *runs[part]; !run)
+  Status all = for_each_on_threads(threads, parts, [&](std::size_t part) -> Status {
+    GhdlRunOptions of_part = options;
+    if (options.on_progress)
+      of_part.on_progress = [&, part](std::uintmax_t written) {
+        const std::scoped_lock lock(mutex);
+        bytes[part] = written;
+        options.on_progress(std::accumulate(bytes.begin(), bytes.end(), std::uintmax_t{0}));
+      };
+    const auto run = runner.run(inits[part], traces[part], of_part);
+    if (!run)
       return Error{run.error().code, fmt::format("{}, in part {} of {}, from init vector {} on",
                                                  run.error().message, part + 1, parts, first_vectors[part])};
-    sum.fragments += (*runs[part])->fragments;
-    sum.cycles += (*runs[part])->cycles;
-  }
+    const std::scoped_lock lock(mutex);
+    sum.fragments += run->fragments;
+    sum.cycles += run->cycles;
+    return Ok{};
+  });
+  if (!all) return all.error();
   if (Status status = join(traces, key.name(), trace_file, sum.cycles); !status) return status.error();
   sum.seconds = seconds_since(start);
   return sum;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -93,24 +92,15 @@ struct Open {
 // Each of `count` things on all threads, until one fails; `what` is said with how many are done.
 Status do_all(std::size_t count, const FiguresOptions& options, const std::string& what,
               const std::function<Status(std::size_t)>& each) {
-  std::atomic<std::size_t> next = 0;
   std::size_t done = 0;
   std::mutex mutex;
-  std::optional<Error> error;
   if (count > 0) options.on_progress(fmt::format("{}: {}", what, count));
-  work_on_threads(options.threads, [&] {
-    for (std::size_t at; (at = next++) < count;) {
-      const Status status = each(at);
-      const std::scoped_lock lock(mutex);
-      if (!status) {
-        if (!error) error = status.error();
-        next = count;
-      }
-      options.on_progress(fmt::format("{}: {} of {}", what, ++done, count));
-    }
+  return for_each_on_threads(options.threads, count, [&](std::size_t at) -> Status {
+    Status status = each(at);
+    const std::scoped_lock lock(mutex);
+    options.on_progress(fmt::format("{}: {} of {}", what, ++done, count));
+    return status;
   });
-  if (error) return *error;
-  return Ok{};
 }
 
 // Clocks of netlists, by their hashes.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -49,29 +48,25 @@ Status count_instructions(const StudySettings& settings, const Records& kept, st
   if (settings.set_up.empty() || find_program("valgrind").empty()) return Ok{};
   // Valgrind takes seconds to begin with.
   constexpr std::size_t c_batch = 16;
-  std::atomic<std::size_t> next = 0;
+  const std::size_t batches = (open.size() + c_batch - 1) / c_batch;
   std::size_t done = 0;
   std::mutex mutex;
-  std::optional<Error> error;
-  work_on_threads(settings.threads, [&] {
-    for (std::size_t at; (at = next.fetch_add(c_batch)) < open.size();) {
-      const std::span batch(open.data() + at, std::min(c_batch, open.size() - at));
-      std::vector<std::string> names;
-      for (const Record* record : batch) names.push_back(record->point.name());
-      const auto counted = host_instructions(settings.set_up, names, settings.out / "points");
-      const std::scoped_lock lock(mutex);
-      for (std::size_t i = 0; counted && *counted && i < batch.size(); ++i) {
-        batch[i]->measured.host_instructions = (**counted)[i];
-        if (Status added = kept.add(*batch[i]); !added) error = added.error();
-      }
-      if (!counted && !error) error = counted.error();
-      if (error) next = open.size();
-      done += batch.size();
-      settings.on_progress(fmt::format("the host's instructions of {} of {} points", done, open.size()));
+  return for_each_on_threads(settings.threads, batches, [&](std::size_t number) -> Status {
+    const std::size_t first = number * c_batch;
+    const std::span batch(open.data() + first, std::min(c_batch, open.size() - first));
+    std::vector<std::string> names;
+    for (const Record* record : batch) names.push_back(record->point.name());
+    const auto counted = host_instructions(settings.set_up, names, settings.out / "points");
+    if (!counted) return counted.error();
+    for (std::size_t i = 0; *counted && i < batch.size(); ++i) {
+      batch[i]->measured.host_instructions = (**counted)[i];
+      if (Status added = kept.add(*batch[i]); !added) return added;
     }
+    const std::scoped_lock lock(mutex);
+    done += batch.size();
+    settings.on_progress(fmt::format("the host's instructions of {} of {} points", done, open.size()));
+    return Ok{};
   });
-  if (error) return *error;
-  return Ok{};
 }
 
 }  // namespace
@@ -122,10 +117,8 @@ Result<Study> run_study(const StudySettings& settings) {
 
   const std::size_t begin = first_of(settings, settings.part), end = first_of(settings, settings.part + 1);
   std::vector<std::optional<Record>> records(end - begin);
-  std::atomic<std::size_t> next = begin;
   std::mutex mutex;
   std::size_t done = 0, measured = 0;
-  std::optional<Error> error;
   const auto measure_one = [&](const DesignPoint& point) -> Result<Record> {
     const auto pictures = shelf.of(point);
     if (!pictures) return pictures.error();
@@ -137,31 +130,22 @@ Result<Study> run_study(const StudySettings& settings) {
     if (Status added = kept.add(record); !added) return added.error();
     return record;
   };
-  work_on_threads(settings.threads, [&] {
-    for (std::size_t at; (at = next++) < end;) {
-      const DesignPoint& point = settings.points[at];
-      std::optional<Record> record = kept.find(point);
-      const bool anew = !record;
-      std::optional<Error> failed;
-      if (anew) {
-        auto made = measure_one(point);
-        if (made)
-          record = std::move(*made);
-        else
-          failed = Error{made.error().code, point.name() + ": " + made.error().message};
-      }
-      const std::scoped_lock lock(mutex);
-      if (failed) {
-        if (!error) error = std::move(failed);
-        next = end;
-        return;
-      }
-      records[at - begin] = std::move(record);
-      measured += anew;
-      settings.on_progress(fmt::format("{} of {} points", ++done, end - begin));
+  Status all = for_each_on_threads(settings.threads, records.size(), [&](std::size_t at) -> Status {
+    const DesignPoint& point = settings.points[begin + at];
+    std::optional<Record>& record = records[at];
+    record = kept.find(point);
+    const bool anew = !record;
+    if (anew) {
+      auto made = measure_one(point);
+      if (!made) return Error{made.error().code, point.name() + ": " + made.error().message};
+      record = std::move(*made);
     }
+    const std::scoped_lock lock(mutex);
+    measured += anew;
+    settings.on_progress(fmt::format("{} of {} points", ++done, records.size()));
+    return Ok{};
   });
-  if (error) return *error;
+  if (!all) return all.error();
   Study study{opened->provenance, {}, measured};
   for (std::optional<Record>& record : records) study.records.push_back(std::move(*record));
   if (Status counted = count_instructions(settings, kept, study.records); !counted) return counted.error();
