@@ -167,6 +167,11 @@ Result<GhdlLibrary> GhdlLibrary::for_synthesis(const GhdlTool& tool, const std::
 
 Result<std::string> GhdlLibrary::synthesize(
     const std::string& entity, const std::vector<std::pair<std::string, std::string>>& generics) const {
+  ContentHash hash;
+  hash.add("netlist 1").add(entity);
+  for (const auto& [name, value] : generics) hash.add(name).add(value);
+  const std::filesystem::path kept = folder_ / "netlists" / fmt::format("{}-{}.v", entity, hash.hex());
+  if (std::filesystem::exists(kept)) return read_file(kept);
   const auto netlist = [&](const std::string& language) -> Result<std::string> {
     // Standard output goes to a file: warnings on standard error must not get into the netlist.
     auto scratch = TemporaryFolder::make(folder_.parent_path());
@@ -184,7 +189,11 @@ Result<std::string> GhdlLibrary::synthesize(
   const auto vhdl = netlist("vhdl");
   if (!vhdl) return vhdl.error();
   if (auto sound = check_choices(entity, *vhdl); !sound) return sound.error();
-  return netlist("verilog");
+  auto verilog = netlist("verilog");
+  if (!verilog) return verilog.error();
+  if (Status made = make_folders(kept.parent_path()); !made) return made.error();
+  if (Status written = write_file(kept, *verilog); !written) return written.error();
+  return verilog;
 }
 
 std::vector<std::string> GhdlLibrary::run_arguments(const std::string& top) const {

@@ -57,8 +57,8 @@ class GhdlLibrary {
   const GhdlTool& tool() const { return tool_; }
   const std::string& hash() const { return hash_; }
 
-  /// The Verilog netlist of `entity`, as `ghdl --synth` prints it. Refused where GHDL would drop a `when
-  /// others`.
+  /// The Verilog netlist of `entity`, as `ghdl --synth` prints it, which takes seconds: from the library's
+  /// folder where it was asked for before. Refused where GHDL would drop a `when others`.
   Result<std::string> synthesize(const std::string& entity,
                                  const std::vector<std::pair<std::string, std::string>>& generics) const;
   /// The command that simulates `top`; its generics and GHDL's run options go at the end.

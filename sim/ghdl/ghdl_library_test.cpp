@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/ghdl/ghdl_library.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/file.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr const char* c_entity = R"(library ieee;
+use ieee.std_logic_1164.all;
+entity held is
+  generic (g_bits : positive := 4);
+  port (clk : in std_logic; d : in std_logic_vector(g_bits - 1 downto 0);
+        q : out std_logic_vector(g_bits - 1 downto 0));
+end entity;
+architecture rtl of held is
+begin
+  hold : process (clk)
+  begin
+    if rising_edge(clk) then
+      q <= d;
+    end if;
+  end process;
+end architecture;
+)";
+
+TEST(GhdlLibrary, KeepsNetlistsByEntityGenericsAndSources) {
+  auto tool = GhdlTool::find();
+  ASSERT_TRUE(tool) << tool.error().message;
+  const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const auto synthesize = [&](const std::string& source, const char* bits) -> Result<std::string> {
+    const auto library = GhdlLibrary::for_synthesis(*tool, {{"held.vhd", source}}, folder->path());
+    if (!library) return library.error();
+    return library->synthesize("held", {{"g_bits", bits}});
+  };
+  const auto four = synthesize(c_entity, "4"), seven = synthesize(c_entity, "7");
+  ASSERT_TRUE(four && seven) << (four ? seven : four).error().message;
+  EXPECT_NE(*four, *seven);
+  std::string other = c_entity;
+  other.replace(other.find("q <= d"), 6, "q <= not d");
+  const auto inverted = synthesize(other, "4");
+  ASSERT_TRUE(inverted) << inverted.error().message;
+  EXPECT_NE(*inverted, *four);
+  // Without GHDL what was asked for before is there, and nothing else.
+  tool->program = (folder->path() / "none").string();
+  for (const auto& [source, bits, text] : {std::tuple{std::string(c_entity), "4", *four},
+                                           {std::string(c_entity), "7", *seven},
+                                           {other, "4", *inverted}}) {
+    const auto kept = synthesize(source, bits);
+    ASSERT_TRUE(kept) << kept.error().message;
+    EXPECT_EQ(*kept, text);
+  }
+  EXPECT_FALSE(synthesize(c_entity, "5"));
+}
+
+}  // namespace
+}  // namespace halfway
