@@ -18,6 +18,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/file.hpp"
@@ -151,6 +152,15 @@ class HeadlessBrowser {
                                       {"button", "left"},
                                       {"buttons", type == "mouseReleased" ? 0 : 1},
                                       {"clickCount", 1}});
+  }
+  /// `touchStart` and `touchMove` with all fingers that are down; the browser is told first that it has a
+  /// touch screen.
+  void touch(const std::string& type, const std::vector<std::pair<double, double>>& fingers) {
+    Json points = Json::array();
+    for (std::size_t i = 0; i < fingers.size(); ++i)
+      points.push_back({{"id", i}, {"x", fingers[i].first}, {"y", fingers[i].second}});
+    send("Emulation.setTouchEmulationEnabled", {{"enabled", true}, {"maxTouchPoints", 5}});
+    send("Input.dispatchTouchEvent", {{"type", type}, {"touchPoints", points}});
   }
   void press(const std::string& key) {
     Json event = {{"type", "keyDown"}, {"key", key}, {"code", key}};

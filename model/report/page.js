@@ -65,8 +65,8 @@ class Viewer {
     this.root.replaceChildren(
       element("div", { className: "bar" },
         element("label", {}, "left ", this.choices[0]), element("label", {}, "right ", this.choices[1]),
-        element("span", {}, button("−", "zoom out", () => this.zoomBy(-1)), " ",
-          button("+", "zoom in", () => this.zoomBy(1)), " ", button("whole", "show the whole picture",
+        element("span", {}, button("−", "zoom out", () => this.zoomOut()), " ",
+          button("+", "zoom in", () => this.zoomIn()), " ", button("whole", "show the whole picture",
             () => this.zoomTo(1)))),
       element("div", { className: "panes" },
         element("div", {}, this.canvas, element("label", { className: "bar wipe" }, "wipe ", this.range)),
@@ -137,7 +137,7 @@ class Viewer {
     context.fillRect(line - 1, 0, 2, height);
     canvas.setAttribute("aria-label", `${this.what}: ${this.layer(0).name} left of ` +
       `${Math.round(100 * this.wipe)} percent of the width, ${this.layer(1).name} right of it, zoom ` +
-      `${this.zoom}. Arrow keys choose a pixel, plus and minus zoom, square brackets move the line.`);
+      `${Math.round(10 * this.zoom) / 10}. Arrow keys choose a pixel, plus and minus zoom, square brackets move the line.`);
     this.range.value = Math.round(1000 * this.wipe);
     this.range.setAttribute("aria-valuetext", `${Math.round(100 * this.wipe)} percent`);
   }
@@ -182,21 +182,26 @@ class Viewer {
     this.tellPixel();
   }
 
-  /// Keeps what lies at a place of the canvas where it is.
-  zoomTo(zoom, at = null) {
-    const before = this.scale;
-    const place = at || { x: (this.pixel.x + 0.5 - this.left) * before, y: (this.pixel.y + 0.5 - this.top) * before };
-    const fixed = { x: this.left + place.x / before, y: this.top + place.y / before };
-    this.zoom = zoom;
-    this.left = fixed.x - place.x / this.scale;
-    this.top = fixed.y - place.y / this.scale;
+  /// What lies at a place of the canvas.
+  pictureAt(place) {
+    return { x: this.left + place.x / this.scale, y: this.top + place.y / this.scale };
+  }
+  /// Takes a point of the picture to a place of the canvas, zoomed by any number.
+  hold(point, place, zoom) {
+    this.zoom = Math.min(zooms.at(-1), Math.max(1, zoom));
+    this.left = point.x - place.x / this.scale;
+    this.top = point.y - place.y / this.scale;
     this.keepInside();
     this.draw();
   }
-  zoomBy(steps, at = null) {
-    const now = zooms.indexOf(this.zoom);
-    this.zoomTo(zooms[Math.min(zooms.length - 1, Math.max(0, now + steps))], at);
+  /// Keeps what lies at a place of the canvas, or else the chosen pixel, where it is.
+  zoomTo(zoom, at = null) {
+    const { scale } = this;
+    const place = at || { x: (this.pixel.x + 0.5 - this.left) * scale, y: (this.pixel.y + 0.5 - this.top) * scale };
+    this.hold(this.pictureAt(place), place, zoom);
   }
+  zoomIn(at = null) { this.zoomTo(zooms.find((zoom) => zoom > this.zoom) || this.zoom, at); }
+  zoomOut(at = null) { this.zoomTo(zooms.findLast((zoom) => zoom < this.zoom) || this.zoom, at); }
   keepInside() {
     this.left = Math.min(this.width - this.width / this.zoom, Math.max(0, this.left));
     this.top = Math.min(this.height - this.height / this.zoom, Math.max(0, this.top));
@@ -215,16 +220,36 @@ class Viewer {
       const box = canvas.getBoundingClientRect();
       return { x: event.clientX - box.left, y: event.clientY - box.top };
     };
-    let drag = null;
+    const down = new Map(); // pointers, by their ids: where each is
+    let drag = null, pinch = null; // what one pointer does, and what two do
+    const spread = () => {
+      const [a, b] = [...down.values()];
+      return { middle: { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 }, distance: Math.max(1, Math.hypot(a.x - b.x, a.y - b.y)) };
+    };
+    const lift = (event) => {
+      down.delete(event.pointerId);
+      drag = pinch = null; // a finger that is left over does nothing
+    };
     canvas.onpointerdown = (event) => {
       const at = place(event);
-      const onLine = Math.abs(at.x - this.wipe * canvas.clientWidth) < 16;
-      drag = { at, left: this.left, top: this.top, wipes: this.zoom === 1 || onLine, moved: false };
+      down.set(event.pointerId, at);
       canvas.setPointerCapture(event.pointerId);
+      const onLine = Math.abs(at.x - this.wipe * canvas.clientWidth) < 16;
+      drag = down.size > 1 ? null :
+        { at, left: this.left, top: this.top, wipes: this.zoom === 1 || onLine, moved: false };
+      if (down.size !== 2) return;
+      const { middle, distance } = spread();
+      pinch = { point: this.pictureAt(middle), distance, zoom: this.zoom };
     };
     canvas.onpointermove = (event) => {
-      if (drag === null) return;
       const at = place(event);
+      if (down.has(event.pointerId)) down.set(event.pointerId, at);
+      if (pinch !== null && down.size === 2) {
+        const { middle, distance } = spread();
+        this.hold(pinch.point, middle, pinch.zoom * distance / pinch.distance);
+        return;
+      }
+      if (drag === null) return;
       drag.moved = drag.moved || Math.hypot(at.x - drag.at.x, at.y - drag.at.y) > 4;
       if (!drag.moved) return;
       if (drag.wipes) {
@@ -242,14 +267,19 @@ class Viewer {
         this.choosePixel(this.left + at.x / this.scale, this.top + at.y / this.scale);
         this.draw();
       }
-      drag = null;
+      lift(event);
     };
-    canvas.onpointercancel = () => { drag = null; };
-    canvas.ondblclick = (event) => this.zoomBy(1, place(event));
+    canvas.onpointercancel = lift;
+    // The page neither scrolls nor zooms by what two fingers do here.
+    canvas.addEventListener("touchstart", (event) => {
+      if (event.touches.length > 1) event.preventDefault();
+    }, { passive: false });
+    canvas.ondblclick = (event) => this.zoomIn(place(event));
     canvas.addEventListener("wheel", (event) => {
       if (!event.ctrlKey) return; // the page scrolls
       event.preventDefault();
-      this.zoomBy(event.deltaY < 0 ? 1 : -1, place(event));
+      if (event.deltaY < 0) this.zoomIn(place(event));
+      else this.zoomOut(place(event));
     }, { passive: false });
     canvas.onkeydown = (event) => {
       const step = event.shiftKey ? 10 : 1;
@@ -259,9 +289,9 @@ class Viewer {
         this.choosePixel(this.pixel.x + moves[event.key][0], this.pixel.y + moves[event.key][1]);
         this.seePixel();
       } else if (event.key === "+" || event.key === "=") {
-        this.zoomBy(1);
+        this.zoomIn();
       } else if (event.key === "-") {
-        this.zoomBy(-1);
+        this.zoomOut();
       } else if (event.key === "0") {
         this.zoomTo(1);
       } else if (event.key === "[" || event.key === "]") {
@@ -390,7 +420,23 @@ function unfold() {
   target.scrollIntoView();
 }
 
+/// Paper shows what is folded, too.
+function unfoldForPrint() {
+  let folded = [];
+  addEventListener("beforeprint", () => {
+    for (const details of document.querySelectorAll("details:not([open])")) {
+      details.open = true;
+      folded.push(details);
+    }
+  });
+  addEventListener("afterprint", () => {
+    for (const details of folded) details.open = false;
+    folded = [];
+  });
+}
+
 makeFrames();
 makePoints();
+unfoldForPrint();
 addEventListener("hashchange", unfold);
 unfold();

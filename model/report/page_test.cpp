@@ -26,6 +26,8 @@ class ReportPage : public CommandTest {
     if (HeadlessBrowser::program().empty())
       GTEST_SKIP() << "no Chromium here: apt-get install chromium, or make check-report";
     if (find_program("gnuplot").empty()) GTEST_SKIP() << "no gnuplot here: apt-get install gnuplot-nox";
+    if (find_program("pdftotext").empty())
+      GTEST_SKIP() << "no pdftotext here: apt-get install poppler-utils, or make check-report";
     const auto here = folder_->path();
     ASSERT_TRUE(make_folders(here / "figures"));
     ASSERT_TRUE(write_file(
@@ -124,6 +126,17 @@ class ReportPage : public CommandTest {
                                 viewer, layer))
         .get<std::vector<int>>();
   }
+  /// The words of the page on paper.
+  std::string print() {
+    const std::filesystem::path pdf = folder_->path() / "page.pdf", coded = folder_->path() / "coded";
+    EXPECT_TRUE(write_file(coded, browser_->send("Page.printToPDF")["data"].get<std::string>()));
+    const auto decoded =
+        run_process({.arguments = {"base64", "-d", coded.string()}, .standard_output = pdf}, "");
+    EXPECT_TRUE(decoded && decoded->succeeded());
+    const auto text = run_process({.arguments = {"pdftotext", pdf.string(), "-"}}, "");
+    EXPECT_TRUE(text && text->succeeded());
+    return text ? text->output : std::string();
+  }
   static std::vector<int> pixel(const Frame& frame, std::uint32_t x, std::uint32_t y) {
     const std::size_t at = frame.offset(x, y);
     return {frame.rgb[at], frame.rgb[at + 1], frame.rgb[at + 2]};
@@ -156,9 +169,17 @@ TEST_F(ReportPage, FitsPhonesPaperAndTheDark) {
     papers.push_back(evaluate("getComputedStyle(document.body).backgroundColor"));
   }
   EXPECT_NE(papers[0], papers[1]);
-  const std::string pdf = browser_->send("Page.printToPDF", {{"preferCSSPageSize", true}})["data"];
-  EXPECT_TRUE(pdf.starts_with("JVBERi0"));  // %PDF-
-  EXPECT_GT(pdf.size(), 50'000U);
+}
+
+TEST_F(ReportPage, PrintsWhatIsFolded) {
+  ASSERT_GT(evaluate("document.querySelectorAll('details').length").get<int>(), 2);
+  ASSERT_EQ(evaluate("document.querySelectorAll('details[open]').length"), 0);
+  const std::string printed = print();
+  // From the papers' figures, the points' table, the effects and a page of tb/.
+  for (const char* words :
+       {"Here: ours", "Points of the study", "Effects of spheres", "make bench writes this page"})
+    EXPECT_NE(printed.find(words), std::string::npos) << words;
+  EXPECT_EQ(evaluate("document.querySelectorAll('details[open]').length"), 0);
 }
 
 TEST_F(ReportPage, EverythingHasAName) {
@@ -237,6 +258,63 @@ TEST_F(ReportPage, WipesAndZoomsToThePngsPixels) {
   ASSERT_TRUE(colours.contains(name)) << name;
   const double area = evaluate("copy.width * copy.height").get<double>();
   EXPECT_GT(colours[name].get<double>(), 0.3 * area);
+}
+
+TEST_F(ReportPage, TwoFingersZoomAndMove) {
+  const auto reference = read_png(folder_->path() / "out/spheres/quadratic/reference.png");
+  ASSERT_TRUE(reference);
+  browser_->resize(390, 844);
+  const std::string canvas = "#frame-viewer canvas";
+  evaluate(
+      "{ const s = document.querySelector('#frame-viewer .right'); s.value = 'reference'; s.onchange(); }");
+  // A pixel that is not as its neighbours are.
+  std::uint32_t x = 40, y = 30;
+  const auto differ = [&](std::uint32_t other_x, std::uint32_t other_y) {
+    return std::abs(pixel(*reference, x, y)[0] - pixel(*reference, other_x, other_y)[0]) > 8;
+  };
+  while (!differ(x - 1, y) || !differ(x, y - 1)) {
+    if (++x == 56) x = 40, ++y;
+    ASSERT_LT(y, 42U);
+  }
+  const auto [mid_x, mid_y] = middle_of(canvas);
+  const double width = evaluate("document.querySelector('#frame-viewer canvas').clientWidth");
+  const double scrolled = evaluate("scrollY");
+  const double at_x = (x + 0.5) / 96, at_y = (y + 0.5) / 72;
+  const double px = mid_x + (at_x - 0.5) * width, py = mid_y + (at_y - 0.5) * width * 0.75;
+  const auto two = [&](const char* type, double right, double apart) {
+    browser_->touch(type, {{px + right - apart, py}, {px + right + apart, py}});
+  };
+  const auto label = [&] {
+    return evaluate("document.querySelector('#frame-viewer canvas').ariaLabel").get<std::string>();
+  };
+  two("touchStart", 0, 10);
+  for (const double apart : {20.0, 35.0, 50.0}) two("touchMove", 0, apart);
+  EXPECT_TRUE(
+      browser_->becomes_true("document.querySelector('#frame-viewer canvas').ariaLabel.includes('zoom 5.')"))
+      << label();
+  // Five times as large, around the pixel between the fingers.
+  const double step = 5.0 / 96;
+  EXPECT_EQ(painted(canvas, at_x, at_y), pixel(*reference, x, y));
+  EXPECT_EQ(painted(canvas, at_x - step, at_y), pixel(*reference, x - 1, y));
+  EXPECT_EQ(painted(canvas, at_x, at_y - step * 96 / 72), pixel(*reference, x, y - 1));
+  // Both to the right: the picture goes with them.
+  for (const double right : {10.0, 20.0}) two("touchMove", right, 50);
+  const double there = at_x + 20 / width;
+  EXPECT_EQ(painted(canvas, there, at_y), pixel(*reference, x, y));
+  EXPECT_EQ(painted(canvas, there - step, at_y), pixel(*reference, x - 1, y));
+  browser_->touch("touchEnd", {});
+  EXPECT_EQ(evaluate("visualViewport.scale"), 1);
+  EXPECT_EQ(evaluate("scrollY").get<double>(), scrolled);
+  EXPECT_EQ(wipe(), 500);
+  // A finger alone chooses a pixel, as before.
+  browser_->touch("touchStart", {{px + 20, py}});
+  browser_->touch("touchEnd", {});
+  EXPECT_EQ(told("#frame-viewer", "reference"), pixel(*reference, x, y));
+  // Together again: the whole picture, and no less.
+  two("touchStart", 0, 60);
+  for (const double apart : {30.0, 10.0, 5.0}) two("touchMove", 0, apart);
+  EXPECT_NE(label().find("zoom 1."), std::string::npos) << label();
+  browser_->touch("touchEnd", {});
 }
 
 TEST_F(ReportPage, PointsOpenTheirFrames) {
