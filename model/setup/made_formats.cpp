@@ -10,6 +10,7 @@
 
 #include "common/file.hpp"
 #include "common/folder_lock.hpp"
+#include "setup/format_sources.hpp"
 #include "tables/formats.hpp"
 #include "tables/functions.hpp"
 
@@ -20,13 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* c_library = "formats.so";
 
-// All that takes a format's width and that makes init vectors or fragments; what these call besides is the
-// program's own.
-std::vector<std::string> sources_of(Shader shader) {
-  return {"sim/formats/harness.cpp", "model/setup/half_triangle.cpp", "model/setup/init_vector.cpp",
-          fmt::format("model/setup/{}_setup.cpp", to_string(shader))};
-}
-
 // As CMakeLists.txt compiles these, but for a library's place in memory: the host's instructions are
 // compared. Nothing that both have may be taken for the other's: not an inline constant either.
 constexpr std::array c_flags = {
@@ -34,22 +28,18 @@ constexpr std::array c_flags = {
     "-shared",      "-pthread",      "-fvisibility=hidden", "-fvisibility-inlines-hidden",
     "-w",           "-Wl,-Bsymbolic"};
 
-// Every header under model/: what the library's objects are laid out by.
-Status add_headers(ContentHash& hash, const fs::path& model) {
-  const auto headers = files_below(model, ".hpp");
-  if (!headers) return headers.error();
-  for (const fs::path& header : *headers) {
-    const auto text = read_file(model / header);
-    if (!text) return text.error();
-    hash.add(header.string()).add(*text);
-  }
-  return Ok{};
-}
-
 }  // namespace
 
 Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& key,
                                                              const SimulatorFolders& folders) {
+  const fs::path source = fs::absolute(folders.source);
+  const auto sources = format_sources_hash(source);
+  if (!sources) return sources.error();
+  if (*sources != built_from())
+    return bad_input(
+        fmt::format("{}: not what this program was built from, and word lengths other than the preset's take "
+                    "parts of both: build it anew with make program",
+                    (source / "model").lexically_normal().string()));
   const bool exact = key.preset == Preset::exact;
   const tables::WordLengths& words = key.words;
   const std::string formats = tables::cpp_header(tables::preset_formats(exact, words));
@@ -61,19 +51,9 @@ Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& 
   if (compiler->program.find("clang") == std::string::npos) flags.emplace_back("-fno-gnu-unique");
   flags.push_back(fmt::format("-DHALFWAY_SHADER={}", static_cast<int>(key.shader)));
   flags.emplace_back(exact ? "-DHALFWAY_PRESET=Exact" : "-DHALFWAY_PRESET=Published");
-  const fs::path source = fs::absolute(folders.source);
   ContentHash hash;
-  const auto model = read_file(source / "model/run/golden_run.cpp");  // which the harness includes
-  if (!model) return model.error();
-  hash.add("formats 2").add(*model).add(formats).add(functions).add(compiler->identity);
+  hash.add("formats 3").add(*sources).add(formats).add(functions).add(compiler->identity);
   for (const std::string& flag : flags) hash.add(flag);
-  const std::vector<std::string> sources = sources_of(key.shader);
-  for (const std::string& file : sources) {
-    const auto text = read_file(source / file);
-    if (!text) return text.error();
-    hash.add(*text);
-  }
-  if (Status added = add_headers(hash, source / "model"); !added) return added.error();
 
   const fs::path parent = fs::absolute(folders.cache) / "formats";
   const std::string name =
@@ -97,7 +77,8 @@ Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& 
       compile.arguments.insert(compile.arguments.end(), flags.begin(), flags.end());
       compile.arguments.insert(compile.arguments.end(),
                                {"-I.", "-I" + (source / "model").string(), "-I" + source.string()});
-      for (const std::string& file : sources) compile.arguments.push_back((source / file).string());
+      for (const std::string& file : format_sources(key.shader))
+        compile.arguments.push_back((source / file).string());
       compile.arguments.insert(compile.arguments.end(), {"-o", c_library});
       if (auto done = run_tool(compile, kInstallCompiler, words.name()); !done) return done.error();
       if (Status moved = fresh->move_to(folder); !moved) return moved.error();

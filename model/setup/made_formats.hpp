@@ -17,7 +17,7 @@ namespace halfway {
 class MadeFormats {
  public:
   /// For the key's shader, preset and word lengths. Compiles them by the compiler that compiled the program,
-  /// unless the cache has them. What runs must be built from the checkout.
+  /// unless the cache has them. Bad input where what runs was built from other sources than the checkout's.
   static Result<std::shared_ptr<const MadeFormats>> open(const HardwareKey& key,
                                                          const SimulatorFolders& folders);
 
