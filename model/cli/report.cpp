@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "cli/options.hpp"
+#include "common/file.hpp"
+#include "report/front.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -14,9 +16,25 @@ struct ReportCommand {
   std::string results = "build/out", study = "build/study";
   std::optional<std::string> figures;  ///< none: those of the last make figures, or the checkout's
   bool no_timing = false;
+  std::string front;  ///< a folder for the front, and no page
 };
 
+int write_front(const ReportCommand& command) {
+  const auto study = report::read_csv(std::filesystem::path(command.study) / "study.csv");
+  if (!study) return report(study.error());
+  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  if (!scratch) return report(scratch.error());
+  const auto designs = report::write_front(*study, command.front, scratch->path());
+  if (!designs) return report(designs.error());
+  if (*designs == 0)
+    return report(bad_input(command.study + ": no design in it has both a cost and an error; make study"));
+  fmt::print("{}: the front of {} designs\n", (std::filesystem::path(command.front) / "front.svg").string(),
+             *designs);
+  return 0;
+}
+
 int run(const Folders& folders, const ReportCommand& command) {
+  if (!command.front.empty()) return write_front(command);
   std::filesystem::path figures = command.figures.value_or("build/figures");
   if (!command.figures && !std::filesystem::exists(figures / "figures.json"))
     figures = folders.source / "sim" / "figures";
@@ -47,6 +65,9 @@ void add_report(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("--study", command->study, "what study left")->capture_default_str();
   sub->add_option("--figures", command->figures, "what figures left (build/figures, else sim/figures)");
   sub->add_flag("--no-timing", command->no_timing, "no timing diagrams, and so no GHDL");
+  sub->add_option(
+      "--front", command->front,
+      "folder for front.svg and front.csv, the plot of a study's error against cells, and no page");
   sub->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });
 }
 

@@ -13,7 +13,7 @@
 namespace halfway::report {
 
 struct ReportSettings {
-  std::filesystem::path page;     ///< the file to write; front.svg beside it, of the study
+  std::filesystem::path page;     ///< the file to write; beside it front.svg and front.csv, of the study
   std::filesystem::path results;  ///< what sim left: <scene>/<shader>/
   std::filesystem::path study;    ///< what study left: study.csv, points/
   std::filesystem::path figures;  ///< what figures left: figures.json and its pictures

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "common/file.hpp"
+#include "report/front.hpp"
 #include "report/html.hpp"
 #include "report/plot.hpp"
 #include "report/section.hpp"
@@ -36,16 +37,6 @@ constexpr std::array c_axes = {
          "rms error, steps of 1/255"},
     Axes{"rms-host", "host_evaluations", "rms", "evaluations on the host", "rms error, steps of 1/255"},
 };
-
-// What none is both less and better than: the lower left of the points, from left to right.
-std::vector<std::pair<double, double>> lower_left(const std::vector<PlotPoint>& points) {
-  std::vector<std::pair<double, double>> sorted, front;
-  for (const PlotPoint& point : points) sorted.emplace_back(point.x, point.y);
-  std::ranges::sort(sorted);
-  for (const auto& point : sorted)
-    if (front.empty() || point.second < front.back().second) front.push_back(point);
-  return front;
-}
 
 // Columns that a point's panel shows as they are, and their words.
 constexpr std::array c_told = {
@@ -79,49 +70,6 @@ constexpr std::array c_told = {
 std::string told(const Table& table, std::size_t row, const char* column) {
   const auto value = table.number(row, column);
   return value ? fmt::format("{:.6g}", *value) : table.text(row, column);
-}
-
-// The method and what sets its hardware apart, but for sizes of tables and thresholds, as one series of a
-// plot.
-std::string series_of(const Table& table, std::size_t row) {
-  const std::string& method = table.text(row, "method");
-  const std::string& preset = table.text(row, "preset");
-  if (preset.empty()) return method + " (software)";
-  const std::string& form = table.text(row, "form");
-  return method + (preset == "exact" ? "" : ", " + preset) + (form == "folded" ? ", folded" : "");
-}
-
-// What points of equal pictures share.
-std::string picture_of(const Table& table, std::size_t row) {
-  std::string text;
-  for (const char* column : {"scene_hash", "tessellation", "exponent", "width", "height"})
-    text += table.text(row, column) + " ";
-  return text;
-}
-
-// The hardware of one picture, the one that most points are of: a file of its own beside the page.
-Status write_front(const Page& page, const Table& table, const std::vector<std::string>& series) {
-  const char* cost = std::ranges::find(table.columns, "cells") != table.columns.end() ? "cells" : "cycles";
-  std::map<std::string, Plot> of;
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const auto x = table.number(row, cost), y = table.number(row, "rms");
-    if (!x || !y || *x <= 0 || *y <= 0) continue;
-    const auto s =
-        static_cast<std::size_t>(std::ranges::find(series, series_of(table, row)) - series.begin());
-    of[picture_of(table, row)].points.push_back({*x, *y, s, row, table.text(row, "point")});
-  }
-  const auto most =
-      std::ranges::max_element(of, {}, [](const auto& plot) { return plot.second.points.size(); });
-  if (most == of.end()) return Ok{};
-  Plot& plot = most->second;
-  plot.x_label = std::string(cost) == "cells" ? "cells: LUTs (multipliers among them), flip-flops, memory"
-                                              : "clocks of the frame";
-  plot.y_label = "rms error, steps of 1/255";
-  plot.front = lower_left(plot.points);
-  plot.legend = series;
-  const auto svg = draw_plot(plot, page.scratch);
-  if (!svg) return svg.error();
-  return write_file(page.settings.page.parent_path() / "front.svg", *svg);
 }
 
 }  // namespace
@@ -225,7 +173,9 @@ Status add_study(Page& page) {
                  "pixels seen to differ", "Mach bands, rms"},
                 rows);
   page.parts["study"] = html + "</details>\n";
-  return write_front(page, *points, series);
+  const auto front = write_front(*points, page.settings.page.parent_path(), page.scratch);
+  if (!front) return front.error();
+  return Ok{};
 }
 
 }  // namespace halfway::report

@@ -30,6 +30,21 @@ std::optional<std::vector<std::string>> values_of(std::string_view line) {
   return values;
 }
 
+std::string line_of(const std::vector<std::string>& values) {
+  std::string line;
+  const char* before = "";
+  for (std::string value : values) {
+    if (value.find_first_of(",\"") != std::string::npos) {
+      for (std::size_t at = 0; (at = value.find('"', at)) != std::string::npos; at += 2)
+        value.insert(at, 1, '"');
+      value = '"' + value + '"';
+    }
+    line += before + value;
+    before = ",";
+  }
+  return line + "\n";
+}
+
 }  // namespace
 
 const std::string& Table::text(std::size_t row, const std::string& column) const {
@@ -68,6 +83,12 @@ Result<Table> read_csv(const std::filesystem::path& path) {
   }
   if (table.columns.empty()) return bad_input(path.string() + ":1: names no columns; make the table anew");
   return table;
+}
+
+std::string to_csv(const Table& table) {
+  std::string text = line_of(table.columns);
+  for (const std::vector<std::string>& row : table.rows) text += line_of(row);
+  return text;
 }
 
 }  // namespace halfway::report

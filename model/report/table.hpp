@@ -24,5 +24,7 @@ struct Table {
 /// Values may stand between double quotes, and hold commas then; a quote in them is two. Lines end in one
 /// '\n' or '\r\n'. An error names file and line.
 Result<Table> read_csv(const std::filesystem::path& path);
+/// What `read_csv` reads as the same table.
+std::string to_csv(const Table& table);
 
 }  // namespace halfway::report

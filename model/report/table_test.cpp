@@ -33,6 +33,14 @@ TEST_F(TableTest, ReadsQuotedValues) {
   EXPECT_EQ(table->text(1, "none"), "");
 }
 
+TEST_F(TableTest, WritesWhatItReads) {
+  const Table table{{"name", "n"}, {{"", ""}, {"a, \"b\"", "1"}, {"\"", "inf"}}};
+  const auto again = read(to_csv(table));
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->columns, table.columns);
+  EXPECT_EQ(again->rows, table.rows);
+}
+
 TEST_F(TableTest, TellsTheLineThatIsWrong) {
   EXPECT_THAT(read("a,b\n1,2\n1,2,3\n").error().message, HasSubstr("t.csv:3: has 3 values"));
   EXPECT_THAT(read("a,b\n\"1,2\n").error().message, HasSubstr("t.csv:2: "));

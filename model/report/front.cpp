@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/front.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "common/file.hpp"
+
+namespace halfway::report {
+namespace {
+
+constexpr const char* c_cells = "cells";
+constexpr const char* c_cycles = "cycles";
+
+// Those of a study's table that the front keeps.
+constexpr std::array c_columns = {
+    "scene",  "scene_hash",   "tools",    "point", "method", "preset",     "address_bits",  "data_bits",
+    "form",   "threshold",    "exponent", "width", "height", "angle_bits", "fraction_bits", "seed_bits",
+    "newton", "tessellation", "hardware", c_cells, c_cycles, "rms",        "largest_error", "psnr_db"};
+
+bool is_hardware(const Table& table, std::size_t row) {
+  return !table.text(row, "hardware").empty();
+}
+
+// Error against cells, or where they were not counted against clocks.
+Plot plot_of(const Table& front) {
+  bool counted = true;
+  for (std::size_t row = 0; row < front.rows.size(); ++row)
+    counted = counted && (!is_hardware(front, row) || front.number(row, c_cells));
+  Plot plot{
+      .x_label = counted ? "cells: LUTs (multipliers among them), flip-flops, memory" : "clocks of the frame",
+      .y_label = "rms error, steps of 1/255"};
+  for (std::size_t row = 0; row < front.rows.size(); ++row) {
+    const std::string series = series_of(front, row);
+    const auto found = std::ranges::find(plot.legend, series);
+    const auto number = static_cast<std::size_t>(found - plot.legend.begin());
+    if (found == plot.legend.end()) plot.legend.push_back(series);
+    const auto x = front.number(row, counted ? c_cells : c_cycles), y = front.number(row, "rms");
+    if (!is_hardware(front, row) || !x || !y || *x <= 0 || *y <= 0) continue;
+    plot.points.push_back({*x, *y, number, row, front.text(row, "point")});
+  }
+  plot.front = lower_left(plot.points);
+  return plot;
+}
+
+}  // namespace
+
+std::string series_of(const Table& table, std::size_t row) {
+  const std::string& method = table.text(row, "method");
+  const std::string& preset = table.text(row, "preset");
+  if (preset.empty()) return method + " (software)";
+  const std::string& form = table.text(row, "form");
+  return method + (preset == "exact" ? "" : ", " + preset) + (form == "folded" ? ", folded" : "");
+}
+
+std::string picture_of(const Table& table, std::size_t row) {
+  std::string text;
+  for (const char* column : {"scene_hash", "tessellation", "exponent", "width", "height"})
+    text += table.text(row, column) + " ";
+  return text;
+}
+
+std::vector<std::pair<double, double>> lower_left(const std::vector<PlotPoint>& points) {
+  std::vector<std::pair<double, double>> sorted, front;
+  for (const PlotPoint& point : points) sorted.emplace_back(point.x, point.y);
+  std::ranges::sort(sorted);
+  for (const auto& point : sorted)
+    if (front.empty() || point.second < front.back().second) front.push_back(point);
+  return front;
+}
+
+Table front_of(const Table& study) {
+  std::map<std::string, std::size_t> designs;
+  for (std::size_t row = 0; row < study.rows.size(); ++row)
+    if (is_hardware(study, row)) ++designs[picture_of(study, row)];
+  const auto most = std::ranges::max_element(designs, {}, [](const auto& of) { return of.second; });
+  Table front{{c_columns.begin(), c_columns.end()}, {}};
+  for (std::size_t row = 0; most != designs.end() && row < study.rows.size(); ++row) {
+    if (picture_of(study, row) != most->first) continue;
+    std::vector<std::string>& values = front.rows.emplace_back();
+    for (const char* column : c_columns) values.push_back(study.text(row, column));
+  }
+  return front;
+}
+
+Result<std::string> draw_front(const Table& front, const std::filesystem::path& scratch) {
+  const Plot plot = plot_of(front);
+  if (plot.points.empty()) return bad_input("front: no design has both a cost and an error to plot");
+  return draw_plot(plot, scratch);
+}
+
+Result<std::size_t> write_front(const Table& study, const std::filesystem::path& folder,
+                                const std::filesystem::path& scratch) {
+  const Table front = front_of(study);
+  const std::size_t designs = plot_of(front).points.size();
+  if (designs == 0) return designs;
+  const auto svg = draw_front(front, scratch);
+  if (!svg) return svg.error();
+  if (!folder.empty())
+    if (Status made = make_folders(folder); !made) return made.error();
+  if (Status written = write_file(folder / "front.csv", to_csv(front)); !written) return written.error();
+  if (Status written = write_file(folder / "front.svg", *svg); !written) return written.error();
+  return designs;
+}
+
+}  // namespace halfway::report
