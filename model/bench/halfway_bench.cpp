@@ -306,20 +306,18 @@ std::vector<Series> growth_series() {
     Series series{
         fmt::format("Pixels, {} shader", to_string(shader)), "pixels",
         shader == Shader::quadratic
-            ? "`spheres`. The line is that of the drawing; setup depends on triangles, of which in "
-              "small frames "
-              "those without a pixel fall away."
-            : "`spheres`. The line is that of the drawing; setup depends on lines, which grow with "
-              "the root of "
-              "the pixels: a record each, for\nwhich it looks at every pixel of short ones. In small frames "
-              "a line has few pixels, and what it costs itself shows in the drawing, too.",
+            ? "A sphere of 990 triangles, of which every one in sight covers pixels in the smallest frame, "
+              "too. The line is that of the drawing."
+            : "The same sphere. The line is that of the drawing; setup depends on lines, which grow with "
+              "the root of the pixels: a record each, for\nwhich it looks at every pixel of short ones.",
         Fitted::drawing};
+    const Scene sphere = sphere_scene(1'000);
     for (const std::uint32_t side : {100U, 316U, 1000U, 2000U, 4000U})
       series.points.push_back({fmt::format("pixels/{}/{}", to_string(shader), side * side),
                                static_cast<double>(side) * side,
                                {side, side},
-                               key_of(builtin("spheres"), shader),
-                               [] { return builtin("spheres"); },
+                               key_of(sphere, shader),
+                               [=] { return sphere; },
                                side >= 4000   ? 7
                                : side >= 2000 ? 11
                                               : 31});

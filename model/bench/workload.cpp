@@ -80,9 +80,8 @@ Status draw_frame_here(const std::function<Scene()>& make_scene, FrameSize size,
     SceneStream stream(*setup, key, 1, {.ahead = false});
     StreamComparator comparator;
     FrameAssembler assembler(size, scene.background);
-    bool more = true;
-    while (more) {
-      Batch batch;
+    Batch batch;
+    for (bool more = true; more;) {
       more = stream.next(batch);
       auto golden = std::span<const Fragment>(batch.golden);
       Status added = Ok{};

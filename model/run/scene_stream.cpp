@@ -14,10 +14,10 @@
 namespace halfway {
 namespace {
 
-constexpr std::uint32_t c_least_batch = 64, c_first_batch = 1024, c_largest_batch = 8192;  // triangles
+constexpr std::uint32_t c_least_batch = 8, c_first_batch = 64, c_largest_batch = 8192;  // triangles
 constexpr std::uint32_t c_least_lines = 1, c_first_lines = 32;
-constexpr std::uint32_t c_most_chunk = 256;                   // units
-constexpr std::size_t c_batch_bytes = std::size_t{64} << 20;  // about what a batch should hold
+constexpr std::uint32_t c_most_chunk = 256;                  // units
+constexpr std::size_t c_batch_bytes = std::size_t{8} << 20;  // about what a batch should hold
 
 std::size_t bytes(const Batch& batch) {
   return batch.init_words.size() * sizeof(batch.init_words[0]) +
@@ -34,30 +34,34 @@ SceneStream::SceneStream(const Setup& setup, const HardwareKey& key, unsigned th
       options_(options),
       batch_units_(setup.units_are_lines() ? c_first_lines : c_first_batch) {
   setup_.append_prologue(prologue_, counts_);
-  prefetch();
+  prefetch({});
 }
 
 SceneStream::~SceneStream() {
   if (options_.ahead && ahead_.valid()) ahead_.wait();
 }
 
-void SceneStream::prefetch() {
+void SceneStream::prefetch(Batch room) {
   const std::uint32_t total = setup_.units();
   if (next_unit_ >= total) return;
   const std::uint32_t begin = next_unit_, end = std::min(total, begin + batch_units_);
   next_unit_ = end;
-  ahead_ = std::async(options_.ahead ? std::launch::async : std::launch::deferred,
-                      [this, begin, end] { return make(begin, end); });
+  ahead_ = std::async(
+      options_.ahead ? std::launch::async : std::launch::deferred,
+      [this, begin, end, room = std::move(room)]() mutable { return make(begin, end, std::move(room)); });
 }
 
 bool SceneStream::next(Batch& batch) {
-  if (!ahead_.valid()) return false;
+  if (!ahead_.valid()) {
+    batch = {};
+    return false;
+  }
   Work work = ahead_.get();
   if (bytes(work.batch) > c_batch_bytes)
     batch_units_ = std::max(setup_.units_are_lines() ? c_least_lines : c_least_batch, batch_units_ / 2);
   else if (bytes(work.batch) < c_batch_bytes / 4)
-    batch_units_ = std::min(c_largest_batch, batch_units_ * 2);
-  prefetch();
+    batch_units_ = std::min(c_largest_batch, batch_units_ * 4);
+  prefetch(std::move(batch));
   counts_ += work.counts;
   fault_ = fault_ || work.fault;
   setup_seconds_ += work.setup_seconds;
@@ -66,11 +70,15 @@ bool SceneStream::next(Batch& batch) {
   return true;
 }
 
-SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) const {
+SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batch room) const {
   // Small enough for all threads to have some.
-  const std::uint32_t chunk_units = std::clamp((end - begin) / (4 * threads_), 1U, c_most_chunk);
+  const std::uint32_t chunk_units =
+      threads_ == 1 ? end - begin : std::clamp((end - begin) / (4 * threads_), 1U, c_most_chunk);
   const std::size_t chunks = (end - begin + chunk_units - 1) / chunk_units;
   std::vector<Work> parts(chunks);
+  room.init_words.clear();
+  room.golden.clear();
+  parts[0].batch = std::move(room);
   std::atomic<std::size_t> next_chunk = 0;
   const auto work = [&] {
     const std::unique_ptr<GoldenModel> golden = options_.golden ? make_golden_model(key_) : nullptr;
@@ -94,6 +102,13 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end) cons
   };
   work_on_threads(static_cast<unsigned>(std::min<std::size_t>(threads_, chunks)), work);
   Work all = std::move(parts[0]);
+  std::size_t words = 0, fragments = 0;
+  for (const Work& part : parts) {
+    words += part.batch.init_words.size();
+    fragments += part.batch.golden.size();
+  }
+  all.batch.init_words.reserve(all.batch.init_words.size() + words);
+  all.batch.golden.reserve(all.batch.golden.size() + fragments);
   for (std::size_t i = 1; i < chunks; ++i) {
     Work& part = parts[i];
     all.batch.init_words.insert(all.batch.init_words.end(), part.batch.init_words.begin(),

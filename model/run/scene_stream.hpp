@@ -37,7 +37,7 @@ class SceneStream {
               const SceneStreamOptions& options = {});
   ~SceneStream();
 
-  /// The next batch; false after the last.
+  /// The next batch; false after the last, and none. What the batch before lay in is used again.
   bool next(Batch& batch);
   /// Of all batches taken so far.
   const SetupCounts& counts() const { return counts_; }
@@ -54,8 +54,8 @@ class SceneStream {
     double setup_seconds = 0, golden_seconds = 0;
     bool fault = false;
   };
-  Work make(std::uint32_t begin, std::uint32_t end) const;
-  void prefetch();
+  Work make(std::uint32_t begin, std::uint32_t end, Batch room) const;
+  void prefetch(Batch room);
 
   const Setup& setup_;
   HardwareKey key_;

@@ -24,6 +24,10 @@ constexpr double kShortestPart = 100;
 /// Fragments a thread, about, that are drawn before they are handed on: they stay in the processor's second
 /// cache.
 constexpr double kBatch = 64 * 1024;
+/// Large triangles: a lane has nothing to do while others end theirs, so there are to be a few for each, in
+/// memory if need be.
+constexpr std::size_t kTrianglesALane = 8;
+constexpr double kLargestBatch = 16 * kBatch;
 
 }  // namespace
 
@@ -33,7 +37,7 @@ struct LaneSimulator::Hardware {
   SharedLibrary library;
   unsigned init_bits = 0;
   std::size_t lanes = 0;
-  double fragments_per_vector = 25;  ///< in the batch before
+  double fragments_per_vector = 1000;  ///< in the batch before; many, so that the first one is small
   decltype(&halfway_lanes_run) run = nullptr;
   decltype(&halfway_lanes_fragments) fragments = nullptr;
   decltype(&halfway_lanes_cycles) cycles = nullptr;
@@ -124,12 +128,19 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
                           const OnDrawn& on_drawn) {
   State& s = *state_;
   const std::size_t words_per_vector = (s.init_bits + 31) / 32;
+  const std::size_t few_triangles = kTrianglesALane * s.lanes * s.threads.size();
   while (init_words.size() >= words_per_vector) {
-    const auto most = to_integer<std::size_t>(kBatch * static_cast<double>(s.threads.size()) /
-                                              (s.fragments_per_vector + 1)) +
-                      1;
+    const auto words_of = [&](double fragments) {  // about so many a thread
+      return (to_integer<std::size_t>(fragments * static_cast<double>(s.threads.size()) /
+                                      (s.fragments_per_vector + 1)) +
+              1) *
+             words_per_vector;
+    };
+    const std::size_t wanted = words_of(kBatch), most = words_of(kLargestBatch);
     std::size_t words = 0;
-    while (words < init_words.size() && words < most * words_per_vector) {
+    for (std::size_t triangles = 0;
+         words < init_words.size() && (words < wanted || (triangles < few_triangles && words < most));
+         ++triangles) {
       const std::size_t triangle = s.golden->group(init_words.subspan(words)) * words_per_vector;
       words = std::min(words + std::max(triangle, words_per_vector), init_words.size());
     }
