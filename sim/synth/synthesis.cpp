@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
-#include <map>
-#include <mutex>
+#include <functional>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
@@ -39,6 +37,23 @@ Result<std::string> run(Command command, const std::string& doing) {
                                  command.arguments.front(), end->how(), end->output, to_string(command)));
 }
 
+// The folder, filled by `make` where it is not there yet. Two who fill it at once do the same.
+Result<std::filesystem::path> kept(const std::filesystem::path& folder,
+                                   const std::function<Status(const std::filesystem::path&)>& make) {
+  if (std::filesystem::exists(folder)) return folder;
+  auto fresh = TemporaryFolder::make(folder.parent_path());
+  if (!fresh) return fresh.error();
+  if (Status made = make(fresh->path()); !made) return made.error();
+  if (Status moved = fresh->move_to(folder); !moved) return moved.error();
+  return folder;
+}
+
+Status run_yosys(const std::string& script, const std::filesystem::path& folder, const Design& design) {
+  const auto done = run({.arguments = {"yosys", "-q", "-p", script}, .working_folder = folder}, design.name);
+  if (!done) return done.error();
+  return Ok{};
+}
+
 std::string first_line(std::string_view text) {
   return std::string(text.substr(0, text.find('\n')));
 }
@@ -57,10 +72,6 @@ Result<std::string> netlist_of(const GhdlLibrary& library, const Design& design)
   const auto text = library.synthesize(design.entity, design.generics);
   if (!text) return text.error();
   return mend_netlist(*text);
-}
-
-std::string hash_of(const std::string& netlist, const Design& design) {
-  return ContentHash().add("netlist 1").add(design.entity).add(netlist).hex();
 }
 
 struct Port {
@@ -190,11 +201,6 @@ Result<CriticalPath> read_path(const json& path, const Registers& registers) {
 
 }  // namespace
 
-struct Synthesizer::Netlists {
-  std::mutex mutex;
-  std::map<std::string, std::string> texts;  // by entity and generics
-};
-
 Result<std::string> wrapper(std::string_view netlist, std::string_view top, unsigned most_inputs) {
   const auto ports = ports_of(netlist, top);
   if (!ports) return ports.error();
@@ -275,7 +281,7 @@ Result<Packing> read_packing(std::string_view said) {
 Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design) {
   const auto text = netlist_of(library, design);
   if (!text) return text.error();
-  return hash_of(*text, design);
+  return ContentHash().add("netlist 1").add(design.entity).add(*text).hex();
 }
 
 Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool place,
@@ -307,39 +313,17 @@ Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool plac
   return synthesizer;
 }
 
-Synthesizer::Synthesizer(GhdlLibrary library, std::filesystem::path cache)
-    : library_(std::move(library)), cache_(std::move(cache)), netlists_(std::make_shared<Netlists>()) {}
-
-// GHDL takes seconds, and each figure of a design asks for its netlist.
-Result<std::string> Synthesizer::netlist(const Design& design) const {
-  std::string key = design.entity;
-  for (const auto& [name, value] : design.generics) key += fmt::format(" {}={}", name, value);
-  {
-    const std::scoped_lock lock(netlists_->mutex);
-    if (const auto found = netlists_->texts.find(key); found != netlists_->texts.end()) return found->second;
-  }
-  auto text = netlist_of(library_, design);
-  if (!text) return text.error();
-  const std::scoped_lock lock(netlists_->mutex);
-  return netlists_->texts.emplace(std::move(key), std::move(*text)).first->second;
-}
-
 Result<std::filesystem::path> Synthesizer::synthesized(const Design& design, const std::string& family,
                                                        const std::string& script) const {
-  const auto text = netlist(design);
+  const auto text = netlist_of(library_, design);
   if (!text) return text.error();
   ContentHash hash;
   hash.add("synth 1").add(yosys_).add(script).add(*text);
-  const std::filesystem::path folder = cache_ / fmt::format("{}-{}-{}", design.name, family, hash.hex());
-  if (std::filesystem::exists(folder)) return folder;
-  auto fresh = TemporaryFolder::make(cache_);
-  if (!fresh) return fresh.error();
-  if (Status written = write_file(fresh->path() / "netlist.v", *text); !written) return written.error();
-  const auto done =
-      run({.arguments = {"yosys", "-q", "-p", script}, .working_folder = fresh->path()}, design.name);
-  if (!done) return done.error();
-  if (Status moved = fresh->move_to(folder); !moved) return moved.error();
-  return folder;
+  return kept(cache_ / fmt::format("{}-{}-{}", design.name, family, hash.hex()),
+              [&](const std::filesystem::path& fresh) -> Status {
+                if (Status written = write_file(fresh / "netlist.v", *text); !written) return written;
+                return run_yosys(script, fresh, design);
+              });
 }
 
 Result<std::filesystem::path> Synthesizer::ice40_folder(const Design& design) const {
@@ -379,20 +363,17 @@ Result<std::filesystem::path> Synthesizer::from_mapped(const Design& design, con
   if (!core) return core.error();
   ContentHash hash;
   hash.add("mapped 1").add(yosys_).add(script).add(around).add(core->filename().string());
-  const std::filesystem::path folder = cache_ / fmt::format("{}-{}-{}", design.name, kind, hash.hex());
-  if (std::filesystem::exists(folder)) return folder;
-  auto fresh = TemporaryFolder::make(cache_);
-  if (!fresh) return fresh.error();
-  std::error_code error;
-  std::filesystem::copy(*core / "mapped.il", fresh->path() / "mapped.il", error);
-  if (error) return tool_failed(fmt::format("{}: cannot be copied: {}", core->string(), error.message()));
-  if (!around.empty())
-    if (Status written = write_file(fresh->path() / "wrapper.v", around); !written) return written.error();
-  const auto done =
-      run({.arguments = {"yosys", "-q", "-p", script}, .working_folder = fresh->path()}, design.name);
-  if (!done) return done.error();
-  if (Status moved = fresh->move_to(folder); !moved) return moved.error();
-  return folder;
+  return kept(
+      cache_ / fmt::format("{}-{}-{}", design.name, kind, hash.hex()),
+      [&](const std::filesystem::path& fresh) -> Status {
+        std::error_code error;
+        std::filesystem::copy(*core / "mapped.il", fresh / "mapped.il", error);
+        if (error)
+          return tool_failed(fmt::format("{}: cannot be copied: {}", core->string(), error.message()));
+        if (!around.empty())
+          if (Status written = write_file(fresh / "wrapper.v", around); !written) return written;
+        return run_yosys(script, fresh, design);
+      });
 }
 
 // splitnets: Verilator takes a carry chain in one vector for a loop.
@@ -438,7 +419,7 @@ Result<Ecp5Cells> Synthesizer::ecp5(const Design& design) const {
 }
 
 Result<std::filesystem::path> Synthesizer::wrapped_folder(const Design& design) const {
-  const auto text = netlist(design);
+  const auto text = netlist_of(library_, design);
   if (!text) return text.error();
   const auto around = wrapper(*text, design.entity, kMostInputs);
   if (!around) return around.error();
@@ -459,9 +440,7 @@ std::vector<std::string> Synthesizer::nextpnr_arguments() const {
 }
 
 Result<std::string> Synthesizer::netlist_hash(const Design& design) const {
-  const auto text = netlist(design);
-  if (!text) return text.error();
-  return hash_of(*text, design);
+  return synth::netlist_hash(library_, design);
 }
 
 Result<Packing> Synthesizer::pack(const Design& design) const {
@@ -472,17 +451,16 @@ Result<Packing> Synthesizer::pack(const Design& design) const {
   hash.add("packed 1").add(nextpnr_).add(wrapped->filename().string());
   for (const std::string& argument : arguments) hash.add(argument);
   arguments.insert(arguments.end(), {"--pack-only", "--json", (*wrapped / "wrapped.json").string()});
-  const std::filesystem::path folder = cache_ / fmt::format("{}-packed-{}", design.name, hash.hex());
-  if (!std::filesystem::exists(folder)) {
-    auto fresh = TemporaryFolder::make(cache_);
-    if (!fresh) return fresh.error();
-    const auto said = run({.arguments = arguments, .working_folder = fresh->path()}, design.name);
-    if (!said) return said.error();
-    if (const auto read = read_packing(*said); !read) return read.error();
-    if (Status written = write_file(fresh->path() / "said", *said); !written) return written.error();
-    if (Status moved = fresh->move_to(folder); !moved) return moved.error();
-  }
-  const auto said = read_file(folder / "said");
+  const auto folder = kept(cache_ / fmt::format("{}-packed-{}", design.name, hash.hex()),
+                           [&](const std::filesystem::path& fresh) -> Status {
+                             const auto said =
+                                 run({.arguments = arguments, .working_folder = fresh}, design.name);
+                             if (!said) return said.error();
+                             if (const auto read = read_packing(*said); !read) return read.error();
+                             return write_file(fresh / "said", *said);
+                           });
+  if (!folder) return folder.error();
+  const auto said = read_file(*folder / "said");
   if (!said) return said.error();
   return read_packing(*said);
 }
@@ -498,23 +476,21 @@ Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const 
   hash.add("placed 1").add(nextpnr_).add(wrapped->filename().string());
   for (const std::string& argument : arguments) hash.add(argument);
   arguments.insert(arguments.end(), {"--json", net});
-  const std::filesystem::path folder = cache_ / fmt::format("{}-placed{}-{}", design.name, seed, hash.hex());
-  if (!std::filesystem::exists(folder)) {
-    auto fresh = TemporaryFolder::make(cache_);
-    if (!fresh) return fresh.error();
-    const Command command{.arguments = arguments, .working_folder = fresh->path(), .timeout = kPlaceTimeout};
-    const auto end = run_process(command, kInstallTools);
-    if (!end) return end.error();
-    // That there is no end is an answer, and so is too large, without a report.
-    if (end->timed_out) {
-      if (Status kept = write_file(fresh->path() / kNoEnd, ""); !kept) return kept.error();
-    } else if (!end->succeeded() && end->output.find(kTooLarge) == std::string::npos)
-      return tool_failed(fmt::format("{}: nextpnr-ice40 failed ({}):\n{}\n  while running: {}", design.name,
-                                     end->how(), end->output, to_string(command)));
-    if (Status moved = fresh->move_to(folder); !moved) return moved.error();
-  }
-  if (std::filesystem::exists(folder / kNoEnd)) return Placement{.seed = seed, .ended = false};
-  const auto report = read_file(folder / "report.json");
+  const auto folder =
+      kept(cache_ / fmt::format("{}-placed{}-{}", design.name, seed, hash.hex()),
+           [&](const std::filesystem::path& fresh) -> Status {
+             const Command command{.arguments = arguments, .working_folder = fresh, .timeout = kPlaceTimeout};
+             const auto end = run_process(command, kInstallTools);
+             if (!end) return end.error();
+             // That there is no end is an answer, and so is too large, without a report.
+             if (end->timed_out) return write_file(fresh / kNoEnd, "");
+             if (end->succeeded() || end->output.find(kTooLarge) != std::string::npos) return Ok{};
+             return tool_failed(fmt::format("{}: nextpnr-ice40 failed ({}):\n{}\n  while running: {}",
+                                            design.name, end->how(), end->output, to_string(command)));
+           });
+  if (!folder) return folder.error();
+  if (std::filesystem::exists(*folder / kNoEnd)) return Placement{.seed = seed, .ended = false};
+  const auto report = read_file(*folder / "report.json");
   if (!report) return Placement{.seed = seed};
   const auto text = read_file(net);
   if (!text) return text.error();

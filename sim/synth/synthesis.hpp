@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -98,8 +97,8 @@ class Synthesizer {
   Result<std::string> simulated(const Design& design) const;
 
  private:
-  Synthesizer(GhdlLibrary library, std::filesystem::path cache);
-  Result<std::string> netlist(const Design& design) const;
+  Synthesizer(GhdlLibrary library, std::filesystem::path cache)
+      : library_(std::move(library)), cache_(std::move(cache)) {}
   std::vector<std::string> nextpnr_arguments() const;
   /// Where Yosys has left what `script` makes of the netlist, netlist.v.
   Result<std::filesystem::path> synthesized(const Design& design, const std::string& family,
@@ -109,11 +108,9 @@ class Synthesizer {
   /// Where Yosys has left what `script` makes of mapped.il and, where it is not empty, wrapper.v.
   Result<std::filesystem::path> from_mapped(const Design& design, const std::string& kind,
                                             const std::string& script, const std::string& around) const;
-  struct Netlists;
   GhdlLibrary library_;
   std::filesystem::path cache_;
   std::string yosys_, nextpnr_, versions_;
-  std::shared_ptr<Netlists> netlists_;  ///< made so far
 };
 
 }  // namespace halfway::synth
