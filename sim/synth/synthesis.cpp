@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cinttypes>
+#include <csignal>
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
@@ -19,8 +21,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::chrono::minutes kTimeout{60};
-// A placement that ends takes a tenth of it; there are some of which the router makes none.
-constexpr std::chrono::minutes kPlaceTimeout{20};
 constexpr const char* kNoEnd = "no_end";
 constexpr unsigned kMostInputs = 256;  // flip-flops in front of a design
 constexpr int kFrequency = 200;        // MHz asked for: more than any design comes to
@@ -285,7 +285,7 @@ Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& desig
 }
 
 Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool place,
-                                      const std::vector<std::string>& more) {
+                                      const std::vector<std::string>& more, std::chrono::seconds place_time) {
   const auto tool = GhdlTool::find();
   if (!tool) return tool.error();
   auto yosys = run({.arguments = {"yosys", "-V"}}, "looking for yosys");
@@ -308,6 +308,7 @@ Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool plac
   Synthesizer synthesizer(std::move(*library), std::filesystem::absolute(folders.cache) / "synth");
   synthesizer.yosys_ = *yosys;
   synthesizer.nextpnr_ = nextpnr;
+  synthesizer.place_time_ = place_time;
   synthesizer.versions_ = fmt::format("GHDL {}, Yosys {}{}", version_of(tool->version), version_of(*yosys),
                                       nextpnr.empty() ? "" : ", nextpnr-ice40 " + version_of(nextpnr));
   return synthesizer;
@@ -465,6 +466,22 @@ Result<Packing> Synthesizer::pack(const Design& design) const {
   return read_packing(*said);
 }
 
+Result<std::string> Synthesizer::no_room(const Design& design) const {
+  const auto cells = ice40(design);
+  if (!cells) return cells.error();
+  // Each takes a logic cell, and some share one.
+  for (const auto& [what, count, most] : {std::tuple{"LUTs", cells->luts, kDeviceCells},
+                                          {"flip-flops", cells->flip_flops, kDeviceCells},
+                                          {"RAMs", cells->rams, kDeviceRams}})
+    if (count > most) return fmt::format("does not fit the HX8K: {} {} of {}", count, what, most);
+  const auto packing = pack(design);
+  if (!packing) return packing.error();
+  if (packing->cells_used > kMostPlaced)
+    return fmt::format("too full: {} of the HX8K's {} logic cells", packing->cells_used,
+                       packing->cells_there);
+  return std::string();
+}
+
 Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const {
   const auto wrapped = wrapped_folder(design);
   if (!wrapped) return wrapped.error();
@@ -475,15 +492,21 @@ Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const 
   ContentHash hash;
   hash.add("placed 1").add(nextpnr_).add(wrapped->filename().string());
   for (const std::string& argument : arguments) hash.add(argument);
-  arguments.insert(arguments.end(), {"--json", net});
+  // A limit of the processor's time, by a shell: a loaded machine's clock says nothing. Soft, for the signal
+  // that it comes with.
+  std::vector<std::string> limited = {"sh", "-c", "ulimit -c 0 && ulimit -S -t \"$0\" && exec \"$@\"",
+                                      std::to_string(place_time_.count())};
+  limited.insert(limited.end(), arguments.begin(), arguments.end());
+  limited.insert(limited.end(), {"--json", net});
+  hash.add(limited[3]);
   const auto folder =
       kept(cache_ / fmt::format("{}-placed{}-{}", design.name, seed, hash.hex()),
            [&](const std::filesystem::path& fresh) -> Status {
-             const Command command{.arguments = arguments, .working_folder = fresh, .timeout = kPlaceTimeout};
+             const Command command{.arguments = limited, .working_folder = fresh, .timeout = kTimeout};
              const auto end = run_process(command, kInstallTools);
              if (!end) return end.error();
              // That there is no end is an answer, and so is too large, without a report.
-             if (end->timed_out) return write_file(fresh / kNoEnd, "");
+             if (end->signal == SIGXCPU) return write_file(fresh / kNoEnd, "");
              if (end->succeeded() || end->output.find(kTooLarge) != std::string::npos) return Ok{};
              return tool_failed(fmt::format("{}: nextpnr-ice40 failed ({}):\n{}\n  while running: {}",
                                             design.name, end->how(), end->output, to_string(command)));

@@ -2,6 +2,7 @@
 // An entity through GHDL, Yosys and nextpnr: its cells on two FPGA families, its clock on an iCE40 HX8K.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -18,6 +19,11 @@ inline constexpr const char* kInstallTools = "apt-get install yosys nextpnr-ice4
 
 /// Logic cells of an HX8K, and of how many nextpnr 0.4's placers come to an end: not of 95 in 100.
 inline constexpr std::uint64_t kDeviceCells = 7680, kMostPlaced = kDeviceCells * 9 / 10;
+inline constexpr std::uint64_t kDeviceRams = 32;
+
+/// nextpnr's own, of all its threads: another load of the machine is no other answer. A placement that ends
+/// takes a tenth of it.
+inline constexpr std::chrono::seconds kPlaceTime{20 * 60};
 
 /// What is synthesized: an entity of rtl/, or of what `open` is given beside it.
 struct Design {
@@ -49,7 +55,7 @@ struct Placement {
   std::uint64_t cells_used = 0, cells_there = 0;  ///< logic cells with those of the wrapper
   double mhz = 0;                                 ///< 0 where it does not fit
   CriticalPath path{};
-  bool ended = true;  ///< false: nextpnr's router found no end
+  bool ended = true;  ///< false: nextpnr found no end within its time
   bool fits() const { return mhz > 0; }
 };
 
@@ -77,9 +83,11 @@ Result<Placement> read_placement(std::string_view report, std::string_view netli
 class Synthesizer {
  public:
   /// An error (exit code tool_failed) names what installs a missing tool. Without `place` nextpnr need not be
-  /// there. `more`: VHDL sources beside those of rtl/, under the project's root.
+  /// there. `more`: VHDL sources beside those of rtl/, under the project's root. A placement that takes more
+  /// than `place_time` has no end.
   static Result<Synthesizer> open(const SimulatorFolders& folders, bool place,
-                                  const std::vector<std::string>& more = {});
+                                  const std::vector<std::string>& more = {},
+                                  std::chrono::seconds place_time = kPlaceTime);
 
   /// Of GHDL, Yosys and nextpnr, for the page.
   const std::string& versions() const { return versions_; }
@@ -91,6 +99,8 @@ class Synthesizer {
   Result<Placement> place(const Design& design, unsigned seed) const;
   /// A matter of seconds, where a placement may be one of an hour.
   Result<Packing> pack(const Design& design) const;
+  /// Why an HX8K has no room for it, or too little for nextpnr's placers; empty where it can be placed.
+  Result<std::string> no_room(const Design& design) const;
   Result<std::string> netlist_hash(const Design& design) const;
   /// The design after synthesis for iCE40, in Verilog without modules: every cell as the model that Yosys has
   /// of it.
@@ -111,6 +121,7 @@ class Synthesizer {
   GhdlLibrary library_;
   std::filesystem::path cache_;
   std::string yosys_, nextpnr_, versions_;
+  std::chrono::seconds place_time_ = kPlaceTime;
 };
 
 }  // namespace halfway::synth

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is kept, and what has no room or no end: with stand-ins for Yosys and nextpnr, and GHDL itself
+// counted.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+#include "sim/synth/synthesis.hpp"
+
+namespace halfway::synth {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* c_entity = R"(library ieee;
+use ieee.std_logic_1164.all;
+
+entity wire is
+  generic (
+    g_bits : positive := 2
+  );
+  port (
+    clk  : in  std_logic;
+    word : in  std_logic_vector(g_bits - 1 downto 0);
+    same : out std_logic_vector(g_bits - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of wire is
+begin
+  same <= word;
+end architecture;
+)";
+constexpr const char* c_yosys = R"(#!/bin/sh
+[ "$1" = -V ] && echo 'Yosys 0.23' && exit
+cp '{0}/cells.json' .
+echo >mapped.il
+echo '{{"modules": {{"wrapped": {{"cells": {{}}, "netnames": {{}}}}}}}}' >wrapped.json
+)";
+// Seed 2 has no end.
+constexpr const char* c_nextpnr = R"(#!/bin/sh
+[ "$1" = --version ] && echo 'nextpnr-ice40 (Version 0.4)' && exit
+case "$*" in
+  *--pack-only*) cat '{0}/packed' ; exit ;;
+  *'--seed 2 '*) echo 2 >>'{0}/placed' ; while : ; do : ; done ;;
+esac
+echo 1 >>'{0}/placed'
+echo '{{"utilization": {{"ICESTORM_LC": {{"used": 40, "available": 7680}}}}, "critical_paths": [],
+  "fmax": {{"clk": {{"achieved": 100}}}}}}' >report.json
+)";
+
+class SynthesizerTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (find_program("ghdl").empty()) GTEST_SKIP() << "no ghdl: " << kInstallGhdl;
+    auto folder = TemporaryFolder::make(fs::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    ASSERT_TRUE(make_folders(root() / "rtl"));
+    ASSERT_TRUE(make_folders(root() / "bin"));
+    ASSERT_TRUE(write_file(root() / "rtl/files.f", "wire.vhd\n"));
+    ASSERT_TRUE(write_file(root() / "rtl/wire.vhd", c_entity));
+    put("yosys", fmt::format(c_yosys, root().string()));
+    put("nextpnr-ice40", fmt::format(c_nextpnr, root().string()));
+    ::setenv("PATH", ((root() / "bin").string() + ":" + path_).c_str(), 1);
+    tell("\"SB_LUT4\": 30, \"SB_DFF\": 4", 40);
+  }
+  void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
+
+  fs::path root() const { return folder_->path(); }
+  void put(const char* name, const std::string& text) const {
+    ASSERT_TRUE(write_file(root() / "bin" / name, text));
+    fs::permissions(root() / "bin" / name, fs::perms::all);
+  }
+  // What the stand-ins come to from now on.
+  void tell(const std::string& cells, int packed) const {
+    ASSERT_TRUE(write_file(root() / "cells.json",
+                           fmt::format("{{\"design\": {{\"num_cells_by_type\": {{{}}}}}}}", cells)));
+    ASSERT_TRUE(
+        write_file(root() / "packed", fmt::format("Info: \t ICESTORM_LC:  {}/ 7680    1%\n", packed)));
+    std::error_code none;
+    fs::remove_all(root() / "cache/synth", none);
+  }
+  std::size_t lines(const char* log) const {
+    const auto text = read_file(root() / log);
+    return text ? static_cast<std::size_t>(std::ranges::count(*text, '\n')) : 0;
+  }
+  Result<Synthesizer> open() const {
+    return Synthesizer::open({root(), root() / "cache"}, true, {}, std::chrono::seconds(1));
+  }
+  std::string no_room(const std::string& cells, int packed) const {
+    tell(cells, packed);
+    const auto synthesizer = open();
+    if (!synthesizer) return synthesizer.error().message;
+    const auto why = synthesizer->no_room(design_);
+    return why ? *why : why.error().message;
+  }
+
+  const std::string path_ = std::getenv("PATH");
+  const Design design_{.name = "wire", .entity = "wire", .generics = {{"g_bits", "3"}}};
+  std::optional<TemporaryFolder> folder_;
+};
+
+TEST_F(SynthesizerTest, APlacementWithoutAnEndIsToldAndKept) {
+  const auto synthesizer = open();
+  ASSERT_TRUE(synthesizer) << synthesizer.error().message;
+  for (int time = 0; time < 2; ++time) {
+    const auto first = synthesizer->place(design_, 1), second = synthesizer->place(design_, 2);
+    ASSERT_TRUE(first) << first.error().message;
+    ASSERT_TRUE(second) << second.error().message;
+    EXPECT_TRUE(first->ended);
+    EXPECT_EQ(first->mhz, 100.0);
+    EXPECT_FALSE(second->ended);
+    EXPECT_FALSE(second->fits());
+  }
+  EXPECT_EQ(lines("placed"), 2U);
+}
+
+TEST_F(SynthesizerTest, WhatHasNoRoomSaysWhy) {
+  EXPECT_EQ(no_room("\"SB_LUT4\": 7680, \"SB_RAM40_4K\": 32", 6912), "");
+  EXPECT_EQ(no_room("\"SB_LUT4\": 7681", 1), "does not fit the HX8K: 7681 LUTs of 7680");
+  EXPECT_EQ(no_room("\"SB_DFFE\": 7681", 1), "does not fit the HX8K: 7681 flip-flops of 7680");
+  EXPECT_EQ(no_room("\"SB_RAM40_4K\": 33", 1), "does not fit the HX8K: 33 RAMs of 32");
+  EXPECT_EQ(no_room("\"SB_LUT4\": 30", 6913), "too full: 6913 of the HX8K's 7680 logic cells");
+}
+
+}  // namespace
+}  // namespace halfway::synth
