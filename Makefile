@@ -65,7 +65,7 @@ help: ## this list
 	@echo '  TESTS      a regular expression: make test runs only the tests that match'
 	@echo '  JOBS       parallel compilations, tests and fuzzers       (default: all cores)'
 	@echo '  SECONDS, TARGET   make fuzz: for how long each (default: 60), and one target alone'
-	@echo '  DESIGN, SEEDS  make synth: only designs with this in their names; seeds of placement  (default: all, 5)'
+	@echo '  DESIGN, SEEDS  make synth: only designs with this in their names; seeds of placement  (default: all, 3)'
 	@echo '  PIN        1: make synth pins the figures in place of comparing'
 
 sim: program ## scenes through golden model, GHDL and Verilator: compare, write frames

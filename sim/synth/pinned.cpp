@@ -38,6 +38,7 @@ Result<Pins> read_pins(const std::filesystem::path& path) {
       return reader->at(
           "not a name, four numbers of cells, a clock and a netlist's hash; write it anew with make synth "
           "PIN=1");
+    pin.line = reader->line_number();
     if (!pins.emplace(name, pin).second) return reader->at("a second line of this name");
   }
   return pins;
@@ -60,30 +61,37 @@ Status write_pins(const std::filesystem::path& path, const Pins& pins, const std
   return write_file(path, text);
 }
 
-std::string compare(const std::string& name, const Pins& pins, const Ice40Cells& cells, double mhz) {
+std::string compare(const std::string& name, const Pins& pins, const Ice40Cells& cells,
+                    std::optional<double> mhz) {
+  const std::string how = fmt::format("make synth DESIGN={} PIN=1", name);
   const auto found = pins.find(name);
-  if (found == pins.end()) return fmt::format("{}: nothing is pinned; pin it with make synth PIN=1\n", name);
+  if (found == pins.end()) return fmt::format("{}: {}: nothing is pinned; {} pins it\n", kPins, name, how);
   const Pin& pin = found->second;
   std::string wrong;
+  const auto differs = [&](const std::string& what) {
+    wrong += fmt::format("{}:{}: {}: {}; {} pins what it is now\n", kPins, pin.line, name, what, how);
+  };
   const auto exactly = [&](const char* what, std::uint64_t is, std::uint64_t was) {
-    if (is != was) wrong += fmt::format("{}: {} {}, {} are pinned\n", name, is, what, was);
+    if (is != was) differs(fmt::format("{} {}, {} are pinned", is, what, was));
   };
   const auto about = [&](const char* what, std::uint64_t is, std::uint64_t was) {
     const auto slack =
         std::max(c_lut_slack, to_integer<std::uint64_t>(std::floor(c_lut_share * static_cast<double>(was))));
     if (is > was + slack || is + slack < was)
-      wrong +=
-          fmt::format("{}: {} {}, {} are pinned, and {} more or fewer may be\n", name, is, what, was, slack);
+      differs(fmt::format("{} {}, {} are pinned, and {} more or fewer may be", is, what, was, slack));
   };
   about("LUTs", cells.luts, pin.cells.luts);
   about("carries", cells.carries, pin.cells.carries);
   exactly("flip-flops", cells.flip_flops, pin.cells.flip_flops);
   exactly("RAMs", cells.rams, pin.cells.rams);
-  if (mhz > 0 && pin.mhz == 0) wrong += fmt::format("{}: {:.1f} MHz, and no clock is pinned\n", name, mhz);
-  if (mhz > 0 && pin.mhz > 0 && std::fabs(mhz - pin.mhz) > c_clock_share * pin.mhz)
-    wrong +=
-        fmt::format("{}: {:.1f} MHz, {:.1f} are pinned, and {:.0f} % {} is not within tolerance\n", name, mhz,
-                    pin.mhz, 100 * std::fabs(mhz / pin.mhz - 1), mhz < pin.mhz ? "slower" : "faster");
+  if (!mhz) return wrong;
+  if (*mhz > 0 && pin.mhz == 0)
+    differs(fmt::format("{:.1f} MHz, and no clock is pinned", *mhz));
+  else if (*mhz == 0 && pin.mhz > 0)
+    differs(fmt::format("no clock, {:.1f} MHz are pinned", pin.mhz));
+  else if (std::fabs(*mhz - pin.mhz) > c_clock_share * pin.mhz)
+    differs(fmt::format("{:.1f} MHz, {:.1f} are pinned, and {:.0f} % {} is not within tolerance", *mhz,
+                        pin.mhz, 100 * std::fabs(*mhz / pin.mhz - 1), *mhz < pin.mhz ? "slower" : "faster"));
   return wrong;
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "sim/synth/synthesis.hpp"
@@ -23,6 +24,7 @@ struct Pin {
   Ice40Cells cells;
   double mhz = 0;         ///< of the median seed; 0 where the design is not placed
   std::string netlist{};  ///< what the clock is of: Synthesizer::netlist_hash; empty: not known
+  std::size_t line = 0;   ///< of the file
 };
 using Pins = std::map<std::string, Pin>;
 
@@ -31,7 +33,9 @@ using Pins = std::map<std::string, Pin>;
 Result<Pins> read_pins(const std::filesystem::path& path);
 Status write_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions);
 
-/// What is wrong with a design's figures, a line each; empty where nothing is. `mhz` 0: not measured.
-std::string compare(const std::string& name, const Pins& pins, const Ice40Cells& cells, double mhz);
+/// What is wrong with a design's figures, a line each with the pin's place; empty where nothing is. `mhz`
+/// none: not measured; 0: not placed.
+std::string compare(const std::string& name, const Pins& pins, const Ice40Cells& cells,
+                    std::optional<double> mhz);
 
 }  // namespace halfway::synth

@@ -19,17 +19,21 @@ using ::testing::HasSubstr;
 constexpr Ice40Cells kCells{.luts = 200, .carries = 39, .flip_flops = 40, .rams = 1};
 
 TEST(SynthPins, SayWhatIsNotAsPinned) {
-  const Pins pins = {{"a", {kCells, 100}}};
+  const Pins pins = {{"a", {.cells = kCells, .mhz = 100, .line = 7}}, {"unplaced", {.cells = kCells}}};
   EXPECT_EQ(compare("a", pins, kCells, 100), "");
-  EXPECT_EQ(compare("a", pins, kCells, 0), "");  // not measured
+  EXPECT_EQ(compare("a", pins, kCells, {}), "");
+  EXPECT_EQ(compare("unplaced", pins, kCells, 0), "");
   EXPECT_THAT(compare("b", pins, kCells, 100), HasSubstr("nothing is pinned"));
   const auto with = [&](std::uint64_t luts, std::uint64_t carries, std::uint64_t flip_flops,
                         std::uint64_t rams) {
-    return compare("a", pins, {luts, carries, flip_flops, rams}, 0);
+    return compare("a", pins, {luts, carries, flip_flops, rams}, {});
   };
   EXPECT_EQ(with(206, 42, 40, 1), "");
   EXPECT_EQ(with(194, 36, 40, 1), "");
-  EXPECT_THAT(with(207, 39, 40, 1), HasSubstr("207 LUTs, 200 are pinned"));
+  EXPECT_EQ(
+      with(207, 39, 40, 1),
+      "tb/synth/pinned.txt:7: a: 207 LUTs, 200 are pinned, and 6 more or fewer may be; make synth DESIGN=a "
+      "PIN=1 pins what it is now\n");
   EXPECT_THAT(with(193, 39, 40, 1), HasSubstr("LUTs"));
   EXPECT_THAT(with(200, 43, 40, 1), HasSubstr("carries"));
   EXPECT_THAT(with(200, 39, 41, 1), HasSubstr("41 flip-flops, 40 are pinned"));
@@ -39,6 +43,8 @@ TEST(SynthPins, SayWhatIsNotAsPinned) {
   EXPECT_EQ(compare("a", pins, kCells, 107.5), "");
   EXPECT_THAT(compare("a", pins, kCells, 91.5), HasSubstr("slower"));
   EXPECT_THAT(compare("a", pins, kCells, 108.5), HasSubstr("faster"));
+  EXPECT_THAT(compare("a", pins, kCells, 0), HasSubstr("no clock, 100.0 MHz are pinned"));
+  EXPECT_THAT(compare("unplaced", pins, kCells, 100), HasSubstr("100.0 MHz, and no clock is pinned"));
 }
 
 TEST(SynthPins, ComeBackFromTheirFile) {
@@ -54,6 +60,7 @@ TEST(SynthPins, ComeBackFromTheirFile) {
   EXPECT_EQ(pins->at("a").mhz, 123.4);
   EXPECT_EQ(pins->at("a").netlist, hash);
   EXPECT_EQ(pins->at("b").netlist, "");
+  EXPECT_EQ(pins->at("b").line, pins->at("a").line + 1);
   EXPECT_EQ(pins->at("b").cells, (Ice40Cells{1, 2, 3, 4}));
   for (const std::string& wrong :
        std::initializer_list<std::string>{"a 1 2 3 4\n", "a 1 2 3 4 5 6\n", "a 1 2 3 4 5 " + hash + " 6\n",

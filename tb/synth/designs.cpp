@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "golden/processors_layout.hpp"
+#include "golden/formats.hpp"
 #include "plan/hardware_key.hpp"
 #include "tables/formats.hpp"
 
@@ -11,10 +11,6 @@ namespace halfway::synth {
 namespace {
 
 using Generics = std::vector<std::pair<std::string, std::string>>;
-
-constexpr const char* kLarge = "multipliers of LUTs alone would fill it";
-constexpr const char* kCrowded =
-    "95 % of the cells without the wrapper, and nextpnr 0.4's placers do not end";
 
 ListedDesign shader(const std::string& name, const HardwareKey& key) {
   return {.design = {.name = name, .entity = key.entity(), .generics = key.generics()}};
@@ -78,22 +74,15 @@ std::vector<ListedDesign> all_designs() {
     };
 
     all.push_back(shader("quadratic_shader_" + p, {.preset = preset}));
-    if (exact) {
-      all.back().placed = false;
-      all.back().without = kCrowded;
-    }
     all.push_back(shader("quadratic_shader_grey_" + p, {.preset = preset, .channels = 1}));
     all.push_back(shader("spherical_shader_" + p, spherical(preset, 3, exact ? 8 : 2, tables)));
     all.push_back(shader("spherical_shader_grey_" + p, spherical(preset, 1, exact ? 8 : 2, tables)));
-    for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
-      ListedDesign design =
-          shader(fmt::format("processors_shader_{}_{}", to_string(form), p), processors(preset, form));
-      design.placed = false;
-      design.without = kLarge;
-      all.push_back(std::move(design));
-    }
+    for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled})
+      all.push_back(
+          shader(fmt::format("processors_shader_{}_{}", to_string(form), p), processors(preset, form)));
 
     add("line_interpolator", {{"g_bits", of("intensity")}}, true);
+    add("part_interpolator", {{"g_bits", std::to_string(std::stoi(of("intensity")) / 2)}}, true);
     add("plane_interpolator", {{"g_bits", of("depth_sum")}, {"g_carries", exact ? "true" : "false"}}, true);
     const std::pair<std::string, std::string> split = {"g_split", "true"};
     add("z_interpolator", {is_exact, split}, true);
@@ -130,7 +119,8 @@ std::vector<ListedDesign> all_designs() {
     add("power", {is_exact});
     add("unit_vector", {is_exact, {"g_vector_bits", of("vector")}});
     add("spot_cone", {is_exact});
-    add("object_stage", {is_exact, {"g_bits", "64"}});
+    // The same in both presets; a token without what the stage hands on and does not read.
+    if (exact) add("object_stage", {{"g_bits", std::to_string(golden::Exact::c_pixel_header_bits)}});
     if (exact) add("shadow_counter", {});
     for (const char* entity : {"shading_processor", "unrolled_shading_processor"}) {
       const Generics light = {is_exact, {"g_directional", "1"}, {"g_light", "1"}};
@@ -138,8 +128,6 @@ std::vector<ListedDesign> all_designs() {
       add(entity, with(light, {{"g_kind", std::to_string(2)}}), false, "_specular");
     }
     add("shading_pipeline", {is_exact, {"g_directional", "1"}});
-    all.back().placed = false;
-    all.back().without = kLarge;
   }
   return all;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `make synth` synthesizes: shaders, every entity, and what bounds them.
+// What `make synth` synthesizes: shaders, every entity, and what bounds them. designs_test.cpp holds the list
+// against rtl/.
 #pragma once
 
 #include <string>
@@ -12,10 +13,8 @@ namespace halfway::synth {
 inline constexpr const char* kAccumulator = "tb/synth/accumulator.vhd";  ///< beside rtl/
 
 struct ListedDesign {
-  Design design;          ///< its name in the page and in the file of pinned figures
-  bool quick = false;     ///< a second or two of Yosys: in `make test` too
-  bool placed = true;     ///< else cells alone
-  std::string without{};  ///< why it is not placed
+  Design design;       ///< its name in the page and in the file of pinned figures
+  bool quick = false;  ///< a second or two of Yosys: in `make test` too
 };
 
 /// All of them, in the order of the page.

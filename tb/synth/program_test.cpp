@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// What halfway_synth says, and where: with stand-ins for Yosys and nextpnr.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+#include "designs.hpp"
+#include "sim/synth/pinned.hpp"
+
+namespace halfway::synth {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const fs::path c_source = HALFWAY_SOURCE_DIR;
+
+constexpr const char* c_yosys = R"(#!/bin/sh
+[ "$1" = -V ] && echo 'Yosys 0.23' && exit
+case "$*" in
+  *synth_ecp5*) echo '{"design": {"num_cells_by_type": {"LUT4": 24, "TRELLIS_FF": 24}}}' >cells.json ;;
+  *) echo '{"design": {"num_cells_by_type": {"SB_LUT4": 24, "SB_CARRY": 23, "SB_DFFSR": 24}}}' >cells.json ;;
+esac
+echo >mapped.il
+echo '{"modules": {"wrapped": {"cells": {}, "netnames": {}}}}' >wrapped.json
+)";
+// Seed 2 has no end: that is how a limit of the processor's time ends it.
+constexpr const char* c_nextpnr = R"(#!/bin/sh
+[ "$1" = --version ] && echo 'nextpnr-ice40 (Version 0.4)' && exit
+case "$*" in
+  *--pack-only*) echo 'Info: 	 ICESTORM_LC:  40/ 7680    1%' ; exit ;;
+  *'--seed 2 '*) kill -XCPU $$ ;;
+esac
+echo '{"utilization": {"ICESTORM_LC": {"used": 40, "available": 7680}}, "fmax": {"clk": {"achieved": 90}},
+  "critical_paths": [{"from": "posedge clk", "to": "posedge clk", "path": [
+  {"type": "routing", "delay": 1.0, "from": {"cell": "a", "port": "O"}, "to": {"cell": "b", "port": "I0"}}]}]}' >report.json
+)";
+
+struct Outcome {
+  int exit_status = -1;
+  std::string output, errors;
+};
+
+class SynthProgram : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (find_program("ghdl").empty()) GTEST_SKIP() << "no ghdl: " << kInstallGhdl;
+    auto folder = TemporaryFolder::make(fs::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    for (const char* name : {"bin", "tb/synth", "cache"}) ASSERT_TRUE(make_folders(root() / name));
+    fs::create_directory_symlink(c_source / "rtl", root() / "rtl");
+    fs::create_symlink(c_source / kAccumulator, root() / kAccumulator);
+    // The VHDL's check is GHDL's own, and takes longest.
+    ASSERT_TRUE(make_folders(c_source / "build/cache/ghdl"));
+    fs::create_directory_symlink(c_source / "build/cache/ghdl", root() / "cache/ghdl");
+    put("yosys", c_yosys);
+    put("nextpnr-ice40", c_nextpnr);
+    pin(90);
+    ASSERT_TRUE(write_file(page(), "# Page\n\n## Figures\n"));
+  }
+  fs::path root() const { return folder_->path(); }
+  fs::path page() const { return root() / "page.md"; }
+  void put(const char* name, const std::string& text) const {
+    ASSERT_TRUE(write_file(root() / "bin" / name, text));
+    fs::permissions(root() / "bin" / name, fs::perms::all);
+  }
+  void pin(double mhz) const {
+    ASSERT_TRUE(write_pins(root() / kPins, {{"accumulator_24", {.cells = {24, 23, 24, 0}, .mhz = mhz}}},
+                           "stand-ins"));
+  }
+  Outcome run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), HALFWAY_SYNTH);
+    arguments.insert(arguments.end(), {root().string(), (root() / "cache").string(), "accumulator_24"});
+    const std::string path = (root() / "bin").string() + ":" + std::getenv("PATH");
+    const auto end = run_process(
+        {.arguments = arguments, .standard_output = root() / "output", .environment = {{"PATH", path}}}, "");
+    if (!end) return {-1, "", end.error().message};
+    const auto output = read_file(root() / "output");
+    return {end->exit_status, output ? *output : "", end->output};
+  }
+
+  std::optional<TemporaryFolder> folder_;
+};
+
+TEST_F(SynthProgram, WritesTheRowAndTellsWhatHasNoEnd) {
+  const Outcome outcome = run({"--seeds", "3", "--page", page().string()});
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("accumulator_24, seed 2: nextpnr does not end"));
+  EXPECT_THAT(outcome.output, HasSubstr("0 of 1 designs are not as pinned"));
+  const auto text = read_file(page());
+  ASSERT_TRUE(text);
+  EXPECT_THAT(
+      *text,
+      HasSubstr("| `accumulator_24` | 24 | 23 | 24 | 0 | 90 | 90 to 90 of 2; nextpnr does not end: 1 |"));
+}
+
+TEST_F(SynthProgram, SaysOnStderrWhatIsNotAsPinnedAndWhere) {
+  pin(120);
+  const Outcome outcome = run({"--seeds", "1"});
+  EXPECT_EQ(outcome.exit_status, 1);
+  EXPECT_THAT(outcome.errors,
+              ::testing::StartsWith("tb/synth/pinned.txt:6: accumulator_24: 90.0 MHz, 120.0 are"));
+  EXPECT_THAT(outcome.output, HasSubstr("1 of 1 designs are not as pinned"));
+}
+
+TEST_F(SynthProgram, TellsABrokenToolOnStderrAndComparesNothing) {
+  put("yosys",
+      "#!/bin/sh\n[ \"$1\" = -V ] && echo 'Yosys 0.23' && exit\necho 'ERROR: a broken one' ; exit 1\n");
+  const Outcome outcome = run({"--quick", "--cells"});
+  EXPECT_EQ(outcome.exit_status, 3);
+  EXPECT_THAT(outcome.errors, HasSubstr("ERROR: a broken one"));
+  EXPECT_THAT(outcome.errors, HasSubstr("1 figures could not be had"));
+  EXPECT_THAT(outcome.output, Not(HasSubstr("broken")));
+  EXPECT_THAT(outcome.output, Not(HasSubstr("as pinned")));
+}
+
+}  // namespace
+}  // namespace halfway::synth
