@@ -23,6 +23,7 @@ struct Drawn {
   Shader shader;
   Preset preset;
   std::uint32_t stall_seed;  ///< 0: full speed
+  ProcessorForm form = ProcessorForm::unrolled;
 };
 void PrintTo(const Drawn& drawn, std::ostream* out) {
   *out << drawn.scene << ' ' << to_string(drawn.shader) << ' ' << to_string(drawn.preset);
@@ -36,7 +37,9 @@ TEST_P(MappedFrame, EqualsTheGoldenModels) {
   const SimulatorFolders folders{source, HALFWAY_CACHE_DIR};
   const auto scene = load_scene(GetParam().scene, source / "sim" / "scenes");
   ASSERT_TRUE(scene) << scene.error().message;
-  const auto plan = plan_scene(*scene, {.shader = GetParam().shader, .preset = GetParam().preset});
+  PlanRequest request{.shader = GetParam().shader, .preset = GetParam().preset};
+  if (request.shader == Shader::processors) request.form = GetParam().form;
+  const auto plan = plan_scene(*scene, request);
   ASSERT_TRUE(plan) << plan.error().message;
   const HardwareKey key = plan->key;
 
@@ -72,7 +75,9 @@ INSTANTIATE_TEST_SUITE_P(Whole, MappedFrame,
                          ::testing::Values(Drawn{"spheres", Shader::spherical, Preset::published, 0},
                                            Drawn{"spheres", Shader::spherical, Preset::exact, 7},
                                            Drawn{"spheres", Shader::quadratic, Preset::exact, 0},
-                                           Drawn{"spheres", Shader::quadratic, Preset::published, 0}));
+                                           Drawn{"spheres", Shader::quadratic, Preset::published, 0},
+                                           Drawn{"matte", Shader::processors, Preset::published, 7,
+                                                 ProcessorForm::folded}));
 
 }  // namespace
 }  // namespace halfway::synth
