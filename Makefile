@@ -117,8 +117,10 @@ diagrams: setup ## the shaders' block diagrams in rtl/diagrams, drawn from their
 	@for text in rtl/diagrams/*.dot; do dot -Tsvg "$$text" >build/diagram.svg && \
 	  mv build/diagram.svg "$${text%.dot}.svg" || exit 3; done
 
-gallery: program ## the pictures in sim/gallery, drawn anew by the RTL
+gallery: program ## the pictures in sim/gallery, drawn anew by the RTL; README.md's front, measured anew
 	@scripts/gallery.sh build/gallery
+	@build/halfway study --out build/gallery/study $(call option,THREADS,--threads)
+	@build/halfway report --study build/gallery/study --front sim/gallery
 
 tables: generator ## write ROMs and formats anew
 	@build/halfway_generator tables $(table_options)
@@ -192,10 +194,11 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs some packages more, and so
-# do `make plan MEASURE=1`, `make study PLACE=1`, `make synth`, `make prove`, `make bounds`, `make mutate`, `make fuzz`, `make sanitize`,
-# `make diagrams` and `make check-report`.
+# do `make study`, `make plan MEASURE=1`, `make synth`, `make prove`, `make bounds`, `make mutate`, `make fuzz`,
+# `make sanitize`, `make diagrams` and `make check-report`.
 setup:
-	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate synth,$(MAKECMDGOALS)) \
+	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate synth study,$(MAKECMDGOALS)) \
+	  $(if $(filter gallery,$(MAKECMDGOALS)),study) \
 	  $(if $(filter fuzz sanitize,$(MAKECMDGOALS)),fuzz) $(if $(filter check-report diagrams,$(MAKECMDGOALS)),report) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth)) \
 	  $(if $(filter study,$(MAKECMDGOALS)),$(call flag,PLACE,synth))
