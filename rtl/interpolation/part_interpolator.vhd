@@ -33,33 +33,49 @@ end entity;
 
 architecture rtl of part_interpolator is
 
-  type reg_t is record
-    value : unsigned(g_bits - 1 downto 0);
-    carry : std_logic;
-  end record;
+  subtype part_t is std_logic_vector(g_bits - 1 downto 0);
 
-  signal r : reg_t;
+  -- What is carried, and the part.
+  function sum_of (word, addend : part_t; carry : std_logic) return std_logic_vector is
+    variable sum     : unsigned(g_bits + 1 downto 0);
+    -- synthesis translate_off
+    variable bits    : part_t;
+    variable carried : std_logic;
+    -- synthesis translate_on
+  begin
+    -- Simulation alone: numeric_std's sum makes copies of copies, a third of a frame's instructions.
+    -- synthesis translate_off
+    carried := carry;
+    for bit in part_t'reverse_range loop
+      bits(bit) := word(bit) xor addend(bit) xor carried;
+      if word(bit) = addend(bit) then
+        carried := word(bit);
+      end if;
+    end loop;
+    return carried & bits;
+    -- synthesis translate_on
+    -- The carry comes in through a bit below, so that one sum takes it. The highest bit cancels: so a cell of the sum's
+    -- own, and none behind it, gives what is carried.
+    sum := (word(g_bits - 1) & unsigned(word) & '1') + ('0' & unsigned(addend) & carry);
+    return (sum(g_bits + 1) xor word(g_bits - 1)) & std_logic_vector(sum(g_bits downto 1));
+  end function;
 
 begin
 
-  -- One clocked process, as in line_interpolator. The carry comes in through a bit below, so that one sum takes it.
+  -- One clocked process, as in line_interpolator, and the ports are the registers: a copy would cost a simulator as much.
   registers : process (clk)
-    variable sum : unsigned(g_bits + 1 downto 0);
+    variable sum : std_logic_vector(g_bits downto 0);
   begin
     if rising_edge(clk) then
       if load = '1' then
-        r.value <= unsigned(start);
-        r.carry <= '0'; -- nobody asks; so that neither register changes but where the part loads or steps
+        value     <= start;
+        carry_out <= '0'; -- nobody asks; so that neither register changes but where the part loads or steps
       elsif step = '1' then
-        -- The highest bit cancels: so a cell of the sum's own, and none behind it, gives what is carried.
-        sum := (r.value(g_bits - 1) & r.value & '1') + ('0' & unsigned(increment) & carry_in);
-        r.value <= sum(g_bits downto 1);
-        r.carry <= sum(g_bits + 1) xor r.value(g_bits - 1);
+        sum := sum_of(value, increment, carry_in);
+        value     <= sum(g_bits - 1 downto 0);
+        carry_out <= sum(g_bits);
       end if;
     end if;
   end process;
-
-  value     <= std_logic_vector(r.value);
-  carry_out <= r.carry;
 
 end architecture;

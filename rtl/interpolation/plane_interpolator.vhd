@@ -5,9 +5,9 @@
 --               v(x + q,     y + 1) = v(x, y) + de0    where the edge's remainder does not carry
 --               v(x + q + 1, y + 1) = v(x, y) + de1    where it does
 --               v(x +- 1,    y)     = v(x, y) + dx     the sign is the span's direction
+-- Contract    with g_split the upper halves of the plane's words stand still in the clock behind line_load too
 -- Formats     plane: value, dx, de0 and, with g_carries, de1, the first lowest, g_bits each, signed; sums wrap, the value
 --             at a covered pixel fits
--- Contract    with g_split the upper halves of the plane's words stand still in the clock behind line_load too
 -- Latency     1 clock from a load or step to its value, with g_split 2
 -- Throughput  1 line and 1 pixel a clock
 -- Error       each word half a unit off, so the value (1 + lines + steps)/2 units at most: see plane_sum and depth_sum

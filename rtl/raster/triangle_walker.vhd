@@ -128,7 +128,6 @@ architecture rtl of triangle_walker is
 
   signal draws     : std_logic; -- the line stage holds a line that covers a pixel
   signal ends      : std_logic; -- the span stage's pixel is its span's last, or there is none
-  signal next_x    : span_x_t;
   signal moves     : std_logic; -- the line that the line stage holds need not wait, or there is none
   signal edge_load : std_logic; -- read the init vector
   signal edge_step : std_logic; -- hand the line on, and go to the next one
@@ -141,8 +140,6 @@ begin
   init_upper_lines <= unsigned(init(c_init.upper_lines.high downto c_init.upper_lines.low));
 
   init_none <= '1' when init_upper_lines = 0 else '0';
-
-  next_x <= r.span.x - 1 when r.span.backward = '1' else r.span.x + 1;
 
   -- While a fragment waits all stages stand: so what moves hangs on registers, and on few.
   draws <= r.line.valid and not r.line.more(more_t'high);
@@ -178,7 +175,11 @@ begin
       pixels := r.line.more;
     end if;
     if fragment_ready = '1' then
-      v.span.x := next_x;
+      if r.span.backward = '1' then
+        v.span.x := r.span.x - 1;
+      else
+        v.span.x := r.span.x + 1;
+      end if;
       if ends = '1' then
         v.span.valid    := begins;
         v.span.triangle := r.line.triangle;

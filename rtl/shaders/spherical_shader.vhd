@@ -556,7 +556,9 @@ begin
         if rising_edge(clk) then
           later <= early & later(1);
           if reset = '1' then
-            later <= (others => (others => '0'));
+            for clocks in probes_t'range loop
+              later(clocks)(c_probe.product_event.low downto c_probe.line_event.low) <= (others => '0');
+            end loop;
           end if;
         end if;
       end process;

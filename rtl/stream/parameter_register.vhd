@@ -25,25 +25,17 @@ end entity;
 
 architecture rtl of parameter_register is
 
-  type reg_t is record
-    value : std_logic_vector(g_bits - 1 downto 0);
-  end record;
-
-  signal r : reg_t;
-
 begin
 
   -- Nothing to compute: the one clocked process is all. Its enable keeps wide words from costing a simulator anything in
-  -- the clocks in which they stand still.
+  -- the clocks in which they stand still, and so does the port that is the register itself.
   registers : process (clk)
   begin
     if rising_edge(clk) then
       if load = '1' then
-        r.value <= start;
+        value <= start;
       end if;
     end if;
   end process;
-
-  value <= r.value;
 
 end architecture;

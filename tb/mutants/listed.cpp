@@ -94,8 +94,8 @@ constexpr Listed c_listed[] = {
     {"stream/stream_queue.vhd", "if v.claimed = c_most then", "if r.claimed = c_most then"},
     {"stream/stream_queue.vhd", "v.claimed   := (others => '0')", "v.claimed   := r.claimed"},
     // A carry lost, and one that comes too high.
-    {"interpolation/part_interpolator.vhd", "unsigned(increment) & carry_in", "unsigned(increment) & '0'"},
-    {"interpolation/part_interpolator.vhd", "sum(g_bits + 1) xor r.value(g_bits - 1)", "sum(g_bits)"},
+    {"interpolation/part_interpolator.vhd", "carried := carry;", "carried := '0';"},
+    {"interpolation/part_interpolator.vhd", "return carried & bits", "return bits(part_t'high) & bits"},
     // The wrong sign; step wins over load.
     {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
     {"interpolation/line_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '0' then"},

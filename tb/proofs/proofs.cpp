@@ -577,10 +577,10 @@ std::vector<Proof> all_proofs() {
       {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
       {"interpolation/quadratic_interpolator.vhd", "increment => dx_step", "increment => dxx"},
       {"interpolation/quadratic_interpolator.vhd", "start     => part_dx", "start     => dxx"},
-      {"interpolation/part_interpolator.vhd", "unsigned(increment)", "unsigned(not increment)"},
+      {"interpolation/part_interpolator.vhd", "unsigned(addend)", "unsigned(not addend)"},
   };
   const std::vector<Fault> split_faults = {
-      {"interpolation/part_interpolator.vhd", "sum(g_bits + 1) xor r.value(g_bits - 1)", "sum(g_bits)"},
+      {"interpolation/part_interpolator.vhd", "sum(g_bits + 1) xor word(g_bits - 1)", "sum(g_bits)"},
       {"interpolation/quadratic_interpolator.vhd", "span_steps(1)   <= span_step",
        "span_steps(1)   <= span_load"},
       {"interpolation/quadratic_interpolator.vhd", "carry_in  => carries(span_dx)(part)",
