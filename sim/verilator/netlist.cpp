@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -80,6 +81,29 @@ std::string without_comments(std::string_view line) {
 Error refuse(std::size_t line_number, std::string_view line, std::string_view what) {
   return tool_failed(
       fmt::format("netlist.v:{}: {}; write the RTL without it: {}", line_number, what, trim(line)));
+}
+
+/// Of a binary constant; nothing where it is none.
+std::optional<std::string> constant_part(std::string_view text, unsigned high, unsigned low) {
+  const auto width = take_number(text);
+  if (!width || !take(text, "'b") || text.size() != *width || high >= *width) return std::nullopt;
+  if (text.find_first_not_of("01x") != std::string_view::npos) return std::nullopt;
+  return fmt::format("{}'b{}", high - low + 1, text.substr(*width - 1 - high, high - low + 1));
+}
+
+/// Calls `f` with each name in the text; digits behind a constant's base are none.
+template <class F>
+void for_each_name(std::string_view text, F&& f) {
+  while (!text.empty()) {
+    const bool constant = text.front() >= '0' && text.front() <= '9';
+    const std::string_view name = take_name(text);
+    if (constant && take(text, "'")) take_name(text);
+    if (name.empty()) {
+      text.remove_prefix(1);
+    } else if (!constant) {
+      f(std::string(name));
+    }
+  }
 }
 
 // A module of the netlist, as far as it is understood: GHDL writes one statement a line.
@@ -154,6 +178,7 @@ class Module {
     return parts;
   }
 
+  const std::map<std::string, std::string, std::less<>>& assigns() const { return assigns_; }
   const std::string* expression_of(const std::string& name) const {
     const auto found = assigns_.find(name);
     return found == assigns_.end() ? nullptr : &found->second;
@@ -184,12 +209,42 @@ class Module {
     return slice;
   }
 
+  /// Of what `text` names, the bits that `slice` has of as wide a wire.
+  std::optional<Slice> part_of(std::string_view text, const Slice& slice) const {
+    const auto whole = to_slice(text);
+    if (!whole || whole->width() != width(slice.name)) return std::nullopt;
+    return Slice{whole->name, whole->low + slice.high, whole->low + slice.low};
+  }
+
+  /// The bits of a constant, or of one among parts that are put together.
+  std::optional<std::string> constant_at(const Slice& slice) const {
+    const std::string* expression = expression_of(slice.name);
+    if (expression == nullptr) return std::nullopt;
+    unsigned low = 0;
+    for (const Part& part : to_parts(*expression)) {
+      if (slice.low >= low && slice.high < low + part.width)
+        return constant_part(part.text, slice.high - low, slice.low - low);
+      low += part.width;
+    }
+    return constant_part(*expression, slice.high, slice.low);
+  }
+
+  /// An element of what is no plain signal.
+  bool reads_memory(std::string_view text) const {
+    const std::string name(take_name(text));
+    return !name.empty() && !width(name) && text.substr(0, 1) == "[";
+  }
+
   std::string to_text(const Slice& slice) const {
     const unsigned whole = *width(slice.name);
     if (slice.low == 0 && slice.high == whole - 1) return slice.name;
     if (slice.high == slice.low) return fmt::format("{}[{}]", slice.name, slice.low);
     return fmt::format("{}[{}:{}]", slice.name, slice.high, slice.low);
   }
+
+  /// A slice by where its bits come from: of a choice it is the choice of slices, of parts those that it
+  /// meets.
+  std::string straight(const std::string& expression) const;
 
  private:
   std::map<std::string, unsigned, std::less<>> widths_;
@@ -215,6 +270,36 @@ std::optional<Choice> to_choice(std::string_view expression) {
   return choice;
 }
 
+std::string Module::straight(const std::string& expression) const {
+  const auto slice = to_slice(expression);
+  if (!slice) return expression;
+  const Slice from = origin(*slice);
+  const std::string* known = expression_of(from.name);
+  if (known == nullptr || from.width() == width(from.name)) return to_text(from);
+  if (const auto choice = to_choice(*known)) {
+    const auto then_part = part_of(choice->then_value, from), else_part = part_of(choice->else_value, from);
+    if (!then_part || !else_part) return to_text(from);
+    return fmt::format("{} ? {} : {}", choice->condition, to_text(origin(*then_part)),
+                       to_text(origin(*else_part)));
+  }
+  std::string joined;
+  unsigned low = 0;
+  for (const Part& part : to_parts(*known)) {
+    const unsigned begin = std::max(low, from.low), end = std::min(low + part.width, from.high + 1);
+    if (begin < end) {
+      const auto inner = to_slice(part.text);
+      const auto constant = constant_part(part.text, end - 1 - low, begin - low);
+      if (!inner && !constant) return to_text(from);
+      const std::string text =
+          inner ? to_text(origin({inner->name, inner->low + end - 1 - low, inner->low + begin - low}))
+                : *constant;
+      joined = joined.empty() ? text : text + ", " + joined;
+    }
+    low += part.width;
+  }
+  return joined.empty() ? to_text(from) : '{' + joined + '}';
+}
+
 /// What a register does at the clock edge: nothing, `q <= value`, or one or the other by a condition.
 struct Update {
   enum class Kind { hold, load, choose } kind = Kind::load;
@@ -228,44 +313,184 @@ struct Update {
 
 constexpr int kMostChoices = 6;  ///< deep: a value deeper than this is loaded as it is
 
-Update update_of(const Module& module, const std::string& value, const Slice& target, int depth = 0) {
-  const auto slice = module.to_slice(value);
-  if (!slice) return {Update::Kind::load, value, {}};
-  const Slice from = module.origin(*slice);
+Update update_of(const Module& module, const Slice& value, const Slice& target, Wires wires, int depth = 0) {
+  const Slice from = module.origin(value);
   if (from == target) return {Update::Kind::hold, {}, {}};
   Update load{Update::Kind::load, module.to_text(from), {}};
   const std::string* expression = module.expression_of(from.name);
-  if (expression == nullptr || from.low != 0 || from.width() != module.width(from.name)) return load;
+  if (expression == nullptr) return load;
+  if (auto constant = module.constant_at(from)) return {Update::Kind::load, std::move(*constant), {}};
   // In place of the wire stands what it is assigned, in the same width: worked out only where it is loaded.
-  load.text = *expression;
-  if (depth == kMostChoices) return load;
+  const bool whole = from.width() == module.width(from.name);
+  if (!whole) {
+    load.text = module.straight(load.text);
+  } else if (wires == Wires::outside || depth == 0) {
+    load.text = *expression;
+  }
   const auto choice = to_choice(*expression);
-  if (!choice) return load;
+  if (depth == kMostChoices || !choice) return load;
   Update update{Update::Kind::choose, choice->condition, {}};
-  update.branches.push_back(update_of(module, choice->then_value, target, depth + 1));
-  update.branches.push_back(update_of(module, choice->else_value, target, depth + 1));
-  return update.can_hold() ? update : load;
+  for (const std::string* branch : {&choice->then_value, &choice->else_value}) {
+    if (const auto part = module.part_of(*branch, from)) {
+      update.branches.push_back(update_of(module, *part, target, wires, depth + 1));
+    } else if (auto constant = constant_part(*branch, from.high, from.low)) {
+      update.branches.push_back({Update::Kind::load, std::move(*constant), {}});
+    } else {
+      return load;
+    }
+  }
+  const bool reads_memory =
+      std::any_of(update.branches.begin(), update.branches.end(),
+                  [&](const Update& branch) { return module.reads_memory(branch.text); });
+  return wires == Wires::inside || reads_memory || update.can_hold() ? update : load;
 }
 
-std::string to_statement(const Update& update, const std::string& target) {
-  switch (update.kind) {
-    case Update::Kind::hold:
-      return ";";
-    case Update::Kind::load:
-      return fmt::format("{} <= {};", target, update.text);
-    case Update::Kind::choose:
-      break;
+// What the registers do, as text: choices by their conditions, what is loaded under each, and before it the
+// wires that nothing else asks for.
+
+struct Block {
+  struct Choice {
+    std::string condition;
+    std::vector<Block> branches;  ///< then, else
+  };
+  std::vector<std::string> wires;
+  std::vector<Choice> choices;
+  std::vector<std::pair<std::string, std::string>> loads;  ///< register, value
+};
+
+void add(Block& block, const Update& update, const std::string& target) {
+  if (update.kind == Update::Kind::load) block.loads.emplace_back(target, update.text);
+  if (update.kind != Update::Kind::choose) return;
+  auto choice = std::find_if(block.choices.begin(), block.choices.end(),
+                             [&](const Block::Choice& known) { return known.condition == update.text; });
+  if (choice == block.choices.end()) choice = block.choices.insert(choice, {update.text, {{}, {}}});
+  for (std::size_t i = 0; i < 2; ++i) add(choice->branches[i], update.branches[i], target);
+}
+
+std::string to_text(const Module& module, const Block& block) {
+  std::string text;
+  for (const std::string& wire : block.wires)
+    text += fmt::format("{} = {}; ", wire, *module.expression_of(wire));
+  for (const auto& [condition, branches] : block.choices) {
+    const std::string then_text = to_text(module, branches[0]), else_text = to_text(module, branches[1]);
+    if (then_text.empty()) {
+      if (!else_text.empty()) text += fmt::format("if (!{}) begin {}end ", condition, else_text);
+      continue;
+    }
+    text += fmt::format("if ({}) begin {}end ", condition, then_text);
+    if (!else_text.empty()) text += fmt::format("else begin {}end ", else_text);
   }
-  const Update &then_update = update.branches[0], &else_update = update.branches[1];
-  if (then_update.kind == Update::Kind::hold) {
-    return fmt::format("if (!{}) begin {} end", update.text, to_statement(else_update, target));
-  }
-  std::string text = fmt::format("if ({}) begin {} end", update.text, to_statement(then_update, target));
-  if (else_update.kind != Update::Kind::hold) {
-    text += fmt::format(" else begin {} end", to_statement(else_update, target));
-  }
+  for (const auto& [target, value] : block.loads) text += fmt::format("{} <= {}; ", target, value);
   return text;
 }
+
+/// All wires of a block and its branches.
+void gather_wires(const Block& block, std::vector<std::string>& wires) {
+  wires.insert(wires.end(), block.wires.begin(), block.wires.end());
+  for (const Block::Choice& choice : block.choices)
+    for (const Block& branch : choice.branches) gather_wires(branch, wires);
+}
+
+/// Expressions without the names of slices, constants and concatenations: such stand wherever a name does,
+/// but for one that is sliced.
+class Inliner {
+ public:
+  explicit Inliner(const Module& module) : module_(module) {}
+
+  std::string inlined(std::string_view text) const {
+    std::string result;
+    while (!text.empty()) {
+      const bool constant = text.front() >= '0' && text.front() <= '9';
+      const std::string name(take_name(text));
+      if (name.empty()) {
+        result += text.front();
+        text.remove_prefix(1);
+        continue;
+      }
+      const std::string* known = constant || text.substr(0, 1) == "[" ? nullptr : module_.expression_of(name);
+      result += known != nullptr && stands_alone(*known) ? inlined(*known) : name;
+      if (constant && take(text, "'")) (result += '\'') += take_name(text);
+    }
+    return result;
+  }
+  void apply(Update& update) const {
+    update.text = inlined(update.text);
+    for (Update& branch : update.branches) apply(branch);
+  }
+
+ private:
+  bool stands_alone(const std::string& expression) const {
+    return module_.to_slice(expression) || constant_part(expression, 0, 0) ||
+           !module_.to_parts(expression).empty();
+  }
+
+  const Module& module_;
+};
+
+/// Puts wires into the blocks that alone ask for them.
+class WirePlacer {
+ public:
+  explicit WirePlacer(const Module& module) : module_(module) {}
+
+  /// Where a wire is asked for: the branches that lead there; empty: outside, by an instance, a memory, a
+  /// port.
+  using Place = std::vector<Block*>;
+
+  void ask(std::string_view text, const Place& place = {}) {
+    for_each_name(text, [&](const std::string& name) {
+      if (module_.expression_of(name) == nullptr) return;
+      const auto [at, fresh] = places_.try_emplace(name, place);
+      if (fresh) return;
+      Place& known = at->second;
+      const auto differs = std::mismatch(known.begin(), known.end(), place.begin(), place.end());
+      known.erase(differs.first, known.end());
+    });
+  }
+  void ask(Block& block, const Place& place = {}) {
+    for (const auto& [target, value] : block.loads) ask(value, place);
+    for (Block::Choice& choice : block.choices) {
+      ask(choice.condition, place);
+      for (Block& branch : choice.branches) {
+        Place inner = place;
+        inner.push_back(&branch);
+        ask(branch, inner);
+      }
+    }
+  }
+
+  /// When all is asked for.
+  void place() {
+    for (const auto& [name, expression] : module_.assigns()) order(name);
+    // Who asks comes before what it asks for.
+    for (auto wire = order_.rbegin(); wire != order_.rend(); ++wire) {
+      if (const auto at = places_.find(*wire); at != places_.end())
+        ask(*module_.expression_of(*wire), Place(at->second));
+    }
+    for (const std::string& wire : order_) {
+      if (const auto at = places_.find(wire); at != places_.end() && !at->second.empty())
+        at->second.back()->wires.push_back(wire);
+    }
+  }
+
+  bool is_outside(const std::string& wire) const {
+    const auto at = places_.find(wire);
+    return at != places_.end() && at->second.empty();
+  }
+
+ private:
+  void order(const std::string& wire) {
+    if (!ordered_.insert(wire).second) return;
+    for_each_name(*module_.expression_of(wire), [&](const std::string& name) {
+      if (module_.expression_of(name) != nullptr) order(name);
+    });
+    order_.push_back(wire);
+  }
+
+  const Module& module_;
+  std::map<std::string, Place> places_;
+  std::set<std::string> ordered_;
+  std::vector<std::string> order_;  ///< what is asked for before who asks
+};
 
 /// `Q <= N;`, the whole of it.
 std::optional<std::pair<std::string, std::string>> to_register(std::string_view line) {
@@ -277,21 +502,113 @@ std::optional<std::pair<std::string, std::string>> to_register(std::string_view 
   return std::pair(target, value);
 }
 
-std::string split_module(const std::vector<std::string_view>& lines) {
-  constexpr std::string_view clocked = "always @(posedge clk)";
+/// A register, or a field of one: its part of the whole, and what it does.
+struct Field {
+  std::string name;
+  Slice value;
+  Update update;
+  std::string last_condition, last_value;  ///< what comes behind all else
+};
+
+/// A choice in front of the others that says what is fixed, as reset does, comes behind them as the last word
+/// where other fields have none in front: so that all share the others.
+void put_last(std::vector<Field>& fields) {
+  std::set<std::string> first;
+  for (const Field& field : fields)
+    if (field.update.kind == Update::Kind::choose) first.insert(field.update.text);
+  for (Field& field : fields) {
+    if (field.update.kind != Update::Kind::choose) continue;
+    const Update &fixed = field.update.branches[0], &others = field.update.branches[1];
+    if (others.kind != Update::Kind::choose || first.count(others.text) == 0 ||
+        fixed.kind != Update::Kind::load || !constant_part(fixed.text, 0, 0))
+      continue;
+    field.last_condition = field.update.text;
+    field.last_value = fixed.text;
+    field.update = Update(others);
+  }
+}
+
+/// Where a register of this value, from bit `low` up, is cut: between parts that are put together.
+void find_cuts(const Module& module, const Slice& value, unsigned low, std::set<unsigned>& cuts,
+               std::set<std::tuple<std::string, unsigned, unsigned, unsigned>>& seen) {
+  const Slice from = module.origin(value);
+  const std::string* expression = module.expression_of(from.name);
+  if (expression == nullptr || !seen.emplace(from.name, from.high, from.low, low).second) return;
+  if (const auto choice = to_choice(*expression)) {
+    for (const std::string* branch : {&choice->then_value, &choice->else_value})
+      if (const auto part = module.part_of(*branch, from)) find_cuts(module, *part, low, cuts, seen);
+  }
+  unsigned at = 0;
+  for (const Module::Part& part : module.to_parts(*expression)) {
+    const unsigned begin = std::max(at, from.low), end = std::min(at + part.width, from.high + 1);
+    if (begin < end) {
+      const unsigned to = low + begin - from.low;
+      if (begin > from.low) cuts.insert(to);
+      if (const auto slice = module.to_slice(part.text))
+        find_cuts(module, {slice->name, slice->low + end - 1 - at, slice->low + begin - at}, to, cuts, seen);
+    }
+    at += part.width;
+  }
+}
+
+constexpr std::string_view kClocked = "always @(posedge clk)";
+
+std::string declaration(const Module& module, const std::string& kind, const std::string& name) {
+  const unsigned width = *module.width(name);
+  return width == 1 ? fmt::format("{} {};", kind, name) : fmt::format("{} [{}:0] {};", kind, width - 1, name);
+}
+
+/// The fields, a process each.
+std::string to_processes(const Module& module, const std::vector<Field>& fields) {
+  std::string text;
+  for (const Field& field : fields) {
+    Block block;
+    add(block, field.update, field.name);
+    text += fmt::format("  {}\n    {}\n", kClocked, trim(to_text(module, block)));
+  }
+  return text;
+}
+
+/// A process for all fields that begin with the same choice, which share what is formed under it.
+std::string to_processes(const Module& module, const std::vector<Field>& fields, const Block& root) {
+  std::string text;
+  for (const auto& [target, value] : root.loads)
+    text += fmt::format("  {}\n    {} <= {};\n", kClocked, target, value);
+  for (std::size_t i = 0; i < root.choices.size(); ++i) {
+    const Block block{{}, {root.choices[i]}, {}};
+    text += fmt::format("  {}\n    begin : at_edge_{}\n", kClocked, i);
+    std::vector<std::string> wires;
+    gather_wires(block, wires);
+    for (const std::string& wire : wires) text += fmt::format("      {}\n", declaration(module, "reg", wire));
+    // Where each is set first, Verilator makes it local.
+    for (const std::string& wire : wires) text += fmt::format("      {} = 0;\n", wire);
+    text += fmt::format("      {}\n", trim(to_text(module, block)));
+    for (const Field& field : fields) {
+      if (!field.last_condition.empty() && field.update.text == root.choices[i].condition)
+        text += fmt::format("      if ({}) {} <= {};\n", field.last_condition, field.name, field.last_value);
+    }
+    text += "    end\n";
+  }
+  return text;
+}
+
+std::string split_module(const std::vector<std::string_view>& lines, Wires wires) {
   Module module;
   std::vector<std::string> code;
   code.reserve(lines.size());
   std::map<std::string, int> writes;  // of each register, over all statements
+  std::vector<std::string> outputs;
   for (const std::string_view line : lines) {
     code.push_back(without_comments(line));
     std::string_view text = trim(code.back());
     if (take(text, "(")) text = trim(text);
+    const bool output = text.substr(0, 7) == "output ";
     if (take(text, "input ") || take(text, "output ") || take(text, "wire ") || take(text, "reg ")) {
       const unsigned width = take_width(text);
       const std::string_view name = take_name(text);
       // What follows a plain declaration is its end; a memory goes on with its depth and stays unknown.
       if (text == ";" || text == "," || text == ");") module.declare(name, width);
+      if (output) outputs.emplace_back(name);
     } else if (take(text, "assign ")) {
       const std::string_view name = take_name(text);
       if (take(text, " = ") && !text.empty() && text.back() == ';') {
@@ -304,73 +621,102 @@ std::string split_module(const std::vector<std::string_view>& lines) {
   }
 
   // Registers whose next value is put together from parts become one register a part.
-  std::map<std::string, std::vector<Module::Part>> splits;
+  std::vector<Field> fields;
+  std::map<std::string, std::vector<std::string>> splits;
+  std::set<std::size_t> told;  // lines of the fields' registers
   for (std::size_t i = 0; i + 1 < code.size(); ++i) {
-    if (trim(code[i]) != clocked) continue;
+    if (trim(code[i]) != kClocked) continue;
     const auto found = to_register(code[i + 1]);
-    if (!found || writes[found->first] != 1) continue;
+    if (!found || !module.width(found->first) || writes[found->first] != 1) continue;
     const auto& [target, value] = *found;
-    const auto whole = module.width(target);
     const auto slice = module.to_slice(value);
-    if (!whole || !slice || module.expression_of(target) != nullptr) continue;
-    const Slice from = module.origin(*slice);
-    const std::string* expression = module.expression_of(from.name);
-    if (expression == nullptr || from.width() != module.width(from.name) || from.width() != *whole) continue;
-    auto parts = module.to_parts(*expression);
-    unsigned total = 0;
-    for (const Module::Part& part : parts) total += part.width;
-    if (parts.size() < 2 || total != *whole) continue;
-    std::string joined;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      const std::string name = fmt::format("{}__{}", target, k);
-      module.declare(name, parts[k].width);
-      joined = k == 0 ? name : name + ", " + joined;
+    if (!slice || module.expression_of(target) != nullptr || slice->width() != *module.width(target))
+      continue;
+    told.insert({i, i + 1});
+    std::set<unsigned> cuts;
+    std::set<std::tuple<std::string, unsigned, unsigned, unsigned>> seen;
+    find_cuts(module, *slice, 0, cuts, seen);
+    cuts.insert(*module.width(target));
+    if (cuts.size() == 1) {
+      fields.push_back({target, *slice, {}, {}, {}});
+      continue;
     }
-    module.assign(target, '{' + joined + '}');
-    splits.emplace(target, std::move(parts));
+    auto& names = splits[target];
+    unsigned low = 0;
+    for (const unsigned end : cuts) {
+      names.push_back(fmt::format("{}__{}", target, names.size()));
+      fields.push_back({names.back(), {slice->name, slice->low + end - 1, slice->low + low}, {}, {}, {}});
+      module.declare(names.back(), end - low);
+      low = end;
+    }
   }
+  for (const auto& [target, names] : splits) {
+    std::string joined;
+    for (const std::string& name : names) joined = joined.empty() ? name : name + ", " + joined;
+    module.assign(target, '{' + joined + '}');
+  }
+
+  // Slices go straight to where they come from.
+  const auto assigns = module.assigns();
+  for (const auto& [name, expression] : assigns) module.assign(name, module.straight(expression));
+  for (Field& field : fields) {
+    const Slice whole{field.name, *module.width(field.name) - 1, 0};
+    field.update = update_of(module, field.value, whole, wires);
+  }
+  if (wires == Wires::inside) {
+    // A name for bits that lie elsewhere, or lie together, would be a copy.
+    const Inliner inliner(module);
+    for (Field& field : fields) inliner.apply(field.update);
+    std::map<std::string, std::string> expressions;
+    for (const auto& [name, expression] : assigns)
+      expressions[name] = inliner.inlined(*module.expression_of(name));
+    for (const auto& [name, expression] : expressions) module.assign(name, expression);
+    put_last(fields);
+  }
+
+  Block root;
+  WirePlacer placer(module);
+  if (wires == Wires::inside) {
+    for (const Field& field : fields) {
+      add(root, field.update, field.name);
+      placer.ask(field.last_condition);
+    }
+    placer.ask(root, {});
+    for (const std::string& output : outputs) placer.ask(output);
+    for (std::size_t i = 0; i < code.size(); ++i) {
+      const std::string_view text = trim(code[i]);
+      const bool declares = text.substr(0, 5) == "wire " || text.substr(0, 4) == "reg ";
+      if (!declares && text.substr(0, 7) != "assign " && told.count(i) == 0) placer.ask(text);
+    }
+    placer.place();
+  }
+  const auto is_there = [&](const std::string& wire) {
+    return wires == Wires::outside || module.expression_of(wire) == nullptr || placer.is_outside(wire);
+  };
 
   std::string out;
   for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (told.count(i) != 0) continue;
     std::string_view text = trim(code[i]);
-    if (take(text, "reg ")) {
-      std::string_view rest = text;
-      const unsigned width = take_width(rest);
-      const std::string name(take_name(rest));
-      const auto split = splits.find(name);
-      if (split != splits.end()) {
-        for (std::size_t k = 0; k < split->second.size(); ++k) {
-          out += fmt::format("  reg [{}:0] {}__{};\n", split->second[k].width - 1, name, k);
-        }
-        out += fmt::format("  wire [{}:0] {};\n", width - 1, name);
-        out += fmt::format("  assign {} = {};\n", name, *module.expression_of(name));
-        continue;
-      }
-    } else if (take(text, "assign ")) {
-      // Slices go straight to the register they come from.
+    if (take(text, "reg ") || take(text, "wire ")) {
+      take_width(text);
       const std::string name(take_name(text));
-      if (take(text, " = ") && !text.empty() && text.back() == ';') {
-        if (const auto slice = module.to_slice(text.substr(0, text.size() - 1))) {
-          out += fmt::format("  assign {} = {};\n", name, module.to_text(module.origin(*slice)));
-          continue;
-        }
-      }
-    } else if (text == clocked && i + 1 < lines.size()) {
-      const auto found = to_register(code[i + 1]);
-      if (found && module.width(found->first) && writes[found->first] == 1) {
-        const auto& [target, value] = *found;
-        const auto split = splits.find(target);
-        const std::size_t count = split == splits.end() ? 1 : split->second.size();
-        for (std::size_t k = 0; k < count; ++k) {
-          const std::string name = split == splits.end() ? target : fmt::format("{}__{}", target, k);
-          const Slice whole{name, *module.width(name) - 1, 0};
-          const Update update =
-              update_of(module, split == splits.end() ? value : split->second[k].text, whole);
-          out += fmt::format("  {}\n    {}\n", clocked, to_statement(update, name));
-        }
-        ++i;
+      if (const auto split = splits.find(name); split != splits.end()) {
+        for (const std::string& part : split->second) out += "  " + declaration(module, "reg", part) + '\n';
+        if (is_there(name))
+          out += fmt::format("  {}\n  assign {} = {};\n", declaration(module, "wire", name), name,
+                             *module.expression_of(name));
         continue;
       }
+      if (!is_there(name)) continue;
+    } else if (take(text, "assign ")) {
+      const std::string name(take_name(text));
+      if (const std::string* expression = module.expression_of(name); expression != nullptr) {
+        if (is_there(name)) out += fmt::format("  assign {} = {};\n", name, *expression);
+        continue;
+      }
+    } else if (text == "endmodule") {
+      out += wires == Wires::outside ? to_processes(module, fields) : to_processes(module, fields, root);
     }
     out += lines[i];
     out += '\n';
@@ -444,13 +790,13 @@ Result<std::string> mend_netlist(std::string_view netlist) {
   return out;
 }
 
-std::string split_registers(std::string_view netlist) {
+std::string split_registers(std::string_view netlist, Wires wires) {
   std::string out;
   std::vector<std::string_view> module;
   for (const std::string_view line : lines_of(netlist)) {
     module.push_back(line);
     if (trim(line) == "endmodule") {
-      out += split_module(module);
+      out += split_module(module, wires);
       module.clear();
     }
   }

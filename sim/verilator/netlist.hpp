@@ -19,9 +19,15 @@ unsigned port_bits(std::string_view netlist, std::string_view top, std::string_v
 /// shift of a signed value, which GHDL prints as a logical one, and signed division.
 Result<std::string> mend_netlist(std::string_view netlist);
 
+/// Where wires stand that only what registers load under a condition asks for.
+enum class Wires {
+  outside,  ///< with the others
+  inside    ///< in the process that loads, under that condition: not worked out where it does not hold
+};
+
 /// Makes registers hold by condition: `q <= load ? d : q` becomes `if (load) q <= d`, and a register of
 /// several fields becomes one register a field. The meaning is the same; Verilator leaves out what does not
 /// change.
-std::string split_registers(std::string_view netlist);
+std::string split_registers(std::string_view netlist, Wires wires = Wires::outside);
 
 }  // namespace halfway

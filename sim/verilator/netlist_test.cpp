@@ -78,12 +78,78 @@ endmodule
 )";
   const std::string split = split_registers(netlist);
   EXPECT_NE(split.find("reg [3:0] q__0;"), std::string::npos) << split;
-  EXPECT_NE(split.find("reg [0:0] q__1;"), std::string::npos) << split;
+  EXPECT_NE(split.find("reg q__1;"), std::string::npos) << split;
   EXPECT_NE(split.find("assign q = {q__1, q__0};"), std::string::npos) << split;
   EXPECT_NE(split.find("if (step) begin q__0 <= n1_o + d; end\n"), std::string::npos) << split;
   EXPECT_NE(split.find("if (!load) begin q__1 <= step; end\n"), std::string::npos) << split;
   EXPECT_NE(split.find("assign n1_o = q__0;"), std::string::npos) << split;
   EXPECT_EQ(split.find("q <= n6_o"), std::string::npos) << split;
+}
+
+// A record of three fields, reset in front of one of them, cut where one branch puts parts together.
+constexpr const char* kRecord = R"(module m
+  (input  clk,
+   input  reset,
+   input  load,
+   input  step,
+   input  [4:0] d,
+   output [3:0] o);
+  wire [4:0] r;
+  wire [3:0] n1_o;
+  wire n2_o;
+  wire [4:0] n3_o;
+  wire [4:0] n4_o;
+  wire [4:0] n5_o;
+  wire [3:0] n6_o;
+  wire n7_o;
+  wire n8_o;
+  wire n9_o;
+  wire [4:0] n10_o;
+  wire [4:0] n11_o;
+  reg [4:0] q;
+  assign o = n1_o;
+  assign r = q;
+  assign n1_o = r[3:0];
+  assign n2_o = r[4];
+  assign n3_o = {n2_o, n1_o};
+  assign n4_o = n3_o + d;
+  assign n5_o = load ? d : n4_o;
+  assign n6_o = n5_o[3:0];
+  assign n7_o = n5_o[4];
+  assign n8_o = step ? n7_o : n2_o;
+  assign n9_o = reset ? 1'b0 : n8_o;
+  assign n10_o = step ? n5_o : r;
+  assign n11_o = {n9_o, n10_o[3:0]};
+  always @(posedge clk)
+    q <= n11_o;
+endmodule
+)";
+
+TEST(Netlist, CutsRegistersWhereAnyBranchIsPutTogether) {
+  const std::string split = split_registers(kRecord);
+  EXPECT_NE(split.find("if (step) begin q__0 <= load ? d[3:0] : n4_o[3:0]; end\n"), std::string::npos)
+      << split;
+  EXPECT_NE(split.find("if (reset) begin q__1 <= 1'b0; end else begin if (step)"), std::string::npos)
+      << split;
+}
+
+TEST(Netlist, FormsWhatIsLoadedWhereItIsLoaded) {
+  const std::string inside = split_registers(kRecord, Wires::inside);
+  EXPECT_EQ(inside.find("assign n4_o"), std::string::npos) << inside;
+  EXPECT_EQ(inside.find("wire [4:0] n4_o"), std::string::npos) << inside;
+  EXPECT_NE(inside.find(
+                "if (step) begin if (load) begin q__0 <= d[3:0]; q__1 <= d[4]; end else begin n4_o = {q__1, "
+                "q__0} + d; q__0 <= n4_o[3:0]; q__1 <= n4_o[4]; end end\n      if (reset) q__1 <= 1'b0;\n"),
+            std::string::npos)
+      << inside;
+  EXPECT_NE(inside.find("assign o = q__0;"), std::string::npos) << inside;
+}
+
+TEST(Netlist, KeepsOutsideWhatOthersAskForToo) {
+  std::string netlist = kRecord;
+  netlist.insert(netlist.find("endmodule"), "  other other_1 (\n    .a(n4_o));\n");
+  const std::string inside = split_registers(netlist, Wires::inside);
+  EXPECT_NE(inside.find("assign n4_o = {q__1, q__0} + d;"), std::string::npos) << inside;
 }
 
 TEST(Netlist, LeavesAloneWhatItDoesNotUnderstand) {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/verilator/shader_netlist.hpp"
 
-#include "sim/verilator/netlist.hpp"
-
 namespace halfway {
 
-Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders) {
+Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders, Wires wires) {
   const auto tool = GhdlTool::find();
   if (!tool) return tool.error();
   const auto sources = read_rtl_sources(folders.source);
@@ -16,7 +14,7 @@ Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& f
   if (!netlist) return netlist.error();
   auto mended = mend_netlist(*netlist);
   if (!mended) return mended.error();
-  return split_registers(*mended);
+  return split_registers(*mended, wires);
 }
 
 }  // namespace halfway

@@ -61,7 +61,9 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
     return bad_input(
         fmt::format("{}: this hardware has no probes; ask for a key with probe set", key.name()));
   }
-  auto netlist = netlist_of(key, folders);
+  // The others are for looking at a few cycles, at every wire.
+  const bool fast = options.wave_file.empty() && !key.probe && options.netlist.empty();
+  auto netlist = netlist_of(key, folders, fast ? Wires::inside : Wires::outside);
   if (!netlist) return netlist.error();
   const unsigned init_bits = port_bits(*netlist, key.entity(), "init_data");
   const unsigned probe_bits = port_bits(*netlist, key.entity(), "probe");
@@ -83,8 +85,7 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
                       fmt::format("HALFWAY_PROBE_BITS={}", probe_bits),
                       options.plain_eval ? "HALFWAY_PLAIN_EVAL=1" : "HALFWAY_DIRECT_EVAL=1"},
       .waves = !options.wave_file.empty(),
-      // The others are for looking at a few cycles.
-      .fast = options.wave_file.empty() && !key.probe && options.netlist.empty(),
+      .fast = fast,
       .compiler = options.compiler};
   auto library = open_verilated(build, folders.cache);
   if (!library) return library.error();

@@ -25,7 +25,7 @@ constexpr unsigned kResponseBits = kLaneBits * kLanes;
 constexpr std::size_t kVectors = 4000;
 
 using Generics = std::vector<std::pair<std::string, std::string>>;
-enum class Netlist { raw, mended, split };
+enum class Netlist { raw, mended, split, inside };
 
 std::string to_hex(std::span<const std::uint32_t> words, unsigned bits) {
   std::string text;
@@ -138,6 +138,7 @@ class NetlistConstructs : public testing::Test {
       if (!netlist) return netlist.error();
     }
     if (kind == Netlist::split) netlist = Result<std::string>(split_registers(*netlist));
+    if (kind == Netlist::inside) netlist = Result<std::string>(split_registers(*netlist, Wires::inside));
     const std::filesystem::path root = HALFWAY_SOURCE_DIR;
     const auto verilated = open_verilated({.name = entity,
                                            .netlist = *netlist,
@@ -189,7 +190,7 @@ TEST_F(NetlistConstructs, EveryConstructOfTheRtlIsEqual) {
   for (const Generics& generics :
        {Generics{{"g_exact", "true"}, {"g_count", "3"}}, Generics{{"g_exact", "false"}, {"g_count", "4"}}}) {
     const auto expected = simulate(generics);
-    for (const Netlist kind : {Netlist::mended, Netlist::split}) {
+    for (const Netlist kind : {Netlist::mended, Netlist::split, Netlist::inside}) {
       const auto found = verilate("netlist_constructs", generics, kind);
       ASSERT_TRUE(found) << found.error().message;
       EXPECT_EQ(differences(expected, *found), "") << generics[0].second;
@@ -210,7 +211,7 @@ TEST_F(NetlistConstructs, EveryConstructOfTheRtlIsEqual) {
 // Its products and memories are other text where GHDL simulates them than where it synthesizes them.
 TEST_F(NetlistConstructs, TheShadingArithmeticIsEqual) {
   const auto expected = simulate({{"g_shading", "true"}});
-  for (const Netlist kind : {Netlist::mended, Netlist::split}) {
+  for (const Netlist kind : {Netlist::mended, Netlist::split, Netlist::inside}) {
     const auto found = verilate("netlist_shading", {}, kind);
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(differences(expected, *found), "");
