@@ -229,12 +229,6 @@ class Module {
     return constant_part(*expression, slice.high, slice.low);
   }
 
-  /// An element of what is no plain signal.
-  bool reads_memory(std::string_view text) const {
-    const std::string name(take_name(text));
-    return !name.empty() && !width(name) && text.substr(0, 1) == "[";
-  }
-
   std::string to_text(const Slice& slice) const {
     const unsigned whole = *width(slice.name);
     if (slice.low == 0 && slice.high == whole - 1) return slice.name;
@@ -323,6 +317,7 @@ Update update_of(const Module& module, const Slice& value, const Slice& target, 
   // In place of the wire stands what it is assigned, in the same width: worked out only where it is loaded.
   const bool whole = from.width() == module.width(from.name);
   if (!whole) {
+    if (wires == Wires::outside) return load;
     load.text = module.straight(load.text);
   } else if (wires == Wires::outside || depth == 0) {
     load.text = *expression;
@@ -339,10 +334,7 @@ Update update_of(const Module& module, const Slice& value, const Slice& target, 
       return load;
     }
   }
-  const bool reads_memory =
-      std::any_of(update.branches.begin(), update.branches.end(),
-                  [&](const Update& branch) { return module.reads_memory(branch.text); });
-  return wires == Wires::inside || reads_memory || update.can_hold() ? update : load;
+  return wires == Wires::inside || update.can_hold() ? update : load;
 }
 
 // What the registers do, as text: choices by their conditions, what is loaded under each, and before it the
@@ -528,15 +520,16 @@ void put_last(std::vector<Field>& fields) {
   }
 }
 
-/// Where a register of this value, from bit `low` up, is cut: between parts that are put together.
-void find_cuts(const Module& module, const Slice& value, unsigned low, std::set<unsigned>& cuts,
+/// Where a register of this value, from bit `low` up, is cut: between parts that are put together; with wires
+/// inside, in any branch. Lanes and other tools pay for each field's choice.
+void find_cuts(const Module& module, const Slice& value, unsigned low, Wires wires, std::set<unsigned>& cuts,
                std::set<std::tuple<std::string, unsigned, unsigned, unsigned>>& seen) {
   const Slice from = module.origin(value);
   const std::string* expression = module.expression_of(from.name);
   if (expression == nullptr || !seen.emplace(from.name, from.high, from.low, low).second) return;
-  if (const auto choice = to_choice(*expression)) {
+  if (const auto choice = to_choice(*expression); choice && wires == Wires::inside) {
     for (const std::string* branch : {&choice->then_value, &choice->else_value})
-      if (const auto part = module.part_of(*branch, from)) find_cuts(module, *part, low, cuts, seen);
+      if (const auto part = module.part_of(*branch, from)) find_cuts(module, *part, low, wires, cuts, seen);
   }
   unsigned at = 0;
   for (const Module::Part& part : module.to_parts(*expression)) {
@@ -544,8 +537,9 @@ void find_cuts(const Module& module, const Slice& value, unsigned low, std::set<
     if (begin < end) {
       const unsigned to = low + begin - from.low;
       if (begin > from.low) cuts.insert(to);
-      if (const auto slice = module.to_slice(part.text))
-        find_cuts(module, {slice->name, slice->low + end - 1 - at, slice->low + begin - at}, to, cuts, seen);
+      if (const auto slice = module.to_slice(part.text); slice && wires == Wires::inside)
+        find_cuts(module, {slice->name, slice->low + end - 1 - at, slice->low + begin - at}, to, wires, cuts,
+                  seen);
     }
     at += part.width;
   }
@@ -635,7 +629,7 @@ std::string split_module(const std::vector<std::string_view>& lines, Wires wires
     told.insert({i, i + 1});
     std::set<unsigned> cuts;
     std::set<std::tuple<std::string, unsigned, unsigned, unsigned>> seen;
-    find_cuts(module, *slice, 0, cuts, seen);
+    find_cuts(module, *slice, 0, wires, cuts, seen);
     cuts.insert(*module.width(target));
     if (cuts.size() == 1) {
       fields.push_back({target, *slice, {}, {}, {}});
@@ -658,7 +652,11 @@ std::string split_module(const std::vector<std::string_view>& lines, Wires wires
 
   // Slices go straight to where they come from.
   const auto assigns = module.assigns();
-  for (const auto& [name, expression] : assigns) module.assign(name, module.straight(expression));
+  for (const auto& [name, expression] : assigns) {
+    if (const auto slice = module.to_slice(expression))
+      module.assign(
+          name, wires == Wires::inside ? module.straight(expression) : module.to_text(module.origin(*slice)));
+  }
   for (Field& field : fields) {
     const Slice whole{field.name, *module.width(field.name) - 1, 0};
     field.update = update_of(module, field.value, whole, wires);
