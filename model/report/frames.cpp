@@ -120,7 +120,8 @@ Status add_frames(Page& page) {
              told(summary.at("runs"), "ghdl", "mismatches"),
              told(summary.at("runs"), "verilator", "mismatches"), number(accuracy.at("psnr_db"), "{:.1f}"),
              number(accuracy.at("max_lsb"), "{:.0f}"),
-             fmt::format("<small>{}</small>", escaped(summary.at("hardware").at("key").get<std::string>()))});
+             fmt::format("<small class=\"key\">{}</small>",
+                         escaped(summary.at("hardware").at("key").get<std::string>()))});
       } catch (const Json::exception& bad) {
         return bad_input(fmt::format("{}: {}; run make sim again", files.summary().string(), bad.what()));
       }

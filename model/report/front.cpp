@@ -65,21 +65,27 @@ std::string picture_of(const Table& table, std::size_t row) {
 
 std::vector<std::pair<double, double>> lower_left(const std::vector<PlotPoint>& points) {
   std::vector<std::pair<double, double>> sorted, front;
-  for (const PlotPoint& point : points) sorted.emplace_back(point.x, point.y);
+  for (const PlotPoint& point : points)
+    if (!point.aside) sorted.emplace_back(point.x, point.y);
   std::ranges::sort(sorted);
   for (const auto& point : sorted)
     if (front.empty() || point.second < front.back().second) front.push_back(point);
   return front;
 }
 
-Table front_of(const Table& study) {
+std::string commonest_picture(const Table& study) {
   std::map<std::string, std::size_t> designs;
   for (std::size_t row = 0; row < study.rows.size(); ++row)
     if (is_hardware(study, row)) ++designs[picture_of(study, row)];
   const auto most = std::ranges::max_element(designs, {}, [](const auto& of) { return of.second; });
+  return most == designs.end() ? std::string() : most->first;
+}
+
+Table front_of(const Table& study) {
+  const std::string picture = commonest_picture(study);
   Table front{{c_columns.begin(), c_columns.end()}, {}};
-  for (std::size_t row = 0; most != designs.end() && row < study.rows.size(); ++row) {
-    if (picture_of(study, row) != most->first) continue;
+  for (std::size_t row = 0; row < study.rows.size(); ++row) {
+    if (picture_of(study, row) != picture) continue;
     std::vector<std::string>& values = front.rows.emplace_back();
     for (const char* column : c_columns) values.push_back(study.text(row, column));
   }

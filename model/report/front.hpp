@@ -17,10 +17,13 @@ namespace halfway::report {
 std::string series_of(const Table& table, std::size_t row);
 /// What points of equal pictures share.
 std::string picture_of(const Table& table, std::size_t row);
-/// What none is both less and better than: the lower left of the points, from left to right.
+/// What none is both less and better than: the lower left of the points that are not aside, from left to
+/// right.
 std::vector<std::pair<double, double>> lower_left(const std::vector<PlotPoint>& points);
 
-/// Of a study's table the picture that most of its hardware draws, in the columns that say what a design is,
+/// The picture that most of a study's hardware draws, as picture_of has it; empty where there is no hardware.
+std::string commonest_picture(const Table& study);
+/// Of a study's table that picture's designs, in the columns that say what a design is,
 /// costs and errs by, and what all that is of. No rows where there is no hardware.
 Table front_of(const Table& study);
 /// Error against cells, or where they were not counted against clocks, as an SVG. Bad input where there is

@@ -67,6 +67,8 @@ TEST_F(FrontTest, PlotsThePictureThatMostDesignsDraw) {
   // What the line joins: not the design that costs more and errs more.
   EXPECT_EQ(lower_left({{100, 8}, {200, 2}, {300, 4}}),
             (std::vector<std::pair<double, double>>{{100, 8}, {200, 2}}));
+  EXPECT_EQ(lower_left({{.x = 50, .y = 1, .aside = true}, {200, 2}}),
+            (std::vector<std::pair<double, double>>{{200, 2}}));
   // A count that is missing takes cells off the axis.
   std::string uncounted = c_study;
   uncounted.replace(uncounted.find(",300,"), 5, ",,");

@@ -43,11 +43,14 @@ Result<std::string> run_gnuplot(const std::string& script, const std::filesystem
   return read_file(picture);
 }
 
-// Round numbers between two that are less than two decades apart, as gnuplot takes them.
+// Round numbers between two that are less than two decades apart, as gnuplot takes them: the fewer the
+// farther these are apart.
 std::string ticks_within(double least, double most) {
+  std::vector<double> digits = {1.0, 2.0, 5.0};
+  if (most / least < 20) digits = {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};
   std::string ticks;
   for (double decade = std::pow(10.0, std::floor(std::log10(least))); decade <= most; decade *= 10.0)
-    for (const double digit : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
+    for (const double digit : digits)
       if (const double tick = digit * decade; tick > least / 1.1 && tick < most * 1.1)
         ticks += fmt::format("{}\"{:g}\" {}", ticks.empty() ? "" : ", ", tick, tick);
   return ticks;
@@ -77,16 +80,17 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
   }
   std::string script = fmt::format(
       "set encoding utf8\n"
-      "set terminal svg size 520,390 dynamic noenhanced font \"sans-serif,14\" background \"#ffffff\"\n"
+      "set terminal svg size {} dynamic noenhanced font \"sans-serif,14\" background \"#ffffff\"\n"
       "set output \"plot.svg\"\n"
       "set xlabel {}\nset ylabel {}\n"
       "set logscale xy\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
-      "set grid linecolor rgb \"#8a8a8a\" linewidth 0.3\nset border 3\nset tics nomirror\nset key outside "
-      "bottom center horizontal maxcols 3\n",
-      quoted(plot.x_label), quoted(plot.y_label), x_least / 1.15, x_most * 1.15, y_least / 1.5, y_most * 1.5);
+      "set grid linecolor rgb \"#8a8a8a\" linewidth 0.3\nset border 3\nset tics nomirror\n{}\n",
+      plot.legend.empty() ? "520,390" : "800,420", quoted(plot.x_label), quoted(plot.y_label), x_least / 1.15,
+      x_most * 1.15, y_least / 1.5, y_most * 1.5,
+      plot.legend.empty() ? "unset key" : "set key outside right center Left reverse spacing 1.4");
   // Ticks of a decade's tens alone are too few where there is no more than one of them.
   for (const auto& [axis, ratio] : {std::pair{"x", x_most / x_least}, std::pair{"y", y_most / y_least}})
-    if (ratio < 20)
+    if (ratio < 100)
       script +=
           fmt::format("set {}tics add ({})\n", axis,
                       ticks_within(axis[0] == 'x' ? x_least : y_least, axis[0] == 'x' ? x_most : y_most));
@@ -142,11 +146,14 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
       pugi::xml_node link = mark.parent().insert_child_before("a", mark);
       link.append_attribute("href") = fmt::format("#point-{}", point.number).c_str();
       link.append_attribute("aria-label") = point.name.c_str();
+      if (point.aside) link.append_attribute("class") = "aside";
       link.append_child("title").text() = point.name.c_str();
       // A finger needs more than a dot; gnuplot's transform is a translation and the mark's scale.
       const std::string transform = mark.attribute("transform").value();
       pugi::xml_node around = link.append_child("circle");
       around.append_attribute("r") = "8";
+      around.append_attribute("fill") = "none";
+      around.append_attribute("stroke") = "none";
       around.append_attribute("transform") = transform.substr(0, transform.find(')') + 1).c_str();
       link.append_copy(mark);
       mark.parent().remove_child(mark);
@@ -179,7 +186,7 @@ Result<std::string> draw_timing(const std::vector<Lane>& lanes, std::uint64_t fi
         boxes += fmt::format("{} {} {} {} {} {}\n", static_cast<double>(begin + end) / 2, y, begin, end,
                              y - 0.33, y + 0.33);
         // As much as fits between its two sides.
-        if (const std::size_t room = 4 * (end - begin); value.size() <= room)
+        if (const std::size_t room = 3 * (end - begin); value.size() <= room)
           texts += fmt::format("{} {} {}\n", static_cast<double>(begin + end) / 2, y, value);
       }
       begin = end;

@@ -17,12 +17,13 @@ struct PlotPoint {
   std::size_t series = 0;
   std::size_t number = 0;  ///< links to #point-<number>
   std::string name;        ///< what a reader hears
+  bool aside = false;      ///< of class `aside`: not what the front is of
 };
 struct Plot {
   std::string x_label, y_label;
   std::vector<PlotPoint> points;                 ///< one at least
   std::vector<std::pair<double, double>> front;  ///< joined by a line; may be empty
-  std::vector<std::string> legend;               ///< of each series; empty: none is drawn
+  std::vector<std::string> legend;               ///< of each series, on the right; empty: none is drawn
 };
 
 /// How a series is drawn: colours and gnuplot's types of points, which differ among the first twelve.

@@ -13,6 +13,7 @@ namespace halfway::report {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class PlotTest : public ::testing::Test {
  protected:
@@ -24,7 +25,7 @@ class PlotTest : public ::testing::Test {
 
 TEST_F(PlotTest, EachPointIsALinkInItsPlace) {
   Plot plot{.x_label = "clocks \"of\" a frame", .y_label = "error"};
-  plot.points = {{10, 1, 2, 0, "far < below"}, {1000, 100, 0, 1, "above"}, {100, 10, 2, 2, "between"}};
+  plot.points = {{10, 1, 2, 0, "far < below"}, {1000, 100, 0, 1, "above"}, {100, 10, 2, 2, "between", true}};
   plot.front = {{10, 1}, {1000, 100}};
   const auto svg = draw_plot(plot, folder_->path());
   ASSERT_TRUE(svg) << svg.error().message;
@@ -45,6 +46,8 @@ TEST_F(PlotTest, EachPointIsALinkInItsPlace) {
   ASSERT_EQ(places.size(), 3U);
   const auto below = places.at("#point-0 far < below"), above = places.at("#point-1 above"),
              between = places.at("#point-2 between");
+  EXPECT_THAT(*svg, HasSubstr("aria-label=\"between\" class=\"aside\""));
+  EXPECT_THAT(*svg, Not(HasSubstr("aria-label=\"above\" class")));
   // SVG's y goes down; both axes are logarithmic.
   EXPECT_LT(below.first, between.first);
   EXPECT_GT(below.second, between.second);

@@ -72,6 +72,14 @@ std::string told(const Table& table, std::size_t row, const char* column) {
   return value ? fmt::format("{:.6g}", *value) : table.text(row, column);
 }
 
+// In words; of any of its rows.
+std::string told_picture(const Table& table, std::size_t row) {
+  const std::string& exponent = table.text(row, "exponent");
+  return fmt::format("{}{}tessellation {}, {}×{}", exponent.empty() ? "" : "exponent " + exponent,
+                     exponent.empty() ? "" : ", ", table.text(row, "tessellation"), table.text(row, "width"),
+                     table.text(row, "height"));
+}
+
 }  // namespace
 
 Status add_study(Page& page) {
@@ -112,6 +120,7 @@ Status add_study(Page& page) {
     if (const auto reference = phong.find(picture_of(*points, row)); reference != phong.end())
       page.data["points"][row]["reference"] = reference->second;
 
+  const std::string picture = commonest_picture(*points);
   std::string html, first;  // the first plot's prefix: marks of the legend are its
   for (const Axes& axes : c_axes) {
     Plot plot{.x_label = axes.x_label, .y_label = axes.y_label};
@@ -127,7 +136,8 @@ Status add_study(Page& page) {
           static_cast<std::size_t>(std::ranges::find(series, series_of(*points, row)) - series.begin());
       plot.points.push_back({*x, *y, s, row,
                              fmt::format("{}: {} {:.4g}, {} {:.4g}", points->text(row, "point"), axes.x_label,
-                                         *x, axes.y_label, *y)});
+                                         *x, axes.y_label, *y),
+                             picture_of(*points, row) != picture});
     }
     if (plot.points.empty()) continue;
     if (first.empty()) first = axes.id;
@@ -159,8 +169,21 @@ Status add_study(Page& page) {
         "color=\"{}\"/></svg> {}</li>\n",
         first, look.shape - 1, look.colour, escaped(series[s]));
   }
-  html = fmt::format("<ul class=\"legend\" aria-label=\"Legend\">\n{}</ul>\n<div class=\"plots\">\n{}",
-                     legend, html);
+  std::string pictures = "The dashed line joins the designs that no other beats in both.";
+  std::size_t of = 0, others = 0;  // a row of the picture; how many there are of others
+  for (std::size_t row = 0; row < points->rows.size(); ++row)
+    if (picture_of(*points, row) == picture)
+      of = row;
+    else
+      ++others;
+  if (others > 0)
+    pictures = fmt::format(
+        "Faint points drew other pictures than that of {}. Of it, the dashed line joins the designs that no "
+        "other beats in both.",
+        told_picture(*points, of));
+  html = fmt::format(
+      "<ul class=\"legend\" aria-label=\"Legend\">\n{}</ul>\n<p>{}</p>\n<div class=\"plots\">\n{}", legend,
+      pictures, html);
   html += "</div>\n<details><summary>All points as a table</summary>\n";
   std::vector<std::vector<std::string>> rows;
   for (std::size_t row = 0; row < points->rows.size(); ++row)
