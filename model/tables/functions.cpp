@@ -17,12 +17,6 @@
 namespace halfway::tables {
 namespace {
 
-constexpr std::string_view name_of(Function function) {
-  return function == Function::reciprocal_root ? "reciprocal_root"
-         : function == Function::logarithm     ? "logarithm"
-                                               : "decay";
-}
-
 // The function `position` cells from the first one's beginning; positions and arguments are exact.
 long double value_of(const FunctionTable& table, long double position) {
   const long double cells = std::ldexp(1.0L, table.address_bits);
@@ -46,7 +40,7 @@ std::uint32_t correctly_rounded(const FunctionTable& table, int index) {
   const long double doubt = std::ldexp(8 * std::numeric_limits<long double>::epsilon(), table.fraction_bits);
   if (std::fabs(above_tie) <= doubt)
     throw std::logic_error(fmt::format("{}: value {} is too near a tie to be rounded in long double",
-                                       name_of(table.function), index));
+                                       to_string(table.function), index));
   const auto rounded = to_integer<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
   // The value behind the last cell serves a difference alone.
   if (index == 1 << table.address_bits) return rounded;
@@ -64,7 +58,7 @@ constexpr std::string_view preset_name(bool exact) {
 }
 
 std::string constant_name(const FunctionTable& table) {
-  return fmt::format("c_{}_{}", preset_name(table.exact), name_of(table.function));
+  return fmt::format("c_{}_{}", preset_name(table.exact), to_string(table.function));
 }
 
 constexpr std::string_view c_notice = "Made by `make tables` from model/tables/functions.cpp; edit that.";
@@ -77,8 +71,6 @@ int root_raise(const FunctionTable& table) {
       std::numbers::sqrt2 * std::ldexp(0.5, -table.fraction_bits) + std::ldexp(0.5, -table.address_bits);
   return to_integer<int>(std::round(std::ldexp(1.5 * error * error, 23)));
 }
-
-constexpr Function c_functions[] = {Function::reciprocal_root, Function::logarithm, Function::decay};
 
 }  // namespace
 
@@ -140,7 +132,7 @@ std::string function_vhdl_package(const std::vector<FunctionTable>& tables) {
       c_notice);
   auto to = std::back_inserter(out);
   for (const Function function : c_functions)
-    fmt::format_to(to, "  constant c_{} : natural := {};\n", name_of(function), static_cast<int>(function));
+    fmt::format_to(to, "  constant c_{} : natural := {};\n", to_string(function), static_cast<int>(function));
   out +=
       "\n  type function_format_t is record\n    address_bits  : positive;\n    value_bits    : positive;\n"
       "    fraction_bits : positive;\n    slope_bits    : natural; -- of the difference of neighbours\n"
@@ -161,7 +153,7 @@ std::string function_vhdl_package(const std::vector<FunctionTable>& tables) {
                    type);
     for (const FunctionTable& table : tables)
       fmt::format_to(to, "    if {}exact and which = c_{} then\n      return {};\n    end if;\n",
-                     table.exact ? "" : "not ", name_of(table.function), text_of(table));
+                     table.exact ? "" : "not ", to_string(table.function), text_of(table));
     fmt::format_to(to,
                    "    report \"{0}: there is no function \" & integer'image(which) severity failure;\n"
                    "    return {1};\n  end function;\n\n",
@@ -194,7 +186,7 @@ std::string function_cpp_header(const std::vector<FunctionTable>& tables) {
       c_notice);
   auto to = std::back_inserter(out);
   for (const Function function : c_functions)
-    fmt::format_to(to, "{}{}", name_of(function), function == c_functions[2] ? " };\n\n" : ", ");
+    fmt::format_to(to, "{}{}", to_string(function), function == c_functions.back() ? " };\n\n" : ", ");
   out +=
       "struct FunctionTable {\n  int address_bits, value_bits, fraction_bits;\n"
       "  int slope_bits;  // of the difference of neighbours\n"
@@ -214,7 +206,7 @@ std::string function_cpp_header(const std::vector<FunctionTable>& tables) {
   // By preset, then by function.
   for (const bool exact : {true, false}) {
     fmt::format_to(to, "\ninline constexpr std::array<FunctionTable, {}> c_{}_functions = {{{{\n",
-                   std::size(c_functions), preset_name(exact));
+                   c_functions.size(), preset_name(exact));
     for (const FunctionTable& table : tables)
       if (table.exact == exact)
         fmt::format_to(to, "    {{{}, {}, {}, {}, {}_values}},\n", table.address_bits, table.value_bits,

@@ -3,6 +3,7 @@
 // of model/golden/function_tables.hpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,6 +19,18 @@ enum class Function {
   logarithm,        ///< log2(x), 1 <= x <= 2
   decay             ///< 2^-x, 0 <= x <= 1
 };
+inline constexpr std::array c_functions = {Function::reciprocal_root, Function::logarithm, Function::decay};
+inline const char* to_string(Function function) {
+  switch (function) {
+    case Function::reciprocal_root:
+      return "reciprocal_root";
+    case Function::logarithm:
+      return "logarithm";
+    case Function::decay:
+      break;
+  }
+  return "decay";
+}
 
 /// The function over 2^address_bits cells, times 2^fraction_bits, correctly rounded; held where it does not
 /// fit value_bits. With slope_bits it is interpolated: value i is the function where cell i begins, and there
@@ -31,7 +44,7 @@ struct FunctionTable {
   std::vector<std::uint32_t> values;
 };
 
-/// The three of preset exact, then of published.
+/// Those of preset exact, in the order of c_functions, then of published.
 std::vector<FunctionTable> function_tables();
 
 /// The same with another table of 1/sqrt(x) in one preset.

@@ -29,10 +29,8 @@ class Real {
   mpfr_t value_;
 };
 
-constexpr const char* c_names[] = {"reciprocal_root", "logarithm", "decay"};
-
 std::string name_of(const FunctionTable& table) {
-  return fmt::format("{} {}", table.exact ? "exact" : "published", c_names[static_cast<int>(table.function)]);
+  return fmt::format("{} {}", table.exact ? "exact" : "published", to_string(table.function));
 }
 
 // The function's argument at value `index`, in units of 2^-(address_bits + 1): exact.
@@ -142,13 +140,12 @@ std::vector<std::uint32_t> numbers_of(const std::string& text, const std::string
 TEST(Functions, VhdlAndCppCarryTheSameNumbers) {
   const std::string vhdl = function_vhdl_package(), cpp = function_cpp_header();
   for (const FunctionTable& table : function_tables()) {
-    const std::string name = fmt::format("c_{}_{}", table.exact ? "exact" : "published",
-                                         c_names[static_cast<int>(table.function)]);
+    const std::string name =
+        fmt::format("c_{}_{}", table.exact ? "exact" : "published", to_string(table.function));
     EXPECT_EQ(numbers_of(vhdl, "constant " + name + " :", "(\n", ");"), table.values) << name;
     EXPECT_EQ(numbers_of(cpp, " " + name + "_values", "= {\n", "\n}"), table.values) << name;
-    const std::string choice =
-        fmt::format("if {}exact and which = c_{} then\n      return ", table.exact ? "" : "not ",
-                    c_names[static_cast<int>(table.function)]);
+    const std::string choice = fmt::format("if {}exact and which = c_{} then\n      return ",
+                                           table.exact ? "" : "not ", to_string(table.function));
     EXPECT_THAT(vhdl, ::testing::HasSubstr(choice + name + ";"));
     EXPECT_THAT(vhdl, ::testing::HasSubstr(choice + fmt::format("({}, {}, {}, {});", table.address_bits,
                                                                 table.value_bits, table.fraction_bits,
