@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -20,16 +19,6 @@
 
 namespace halfway::cli {
 namespace {
-
-std::optional<FrameSize> parse_size(std::string_view text) {
-  FrameSize size;
-  const char* const end = text.data() + text.size();
-  const auto [x, width_error] = std::from_chars(text.data(), end, size.width);
-  if (width_error != std::errc{} || x == end || *x != 'x') return std::nullopt;
-  const auto [rest, height_error] = std::from_chars(x + 1, end, size.height);
-  if (height_error != std::errc{} || rest != end) return std::nullopt;
-  return size;
-}
 
 constexpr int c_most_levels = 5;  // of subdivision
 
@@ -138,13 +127,13 @@ Result<Shader> checked_shader(const std::string& name) {
       fmt::format("--shader: '{}' is not a shader of this program; take {}", name, c_shader_names));
 }
 
-Result<FrameSize> checked_size(const std::string& text) {
-  const std::optional<FrameSize> size = parse_size(text);
+Result<FrameSize> checked_size(const std::string& text, const char* option) {
+  const std::optional<FrameSize> size = parse_frame_size(text);
   if (!size)
-    return bad_input(fmt::format("--size: '{}' is not WIDTHxHEIGHT in pixels, such as 640x480", text));
+    return bad_input(fmt::format("{}: '{}' is not WIDTHxHEIGHT in pixels, such as 640x480", option, text));
   if (size->width < 1 || size->height < 1 || size->width > c_max_frame_side ||
       size->height > c_max_frame_side)
-    return bad_input(fmt::format("--size: {} is out of range; width and height are 1 to {} pixels", text,
+    return bad_input(fmt::format("{}: {} is out of range; width and height are 1 to {} pixels", option, text,
                                  c_max_frame_side));
   return *size;
 }

@@ -45,8 +45,8 @@ struct DrawSettings {
 
 Result<DrawSettings> checked(const DrawOptions& options);
 
-/// WIDTHxHEIGHT.
-Result<FrameSize> checked_size(const std::string& text);
+/// WIDTHxHEIGHT, as the option has it.
+Result<FrameSize> checked_size(const std::string& text, const char* option = "--size");
 
 /// For help texts.
 inline constexpr const char* c_shader_names = "quadratic, spherical or processors";

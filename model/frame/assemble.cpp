@@ -22,8 +22,8 @@ Error refusal(const Fragment& f, std::uint64_t number, const std::string& why) {
 
 }  // namespace
 
-FrameAssembler::FrameAssembler(FrameSize size, glm::dvec3 background)
-    : frame_(size), z_(frame_.pixels(), c_empty) {
+FrameAssembler::FrameAssembler(FrameSize size, const Tile& tile, glm::dvec3 background)
+    : size_(size), tile_(tile), frame_(tile.size), z_(frame_.pixels(), c_empty) {
   const std::array<std::uint8_t, 3> colour = {to_byte(background.r), to_byte(background.g),
                                               to_byte(background.b)};
   for (auto pixel = frame_.rgb.begin(); pixel != frame_.rgb.end();)
@@ -33,12 +33,15 @@ FrameAssembler::FrameAssembler(FrameSize size, glm::dvec3 background)
 Status FrameAssembler::add(std::span<const Fragment> fragments) {
   for (const Fragment& f : fragments) {
     ++fragments_;
-    if (f.x >= frame_.size.width || f.y >= frame_.size.height)
-      return refusal(
-          f, fragments_,
-          fmt::format("it lies outside the frame of {}x{}", frame_.size.width, frame_.size.height));
+    const bool inside = tile_.holds(f.x, f.y);
+    if (!inside && (f.x >= size_.width || f.y >= size_.height))
+      return refusal(f, fragments_, "it lies outside the frame of " + to_string(size_));
     if (f.z > c_greatest_z) return refusal(f, fragments_, "z has more than 24 bits");
-    const std::size_t rgb = frame_.offset(f.x, f.y);
+    if (!inside) {
+      ++beside_;
+      continue;
+    }
+    const std::size_t rgb = frame_.offset(f.x - tile_.x, f.y - tile_.y);
     std::uint32_t& z = z_[rgb / 3];
     if (f.z >= z) continue;
     if (z == c_empty) ++covered_pixels_;
@@ -48,6 +51,12 @@ Status FrameAssembler::add(std::span<const Fragment> fragments) {
     frame_.rgb[rgb + 2] = f.blue;
   }
   return Ok{};
+}
+
+std::optional<std::uint32_t> FrameAssembler::depth(std::uint32_t x, std::uint32_t y) const {
+  const std::uint32_t z = z_[frame_.offset(x, y) / 3];
+  if (z == c_empty) return std::nullopt;
+  return z;
 }
 
 std::vector<std::uint8_t> FrameAssembler::mask() const {

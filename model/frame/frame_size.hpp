@@ -2,12 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 
 namespace halfway {
 
 /// In pixels.
 struct FrameSize {
   std::uint32_t width = 0, height = 0;
+  friend bool operator==(const FrameSize&, const FrameSize&) = default;
 };
+
+/// WIDTHxHEIGHT; none where the text is another, whatever the numbers.
+std::optional<FrameSize> parse_frame_size(std::string_view text);
+std::string to_string(FrameSize size);
 
 }  // namespace halfway

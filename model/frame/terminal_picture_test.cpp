@@ -6,10 +6,6 @@
 namespace halfway {
 namespace {
 
-bool operator==(FrameSize a, FrameSize b) {
-  return a.width == b.width && a.height == b.height;
-}
-
 TEST(TerminalPicture, FitsAndNeverGrows) {
   EXPECT_TRUE((fitting_size({1000, 1000}, 80, 24) == FrameSize{48, 48}));
   EXPECT_TRUE((fitting_size({1000, 500}, 80, 24) == FrameSize{80, 40}));

@@ -86,6 +86,12 @@ class ProcessorsShader {
   }
 
   const TriangleWalker<Exact>& walker() const { return walker_; }
+  /// As a vector that draws, or passes over the line, loads it.
+  TriangleWalker<Exact> walker_of(std::span<const std::uint32_t> vector) const {
+    TriangleWalker<Exact> walker;
+    walker.line_load(walk_of(vector));
+    return walker;
+  }
 
   /// The stages' registers as the RTL's probe carries them: the line; the pixel that the span stands at; the
   /// object that has left a processor.
@@ -140,13 +146,19 @@ class ProcessorsShader {
     return words;
   }
 
-  void line_load(std::span<const std::uint32_t> vector) {
-    // The walk begins amid a word.
+  // It begins amid a word.
+  std::array<std::uint32_t, words_of(Exact::c_init_header_bits)> walk_of(
+      std::span<const std::uint32_t> vector) const {
     std::array<std::uint32_t, words_of(Exact::c_init_header_bits)> walk;
     for (std::size_t i = 0; i < walk.size(); ++i)
       walk[i] = static_cast<std::uint32_t>(
           get_bits(vector, {"", 32 * static_cast<int>(i), 32, false, 0}, layout_.walk_low()));
     static_assert(Exact::c_init_header_bits % 32 == 0);
+    return walk;
+  }
+
+  void line_load(std::span<const std::uint32_t> vector) {
+    const auto walk = walk_of(vector);
     walker_.line_load(walk);
     depth_.line_load(walk);
     for (int p = 0; p < layout_.planes(); ++p) {

@@ -44,6 +44,12 @@ class QuadraticShader {
   }
 
   const TriangleWalker<Preset>& walker() const { return walker_; }
+  /// As the vector loads it.
+  static TriangleWalker<Preset> walker_of(std::span<const std::uint32_t> init) {
+    TriangleWalker<Preset> walker;
+    walker.line_load(init);
+    return walker;
+  }
 
   /// The stages' registers as the RTL's probe carries them.
   std::array<std::uint32_t, c_probe_words> line_probe() const {

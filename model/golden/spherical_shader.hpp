@@ -74,6 +74,12 @@ class SphericalShader {
   }
 
   const TriangleWalker<Preset>& walker() const { return walker_; }
+  /// As the header loads it.
+  static TriangleWalker<Preset> walker_of(std::span<const std::uint32_t> header) {
+    TriangleWalker<Preset> walker;
+    walker.line_load(header);
+    return walker;
+  }
 
   /// The stages' registers as the RTL's probe carries them; each of the last three at the pixel that the span
   /// stands at.

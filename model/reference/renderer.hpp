@@ -4,24 +4,27 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "frame/frame.hpp"
+#include "frame/tile.hpp"
 #include "scene/scene.hpp"
 #include "setup/screen_triangle.hpp"
 
 namespace halfway {
 
 struct ReferenceImage {
-  Frame frame;
+  Frame frame;                     ///< or its tile
   std::vector<std::uint8_t> mask;  ///< 1 where a triangle covers the pixel, else 0; one byte a pixel
 };
 
 struct RenderOptions {
   FrameSize frame;
-  int subpixel_bits = 4;  ///< of the screen triangles' coordinates, 1 to 9
-  unsigned threads = 0;   ///< 0: as many as the machine has. The picture does not depend on it.
+  int subpixel_bits = 4;       ///< of the screen triangles' coordinates, 1 to 9
+  unsigned threads = 0;        ///< 0: as many as the machine has. The picture does not depend on it.
+  std::optional<Tile> tile{};  ///< of the frame, in place of all of it
 };
 
 /// Normal and position are interpolated perspective-correctly at the pixel's centre and shaded there.

@@ -218,5 +218,25 @@ TEST(Renderer, GouraudDoesNotClampItsVertices) {
   }
 }
 
+TEST(Reference, TilesArePartsOfTheFrame) {
+  RandomSolids random(7);
+  const Scene scene = random.scene(5);
+  const auto triangles = Projector(scene, c_frame, {}).project_all();
+  for (const auto& render : {render_reference, render_gouraud}) {
+    const ReferenceImage whole = render(scene, triangles, {.frame = c_frame});
+    for (const Tile& tile : tiles_of(c_frame, {23, 19})) {
+      const ReferenceImage part = render(scene, triangles, {.frame = c_frame, .tile = tile});
+      ASSERT_EQ(part.frame.size, tile.size);
+      for (std::uint32_t y = 0; y < tile.size.height; ++y)
+        for (std::uint32_t x = 0; x < tile.size.width; ++x) {
+          const std::size_t here = part.frame.offset(x, y),
+                            there = whole.frame.offset(tile.x + x, tile.y + y);
+          ASSERT_EQ(part.mask[here / 3], whole.mask[there / 3]) << tile.x + x << "," << tile.y + y;
+          for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(part.frame.rgb[here + k], whole.frame.rgb[there + k]);
+        }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace halfway

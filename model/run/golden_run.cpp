@@ -110,6 +110,19 @@ class Model final : public GoldenModel {
   std::size_t group(std::span<const std::uint32_t> init_words) const override {
     return shader_.group(init_words);
   }
+  bool touches(std::span<const std::uint32_t> init_words, const Tile& tile) const override {
+    const std::int64_t left = tile.x, right = left + tile.size.width, top = tile.y,
+                       bottom = top + tile.size.height;
+    bool touched = false;
+    auto walker = shader_.walker_of(init_words);
+    walker.walk([&] {
+      if (touched || walker.line_empty() || walker.y() < top || walker.y() >= bottom) return;
+      const std::int64_t from = walker.start().value(),
+                         to = from + walker.pixel_step() * (length(walker) - 1);
+      touched = std::min(from, to) < right && std::max(from, to) >= left;
+    });
+    return touched;
+  }
   void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) override {
     while (!init_words.empty()) {
       room_.clear();
@@ -139,6 +152,8 @@ class Model final : public GoldenModel {
   unsigned probe_bits() const override { return static_cast<unsigned>(shader_.probe_bits()); }
 
  private:
+  static std::int64_t length(const auto& walker) { return static_cast<std::int64_t>(walker.pixels()); }
+
   Shader shader_;
   Room room_;
 };

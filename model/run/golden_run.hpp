@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frame/fragment.hpp"
+#include "frame/tile.hpp"
 #include "plan/hardware_key.hpp"
 
 namespace halfway {
@@ -31,6 +32,9 @@ class GoldenModel {
   virtual ~GoldenModel() = default;
   /// How many vectors make a triangle, which begins with this one: itself, and its line records.
   virtual std::size_t group(std::span<const std::uint32_t> init_words) const = 0;
+  /// Whether a triangle's vectors, which begin with this one, cover a pixel of the tile. They must be of a
+  /// setup's units, not of its prologue.
+  virtual bool touches(std::span<const std::uint32_t> init_words, const Tile& tile) const = 0;
   /// Appends the fragments of whole triangles' vectors.
   virtual void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) = 0;
   /// The same fragments in the model's own room, until it draws again.

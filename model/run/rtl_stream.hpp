@@ -38,6 +38,9 @@ class RtlStream {
   /// Without `compare` no golden fragments are added, and none are missed.
   RtlStream(FrameSize size, glm::dvec3 background, bool compare = true)
       : compares_(compare), assembler_(size, background) {}
+  /// Keeps a tile of the frame alone.
+  RtlStream(FrameSize size, const Tile& tile, glm::dvec3 background)
+      : compares_(true), assembler_(size, tile, background) {}
 
   void add_golden(std::span<const Fragment> fragments);
   void add(std::span<const Fragment> fragments);

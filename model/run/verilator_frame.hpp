@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/result.hpp"
 #include "frame/frame.hpp"
+#include "frame/tile.hpp"
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
@@ -15,16 +17,18 @@
 namespace halfway {
 
 struct VerilatorFrame {
-  Frame frame;
+  Frame frame;                     ///< or a tile of it
   std::vector<std::uint8_t> mask;  ///< a byte a pixel: 1 where a fragment covers it
-  std::uint64_t fragments = 0, cycles = 0;
-  SetupCounts counts;
+  std::uint64_t fragments = 0;     ///< of the frame or tile
+  std::uint64_t cycles = 0;        ///< with those in which pixels beside the tile are drawn
+  SetupCounts counts;              ///< the tiles' of a frame together are the frame's
 };
 
 /// Every fragment is compared with the golden model's: one that differs, or a fault of the hardware, is an
-/// error (ExitCode::differs) that tells the first ones.
+/// error (ExitCode::differs) that tells the first ones. Of a tile's pixels every fragment is the whole
+/// frame's.
 Result<VerilatorFrame> draw_in_verilator(const Scene& scene, FrameSize size, const HardwareKey& key,
                                          const SetupOptions& options, const SimulatorFolders& folders,
-                                         unsigned threads);
+                                         unsigned threads, const std::optional<Tile>& tile = {});
 
 }  // namespace halfway

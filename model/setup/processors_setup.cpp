@@ -169,6 +169,9 @@ class ProcessorsSetup final : public Setup {
   std::uint32_t units() const override {
     return config_.shadows ? frame_.height : static_cast<std::uint32_t>(scene_.triangles.size());
   }
+  Tile reach(std::uint32_t unit) const override {
+    return config_.shadows ? Tile{0, unit, {frame_.width, 1}} : projector_.reach(unit);
+  }
   std::vector<std::string> notes() const override { return notes_; }
 
   void append_prologue(std::vector<std::uint32_t>& words, SetupCounts& counts) const override {

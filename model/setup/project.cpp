@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -23,6 +24,9 @@ constexpr double c_largest_to_cut = 1e13;
 
 // Shorter interpolated normals are rounding noise: their direction means nothing.
 constexpr double c_shortest_normal = 1e-8;
+
+// Pixels: what rounding to whole ones, and an edge by its rounded slope, may add to a triangle.
+constexpr std::int32_t c_reach_margin = 2;
 
 bool representable(double v) {
   return std::abs(v) <= c_largest_coordinate;
@@ -219,6 +223,30 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
     ++counts.visible;
   else
     ++(faces_away ? counts.back_facing : counts.degenerate);
+}
+
+Tile Projector::reach(std::uint32_t triangle) const {
+  std::vector<ScreenTriangle> pieces;
+  project(triangle, pieces);
+  if (pieces.empty()) return {};
+  constexpr std::int32_t c_far = std::numeric_limits<std::int32_t>::max();
+  ScreenPoint least{c_far, c_far}, greatest{-c_far, -c_far};
+  for (const ScreenTriangle& piece : pieces)
+    for (const ScreenVertex& v : piece.vertex) {
+      least = {std::min(least.x, v.x), std::min(least.y, v.y)};
+      greatest = {std::max(greatest.x, v.x), std::max(greatest.y, v.y)};
+    }
+  const auto pixels = [&](std::int32_t first, std::int32_t last, std::uint32_t side) {
+    const auto in_frame = [&](std::int32_t units, std::int32_t margin) {
+      const std::int64_t pixel = floor_divide(units, 1 << options_.subpixel_bits).quotient + margin;
+      return static_cast<std::uint32_t>(std::clamp<std::int64_t>(pixel, 0, side));
+    };
+    return std::pair(in_frame(first, -c_reach_margin), in_frame(last, c_reach_margin + 1));
+  };
+  const auto [left, right] = pixels(least.x, greatest.x, frame_.width);
+  const auto [top, bottom] = pixels(least.y, greatest.y, frame_.height);
+  if (left == right || top == bottom) return {};
+  return {left, top, {right - left, bottom - top}};
 }
 
 void Projector::project_two_sided(const std::array<glm::dvec3, 3>& corners_world, std::uint32_t source,

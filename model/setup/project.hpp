@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "frame/tile.hpp"
 #include "scene/camera.hpp"
 #include "scene/scene.hpp"
 #include "setup/edge.hpp"
@@ -63,6 +64,10 @@ class Projector {
   /// Appends what is seen of the triangle: nothing, one screen triangle, or the fan of a clipped polygon.
   void project(std::uint32_t triangle, std::vector<ScreenTriangle>& out, ProjectionCounts& counts) const;
   void project(std::uint32_t triangle, std::vector<ScreenTriangle>& out) const;
+
+  /// A part of the frame that holds every pixel of what is seen of the triangle, and of any piece that its
+  /// edges' midpoints cut off, rounded to whole pixels or not; empty where nothing is seen.
+  Tile reach(std::uint32_t triangle) const;
 
   /// Appends what lies in the slice of a triangle that need not be the scene's, whichever way it faces:
   /// pieces numbered `source`, of material 0, without normals. What it shares with others comes out with the

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frame/frame_size.hpp"
+#include "frame/tile.hpp"
 #include "golden/formats.hpp"
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
@@ -94,6 +95,8 @@ class Setup {
   /// surfaces before it shades one.
   virtual std::uint32_t units() const = 0;
   virtual bool units_are_lines() const { return false; }
+  /// A part of the frame that holds every pixel that the unit's vectors cover: empty where there is none.
+  virtual Tile reach(std::uint32_t unit) const = 0;
   /// Appends what the hardware is told once.
   virtual void append_prologue(std::vector<std::uint32_t>& /*words*/, SetupCounts& /*counts*/) const {}
   /// Appends one unit's vectors.

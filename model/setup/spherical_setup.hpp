@@ -67,6 +67,7 @@ class SphericalSetup final : public Setup {
 
   unsigned init_bits() const override { return init_bits_; }
   std::uint32_t units() const override { return static_cast<std::uint32_t>(scene_->triangles.size()); }
+  Tile reach(std::uint32_t triangle) const override { return projector_.reach(triangle); }
   void append(std::uint32_t triangle, std::vector<std::uint32_t>& words, SetupCounts& counts) const override;
 
   PointVectors vectors_at(const Material& material, const SurfacePoint& point) const;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rectangles that a frame is cut into, and the frame put together of them.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "frame/frame.hpp"
+
+namespace halfway {
+
+/// Pixels [x, x + width) of lines [y, y + height) of a frame.
+struct Tile {
+  std::uint32_t x = 0, y = 0;
+  FrameSize size;
+
+  bool empty() const { return size.width == 0 || size.height == 0; }
+  bool holds(std::uint32_t column, std::uint32_t line) const {
+    return column - x < size.width && line - y < size.height;  // what lies before wraps
+  }
+  friend bool operator==(const Tile&, const Tile&) = default;
+};
+
+inline Tile whole_frame(FrameSize frame) {
+  return {0, 0, frame};
+}
+
+inline bool overlap(const Tile& a, const Tile& b) {
+  return !a.empty() && !b.empty() && a.x < b.x + b.size.width && b.x < a.x + a.size.width &&
+         a.y < b.y + b.size.height && b.y < a.y + a.size.height;
+}
+
+/// Tiles of this size, smaller ones at the right and at the bottom: each pixel lies in one. Line by line.
+inline std::vector<Tile> tiles_of(FrameSize frame, FrameSize tile) {
+  std::vector<Tile> tiles;
+  for (std::uint32_t y = 0; y < frame.height; y += tile.height)
+    for (std::uint32_t x = 0; x < frame.width; x += tile.width)
+      tiles.push_back(
+          {x, y, {std::min(tile.width, frame.width - x), std::min(tile.height, frame.height - y)}});
+  return tiles;
+}
+
+/// Puts a tile's picture, which is as large as the tile, where it belongs in the frame.
+inline void put_tile(Frame& frame, const Frame& picture, const Tile& tile) {
+  for (std::uint32_t y = 0; y < tile.size.height; ++y)
+    std::ranges::copy(std::span(picture.rgb).subspan(picture.offset(0, y), 3 * std::size_t{tile.size.width}),
+                      frame.rgb.begin() + static_cast<std::ptrdiff_t>(frame.offset(tile.x, tile.y + y)));
+}
+
+}  // namespace halfway
