@@ -28,7 +28,7 @@ constexpr std::size_t c_parts = 64;
 
 struct StudyCommand {
   std::string scene, space;
-  std::string size;  ///< empty: the space's
+  std::string size, tile;  ///< empty: the space's
   std::string error, psnr, time;
   std::optional<double> clock_mhz;
   bool place = false;
@@ -81,7 +81,15 @@ Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
     if (!size) return size.error();
     for (study::DesignPoint& point : *points) point.size = *size;
   }
-  settings.points = std::move(*points);
+  if (!command.tile.empty()) {
+    const auto tile = checked_size(command.tile, "--tile");
+    if (!tile) return tile.error();
+    if (std::min(tile->width, tile->height) < study::c_least_tile)
+      return bad_input(fmt::format("--tile: {} is too small; width and height are {} pixels at least",
+                                   command.tile, study::c_least_tile));
+    for (study::DesignPoint& point : *points) point.tile = *tile;
+  }
+  settings.points = study::ordered(std::move(*points));
   return plan;
 }
 
@@ -114,6 +122,7 @@ std::vector<std::string> worker_of(const Folders& folders, const StudyCommand& c
                                     "--space",
                                     absolute_path(space)};
   if (!command.size.empty()) words.push_back("--size=" + command.size);
+  if (!command.tile.empty()) words.push_back("--tile=" + command.tile);
   if (!command.scene.empty())
     words.push_back(std::filesystem::exists(command.scene) ? absolute_path(command.scene) : command.scene);
   return words;
@@ -137,21 +146,26 @@ int set_up(const study::StudySettings& settings, const std::string& names) {
   return done ? 0 : report(done.error());
 }
 
-// Measures what is open in a job array; what is left to do then is to gather.
+// Measures what is open in job arrays; what is left to do then is to gather. In the first, a task may be done
+// before the tiles are there, of other tasks, that it would have put together; a second one does that.
 Status run_on_slurm(study::StudySettings settings, const Folders& folders, const StudyCommand& command,
                     const std::string& space) {
-  settings.parts = std::clamp<std::size_t>(command.parts, 1, settings.points.size());
-  auto open = study::open_parts(settings);
-  if (!open) return open.error();
+  settings.parts = std::clamp<std::size_t>(command.parts, 1, study::pieces(settings));
   study::JobArray array{.worker = worker_of(folders, command, space),
                         .parts = settings.parts,
-                        .open = std::move(*open),
                         .folder = absolute_path(settings.out / "slurm"),
                         .options = command.slurm_options};
   for (const std::string& word :
        {std::string("--out"), absolute_path(settings.out), std::string("--threads=1")})
     array.worker.push_back(word);
-  return study::run_job_array(array);
+  const bool any_tiles = std::ranges::any_of(settings.points, &study::DesignPoint::in_tiles);
+  for (int round = 0; round < (any_tiles ? 2 : 1); ++round) {
+    auto open = study::open_parts(settings);
+    if (!open) return open.error();
+    array.open = std::move(*open);
+    if (Status ran = study::run_job_array(array); !ran) return ran;
+  }
+  return Ok{};
 }
 
 // The table, and the answer to what was asked of each picture.
@@ -190,8 +204,8 @@ int run(const Folders& folders, const StudyCommand& command) {
   progress.clear();
   if (!study) return report(study.error());
   if (!command.part.empty()) {
-    fmt::print("part {}: {} points, {} measured anew\n", command.part, study->records.size(),
-               study->measured);
+    fmt::print("part {}: {} points, {} measured anew, {} tiles drawn\n", command.part, study->records.size(),
+               study->measured, study->drawn_tiles);
     return 0;
   }
   const auto hardware = study::hardware_figures(
@@ -213,6 +227,8 @@ void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
   study->add_option("--space", command->space,
                     "TOML file of the designs (sim/studies/small.toml; for a question designs.toml)");
   study->add_option("--size", command->size, "WIDTHxHEIGHT, of every point (the space's)");
+  study->add_option("--tile", command->tile,
+                    "WIDTHxHEIGHT: larger frames are drawn in tiles of this size (the space's, or 1280x960)");
   study->add_option("--error", command->error,
                     "asks for the cheapest hardware with at most this largest error, in steps of 1/255");
   study->add_option("--psnr", command->psnr, "asks for at least this PSNR, in dB");

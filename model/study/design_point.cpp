@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "common/file.hpp"
@@ -23,10 +24,6 @@ namespace {
 struct BadSpace {
   Error error;
 };
-
-std::string of_size(FrameSize size) {
-  return fmt::format("{}x{}", size.width, size.height);
-}
 
 // What is read off one sweep: a list for each of its keys.
 class Sweep {
@@ -70,6 +67,17 @@ class Sweep {
     });
   }
 
+  std::vector<FrameSize> sizes(std::string_view key, FrameSize otherwise, std::uint32_t least) const {
+    return list<FrameSize>(key, {otherwise}, [&](const toml::node& node) {
+      const auto size = parse_frame_size(node.value<std::string>().value_or(""));
+      if (!size || std::min(size->width, size->height) < least ||
+          std::max(size->width, size->height) > c_max_frame_side)
+        fail(key, fmt::format("takes WIDTHxHEIGHT in pixels, such as 640x480, each {} to {}", least,
+                              c_max_frame_side));
+      return *size;
+    });
+  }
+
   template <class Value>
   std::vector<Value> names(std::string_view key, std::vector<Value> otherwise,
                            const std::vector<std::pair<std::string_view, Value>>& known) const {
@@ -106,18 +114,15 @@ bool is_processors(Method method) {
 
 std::vector<DesignPoint> points_of(const Sweep& sweep) {
   sweep.allow({"method", "preset", "address_bits", "data_bits", "angle_bits", "fraction_bits", "seed_bits",
-               "newton", "form", "threshold", "tessellation", "exponent", "size"});
+               "newton", "form", "threshold", "tessellation", "exponent", "size", "tile"});
   std::vector<std::pair<std::string_view, Method>> methods;
   for (std::size_t i = 0; i < c_method_names.size(); ++i)
     methods.emplace_back(c_method_names[i], static_cast<Method>(i));
   std::vector<DesignPoint> points(1);
-  multiply(points,
-           sweep.names<FrameSize>("size", {DesignPoint{}.size},
-                                  {{"160x120", {160, 120}},
-                                   {"320x240", {320, 240}},
-                                   {"640x480", {640, 480}},
-                                   {"1280x960", {1280, 960}}}),
+  multiply(points, sweep.sizes("size", DesignPoint{}.size, 1),
            [](DesignPoint& p, FrameSize size) { p.size = size; });
+  multiply(points, sweep.sizes("tile", DesignPoint{}.tile, c_least_tile),
+           [](DesignPoint& p, FrameSize tile) { p.tile = tile; });
   multiply(points, sweep.numbers("tessellation", {1.0}, 0.05, 100.0),
            [](DesignPoint& p, double factor) { p.tessellation = factor; });
   // NaN: the scene's own.
@@ -212,7 +217,8 @@ bool DesignPoint::has_threshold() const {
 }
 
 std::string DesignPoint::picture() const {
-  std::string text = of_size(size);
+  std::string text = to_string(size);
+  if (in_tiles()) text += " in tiles of " + to_string(tile);
   if (tessellation != 1.0) text += fmt::format(", tessellation {:g}", tessellation);
   if (exponent) text += fmt::format(", exponent {:g}", *exponent);
   return text;
@@ -258,6 +264,13 @@ SetupOptions DesignPoint::setup() const {
   return options;
 }
 
+std::vector<DesignPoint> ordered(std::vector<DesignPoint> points) {
+  std::set<std::string> known;
+  std::erase_if(points, [&](const DesignPoint& point) { return !known.insert(point.name()).second; });
+  std::ranges::stable_sort(points, {}, &DesignPoint::picture);
+  return points;
+}
+
 Result<std::vector<DesignPoint>> read_space(const std::filesystem::path& path) {
   const auto text = read_file(path);
   if (!text) return text.error();
@@ -269,15 +282,11 @@ Result<std::vector<DesignPoint>> read_space(const std::filesystem::path& path) {
     if (sweeps == nullptr || sweeps->empty())
       return bad_input(path.string() + ": no sweep; give it a [[sweep]] with a method");
     std::vector<DesignPoint> points;
-    std::set<std::string> known;
     for (const toml::node& node : *sweeps) {
       if (node.as_table() == nullptr) top.fail("sweep", "must be a table: [[sweep]]");
-      for (DesignPoint& point : points_of(Sweep(*node.as_table(), path.string())))
-        if (known.insert(point.name()).second) points.push_back(point);
+      std::ranges::copy(points_of(Sweep(*node.as_table(), path.string())), std::back_inserter(points));
     }
-    // Points of one picture stand together: its reference is made once.
-    std::ranges::stable_sort(points, {}, &DesignPoint::picture);
-    return points;
+    return ordered(std::move(points));
   } catch (const BadSpace& bad) {
     return bad.error;
   } catch (const toml::parse_error& bad) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/design_point.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -95,6 +96,11 @@ TEST_F(SpaceTest, TellsFileAndLineOfWhatItCannotTake) {
   EXPECT_THAT(message_of("[[sweep]]\nexponent = 5\n"), HasSubstr("space.toml:1: method is missing"));
   EXPECT_THAT(message_of("[[sweep]]\nmethod = []\n"), HasSubstr("space.toml:2: method is an empty list"));
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"spherical\"\naddress_bits = 6\n"), HasSubstr("data_bits"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nsize = \"4097x1\"\n"),
+              HasSubstr("space.toml:3: size takes WIDTHxHEIGHT in pixels, such as 640x480, each 1 to 4096"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nsize = \"large\"\n"), HasSubstr("size takes"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\ntile = \"15x100\"\n"),
+              HasSubstr("space.toml:3: tile takes WIDTHxHEIGHT in pixels, such as 640x480, each 16 to 4096"));
   EXPECT_THAT(message_of(""), HasSubstr("no sweep"));
   EXPECT_THAT(message_of("[[sweep]\n"), HasSubstr("space.toml:1:"));
 }
@@ -107,6 +113,20 @@ TEST(DesignPoint, NamesAllThatTellsItFromOthers) {
   EXPECT_EQ(point.name(), "spherical published 9x8, 320x240, exponent 50");
   point = {.method = Method::processors_2, .form = ProcessorForm::folded, .tessellation = 0.5};
   EXPECT_EQ(point.name(), "processors-2 exact folded, 320x240, tessellation 0.5");
+}
+
+// A tile says how a frame is drawn only where it is smaller.
+TEST_F(SpaceTest, CutsFramesThatAreLargerThanATile) {
+  const auto points = read(
+      "[[sweep]]\nmethod = \"quadratic\"\nsize = [\"4096x4096\", \"33x17\", \"1280x960\"]\n"
+      "tile = [\"1280x960\", \"2048x4096\"]\n");
+  ASSERT_TRUE(points) << points.error().message;
+  std::vector<std::string> pictures;
+  for (const DesignPoint& point : *points)
+    pictures.push_back(fmt::format("{}: {}", point.picture(), point.tiles().size()));
+  EXPECT_THAT(pictures, ::testing::UnorderedElementsAre("4096x4096 in tiles of 1280x960: 20",
+                                                        "4096x4096 in tiles of 2048x4096: 2", "33x17: 1",
+                                                        "1280x960: 1"));
 }
 
 }  // namespace

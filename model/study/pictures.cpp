@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/pictures.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 
 #include "scene/load_scene.hpp"
@@ -10,13 +9,11 @@
 namespace halfway::study {
 namespace {
 
-constexpr std::size_t c_most_kept = 8;
-
-std::vector<std::uint8_t> highlight_mask(const Scene& scene, std::span<const ScreenTriangle> triangles,
-                                         const RenderOptions& options, const ReferenceImage& reference) {
-  Scene dull = scene;
+std::vector<std::uint8_t> highlight_mask(const Subject& subject, const RenderOptions& options,
+                                         const ReferenceImage& reference) {
+  Scene dull = subject.scene;
   for (Material& material : dull.materials) material.specular = 0.0;
-  const Frame without = render_reference(dull, triangles, options).frame;
+  const Frame without = render_reference(dull, subject.triangles, options).frame;
   std::vector<std::uint8_t> mask(reference.mask.size());
   for (std::size_t pixel = 0; pixel < mask.size(); ++pixel)
     for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
@@ -34,39 +31,34 @@ Result<Scene> drawn_scene(const std::string& scene, const std::filesystem::path&
   return drawn;
 }
 
-Result<std::shared_ptr<const Pictures>> PictureShelf::of(const DesignPoint& point) {
-  const std::string name = point.picture();
-  std::promise<Result<std::shared_ptr<const Pictures>>> promise;
-  Made made;
-  bool mine = false;
-  {
-    const std::scoped_lock lock(mutex_);
-    const auto found = std::ranges::find(kept_, name, &std::pair<std::string, Made>::first);
-    mine = found == kept_.end();
-    made = mine ? promise.get_future().share() : found->second;
-    if (mine) kept_.emplace_back(name, made);
-    if (kept_.size() > c_most_kept) kept_.pop_front();
-  }
-  if (mine) {
-    try {
-      promise.set_value(make(point));
-    } catch (...) {
-      promise.set_exception(std::current_exception());
-    }
-  }
-  return made.get();
+Reference render(const Subject& subject, FrameSize frame, const std::optional<Tile>& tile) {
+  const RenderOptions options{.frame = frame, .subpixel_bits = 4, .threads = 1, .tile = tile};
+  Reference reference;
+  reference.image = render_reference(subject.scene, subject.triangles, options);
+  reference.highlight = highlight_mask(subject, options, reference.image);
+  return reference;
 }
 
-Result<std::shared_ptr<const Pictures>> PictureShelf::make(const DesignPoint& point) const {
-  auto scene = drawn_scene(scene_, scenes_folder_, point);
-  if (!scene) return scene.error();
-  auto pictures = std::make_shared<Pictures>();
-  pictures->scene = std::move(*scene);
-  pictures->triangles = Projector(pictures->scene, point.size, {}).project_all();
-  const RenderOptions options{.frame = point.size, .subpixel_bits = 4, .threads = 1};
-  pictures->reference = render_reference(pictures->scene, pictures->triangles, options);
-  pictures->highlight = highlight_mask(pictures->scene, pictures->triangles, options, pictures->reference);
-  return std::shared_ptr<const Pictures>(std::move(pictures));
+Result<std::shared_ptr<const Subject>> PictureShelf::subject(const DesignPoint& point) {
+  return subjects_.of(point.picture(), [&]() -> Result<std::shared_ptr<const Subject>> {
+    auto scene = drawn_scene(scene_, scenes_folder_, point);
+    if (!scene) return scene.error();
+    auto made = std::make_shared<Subject>();
+    made->scene = std::move(*scene);
+    made->triangles = Projector(made->scene, point.size, {}).project_all();
+    return std::shared_ptr<const Subject>(std::move(made));
+  });
+}
+
+Result<std::shared_ptr<const Pictures>> PictureShelf::of(const DesignPoint& point,
+                                                         const MakeReference& reference) {
+  return pictures_.of(point.picture(), [&]() -> Result<std::shared_ptr<const Pictures>> {
+    const auto drawn = subject(point);
+    if (!drawn) return drawn.error();
+    auto made = reference ? reference() : render(**drawn, point.size);
+    if (!made) return made.error();
+    return std::make_shared<const Pictures>(*drawn, std::move(*made));
+  });
 }
 
 }  // namespace halfway::study

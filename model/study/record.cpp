@@ -149,12 +149,15 @@ Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& fol
                     tools};
 }
 
-std::string record_name(const Provenance& provenance, const DesignPoint& point) {
+std::string record_name(const Provenance& provenance, const std::string& name) {
   ContentHash hash;
   for (const std::string* part :
        {&provenance.scene, &provenance.scene_hash, &provenance.program, &provenance.rtl, &provenance.tools})
     hash.add(*part);
-  return hash.add(point.name()).hex();
+  return hash.add(name).hex();
+}
+std::string record_name(const Provenance& provenance, const DesignPoint& point) {
+  return record_name(provenance, point.name());
 }
 
 std::filesystem::path Records::file(const DesignPoint& point) const {

@@ -34,7 +34,8 @@ struct Record {
   Measurement measured;
 };
 
-/// By which a point's files are called, without ending.
+/// By which the files of something are called, without ending: a point's by its name.
+std::string record_name(const Provenance& provenance, const std::string& name);
 std::string record_name(const Provenance& provenance, const DesignPoint& point);
 
 /// Records of one study in a folder: two files a point.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -16,29 +17,108 @@
 #include "study/host_setup.hpp"
 #include "study/measure.hpp"
 #include "study/pictures.hpp"
+#include "study/pieces.hpp"
+#include "study/tile_record.hpp"
 
 namespace halfway::study {
 namespace {
 
-std::size_t first_of(const StudySettings& settings, std::size_t part) {
-  return settings.points.size() * part / settings.parts;
+// A whole frame of a large picture, and what it is compared by, takes gigabytes.
+constexpr unsigned c_most_gathering = 2;
+
+std::span<const Piece> part_of(std::span<const Piece> pieces, std::size_t part, std::size_t parts) {
+  const std::size_t begin = pieces.size() * part / parts, end = pieces.size() * (part + 1) / parts;
+  return pieces.subspan(begin, end - begin);
 }
 
-// Where the records of the study lie, and what they must be of.
-struct Shelf {
-  Provenance provenance;
-  Records kept;
+bool is_point(const Piece& piece) {
+  return piece.kind == PieceKind::point || piece.kind == PieceKind::gathering;
+}
+
+// Where pieces are made, and lie when they are.
+class Bench {
+ public:
+  static Result<Bench> open(const StudySettings& settings) {
+    const auto scene = load_scene(settings.scene, settings.folders.source / "sim" / "scenes");
+    if (!scene) return scene.error();
+    auto provenance = provenance_of(*scene, settings.folders);
+    if (!provenance) return provenance.error();
+    const std::filesystem::path folder = settings.out / "points";
+    if (Status made = make_folders(folder); !made) return made.error();
+    return Bench(settings, *provenance, folder);
+  }
+
+  const Provenance& provenance() const { return provenance_; }
+  const Records& kept() const { return kept_; }
+
+  std::optional<Record> find(const Piece& piece) const {
+    return is_point(piece) ? kept_.find(point_of(piece)) : std::nullopt;
+  }
+  // A tile is of no use any more where its points are there.
+  bool is_done(const Piece& piece) const {
+    const DesignPoint& point = point_of(piece);
+    if (piece.kind == PieceKind::tile && tiles_.has_drawing(point, piece.tile)) return true;
+    if (piece.kind == PieceKind::reference_tile && tiles_.has_reference(point, piece.tile)) return true;
+    return std::ranges::all_of(std::span(settings_.points).subspan(piece.point, piece.points),
+                               [&](const DesignPoint& each) { return kept_.find(each).has_value(); });
+  }
+  bool can_gather(const Piece& piece) const { return is_done(piece) || tiles_.complete(point_of(piece)); }
+
+  // A point's record, of which nothing is kept in memory but figures; none of a tile.
+  Result<std::optional<Record>> make(const Piece& piece) const {
+    const DesignPoint& point = point_of(piece);
+    if (is_point(piece)) return make_point(point, piece.kind == PieceKind::gathering);
+    const auto subject = shelf_->subject(point);
+    if (!subject) return subject.error();
+    const Tile tile = point.tiles()[piece.tile];
+    Status added = Ok{};
+    if (piece.kind == PieceKind::reference_tile) {
+      added = tiles_.add_reference(point, piece.tile, render(**subject, point.size, tile));
+    } else {
+      const auto drawing = draw(point, **subject, settings_.folders, tile);
+      if (!drawing) return drawing.error();
+      added = tiles_.add_drawing(point, piece.tile, *drawing);
+    }
+    if (!added) return added.error();
+    return std::optional<Record>();
+  }
+
+ private:
+  Bench(const StudySettings& settings, const Provenance& provenance, const std::filesystem::path& folder)
+      : settings_(settings),
+        provenance_(provenance),
+        kept_(folder, provenance),
+        tiles_(folder, provenance),
+        shelf_(std::make_unique<PictureShelf>(settings.scene, settings.folders.source / "sim" / "scenes")) {}
+
+  const DesignPoint& point_of(const Piece& piece) const { return settings_.points[piece.point]; }
+
+  Result<std::optional<Record>> make_point(const DesignPoint& point, bool of_tiles) const {
+    PictureShelf::MakeReference reference;
+    if (of_tiles) reference = [&] { return tiles_.reference(point); };
+    const auto pictures = shelf_->of(point, reference);
+    if (!pictures) return pictures.error();
+    std::optional<Drawing> drawing;
+    if (is_drawn(point.method)) {
+      auto drawn = of_tiles ? tiles_.drawing(point) : draw(point, *(*pictures)->subject, settings_.folders);
+      if (!drawn) return drawn.error();
+      drawing = std::move(*drawn);
+    }
+    auto measured = measure(**pictures, std::move(drawing));
+    if (!measured) return measured.error();
+    Record record{point, std::move(*measured)};
+    if (Status added = kept_.add_frame(point, record.measured.frame); !added) return added.error();
+    record.measured.frame = {};
+    if (Status added = kept_.add(record); !added) return added.error();
+    return std::optional(std::move(record));
+  }
+
+  const StudySettings& settings_;
+  Provenance provenance_;
+  Records kept_;
+  TileRecords tiles_;
+  std::unique_ptr<PictureShelf> shelf_;
 };
-
-Result<Shelf> open_shelf(const StudySettings& settings) {
-  const auto scene = load_scene(settings.scene, settings.folders.source / "sim" / "scenes");
-  if (!scene) return scene.error();
-  auto provenance = provenance_of(*scene, settings.folders);
-  if (!provenance) return provenance.error();
-  const std::filesystem::path folder = settings.out / "points";
-  if (Status made = make_folders(folder); !made) return made.error();
-  return Shelf{*provenance, Records(folder, *provenance)};
-}
 
 // Those of the records that lack them.
 Status count_instructions(const StudySettings& settings, const Records& kept, std::vector<Record>& records) {
@@ -96,59 +176,65 @@ Drawable drawable(std::vector<DesignPoint> points, const std::string& scene,
   return found;
 }
 
+std::size_t pieces(const StudySettings& settings) {
+  return pieces_of(settings.points).size();
+}
+
 Result<std::vector<std::size_t>> open_parts(const StudySettings& settings) {
-  const auto shelf = open_shelf(settings);
-  if (!shelf) return shelf.error();
+  const auto bench = Bench::open(settings);
+  if (!bench) return bench.error();
+  const std::vector<Piece> all = pieces_of(settings.points);
   std::vector<std::size_t> open;
   for (std::size_t part = 0; part < settings.parts; ++part)
-    for (std::size_t at = first_of(settings, part); at < first_of(settings, part + 1); ++at)
-      if (!shelf->kept.find(settings.points[at])) {
-        open.push_back(part);
-        break;
-      }
+    if (!std::ranges::all_of(part_of(all, part, settings.parts),
+                             [&](const Piece& piece) { return bench->is_done(piece); }))
+      open.push_back(part);
   return open;
 }
 
 Result<Study> run_study(const StudySettings& settings) {
-  const auto opened = open_shelf(settings);
-  if (!opened) return opened.error();
-  const Records& kept = opened->kept;
-  PictureShelf shelf(settings.scene, settings.folders.source / "sim" / "scenes");
-
-  const std::size_t begin = first_of(settings, settings.part), end = first_of(settings, settings.part + 1);
-  std::vector<std::optional<Record>> records(end - begin);
+  auto bench = Bench::open(settings);
+  if (!bench) return bench.error();
+  const std::vector<Piece> all = pieces_of(settings.points);
+  const std::span<const Piece> mine = part_of(all, settings.part, settings.parts);
+  Study study{bench->provenance(), {}};
+  std::vector<std::optional<Record>> records(mine.size());
   std::mutex mutex;
-  std::size_t done = 0, measured = 0;
-  const auto measure_one = [&](const DesignPoint& point) -> Result<Record> {
-    const auto pictures = shelf.of(point);
-    if (!pictures) return pictures.error();
-    auto figures = measure(point, **pictures, settings.folders);
-    if (!figures) return figures.error();
-    Record record{point, std::move(*figures)};
-    if (Status added = kept.add_frame(point, record.measured.frame); !added) return added.error();
-    record.measured.frame = {};
-    if (Status added = kept.add(record); !added) return added.error();
-    return record;
-  };
-  Status all = for_each_on_threads(settings.threads, records.size(), [&](std::size_t at) -> Status {
-    const DesignPoint& point = settings.points[begin + at];
-    std::optional<Record>& record = records[at];
-    record = kept.find(point);
-    const bool anew = !record;
+  std::size_t done = 0;
+  const auto each = [&](std::size_t at) -> Status {
+    const Piece& piece = mine[at];
+    std::optional<Record> record = bench->find(piece);
+    const bool anew = is_point(piece) ? !record : !bench->is_done(piece);
     if (anew) {
-      auto made = measure_one(point);
-      if (!made) return Error{made.error().code, point.name() + ": " + made.error().message};
+      auto made = bench->make(piece);
+      if (!made)
+        return Error{made.error().code, settings.points[piece.point].name() + ": " + made.error().message};
       record = std::move(*made);
     }
     const std::scoped_lock lock(mutex);
-    measured += anew;
-    settings.on_progress(fmt::format("{} of {} points", ++done, records.size()));
+    (is_point(piece) ? study.measured : study.drawn_tiles) += anew;
+    records[at] = std::move(record);
+    settings.on_progress(fmt::format("{} of {} {}", ++done, mine.size(),
+                                     all.size() == settings.points.size() ? "points" : "points and tiles"));
     return Ok{};
-  });
-  if (!all) return all.error();
-  Study study{opened->provenance, {}, measured};
-  for (std::optional<Record>& record : records) study.records.push_back(std::move(*record));
-  if (Status counted = count_instructions(settings, kept, study.records); !counted) return counted.error();
+  };
+  // What is put together of tiles comes when all that is drawn here is there. Of another part's it may not
+  // be: then that part, or a later run, does it.
+  std::vector<std::size_t> drawn, gathered;
+  for (std::size_t at = 0; at < mine.size(); ++at)
+    (mine[at].kind == PieceKind::gathering ? gathered : drawn).push_back(at);
+  Status worked =
+      for_each_on_threads(settings.threads, drawn.size(), [&](std::size_t i) { return each(drawn[i]); });
+  if (!worked) return worked.error();
+  if (settings.parts > 1)
+    std::erase_if(gathered, [&](std::size_t at) { return !bench->can_gather(mine[at]); });
+  worked = for_each_on_threads(std::min(settings.threads, c_most_gathering), gathered.size(),
+                               [&](std::size_t i) { return each(gathered[i]); });
+  if (!worked) return worked.error();
+  for (std::optional<Record>& record : records)
+    if (record) study.records.push_back(std::move(*record));
+  if (Status counted = count_instructions(settings, bench->kept(), study.records); !counted)
+    return counted.error();
   return study;
 }
 

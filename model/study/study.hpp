@@ -19,7 +19,8 @@ struct StudySettings {
   std::vector<DesignPoint> points;
   std::filesystem::path out;  ///< records of all studies lie in out/points, tables in out
   unsigned threads = 1;
-  /// Points that follow each other are cut into `parts`; measured is only this one's. All: part 0 of 1.
+  /// Pieces (pieces.hpp) that follow each other are cut into `parts`; measured is only this one's. All: part
+  /// 0 of 1.
   std::size_t part = 0, parts = 1;
   SimulatorFolders folders;
   /// What host_instructions takes as its worker. Empty: they are not counted.
@@ -30,8 +31,9 @@ struct StudySettings {
 
 struct Study {
   Provenance provenance;
-  std::vector<Record> records;  ///< in the points' order; of the part alone
-  std::size_t measured = 0;     ///< anew, in this run
+  std::vector<Record> records;  ///< in the points' order; of the part alone, as far as they are there
+  std::size_t measured = 0;     ///< of these anew, in this run
+  std::size_t drawn_tiles = 0;  ///< in this run
 };
 
 /// The points that can be drawn of the scene. What is left out is told: each reason once.
@@ -42,11 +44,15 @@ struct Drawable {
 };
 Drawable drawable(std::vector<DesignPoint> points, const std::string& scene, const SimulatorFolders& folders);
 
-/// Numbers of the parts with points that were not measured before.
+/// How many pieces the points are cut into: more than those there is no use for parts.
+std::size_t pieces(const StudySettings& settings);
+
+/// Numbers of the parts with pieces that were not measured before.
 Result<std::vector<std::size_t>> open_parts(const StudySettings& settings);
 
-/// Measures what was not measured before, on all threads. Each point's record is written as it comes, so that
-/// a run that is broken off goes on where it was. The first point that fails ends the study.
+/// Measures what was not measured before, on all threads. Each piece's record is written as it comes, so that
+/// a run that is broken off goes on where it was. The first piece that fails ends the study. Of a part, what
+/// has to be put together of tiles that are not there is left open.
 Result<Study> run_study(const StudySettings& settings);
 
 }  // namespace halfway::study

@@ -12,6 +12,8 @@
 #include "common/file.hpp"
 #include "common/sanitizers.hpp"
 #include "common/subprocess.hpp"
+#include "frame/image.hpp"
+#include "study/figures.hpp"
 #include "study/host_setup.hpp"
 #include "study/table.hpp"
 #include "tables/made_tables.hpp"
@@ -21,6 +23,7 @@ namespace {
 
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
 
@@ -118,6 +121,104 @@ TEST_F(StudyTest, PartsAreTheWhole) {
   EXPECT_THAT(*open_parts(settings_), ::testing::ElementsAre(0U, 2U));
 }
 
+// The same figures as of the frame in one, but for the hardware's clocks.
+class TiledStudyTest : public StudyTest {
+ protected:
+  void SetUp() override {
+    StudyTest::SetUp();
+    for (DesignPoint& point : settings_.points) point.size = {64, 48};
+    whole_ = study();
+    for (DesignPoint& point : settings_.points) point.tile = {37, 29};
+  }
+  // Without what tells the two apart.
+  static std::string figures(Record record) {
+    record.measured.cycles = 0;
+    std::string text;
+    for_each_figure(record.measured, [&](const char* name, const auto& value) {
+      text += fmt::format("{} {}, ", name, ::testing::PrintToString(value));
+    });
+    return text;
+  }
+  void expect_whole(const Study& tiled) const {
+    ASSERT_EQ(tiled.records.size(), whole_.records.size());
+    for (std::size_t i = 0; i < tiled.records.size(); ++i) {
+      EXPECT_EQ(figures(tiled.records[i]), figures(whole_.records[i]));
+      EXPECT_EQ(picture(tiled, i), picture(whole_, i));
+      EXPECT_GE(tiled.records[i].measured.cycles, whole_.records[i].measured.cycles);
+    }
+  }
+  std::vector<std::uint8_t> picture(const Study& of, std::size_t point) const {
+    const auto frame =
+        read_png(folder_->path() / "points" / (record_name(of.provenance, of.records[point].point) + ".png"));
+    EXPECT_TRUE(frame) << frame.error().message;
+    return frame ? frame->rgb : std::vector<std::uint8_t>();
+  }
+  Study whole_;
+};
+
+TEST_F(TiledStudyTest, TilesAreTheWhole) {
+  const Study tiled = study();
+  EXPECT_EQ(tiled.measured, 4U);
+  EXPECT_EQ(tiled.drawn_tiles, 4U * 4U);  // the reference's, and of all but Phong's
+  expect_whole(tiled);
+  EXPECT_THAT(tiled.records[2].point.name(), HasSubstr("64x48 in tiles of 37x29"));
+  EXPECT_THAT(table_of(tiled), HasSubstr(",4\n"));
+  EXPECT_THAT(table_of(whole_), Not(HasSubstr(",4\n")));
+}
+
+// A tile that is lost is drawn anew, and no other; where its points are there nobody misses it.
+TEST_F(TiledStudyTest, GoesOnTileByTile) {
+  const std::string first = table_of(study());
+  const Provenance provenance = whole_.provenance;
+  const DesignPoint& quadratic = settings_.points[2];
+  const auto lose = [&](const std::string& name, const char* ending) {
+    return std::filesystem::remove(folder_->path() / "points" / (name + ending));
+  };
+  const std::string drawing = record_name(provenance, quadratic),
+                    reference = record_name(provenance, "reference, " + quadratic.picture());
+  EXPECT_TRUE(lose(drawing, "-tile-1.json") && lose(drawing, "-tile-2-mask.png"));
+  EXPECT_TRUE(lose(reference, "-tile-0.png"));
+  Study again = study();
+  EXPECT_EQ(again.drawn_tiles, 0U);
+  EXPECT_EQ(again.measured, 0U);
+  EXPECT_TRUE(lose(drawing, ".json"));
+  again = study();
+  EXPECT_EQ(again.drawn_tiles, 3U);
+  EXPECT_EQ(again.measured, 1U);
+  EXPECT_EQ(table_of(again), first);
+}
+
+TEST_F(TiledStudyTest, PartsDrawTilesAndTheLastOneGathers) {
+  settings_.parts = 5;
+  std::size_t drawn = 0;
+  const auto run_parts = [&](const std::vector<std::size_t>& parts) {
+    std::size_t measured = 0;
+    for (settings_.part = 0; settings_.part < settings_.parts; ++settings_.part) {
+      if (std::ranges::find(parts, settings_.part) == parts.end()) continue;
+      const Study part = study();
+      drawn += part.drawn_tiles;
+      measured += part.measured;
+    }
+    return measured;
+  };
+  // Back to front: the reference comes last, and no point can be put together before.
+  EXPECT_EQ(run_parts({1, 2, 3, 4}), 0U);
+  EXPECT_THAT(*open_parts(settings_), ::testing::ElementsAre(0U, 1U, 2U, 3U, 4U));
+  run_parts({0});
+  EXPECT_EQ(drawn, 4U * 4U);
+  const auto open = open_parts(settings_);
+  ASSERT_TRUE(open);
+  EXPECT_FALSE(open->empty());
+  run_parts(*open);
+  EXPECT_EQ(drawn, 4U * 4U);
+  EXPECT_TRUE(open_parts(settings_)->empty());
+  settings_.part = 0;
+  settings_.parts = 1;
+  const Study all = study();
+  EXPECT_EQ(all.measured + all.drawn_tiles, 0U);
+  expect_whole(all);
+}
+
 TEST_F(StudyTest, TellsThePointThatFails) {
   settings_.scene = "lights";
   settings_.points = {{.method = Method::processors_1, .preset = Preset::published}};
@@ -161,7 +262,7 @@ TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
   EXPECT_LT(usual.picture.rms, coarse.picture.rms);
   EXPECT_EQ(usual.fragments, coarse.fragments);
   EXPECT_EQ(usual.setup.shaded, coarse.setup.shaded);
-  EXPECT_THAT(table_of(made), HasSubstr(",,4,,\n"));
+  EXPECT_THAT(table_of(made), HasSubstr(",,4,,,1\n"));
 }
 
 TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
@@ -219,13 +320,13 @@ TEST_F(StudyTest, TheTableTellsTheFront) {
       EndsWith(",host_instructions,luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,"
                "cycles_a_fragment,host_instructions_a_triangle,record,multiplier_luts,clock_mhz,clock,"
                "frame_ns,fragment_ns,ice40_luts,ice40_carries,ice40_flip_flops,ice40_rams,"
-               "angle_bits,fraction_bits,seed_bits,newton"));
+               "angle_bits,fraction_bits,seed_bits,newton,tiles"));
   EXPECT_THAT(lines[1], EndsWith(",,,,,,,,,,," + record_name(made.provenance, made.records[0].point) +
-                                 ",,,,,,,,,,,,,"));
+                                 ",,,,,,,,,,,,,,1"));
   EXPECT_THAT(lines[3], HasSubstr(",100,20,0,0,0,120,1,1."));
   const auto cycles = static_cast<double>(made.records[2].measured.cycles),
              fragments = static_cast<double>(made.records[2].measured.fragments);
-  EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"pinned\",{:.6g},{:.6g},,,,,,,,", 12.5 * cycles,
+  EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"pinned\",{:.6g},{:.6g},,,,,,,,,1", 12.5 * cycles,
                                              12.5 * cycles / fragments)));
   EXPECT_THAT(lines[4], HasSubstr(",100,20,0,0,0,120,1,1."));
   const auto commas = [](const std::string& line) {

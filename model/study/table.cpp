@@ -90,7 +90,7 @@ Result<std::string> to_csv(const Provenance& provenance, std::span<const Record>
   text +=
       ",luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,cycles_a_fragment,"
       "host_instructions_a_triangle,record,multiplier_luts,clock_mhz,clock,frame_ns,fragment_ns,ice40_luts,"
-      "ice40_carries,ice40_flip_flops,ice40_rams,angle_bits,fraction_bits,seed_bits,newton\n";
+      "ice40_carries,ice40_flip_flops,ice40_rams,angle_bits,fraction_bits,seed_bits,newton,tiles\n";
   for (std::size_t at = 0; at < records.size(); ++at) {
     const auto& [p, measured] = records[at];
     text += fmt::format(
@@ -107,7 +107,7 @@ Result<std::string> to_csv(const Provenance& provenance, std::span<const Record>
     text += ratio(measured.cycles, measured.fragments) +
             ratio(measured.host_instructions.value_or(0), measured.triangles) + "," +
             record_name(provenance, p) + multiplier_column(hardware, measured.hardware) +
-            clock_columns(hardware, measured) + words_columns(p.words) + "\n";
+            clock_columns(hardware, measured) + words_columns(p.words) + column(p.tiles().size()) + "\n";
   }
   return text;
 }

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/tile_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
+
+#include "common/file.hpp"
+#include "frame/image.hpp"
+
+namespace halfway::study {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* c_colours = ".png";
+constexpr const char* c_masks = "-mask.png";  // red: covered, green: in a highlight
+constexpr const char* c_figures = ".json";    // written last
+
+// With their names. Those of all tiles add up to the frame's.
+template <class Counts, class Visit>
+void for_each_count(Counts& d, const Visit& visit) {
+  visit("fragments", d.fragments);
+  visit("cycles", d.cycles);
+  visit("screen_triangles", d.setup.triangles);
+  visit("leaves", d.setup.leaves);
+  visit("unresolved", d.setup.unresolved);
+  visit("init_vectors", d.setup.vectors);
+  visit("line_records", d.setup.records);
+  visit("host_evaluations", d.setup.shaded);
+}
+
+Frame to_picture(FrameSize size, std::span<const std::uint8_t> red, std::span<const std::uint8_t> green) {
+  Frame picture(size);
+  for (std::size_t i = 0; i < red.size(); ++i) picture.rgb[3 * i] = red[i] != 0 ? 255 : 0;
+  for (std::size_t i = 0; i < green.size(); ++i) picture.rgb[3 * i + 1] = green[i] != 0 ? 255 : 0;
+  return picture;
+}
+
+std::vector<std::uint8_t> mask_of(const Frame& picture, std::size_t channel) {
+  std::vector<std::uint8_t> mask(picture.pixels());
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = picture.rgb[3 * i + channel] != 0;
+  return mask;
+}
+
+Status add_files(const std::filesystem::path& stem, const Frame& colours, const Frame& masks,
+                 const Json& figures) {
+  if (Status added = write_png(stem.string() + c_colours, colours); !added) return added;
+  if (Status added = write_png(stem.string() + c_masks, masks); !added) return added;
+  return write_file(stem.string() + c_figures, figures.dump(2) + "\n");
+}
+
+// A tile's picture, of the tile's size.
+Result<Frame> read_tile(const std::filesystem::path& path, const Tile& tile) {
+  auto frame = read_png(path);
+  if (frame && !(frame->size == tile.size))
+    return bad_input(fmt::format("{}: it is {} and not {}; remove it, and it is drawn anew", path.string(),
+                                 to_string(frame->size), to_string(tile.size)));
+  return frame;
+}
+
+}  // namespace
+
+std::string TileRecords::reference_name(const DesignPoint& point) const {
+  return record_name(provenance_, "reference, " + point.picture());
+}
+std::string TileRecords::drawing_name(const DesignPoint& point) const {
+  return record_name(provenance_, point);
+}
+
+std::filesystem::path TileRecords::file(const std::string& name, std::size_t tile, const char* ending) const {
+  return folder_ / fmt::format("{}-tile-{}{}", name, tile, ending);
+}
+
+bool TileRecords::has(const std::string& name, std::size_t tile) const {
+  return std::ranges::all_of(std::array{c_colours, c_masks, c_figures}, [&](const char* ending) {
+    return std::filesystem::exists(file(name, tile, ending));
+  });
+}
+
+bool TileRecords::has_reference(const DesignPoint& point, std::size_t tile) const {
+  return has(reference_name(point), tile);
+}
+bool TileRecords::has_drawing(const DesignPoint& point, std::size_t tile) const {
+  return has(drawing_name(point), tile);
+}
+
+bool TileRecords::complete(const DesignPoint& point) const {
+  for (std::size_t tile = 0; tile < point.tiles().size(); ++tile)
+    if (!has_reference(point, tile) || (is_drawn(point.method) && !has_drawing(point, tile))) return false;
+  return true;
+}
+
+Status TileRecords::add_reference(const DesignPoint& point, std::size_t tile,
+                                  const Reference& reference) const {
+  const auto& [frame, mask] = reference.image;
+  return add_files(file(reference_name(point), tile, ""), frame,
+                   to_picture(frame.size, mask, reference.highlight),
+                   {{"picture", point.picture()}, {"tile", tile}});
+}
+
+Status TileRecords::add_drawing(const DesignPoint& point, std::size_t tile, const Drawing& drawing) const {
+  Json json = {{"point", point.name()}, {"tile", tile}, {"hardware", drawing.hardware}};
+  for_each_count(drawing, [&](const char* name, std::uint64_t count) { json[name] = count; });
+  return add_files(file(drawing_name(point), tile, ""), drawing.frame,
+                   to_picture(drawing.frame.size, drawing.mask, {}), json);
+}
+
+Result<Reference> TileRecords::reference(const DesignPoint& point) const {
+  Reference whole;
+  whole.image.frame = Frame(point.size);
+  const std::vector<Tile> tiles = point.tiles();
+  Frame masks(point.size);
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const auto colours = read_tile(file(reference_name(point), i, c_colours), tiles[i]);
+    if (!colours) return colours.error();
+    const auto mask = read_tile(file(reference_name(point), i, c_masks), tiles[i]);
+    if (!mask) return mask.error();
+    put_tile(whole.image.frame, *colours, tiles[i]);
+    put_tile(masks, *mask, tiles[i]);
+  }
+  whole.image.mask = mask_of(masks, 0);
+  whole.highlight = mask_of(masks, 1);
+  return whole;
+}
+
+Result<Drawing> TileRecords::drawing(const DesignPoint& point) const {
+  Drawing whole;
+  whole.frame = Frame(point.size);
+  const std::vector<Tile> tiles = point.tiles();
+  Frame masks(point.size);
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const auto colours = read_tile(file(drawing_name(point), i, c_colours), tiles[i]);
+    if (!colours) return colours.error();
+    const auto mask = read_tile(file(drawing_name(point), i, c_masks), tiles[i]);
+    if (!mask) return mask.error();
+    put_tile(whole.frame, *colours, tiles[i]);
+    put_tile(masks, *mask, tiles[i]);
+    const std::filesystem::path path = file(drawing_name(point), i, c_figures);
+    const auto text = read_file(path);
+    if (!text) return text.error();
+    const Json json = Json::parse(*text, nullptr, false);
+    try {
+      json.at("hardware").get_to(whole.hardware);
+      for_each_count(
+          whole, [&](const char* name, std::uint64_t& sum) { sum += json.at(name).get<std::uint64_t>(); });
+    } catch (const Json::exception&) {
+      return bad_input(path.string() + ": it is no tile's; remove it, and the tile is drawn anew");
+    }
+  }
+  if (in_hardware(point.method)) whole.mask = mask_of(masks, 0);
+  return whole;
+}
+
+}  // namespace halfway::study

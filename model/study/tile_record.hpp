@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a study keeps of a tile until its point is put together: colours and masks as PNG, figures as JSON.
+// The JSON file comes last, and each is written whole or not at all.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "common/result.hpp"
+#include "study/measure.hpp"
+#include "study/pictures.hpp"
+#include "study/record.hpp"
+
+namespace halfway::study {
+
+/// Tiles of one study in a folder. What is not of its provenance is none of its.
+class TileRecords {
+ public:
+  TileRecords(std::filesystem::path folder, Provenance provenance)
+      : folder_(std::move(folder)), provenance_(std::move(provenance)) {}
+
+  /// A tile of the reference, which points of one picture share; by its number in DesignPoint::tiles.
+  bool has_reference(const DesignPoint& point, std::size_t tile) const;
+  Status add_reference(const DesignPoint& point, std::size_t tile, const Reference& reference) const;
+  /// A tile of the point's own drawing.
+  bool has_drawing(const DesignPoint& point, std::size_t tile) const;
+  Status add_drawing(const DesignPoint& point, std::size_t tile, const Drawing& drawing) const;
+
+  /// All that the point is put together of is there.
+  bool complete(const DesignPoint& point) const;
+  /// The whole frame.
+  Result<Reference> reference(const DesignPoint& point) const;
+  /// The whole frame; figures are sums.
+  Result<Drawing> drawing(const DesignPoint& point) const;
+
+ private:
+  std::string reference_name(const DesignPoint& point) const;
+  std::string drawing_name(const DesignPoint& point) const;
+  bool has(const std::string& name, std::size_t tile) const;
+  std::filesystem::path file(const std::string& name, std::size_t tile, const char* ending) const;
+
+  std::filesystem::path folder_;
+  Provenance provenance_;
+};
+
+}  // namespace halfway::study
