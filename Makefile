@@ -8,7 +8,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 # used: neither make nor a shell ever reads them as code.
 variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS \
   ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE TRIANGLES SEED SECONDS TARGET FRAMES VIDEO TERMINAL \
-  SPACE FULL ERROR PSNR TIME CLOCK EXECUTOR PARTS DESIGN SEEDS PIN
+  SPACE FULL ERROR PSNR TIME CLOCK EXECUTOR PARTS TILE DESIGN SEEDS PIN
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
 
@@ -59,6 +59,7 @@ help: ## this list
 	@echo '  PLACE      1: make study places and routes hardware for its clock, minutes for each design'
 	@echo '  FULL, SPACE  make study: 1: the whole space; or a TOML file of designs'
 	@echo '  EXECUTOR, PARTS  make study: slurm: as a job array of so many tasks   (default: local; 64)'
+	@echo '  TILE       make study: larger frames are drawn in tiles of WIDTHxHEIGHT   (default: 1280x960)'
 	@echo '  TRIANGLES, SEED  make search: how many, and which ones     (default: 10000000, 1)'
 	@echo '  PIXEL      x,y of the pixel that make why explains'
 	@echo '  ADDRESS_BITS, DATA_BITS   make tables: size of cosine tables  (default: 9, 8; published 6, 6)'
@@ -89,7 +90,7 @@ plan: program ## the hardware that a scene calls for, and why (SCENE; MEASURE=1:
 
 study: program ## accuracy against time over the design space (FULL=1; SCENE; ERROR, PSNR, TIME ask; EXECUTOR=slurm)
 	@build/halfway study $${SPACE:+--space "$$SPACE"} $$(case "$$SPACE$${FULL:-0}" in \
-	  0) ;; 1) echo --space sim/studies/full.toml ;; esac) $(call option,SIZE,--size) $(call option,ERROR,--error) \
+	  0) ;; 1) echo --space sim/studies/full.toml ;; esac) $(call option,SIZE,--size) $(call option,TILE,--tile) $(call option,ERROR,--error) \
 	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) \
 	  $(call option,EXECUTOR,--executor) $(call option,PARTS,--parts) $(call option,THREADS,--threads) \
 	  $(call option,OUT,--out) $(scene)

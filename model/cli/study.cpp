@@ -153,16 +153,19 @@ Status run_on_slurm(study::StudySettings settings, const Folders& folders, const
   settings.parts = std::clamp<std::size_t>(command.parts, 1, study::pieces(settings));
   study::JobArray array{.worker = worker_of(folders, command, space),
                         .parts = settings.parts,
-                        .folder = absolute_path(settings.out / "slurm"),
                         .options = command.slurm_options};
   for (const std::string& word :
        {std::string("--out"), absolute_path(settings.out), std::string("--threads=1")})
     array.worker.push_back(word);
   const bool any_tiles = std::ranges::any_of(settings.points, &study::DesignPoint::in_tiles);
-  for (int round = 0; round < (any_tiles ? 2 : 1); ++round) {
+  const std::filesystem::path logs = settings.out / "slurm";
+  std::vector<std::filesystem::path> rounds = {logs};
+  if (any_tiles) rounds.push_back(logs / "gathering");
+  for (const std::filesystem::path& folder : rounds) {
     auto open = study::open_parts(settings);
     if (!open) return open.error();
     array.open = std::move(*open);
+    array.folder = absolute_path(folder);
     if (Status ran = study::run_job_array(array); !ran) return ran;
   }
   return Ok{};

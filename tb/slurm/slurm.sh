@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# A study on a real Slurm: munged, slurmctld and slurmd of this machine's own, started here and ended here. The job
+# Studies on a real Slurm: munged, slurmctld and slurmd of this machine's own, started here and ended here. The job
 # array's table equals the local run's byte for byte; a task that is killed is tried again by Slurm; a study that
-# is killed goes on where it was.
+# is killed goes on where it was. First with a point a task, then with frames that are cut into tiles: of those the
+# pictures that are put together equal the local run's and those of the frames in one.
 #
 #   tb/slurm/slurm.sh HALFWAY CHECKOUT SCRATCH
 #
@@ -129,7 +130,73 @@ done
   skip "Slurm does not run here: $(tail -qn 1 "$scratch/slurmctld.log" "$scratch/slurmd.log" 2>/dev/null)"
 note "$(slurmctld -V): the node is idle"
 
-# ---- The study: hardware, and frames that take a task a second or two each
+# ---- What both studies are asked
+
+run_local() { # name, arguments of the study...
+  local name=$1
+  shift
+  "$halfway" "$@" --threads 2 --out "$scratch/$name" >"$scratch/$name.log" 2>&1 ||
+    fail "the local run: $(cat "$scratch/$name.log")"
+  note "local: $(cat "$scratch/$name.log")"
+}
+
+same_table() { # name, name of the local run
+  cmp "$scratch/$2/study.csv" "$scratch/$1/study.csv" || fail "$1: another table than the local run's"
+}
+
+# Starts the study, and kills the first of its tasks that runs.
+run_with_a_task_killed() { # name, arguments of the study...
+  local name=$1 run killed='' tries retried
+  shift
+  "$halfway" "$@" --out "$scratch/$name" >"$scratch/$name.log" 2>&1 &
+  run=$!
+  for ((tries = 0; tries < 300; tries++)); do
+    killed=$(ours "^$halfway .*--out $scratch/$name .*--part" | head -n 1)
+    [ -n "$killed" ] && kill -KILL "$killed" 2>/dev/null && break
+    sleep 0.05
+  done
+  [ -n "$killed" ] || fail "$name: no task to kill"
+  wait $run || fail "$name: exit code $?: $(cat "$scratch/$name.log")"
+  retried=$(grep -l 'exit status 137; tried again' "$scratch/$name"/slurm/task-*.log | wc -l)
+  [ "$retried" = 1 ] || fail "$name: $retried tasks were tried again after one was killed"
+}
+
+# Starts the study, and kills it and its tasks when it has some of the records with this word, but not all.
+run_until_killed() { # name, how many, word, arguments of the study...
+  local name=$1 most=$2 word=$3 run tries
+  shift 3
+  "$halfway" "$@" --out "$scratch/$name" >"$scratch/killed.log" 2>&1 &
+  run=$!
+  for ((tries = 0; tries < 1200; tries++)); do
+    [ "$(kept "$name" "$word" | wc -l)" -ge 2 ] && break
+    sleep 0.05
+  done
+  kill -KILL $run 2>/dev/null
+  wait $run 2>/dev/null
+  scancel --user "$user" --quiet
+  for ((tries = 0; tries < 100; tries++)); do [ -z "$(squeue --noheader)" ] && break || sleep 0.2; done
+  before=$(kept "$name" "$word" | wc -l)
+  [ "$before" -ge 2 ] && [ "$before" -lt "$most" ] ||
+    fail "$name: $before of $most records when the study was killed"
+  touch "$scratch/moment"
+}
+
+# Records with this word.
+kept() { # name, word
+  grep -ls -- "$2" "$scratch/$1"/points/*.json
+}
+
+go_on() { # name, how many, word, arguments of the study...
+  local name=$1 most=$2 word=$3 anew
+  shift 3
+  "$halfway" "$@" --out "$scratch/$name" >"$scratch/$name.log" 2>&1 ||
+    fail "$name, which goes on: exit code $?: $(cat "$scratch/$name.log")"
+  anew=$(find $(kept "$name" "$word") -newer "$scratch/moment" | wc -l)
+  [ "$anew" = $((most - before)) ] || fail "$name: $anew records were written anew, with $before there"
+  note "$name: killed with $before records, $anew measured when it went on"
+}
+
+# ---- Points: hardware, and frames that take a task a second or two each
 
 cat >"$scratch/space.toml" <<END
 [[sweep]]
@@ -141,54 +208,52 @@ method = ["quadratic", "adaptive"]
 size = "160x120"
 END
 study=(--source "$checkout" study --space "$scratch/space.toml")
-on_slurm=("${study[@]}" --executor slurm --parts 3 --out)
-"$halfway" "${study[@]}" --threads 2 --out "$scratch/local" >"$scratch/local.log" 2>&1 ||
-  fail "the local run: $(cat "$scratch/local.log")"
-note "local: $(cat "$scratch/local.log")"
-
-equal() { # folder
-  cmp "$scratch/local/study.csv" "$scratch/$1/study.csv" || fail "$1: another table than the local run's"
-}
-
-# A task is killed as soon as it works.
-"$halfway" "${on_slurm[@]}" "$scratch/array" >"$scratch/array.log" 2>&1 &
-run=$!
-killed=
-for ((tries = 0; tries < 300; tries++)); do
-  killed=$(ours "^$halfway .*--out $scratch/array .*--part" | head -n 1)
-  [ -n "$killed" ] && kill -KILL "$killed" 2>/dev/null && break
-  sleep 0.05
-done
-[ -n "$killed" ] || fail 'no task to kill'
-wait $run || fail "the job array: exit code $?: $(cat "$scratch/array.log")"
-retried=$(grep -l 'exit status 137; tried again' "$scratch"/array/slurm/task-*.log | wc -l)
-[ "$retried" = 1 ] || fail "$retried tasks were tried again after one was killed"
+on_slurm=("${study[@]}" --executor slurm --parts 3)
+run_local local "${study[@]}"
+run_with_a_task_killed array "${on_slurm[@]}"
 grep -q '6 points, 0 measured anew' "$scratch/array.log" || fail "what tasks measured was not gathered: $(cat "$scratch/array.log")"
-equal array
+same_table array local
 note "job array, a task killed and tried again by Slurm: $(cat "$scratch/array.log")"
+# Of software: records of hardware are written twice, the second time with the host's instructions.
+run_until_killed resumed 4 gouraud "${on_slurm[@]}"
+go_on resumed 4 gouraud "${on_slurm[@]}"
+same_table resumed local
 
-# The study itself is killed, its tasks with it, when it has some of its records.
-"$halfway" "${on_slurm[@]}" "$scratch/resumed" >"$scratch/killed.log" 2>&1 &
-run=$!
-# Of software: those of hardware are written twice, the second time with the host's instructions.
-records() { grep -ls 'gouraud' "$scratch"/resumed/points/*.json; }
-for ((tries = 0; tries < 600; tries++)); do
-  [ "$(records | wc -l)" -ge 2 ] && break
-  sleep 0.05
-done
-kill -KILL $run 2>/dev/null
-wait $run 2>/dev/null
-scancel --user "$user" --quiet
-for ((tries = 0; tries < 100; tries++)); do [ -z "$(squeue --noheader)" ] && break || sleep 0.2; done
-before=$(records | wc -l)
-[ "$before" -ge 2 ] && [ "$before" -lt 4 ] || fail "$before of 4 records when the study was killed"
-touch "$scratch/moment"
-"$halfway" "${on_slurm[@]}" "$scratch/resumed" >"$scratch/resumed.log" 2>&1 ||
-  fail "the study that goes on: exit code $?: $(cat "$scratch/resumed.log")"
-anew=$(find $(records) -newer "$scratch/moment" | wc -l)
-[ "$anew" = $((4 - before)) ] || fail "$anew records were written anew, with $before there"
-equal resumed
-note "killed with $before records, $anew measured when it went on"
+# ---- Tiles: 6 of each of three pictures, and of the reference
+
+cat >"$scratch/tiles.toml" <<END
+[[sweep]]
+method = ["phong", "gouraud", "quadratic", "adaptive"]
+size = "1000x700"
+END
+whole=(--source "$checkout" study --space "$scratch/tiles.toml")
+study=("${whole[@]}" --tile 400x360)
+on_slurm=("${study[@]}" --executor slurm --parts 5)
+run_local whole "${whole[@]}"
+run_local tiles "${study[@]}"
+
+# The frames of points, in the table's order.
+frames() { # name
+  local record
+  for record in $(sed -n 's/.*,\([0-9a-f]\{32\}\),.*/\1/p' "$scratch/$1/study.csv"); do
+    md5sum <"$scratch/$1/points/$record.png"
+  done
+}
+same_frames() { # name, name
+  [ "$(frames "$1" | wc -l)" = 4 ] && [ "$(frames "$1")" = "$(frames "$2")" ] || fail "$1: other frames than in $2"
+}
+same_frames tiles whole
+
+run_with_a_task_killed tiles-array "${on_slurm[@]}"
+grep -q '4 points, 0 measured anew' "$scratch/tiles-array.log" ||
+  fail "what tasks drew was not put together by tasks: $(cat "$scratch/tiles-array.log")"
+same_table tiles-array tiles
+same_frames tiles-array whole
+note "tiles as a job array, a task killed and tried again by Slurm: $(cat "$scratch/tiles-array.log")"
+run_until_killed tiles-resumed 24 '"tile":' "${on_slurm[@]}"
+go_on tiles-resumed 24 '"tile":' "${on_slurm[@]}"
+same_table tiles-resumed tiles
+same_frames tiles-resumed whole
 
 [ "$failed" = 0 ] || tail -n 20 "$scratch/slurmctld.log" >&2
 exit "$failed"
