@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -219,11 +220,12 @@ TEST(Renderer, GouraudDoesNotClampItsVertices) {
 }
 
 TEST(Reference, TilesArePartsOfTheFrame) {
-  RandomSolids random(7);
-  const Scene scene = random.scene(5);
+  Scene scene = tangle(7, 60);
+  scene.shadows = true;
   const auto triangles = Projector(scene, c_frame, {}).project_all();
   for (const auto& render : {render_reference, render_gouraud}) {
     const ReferenceImage whole = render(scene, triangles, {.frame = c_frame});
+    EXPECT_GT(std::ranges::count(whole.mask, 1), 2000);
     for (const Tile& tile : tiles_of(c_frame, {23, 19})) {
       const ReferenceImage part = render(scene, triangles, {.frame = c_frame, .tile = tile});
       ASSERT_EQ(part.frame.size, tile.size);

@@ -75,7 +75,7 @@ glm::dvec3 barycentric_at_centre(const ScreenTriangle& triangle, int subpixel_bi
 ReferenceImage render_visible(const Scene& scene, std::span<const ScreenTriangle> triangles,
                               const RenderOptions& options, const std::function<PixelShader()>& make_shader) {
   const Tile tile = options.tile.value_or(whole_frame(options.frame));
-  const auto [width, height] = tile.size;
+  const std::uint32_t width = tile.size.width, height = tile.size.height;
   ReferenceImage image{Frame(tile.size), std::vector<std::uint8_t>(Frame::pixels(tile.size))};
   const std::uint32_t bands = (height + c_band_lines - 1) / c_band_lines;
   std::vector<BandRange> ranges(triangles.size());

@@ -57,7 +57,7 @@ Result<std::shared_ptr<const Pictures>> PictureShelf::of(const DesignPoint& poin
     if (!drawn) return drawn.error();
     auto made = reference ? reference() : render(**drawn, point.size);
     if (!made) return made.error();
-    return std::make_shared<const Pictures>(*drawn, std::move(*made));
+    return std::make_shared<const Pictures>(Pictures{*drawn, std::move(*made)});
   });
 }
 
