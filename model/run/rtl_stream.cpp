@@ -59,7 +59,7 @@ void RtlStream::assemble(std::span<const Fragment> fragments) {
     const std::uint64_t before = assembler_.fragments();
     if (assembler_.add(fragments)) break;
     if (fault_.empty()) fault_ = "a fragment lies outside the frame";
-    fragments = fragments.subspan(static_cast<std::size_t>(assembler_.fragments() - before) + 1);
+    fragments = fragments.subspan(static_cast<std::size_t>(assembler_.fragments() - before));
   }
 }
 
