@@ -82,11 +82,15 @@ for part in rtl tb sim model; do ln -s "$checkout/$part" "$scratch/source/$part"
 ln -s "$disk" "$scratch/source/build"
 for free in 0 300 1200; do
   new_disk 8192 "$free"
-  # What is there under its last name is whole: the sources, where what is made of them had no room.
-  expect_full "cache, $free KiB" '/cache/ghdl/[0-9a-f]*/rtl/[a-z_/]*\.vhd$' \
+  # What is there under its last name is whole: the sources, and a netlist of them, where what is made of these had
+  # no room.
+  expect_full "cache, $free KiB" '/cache/ghdl/[0-9a-f]*/(rtl/[a-z_/]*\.vhd|netlists/[a-z_]*-[0-9a-f]*\.v)$' \
     "$halfway" --source "$scratch/source" "${sim[@]:1}" --out "$scratch/out"
   for entry in "$disk"/cache/ghdl/[0-9a-f]*/rtl; do
     [ ! -d "$entry" ] || [ "$(sums "$entry")" = "$(sums "$checkout/rtl")" ] || fail "$entry is not whole"
+  done
+  for entry in "$disk"/cache/ghdl/[0-9a-f]*/netlists/*.v; do
+    [ ! -f "$entry" ] || [ "$(grep . "$entry" | tail -n 1)" = endmodule ] || fail "$entry is not whole"
   done
 done
 
