@@ -77,9 +77,11 @@ std::vector<ListedDesign> all_designs() {
     all.push_back(shader("quadratic_shader_grey_" + p, {.preset = preset, .channels = 1}));
     all.push_back(shader("spherical_shader_" + p, spherical(preset, 3, exact ? 8 : 2, tables)));
     all.push_back(shader("spherical_shader_grey_" + p, spherical(preset, 1, exact ? 8 : 2, tables)));
-    for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled})
+    for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
       all.push_back(
           shader(fmt::format("processors_shader_{}_{}", to_string(form), p), processors(preset, form)));
+      all.back().ice40 = !exact;
+    }
 
     add("line_interpolator", {{"g_bits", of("intensity")}}, true);
     add("part_interpolator", {{"g_bits", std::to_string(std::stoi(of("intensity")) / 2)}}, true);
@@ -128,6 +130,7 @@ std::vector<ListedDesign> all_designs() {
       add(entity, with(light, {{"g_kind", std::to_string(2)}}), false, "_specular");
     }
     add("shading_pipeline", {is_exact, {"g_directional", "1"}});
+    all.back().ice40 = !exact;
   }
   return all;
 }

@@ -15,6 +15,7 @@ inline constexpr const char* kAccumulator = "tb/synth/accumulator.vhd";  ///< be
 struct ListedDesign {
   Design design;       ///< its name in the page and in the file of pinned figures
   bool quick = false;  ///< a second or two of Yosys: in `make test` too
+  bool ice40 = true;   ///< false: far past the device, and long in the making; for ECP5 alone, and not pinned
 };
 
 /// All of them, in the order of the page.

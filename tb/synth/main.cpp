@@ -90,6 +90,7 @@ std::string row_begin(const std::string& name) {
 }
 
 std::string not_placed(const Figures& f) {
+  if (!f.ice40) return "not placed: its processors alone do not fit the HX8K";
   if (!f.no_room.empty()) return "not placed: " + f.no_room;
   if (!f.placements.empty()) return "not placed: does not fit the HX8K";
   return f.endless > 0 ? fmt::format("not placed: {} with {} seeds", kEndless, f.endless) : "not placed";
@@ -165,7 +166,8 @@ class Run {
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return pinned_luts(a) > pinned_luts(b); });
     std::vector<Job> jobs;
-    for (const std::size_t i : order) jobs.push_back({i, Job::Kind::ice40});
+    for (const std::size_t i : order)
+      if (designs_[i].ice40) jobs.push_back({i, Job::Kind::ice40});
     for (const std::size_t i : order)
       if (!options_.quick) jobs.push_back({i, Job::Kind::ecp5});
     work(jobs, "cells");
@@ -299,6 +301,7 @@ class Run {
   Result<ExitCode> pin() {
     for (std::size_t i = 0; i < designs_.size(); ++i) {
       const Figures& f = figures_[i];
+      if (!f.ice40) continue;
       Pin& pin = pins_[designs_[i].design.name];
       pin.cells = *f.ice40;
       // Where no placement has come to an end the clock stays, and what it is of.
@@ -308,7 +311,8 @@ class Run {
       }
     }
     std::set<std::string> listed;
-    for (const ListedDesign& each : all_designs()) listed.insert(each.design.name);
+    for (const ListedDesign& each : all_designs())
+      if (each.ice40) listed.insert(each.design.name);
     std::erase_if(pins_, [&](const auto& pin) { return !listed.contains(pin.first); });
     const Status written = write_pins(options_.folders.source / kPins, pins_, synthesizer_.versions());
     if (!written) return written.error();
@@ -320,6 +324,7 @@ class Run {
     int wrong = 0, others = 0;
     for (std::size_t i = 0; i < designs_.size(); ++i) {
       const Figures& f = figures_[i];
+      if (!f.ice40) continue;
       const std::string& name = designs_[i].design.name;
       const std::string text =
           compare(name, pins_, *f.ice40, options_.cells ? std::nullopt : std::optional(f.mhz()));
