@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of designs against rtl/, and what is pinned and printed of them against the list.
+#include "designs.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/file.hpp"
+#include "sim/synth/pinned.hpp"
+
+namespace halfway::synth {
+namespace {
+
+const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
+
+std::vector<std::string> names() {
+  std::vector<std::string> names;
+  for (const ListedDesign& listed : all_designs()) names.push_back(listed.design.name);
+  return names;
+}
+
+TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
+  auto sources = read_rtl_sources(c_root);
+  ASSERT_TRUE(sources) << sources.error().message;
+  auto beside = read_vhdl_source(c_root, kAccumulator);
+  ASSERT_TRUE(beside) << beside.error().message;
+  sources->push_back(std::move(*beside));
+  const std::regex entity(R"((?:^|\n)entity (\w+) is)");
+  std::set<std::string> there, listed;
+  for (const VhdlSource& source : *sources)
+    for (std::sregex_iterator it(source.content.begin(), source.content.end(), entity), end; it != end; ++it)
+      there.insert((*it)[1]);
+  for (const ListedDesign& design : all_designs()) listed.insert(design.design.entity);
+  EXPECT_THAT(listed, ::testing::ContainerEq(there));
+  EXPECT_GT(there.size(), 30U);
+}
+
+TEST(SynthDesigns, ArePinnedEachOnceAndNothingElseIs) {
+  std::vector<std::string> listed;
+  for (const ListedDesign& design : all_designs())
+    if (design.ice40) listed.push_back(design.design.name);
+  std::ranges::sort(listed);
+  EXPECT_EQ(std::ranges::adjacent_find(listed), listed.end()) << "two designs of one name";
+  const auto pins = read_pins(c_root / kPins);
+  ASSERT_TRUE(pins) << pins.error().message;
+  std::vector<std::string> pinned;
+  for (const auto& [name, pin] : *pins) pinned.push_back(name);
+  EXPECT_THAT(pinned, ::testing::ContainerEq(listed));
+}
+
+// Cells as pinned; the clock within what may differ, because the page may be of other seeds.
+TEST(SynthDesigns, HaveTheirRowsInThePage) {
+  const auto page = read_file(c_root / "tb/synth/README.md");
+  ASSERT_TRUE(page) << page.error().message;
+  const auto pins = read_pins(c_root / kPins);
+  ASSERT_TRUE(pins) << pins.error().message;
+  const std::size_t figures = page->find("\n## Figures\n");
+  ASSERT_NE(figures, std::string::npos);
+  const std::string table = page->substr(figures);
+  const std::regex row(R"(\n\| `(\w+)` \| (\d+|–) \| (\d+|–) \| (\d+|–) \| (\d+|–) \| (\d+|–) \|)");
+  std::vector<std::string> rows;
+  for (std::sregex_iterator it(table.begin(), table.end(), row), end; it != end; ++it) {
+    const std::string name = (*it)[1];
+    rows.push_back(name);
+    const auto found = pins->find(name);
+    EXPECT_EQ(found == pins->end(), (*it)[2] == "–") << name;
+    if (found == pins->end()) continue;
+    const Pin& pin = found->second;
+    EXPECT_EQ(
+        fmt::format("{} {} {} {}", (*it)[2].str(), (*it)[3].str(), (*it)[4].str(), (*it)[5].str()),
+        fmt::format("{} {} {} {}", pin.cells.luts, pin.cells.carries, pin.cells.flip_flops, pin.cells.rams))
+        << name;
+    const double mhz = (*it)[6] == "–" ? 0 : std::stod((*it)[6]);
+    EXPECT_LE(std::fabs(mhz - pin.mhz), c_clock_share * pin.mhz + 0.5) << name;
+  }
+  EXPECT_THAT(rows, ::testing::ContainerEq(names()));
+}
+
+}  // namespace
+}  // namespace halfway::synth
