@@ -156,7 +156,7 @@ class ProofProgram : public ::testing::Test {
 TEST_F(ProofProgram, EndsWithOneWhereAPropertyIsFalse) {
   if (!find_tools()) GTEST_SKIP() << find_tools().error().message;
   EXPECT_EQ(run({}, "parameter_register").exit_code, 0);
-  exchange("rtl/stream/parameter_register.vhd", "value <= r.value;", "value <= not r.value;");
+  exchange("rtl/stream/parameter_register.vhd", "value <= start;", "value <= not start;");
   const Outcome outcome = run({"--no-faults"}, "parameter_register");
   EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
   EXPECT_NE(outcome.output.find("NOT PROVED: "), std::string::npos) << outcome.output;
