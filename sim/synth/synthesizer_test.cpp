@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <optional>
 
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
+#include "sim/synth/stand_ins_test.hpp"
 #include "sim/synth/synthesis.hpp"
 
 namespace halfway::synth {
@@ -55,29 +55,21 @@ echo '{{"utilization": {{"ICESTORM_LC": {{"used": 40, "available": 7680}}}}, "cr
   "fmax": {{"clk": {{"achieved": 100}}}}}}' >report.json
 )";
 
-class SynthesizerTest : public ::testing::Test {
+class SynthesizerTest : public StandInTools {
  protected:
   void SetUp() override {
-    if (find_program("ghdl").empty()) GTEST_SKIP() << "no ghdl: " << kInstallGhdl;
-    auto folder = TemporaryFolder::make(fs::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
+    StandInTools::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
     ASSERT_TRUE(make_folders(root() / "rtl"));
-    ASSERT_TRUE(make_folders(root() / "bin"));
     ASSERT_TRUE(write_file(root() / "rtl/files.f", "wire.vhd\n"));
     ASSERT_TRUE(write_file(root() / "rtl/wire.vhd", c_entity));
     put("yosys", fmt::format(c_yosys, root().string()));
     put("nextpnr-ice40", fmt::format(c_nextpnr, root().string()));
-    ::setenv("PATH", ((root() / "bin").string() + ":" + path_).c_str(), 1);
+    ::setenv("PATH", path_before(path_).c_str(), 1);
     tell("\"SB_LUT4\": 30, \"SB_DFF\": 4", 40);
   }
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
 
-  fs::path root() const { return folder_->path(); }
-  void put(const char* name, const std::string& text) const {
-    ASSERT_TRUE(write_file(root() / "bin" / name, text));
-    fs::permissions(root() / "bin" / name, fs::perms::all);
-  }
   // What the stand-ins come to from now on.
   void tell(const std::string& cells, int packed) const {
     ASSERT_TRUE(write_file(root() / "cells.json",
@@ -104,7 +96,6 @@ class SynthesizerTest : public ::testing::Test {
 
   const std::string path_ = std::getenv("PATH");
   const Design design_{.name = "wire", .entity = "wire", .generics = {{"g_bits", "3"}}};
-  std::optional<TemporaryFolder> folder_;
 };
 
 TEST_F(SynthesizerTest, APlacementWithoutAnEndIsToldAndKept) {

@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
 #include "designs.hpp"
 #include "sim/synth/pinned.hpp"
+#include "sim/synth/stand_ins_test.hpp"
 
 namespace halfway::synth {
 namespace {
@@ -48,14 +48,12 @@ struct Outcome {
   std::string output, errors;
 };
 
-class SynthProgram : public ::testing::Test {
+class SynthProgram : public StandInTools {
  protected:
   void SetUp() override {
-    if (find_program("ghdl").empty()) GTEST_SKIP() << "no ghdl: " << kInstallGhdl;
-    auto folder = TemporaryFolder::make(fs::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
-    for (const char* name : {"bin", "tb/synth", "cache"}) ASSERT_TRUE(make_folders(root() / name));
+    StandInTools::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    for (const char* name : {"tb/synth", "cache"}) ASSERT_TRUE(make_folders(root() / name));
     fs::create_directory_symlink(c_source / "rtl", root() / "rtl");
     fs::create_symlink(c_source / kAccumulator, root() / kAccumulator);
     // The VHDL's check is GHDL's own, and takes longest.
@@ -66,12 +64,7 @@ class SynthProgram : public ::testing::Test {
     pin(90);
     ASSERT_TRUE(write_file(page(), "# Page\n\n## Figures\n"));
   }
-  fs::path root() const { return folder_->path(); }
   fs::path page() const { return root() / "page.md"; }
-  void put(const char* name, const std::string& text) const {
-    ASSERT_TRUE(write_file(root() / "bin" / name, text));
-    fs::permissions(root() / "bin" / name, fs::perms::all);
-  }
   void pin(double mhz) const {
     ASSERT_TRUE(write_pins(root() / kPins, {{"accumulator_24", {.cells = {24, 23, 24, 0}, .mhz = mhz}}},
                            "stand-ins"));
@@ -79,15 +72,14 @@ class SynthProgram : public ::testing::Test {
   Outcome run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), HALFWAY_SYNTH);
     arguments.insert(arguments.end(), {root().string(), (root() / "cache").string(), "accumulator_24"});
-    const std::string path = (root() / "bin").string() + ":" + std::getenv("PATH");
-    const auto end = run_process(
-        {.arguments = arguments, .standard_output = root() / "output", .environment = {{"PATH", path}}}, "");
+    const auto end = run_process({.arguments = arguments,
+                                  .standard_output = root() / "output",
+                                  .environment = {{"PATH", path_before(std::getenv("PATH"))}}},
+                                 "");
     if (!end) return {-1, "", end.error().message};
     const auto output = read_file(root() / "output");
     return {end->exit_status, output ? *output : "", end->output};
   }
-
-  std::optional<TemporaryFolder> folder_;
 };
 
 TEST_F(SynthProgram, WritesTheRowAndTellsWhatHasNoEnd) {

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests with stand-ins for Yosys and nextpnr in a folder of their own; GHDL is itself.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+
+namespace halfway::synth {
+
+class StandInTools : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (find_program("ghdl").empty()) GTEST_SKIP() << "no ghdl: " << kInstallGhdl;
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    ASSERT_TRUE(make_folders(bin()));
+  }
+
+  std::filesystem::path root() const { return folder_->path(); }
+  std::filesystem::path bin() const { return root() / "bin"; }
+  /// What PATH has to begin with them.
+  std::string path_before(const std::string& path) const { return bin().string() + ":" + path; }
+  void put(const char* name, const std::string& text) const {
+    ASSERT_TRUE(write_file(bin() / name, text));
+    std::filesystem::permissions(bin() / name, std::filesystem::perms::all);
+  }
+
+ private:
+  std::optional<TemporaryFolder> folder_;
+};
+
+}  // namespace halfway::synth
