@@ -6,6 +6,17 @@
 
 namespace halfway::study {
 
+/// What setup counted, likewise.
+template <class Counts, class Visit>
+void for_each_setup_figure(Counts& setup, const Visit& visit) {
+  visit("screen_triangles", setup.triangles);
+  visit("leaves", setup.leaves);
+  visit("unresolved", setup.unresolved);
+  visit("init_vectors", setup.vectors);
+  visit("line_records", setup.records);
+  visit("host_evaluations", setup.shaded);
+}
+
 /// Every figure of a measurement with its column's name, in the table's order.
 template <class Measured, class Visit>
 void for_each_figure(Measured& m, const Visit& visit) {
@@ -27,12 +38,7 @@ void for_each_figure(Measured& m, const Visit& visit) {
   visit("mach_edges", m.mach_bands.edges);
   visit("mach_rms", m.mach_bands.rms);
   visit("mach_largest", m.mach_bands.largest);
-  visit("screen_triangles", m.setup.triangles);
-  visit("leaves", m.setup.leaves);
-  visit("unresolved", m.setup.unresolved);
-  visit("init_vectors", m.setup.vectors);
-  visit("line_records", m.setup.records);
-  visit("host_evaluations", m.setup.shaded);
+  for_each_setup_figure(m.setup, visit);
   visit("host_instructions", m.host_instructions);
 }
 

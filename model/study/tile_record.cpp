@@ -11,6 +11,7 @@
 
 #include "common/file.hpp"
 #include "frame/image.hpp"
+#include "study/figures.hpp"
 
 namespace halfway::study {
 namespace {
@@ -26,12 +27,7 @@ template <class Counts, class Visit>
 void for_each_count(Counts& d, const Visit& visit) {
   visit("fragments", d.fragments);
   visit("cycles", d.cycles);
-  visit("screen_triangles", d.setup.triangles);
-  visit("leaves", d.setup.leaves);
-  visit("unresolved", d.setup.unresolved);
-  visit("init_vectors", d.setup.vectors);
-  visit("line_records", d.setup.records);
-  visit("host_evaluations", d.setup.shaded);
+  for_each_setup_figure(d.setup, visit);
 }
 
 Frame to_picture(FrameSize size, std::span<const std::uint8_t> red, std::span<const std::uint8_t> green) {
@@ -110,36 +106,39 @@ Status TileRecords::add_drawing(const DesignPoint& point, std::size_t tile, cons
                    to_picture(drawing.frame.size, drawing.mask, {}), json);
 }
 
+Result<Frame> TileRecords::put_together(const DesignPoint& point, const std::string& name,
+                                        const char* ending) const {
+  Frame whole(point.size);
+  const std::vector<Tile> tiles = point.tiles();
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const auto picture = read_tile(file(name, i, ending), tiles[i]);
+    if (!picture) return picture.error();
+    put_tile(whole, *picture, tiles[i]);
+  }
+  return whole;
+}
+
 Result<Reference> TileRecords::reference(const DesignPoint& point) const {
   Reference whole;
-  whole.image.frame = Frame(point.size);
-  const std::vector<Tile> tiles = point.tiles();
-  Frame masks(point.size);
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    const auto colours = read_tile(file(reference_name(point), i, c_colours), tiles[i]);
-    if (!colours) return colours.error();
-    const auto mask = read_tile(file(reference_name(point), i, c_masks), tiles[i]);
-    if (!mask) return mask.error();
-    put_tile(whole.image.frame, *colours, tiles[i]);
-    put_tile(masks, *mask, tiles[i]);
-  }
-  whole.image.mask = mask_of(masks, 0);
-  whole.highlight = mask_of(masks, 1);
+  auto colours = put_together(point, reference_name(point), c_colours);
+  if (!colours) return colours.error();
+  const auto masks = put_together(point, reference_name(point), c_masks);
+  if (!masks) return masks.error();
+  whole.image.frame = std::move(*colours);
+  whole.image.mask = mask_of(*masks, 0);
+  whole.highlight = mask_of(*masks, 1);
   return whole;
 }
 
 Result<Drawing> TileRecords::drawing(const DesignPoint& point) const {
   Drawing whole;
-  whole.frame = Frame(point.size);
-  const std::vector<Tile> tiles = point.tiles();
-  Frame masks(point.size);
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    const auto colours = read_tile(file(drawing_name(point), i, c_colours), tiles[i]);
-    if (!colours) return colours.error();
-    const auto mask = read_tile(file(drawing_name(point), i, c_masks), tiles[i]);
-    if (!mask) return mask.error();
-    put_tile(whole.frame, *colours, tiles[i]);
-    put_tile(masks, *mask, tiles[i]);
+  auto colours = put_together(point, drawing_name(point), c_colours);
+  if (!colours) return colours.error();
+  const auto masks = put_together(point, drawing_name(point), c_masks);
+  if (!masks) return masks.error();
+  whole.frame = std::move(*colours);
+  if (in_hardware(point.method)) whole.mask = mask_of(*masks, 0);
+  for (std::size_t i = 0; i < point.tiles().size(); ++i) {
     const std::filesystem::path path = file(drawing_name(point), i, c_figures);
     const auto text = read_file(path);
     if (!text) return text.error();
@@ -152,7 +151,6 @@ Result<Drawing> TileRecords::drawing(const DesignPoint& point) const {
       return bad_input(path.string() + ": it is no tile's; remove it, and the tile is drawn anew");
     }
   }
-  if (in_hardware(point.method)) whole.mask = mask_of(masks, 0);
   return whole;
 }
 

@@ -39,6 +39,8 @@ class TileRecords {
   std::string reference_name(const DesignPoint& point) const;
   std::string drawing_name(const DesignPoint& point) const;
   bool has(const std::string& name, std::size_t tile) const;
+  /// The frame of all tiles' pictures with this ending.
+  Result<Frame> put_together(const DesignPoint& point, const std::string& name, const char* ending) const;
   std::filesystem::path file(const std::string& name, std::size_t tile, const char* ending) const;
 
   std::filesystem::path folder_;
