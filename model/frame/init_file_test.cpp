@@ -3,14 +3,23 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <random>
+
+#include "common/file.hpp"
 
 namespace halfway {
 namespace {
 
 class InitFile : public testing::Test {
  protected:
-  std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) / "init_file_test.txt";
+  // A folder of its own: ctest runs the tests of this file side by side.
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(testing::TempDir());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    path_ = folder_->path() / "init.txt";
+  }
 
   void expect_refused(const std::string& content, const std::string& place, const std::string& what) {
     ASSERT_TRUE(write_file(path_, content));
@@ -20,6 +29,11 @@ class InitFile : public testing::Test {
     EXPECT_EQ(read.error().message.find(path_.string() + place + ": "), 0U) << read.error().message;
     EXPECT_NE(read.error().message.find(what), std::string::npos) << read.error().message;
   }
+
+  std::filesystem::path path_;
+
+ private:
+  std::optional<TemporaryFolder> folder_;
 };
 
 TEST_F(InitFile, WritesTheFormat) {

@@ -15,6 +15,7 @@
 #include <tuple>
 #include <vector>
 
+#include "common/file.hpp"
 #include "frame/assemble.hpp"
 #include "golden/diffuse_slice.hpp"
 #include "golden/multiplier.hpp"
@@ -957,7 +958,10 @@ std::string notes(const Scene& scene, Preset preset = Preset::exact) {
   settings.plan.preset = preset;
   settings.size = {161, 121};
   settings.ghdl = settings.verilator = false;
-  settings.out = testing::TempDir();
+  const auto out = TemporaryFolder::make(testing::TempDir());
+  EXPECT_TRUE(out) << out.error().message;
+  if (!out) return "";
+  settings.out = out->path();
   const auto summary = simulate(scene, settings);
   EXPECT_TRUE(summary) << summary.error().message;
   std::string all;
