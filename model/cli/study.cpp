@@ -26,6 +26,10 @@ namespace {
 
 constexpr std::size_t c_parts = 64;
 
+// In the folder for results. A question leaves the study's table as it is: `halfway report` shows that.
+constexpr const char* c_study_table = "study.csv";
+constexpr const char* c_question_table = "question.csv";
+
 struct StudyCommand {
   std::string scene, space;
   std::string size, tile;  ///< empty: the space's
@@ -177,7 +181,8 @@ int conclude(const StudyPlan& plan, const study::Study& made, const study::Hardw
   const std::vector<study::Market> markets = study::markets_of(made.records, hardware, clock);
   const auto csv = study::to_csv(made.provenance, made.records, hardware, markets);
   if (!csv) return report(csv.error());
-  const std::filesystem::path table = plan.settings.out / "study.csv";
+  const std::filesystem::path table =
+      plan.settings.out / (plan.demand.any() ? c_question_table : c_study_table);
   if (Status written = write_file(table, *csv); !written) return report(written.error());
   fmt::print("{}: {} points, {} measured anew\n", table.string(), made.records.size(), made.measured);
   bool met = true;
@@ -240,7 +245,11 @@ void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
                     "MHz that hardware is taken to run at whose clock is not known");
   study->add_flag("--place", command->place,
                   "place and route the hardware whose clock is not known: minutes for each design");
-  study->add_option("--out", command->out, "folder for results")->capture_default_str();
+  study
+      ->add_option("--out", command->out,
+                   fmt::format("folder for results: the table {}, of a question {}, and points/",
+                               c_study_table, c_question_table))
+      ->capture_default_str();
   study->add_option("--threads", command->threads, "points at a time (0: all cores)")->capture_default_str();
   study->add_option("--executor", command->executor, "local, or slurm: as a job array (sbatch)")
       ->capture_default_str();

@@ -46,6 +46,7 @@ TEST_F(StudyCommandTest, RefusesWhatIsNoQuestion) {
     EXPECT_THAT(outcome.output, HasSubstr(message));
   }
   EXPECT_FALSE(std::filesystem::exists(folder_->path() / "out/study.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder_->path() / "out/question.csv"));
 }
 
 TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
@@ -69,6 +70,27 @@ TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
   EXPECT_EQ(fast.exit_code, 0) << fast.output;
   EXPECT_THAT(fast.output, AllOf(HasSubstr("cheapest       quadratic exact"), HasSubstr("us)"),
                                  Not(HasSubstr("no clock"))));
+}
+
+// The table that the report shows is the study's; the question's has its points, from the same records.
+TEST_F(StudyCommandTest, AQuestionLeavesTheStudysTable) {
+  const std::filesystem::path out = folder_->path() / "out";
+  const Outcome asked_first = study({"--error", "3"});
+  EXPECT_EQ(asked_first.exit_code, 0) << asked_first.output;
+  EXPECT_THAT(asked_first.output, HasSubstr("out/question.csv: 3 points, 3 measured anew"));
+  EXPECT_FALSE(std::filesystem::exists(out / "study.csv"));
+  const Outcome made = study({});
+  EXPECT_EQ(made.exit_code, 0) << made.output;
+  EXPECT_THAT(made.output, HasSubstr("out/study.csv: 3 points, 0 measured anew"));
+  const auto table = read_file(out / "study.csv"), same = read_file(out / "question.csv");
+  ASSERT_TRUE(table && same);
+  EXPECT_EQ(*table, *same);
+  const Outcome asked = study({"--size", "80x60", "--psnr", "99"});
+  EXPECT_EQ(asked.exit_code, 1) << asked.output;
+  const auto kept = read_file(out / "study.csv"), question = read_file(out / "question.csv");
+  ASSERT_TRUE(kept && question);
+  EXPECT_EQ(*kept, *table);
+  EXPECT_THAT(*question, AllOf(HasSubstr(",80,60,"), Not(HasSubstr(",160,120,"))));
 }
 
 }  // namespace
