@@ -211,6 +211,7 @@ int run(const Folders& folders, const StudyCommand& command) {
   const auto study = study::run_study(settings);
   progress.clear();
   if (!study) return report(study.error());
+  for (const std::string& note : study->notes) say(note);
   if (!command.part.empty()) {
     fmt::print("part {}: {} points, {} measured anew, {} tiles drawn\n", command.part, study->records.size(),
                study->measured, study->drawn_tiles);

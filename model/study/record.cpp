@@ -167,18 +167,21 @@ std::filesystem::path Records::picture(const DesignPoint& point) const {
   return folder_ / (record_name(provenance_, point) + ".png");
 }
 
-std::optional<Record> Records::find(const DesignPoint& point) const {
+Result<std::optional<Record>> Records::find(const DesignPoint& point) const {
   const auto text = read_file(file(point));
-  if (!text || !std::filesystem::exists(picture(point))) return std::nullopt;
-  // Files are written whole: one that cannot be read is none of ours, and is written anew.
+  if (!text || !std::filesystem::exists(picture(point))) return std::optional<Record>();
+  const auto damaged = [](const std::filesystem::path& path) {
+    return bad_input(path.string() + ": damaged; the point is measured anew");
+  };
+  if (!has_png_ends(picture(point), point.size)) return damaged(picture(point));
   const Json json = Json::parse(*text, nullptr, false);
   try {
     Record record{point, {}};
     for_each_figure(record.measured,
                     [&](const char* name, auto& value) { take(json.at("figures").at(name), value); });
-    return record;
+    return std::optional(std::move(record));
   } catch (const Json::exception&) {
-    return std::nullopt;
+    return damaged(file(point));
   }
 }
 

@@ -44,8 +44,8 @@ class Records {
   Records(std::filesystem::path folder, Provenance provenance)
       : folder_(std::move(folder)), provenance_(std::move(provenance)) {}
 
-  /// None where there is no whole one of this provenance, or no frame of it.
-  std::optional<Record> find(const DesignPoint& point) const;
+  /// None where there is none of this provenance, or no frame of it; an error where either is damaged.
+  Result<std::optional<Record>> find(const DesignPoint& point) const;
   Status add(const Record& record) const;
   /// Of a point whose record follows.
   Status add_frame(const DesignPoint& point, const Frame& frame) const;

@@ -133,9 +133,14 @@ TEST_F(RecordsTest, AreFoundByWhatTheyWereMeasuredWithAlone) {
   record.measured.picture.psnr_db = std::numeric_limits<double>::infinity();
   record.measured.cycles = 77;
   ASSERT_TRUE(Records(folder_->path(), here).add(record));
-  EXPECT_FALSE(Records(folder_->path(), here).find(record.point));  // without its frame
-  ASSERT_TRUE(Records(folder_->path(), here).add_frame(record.point, Frame({2, 2})));
-  const auto found = Records(folder_->path(), here).find(record.point);
+  const auto find = [&](const Provenance& provenance, const DesignPoint& point) {
+    const auto kept = Records(folder_->path(), provenance).find(point);
+    EXPECT_TRUE(kept) << kept.error().message;
+    return kept ? *kept : std::nullopt;
+  };
+  EXPECT_FALSE(find(here, record.point));  // without its frame
+  ASSERT_TRUE(Records(folder_->path(), here).add_frame(record.point, Frame(record.point.size)));
+  const auto found = find(here, record.point);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->measured.cycles, 77U);
   EXPECT_EQ(found->measured.picture.psnr_db, std::numeric_limits<double>::infinity());
@@ -144,11 +149,36 @@ TEST_F(RecordsTest, AreFoundByWhatTheyWereMeasuredWithAlone) {
                                         &Provenance::rtl, &Provenance::tools}) {
     Provenance other = here;
     other.*part += "0";
-    EXPECT_FALSE(Records(folder_->path(), other).find(record.point)) << other.*part;
+    EXPECT_FALSE(find(other, record.point)) << other.*part;
   }
   DesignPoint other = record.point;
   other.threshold = 4.0;
-  EXPECT_FALSE(Records(folder_->path(), here).find(other));
+  EXPECT_FALSE(find(here, other));
+}
+
+// Each in turn, with what is beside it whole.
+TEST_F(RecordsTest, TellWhichFileIsDamaged) {
+  const Records records(folder_->path(), {"scene", "1", "2", "3", "4"});
+  const Record record{{.method = Method::adaptive, .size = {40, 30}}, {}};
+  const auto write = [&] {
+    ASSERT_TRUE(records.add(record));
+    ASSERT_TRUE(records.add_frame(record.point, Frame(record.point.size)));
+  };
+  write();
+  for (const std::filesystem::path& file : {records.file(record.point), records.picture(record.point)}) {
+    const auto whole = read_file(file);
+    ASSERT_TRUE(whole);
+    for (const std::string& text : {std::string(), whole->substr(0, whole->size() - 5), "{}" + *whole}) {
+      ASSERT_TRUE(write_file(file, text));
+      const auto found = records.find(record.point);
+      ASSERT_FALSE(found) << text;
+      EXPECT_EQ(found.error().message, file.string() + ": damaged; the point is measured anew");
+    }
+    write();
+    EXPECT_TRUE(records.find(record.point));
+  }
+  ASSERT_TRUE(records.add_frame(record.point, Frame({30, 40})));
+  EXPECT_FALSE(records.find(record.point));
 }
 
 // A checkout whose RTL has a byte, or a file's name, more.

@@ -35,6 +35,13 @@ bool is_point(const Piece& piece) {
   return piece.kind == PieceKind::point || piece.kind == PieceKind::gathering;
 }
 
+// What came of a piece.
+struct Made {
+  std::optional<Record> record{};  // a point's, of which nothing is kept in memory but figures
+  std::size_t tiles = 0;           // drawn
+  std::vector<std::string> notes{};
+};
+
 // Where pieces are made, and lie when they are.
 class Bench {
  public:
@@ -51,8 +58,9 @@ class Bench {
   const Provenance& provenance() const { return provenance_; }
   const Records& kept() const { return kept_; }
 
-  std::optional<Record> find(const Piece& piece) const {
-    return is_point(piece) ? kept_.find(point_of(piece)) : std::nullopt;
+  // A point's record; an error where it is damaged.
+  Result<std::optional<Record>> find(const Piece& piece) const {
+    return is_point(piece) ? kept_.find(point_of(piece)) : std::optional<Record>();
   }
   // A tile is of no use any more where its points are there.
   bool is_done(const Piece& piece) const {
@@ -60,27 +68,20 @@ class Bench {
     if (piece.kind == PieceKind::tile && tiles_.has_drawing(point, piece.tile)) return true;
     if (piece.kind == PieceKind::reference_tile && tiles_.has_reference(point, piece.tile)) return true;
     return std::ranges::all_of(std::span(settings_.points).subspan(piece.point, piece.points),
-                               [&](const DesignPoint& each) { return kept_.find(each).has_value(); });
+                               [&](const DesignPoint& each) {
+                                 const auto found = kept_.find(each);
+                                 return found && *found;
+                               });
   }
   bool can_gather(const Piece& piece) const { return is_done(piece) || tiles_.complete(point_of(piece)); }
 
-  // A point's record, of which nothing is kept in memory but figures; none of a tile.
-  Result<std::optional<Record>> make(const Piece& piece) const {
+  Result<Made> make(const Piece& piece) const {
+    Made made;
     const DesignPoint& point = point_of(piece);
-    if (is_point(piece)) return make_point(point, piece.kind == PieceKind::gathering);
-    const auto subject = shelf_->subject(point);
-    if (!subject) return subject.error();
-    const Tile tile = point.tiles()[piece.tile];
-    Status added = Ok{};
-    if (piece.kind == PieceKind::reference_tile) {
-      added = tiles_.add_reference(point, piece.tile, render(**subject, point.size, tile));
-    } else {
-      const auto drawing = draw(point, **subject, settings_.folders, tile);
-      if (!drawing) return drawing.error();
-      added = tiles_.add_drawing(point, piece.tile, *drawing);
-    }
-    if (!added) return added.error();
-    return std::optional<Record>();
+    const Status done = is_point(piece) ? make_point(point, piece.kind == PieceKind::gathering, made)
+                                        : make_tile(point, piece.kind, piece.tile, made);
+    if (!done) return done.error();
+    return made;
   }
 
  private:
@@ -93,14 +94,35 @@ class Bench {
 
   const DesignPoint& point_of(const Piece& piece) const { return settings_.points[piece.point]; }
 
-  Result<std::optional<Record>> make_point(const DesignPoint& point, bool of_tiles) const {
+  Status make_tile(const DesignPoint& point, PieceKind kind, std::size_t number, Made& made) const {
+    const auto subject = shelf_->subject(point);
+    if (!subject) return subject.error();
+    const Tile tile = point.tiles()[number];
+    ++made.tiles;
+    if (kind == PieceKind::reference_tile)
+      return tiles_.add_reference(point, number, render(**subject, point.size, tile));
+    const auto drawing = draw(point, **subject, settings_.folders, tile);
+    if (!drawing) return drawing.error();
+    return tiles_.add_drawing(point, number, *drawing);
+  }
+
+  TileRecords::Redraw redraw(const DesignPoint& point, PieceKind kind, Made& made) const {
+    return [this, &point, kind, &made](std::size_t tile, const std::filesystem::path& damaged) {
+      made.notes.push_back(damaged.string() + ": damaged; the tile is drawn anew");
+      return make_tile(point, kind, tile, made);
+    };
+  }
+
+  Status make_point(const DesignPoint& point, bool of_tiles, Made& made) const {
     PictureShelf::MakeReference reference;
-    if (of_tiles) reference = [&] { return tiles_.reference(point); };
+    if (of_tiles)
+      reference = [&] { return tiles_.reference(point, redraw(point, PieceKind::reference_tile, made)); };
     const auto pictures = shelf_->of(point, reference);
     if (!pictures) return pictures.error();
     std::optional<Drawing> drawing;
     if (is_drawn(point.method)) {
-      auto drawn = of_tiles ? tiles_.drawing(point) : draw(point, *(*pictures)->subject, settings_.folders);
+      auto drawn = of_tiles ? tiles_.drawing(point, redraw(point, PieceKind::tile, made))
+                            : draw(point, *(*pictures)->subject, settings_.folders);
       if (!drawn) return drawn.error();
       drawing = std::move(*drawn);
     }
@@ -110,7 +132,8 @@ class Bench {
     if (Status added = kept_.add_frame(point, record.measured.frame); !added) return added.error();
     record.measured.frame = {};
     if (Status added = kept_.add(record); !added) return added.error();
-    return std::optional(std::move(record));
+    made.record = std::move(record);
+    return Ok{};
   }
 
   const StudySettings& settings_;
@@ -203,17 +226,23 @@ Result<Study> run_study(const StudySettings& settings) {
   std::size_t done = 0;
   const auto each = [&](std::size_t at) -> Status {
     const Piece& piece = mine[at];
-    std::optional<Record> record = bench->find(piece);
-    const bool anew = is_point(piece) ? !record : !bench->is_done(piece);
+    auto found = bench->find(piece);
+    const bool anew = is_point(piece) ? !found || !*found : !bench->is_done(piece);
+    Made made;
     if (anew) {
-      auto made = bench->make(piece);
-      if (!made)
-        return Error{made.error().code, settings.points[piece.point].name() + ": " + made.error().message};
-      record = std::move(*made);
+      auto fresh = bench->make(piece);
+      if (!fresh)
+        return Error{fresh.error().code, settings.points[piece.point].name() + ": " + fresh.error().message};
+      made = std::move(*fresh);
+    } else {
+      made.record = std::move(*found);
     }
+    if (!found) made.notes.push_back(found.error().message);
     const std::scoped_lock lock(mutex);
-    (is_point(piece) ? study.measured : study.drawn_tiles) += anew;
-    records[at] = std::move(record);
+    study.measured += anew && is_point(piece);
+    study.drawn_tiles += made.tiles;
+    study.notes.insert(study.notes.end(), made.notes.begin(), made.notes.end());
+    records[at] = std::move(made.record);
     settings.on_progress(fmt::format("{} of {} {}", ++done, mine.size(),
                                      all.size() == settings.points.size() ? "points" : "points and tiles"));
     return Ok{};

@@ -31,9 +31,10 @@ struct StudySettings {
 
 struct Study {
   Provenance provenance;
-  std::vector<Record> records;  ///< in the points' order; of the part alone, as far as they are there
-  std::size_t measured = 0;     ///< of these anew, in this run
-  std::size_t drawn_tiles = 0;  ///< in this run
+  std::vector<Record> records;     ///< in the points' order; of the part alone, as far as they are there
+  std::size_t measured = 0;        ///< of these anew, in this run
+  std::size_t drawn_tiles = 0;     ///< in this run
+  std::vector<std::string> notes;  ///< files that were damaged, and of what was made anew
 };
 
 /// The points that can be drawn of the scene. What is left out is told: each reason once.

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "common/file.hpp"
 #include "common/sanitizers.hpp"
@@ -99,7 +101,10 @@ TEST_F(StudyTest, MeasuresAnewWhatIsDamagedOrOfAnotherScene) {
   const auto file =
       folder_->path() / "points" / (record_name(study().provenance, settings_.points[0]) + ".json");
   ASSERT_TRUE(write_file(file, "{\"figures\": {}}"));
-  EXPECT_EQ(study().measured, 1U);
+  const Study again = study();
+  EXPECT_EQ(again.measured, 1U);
+  EXPECT_THAT(again.notes, ::testing::ElementsAre(file.string() + ": damaged; the point is measured anew"));
+  EXPECT_TRUE(study().notes.empty());
   settings_.scene = "matte";
   EXPECT_EQ(study().measured, 4U);
 }
@@ -186,6 +191,44 @@ TEST_F(TiledStudyTest, GoesOnTileByTile) {
   EXPECT_EQ(again.drawn_tiles, 3U);
   EXPECT_EQ(again.measured, 1U);
   EXPECT_EQ(table_of(again), first);
+}
+
+// Truncated, of another size, or no picture at all: the point that is put together of it draws it anew.
+TEST_F(TiledStudyTest, DrawsADamagedTileAnew) {
+  const std::string first = table_of(study());
+  const DesignPoint& quadratic = settings_.points[2];
+  const auto file = [&](const std::string& name, const char* ending) {
+    return folder_->path() / "points" / (record_name(whole_.provenance, name) + ending);
+  };
+  const std::string drawing = quadratic.name(), reference = "reference, " + quadratic.picture();
+  const auto cut = [](const std::filesystem::path& path) {
+    const auto whole = read_file(path);
+    return whole && write_file(path, whole->substr(0, whole->size() / 2));
+  };
+  const std::vector<std::pair<std::filesystem::path, std::function<bool(const std::filesystem::path&)>>>
+      damages = {
+          {file(drawing, "-tile-0.png"), cut},
+          {file(drawing, "-tile-1-mask.png"), cut},
+          {file(drawing, "-tile-2.json"), cut},
+          {file(drawing, "-tile-3.png"),
+           [](const auto& path) -> bool {
+             return !!write_png(path, Frame({29, 37}));
+           }},
+          {file(drawing, "-tile-3.json"),
+           [](const auto& path) -> bool { return !!write_file(path, "{\"tile\": 3}\n"); }},
+          {file(reference, "-tile-0.png"), [](const auto& path) -> bool { return !!write_file(path, ""); }},
+          {file(reference, "-tile-2-mask.png"),
+           [](const auto& path) -> bool { return !!write_file(path, "no picture"); }}};
+  for (const auto& [path, damage] : damages) {
+    ASSERT_TRUE(std::filesystem::remove(file(drawing, ".json")));
+    ASSERT_TRUE(damage(path)) << path;
+    const Study again = study();
+    EXPECT_EQ(again.drawn_tiles, 1U) << path;
+    EXPECT_EQ(again.measured, 1U) << path;
+    EXPECT_THAT(again.notes, ::testing::ElementsAre(path.string() + ": damaged; the tile is drawn anew"));
+    EXPECT_EQ(table_of(again), first);
+    expect_whole(again);
+  }
 }
 
 TEST_F(TiledStudyTest, PartsDrawTilesAndTheLastOneGathers) {

@@ -59,6 +59,30 @@ Result<Frame> read_tile(const std::filesystem::path& path, const Tile& tile) {
   return frame;
 }
 
+Result<Json> read_figures(const std::filesystem::path& path) {
+  const auto text = read_file(path);
+  if (!text) return text.error();
+  Json json = Json::parse(*text, nullptr, false);
+  try {
+    Drawing counts;
+    static_cast<void>(json.at("hardware").get<std::string>());
+    for_each_count(counts, [&](const char* name, std::uint64_t& count) { json.at(name).get_to(count); });
+  } catch (const Json::exception&) {
+    return bad_input(path.string() + ": it is no tile's; remove it, and the tile is drawn anew");
+  }
+  return json;
+}
+
+// What `read` makes of a tile's file, which is drawn anew where it is damaged.
+template <class Read>
+auto read_whole(const std::filesystem::path& path, std::size_t tile, const TileRecords::Redraw& redraw,
+                const Read& read) -> decltype(read(path)) {
+  auto found = read(path);
+  if (found || found.error().code != ExitCode::bad_input) return found;
+  if (Status drawn = redraw(tile, path); !drawn) return drawn.error();
+  return read(path);
+}
+
 }  // namespace
 
 std::string TileRecords::reference_name(const DesignPoint& point) const {
@@ -106,23 +130,24 @@ Status TileRecords::add_drawing(const DesignPoint& point, std::size_t tile, cons
                    to_picture(drawing.frame.size, drawing.mask, {}), json);
 }
 
-Result<Frame> TileRecords::put_together(const DesignPoint& point, const std::string& name,
-                                        const char* ending) const {
+Result<Frame> TileRecords::put_together(const DesignPoint& point, const std::string& name, const char* ending,
+                                        const Redraw& redraw) const {
   Frame whole(point.size);
   const std::vector<Tile> tiles = point.tiles();
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    const auto picture = read_tile(file(name, i, ending), tiles[i]);
+    const auto picture = read_whole(file(name, i, ending), i, redraw,
+                                    [&](const auto& path) { return read_tile(path, tiles[i]); });
     if (!picture) return picture.error();
     put_tile(whole, *picture, tiles[i]);
   }
   return whole;
 }
 
-Result<Reference> TileRecords::reference(const DesignPoint& point) const {
+Result<Reference> TileRecords::reference(const DesignPoint& point, const Redraw& redraw) const {
   Reference whole;
-  auto colours = put_together(point, reference_name(point), c_colours);
+  auto colours = put_together(point, reference_name(point), c_colours, redraw);
   if (!colours) return colours.error();
-  const auto masks = put_together(point, reference_name(point), c_masks);
+  const auto masks = put_together(point, reference_name(point), c_masks, redraw);
   if (!masks) return masks.error();
   whole.image.frame = std::move(*colours);
   whole.image.mask = mask_of(*masks, 0);
@@ -130,26 +155,20 @@ Result<Reference> TileRecords::reference(const DesignPoint& point) const {
   return whole;
 }
 
-Result<Drawing> TileRecords::drawing(const DesignPoint& point) const {
+Result<Drawing> TileRecords::drawing(const DesignPoint& point, const Redraw& redraw) const {
   Drawing whole;
-  auto colours = put_together(point, drawing_name(point), c_colours);
+  auto colours = put_together(point, drawing_name(point), c_colours, redraw);
   if (!colours) return colours.error();
-  const auto masks = put_together(point, drawing_name(point), c_masks);
+  const auto masks = put_together(point, drawing_name(point), c_masks, redraw);
   if (!masks) return masks.error();
   whole.frame = std::move(*colours);
   if (in_hardware(point.method)) whole.mask = mask_of(*masks, 0);
   for (std::size_t i = 0; i < point.tiles().size(); ++i) {
-    const std::filesystem::path path = file(drawing_name(point), i, c_figures);
-    const auto text = read_file(path);
-    if (!text) return text.error();
-    const Json json = Json::parse(*text, nullptr, false);
-    try {
-      json.at("hardware").get_to(whole.hardware);
-      for_each_count(
-          whole, [&](const char* name, std::uint64_t& sum) { sum += json.at(name).get<std::uint64_t>(); });
-    } catch (const Json::exception&) {
-      return bad_input(path.string() + ": it is no tile's; remove it, and the tile is drawn anew");
-    }
+    const auto figures = read_whole(file(drawing_name(point), i, c_figures), i, redraw, read_figures);
+    if (!figures) return figures.error();
+    figures->at("hardware").get_to(whole.hardware);
+    for_each_count(
+        whole, [&](const char* name, std::uint64_t& sum) { sum += figures->at(name).get<std::uint64_t>(); });
   }
   return whole;
 }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -30,17 +31,20 @@ class TileRecords {
 
   /// All that the point is put together of is there.
   bool complete(const DesignPoint& point) const;
+  /// Adds a tile, of which this file is damaged, anew.
+  using Redraw = std::function<Status(std::size_t tile, const std::filesystem::path& damaged)>;
   /// The whole frame.
-  Result<Reference> reference(const DesignPoint& point) const;
+  Result<Reference> reference(const DesignPoint& point, const Redraw& redraw) const;
   /// The whole frame; figures are sums.
-  Result<Drawing> drawing(const DesignPoint& point) const;
+  Result<Drawing> drawing(const DesignPoint& point, const Redraw& redraw) const;
 
  private:
   std::string reference_name(const DesignPoint& point) const;
   std::string drawing_name(const DesignPoint& point) const;
   bool has(const std::string& name, std::size_t tile) const;
   /// The frame of all tiles' pictures with this ending.
-  Result<Frame> put_together(const DesignPoint& point, const std::string& name, const char* ending) const;
+  Result<Frame> put_together(const DesignPoint& point, const std::string& name, const char* ending,
+                             const Redraw& redraw) const;
   std::filesystem::path file(const std::string& name, std::size_t tile, const char* ending) const;
 
   std::filesystem::path folder_;
