@@ -134,14 +134,14 @@ Status take_pinned(std::vector<Open>& open, const SimulatorFolders& folders, con
   });
 }
 
-// Why cells that Yosys counted for no family cannot be on the device: each takes a logic cell there, too.
+// Why cells that Yosys counted for no family cannot be on the device, where each takes a logic cell, too:
+// told without synthesis for it, which is minutes and gigabytes of what is much too large.
 std::string too_large(const std::optional<Cells>& cells) {
   if (!cells) return {};
-  if (cells->flip_flops > synth::kDeviceCells)
-    return fmt::format("does not fit the HX8K: {} flip-flops", cells->flip_flops);
-  if (cells->multiplier_luts > synth::kDeviceCells)
-    return fmt::format("does not fit the HX8K: multipliers of {} LUTs", cells->multiplier_luts);
-  return {};
+  std::string why = synth::does_not_fit("flip-flops", cells->flip_flops, synth::kDeviceCells);
+  if (why.empty())
+    why = synth::does_not_fit("LUTs of multipliers", cells->multiplier_luts, synth::kDeviceCells);
+  return why;
 }
 
 // Each seed of each design, so that all threads have work to the end.
@@ -170,11 +170,10 @@ Status place_all(std::vector<Open>& open, const FiguresOptions& options) {
     const auto cells = synthesizer.ice40(each->design());
     if (!cells) return cells.error();
     figures.ice40 = *cells;
-    const auto packing = synthesizer.pack(each->design());
-    if (!packing) return packing.error();
-    if (packing->cells_used > synth::kMostPlaced) {
-      figures.clock =
-          fmt::format("too full: {} of the HX8K's {} logic cells", packing->cells_used, packing->cells_there);
+    const auto no_room = synthesizer.no_room(each->design());
+    if (!no_room) return no_room.error();
+    if (!no_room->empty()) {
+      figures.clock = *no_room;
       figures.fits = false;
     }
     return Ok{};
@@ -182,16 +181,17 @@ Status place_all(std::vector<Open>& open, const FiguresOptions& options) {
   if (!packed) return packed;
   std::erase_if(placed, [](const Placed& each) { return !each.open->figures->fits; });
   std::mutex mutex;
-  Status routed = do_all(placed.size() * c_placements, options, "placements", [&](std::size_t job) -> Status {
-    Placed& each = placed[job / c_placements];
-    const auto placement =
-        each.synthesizer.place(each.open->design(), static_cast<unsigned>(1 + job % c_placements));
-    if (!placement) return placement.error();
-    if (!placement->ended) return Ok{};  // another seed's may
-    const std::scoped_lock lock(mutex);
-    each.mhz.push_back(placement->mhz);
-    return Ok{};
-  });
+  Status routed =
+      do_all(placed.size() * synth::kSeeds, options, "placements", [&](std::size_t job) -> Status {
+        Placed& each = placed[job / synth::kSeeds];
+        const auto placement =
+            each.synthesizer.place(each.open->design(), static_cast<unsigned>(1 + job % synth::kSeeds));
+        if (!placement) return placement.error();
+        if (!placement->ended) return Ok{};  // another seed's may
+        const std::scoped_lock lock(mutex);
+        each.mhz.push_back(placement->mhz);
+        return Ok{};
+      });
   if (!routed) return routed;
   for (Placed& each : placed) {
     HardwareFigures& figures = *each.open->figures;

@@ -40,11 +40,10 @@ Result<PointHardware> drawing_hardware_of(const DesignPoint& point, const Scene&
 Result<SimulatorFolders> rtl_of(const DesignPoint& point, const SimulatorFolders& folders);
 
 inline constexpr const char* c_not_placed = "not placed";
-inline constexpr unsigned c_placements = 5;
 
 struct HardwareFigures {
   std::optional<Cells> cells;  ///< of no FPGA family; none without Yosys
-  /// On an iCE40 HX8K with registered ports, the median of c_placements seeds.
+  /// On an iCE40 HX8K with registered ports, the median of synth::kSeeds placements.
   std::optional<double> mhz;
   /// Where that is from, `pinned` or `placed`; or why there is none.
   std::string clock = c_not_placed;

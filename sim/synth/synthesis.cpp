@@ -265,6 +265,10 @@ Result<Placement> read_placement(std::string_view report, std::string_view netli
   return placement;
 }
 
+std::string does_not_fit(std::string_view what, std::uint64_t count, std::uint64_t most) {
+  return count > most ? fmt::format("does not fit the HX8K: {} {} of {}", count, what, most) : std::string();
+}
+
 Result<Packing> read_packing(std::string_view said) {
   constexpr std::string_view c_cells = "ICESTORM_LC:";
   const std::size_t at = said.find(c_cells);
@@ -473,7 +477,7 @@ Result<std::string> Synthesizer::no_room(const Design& design) const {
   for (const auto& [what, count, most] : {std::tuple{"LUTs", cells->luts, kDeviceCells},
                                           {"flip-flops", cells->flip_flops, kDeviceCells},
                                           {"RAMs", cells->rams, kDeviceRams}})
-    if (count > most) return fmt::format("does not fit the HX8K: {} {} of {}", count, what, most);
+    if (std::string why = does_not_fit(what, count, most); !why.empty()) return why;
   const auto packing = pack(design);
   if (!packing) return packing.error();
   if (packing->cells_used > kMostPlaced)

@@ -21,6 +21,9 @@ inline constexpr const char* kInstallTools = "apt-get install yosys nextpnr-ice4
 inline constexpr std::uint64_t kDeviceCells = 7680, kMostPlaced = kDeviceCells * 9 / 10;
 inline constexpr std::uint64_t kDeviceRams = 32;
 
+/// Of how many placements a clock is the median, unless told.
+inline constexpr unsigned kSeeds = 3;
+
 /// nextpnr's own, of all its threads: another load of the machine is no other answer. A placement that ends
 /// takes a tenth of it.
 inline constexpr std::chrono::seconds kPlaceTime{20 * 60};
@@ -63,6 +66,9 @@ struct Placement {
 struct Packing {
   std::uint64_t cells_used = 0, cells_there = 0;
 };
+
+/// Why the device has no room for so many of what it has `most` of; empty where it has.
+std::string does_not_fit(std::string_view what, std::uint64_t count, std::uint64_t most);
 
 /// From what nextpnr says of a device's utilisation.
 Result<Packing> read_packing(std::string_view said);

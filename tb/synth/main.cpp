@@ -41,7 +41,7 @@ constexpr const char* kEndless = "nextpnr does not end";
 
 struct Options {
   bool quick = false, cells = false, pin = false;
-  unsigned seeds = 3, jobs = 2;
+  unsigned seeds = kSeeds, jobs = 2;
   std::filesystem::path page{};
   SimulatorFolders folders{};
   std::string part{};
