@@ -97,12 +97,13 @@ Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
   return plan;
 }
 
-// Without what cannot draw the scene.
-Status leave_out(study::StudySettings& settings, const std::string& space) {
+// Without what cannot draw the scene; `place`: with placements as pieces.
+Status leave_out(study::StudySettings& settings, const std::string& space, bool place) {
   if (const auto scene = load_scene(settings.scene, settings.folders.source / "sim" / "scenes"); !scene)
     return scene.error();
   study::Drawable drawable = study::drawable(std::move(settings.points), settings.scene, settings.folders);
   settings.points = std::move(drawable.points);
+  if (place) settings.placed = std::move(drawable.hardware);
   if (settings.points.empty())
     return bad_input(fmt::format("{}: no point of it can be drawn: {}", space, drawable.reasons.front()));
   if (drawable.left_out > 0 && settings.parts == 1) {
@@ -154,13 +155,14 @@ int set_up(const study::StudySettings& settings, const std::string& names) {
 // before the tiles are there, of other tasks, that it would have put together; a second one does that.
 Status run_on_slurm(study::StudySettings settings, const Folders& folders, const StudyCommand& command,
                     const std::string& space) {
-  settings.parts = std::clamp<std::size_t>(command.parts, 1, study::pieces(settings));
+  settings.parts = std::clamp<std::size_t>(command.parts, 1, study::most_parts(settings));
   study::JobArray array{.worker = worker_of(folders, command, space),
                         .parts = settings.parts,
                         .options = command.slurm_options};
   for (const std::string& word :
        {std::string("--out"), absolute_path(settings.out), std::string("--threads=1")})
     array.worker.push_back(word);
+  if (command.place) array.worker.push_back("--place");
   const bool any_tiles = std::ranges::any_of(settings.points, &study::DesignPoint::in_tiles);
   const std::filesystem::path logs = settings.out / "slurm";
   std::vector<std::filesystem::path> rounds = {logs};
@@ -202,8 +204,11 @@ int run(const Folders& folders, const StudyCommand& command) {
   study::StudySettings& settings = plan->settings;
   if (!command.set_up.empty()) return set_up(settings, command.set_up);
   settings.set_up = worker_of(folders, command, plan->space);
-  if (const Status left = leave_out(settings, plan->space); !left) return report(left.error());
-  if (command.executor == "slurm")
+  const bool on_slurm = command.executor == "slurm";
+  // A run by itself places when it knows what has room: with no more synthesis than that takes.
+  const bool place = command.place && (on_slurm || !command.part.empty());
+  if (const Status left = leave_out(settings, plan->space, place); !left) return report(left.error());
+  if (on_slurm)
     if (const Status ran = run_on_slurm(settings, folders, command, plan->space); !ran)
       return report(ran.error());
   Progress progress("study");
@@ -213,8 +218,8 @@ int run(const Folders& folders, const StudyCommand& command) {
   if (!study) return report(study.error());
   for (const std::string& note : study->notes) say(note);
   if (!command.part.empty()) {
-    fmt::print("part {}: {} points, {} measured anew, {} tiles drawn\n", command.part, study->records.size(),
-               study->measured, study->drawn_tiles);
+    fmt::print("part {}: {} points, {} measured anew, {} tiles drawn, {} placements\n", command.part,
+               study->records.size(), study->measured, study->drawn_tiles, study->placements);
     return 0;
   }
   const auto hardware = study::hardware_figures(
@@ -257,7 +262,9 @@ void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
   study->add_option("--parts", command->parts, "slurm: tasks of the array")->capture_default_str();
   study->add_option("--slurm-option", command->slurm_options,
                     "slurm: one more of sbatch's, such as --partition=short");
-  study->add_option("--part", command->part, "I/N: measures this part of the points, and writes no table");
+  study->add_option(
+      "--part", command->part,
+      "I/N: measures this part of the points, with --place of placements too, and writes no table");
   study->add_option("--set-up", command->set_up,
                     "a file of points' names: makes their init vectors and no more, to be counted");
   study->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });

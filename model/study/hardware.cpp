@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/file.hpp"
 #include "common/subprocess.hpp"
 #include "common/threads.hpp"
 #include "sim/synth/pinned.hpp"
@@ -71,6 +72,11 @@ Result<SimulatorFolders> rtl_of(const DesignPoint& point, const SimulatorFolders
   return SimulatorFolders{*source, folders.cache};
 }
 
+synth::Design HardwareSource::design() const {
+  const HardwareKey& key = hardware.key;
+  return {.name = key.name(), .entity = key.entity(), .generics = key.generics()};
+}
+
 double cell_count(const Cells& cells) {
   constexpr double c_lut_bits = 16;
   return static_cast<double>(cells.luts + cells.flip_flops + cells.multiplier_luts) +
@@ -79,14 +85,20 @@ double cell_count(const Cells& cells) {
 
 namespace {
 
+Result<HardwareSource> source_of(const std::string& scene, const DesignPoint& point,
+                                 const SimulatorFolders& folders) {
+  const auto drawn = drawn_scene(scene, folders.source / "sim" / "scenes", point);
+  if (!drawn) return drawn.error();
+  auto hardware = hardware_of(point, *drawn);
+  if (!hardware) return hardware.error();
+  auto rtl = rtl_of(point, folders);
+  if (!rtl) return rtl.error();
+  return HardwareSource{std::move(*hardware), std::move(*rtl)};
+}
+
 struct Open {
-  PointHardware hardware;
-  SimulatorFolders folders;
+  HardwareSource source;
   HardwareFigures* figures;
-  synth::Design design() const {
-    const HardwareKey& key = hardware.key;
-    return {.name = key.name(), .entity = key.entity(), .generics = key.generics()};
-  }
 };
 
 // Each of `count` things on all threads, until one fails; `what` is said with how many are done.
@@ -103,35 +115,39 @@ Status do_all(std::size_t count, const FiguresOptions& options, const std::strin
   });
 }
 
-// Clocks of netlists, by their hashes.
-Result<std::map<std::string, double>> pinned_clocks(const SimulatorFolders& folders) {
+Result<PinnedClocks> pinned_clocks(const SimulatorFolders& folders) {
   const auto pins = synth::read_pins(folders.source / synth::kPins);
   if (!pins) return pins.error();
-  std::map<std::string, double> clocks;
+  PinnedClocks clocks;
   for (const auto& [name, pin] : *pins)
     if (!pin.netlist.empty() && pin.mhz > 0) clocks[pin.netlist] = pin.mhz;
   return clocks;
 }
 
-Status take_pinned(std::vector<Open>& open, const SimulatorFolders& folders, const FiguresOptions& options) {
-  const auto clocks = pinned_clocks(folders);
-  if (!clocks) return clocks.error();
-  if (clocks->empty()) return Ok{};
+Status take_pinned(const HardwareSource& source, const PinnedClocks& clocks, HardwareFigures& figures) {
+  if (clocks.empty()) return Ok{};
   const auto tool = GhdlTool::find();
   if (!tool) return tool.error();
-  return do_all(open.size(), options, "pinned clocks", [&](std::size_t at) -> Status {
-    const auto sources = read_rtl_sources(open[at].folders.source);
-    if (!sources) return sources.error();
-    const auto library = GhdlLibrary::for_synthesis(*tool, *sources, open[at].folders.cache);
-    if (!library) return library.error();
-    const auto hash = synth::netlist_hash(*library, open[at].design());
-    if (!hash) return hash.error();
-    if (const auto found = clocks->find(*hash); found != clocks->end()) {
-      open[at].figures->mhz = found->second;
-      open[at].figures->clock = "pinned";
-    }
-    return Ok{};
-  });
+  const auto sources = read_rtl_sources(source.folders.source);
+  if (!sources) return sources.error();
+  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, source.folders.cache);
+  if (!library) return library.error();
+  const auto hash = synth::netlist_hash(*library, source.design());
+  if (!hash) return hash.error();
+  if (const auto found = clocks.find(*hash); found != clocks.end()) {
+    figures.mhz = found->second;
+    figures.clock = "pinned";
+  }
+  return Ok{};
+}
+
+Status count_cells(const HardwareSource& source, HardwareFigures& figures) {
+  const auto counter = CellCounter::open(source.folders);
+  if (!counter) return counter.error();
+  const auto cells = counter->count(source.hardware.key);
+  if (!cells) return cells.error();
+  figures.cells = *cells;
+  return Ok{};
 }
 
 // Why cells that Yosys counted for no family cannot be on the device, where each takes a logic cell, too:
@@ -144,48 +160,51 @@ std::string too_large(const std::optional<Cells>& cells) {
   return why;
 }
 
+// What is to place it; none where its clock is known, or why it has none.
+Result<std::optional<synth::Synthesizer>> placer_of(const HardwareSource& source, HardwareFigures& figures) {
+  if (figures.mhz) return std::optional<synth::Synthesizer>();
+  std::string no_room = too_large(figures.cells);
+  std::optional<synth::Synthesizer> placer;
+  if (no_room.empty()) {
+    auto synthesizer = synth::Synthesizer::open(source.folders, true);
+    if (!synthesizer) return synthesizer.error();
+    const auto cells = synthesizer->ice40(source.design());
+    if (!cells) return cells.error();
+    figures.ice40 = *cells;
+    auto told = synthesizer->no_room(source.design());
+    if (!told) return told.error();
+    no_room = std::move(*told);
+    placer = std::move(*synthesizer);
+  }
+  if (no_room.empty()) return placer;
+  figures.clock = std::move(no_room);
+  figures.fits = false;
+  return std::optional<synth::Synthesizer>();
+}
+
 // Each seed of each design, so that all threads have work to the end.
 Status place_all(std::vector<Open>& open, const FiguresOptions& options) {
   struct Placed {
     Open* open;
-    synth::Synthesizer synthesizer;
+    std::optional<synth::Synthesizer> placer{};
     std::vector<double> mhz{};
   };
   std::vector<Placed> placed;
-  for (Open& each : open) {
-    HardwareFigures& figures = *each.figures;
-    if (figures.mhz) continue;
-    if (std::string reason = too_large(figures.cells); !reason.empty()) {
-      figures.clock = std::move(reason);
-      figures.fits = false;
-      continue;
-    }
-    auto synthesizer = synth::Synthesizer::open(each.folders, true);
-    if (!synthesizer) return synthesizer.error();
-    placed.push_back({&each, std::move(*synthesizer)});
-  }
+  for (Open& each : open) placed.push_back({&each});
   Status packed = do_all(placed.size(), options, "logic cells", [&](std::size_t at) -> Status {
-    const auto& [each, synthesizer, mhz] = placed[at];
-    HardwareFigures& figures = *each->figures;
-    const auto cells = synthesizer.ice40(each->design());
-    if (!cells) return cells.error();
-    figures.ice40 = *cells;
-    const auto no_room = synthesizer.no_room(each->design());
-    if (!no_room) return no_room.error();
-    if (!no_room->empty()) {
-      figures.clock = *no_room;
-      figures.fits = false;
-    }
+    auto placer = placer_of(placed[at].open->source, *placed[at].open->figures);
+    if (!placer) return placer.error();
+    placed[at].placer = std::move(*placer);
     return Ok{};
   });
   if (!packed) return packed;
-  std::erase_if(placed, [](const Placed& each) { return !each.open->figures->fits; });
+  std::erase_if(placed, [](const Placed& each) { return !each.placer; });
   std::mutex mutex;
   Status routed =
       do_all(placed.size() * synth::kSeeds, options, "placements", [&](std::size_t job) -> Status {
         Placed& each = placed[job / synth::kSeeds];
         const auto placement =
-            each.synthesizer.place(each.open->design(), static_cast<unsigned>(1 + job % synth::kSeeds));
+            each.placer->place(each.open->source.design(), static_cast<unsigned>(1 + job % synth::kSeeds));
         if (!placement) return placement.error();
         if (!placement->ended) return Ok{};  // another seed's may
         const std::scoped_lock lock(mutex);
@@ -219,29 +238,72 @@ Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const
     if (!in_hardware(record.point.method)) continue;
     const auto [entry, is_new] = table.try_emplace(record.measured.hardware);
     if (!is_new) continue;
-    const auto drawn = drawn_scene(scene, folders.source / "sim" / "scenes", record.point);
-    if (!drawn) return drawn.error();
-    auto hardware = hardware_of(record.point, *drawn);
-    if (!hardware) return hardware.error();
-    auto rtl = rtl_of(record.point, folders);
-    if (!rtl) return rtl.error();
-    open.push_back({std::move(*hardware), std::move(*rtl), &entry->second});
+    auto source = source_of(scene, record.point, folders);
+    if (!source) return source.error();
+    open.push_back({std::move(*source), &entry->second});
   }
-  if (Status pinned = take_pinned(open, folders, options); !pinned) return pinned.error();
+  const auto clocks = pinned_clocks(folders);
+  if (!clocks) return clocks.error();
+  const Status pinned = do_all(open.size(), options, "pinned clocks", [&](std::size_t at) {
+    return take_pinned(open[at].source, *clocks, *open[at].figures);
+  });
+  if (!pinned) return pinned.error();
   if (!find_program("yosys").empty()) {
-    const Status counted = do_all(open.size(), options, "cells", [&](std::size_t at) -> Status {
-      const auto counter = CellCounter::open(open[at].folders);
-      if (!counter) return counter.error();
-      const auto cells = counter->count(open[at].hardware.key);
-      if (!cells) return cells.error();
-      open[at].figures->cells = *cells;
-      return Ok{};
+    const Status counted = do_all(open.size(), options, "cells", [&](std::size_t at) {
+      return count_cells(open[at].source, *open[at].figures);
     });
     if (!counted) return counted.error();
   }
   if (options.place)
     if (Status placed = place_all(open, options); !placed) return placed.error();
   return table;
+}
+
+Result<Placements> Placements::open(const std::string& scene, std::span<const DesignPoint> points,
+                                    const SimulatorFolders& folders, const std::string& rtl) {
+  Placements placements;
+  for (const DesignPoint& point : points) {
+    auto source = study::source_of(scene, point, folders);
+    if (!source) return source.error();
+    placements.hardware_.push_back(std::move(*source));
+  }
+  auto pinned = pinned_clocks(folders);
+  if (!pinned) return pinned.error();
+  const auto synthesizer = synth::Synthesizer::open(folders, true);
+  if (!synthesizer) return synthesizer.error();
+  ContentHash made_by;
+  made_by.add("placed 1").add(rtl).add(synthesizer->versions());
+  for (const auto& [netlist, mhz] : *pinned) made_by.add(netlist);
+  placements.pinned_ = std::move(*pinned);
+  placements.made_by_ = made_by.hex();
+  placements.marks_ = folders.cache / "placed";
+  if (Status made = make_folders(placements.marks_); !made) return made.error();
+  return placements;
+}
+
+std::string Placements::name(std::size_t number) const {
+  return fmt::format("{}, seed {}", source_of(number).hardware.key.name(), seed_of(number));
+}
+
+std::filesystem::path Placements::mark(std::size_t number) const {
+  return marks_ / ContentHash().add(made_by_).add(name(number)).hex();
+}
+
+bool Placements::is_done(std::size_t number) const {
+  return std::filesystem::exists(mark(number));
+}
+
+Status Placements::make(std::size_t number) const {
+  const HardwareSource& source = source_of(number);
+  HardwareFigures figures;
+  if (Status pinned = take_pinned(source, pinned_, figures); !pinned) return pinned;
+  if (Status counted = count_cells(source, figures); !counted) return counted;
+  const auto placer = placer_of(source, figures);
+  if (!placer) return placer.error();
+  if (*placer)
+    if (const auto placed = (*placer)->place(source.design(), seed_of(number)); !placed)
+      return placed.error();
+  return write_file(mark(number), "");
 }
 
 }  // namespace halfway::study

@@ -2,12 +2,15 @@
 // The hardware of a study's points, and what it costs: figures of a hardware key, not of a point.
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/result.hpp"
 #include "plan/cells.hpp"
@@ -39,6 +42,13 @@ Result<PointHardware> drawing_hardware_of(const DesignPoint& point, const Scene&
 /// not built with, a copy in the cache.
 Result<SimulatorFolders> rtl_of(const DesignPoint& point, const SimulatorFolders& folders);
 
+/// Hardware with what it is synthesized from.
+struct HardwareSource {
+  PointHardware hardware;
+  SimulatorFolders folders;  ///< rtl_of the point
+  synth::Design design() const;
+};
+
 inline constexpr const char* c_not_placed = "not placed";
 
 struct HardwareFigures {
@@ -58,6 +68,9 @@ using HardwareTable = std::map<std::string, HardwareFigures>;
 /// LUTs and flip-flops, tables and multipliers as LUTs among them; memory that is written as LUTs of 16 bits.
 double cell_count(const Cells& cells);
 
+/// By the hash of the netlist that each is of.
+using PinnedClocks = std::map<std::string, double>;
+
 struct FiguresOptions {
   unsigned threads = 1;
   /// Synthesizes and places what has no pinned clock, minutes each; else such a clock is not known.
@@ -70,5 +83,33 @@ struct FiguresOptions {
 /// that it is of.
 Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const Record> records,
                                        const SimulatorFolders& folders, const FiguresOptions& options);
+
+/// What takes longest of that with `place`, in pieces that may be done by anyone, in any order: a placement
+/// of each hardware by each seed. Each is left in the cache, with a mark that it is done: what the device has
+/// no room for leaves nothing else.
+class Placements {
+ public:
+  /// `points`: one of each hardware. `rtl`: the hash of all RTL. An error names what installs a missing tool.
+  static Result<Placements> open(const std::string& scene, std::span<const DesignPoint> points,
+                                 const SimulatorFolders& folders, const std::string& rtl);
+
+  std::size_t count() const { return hardware_.size() * synth::kSeeds; }
+  bool is_done(std::size_t number) const;
+  /// Of hardware whose clock is pinned, or that does not fit, no more than the mark.
+  Status make(std::size_t number) const;
+  /// The hardware's name and the seed, for messages.
+  std::string name(std::size_t number) const;
+
+ private:
+  Placements() = default;
+  static unsigned seed_of(std::size_t number) { return static_cast<unsigned>(1 + number % synth::kSeeds); }
+  const HardwareSource& source_of(std::size_t number) const { return hardware_[number / synth::kSeeds]; }
+  std::filesystem::path mark(std::size_t number) const;
+
+  std::vector<HardwareSource> hardware_;
+  PinnedClocks pinned_;
+  std::filesystem::path marks_;
+  std::string made_by_;  ///< hash of what a placement hangs on beside the hardware's name and the seed
+};
 
 }  // namespace halfway::study

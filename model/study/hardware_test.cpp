@@ -13,12 +13,14 @@
 
 #include "common/file.hpp"
 #include "study/pictures.hpp"
+#include "study/study.hpp"
 
 namespace halfway::study {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
+
+using ::testing::ElementsAre;
 
 const fs::path c_source = HALFWAY_SOURCE_DIR;
 
@@ -161,6 +163,60 @@ TEST_F(HardwareFiguresTest, WhatTheDeviceHasNoRoomForHasNoClockAndSaysWhy) {
   // Told before it is synthesized for the device.
   EXPECT_EQ(why("7681", "NONE", "40"), "does not fit the HX8K: 7681 flip-flops of 7680");
   EXPECT_EQ(placements(), 0U);
+}
+
+// As pieces of a study: what each part leaves in the cache is all that the table needs.
+TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
+  StudySettings settings{.scene = scene_,
+                         .points = {{.method = Method::gouraud, .size = {32, 24}}},
+                         .out = folder_->path() / "out",
+                         .parts = synth::kSeeds,
+                         .folders = folders_,
+                         .placed = {point_}};
+  EXPECT_EQ(most_parts(settings), synth::kSeeds);
+  const auto open = [&] {
+    const auto parts = open_parts(settings);
+    EXPECT_TRUE(parts) << parts.error().message;
+    return parts ? *parts : std::vector<std::size_t>();
+  };
+  const auto run = [&](std::size_t part) {
+    settings.part = part;
+    const auto made = run_study(settings);
+    EXPECT_TRUE(made) << made.error().message;
+    return made ? made->placements : 0;
+  };
+  EXPECT_THAT(open(), ElementsAre(0U, 1U, 2U));
+  EXPECT_EQ(run(1), 1U);
+  const auto seeds = read_file(log());
+  ASSERT_TRUE(seeds) << seeds.error().message;
+  EXPECT_EQ(*seeds, "2\n");
+  EXPECT_THAT(open(), ElementsAre(0U, 2U));
+  EXPECT_EQ(run(1), 0U);
+  EXPECT_EQ(run(2) + run(0), 2U);
+  EXPECT_TRUE(open().empty());
+  EXPECT_EQ(placements(), synth::kSeeds);
+  const HardwareFigures placed = figures(true);
+  EXPECT_EQ(placed.mhz, 102.0);
+  EXPECT_EQ(placed.clock, "placed");
+  EXPECT_EQ(placements(), synth::kSeeds);
+  // Another RTL, another piece.
+  fs::remove(folders_.source / "rtl");
+  fs::copy(c_source / "rtl", folders_.source / "rtl", fs::copy_options::recursive);
+  ASSERT_TRUE(write_file(folders_.source / "rtl/notes", "another"));
+  EXPECT_THAT(open(), ElementsAre(0U, 1U, 2U));
+}
+
+TEST_F(HardwareFiguresTest, WhatHasNoRoomIsDoneAsAPiece) {
+  put_tools("4", "7681", "40");
+  const StudySettings settings{
+      .scene = scene_, .out = folder_->path() / "out", .folders = folders_, .placed = {point_}};
+  const auto made = run_study(settings);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->placements, synth::kSeeds);
+  EXPECT_EQ(placements(), 0U);
+  const auto parts = open_parts(settings);
+  ASSERT_TRUE(parts) << parts.error().message;
+  EXPECT_TRUE(parts->empty());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 
 #include "common/file.hpp"
@@ -26,9 +27,15 @@ namespace {
 // A whole frame of a large picture, and what it is compared by, takes gigabytes.
 constexpr unsigned c_most_gathering = 2;
 
+struct Range {
+  std::size_t begin, end;
+};
+Range part_of(std::size_t count, std::size_t part, std::size_t parts) {
+  return {count * part / parts, count * (part + 1) / parts};
+}
 std::span<const Piece> part_of(std::span<const Piece> pieces, std::size_t part, std::size_t parts) {
-  const std::size_t begin = pieces.size() * part / parts, end = pieces.size() * (part + 1) / parts;
-  return pieces.subspan(begin, end - begin);
+  const Range range = part_of(pieces.size(), part, parts);
+  return pieces.subspan(range.begin, range.end - range.begin);
 }
 
 bool is_point(const Piece& piece) {
@@ -52,11 +59,19 @@ class Bench {
     if (!provenance) return provenance.error();
     const std::filesystem::path folder = settings.out / "points";
     if (Status made = make_folders(folder); !made) return made.error();
-    return Bench(settings, *provenance, folder);
+    Bench bench(settings, *provenance, folder);
+    if (!settings.placed.empty()) {
+      auto placements = Placements::open(settings.scene, settings.placed, settings.folders, provenance->rtl);
+      if (!placements) return placements.error();
+      bench.placements_ = std::move(*placements);
+    }
+    return bench;
   }
 
   const Provenance& provenance() const { return provenance_; }
   const Records& kept() const { return kept_; }
+  const std::optional<Placements>& placements() const { return placements_; }
+  std::size_t placement_count() const { return placements_ ? placements_->count() : 0; }
 
   // A point's record; an error where it is damaged.
   Result<std::optional<Record>> find(const Piece& piece) const {
@@ -140,8 +155,28 @@ class Bench {
   Provenance provenance_;
   Records kept_;
   TileRecords tiles_;
+  std::optional<Placements> placements_;
   std::unique_ptr<PictureShelf> shelf_;
 };
+
+// Those of the part.
+Status place(const StudySettings& settings, const Bench& bench, Study& study) {
+  const Range mine = part_of(bench.placement_count(), settings.part, settings.parts);
+  const std::size_t count = mine.end - mine.begin;
+  std::size_t done = 0;
+  std::mutex mutex;
+  return for_each_on_threads(settings.threads, count, [&](std::size_t at) -> Status {
+    const std::size_t number = mine.begin + at;
+    const bool anew = !bench.placements()->is_done(number);
+    if (anew)
+      if (Status made = bench.placements()->make(number); !made)
+        return Error{made.error().code, bench.placements()->name(number) + ": " + made.error().message};
+    const std::scoped_lock lock(mutex);
+    study.placements += anew;
+    settings.on_progress(fmt::format("{} of {} placements", ++done, count));
+    return Ok{};
+  });
+}
 
 // Those of the records that lack them.
 Status count_instructions(const StudySettings& settings, const Records& kept, std::vector<Record>& records) {
@@ -178,6 +213,7 @@ Drawable drawable(std::vector<DesignPoint> points, const std::string& scene,
                   const SimulatorFolders& folders) {
   Drawable found;
   std::optional<std::string> picture;
+  std::set<std::string> hardware;
   Result<Scene> drawn = Scene{};
   for (DesignPoint& point : points) {
     if (picture != point.picture()) {
@@ -187,8 +223,12 @@ Drawable drawable(std::vector<DesignPoint> points, const std::string& scene,
     std::string reason;
     if (!drawn)
       reason = drawn.error().message;
-    else if (const auto key = hardware_of(point, *drawn); in_hardware(point.method) && !key)
-      reason = fmt::format("{}: {}", to_string(point.method), key.error().message);
+    else if (in_hardware(point.method)) {
+      if (const auto made = hardware_of(point, *drawn); !made)
+        reason = fmt::format("{}: {}", to_string(point.method), made.error().message);
+      else if (hardware.insert(made->key.name()).second)
+        found.hardware.push_back(point);
+    }
     if (reason.empty()) {
       found.points.push_back(std::move(point));
       continue;
@@ -199,8 +239,8 @@ Drawable drawable(std::vector<DesignPoint> points, const std::string& scene,
   return found;
 }
 
-std::size_t pieces(const StudySettings& settings) {
-  return pieces_of(settings.points).size();
+std::size_t most_parts(const StudySettings& settings) {
+  return std::max(pieces_of(settings.points).size(), settings.placed.size() * synth::kSeeds);
 }
 
 Result<std::vector<std::size_t>> open_parts(const StudySettings& settings) {
@@ -208,10 +248,14 @@ Result<std::vector<std::size_t>> open_parts(const StudySettings& settings) {
   if (!bench) return bench.error();
   const std::vector<Piece> all = pieces_of(settings.points);
   std::vector<std::size_t> open;
-  for (std::size_t part = 0; part < settings.parts; ++part)
-    if (!std::ranges::all_of(part_of(all, part, settings.parts),
-                             [&](const Piece& piece) { return bench->is_done(piece); }))
-      open.push_back(part);
+  for (std::size_t part = 0; part < settings.parts; ++part) {
+    const Range placements = part_of(bench->placement_count(), part, settings.parts);
+    bool done = std::ranges::all_of(part_of(all, part, settings.parts),
+                                    [&](const Piece& piece) { return bench->is_done(piece); });
+    for (std::size_t number = placements.begin; done && number < placements.end; ++number)
+      done = bench->placements()->is_done(number);
+    if (!done) open.push_back(part);
+  }
   return open;
 }
 
@@ -220,7 +264,7 @@ Result<Study> run_study(const StudySettings& settings) {
   if (!bench) return bench.error();
   const std::vector<Piece> all = pieces_of(settings.points);
   const std::span<const Piece> mine = part_of(all, settings.part, settings.parts);
-  Study study{bench->provenance(), {}};
+  Study study{.provenance = bench->provenance()};
   std::vector<std::optional<Record>> records(mine.size());
   std::mutex mutex;
   std::size_t done = 0;
@@ -259,6 +303,8 @@ Result<Study> run_study(const StudySettings& settings) {
     std::erase_if(gathered, [&](std::size_t at) { return !bench->can_gather(mine[at]); });
   worked = for_each_on_threads(std::min(settings.threads, c_most_gathering), gathered.size(),
                                [&](std::size_t i) { return each(gathered[i]); });
+  if (!worked) return worked.error();
+  worked = place(settings, *bench, study);
   if (!worked) return worked.error();
   for (std::optional<Record>& record : records)
     if (record) study.records.push_back(std::move(*record));

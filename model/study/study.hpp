@@ -23,6 +23,9 @@ struct StudySettings {
   /// 0 of 1.
   std::size_t part = 0, parts = 1;
   SimulatorFolders folders;
+  /// Drawable::hardware, where its placements are pieces of the study, too: cut into parts by themselves, as
+  /// each takes as long as many points.
+  std::vector<DesignPoint> placed;
   /// What host_instructions takes as its worker. Empty: they are not counted.
   std::vector<std::string> set_up;
   /// Told what is done; points that were measured before count.
@@ -34,19 +37,21 @@ struct Study {
   std::vector<Record> records;     ///< in the points' order; of the part alone, as far as they are there
   std::size_t measured = 0;        ///< of these anew, in this run
   std::size_t drawn_tiles = 0;     ///< in this run
+  std::size_t placements = 0;      ///< likewise
   std::vector<std::string> notes;  ///< files that were damaged, and of what was made anew
 };
 
 /// The points that can be drawn of the scene. What is left out is told: each reason once.
 struct Drawable {
   std::vector<DesignPoint> points;
+  std::vector<DesignPoint> hardware;  ///< of these, one of each hardware
   std::size_t left_out = 0;
   std::vector<std::string> reasons;
 };
 Drawable drawable(std::vector<DesignPoint> points, const std::string& scene, const SimulatorFolders& folders);
 
-/// How many pieces the points are cut into: more than those there is no use for parts.
-std::size_t pieces(const StudySettings& settings);
+/// For more parts than this there is no use: how many pieces there are of points, or of placements.
+std::size_t most_parts(const StudySettings& settings);
 
 /// Numbers of the parts with pieces that were not measured before.
 Result<std::vector<std::size_t>> open_parts(const StudySettings& settings);

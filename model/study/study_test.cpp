@@ -335,9 +335,12 @@ TEST_F(StudyTest, LeavesOutWhatCannotDrawTheScene) {
                                            {.method = Method::processors_2, .preset = Preset::published}};
   const Drawable all = drawable(points, "matte", settings_.folders);
   EXPECT_EQ(all.points.size(), 3U);
+  ASSERT_EQ(all.hardware.size(), 2U);
+  EXPECT_EQ(all.hardware[1].method, Method::processors_2);
   EXPECT_EQ(all.left_out, 0U);
   const Drawable some = drawable(points, "lights", settings_.folders);
   ASSERT_EQ(some.points.size(), 2U);
+  EXPECT_EQ(some.hardware.size(), 1U);
   EXPECT_EQ(some.points[1].method, Method::processors_2);
   EXPECT_EQ(some.left_out, 1U);
   ASSERT_EQ(some.reasons.size(), 1U);

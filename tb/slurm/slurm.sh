@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Studies on a real Slurm: munged, slurmctld and slurmd of this machine's own, started here and ended here. The job
 # array's table equals the local run's byte for byte; a task that is killed is tried again by Slurm; a study that
-# is killed goes on where it was. First with a point a task, then with frames that are cut into tiles: of those the
-# pictures that are put together equal the local run's and those of the frames in one.
+# is killed goes on where it was. First with a point a task, then with placements, by stand-ins for Yosys and nextpnr,
+# then with frames that are cut into tiles: of those the pictures that are put together equal the local run's and
+# those of the frames in one.
 #
 #   tb/slurm/slurm.sh HALFWAY CHECKOUT SCRATCH
 #
@@ -218,6 +219,65 @@ note "job array, a task killed and tried again by Slurm: $(cat "$scratch/array.l
 run_until_killed resumed 4 gouraud "${on_slurm[@]}"
 go_on resumed 4 gouraud "${on_slurm[@]}"
 same_table resumed local
+
+# ---- Placements: a seed a task, each task another one, and one that was there before
+
+mkdir "$scratch/bin"
+cat >"$scratch/bin/yosys" <<'END'
+#!/bin/sh
+[ "$1" = -V ] && echo 'Yosys 0.0, stands in' && exit
+echo >mapped.il
+echo '{"modules": {"wrapped": {"cells": {}, "netnames": {}}}}' >wrapped.json
+case "$*" in
+  *synth_ice40*) echo '{"design": {"num_cells_by_type": {"SB_LUT4": 30, "SB_DFF": 4}}}' >cells.json ;;
+  *) echo '{"design": {"num_cells_by_type": {"$lut": 20, "$_DFF_P_": 4}}}' >cells.json ;;
+esac
+END
+cat >"$scratch/bin/nextpnr-ice40" <<'END'
+#!/bin/sh
+[ "$1" = --version ] && echo 'nextpnr-ice40 (Version 0.0)' && exit
+case "$*" in
+  *--pack-only*) echo 'Info: 	 ICESTORM_LC:  40/ 7680    1%' ; exit ;;
+esac
+seed=${*##*--seed } ; seed=${seed%% *}
+echo "$seed ${SLURM_ARRAY_TASK_ID:-none}" >>"$PLACED"
+echo '{"utilization": {"ICESTORM_LC": {"used": 40, "available": 7680}}, "critical_paths": [],
+  "fmax": {"clk": {"achieved": '$((100 + seed * 7 % 5))'}}}' >report.json
+END
+chmod +x "$scratch/bin/yosys" "$scratch/bin/nextpnr-ice40"
+
+# A checkout without pinned clocks, whose cache has nothing of what stands in.
+checkout_without_clocks() { # name
+  local root=$scratch/checkout-$1 folder
+  mkdir -p "$root/tb/synth" "$root/build/cache"
+  : >"$root/tb/synth/pinned.txt"
+  ln -s "$checkout/rtl" "$checkout/sim" "$root"
+  for folder in "$checkout"/build/cache/*; do
+    case ${folder##*/} in yosys | synth | placed) ;; *) ln -s "$folder" "$root/build/cache" ;; esac
+  done
+}
+cat >"$scratch/placed.toml" <<END
+[[sweep]]
+method = ["gouraud", "quadratic"]
+size = "160x120"
+END
+study=(study --space "$scratch/placed.toml" --place)
+path=$PATH
+export PATH=$scratch/bin:$PATH PLACED
+for name in placed-local placed-array; do checkout_without_clocks $name; done
+PLACED=$scratch/placed-local.seeds
+run_local placed-local --source "$scratch/checkout-placed-local" "${study[@]}"
+grep -q ',"placed",' "$scratch/placed-local/study.csv" || fail "no clock in $scratch/placed-local/study.csv"
+PLACED=$scratch/placed-array.seeds
+study=(--source "$scratch/checkout-placed-array" "${study[@]}" --out "$scratch/placed-array")
+"$halfway" "${study[@]}" --part 1/3 >"$scratch/placed-array.log" 2>&1 &&
+  "$halfway" "${study[@]}" --executor slurm --parts 3 >>"$scratch/placed-array.log" 2>&1 ||
+  fail "placements as a job array: exit code $?: $(cat "$scratch/placed-array.log")"
+[ "$(sort "$scratch/placed-array.seeds" | tr '\n' ',')" = '1 0,2 none,3 2,' ] ||
+  fail "seeds and the tasks that placed them: $(cat "$scratch/placed-array.seeds")"
+same_table placed-array placed-local
+note "placements as a job array: $(tail -n 1 "$scratch/placed-array.log")"
+PATH=$path
 
 # ---- Tiles: 6 of each of three pictures, and of the reference
 
