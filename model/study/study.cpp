@@ -147,6 +147,7 @@ class Bench {
     if (Status added = kept_.add_frame(point, record.measured.frame); !added) return added.error();
     record.measured.frame = {};
     if (Status added = kept_.add(record); !added) return added.error();
+    if (of_tiles) tiles_.remove_drawing(point);
     made.record = std::move(record);
     return Ok{};
   }

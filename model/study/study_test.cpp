@@ -171,62 +171,96 @@ TEST_F(TiledStudyTest, TilesAreTheWhole) {
   EXPECT_THAT(table_of(whole_), Not(HasSubstr(",4\n")));
 }
 
-// A tile that is lost is drawn anew, and no other; where its points are there nobody misses it.
-TEST_F(TiledStudyTest, GoesOnTileByTile) {
-  const std::string first = table_of(study());
-  const Provenance provenance = whole_.provenance;
-  const DesignPoint& quadratic = settings_.points[2];
-  const auto lose = [&](const std::string& name, const char* ending) {
-    return std::filesystem::remove(folder_->path() / "points" / (name + ending));
-  };
-  const std::string drawing = record_name(provenance, quadratic),
-                    reference = record_name(provenance, "reference, " + quadratic.picture());
-  EXPECT_TRUE(lose(drawing, "-tile-1.json") && lose(drawing, "-tile-2-mask.png"));
-  EXPECT_TRUE(lose(reference, "-tile-0.png"));
-  Study again = study();
-  EXPECT_EQ(again.drawn_tiles, 0U);
-  EXPECT_EQ(again.measured, 0U);
-  EXPECT_TRUE(lose(drawing, ".json"));
-  again = study();
-  EXPECT_EQ(again.drawn_tiles, 3U);
-  EXPECT_EQ(again.measured, 1U);
-  EXPECT_EQ(table_of(again), first);
+// Of a study that was broken off before it had put anything together.
+class BrokenOffStudyTest : public TiledStudyTest {
+ protected:
+  void SetUp() override {
+    TiledStudyTest::SetUp();
+    // A point's tiles each; those of the reference, which the first part is, come last.
+    settings_.parts = settings_.points.size();
+    for (settings_.part = settings_.parts; settings_.part-- > 0;) study();
+    settings_.part = 0;
+    settings_.parts = 1;
+    for (const char* ending : {".json", ".png"})
+      ASSERT_TRUE(std::filesystem::remove(file(settings_.points[0].name(), ending)));
+    std::filesystem::copy(points(), tiles());
+    table_ = table_of(study());
+    restore();
+  }
+  std::filesystem::path points() const { return folder_->path() / "points"; }
+  std::filesystem::path tiles() const { return folder_->path() / "tiles"; }
+  void restore() const {
+    std::filesystem::remove_all(points());
+    std::filesystem::copy(tiles(), points());
+  }
+  std::filesystem::path file(const std::string& name, const char* ending) const {
+    return points() / (record_name(whole_.provenance, name) + ending);
+  }
+  void expect_anew(std::size_t tiles) const {
+    const Study again = study();
+    EXPECT_EQ(again.drawn_tiles, tiles);
+    EXPECT_EQ(again.measured, 4U);
+    EXPECT_EQ(table_of(again), table_);
+    expect_whole(again);
+  }
+  const std::string drawing_ = "quadratic exact, 64x48 in tiles of 37x29, tessellation 0.5, exponent 50",
+                    reference_ = "reference, 64x48 in tiles of 37x29, tessellation 0.5, exponent 50";
+  std::string table_;
+};
+
+// A tile that is lost is drawn anew, and no other.
+TEST_F(BrokenOffStudyTest, GoesOnTileByTile) {
+  EXPECT_TRUE(std::filesystem::remove(file(drawing_, "-tile-1.json")));
+  EXPECT_TRUE(std::filesystem::remove(file(drawing_, "-tile-2-mask.png")));
+  EXPECT_TRUE(std::filesystem::remove(file(reference_, "-tile-0.png")));
+  expect_anew(3);
 }
 
-// Truncated, of another size, or no picture at all: the point that is put together of it draws it anew.
-TEST_F(TiledStudyTest, DrawsADamagedTileAnew) {
-  const std::string first = table_of(study());
-  const DesignPoint& quadratic = settings_.points[2];
-  const auto file = [&](const std::string& name, const char* ending) {
-    return folder_->path() / "points" / (record_name(whole_.provenance, name) + ending);
-  };
-  const std::string drawing = quadratic.name(), reference = "reference, " + quadratic.picture();
+// Nobody misses the reference's, which are for points to come.
+TEST_F(BrokenOffStudyTest, LeavesOfTilesTheReferencesAlone) {
+  expect_anew(0);
+  std::size_t left = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(points()))
+    left += entry.path().filename().string().find("-tile-") != std::string::npos;
+  EXPECT_EQ(left, 4U * 3U);
+  EXPECT_TRUE(std::filesystem::remove(file(reference_, "-tile-3.json")));
+  Study again = study();
+  EXPECT_EQ(again.drawn_tiles + again.measured, 0U);
+  EXPECT_TRUE(std::filesystem::remove(file(drawing_, ".json")));
+  again = study();
+  EXPECT_EQ(again.drawn_tiles, 5U);
+  EXPECT_EQ(again.measured, 1U);
+  EXPECT_EQ(table_of(again), table_);
+}
+
+// Cut short, of another size, or no picture at all: the point that is put together of it draws it anew.
+TEST_F(BrokenOffStudyTest, DrawsADamagedTileAnew) {
   const auto cut = [](const std::filesystem::path& path) {
     const auto whole = read_file(path);
     return whole && write_file(path, whole->substr(0, whole->size() / 2));
   };
+  const auto holds = [](const char* text) {
+    return [text](const std::filesystem::path& path) { return !!write_file(path, text); };
+  };
   const std::vector<std::pair<std::filesystem::path, std::function<bool(const std::filesystem::path&)>>>
-      damages = {
-          {file(drawing, "-tile-0.png"), cut},
-          {file(drawing, "-tile-1-mask.png"), cut},
-          {file(drawing, "-tile-2.json"), cut},
-          {file(drawing, "-tile-3.png"),
-           [](const auto& path) -> bool {
-             return !!write_png(path, Frame({29, 37}));
-           }},
-          {file(drawing, "-tile-3.json"),
-           [](const auto& path) -> bool { return !!write_file(path, "{\"tile\": 3}\n"); }},
-          {file(reference, "-tile-0.png"), [](const auto& path) -> bool { return !!write_file(path, ""); }},
-          {file(reference, "-tile-2-mask.png"),
-           [](const auto& path) -> bool { return !!write_file(path, "no picture"); }}};
+      damages = {{file(drawing_, "-tile-0.png"), cut},
+                 {file(drawing_, "-tile-1-mask.png"), cut},
+                 {file(drawing_, "-tile-2.json"), cut},
+                 {file(drawing_, "-tile-3.png"),
+                  [](const std::filesystem::path& path) {
+                    return !!write_png(path, Frame({29, 37}));
+                  }},
+                 {file(drawing_, "-tile-3.json"), holds("{\"tile\": 3}\n")},
+                 {file(reference_, "-tile-0.png"), holds("")},
+                 {file(reference_, "-tile-2-mask.png"), holds("no picture")}};
   for (const auto& [path, damage] : damages) {
-    ASSERT_TRUE(std::filesystem::remove(file(drawing, ".json")));
+    restore();
     ASSERT_TRUE(damage(path)) << path;
     const Study again = study();
     EXPECT_EQ(again.drawn_tiles, 1U) << path;
-    EXPECT_EQ(again.measured, 1U) << path;
+    EXPECT_EQ(again.measured, 4U) << path;
     EXPECT_THAT(again.notes, ::testing::ElementsAre(path.string() + ": damaged; the tile is drawn anew"));
-    EXPECT_EQ(table_of(again), first);
+    EXPECT_EQ(table_of(again), table_);
     expect_whole(again);
   }
 }

@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* c_colours = ".png";
 constexpr const char* c_masks = "-mask.png";  // red: covered, green: in a highlight
 constexpr const char* c_figures = ".json";    // written last
+constexpr std::array c_endings = {c_colours, c_masks, c_figures};
 
 // With their names. Those of all tiles add up to the frame's.
 template <class Counts, class Visit>
@@ -97,9 +98,8 @@ std::filesystem::path TileRecords::file(const std::string& name, std::size_t til
 }
 
 bool TileRecords::has(const std::string& name, std::size_t tile) const {
-  return std::ranges::all_of(std::array{c_colours, c_masks, c_figures}, [&](const char* ending) {
-    return std::filesystem::exists(file(name, tile, ending));
-  });
+  return std::ranges::all_of(
+      c_endings, [&](const char* ending) { return std::filesystem::exists(file(name, tile, ending)); });
 }
 
 bool TileRecords::has_reference(const DesignPoint& point, std::size_t tile) const {
@@ -107,6 +107,13 @@ bool TileRecords::has_reference(const DesignPoint& point, std::size_t tile) cons
 }
 bool TileRecords::has_drawing(const DesignPoint& point, std::size_t tile) const {
   return has(drawing_name(point), tile);
+}
+
+void TileRecords::remove_drawing(const DesignPoint& point) const {
+  std::error_code ignored;
+  for (std::size_t tile = 0; tile < point.tiles().size(); ++tile)
+    for (const char* ending : c_endings)
+      std::filesystem::remove(file(drawing_name(point), tile, ending), ignored);
 }
 
 bool TileRecords::complete(const DesignPoint& point) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a study keeps of a tile until its point is put together: colours and masks as PNG, figures as JSON.
-// The JSON file comes last, and each is written whole or not at all.
+// What a study keeps of a tile: colours and masks as PNG, figures as JSON. The JSON file comes last, and each
+// is written whole or not at all. Those of a drawing go when the point is put together; those of a reference
+// are for whichever point of the picture comes next.
 #pragma once
 
 #include <cstddef>
@@ -28,6 +29,9 @@ class TileRecords {
   /// A tile of the point's own drawing.
   bool has_drawing(const DesignPoint& point, std::size_t tile) const;
   Status add_drawing(const DesignPoint& point, std::size_t tile, const Drawing& drawing) const;
+
+  /// Of a point that is put together: nobody else reads them.
+  void remove_drawing(const DesignPoint& point) const;
 
   /// All that the point is put together of is there.
   bool complete(const DesignPoint& point) const;

@@ -187,14 +187,20 @@ kept() { # name, word
   grep -ls -- "$2" "$scratch/$1"/points/*.json
 }
 
-go_on() { # name, how many, word, arguments of the study...
-  local name=$1 most=$2 word=$3 anew
+# How many, by what the tasks say that have run since.
+said() { # name, what
+  find "$scratch/$1/slurm" -name 'task-*.log' -newer "$scratch/moment" -exec grep -ho "[0-9]* $2" {} + |
+    awk '{ count += $1 } END { print count + 0 }'
+}
+
+go_on() { # name, how many, what, arguments of the study...
+  local name=$1 most=$2 what=$3 anew
   shift 3
   "$halfway" "$@" --out "$scratch/$name" >"$scratch/$name.log" 2>&1 ||
     fail "$name, which goes on: exit code $?: $(cat "$scratch/$name.log")"
-  anew=$(find $(kept "$name" "$word") -newer "$scratch/moment" | wc -l)
-  [ "$anew" = $((most - before)) ] || fail "$name: $anew records were written anew, with $before there"
-  note "$name: killed with $before records, $anew measured when it went on"
+  anew=$(said "$name" "$what")
+  [ "$anew" = $((most - before)) ] || fail "$name: $anew $what, with $before there"
+  note "$name: killed with $before records, $anew $what when it went on"
 }
 
 # ---- Points: hardware, and frames that take a task a second or two each
@@ -215,9 +221,8 @@ run_with_a_task_killed array "${on_slurm[@]}"
 grep -q '6 points, 0 measured anew' "$scratch/array.log" || fail "what tasks measured was not gathered: $(cat "$scratch/array.log")"
 same_table array local
 note "job array, a task killed and tried again by Slurm: $(cat "$scratch/array.log")"
-# Of software: records of hardware are written twice, the second time with the host's instructions.
-run_until_killed resumed 4 gouraud "${on_slurm[@]}"
-go_on resumed 4 gouraud "${on_slurm[@]}"
+run_until_killed resumed 6 '"figures":' "${on_slurm[@]}"
+go_on resumed 6 'measured anew' "${on_slurm[@]}"
 same_table resumed local
 
 # ---- Placements: a seed a task, each task another one, and one that was there before
@@ -311,7 +316,11 @@ same_table tiles-array tiles
 same_frames tiles-array whole
 note "tiles as a job array, a task killed and tried again by Slurm: $(cat "$scratch/tiles-array.log")"
 run_until_killed tiles-resumed 24 '"tile":' "${on_slurm[@]}"
-go_on tiles-resumed 24 '"tile":' "${on_slurm[@]}"
+# Whose tiles are gone, 6 each: points but Phong's, which is the reference.
+for record in $(kept tiles-resumed '"figures":'); do
+  grep -q '"point": "phong' "$record" || before=$((before + 6))
+done
+go_on tiles-resumed 24 'tiles drawn' "${on_slurm[@]}"
 same_table tiles-resumed tiles
 same_frames tiles-resumed whole
 
