@@ -45,18 +45,28 @@ int report_all(const std::vector<std::string>& wrong, const char* what_to_do) {
   return static_cast<int>(ExitCode::differs);
 }
 
+constexpr const char* c_data = "figures.json";
+
+Status write_texts(const std::filesystem::path& folder, const std::vector<figures::Entry>& entries) {
+  if (Status written = write_file(folder / c_data, figures::to_json(entries)); !written) return written;
+  return write_file(folder / "README.md", figures::to_page(entries));
+}
+
 Status copy_into(const std::filesystem::path& folder, const std::filesystem::path& from,
-                 const std::vector<figures::Entry>& entries) {
+                 const std::vector<figures::Figure>& figures, const std::vector<figures::Entry>& entries) {
   if (Status made = make_folders(folder); !made) return made;
-  std::vector<std::string> names{"README.md", "figures.json"};
   for (const figures::Entry& e : entries)
-    for (const figures::Picture& p : e.pictures) names.push_back(p.file);
-  for (const std::string& name : names) {
-    const auto content = read_file(from / name);
-    if (!content) return content.error();
-    if (Status written = write_file(folder / name, *content); !written) return written;
+    for (const figures::Picture& p : e.pictures) {
+      const auto content = read_file(from / p.file);
+      if (!content) return content.error();
+      if (Status written = write_file(folder / p.file, *content); !written) return written;
+    }
+  std::vector<figures::Entry> page;
+  if (const auto before = read_file(folder / c_data)) {
+    auto read = figures::entries_of(*before, (folder / c_data).string());
+    if (read) page = std::move(*read);
   }
-  return Ok{};
+  return write_texts(folder, figures::with_times_of(page, figures, entries));
 }
 
 int run(const Folders& folders, const FiguresCommand& command) {
@@ -100,14 +110,13 @@ int run(const Folders& folders, const FiguresCommand& command) {
       ++rows;
       agreeing += r.agrees ? 1 : 0;
     }
-  for (const auto& [name, text] :
-       {std::pair{"figures.json", figures::to_json(entries)}, {"README.md", figures::to_page(entries)}})
-    if (Status written = write_file(context.out / name, text); !written) return report(written.error());
+  if (Status written = write_texts(context.out, entries); !written) return report(written.error());
   fmt::print("{}: {} figures, {} rows, {} agree, {} differ\n", context.out.string(), entries.size(), rows,
              agreeing, rows - agreeing);
   if (!wrong.empty()) return report_all(wrong, "the claims in model/figures do not say what was measured");
   if (!command.page.empty())
-    if (Status copied = copy_into(command.page, context.out, entries); !copied) return report(copied.error());
+    if (Status copied = copy_into(command.page, context.out, *some, entries); !copied)
+      return report(copied.error());
   return static_cast<int>(ExitCode::equal);
 }
 
@@ -120,7 +129,9 @@ void add_figures(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("figure", command->only, "such as spherical-05, or spherical (default: all)");
   sub->add_option("--out", command->out, "folder for pictures, README.md and figures.json")
       ->capture_default_str();
-  auto* page = sub->add_option("--page", command->page, "folder that takes them too, once all is well");
+  auto* page = sub->add_option(
+      "--page", command->page,
+      "folder that takes them too, once all is well; times there stay until a verdict changes");
   sub->add_flag(
          "--check", command->check,
          "draw by the golden model, measure what is quick, and fail where sim/figures has anything else")

@@ -122,6 +122,23 @@ std::vector<std::string> faults(const Claim& claim, const Row& row) {
   return found;
 }
 
+std::vector<Entry> with_times_of(std::span<const Entry> page, std::span<const Figure> figures,
+                                 std::vector<Entry> drawn) {
+  for (Entry& entry : drawn) {
+    const auto there = std::ranges::find(page, entry.id, &Entry::id);
+    const auto figure = std::ranges::find(figures, entry.id, &Figure::id);
+    if (there == page.end() || figure == figures.end()) continue;
+    for (const Claim& claim : figure->claims) {
+      const auto row = std::ranges::find(entry.rows, claim.what, &Row::what);
+      const auto before = std::ranges::find(there->rows, claim.what, &Row::what);
+      if (!claim.timed || row == entry.rows.end() || before == there->rows.end()) continue;
+      Row kept = judged(claim, {before->measured, before->value});
+      if (kept.agrees == row->agrees) *row = std::move(kept);
+    }
+  }
+  return drawn;
+}
+
 std::string to_json(std::span<const Entry> entries) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const Entry& e : entries) {

@@ -59,6 +59,7 @@ struct Claim {
   Criterion criterion;
   std::string why_not{};  ///< it is known to differ, and this is why; empty: it must agree
   bool slow = false;      ///< not measured where Context::quick is set
+  bool timed = false;     ///< of this machine's processor: another value in each run
 };
 
 struct Picture {
@@ -119,6 +120,11 @@ std::vector<std::string> faults(const Claim& claim, const Row& row);
 /// slow).
 std::string to_json(std::span<const Entry> entries);
 Result<std::vector<Entry>> entries_of(std::string_view json, const std::string& file);
+
+/// What was drawn, for a page that is there: of claims that are timed what stands in `page` stays as long as
+/// its verdict does.
+std::vector<Entry> with_times_of(std::span<const Entry> page, std::span<const Figure> figures,
+                                 std::vector<Entry> drawn);
 
 /// The page: the table of published against measured, then the pictures.
 std::string to_page(std::span<const Entry> entries);

@@ -160,6 +160,25 @@ TEST(Figures, JsonComesBack) {
   EXPECT_THAT(bad.error().message, HasSubstr("x.json: "));
 }
 
+TEST(Figures, TimesStayOnAPageUntilTheirVerdictChanges) {
+  const Claim time{
+      .what = "time", .published = "1", .criterion = within(1, 0.1), .why_not = "slow", .timed = true};
+  const Claim count{.what = "count", .published = "2", .criterion = within(2, 1)};
+  const std::vector<Figure> figures = {{.id = "x-1", .claims = {time, count}}};
+  const auto entry = [&](const Measured& of_time) {
+    return Entry{.id = "x-1", .rows = {judged(time, of_time), judged(count, {"2.5", 2.5})}};
+  };
+  Entry before = entry({"1.01", 1.01});
+  before.rows[1] = judged(count, {"2", 2});
+  const auto page = [&](const Measured& of_time) {
+    return to_json(with_times_of(std::array{before}, figures, {entry(of_time)}));
+  };
+  EXPECT_EQ(page({"1.05", 1.05}), to_json(std::array{entry({"1.01", 1.01})}));
+  EXPECT_EQ(page({"1.2", 1.2}), to_json(std::array{entry({"1.2", 1.2})}));
+  before.id = "x-2";
+  EXPECT_EQ(page({"1.05", 1.05}), to_json(std::array{entry({"1.05", 1.05})}));
+}
+
 // A folder with one figure, and what is drawn again beside it.
 class Stale : public testing::Test {
  protected:

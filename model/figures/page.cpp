@@ -14,7 +14,8 @@ constexpr std::string_view c_head = R"(# The papers' figures, drawn anew
 
 What the three papers print, beside what this project's own hardware, golden model and tables give. `make figures` draws and
 measures all of it, and writes this page, its pictures and `figures.json`; `make test` draws again what the golden model can
-draw, and fails where a row, a verdict or a picture here is not what comes out.
+draw, and fails where a row, a verdict or a picture here is not what comes out. Processor times are another in each run: here they stay
+until a verdict changes; what was measured last is in `build/figures`.
 
 A verdict follows from the two numbers and the criterion beside it, in brackets. Where they differ, the reason is given: the
 papers' own errors are among them. A step of an 8-bit channel is 1/255; how far pictures are apart is said as the largest
