@@ -9,8 +9,12 @@
 
 namespace halfway {
 
+inline double seconds_between(std::chrono::steady_clock::time_point start,
+                              std::chrono::steady_clock::time_point end) {
+  return std::chrono::duration<double>(end - start).count();
+}
 inline double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return seconds_between(start, std::chrono::steady_clock::now());
 }
 
 /// Processor seconds that the calling thread has taken since it began.
@@ -19,6 +23,38 @@ inline double thread_seconds() {
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
+
+/// A stretch of work in processor seconds and by the clock. Who divides it into short pieces takes their
+/// times by the clock, and of the processor's as large a share: to ask for that takes most of a microsecond.
+class Stretch {
+ public:
+  using Clock = std::chrono::steady_clock;
+  static Clock::time_point now() { return Clock::now(); }
+
+  template <class Work>
+  auto add(const Work& work) {
+    const Clock::time_point start = now();
+    const double processor_start = thread_seconds();
+    struct End {
+      Stretch& stretch;
+      Clock::time_point start;
+      double processor_start;
+      ~End() {
+        stretch.processor_ += thread_seconds() - processor_start;
+        stretch.clock_ += seconds_since(start);
+      }
+    } const end{*this, start, processor_start};
+    return work();
+  }
+  double processor() const { return processor_; }
+  /// Of the processor's time, what a piece took by the clock.
+  double share(double clock_seconds) const {
+    return clock_ > 0.0 ? processor_ * clock_seconds / clock_ : 0.0;
+  }
+
+ private:
+  double processor_ = 0.0, clock_ = 0.0;
+};
 
 /// Of all this process's threads together.
 inline double process_seconds() {

@@ -42,9 +42,17 @@ Result<bool> use_lanes(RtlEngine engine, const HardwareKey& key, double pixels) 
 
 Status LaneFeed::add(std::span<const std::uint32_t> init_words, std::span<const Fragment> golden) {
   if (!alive_) return Ok{};
-  const std::size_t most = rtl_.compares() ? golden.size() + c_most_surplus : c_most_uncompared;
+  const bool known = rtl_.compares() && golden_ == nullptr;
+  const std::size_t most = known ? golden.size() + c_most_surplus : c_most_uncompared;
   const auto start = std::chrono::steady_clock::now();
-  const Status ran = simulator_.run(init_words, most, [&](auto, std::span<const Fragment> drawn) {
+  const Status ran = simulator_.run(init_words, most, [&](auto words, std::span<const Fragment> drawn) {
+    if (golden_ != nullptr) {
+      const auto golden_start = std::chrono::steady_clock::now();
+      const std::span<const Fragment> expected = golden_->draw(words);
+      golden_seconds_ += seconds_since(golden_start);
+      rtl_.add(expected, drawn);
+      return;
+    }
     const std::span<const Fragment> expected = golden.first(std::min(golden.size(), drawn.size()));
     rtl_.add(expected, drawn);
     if (on_drawn_) on_drawn_(drawn);

@@ -9,6 +9,7 @@
 
 #include "common/result.hpp"
 #include "plan/hardware_key.hpp"
+#include "run/golden_run.hpp"
 #include "run/rtl_stream.hpp"
 #include "sim/lanes/lane_simulator.hpp"
 
@@ -28,7 +29,9 @@ inline constexpr double c_least_lane_pixels = double(1U << 28);
 /// alone, and work enough. An engine that was asked for is taken; lanes that cannot be had are bad input.
 Result<bool> use_lanes(RtlEngine engine, const HardwareKey& key, double pixels);
 
-/// As VerilatorFeed. Each batch ends with the hardware idle.
+/// As VerilatorFeed. Each batch ends with the hardware idle. Where the stream compares, golden fragments come
+/// from the caller or, with a golden model, from that: part by part, where they are compared, so that no more
+/// than a part's are held.
 class LaneFeed {
  public:
   using OnDrawn = VerilatorFeed::OnDrawn;
@@ -36,17 +39,23 @@ class LaneFeed {
   /// Simulator and stream must outlive the feed; `on_drawn` sees the fragments too, in their order.
   LaneFeed(LaneSimulator& simulator, RtlStream& rtl, OnDrawn on_drawn = {})
       : simulator_(simulator), rtl_(rtl), on_drawn_(std::move(on_drawn)) {}
+  LaneFeed(LaneSimulator& simulator, RtlStream& rtl, GoldenModel& golden)
+      : simulator_(simulator), rtl_(rtl), golden_(&golden) {}
 
-  /// `golden`: what the golden model draws for these vectors, where the stream compares.
-  Status add(std::span<const std::uint32_t> init_words, std::span<const Fragment> golden);
-  bool alive() const { return alive_; }        ///< false after a fault
-  double seconds() const { return seconds_; }  ///< with comparison and assembly
+  /// `golden`: what the golden model draws for these vectors, where the stream compares and there is no
+  /// model.
+  Status add(std::span<const std::uint32_t> init_words, std::span<const Fragment> golden = {});
+  bool alive() const { return alive_; }  ///< false after a fault
+  /// By the clock; with golden model, comparison and assembly.
+  double seconds() const { return seconds_; }
+  double golden_seconds() const { return golden_seconds_; }  ///< of these, the model's here
 
  private:
   LaneSimulator& simulator_;
   RtlStream& rtl_;
   OnDrawn on_drawn_;
-  double seconds_ = 0.0;
+  GoldenModel* golden_ = nullptr;
+  double seconds_ = 0.0, golden_seconds_ = 0.0;
   bool alive_ = true;
 };
 

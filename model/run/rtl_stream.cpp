@@ -11,8 +11,6 @@
 namespace halfway {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Where no golden model says how many fragments there are: vectors a call, so that its fragments, at most one
 // a pixel and vector, stay below this.
 constexpr std::size_t c_most_uncompared = std::size_t{1} << 24;
@@ -26,31 +24,32 @@ std::size_t slice_of(std::size_t pixels) {
 }  // namespace
 
 void RtlStream::add_golden(std::span<const Fragment> fragments) {
-  const double start = thread_seconds();
+  const Clock::time_point start = Clock::now();
   golden_count_ += fragments.size();
   comparator_.add_golden(fragments);
-  compare_seconds_ += thread_seconds() - start;
+  compare_seconds_ += seconds_since(start);
 }
 
 void RtlStream::add(std::span<const Fragment> fragments) {
   count_ += fragments.size();
-  const double start = thread_seconds();
+  const Clock::time_point start = Clock::now();
   if (compares_) comparator_.add_rtl(fragments);
-  const double compared = thread_seconds();
-  assemble(fragments);
-  compare_seconds_ += compared - start;
-  assemble_seconds_ += thread_seconds() - compared;
+  assemble_compared(start, fragments);
 }
 
 void RtlStream::add(std::span<const Fragment> golden, std::span<const Fragment> fragments) {
   golden_count_ += golden.size();
   count_ += fragments.size();
-  const double start = thread_seconds();
+  const Clock::time_point start = Clock::now();
   if (compares_) comparator_.add(golden, fragments);
-  const double compared = thread_seconds();
+  assemble_compared(start, fragments);
+}
+
+void RtlStream::assemble_compared(Clock::time_point start, std::span<const Fragment> fragments) {
+  const Clock::time_point compared = Clock::now();
   assemble(fragments);
-  compare_seconds_ += compared - start;
-  assemble_seconds_ += thread_seconds() - compared;
+  compare_seconds_ += seconds_between(start, compared);
+  assemble_seconds_ += seconds_since(compared);
 }
 
 // Wrong hardware may draw anywhere; the frame then holds what it drew inside.
@@ -108,7 +107,7 @@ Status VerilatorFeed::add(std::span<const std::uint32_t> init_words) {
         rtl_.compares()
             ? init_words.size()
             : std::min(init_words.size(), words_per_vector * slice_of(rtl_.assembler().frame().pixels()));
-    const Clock::time_point begin = Clock::now();
+    const auto begin = std::chrono::steady_clock::now();
     const Status ran = simulator_.run(init_words.first(slice), slice / words_per_vector, drawn_, limit());
     seconds_ += seconds_since(begin);
     init_words = init_words.subspan(slice);
@@ -119,7 +118,7 @@ Status VerilatorFeed::add(std::span<const std::uint32_t> init_words) {
 
 Status VerilatorFeed::finish() {
   if (!alive_) return Ok{};
-  const Clock::time_point begin = Clock::now();
+  const auto begin = std::chrono::steady_clock::now();
   const Status ran = simulator_.finish(drawn_, limit());
   seconds_ += seconds_since(begin);
   return take(ran);

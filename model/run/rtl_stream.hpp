@@ -2,6 +2,7 @@
 // A simulator's fragments on their way: compared with the golden model's, assembled to a frame.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -52,7 +53,7 @@ class RtlStream {
   std::uint64_t count() const { return count_; }
   std::uint64_t golden_count() const { return golden_count_; }
   const FrameAssembler& assembler() const { return assembler_; }
-  /// Processor seconds.
+  /// By the clock.
   double compare_seconds() const { return compare_seconds_; }
   double assemble_seconds() const { return assemble_seconds_; }
 
@@ -60,7 +61,9 @@ class RtlStream {
   SimulatorRun finish(std::string simulator);
 
  private:
+  using Clock = std::chrono::steady_clock;
   void assemble(std::span<const Fragment> fragments);
+  void assemble_compared(Clock::time_point start, std::span<const Fragment> fragments);
 
   bool compares_;
   StreamComparator comparator_;

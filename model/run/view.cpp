@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 
 #include "common/seconds.hpp"
@@ -88,55 +89,61 @@ class Easel {
 
  private:
   Status draw_in_lanes(RtlStream& rtl, DrawnFrame& drawn) {
-    LaneFeed feed(*lanes_, rtl);
-    return draw(drawn, [&](const Batch& batch) { return feed.add(batch.init_words, batch.golden); });
+    fed_ = {};
+    if (!s_.compare) {
+      LaneFeed feed(*lanes_, rtl);
+      return draw(drawn, false, [&](const Batch& batch) { return feed.add(batch.init_words); });
+    }
+    if (!golden_) golden_ = make_golden_model(key_);
+    LaneFeed feed(*lanes_, rtl, *golden_);
+    const Status status = draw(drawn, false, [&](const Batch& batch) { return feed.add(batch.init_words); });
+    const double golden = fed_.share(feed.golden_seconds());
+    drawn.seconds.golden += golden;
+    drawn.seconds.rtl -= golden;
+    return status;
   }
   Status draw_in_verilator(RtlStream& rtl, DrawnFrame& drawn) {
+    fed_ = {};
     if (!verilator_) {
       auto opened = VerilatorSimulator::open(key_, s_.folders, {.idle_limit = c_idle_limit});
       if (!opened) return opened.error();
       verilator_.emplace(std::move(*opened));
     }
     VerilatorFeed feed(*verilator_, rtl);
-    if (Status status = draw(drawn,
+    if (Status status = draw(drawn, s_.compare,
                              [&](const Batch& batch) {
                                rtl.add_golden(batch.golden);
                                return feed.add(batch.init_words);
                              });
         !status)
       return status;
-    const double start = thread_seconds();
-    const Status status = feed.finish();
-    drawn.seconds.rtl += thread_seconds() - start;
-    return status;
+    return fed_.add([&] { return feed.finish(); });
   }
 
+  /// `golden`: batches hold the golden model's fragments.
   template <class Feed>
-  Status draw(DrawnFrame& drawn, const Feed& feed) {
+  Status draw(DrawnFrame& drawn, bool golden, const Feed& feed) {
     const double setup_start = thread_seconds();
     const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, key_, s_.setup);
     drawn.notes = setup->notes();
     drawn.seconds.setup += thread_seconds() - setup_start;
     // With a thread a frame there is another frame to draw meanwhile.
-    SceneStream stream(*setup, key_, threads_, {.golden = s_.compare, .ahead = threads_ > 1});
+    SceneStream stream(*setup, key_, threads_, {.golden = golden, .ahead = threads_ > 1});
     for (Batch batch; stream.next(batch);) {
       if (Status status = check_shadow_counts(scene_, stream); !status) return status;
-      const double start = thread_seconds();
-      const Status fed = feed(batch);
-      drawn.seconds.rtl += thread_seconds() - start;
-      if (!fed) return fed;
+      if (Status fed = fed_.add([&] { return feed(batch); }); !fed) return fed;
     }
     drawn.seconds.setup += stream.setup_seconds();
     drawn.seconds.golden += stream.golden_seconds();
     return check_projection(scene_, stream);
   }
 
-  SimulatorRun finish(RtlStream& rtl, DrawnFrame& drawn, const char* simulator) const {
-    const double start = thread_seconds();
-    SimulatorRun run = rtl.finish(simulator);
-    drawn.seconds.rtl += thread_seconds() - start - rtl.compare_seconds() - rtl.assemble_seconds();
-    drawn.seconds.compare += rtl.compare_seconds();
-    drawn.seconds.assemble += rtl.assemble_seconds();
+  SimulatorRun finish(RtlStream& rtl, DrawnFrame& drawn, const char* simulator) {
+    SimulatorRun run = fed_.add([&] { return rtl.finish(simulator); });
+    const double compare = fed_.share(rtl.compare_seconds()), assemble = fed_.share(rtl.assemble_seconds());
+    drawn.seconds.rtl += fed_.processor() - compare - assemble;
+    drawn.seconds.compare += compare;
+    drawn.seconds.assemble += assemble;
     return run;
   }
 
@@ -144,6 +151,8 @@ class Easel {
   Camera first_camera_;
   std::optional<VerilatorSimulator> verilator_;
   std::optional<LaneSimulator> lanes_;
+  std::unique_ptr<GoldenModel> golden_;  ///< beside lanes
+  Stretch fed_;                          ///< in which this frame's RTL draws, and all that hangs on it
   const ViewSettings& s_;
   const HardwareKey& key_;
   unsigned threads_;
