@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
+#include <mutex>
+#include <optional>
 #include <span>
 
 #include "common/seconds.hpp"
@@ -32,7 +33,10 @@ SceneStream::SceneStream(const Setup& setup, const HardwareKey& key, unsigned th
       key_(key),
       threads_(std::max(1U, threads)),
       options_(options),
-      batch_units_(setup.units_are_lines() ? c_first_lines : c_first_batch) {
+      // Without fragments a batch ends early enough by itself.
+      batch_units_(!options.golden           ? c_largest_batch
+                   : setup.units_are_lines() ? c_first_lines
+                                             : c_first_batch) {
   setup_.append_prologue(prologue_, counts_);
   prefetch({});
 }
@@ -45,7 +49,6 @@ void SceneStream::prefetch(Batch room) {
   const std::uint32_t total = setup_.units();
   if (next_unit_ >= total) return;
   const std::uint32_t begin = next_unit_, end = std::min(total, begin + batch_units_);
-  next_unit_ = end;
   ahead_ = std::async(
       options_.ahead ? std::launch::async : std::launch::deferred,
       [this, begin, end, room = std::move(room)]() mutable { return make(begin, end, std::move(room)); });
@@ -57,6 +60,7 @@ bool SceneStream::next(Batch& batch) {
     return false;
   }
   Work work = ahead_.get();
+  next_unit_ = work.end;
   if (bytes(work.batch) > c_batch_bytes)
     batch_units_ = std::max(setup_.units_are_lines() ? c_least_lines : c_least_batch, batch_units_ / 2);
   else if (bytes(work.batch) < c_batch_bytes / 4)
@@ -71,33 +75,44 @@ bool SceneStream::next(Batch& batch) {
 }
 
 SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batch room) const {
-  // Small enough for all threads to have some.
-  const std::uint32_t chunk_units =
-      threads_ == 1 ? end - begin : std::clamp((end - begin) / (4 * threads_), 1U, c_most_chunk);
+  // Small enough for all threads to have some, and for a batch to end early.
+  const std::uint32_t chunk_units = std::clamp((end - begin) / (4 * threads_), 1U, c_most_chunk);
   const std::size_t chunks = (end - begin + chunk_units - 1) / chunk_units;
-  std::vector<Work> parts(chunks);
+  const bool alone = threads_ == 1;  // all goes into one part
+  std::vector<Work> parts(alone ? 1 : chunks);
   room.init_words.clear();
   room.golden.clear();
   parts[0].batch = std::move(room);
-  std::atomic<std::size_t> next_chunk = 0;
+  std::mutex mutex;
+  std::size_t taken = 0, held = 0;
+  // None behind the last, or when the batch holds enough.
+  const auto take = [&]() -> std::optional<std::size_t> {
+    const std::scoped_lock lock(mutex);
+    if (taken == chunks || held > c_batch_bytes) return std::nullopt;
+    return taken++;
+  };
   const auto work = [&] {
     const std::unique_ptr<GoldenModel> golden = options_.golden ? make_golden_model(key_) : nullptr;
     std::vector<Fragment> none;
     if (golden) golden->draw(prologue_, none);
-    for (std::size_t i = next_chunk++; i < chunks; i = next_chunk++) {
-      Work& part = parts[i];
-      const auto first = static_cast<std::uint32_t>(begin + i * chunk_units);
+    while (const auto i = take()) {
+      Work& part = parts[alone ? 0 : *i];
+      const std::size_t before = bytes(part.batch);
+      const auto first = static_cast<std::uint32_t>(begin + *i * chunk_units);
       const double setup_start = thread_seconds();
       if (first == 0) part.batch.init_words = prologue_;
       const std::size_t drawn = part.batch.init_words.size();
       for (std::uint32_t unit = first; unit < std::min(end, first + chunk_units); ++unit)
         setup_.append(unit, part.batch.init_words, part.counts);
-      part.setup_seconds = thread_seconds() - setup_start;
-      if (!golden) continue;
       const double golden_start = thread_seconds();
-      golden->draw(std::span(part.batch.init_words).subspan(drawn), part.batch.golden);
-      part.fault = golden->fault();
-      part.golden_seconds = thread_seconds() - golden_start;
+      part.setup_seconds += golden_start - setup_start;
+      if (golden) {
+        golden->draw(std::span(part.batch.init_words).subspan(drawn), part.batch.golden);
+        part.fault = golden->fault();
+        part.golden_seconds += thread_seconds() - golden_start;
+      }
+      const std::scoped_lock lock(mutex);
+      held += bytes(part.batch) - before;
     }
   };
   work_on_threads(static_cast<unsigned>(std::min<std::size_t>(threads_, chunks)), work);
@@ -109,7 +124,7 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batc
   }
   all.batch.init_words.reserve(all.batch.init_words.size() + words);
   all.batch.golden.reserve(all.batch.golden.size() + fragments);
-  for (std::size_t i = 1; i < chunks; ++i) {
+  for (std::size_t i = 1; i < parts.size(); ++i) {
     Work& part = parts[i];
     all.batch.init_words.insert(all.batch.init_words.end(), part.batch.init_words.begin(),
                                 part.batch.init_words.end());
@@ -120,7 +135,9 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batc
     all.setup_seconds += part.setup_seconds;
     all.golden_seconds += part.golden_seconds;
   }
-  all.batch.done = static_cast<double>(end) / setup_.units();
+  all.end =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(end, begin + std::uint64_t{taken} * chunk_units));
+  all.batch.done = static_cast<double>(all.end) / setup_.units();
   return all;
 }
 

@@ -50,6 +50,7 @@ class SceneStream {
  private:
   struct Work {
     Batch batch;
+    std::uint32_t end = 0;  ///< the first unit behind it
     SetupCounts counts;
     double setup_seconds = 0, golden_seconds = 0;
     bool fault = false;
@@ -62,7 +63,7 @@ class SceneStream {
   unsigned threads_;
   SceneStreamOptions options_;
   std::vector<std::uint32_t> prologue_;
-  std::uint32_t next_unit_ = 0, batch_units_;
+  std::uint32_t next_unit_ = 0, batch_units_;  ///< the batch ahead begins there
   std::future<Work> ahead_;
   SetupCounts counts_;
   bool fault_ = false;
