@@ -37,7 +37,7 @@ struct LaneSimulator::Hardware {
   SharedLibrary library;
   unsigned init_bits = 0;
   std::size_t lanes = 0;
-  double fragments_per_vector = 1000;  ///< in the batch before; many, so that the first one is small
+  double fragments_per_vector = kBatch;  ///< in the batch before; many, so that the first one is small
   decltype(&halfway_lanes_run) run = nullptr;
   decltype(&halfway_lanes_fragments) fragments = nullptr;
   decltype(&halfway_lanes_cycles) cycles = nullptr;
