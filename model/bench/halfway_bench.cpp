@@ -632,11 +632,12 @@ std::string growth_section(const std::vector<Series>& all) {
       "\n## Growth\n\n"
       "A frame on one core, in seconds of it: setup, golden model, RTL (in lanes; the shading processors in "
       "Verilator), "
-      "comparison of every\nfield, assembly to a picture; the mean of 1 to 21 repetitions. The line is t = "
-      "constant + "
-      "slope n with the least squares of relative\ndeviations. Memory is the most beside the mesh and the "
-      "program, the "
-      "frame's {} bytes a pixel included.\n",
+      "comparison of every\nfield, assembly to a picture, its clearing included; the mean of 1 to 21 "
+      "repetitions. Each frame is drawn in a process that has drawn the same\nfor a quarter of a second, or "
+      "whole, before: as all frames of `make view` but the first. The line is t = constant + slope n "
+      "with\nthe "
+      "least squares of relative deviations. Memory is the most beside the mesh and the program, the drawing "
+      "before and the\nframe's {} bytes a pixel included.\n",
       c_frame_bytes);
   double best_pace = std::numeric_limits<double>::infinity();
   for (const Series& series : all)

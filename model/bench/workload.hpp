@@ -57,8 +57,10 @@ class RtlModel {
     return draw(words, last, [&](auto, auto drawn) { out.insert(out.end(), drawn.begin(), drawn.end()); });
   }
   std::uint64_t cycles() const { return cycles_(); }
+  bool tells_vectors() const { return tells_vectors_; }
 
  private:
+  bool tells_vectors_ = false;
   std::function<Status(std::span<const std::uint32_t>, bool, const OnDrawn&)> draw_;
   std::function<std::uint64_t()> cycles_;
 };
