@@ -73,6 +73,37 @@ struct Pipe {
   }
 };
 
+struct Start {
+  const char* program;
+  char* const* arguments;
+  char* const* variables;
+  const char* folder;  ///< empty: ours
+  int input, output, error;
+  int failure;  ///< is told errno where the program does not start
+  pid_t parent;
+};
+
+/// The child; -1 where there is none. Until it is the other program it runs in our memory while we wait, and
+/// so calls nothing but the system. A copy of our tables of pages would take longer than many a program runs,
+/// and each page that we write then again.
+[[gnu::noinline]] pid_t start(const Start& s) {
+  const pid_t child = ::vfork();
+  if (child != 0) return child;
+  ::setpgid(0, 0);                     // its own group: a timeout ends all that it started
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing runs on after us, whatever kills us
+  const bool orphan = ::getppid() != s.parent;
+  sigset_t none;
+  sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  if (!orphan && ::dup2(s.input, 0) >= 0 && ::dup2(s.output, 1) >= 0 && ::dup2(s.error, 2) >= 0 &&
+      (*s.folder == '\0' || ::chdir(s.folder) == 0)) {
+    ::execve(s.program, s.arguments, s.variables);
+  }
+  const int error = errno;
+  [[maybe_unused]] const ssize_t told = ::write(s.failure, &error, sizeof error);
+  ::_exit(127);
+}
+
 }  // namespace
 
 std::string ProcessEnd::how() const {
@@ -141,7 +172,7 @@ Result<ProcessEnd> run_process(const Command& command, const std::string& instal
     }
   }
 
-  // All that needs memory is made before the fork: another thread may hold the allocator's lock.
+  // All that needs memory is made before the child: another thread may hold the allocator's lock.
   std::vector<char*> arguments;
   for (const std::string& argument : command.arguments)
     arguments.push_back(const_cast<char*>(argument.c_str()));
@@ -158,27 +189,16 @@ Result<ProcessEnd> run_process(const Command& command, const std::string& instal
     if (!replaced) variables.push_back(*variable);
   }
   variables.push_back(nullptr);
-  const int sink = file.get() >= 0 ? file.get() : output.writer.get();
-  const pid_t parent = ::getpid();
-
-  const pid_t child = ::fork();
+  const pid_t child = start({.program = program.c_str(),
+                             .arguments = arguments.data(),
+                             .variables = variables.data(),
+                             .folder = command.working_folder.c_str(),
+                             .input = input.get(),
+                             .output = file.get() >= 0 ? file.get() : output.writer.get(),
+                             .error = output.writer.get(),
+                             .failure = failure.writer.get(),
+                             .parent = ::getpid()});
   if (child < 0) return tool_failed(fmt::format("{}: cannot start: {}", name, std::strerror(errno)));
-  if (child == 0) {
-    ::setpgid(0, 0);                     // its own group: a timeout ends all that it started
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing runs on after us, whatever kills us
-    const bool orphan = ::getppid() != parent;
-    sigset_t none;
-    sigemptyset(&none);
-    ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    if (!orphan && ::dup2(input.get(), 0) >= 0 && ::dup2(sink, 1) >= 0 &&
-        ::dup2(output.writer.get(), 2) >= 0 &&
-        (command.working_folder.empty() || ::chdir(command.working_folder.c_str()) == 0)) {
-      ::execve(program.c_str(), arguments.data(), variables.data());
-    }
-    const int error = errno;
-    [[maybe_unused]] const ssize_t told = ::write(failure.writer.get(), &error, sizeof error);
-    ::_exit(127);
-  }
   ::setpgid(child, child);
   input.reset();
   output.writer.reset();
@@ -220,8 +240,8 @@ Result<ProcessEnd> run_process(const Command& command, const std::string& instal
       next_poll = now + command.poll_interval;
     }
     pollfd watched{output.reader.get(), POLLIN, 0};
-    // The pipe's end wakes us at once; a child that closed it early is looked for every few milliseconds.
-    const int wait_ms = open ? (exited ? 10 : 20) : 5;
+    // The pipe's end wakes us at once, mostly as the child ends; one that closed it early is looked for.
+    const int wait_ms = open ? (exited ? 10 : 20) : 1;
     const int ready = ::poll(open ? &watched : nullptr, open ? 1 : 0, wait_ms);
     if (open && ready > 0) {
       got = ::read(output.reader.get(), chunk.data(), chunk.size());
