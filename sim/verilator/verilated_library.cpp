@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
 
 #include "common/file.hpp"
 
@@ -68,11 +69,16 @@ Result<Runtime> runtime_of(const std::filesystem::path& parent, const std::strin
 }  // namespace
 
 Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::filesystem::path& cache) {
+  // Side by side: each takes a while to start.
+  auto asked_root =
+      std::async(std::launch::async, ask, std::vector<std::string>{"verilator", "--getenv", "VERILATOR_ROOT"},
+                 std::string(kInstallVerilator));
+  auto asked_compiler = std::async(std::launch::async, Compiler::find, build.compiler);
   const auto verilator_version = ask({"verilator", "--version"}, kInstallVerilator);
+  const auto verilator_root = asked_root.get();
+  const auto compiler = asked_compiler.get();
   if (!verilator_version) return verilator_version.error();
-  const auto verilator_root = ask({"verilator", "--getenv", "VERILATOR_ROOT"}, kInstallVerilator);
   if (!verilator_root) return verilator_root.error();
-  const auto compiler = Compiler::find(build.compiler);
   if (!compiler) return compiler.error();
   const auto harness = read_file(build.harness);
   if (!harness) return tool_failed(harness.error().message);
