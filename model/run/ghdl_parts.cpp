@@ -8,6 +8,8 @@
 #include <limits>
 #include <mutex>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "common/file.hpp"
 #include "common/seconds.hpp"
@@ -18,9 +20,10 @@
 namespace halfway {
 namespace {
 
-constexpr std::uint64_t c_part_fragments = 8192, c_most_parts = 16;
-constexpr std::uint64_t c_between_places = 16;  // vectors
-constexpr std::size_t c_block = 4096;           // vectors or fragments at a time
+// A part's clocks: this share of all that is left, but not so few that GHDL's start counts.
+constexpr std::uint64_t c_share = 16, c_least_part = 2048;
+constexpr std::uint64_t c_between_places = 256;  // clocks
+constexpr std::size_t c_block = 4096;            // vectors or fragments at a time
 
 Status split(const std::filesystem::path& init_file, const std::string& key_name,
              std::span<const std::uint64_t> first_vectors,
@@ -46,23 +49,64 @@ Status split(const std::filesystem::path& init_file, const std::string& key_name
   return Ok{};
 }
 
-Status join(const std::vector<std::filesystem::path>& part_files, const std::string& key_name,
-            const std::filesystem::path& trace_file, std::uint64_t cycles) {
-  auto writer = TraceWriter::open(trace_file, key_name);
-  if (!writer) return writer.error();
-  for (const std::filesystem::path& file : part_files) {
-    auto reader = TraceReader::open(file, key_name);
-    if (!reader) return reader.error();
-    while (true) {
-      std::vector<Fragment> fragments;
-      const auto count = reader->read(fragments, c_block);
-      if (!count) return count.error();
-      if (*count == 0) break;
-      writer->write(fragments);
-    }
+Status read_trace_of(const std::filesystem::path& file, const std::string& key_name, const OnJoined& sink) {
+  auto reader = TraceReader::open(file, key_name);
+  if (!reader) return reader.error();
+  for (std::vector<Fragment> fragments;; fragments.clear()) {
+    const auto count = reader->read(fragments, c_block);
+    if (!count) return count.error();
+    if (*count == 0) return Ok{};
+    if (Status status = sink(fragments); !status) return status;
   }
-  return writer->commit(cycles);
 }
+
+// Puts the traces of parts together in order while others are drawn.
+class Joiner {
+ public:
+  Joiner(TraceWriter writer, std::string key_name, const std::vector<std::filesystem::path>& part_files,
+         const OnJoined& on_joined)
+      : writer_(std::move(writer)),
+        key_name_(std::move(key_name)),
+        part_files_(part_files),
+        on_joined_(on_joined),
+        ended_(part_files.size(), false) {}
+
+  /// A part has ended: it is joined, and those that waited for it, unless another thread is at that.
+  Status add(std::size_t part) {
+    {
+      const std::scoped_lock lock(mutex_);
+      ended_[part] = true;
+      if (busy_) return Ok{};
+      busy_ = true;
+    }
+    while (const auto next = take()) {
+      const Status joined =
+          read_trace_of(part_files_[*next], key_name_, [&](std::span<const Fragment> fragments) -> Status {
+            writer_.write(fragments);
+            return on_joined_ ? on_joined_(fragments) : Status(Ok{});
+          });
+      if (!joined) return joined;  // still busy: nobody goes on
+    }
+    return Ok{};
+  }
+  Status commit(std::uint64_t cycles) { return writer_.commit(cycles); }
+
+ private:
+  std::optional<std::size_t> take() {
+    const std::scoped_lock lock(mutex_);
+    busy_ = next_ < ended_.size() && ended_[next_];
+    return busy_ ? std::optional(next_++) : std::nullopt;
+  }
+
+  TraceWriter writer_;
+  std::string key_name_;
+  const std::vector<std::filesystem::path>& part_files_;
+  const OnJoined& on_joined_;
+  std::mutex mutex_;
+  std::vector<bool> ended_;
+  std::size_t next_ = 0;
+  bool busy_ = false;
+};
 
 }  // namespace
 
@@ -73,29 +117,37 @@ void Cuts::add(std::span<const std::uint32_t> init_words) {
   if (!golden_) return;
   const std::size_t words_per_vector = (golden_->init_bits() + 31) / 32;
   while (!init_words.empty()) {
-    if (vectors_ >= places_.back() + c_between_places) places_.push_back(vectors_);
+    if (end_.clocks >= places_.back().clocks + c_between_places) places_.push_back(end_);
     const std::size_t group = golden_->group(init_words);
+    end_.vectors += group;
+    end_.clocks += golden_->pixels(init_words) + group;
     init_words = init_words.subspan(std::min(init_words.size(), group * words_per_vector));
-    vectors_ += group;
   }
 }
 
-std::vector<std::uint64_t> Cuts::parts(std::uint64_t fragments) const {
-  const std::uint64_t wanted =
-      std::clamp<std::uint64_t>(fragments / c_part_fragments, 1, std::min(c_most_parts, places_.size()));
-  std::vector<std::uint64_t> firsts;
-  for (std::uint64_t part = 0; part < wanted; ++part)
-    firsts.push_back(places_[static_cast<std::size_t>(part * places_.size() / wanted)]);
-  return firsts;
+std::vector<std::uint64_t> Cuts::parts() const {
+  std::vector<std::uint64_t> firsts{0};
+  for (Place part{0, 0};;) {
+    const std::uint64_t wanted = std::max(c_least_part, (end_.clocks - part.clocks) / c_share);
+    const auto next = std::ranges::lower_bound(places_, part.clocks + wanted, {}, &Place::clocks);
+    if (next == places_.end() || end_.clocks - next->clocks < c_least_part / 2) return firsts;
+    part = *next;
+    firsts.push_back(part.vectors);
+  }
 }
 
 Result<GhdlRun> run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
                              const std::filesystem::path& init_file,
                              std::span<const std::uint64_t> first_vectors,
                              const std::filesystem::path& trace_file, const GhdlRunOptions& options,
-                             unsigned threads) {
+                             unsigned threads, const OnJoined& on_joined) {
   const std::size_t parts = first_vectors.size();
-  if (parts < 2) return runner.run(init_file, trace_file, options);
+  if (parts < 2) {
+    auto run = runner.run(init_file, trace_file, options);
+    if (run && on_joined)
+      if (Status status = read_trace_of(trace_file, key.name(), on_joined); !status) return status.error();
+    return run;
+  }
   const auto start = std::chrono::steady_clock::now();
   const auto scratch = TemporaryFolder::make(std::filesystem::absolute(trace_file).parent_path());
   if (!scratch) return scratch.error();
@@ -106,6 +158,9 @@ Result<GhdlRun> run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
   }
   if (Status status = split(init_file, key.name(), first_vectors, inits); !status) return status.error();
 
+  auto writer = TraceWriter::open(trace_file, key.name());
+  if (!writer) return writer.error();
+  Joiner joiner(std::move(*writer), key.name(), traces, on_joined);
   std::mutex mutex;
   std::vector<std::uintmax_t> bytes(parts, 0);
   GhdlRun sum;
@@ -121,13 +176,15 @@ Result<GhdlRun> run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
     if (!run)
       return Error{run.error().code, fmt::format("{}, in part {} of {}, from init vector {} on",
                                                  run.error().message, part + 1, parts, first_vectors[part])};
-    const std::scoped_lock lock(mutex);
-    sum.fragments += run->fragments;
-    sum.cycles += run->cycles;
-    return Ok{};
+    {
+      const std::scoped_lock lock(mutex);
+      sum.fragments += run->fragments;
+      sum.cycles += run->cycles;
+    }
+    return joiner.add(part);
   });
   if (!all) return all.error();
-  if (Status status = join(traces, key.name(), trace_file, sum.cycles); !status) return status.error();
+  if (Status status = joiner.commit(sum.cycles); !status) return status.error();
   sum.seconds = seconds_since(start);
   return sum;
 }

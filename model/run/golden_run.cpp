@@ -123,6 +123,14 @@ class Model final : public GoldenModel {
     });
     return touched;
   }
+  std::uint64_t pixels(std::span<const std::uint32_t> init_words) const override {
+    std::uint64_t count = 0;
+    auto walker = shader_.walker_of(init_words);
+    walker.walk([&] {
+      if (!walker.line_empty()) count += walker.pixels();
+    });
+    return count;
+  }
   void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) override {
     while (!init_words.empty()) {
       room_.clear();

@@ -35,6 +35,8 @@ class GoldenModel {
   /// Whether a triangle's vectors, which begin with this one, cover a pixel of the tile. They must be of a
   /// setup's units, not of its prologue.
   virtual bool touches(std::span<const std::uint32_t> init_words, const Tile& tile) const = 0;
+  /// How many they cover.
+  virtual std::uint64_t pixels(std::span<const std::uint32_t> init_words) const = 0;
   /// Appends the fragments of whole triangles' vectors.
   virtual void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) = 0;
   /// The same fragments in the model's own room, until it draws again.

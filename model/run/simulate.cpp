@@ -24,7 +24,6 @@
 #include "run/limits.hpp"
 #include "run/rtl_stream.hpp"
 #include "run/scene_stream.hpp"
-#include "run/trace_pair.hpp"
 #include "run/waveform.hpp"
 #include "setup/spherical_setup.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
@@ -36,13 +35,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::size_t c_chunk = 1 << 16;  // fragments
+
 // Times white, past which a light's brightness is worth a note.
 constexpr double c_bright = 2.0;
-
-struct Pictures {
-  ReferenceImage reference;
-  Status written = Ok{};
-};
 
 class Simulation {
  public:
@@ -71,10 +67,19 @@ class Simulation {
     std::future<ReferenceImage> reference =
         std::async(std::launch::async, [this] { return draw_reference(); });
     if (Status status = stream(); !status) return status.error();
-    if (s_.ghdl)
-      if (Status status = run_ghdl(); !status) return status.error();
-    s_.on_progress("reference", -1.0);
+    // GHDL takes the longest: all else is done meanwhile.
+    std::future<Result<SimulatorRun>> ghdl;
+    if (s_.ghdl) ghdl = std::async(std::launch::async, [this] { return run_ghdl(); });
+    if (Status status = write_png(files_.frame("golden"), golden_.frame()); !status) return status.error();
+    for (auto& [run, frame] : drawn_)
+      if (Status status = draw_pictures(run, frame); !status) return status.error();
     if (Status status = compare_with(reference.get()); !status) return status.error();
+    if (s_.ghdl) {
+      auto run = ghdl.get();
+      if (!run) return run.error();
+      summary_.runs.push_back(std::move(*run));
+    }
+    for (auto& [run, frame] : drawn_) summary_.runs.push_back(std::move(run));
     for (SimulatorRun& run : summary_.runs)
       if (!run.equal())
         if (Status status = keep_evidence(run); !status) return status.error();
@@ -254,8 +259,7 @@ class Simulation {
     summary_.setup_seconds = stream.setup_seconds();
     summary_.golden_seconds = stream.golden_seconds();
     summary_.fragments = golden_.fragments();
-    first_vectors_ = cuts.parts(summary_.fragments);
-    if (Status status = write_png(files_.frame("golden"), golden_.frame()); !status) return status;
+    first_vectors_ = cuts.parts();
     if (feed)
       if (Status status = keep_run("verilator", rtl, feed->alive() ? &*verilator_trace : nullptr,
                                    verilator->cycles(), feed->seconds());
@@ -268,23 +272,26 @@ class Simulation {
     return Ok{};
   }
 
-  // What a simulator in this process leaves. A run that was broken off has no trace, which could pass for
-  // whole.
+  // What a simulator in this process leaves, but for its pictures. A run that was broken off has no trace,
+  // which could pass for whole.
   Status keep_run(const std::string& simulator, RtlStream& rtl, TraceWriter* trace,
                   std::optional<std::uint64_t> cycles, double seconds) {
     if (trace != nullptr)
       if (Status status = trace->commit(cycles); !status) return status;
-    const Frame& frame = rtl.assembler().frame();
-    if (Status status = write_png(files_.frame(simulator), frame); !status) return status;
     SimulatorRun run = rtl.finish(simulator);
     run.cycles = cycles;
     run.seconds = seconds;
-    if (Status status = show_difference(run, frame); !status) return status;
-    summary_.runs.push_back(std::move(run));
+    drawn_.push_back({std::move(run), rtl.assembler().frame()});
     return Ok{};
   }
 
-  Status run_ghdl() {
+  Status draw_pictures(SimulatorRun& run, const Frame& frame) const {
+    if (Status status = write_png(files_.frame(run.simulator), frame); !status) return status;
+    return show_difference(run, frame);
+  }
+
+  // Beside the pictures of the others.
+  Result<SimulatorRun> run_ghdl() const {
     const std::string key = summary_.plan.key.name();
     s_.on_progress(fmt::format("building {} for GHDL", key), -1.0);
     auto runner = GhdlRunner::open(summary_.plan.key, s_.folders);
@@ -301,41 +308,49 @@ class Simulation {
       s_.on_progress("GHDL", std::min(1.0, static_cast<double>(bytes) / golden_bytes));
     };
     s_.on_progress("GHDL", 0.0);
-    const auto ran = run_in_parts(*runner, summary_.plan.key, files_.init(), first_vectors_,
-                                  files_.trace("ghdl"), options, s_.threads);
-    if (!ran && ran.error().code != ExitCode::differs) return ran.error();
-
     RtlStream rtl(s_.size, scene_.background);
-    if (Status status = add_traces(rtl, ran ? "" : ran.error().message); !status) return status;
-    if (Status status = write_png(files_.frame("ghdl"), rtl.assembler().frame()); !status) return status;
+    std::optional<TraceReader> golden;
+    const auto begin = [&]() -> Status {
+      auto opened = TraceReader::open(files_.trace("golden"), key);
+      if (!opened) return opened.error();
+      golden.emplace(std::move(*opened));
+      return Ok{};
+    };
+    std::vector<Fragment> expected;
+    const auto add_golden = [&](std::size_t most) -> Result<std::size_t> {
+      expected.clear();
+      const auto count = golden->read(expected, most);
+      if (count) rtl.add_golden(expected);
+      return count;
+    };
+    if (Status status = begin(); !status) return status.error();
+    const auto ran =
+        run_in_parts(*runner, summary_.plan.key, files_.init(), first_vectors_, files_.trace("ghdl"), options,
+                     s_.threads, [&](std::span<const Fragment> fragments) -> Status {
+                       if (const auto read = add_golden(fragments.size()); !read) return read.error();
+                       rtl.add(fragments);
+                       return Ok{};
+                     });
+    if (!ran && ran.error().code != ExitCode::differs) return ran.error();
+    if (!ran) {
+      // What came before a fault is worth no more than the rest.
+      rtl = RtlStream(s_.size, scene_.background);
+      rtl.set_fault(ran.error().message);
+      if (Status status = begin(); !status) return status.error();
+    }
+    for (std::size_t count = 1; count != 0;) {
+      const auto read = add_golden(c_chunk);
+      if (!read) return read.error();
+      count = *read;
+    }
     SimulatorRun run = rtl.finish("ghdl");
     run.parts = first_vectors_.size();
     if (ran) {
       run.cycles = ran->cycles;
       run.seconds = ran->seconds;
     }
-    if (Status status = show_difference(run, rtl.assembler().frame()); !status) return status;
-    summary_.runs.insert(summary_.runs.begin(), std::move(run));
-    return Ok{};
-  }
-
-  Status add_traces(RtlStream& rtl, const std::string& fault) {
-    const std::string key = summary_.plan.key.name();
-    auto golden = TraceReader::open(files_.trace("golden"), key);
-    if (!golden) return golden.error();
-    std::optional<TraceReader> drawn;
-    if (fault.empty()) {
-      auto opened = TraceReader::open(files_.trace("ghdl"), key);
-      if (!opened) return opened.error();
-      drawn.emplace(std::move(*opened));
-    }
-    if (Status status = read_side_by_side(
-            *golden, drawn ? &*drawn : nullptr, [&](auto fragments) { rtl.add_golden(fragments); },
-            [&](auto fragments) { rtl.add(fragments); });
-        !status)
-      return status;
-    if (!fault.empty()) rtl.set_fault(fault);
-    return Ok{};
+    if (Status status = draw_pictures(run, rtl.assembler().frame()); !status) return status.error();
+    return run;
   }
 
   Status show_difference(SimulatorRun& run, const Frame& frame) const {
@@ -379,7 +394,8 @@ class Simulation {
   const SimulateSettings& s_;
   ResultFiles files_;
   FrameAssembler golden_;
-  std::vector<std::uint64_t> first_vectors_;  ///< of the parts in which GHDL draws
+  std::vector<std::uint64_t> first_vectors_;           ///< of the parts in which GHDL draws
+  std::vector<std::pair<SimulatorRun, Frame>> drawn_;  ///< in this process
   SceneSummary summary_;
 };
 
