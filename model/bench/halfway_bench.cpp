@@ -79,6 +79,13 @@ const Hardware c_hardware[] = {
      {64, 48}}};
 constexpr std::size_t c_columns = std::size(c_hardware);
 
+/// Of at least one.
+double median(std::vector<double> all) {
+  std::ranges::sort(all);
+  const std::size_t half = all.size() / 2;
+  return all.size() % 2 != 0 ? all[half] : 0.5 * (all[half - 1] + all[half]);
+}
+
 /// Whether --benchmark_filter lets it through.
 bool is_wanted(const std::string& name) {
   const std::string filter = benchmark::GetBenchmarkFilter();
@@ -146,9 +153,7 @@ class Measurements {
     if (found == timed_.end() || found->second.empty()) return std::nullopt;
     std::vector<double> all;
     for (const Timed& timed : found->second) all.push_back(timed.seconds / timed.pace * best_pace_);
-    std::ranges::sort(all);
-    const std::size_t half = all.size() / 2;
-    return all.size() % 2 != 0 ? all[half] : 0.5 * (all[half - 1] + all[half]);
+    return median(std::move(all));
   }
   const std::optional<Error>& failed() const { return failed_; }
   const Pace& pace() const { return pace_; }
@@ -422,48 +427,64 @@ std::vector<SmallRow> small_triangles() {
 
 struct CoreRow {
   unsigned threads;
-  double seconds = std::numeric_limits<double>::infinity();    // by the clock
-  double processor = std::numeric_limits<double>::infinity();  // of all threads
+  double speed, processor;  ///< as fast by the clock, and processor time of all threads, as one thread
 };
 
-/// Golden model, lanes and comparison of batches that the threads take by turns.
+/// Golden model, lanes and comparison of fifths of frames that the threads take by turns.
 std::vector<CoreRow> measure_cores(const InitBatches& s, unsigned most) {
-  // Two batches a part.
+  constexpr std::size_t c_parts = 5, c_frames = 12;
+  constexpr int c_repetitions = 15;
   std::vector<std::span<const std::uint32_t>> parts;
-  for (std::size_t at = 0, i = 0; i < s.batches.size(); i += 2) {
-    const std::size_t vectors = s.batches[i] + (i + 1 < s.batches.size() ? s.batches[i + 1] : 0);
+  const std::size_t each = (s.batches.size() + c_parts - 1) / c_parts;
+  for (std::size_t at = 0, i = 0; i < s.batches.size();) {
+    std::size_t vectors = 0;
+    for (const std::size_t end = std::min(i + each, s.batches.size()); i < end; ++i) vectors += s.batches[i];
     parts.push_back(std::span(s.words).subspan(at * s.words_per_vector(), vectors * s.words_per_vector()));
     at += vectors;
   }
-  std::vector<CoreRow> rows;
-  for (unsigned threads = 1; threads <= most; ++threads) rows.push_back({threads});
   std::vector<RtlModel> models;
-  for (unsigned i = 0; i < most; ++i) models.push_back(must(RtlModel::open(s.key, c_folders, true)));
-  for (int repetition = 0; repetition < 15; ++repetition)
-    for (CoreRow& row : rows) {
+  std::vector<std::unique_ptr<GoldenModel>> goldens;
+  for (unsigned i = 0; i < most; ++i) {
+    models.push_back(must(RtlModel::open(s.key, c_folders, true)));
+    goldens.push_back(make_golden_model(s.key));
+  }
+  // A core is now quicker, now slower: one thread is held against several right after it, and not the best of
+  // its times, on the best of all cores, against moments in which all were quick together.
+  std::vector<std::vector<double>> speeds(most), processors(most);
+  for (int repetition = 0; repetition < c_repetitions; ++repetition) {
+    double one = 0.0, one_processor = 0.0;
+    for (unsigned threads = 1; threads <= most; ++threads) {
       std::atomic<std::size_t> next = 0, model = 0;
       std::atomic<std::uint64_t> mismatches = 0, fragments = 0;
-      const double processor = process_seconds();
+      const double processor_start = process_seconds();
       const auto start = std::chrono::steady_clock::now();
-      work_on_threads(row.threads, [&] {
-        RtlModel& rtl = models[model++];
-        const std::unique_ptr<GoldenModel> golden = make_golden_model(s.key);
-        // Several frames: a thread takes its time to begin.
-        for (std::size_t i; (i = next++) < 4 * parts.size();) {
+      work_on_threads(threads, [&] {
+        const std::size_t own = model++;
+        std::uint64_t drawn_here = 0;
+        for (std::size_t i; (i = next++) < c_frames * parts.size();) {
           StreamComparator comparator;
-          must(rtl.draw(parts[i % parts.size()], true, [&](auto words, auto drawn) {
-            comparator.add(golden->draw(words), drawn);
-            fragments += drawn.size();
+          must(models[own].draw(parts[i % parts.size()], true, [&](auto words, auto drawn) {
+            comparator.add(goldens[own]->draw(words), drawn);
+            drawn_here += drawn.size();
           }));
           comparator.finish();
           mismatches += comparator.mismatches();
         }
+        fragments += drawn_here;
       });
-      row.seconds = std::min(row.seconds, seconds_since(start));
-      row.processor = std::min(row.processor, process_seconds() - processor);
-      if (mismatches != 0 || fragments != 4 * s.golden.size())
+      const double seconds = seconds_since(start), processor = process_seconds() - processor_start;
+      if (threads == 1) {
+        one = seconds;
+        one_processor = processor;
+      }
+      speeds[threads - 1].push_back(one / seconds);
+      processors[threads - 1].push_back(processor / one_processor);
+      if (mismatches != 0 || fragments != c_frames * s.golden.size())
         fail({ExitCode::differs, "cores: the RTL differs"});
     }
+  }
+  std::vector<CoreRow> rows;
+  for (unsigned i = 0; i < most; ++i) rows.push_back({i + 1, median(speeds[i]), median(processors[i])});
   return rows;
 }
 
@@ -722,17 +743,17 @@ std::string small_section(const std::vector<SmallRow>& rows) {
 std::string cores_section(const std::map<std::string, std::vector<CoreRow>>& all) {
   std::string text =
       "\n## Cores\n\n"
-      "Our path on `spheres` at 1600×1200, four frames: threads take batches by turns. By the clock, so the "
-      "load of the "
-      "machine\ncounts; the processor time of all threads together says what sharing costs.\n\n"
+      "Our path on `spheres` at 1600×1200, twelve frames, of which threads take fifths by turns. By the "
+      "clock, so "
+      "the load of the machine counts;\nthe processor time of all threads together says what sharing costs. "
+      "Of each "
+      "repetition the ratios to its one thread; the median of all.\n\n"
       "| shader | threads | times as fast by the clock | a core | processor time |\n| --- | --- | --- | --- "
       "| --- |\n";
   for (const auto& [shader, rows] : all)
-    for (const CoreRow& row : rows) {
-      const double speed = rows.front().seconds / row.seconds;
-      text += fmt::format("| {} | {} | {:.2f} | {} | {:.2f} |\n", shader, row.threads, speed,
-                          percent(speed / row.threads), row.processor / rows.front().processor);
-    }
+    for (const CoreRow& row : rows)
+      text += fmt::format("| {} | {} | {:.2f} | {} | {:.2f} |\n", shader, row.threads, row.speed,
+                          percent(row.speed / row.threads), row.processor);
   return text;
 }
 
