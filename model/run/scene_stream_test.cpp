@@ -76,14 +76,20 @@ TEST(SceneStream, BatchesOfLargeTrianglesAreOfFew) {
   ASSERT_TRUE(scene) << scene.error().message;
   const HardwareKey key = key_of(*scene, Shader::quadratic);
   const auto setup = make_setup(*scene, {2800, 2800}, key, {});
+  std::vector<std::uint32_t> words;
+  SetupCounts counts;
+  for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, words, counts);
   for (const unsigned threads : {1U, 4U}) {
     SceneStream stream(*setup, key, threads);
-    std::size_t all = 0, largest = 0;
+    std::vector<std::uint32_t> all;
+    std::size_t fragments = 0, largest = 0;
     for (Batch batch; stream.next(batch);) {
-      all += batch.golden.size();
+      all.insert(all.end(), batch.init_words.begin(), batch.init_words.end());
+      fragments += batch.golden.size();
       largest = std::max(largest, batch.golden.size());
     }
-    EXPECT_GT(all * sizeof(Fragment), std::size_t{56} << 20);
+    EXPECT_TRUE(all == words) << threads;
+    EXPECT_GT(fragments * sizeof(Fragment), std::size_t{56} << 20);
     EXPECT_LT(largest * sizeof(Fragment), std::size_t{13} << 20) << threads;
   }
 }
