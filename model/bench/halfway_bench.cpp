@@ -658,7 +658,9 @@ std::string growth_section(const std::vector<Series>& all) {
       "whole, before: as all frames of `make view` but the first. The line is t = constant + slope n "
       "with\nthe "
       "least squares of relative deviations. Memory is the most beside the mesh and the program, the drawing "
-      "before and the\nframe's {} bytes a pixel included.\n",
+      "before and the\nframe's {} bytes a pixel included. What is beside the frame is bounded: most of it "
+      "what lanes "
+      "hold of large triangles,\na million fragments at a time and room for as many more.\n",
       c_frame_bytes);
   double best_pace = std::numeric_limits<double>::infinity();
   for (const Series& series : all)
