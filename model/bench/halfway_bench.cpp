@@ -314,7 +314,8 @@ std::vector<Series> growth_series() {
             ? "A sphere of 990 triangles, of which every one in sight covers pixels in the smallest frame, "
               "too. The line is that of the drawing."
             : "The same sphere. The line is that of the drawing; setup depends on lines, which grow with "
-              "the root of the pixels: a record each, for\nwhich it looks at every pixel of short ones.",
+              "the root of the pixels: a record each, for\nwhich it looks at every pixel of short ones. A "
+              "line costs the drawing as much as some pixels, too: it tells where lines are short.",
         Fitted::drawing};
     const Scene sphere = sphere_scene(1'000);
     for (const std::uint32_t side : {100U, 316U, 1000U, 2000U, 4000U})

@@ -61,10 +61,11 @@ void forget_peak() {
 // view`.
 constexpr double c_warm_seconds = 0.25;
 
-/// Draws the scene, `between` the batches something else; no further when the processor has worked for
-/// `most_seconds`.
+/// Draws the scene into a frame of before, `between` the batches something else; no further when the
+/// processor has worked for `most_seconds`.
 Status draw_scene(const Scene& scene, FrameSize size, const HardwareKey& key, RtlModel& rtl,
-                  const std::function<void()>& between, double most_seconds, FrameCost& cost) {
+                  FrameAssembler& assembler, const std::function<void()>& between, double most_seconds,
+                  FrameCost& cost) {
   const double setup_start = thread_seconds();
   const std::unique_ptr<Setup> setup = make_setup(scene, size, key, {});
   cost.setup = thread_seconds() - setup_start;
@@ -73,7 +74,7 @@ Status draw_scene(const Scene& scene, FrameSize size, const HardwareKey& key, Rt
   SceneStream stream(*setup, key, 1, {.golden = model == nullptr, .ahead = false});
   StreamComparator comparator;
   const double clear_start = thread_seconds();
-  FrameAssembler assembler(size, scene.background);
+  assembler.clear();
   cost.assemble = thread_seconds() - clear_start;
   Batch batch;
   for (bool more = true; more;) {
@@ -137,13 +138,14 @@ Status draw_frame_here(const std::function<Scene()>& make_scene, FrameSize size,
   ::malloc_trim(0);
   forget_peak();
   const std::uint64_t before = resident_bytes();
+  FrameAssembler assembler(size, scene.background);
   FrameCost first;
   if (Status status = draw_scene(
-          scene, size, key, rtl, [] {}, c_warm_seconds, first);
+          scene, size, key, rtl, assembler, [] {}, c_warm_seconds, first);
       !status)
     return status;
-  if (Status status =
-          draw_scene(scene, size, key, rtl, take_pace, std::numeric_limits<double>::infinity(), cost);
+  if (Status status = draw_scene(scene, size, key, rtl, assembler, take_pace,
+                                 std::numeric_limits<double>::infinity(), cost);
       !status)
     return status;
   cost.triangles = scene.triangles.size();

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace halfway {
@@ -23,11 +22,20 @@ Error refusal(const Fragment& f, std::uint64_t number, const std::string& why) {
 }  // namespace
 
 FrameAssembler::FrameAssembler(FrameSize size, const Tile& tile, glm::dvec3 background)
-    : size_(size), tile_(tile), frame_(tile.size), z_(frame_.pixels(), c_empty) {
-  const std::array<std::uint8_t, 3> colour = {to_byte(background.r), to_byte(background.g),
-                                              to_byte(background.b)};
+    : size_(size),
+      tile_(tile),
+      background_{to_byte(background.r), to_byte(background.g), to_byte(background.b)},
+      frame_(tile.size),
+      z_(frame_.pixels()) {
+  clear();
+}
+
+void FrameAssembler::clear() {
+  const auto background = background_;  // for the compiler: not a byte of the frame
   for (auto pixel = frame_.rgb.begin(); pixel != frame_.rgb.end();)
-    pixel = std::copy(colour.begin(), colour.end(), pixel);
+    pixel = std::copy(background.begin(), background.end(), pixel);
+  std::ranges::fill(z_, c_empty);
+  fragments_ = beside_ = covered_pixels_ = 0;
 }
 
 Status FrameAssembler::add(std::span<const Fragment> fragments) {

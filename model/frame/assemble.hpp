@@ -2,6 +2,7 @@
 // From a stream of fragments to a frame: z test and write, the same for golden model and simulators.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -23,6 +24,10 @@ class FrameAssembler {
   /// Of a frame of this size the tile alone: what falls beside it is left out.
   FrameAssembler(FrameSize size, const Tile& tile, glm::dvec3 background);
 
+  /// Begins another frame, in the same room: new room would be the system's to find and to clear, page by
+  /// page.
+  void clear();
+
   /// The smaller z keeps a pixel; of equal ones the first to come. Fails at the first fragment that lies
   /// outside the frame or whose z has more than 24 bits; those before it are in the frame.
   Status add(std::span<const Fragment> fragments);
@@ -39,6 +44,7 @@ class FrameAssembler {
  private:
   FrameSize size_;
   Tile tile_;
+  std::array<std::uint8_t, 3> background_;
   Frame frame_;
   std::vector<std::uint32_t> z_;
   std::uint64_t fragments_ = 0, beside_ = 0, covered_pixels_ = 0;

@@ -23,6 +23,14 @@ std::size_t slice_of(std::size_t pixels) {
 
 }  // namespace
 
+void RtlStream::clear() {
+  comparator_ = {};
+  assembler_.clear();
+  count_ = golden_count_ = 0;
+  compare_seconds_ = assemble_seconds_ = 0.0;
+  fault_.clear();
+}
+
 void RtlStream::add_golden(std::span<const Fragment> fragments) {
   const Clock::time_point start = Clock::now();
   golden_count_ += fragments.size();

@@ -43,6 +43,9 @@ class RtlStream {
   RtlStream(FrameSize size, const Tile& tile, glm::dvec3 background)
       : compares_(true), assembler_(size, tile, background) {}
 
+  /// Begins another frame, in the same room.
+  void clear();
+
   void add_golden(std::span<const Fragment> fragments);
   void add(std::span<const Fragment> fragments);
   /// Both of the same vectors, without a copy.

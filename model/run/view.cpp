@@ -50,7 +50,8 @@ class Easel {
         lanes_(std::move(lanes)),
         s_(settings),
         key_(key),
-        threads_(threads) {}
+        threads_(threads),
+        rtl_(settings.size, scene_.background, settings.compare) {}
 
   Result<DrawnFrame> draw(std::uint32_t number) {
     scene_.camera = turned(first_camera_, number, s_.frames);
@@ -59,14 +60,15 @@ class Easel {
           "{}: frame {} has no view: the camera's eye is too near its target, or to the axis through that",
           scene_.name, number));
     DrawnFrame drawn;
-    RtlStream rtl(s_.size, scene_.background, s_.compare);
+    RtlStream& rtl = rtl_;
+    rtl.clear();
     if (Status status = lanes_ ? draw_in_lanes(rtl, drawn) : draw_in_verilator(rtl, drawn); !status)
       return status.error();
     SimulatorRun run = finish(rtl, drawn, to_string(lanes_ ? RtlEngine::lanes : RtlEngine::verilator));
     if (lanes_ && !run.equal()) {
       // Verilator tells it better: the cycle of a fault, and what was drawn before.
       const std::uint64_t mismatches = run.mismatches;
-      rtl = RtlStream(s_.size, scene_.background, s_.compare);
+      rtl.clear();
       if (Status status = draw_in_verilator(rtl, drawn); !status) return status.error();
       run = finish(rtl, drawn, to_string(RtlEngine::verilator));
       if (run.equal() && mismatches != 0)
@@ -156,6 +158,7 @@ class Easel {
   const ViewSettings& s_;
   const HardwareKey& key_;
   unsigned threads_;
+  RtlStream rtl_;
   Frame frame_;
 };
 
