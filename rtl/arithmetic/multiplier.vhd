@@ -58,12 +58,18 @@ begin
   padded <= std_logic_vector(resize(unsigned(a), padded'length));
 
   registers : process (clk)
+    variable digit  : unsigned(c_digit - 1 downto 0);
+    variable result : digit_t;
   begin
     if rising_edge(clk) then
       r.filled <= enable & r.filled(1);
       if enable = '1' then
         for i in digits_t'range loop
-          r.digits(i) <= unsigned(padded((i + 1) * c_digit - 1 downto i * c_digit)) * unsigned(b);
+          digit  := unsigned(padded((i + 1) * c_digit - 1 downto i * c_digit));
+          result := digit * unsigned(b);
+          -- Without the quarter's highest bit nothing carries so far. As that is said, a cell of the sum's own gives it.
+          result(digit_t'high) := result(digit_t'high) and digit(digit'high);
+          r.digits(i) <= result;
         end loop;
       end if;
       if r.filled(1) = '1' then

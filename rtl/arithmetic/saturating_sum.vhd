@@ -56,7 +56,8 @@ architecture rtl of saturating_sum is
 begin
 
   registers : process (clk)
-    variable v : unsigned(c_sum_bits - 1 downto 0);
+    variable v    : unsigned(c_sum_bits - 1 downto 0);
+    variable high : std_logic; -- a term has its highest bit
   begin
     if rising_edge(clk) then
       if enable = '1' then
@@ -64,6 +65,12 @@ begin
         for i in 1 to g_terms - 1 loop
           v := v + resize(unsigned(terms((i + 1) * g_term_bits - 1 downto i * g_term_bits)), c_sum_bits);
         end loop;
+        -- Where none has, nothing carries so far. As that is said, a cell of the sum's own gives its highest bit.
+        high := '0';
+        for i in 0 to g_terms - 1 loop
+          high := high or terms((i + 1) * g_term_bits - 1);
+        end loop;
+        v(v'high) := v(v'high) and high;
         r.sum <= v;
       end if;
     end if;
