@@ -11,8 +11,8 @@
 -- Contract    init is taken where init_valid and init_ready are '1', a fragment where fragment_valid and
 --             fragment_ready are; x, y and triangle stand still while a fragment waits, and so do all stages that hold
 --             anything. init stands still from init_valid = '1' until it is taken. It may stand longer, until line_load:
---             none is taken before. The line stage goes on only where line_ready = '1': what the line needs beside the
---             walker has come. line_held: it holds a line.
+--             none is taken before, nor in the clock behind a reset. The line stage goes on only where line_ready =
+--             '1': what the line needs beside the walker has come. line_held: it holds a line.
 -- Formats     formats_pkg: the header of init; x span_x, y pixel_y
 -- Latency     3 clocks from init taken to the triangle's first fragment, 2 from line_load
 -- Throughput  with line_ready = '1' 1 fragment a clock, within and between spans and triangles, but that a triangle takes
@@ -93,7 +93,7 @@ architecture rtl of triangle_walker is
     y        : pixel_y_t;
     start    : span_x_t;
     stop     : span_x_t;
-    more     : more_t; -- pixels behind the first; below zero where the line covers none
+    more     : more_t; -- pixels behind the first; below zero where the line covers none, or there is none
     backward : std_logic;
     carry    : std_logic; -- of the step to the next line
   end record;
@@ -108,9 +108,10 @@ architecture rtl of triangle_walker is
   end record;
 
   type reg_t is record
-    edges : edge_stage_t;
-    line  : line_stage_t;
-    span  : span_stage_t;
+    clears : std_logic; -- reset was '1' in the clock before
+    edges  : edge_stage_t;
+    line   : line_stage_t;
+    span   : span_stage_t;
   end record;
 
   signal r, r_next : reg_t;
@@ -118,6 +119,7 @@ architecture rtl of triangle_walker is
   -- From the edges, for the line that the edge stage holds.
   signal start, stop : span_x_t;
   signal more        : more_t;
+  signal none        : std_logic; -- or no pixel at all
   signal edge_carry  : std_logic;
 
   -- From the init vector, where the preset has them.
@@ -132,6 +134,7 @@ architecture rtl of triangle_walker is
   signal edge_load : std_logic; -- read the init vector
   signal edge_step : std_logic; -- hand the line on, and go to the next one
   signal edge_goes : std_logic; -- either, or neither where nothing is here
+  signal edge_reads : std_logic; -- goes, and what comes is an init vector, or nothing
   signal edge_last : std_logic; -- the triangle's last line
   signal turns     : std_logic; -- the stop edge takes another section
 
@@ -142,21 +145,23 @@ begin
   init_none <= '1' when init_upper_lines = 0 else '0';
 
   -- While a fragment waits all stages stand: so what moves hangs on registers, and on few.
-  draws <= r.line.valid and not r.line.more(more_t'high);
+  draws <= not r.line.more(more_t'high);
   ends  <= r.span.more(more_t'high);
   moves <= fragment_ready and (ends or not draws) and (line_ready or not r.line.valid);
 
   span_step <= r.span.valid and fragment_ready;
-  span_load <= draws and moves;
+  span_load <= r.line.valid and draws and moves;
   line_step <= r.line.valid and moves;
 
   edge_last <= r.edges.section_last and r.edges.lower_none;
   turns     <= not r.edges.follows;
   edge_step <= r.edges.valid and moves;
   edge_goes <= moves or not r.edges.valid;
-  line_load <= edge_step and r.edges.first;
+  line_load <= moves and r.edges.first;
 
-  edge_load  <= init_valid and r.edges.reads and edge_goes;
+  -- Where nothing is here an init vector is next: so this is edge_goes and reads, a lookup table earlier.
+  edge_reads <= (moves and r.edges.reads) or not r.edges.valid;
+  edge_load  <= init_valid and edge_reads and not r.clears;
   init_ready <= edge_load;
 
   combinational : process (all)
@@ -165,14 +170,18 @@ begin
     variable pixels : more_t;
     variable lines  : left_t;
     variable fewer  : left_t;
+    variable holds  : std_logic; -- the edge stage does, where it goes
   begin
     v := r;
 
     -- Behind a span's last pixel comes what the line stage holds, be it a line or not.
-    begins := draws and line_ready;
+    begins := r.line.valid and draws and line_ready;
     pixels := r.span.more;
     if ends = '1' then
       pixels := r.line.more;
+    end if;
+    if r.clears = '1' then
+      pixels := (others => '1');
     end if;
     if fragment_ready = '1' then
       if r.span.backward = '1' then
@@ -196,14 +205,14 @@ begin
       v.line.start    := start;
       v.line.stop     := stop;
       v.line.more     := more;
+      v.line.more(more_t'high) := more(more_t'high) or none or not r.edges.valid;
       v.line.backward := r.edges.backward;
       v.line.carry    := edge_carry;
     end if;
 
-    -- The sign is state. As it is reset, the bits that stand in a chain of carries with it are let in then, too.
-    if fragment_ready = '1' or reset = '1' then
+    if fragment_ready = '1' or r.clears = '1' then
       v.span.more               := pixels - 1;
-      v.span.more(more_t'high) := v.span.more(more_t'high) or reset or (ends and not begins);
+      v.span.more(more_t'high) := v.span.more(more_t'high) or (ends and not begins);
     end if;
     -- Lines are counted so that a sign says that one is behind this, or none.
     lines := r.edges.left;
@@ -217,11 +226,7 @@ begin
     if edge_goes = '1' then
       v.edges.left := lines + fewer;
       if r.edges.reads = '1' then
-        v.edges.valid        := init_valid;
-        v.edges.first        := '1';
-        v.edges.triangle     := init(c_init.triangle.high downto c_init.triangle.low);
         v.edges.y            := unsigned(init(c_init.y.high downto c_init.y.low));
-        v.edges.lower_lines  := init_lower_lines;
         v.edges.section_last := '0';
         if init_upper_lines = 1 then
           v.edges.section_last := '1';
@@ -234,12 +239,9 @@ begin
         if init_lower_lines = 1 then
           v.edges.lower_one := '1';
         end if;
-        v.edges.backward := init_backward;
         -- While the first line is here init may still be this triangle's.
         v.edges.reads := not init_valid;
       else
-        v.edges.valid        := not edge_last;
-        v.edges.first        := '0';
         v.edges.y            := r.edges.y + 1;
         v.edges.section_last := r.edges.left(left_t'high);
         v.edges.reads        := r.edges.lower_none and r.edges.left(left_t'high);
@@ -252,13 +254,28 @@ begin
       -- Three registers, so that none has all the edges' bits to choose: with one its wires bound the clock.
       v.edges.leaves  := v.edges.reads or (v.edges.section_last and v.edges.lower_none);
       v.edges.follows := not (v.edges.reads or v.edges.section_last);
+      -- A clock behind reset, when nothing is here: so no enable hangs on reset, too.
+      if r.clears = '1' then
+        v.edges.reads   := '1';
+        v.edges.leaves  := '1';
+        v.edges.follows := '0';
+      end if;
+    end if;
+    holds := not edge_last;
+    if r.edges.reads = '1' then
+      holds := init_valid;
+    end if;
+    v.edges.first := not reset and ((r.edges.first and not edge_goes) or (edge_load and edge_goes));
+    v.edges.valid := not reset and ((r.edges.valid and not moves) or (edge_goes and holds and not r.clears));
+    v.clears      := reset;
+
+    if edge_reads = '1' then
+      v.edges.triangle    := init(c_init.triangle.high downto c_init.triangle.low);
+      v.edges.lower_lines := init_lower_lines;
+      v.edges.backward    := init_backward;
     end if;
 
     if reset = '1' then
-      v.edges.valid := '0';
-      v.edges.reads := '1';
-      v.edges.leaves := '1';
-      v.edges.follows := '0';
       v.line.valid  := '0';
       v.span.valid  := '0';
     end if;
@@ -346,12 +363,12 @@ begin
       from_x <= resize(stop, more_t'length) when r.edges.backward = '1' else resize(start, more_t'length);
       to_x   <= resize(start, more_t'length) when r.edges.backward = '1' else resize(stop, more_t'length);
       more   <= to_x + not from_x;
+      none   <= '0';
 
   else generate
 
     signal start_x, stop_x : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
     signal last            : span_x_t; -- pixel of the line
-    signal below           : std_logic; -- its end is below zero
 
     constant c_highest : span_x_t := to_signed(2 ** (span_x_t'length - 1) - 1, span_x_t'length);
 
@@ -384,9 +401,9 @@ begin
       start <= signed(start_x);
       last  <= signed(stop_x);
       stop  <= last + 1;
+      more  <= resize(last, more_t'length) - resize(start, more_t'length);
       -- Behind the highest pixel lies the lowest.
-      below <= '1' when last(last'high) = '1' or last = c_highest else '0';
-      more  <= (below & last) - resize(start, more_t'length);
+      none  <= '1' when last = c_highest else '0';
 
   end generate;
 
