@@ -21,7 +21,7 @@ entity part_interpolator is
   );
   port (
     clk       : in  std_logic;
-    load      : in  std_logic; -- wins over step
+    load      : in  std_logic; -- not with step
     start     : in  std_logic_vector(g_bits - 1 downto 0);
     step      : in  std_logic;
     increment : in  std_logic_vector(g_bits - 1 downto 0);
@@ -64,16 +64,24 @@ begin
 
   -- One clocked process, as in line_interpolator, and the ports are the registers: a copy would cost a simulator as much.
   registers : process (clk)
-    variable sum : std_logic_vector(g_bits downto 0);
+    variable addend : part_t;
+    variable sum    : std_logic_vector(g_bits downto 0);
   begin
     if rising_edge(clk) then
-      if load = '1' then
-        value     <= start;
-        carry_out <= '0'; -- nobody asks; so that neither register changes but where the part loads or steps
-      elsif step = '1' then
-        sum := sum_of(value, increment, carry_in);
+      if load = '1' or step = '1' then
+        -- Chosen in front of the sum, so that the sum's own cells choose what comes out.
+        addend := start;
+        if step = '1' then
+          addend := increment;
+        end if;
+        sum := sum_of(value, addend, carry_in);
+        -- Nobody asks behind a load; so that neither register changes but where the part loads or steps. No reset of the
+        -- register's own: it would not share the sum's cells.
+        carry_out <= sum(g_bits) and not load;
         value     <= sum(g_bits - 1 downto 0);
-        carry_out <= sum(g_bits);
+        if load = '1' then
+          value <= addend;
+        end if;
       end if;
     end if;
   end process;

@@ -122,6 +122,7 @@ architecture rtl of processors_shader is
   signal line_load, line_step      : std_logic;
   signal line_carry                : std_logic;
   signal span_load, span_step      : std_logic;
+  signal line_goes, span_goes      : std_logic; -- a step that is no load, too
   signal line_y, y                 : std_logic_vector(fragment_y'range);
   signal line_start, line_stop, x  : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
   signal triangle                  : std_logic_vector(fragment_triangle'range);
@@ -217,6 +218,9 @@ begin
       busy           => walking
       );
 
+  line_goes <= line_step and not line_load;
+  span_goes <= span_step and not span_load;
+
   depth : entity work.z_interpolator
     generic map (
       g_exact => true
@@ -225,10 +229,10 @@ begin
       clk        => clk,
       init       => walk,
       line_load  => line_load,
-      line_step  => line_step,
+      line_step  => line_goes,
       line_carry => line_carry,
       span_load  => span_load,
-      span_step  => span_step,
+      span_step  => span_goes,
       line_value => line_z,
       value      => z
       );
@@ -250,10 +254,10 @@ begin
           clk        => clk,
           plane      => init(c_low + c_plane_bits - 1 downto c_low),
           line_load  => line_load,
-          line_step  => line_step,
+          line_step  => line_goes,
           line_carry => line_carry,
           span_load  => span_load,
-          span_step  => span_step,
+          span_step  => span_goes,
           line_value => open,
           value      => value
           );

@@ -93,6 +93,7 @@ architecture rtl of quadratic_shader is
     line_carry : std_logic;
     span_load  : std_logic;
     span_step  : strobe_t;
+    span_goes  : std_logic; -- a step that is no load, too
   end record;
 
   -- Where a fragment's fields begin in the queue's words.
@@ -189,10 +190,11 @@ begin
     v.placed     := r.copy(1) or (r.placed and not line_load);
     v.copy       := (v.copy_waits and not v.placed, r.copy(1));
     v.line_load  := (line_load, r.line_load(1));
-    v.line_step  := line_step;
+    v.line_step  := line_step and not line_load;
     v.line_carry := line_carry;
     v.span_load  := span_load;
     v.span_step  := (span_step, r.span_step(1));
+    v.span_goes  := span_step and not span_load;
     if reset = '1' then
       v.walk_valid := '0';
       v.walk_taken := '0';
@@ -251,7 +253,7 @@ begin
       line_step  => r.line_step,
       line_carry => r.line_carry,
       span_load  => r.span_load,
-      span_step  => r.span_step(1),
+      span_step  => r.span_goes,
       line_value => line_z,
       value      => z
       );
@@ -302,7 +304,7 @@ begin
           line_step  => r.line_step,
           line_carry => r.line_carry,
           span_load  => r.span_load,
-          span_step  => r.span_step(1),
+          span_step  => r.span_goes,
           line_value => line_value,
           line_dx    => line_dx,
           line_de0   => line_de0,

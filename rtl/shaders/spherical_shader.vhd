@@ -102,6 +102,7 @@ architecture rtl of spherical_shader is
   signal header_valid, header_ready   : std_logic;
   signal line_ready, line_held        : std_logic;
   signal line_load, line_step         : std_logic;
+  signal header_load                  : std_logic; -- the triangle's words, with line_load or before
   signal line_carry                   : std_logic;
   signal span_load, span_step         : std_logic;
   signal line_y, y                    : std_logic_vector(fragment_y'range);
@@ -132,6 +133,7 @@ architecture rtl of spherical_shader is
     line_step  : std_logic;
     line_carry : std_logic;
     span_load  : std_logic;
+    span_goes  : std_logic; -- a step that is no load, too
   end record;
 
   -- Where a fragment's fields begin in the queue's words.
@@ -173,7 +175,8 @@ begin
 
   init_buffer : entity work.stream_register
     generic map (
-      g_bits => init_data'length
+      g_bits  => init_data'length,
+      g_eager => true
       )
     port map (
       clk       => clk,
@@ -220,12 +223,14 @@ begin
     header_valid <= waiting and not line_held;
     line_ready   <= waiting;
     taken        <= line_step or line_load;
+    header_load  <= not line_held;
 
   else generate
 
     header_valid <= waiting;
     line_ready   <= '1';
     taken        <= line_load;
+    header_load  <= line_load;
 
   end generate;
 
@@ -235,9 +240,10 @@ begin
     v := r;
     v.filled     := span_step & r.filled(1 to c_summed - 1);
     v.line_load  := line_load;
-    v.line_step  := line_step;
+    v.line_step  := line_step and not line_load;
     v.line_carry := line_carry;
     v.span_load  := span_load;
+    v.span_goes  := span_step and not span_load;
     if reset = '1' then
       v.filled := (others => '0');
     end if;
@@ -254,14 +260,14 @@ begin
     end if;
   end process;
 
-  -- A record takes the header's place in the buffer at once.
+  -- A record takes the header's place in the buffer at once. A header comes while no line is held, so that alone lets it in.
   header_register : entity work.parameter_register
     generic map (
       g_bits => c_header_bits
       )
     port map (
       clk   => clk,
-      load  => line_load,
+      load  => header_load,
       start => init(c_header_bits - 1 downto 0),
       value => header
       );
@@ -278,7 +284,7 @@ begin
       line_step  => r.line_step,
       line_carry => r.line_carry,
       span_load  => r.span_load,
-      span_step  => r.filled(1),
+      span_step  => r.span_goes,
       line_value => line_z,
       value      => z
       );
@@ -289,7 +295,7 @@ begin
       )
     port map (
       clk   => clk,
-      load  => line_load,
+      load  => header_load,
       start => init(c_header_bits + ambient_t'length - 1 downto c_header_bits),
       value => line_ambient
       );

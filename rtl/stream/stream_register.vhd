@@ -17,7 +17,8 @@ use ieee.std_logic_1164.all;
 
 entity stream_register is
   generic (
-    g_bits : positive
+    g_bits  : positive;
+    g_eager : boolean := false -- while it is free it takes what is offered, valid or not: the enable does not wait for that
   );
   port (
     clk       : in  std_logic;
@@ -44,7 +45,7 @@ architecture rtl of stream_register is
 begin
 
   free     <= out_ready or not r.valid;
-  take     <= in_valid and free;
+  take     <= free when g_eager else in_valid and free;
   in_ready <= free;
 
   combinational : process (all)

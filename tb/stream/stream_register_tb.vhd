@@ -8,6 +8,7 @@ use work.tb_pkg.all;
 entity stream_register_run is
   generic (
     g_bits   : positive;
+    g_eager  : boolean := false;
     g_folder : string
   );
   port (
@@ -26,7 +27,7 @@ architecture sim of stream_register_run is
   signal out_data  : std_logic_vector(g_bits - 1 downto 0);
 begin
   dut : entity work.stream_register
-    generic map (g_bits => g_bits)
+    generic map (g_bits => g_bits, g_eager => g_eager)
     port map (
       clk       => clk,
       reset     => reset,
@@ -98,7 +99,7 @@ entity stream_register_tb is
 end entity;
 
 architecture sim of stream_register_tb is
-  signal finished : boolean_vector(0 to 2);
+  signal finished : boolean_vector(0 to 3);
 begin
   one_bit : entity work.stream_register_run
     generic map (g_bits => 1, g_folder => g_folder)
@@ -111,6 +112,10 @@ begin
   init_vector : entity work.stream_register_run
     generic map (g_bits => 497, g_folder => g_folder)
     port map (finished => finished(2));
+
+  eager : entity work.stream_register_run
+    generic map (g_bits => 32, g_eager => true, g_folder => g_folder)
+    port map (finished => finished(3));
 
   done : process is
   begin

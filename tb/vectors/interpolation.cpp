@@ -32,15 +32,16 @@ Status write_line(const std::filesystem::path& folder) {
   return file.write(folder / (std::to_string(W) + ".txt"));
 }
 
-// A line: checked, load, start, step, increment, carry_in; value and carry, before the edge that may load or
-// step.
+// A line: checked, load, start, step, increment, carry_in; value, whether a step was the last, its carry,
+// before the edge that may load or step.
 template <int W>
 Status write_part(const std::filesystem::path& folder) {
   Random random(W);
   VectorFile file;
   golden::PartInterpolator<W> twin;
   for (int i = 0; i < 4000; ++i) {
-    const bool load = i == 0 || random.one_in(12), step = !random.one_in(5), carry = random.one_in(2);
+    const bool load = i == 0 || random.one_in(12), carry = random.one_in(2);
+    const bool step = !load && !random.one_in(5);
     const auto start = random.word<W>(), increment = random.word<W>();
     file.flag(i > 0).flag(load).word(start).flag(step).word(increment).flag(carry);
     file.word(twin.value()).flag(twin.carry()).end_vector();
@@ -57,14 +58,15 @@ struct Strobes {
   bool line_load, line_step, line_carry, span_load, span_step;
 };
 
-// Every combination comes up, though the walker does not give them all. The first two fill the registers. A
-// load `held` behind another does not come: the words stand still for it.
+// Every combination that the contract has comes up, though the walker does not give them all. The first two
+// fill the registers. A load `held` behind another does not come: the words stand still for it.
 Strobes random_strobes(Random& random, int i, bool held) {
   if (i == 0) return {true, false, false, false, false};
   if (i == 1) return {false, false, false, true, false};
   const bool busy = i / 200 % 2 == 0;
-  return {!held && random.one_in(busy ? 4 : 40), !random.one_in(3), random.one_in(2),
-          random.one_in(busy ? 3 : 20), !random.one_in(4)};
+  const bool line_load = !held && random.one_in(busy ? 4 : 40), span_load = random.one_in(busy ? 3 : 20);
+  return {line_load, !line_load && !random.one_in(3), random.one_in(2), span_load,
+          !span_load && !random.one_in(4)};
 }
 
 // The span stage takes what the line stage held before this edge, so it goes first.
