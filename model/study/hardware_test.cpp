@@ -29,7 +29,7 @@ const fs::path c_source = HALFWAY_SOURCE_DIR;
 constexpr const char* c_yosys = R"(#!/bin/sh
 [ "$1" = -V ] && echo 'Yosys 0.23' && exit
 echo >mapped.il
-echo '{"modules": {"wrapped": {"cells": {}, "netnames": {}}}}' >wrapped.json
+echo '{"modules": {"wrapped": {"ports": {"clk": {"bits": [2]}}, "cells": {}, "netnames": {}}}}' >wrapped.json
 case "$*" in
   *synth_ice40*) echo '{"design": {"num_cells_by_type": {"SB_LUT4": LUTS, "SB_DFF": 4}}}' >cells.json ;;
   *) echo '{"design": {"num_cells_by_type": {"$lut": 20, "$_DFF_P_": FLIP_FLOPS}}}' >cells.json ;;

@@ -13,6 +13,7 @@
 
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
+#include "sim/synth/global_buffers.hpp"
 #include "sim/verilator/netlist.hpp"
 
 namespace halfway::synth {
@@ -22,6 +23,7 @@ using nlohmann::json;
 
 constexpr std::chrono::minutes kTimeout{60};
 constexpr const char* kNoEnd = "no_end";
+constexpr const char* kWrapped = "wrapped.json";
 constexpr unsigned kMostInputs = 256;  // flip-flops in front of a design
 constexpr int kFrequency = 200;        // MHz asked for: more than any design comes to
 
@@ -66,6 +68,14 @@ std::string version_of(std::string_view said) {
   const std::size_t from =
       version == std::string_view::npos ? digit : version + std::string_view("Version ").size();
   return std::string(said.substr(from, said.find_first_of(" )\n", from) - from));
+}
+
+Status buffer_globals(const std::filesystem::path& path) {
+  const auto text = read_file(path);
+  if (!text) return text.error();
+  const auto buffered = with_global_buffers(*text);
+  if (!buffered) return tool_failed(fmt::format("{}: {}", path.string(), buffered.error().message));
+  return write_file(path, *buffered);
 }
 
 Result<std::string> netlist_of(const GhdlLibrary& library, const Design& design) {
@@ -285,7 +295,7 @@ Result<Packing> read_packing(std::string_view said) {
 Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design) {
   const auto text = netlist_of(library, design);
   if (!text) return text.error();
-  return ContentHash().add("netlist 1").add(design.entity).add(*text).hex();
+  return ContentHash().add("netlist 1").add(kFlow).add(design.entity).add(*text).hex();
 }
 
 Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool place,
@@ -368,6 +378,7 @@ Result<std::filesystem::path> Synthesizer::from_mapped(const Design& design, con
   if (!core) return core.error();
   ContentHash hash;
   hash.add("mapped 1").add(yosys_).add(script).add(around).add(core->filename().string());
+  if (!around.empty()) hash.add(kFlow);
   return kept(
       cache_ / fmt::format("{}-{}-{}", design.name, kind, hash.hex()),
       [&](const std::filesystem::path& fresh) -> Status {
@@ -377,7 +388,8 @@ Result<std::filesystem::path> Synthesizer::from_mapped(const Design& design, con
           return tool_failed(fmt::format("{}: cannot be copied: {}", core->string(), error.message()));
         if (!around.empty())
           if (Status written = write_file(fresh / "wrapper.v", around); !written) return written;
-        return run_yosys(script, fresh, design);
+        if (Status made = run_yosys(script, fresh, design); !made || around.empty()) return made;
+        return buffer_globals(fresh / kWrapped);
       });
 }
 
@@ -435,13 +447,14 @@ Result<std::filesystem::path> Synthesizer::wrapped_folder(const Design& design) 
       fmt::format("read_rtlil mapped.il; blackbox {0}; setattr -mod -unset top {0}; read_verilog wrapper.v; "
                   "synth_ice40 -device hx -top wrapped; read_rtlil -overwrite mapped.il; setattr -mod -unset "
                   "top {0}; "
-                  "hierarchy -top wrapped; flatten; opt_clean -purge; write_json wrapped.json",
-                  design.entity),
+                  "hierarchy -top wrapped; flatten; opt_clean -purge; write_json {1}",
+                  design.entity, kWrapped),
       *around);
 }
 
 std::vector<std::string> Synthesizer::nextpnr_arguments() const {
-  return {"nextpnr-ice40", "--hx8k", "--package", "ct256", "--freq", std::to_string(kFrequency)};
+  return {"nextpnr-ice40",       "--hx8k", "--package", "ct256", "--freq", std::to_string(kFrequency),
+          "--no-promote-globals"};
 }
 
 Result<std::string> Synthesizer::netlist_hash(const Design& design) const {
@@ -455,7 +468,7 @@ Result<Packing> Synthesizer::pack(const Design& design) const {
   ContentHash hash;
   hash.add("packed 1").add(nextpnr_).add(wrapped->filename().string());
   for (const std::string& argument : arguments) hash.add(argument);
-  arguments.insert(arguments.end(), {"--pack-only", "--json", (*wrapped / "wrapped.json").string()});
+  arguments.insert(arguments.end(), {"--pack-only", "--json", (*wrapped / kWrapped).string()});
   const auto folder = kept(cache_ / fmt::format("{}-packed-{}", design.name, hash.hex()),
                            [&](const std::filesystem::path& fresh) -> Status {
                              const auto said =
@@ -489,7 +502,7 @@ Result<std::string> Synthesizer::no_room(const Design& design) const {
 Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const {
   const auto wrapped = wrapped_folder(design);
   if (!wrapped) return wrapped.error();
-  const std::string net = (*wrapped / "wrapped.json").string();
+  const std::string net = (*wrapped / kWrapped).string();
   std::vector<std::string> arguments = nextpnr_arguments();
   arguments.insert(arguments.end(), {"--seed", std::to_string(seed), "--timing-allow-fail", "--quiet",
                                      "--report", "report.json"});

@@ -28,6 +28,10 @@ inline constexpr unsigned kSeeds = 3;
 /// takes a tenth of it.
 inline constexpr std::chrono::seconds kPlaceTime{20 * 60};
 
+/// What a clock hangs on beside the netlist and the tools' versions: another one wherever the wrapper, the
+/// global buffers or nextpnr's options change.
+inline constexpr const char* kFlow = "flow 2";
+
 /// What is synthesized: an entity of rtl/, or of what `open` is given beside it.
 struct Design {
   std::string name;  ///< without spaces: messages and the cache's folders begin with it
@@ -73,7 +77,8 @@ std::string does_not_fit(std::string_view what, std::uint64_t count, std::uint64
 /// From what nextpnr says of a device's utilisation.
 Result<Packing> read_packing(std::string_view said);
 
-/// Of what GHDL and mend_netlist make of a design: of one hash is the same hardware, whatever its name.
+/// Of what GHDL and mend_netlist make of a design: of one hash is the same hardware, whatever its name,
+/// and by kFlow the same clock.
 Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design);
 
 /// The wrapper around `top` for nextpnr: a flip-flop in front of every input but the clock, and one behind
@@ -121,7 +126,8 @@ class Synthesizer {
                                             const std::string& script) const;
   Result<std::filesystem::path> ice40_folder(const Design& design) const;
   Result<std::filesystem::path> wrapped_folder(const Design& design) const;
-  /// Where Yosys has left what `script` makes of mapped.il and, where it is not empty, wrapper.v.
+  /// Where Yosys has left what `script` makes of mapped.il and, where it is not empty, wrapper.v: of
+  /// that a netlist for nextpnr, to which the global buffers are added.
   Result<std::filesystem::path> from_mapped(const Design& design, const std::string& kind,
                                             const std::string& script, const std::string& around) const;
   GhdlLibrary library_;

@@ -41,7 +41,7 @@ constexpr const char* c_yosys = R"(#!/bin/sh
 [ "$1" = -V ] && echo 'Yosys 0.23' && exit
 cp '{0}/cells.json' .
 echo >mapped.il
-echo '{{"modules": {{"wrapped": {{"cells": {{}}, "netnames": {{}}}}}}}}' >wrapped.json
+echo '{{"modules": {{"wrapped": {{"ports": {{"clk": {{"bits": [2]}}}}, "cells": {{}}, "netnames": {{}}}}}}}}' >wrapped.json
 )";
 // Seed 2 has no end.
 constexpr const char* c_nextpnr = R"(#!/bin/sh

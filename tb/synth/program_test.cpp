@@ -29,7 +29,7 @@ case "$*" in
   *) echo '{"design": {"num_cells_by_type": {"SB_LUT4": 24, "SB_CARRY": 23, "SB_DFFSR": 24}}}' >cells.json ;;
 esac
 echo >mapped.il
-echo '{"modules": {"wrapped": {"cells": {}, "netnames": {}}}}' >wrapped.json
+echo '{"modules": {"wrapped": {"ports": {"clk": {"bits": [2]}}, "cells": {}, "netnames": {}}}}' >wrapped.json
 )";
 // Seed 2 has no end: that is how a limit of the processor's time ends it.
 constexpr const char* c_nextpnr = R"(#!/bin/sh

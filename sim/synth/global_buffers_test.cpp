@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which nets of small netlists get a buffer, and by the tools themselves, where they are there, how many of
+// the device's a design takes.
+#include "sim/synth/global_buffers.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/file.hpp"
+#include "common/subprocess.hpp"
+#include "sim/synth/synthesis.hpp"
+
+namespace halfway::synth {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// A module with a clock, to which enables are added.
+class Netlist {
+ public:
+  Netlist() {
+    module_["ports"]["clk"] = {{"direction", "input"}, {"bits", {kClock}}};
+    name("clk", {kClock});
+    module_["cells"] = json::object();
+  }
+
+  void name(const std::string& name, const std::vector<int>& bits) {
+    module_["netnames"][name] = {{"hide_name", 0}, {"bits", bits}};
+  }
+  int net() { return last_++; }
+
+  /// Registers with this enable, each behind a lookup table with `inputs`, of which `x` is a carry.
+  void registers(int enable, int count, const std::string& inputs = "aaax") {
+    for (int i = 0; i < count; ++i) {
+      const int carry = net(), sum = net(), output = net();
+      cell("SB_CARRY", {{"CO", {carry}}}, "CO");
+      json pins = {{"O", {sum}}};
+      for (std::size_t pin = 0; pin < inputs.size(); ++pin)
+        pins[fmt::format("I{}", pin)] = inputs[pin] == 'x'   ? json{carry}
+                                        : inputs[pin] == 'a' ? json{kInput}
+                                                             : json{std::string(1, inputs[pin])};
+      cell("SB_LUT4", pins, "O");
+      cell("SB_DFFE", {{"C", {kClock}}, {"D", {sum}}, {"E", {enable}}, {"Q", {output}}}, "Q");
+    }
+  }
+  /// An enable of that name and of so many full sums.
+  int enable(const std::string& named, int sums) {
+    const int enable = net();
+    name(named, {enable});
+    registers(enable, sums);
+    return enable;
+  }
+  void cell(const std::string& type, const json& pins, const std::string& output) {
+    json directions;
+    for (const auto& [pin, bits] : pins.items()) directions[pin] = pin == output ? "output" : "input";
+    module_["cells"][fmt::format("cell{}", cells_++)] = {
+        {"type", type}, {"port_directions", directions}, {"connections", pins}};
+  }
+  std::string text() const { return json{{"modules", {{"wrapped", module_}}}}.dump(); }
+
+  static constexpr int kClock = 2, kInput = 3;
+
+ private:
+  json module_;
+  int last_ = 4, cells_ = 0;
+};
+
+// Pins that each buffer drives, by its name.
+struct Buffered {
+  std::map<std::string, int> pins;
+  json cells;
+  explicit Buffered(const std::string& netlist) {
+    const auto text = with_global_buffers(netlist);
+    EXPECT_TRUE(text) << text.error().message;
+    if (!text) return;
+    cells = json::parse(*text)["modules"]["wrapped"]["cells"];
+    for (const auto& [name, buffer] : cells.items()) {
+      if (buffer["type"] != "SB_GB") continue;
+      pins[name] = 0;
+      for (const json& cell : cells)
+        for (const auto& [pin, bits] : cell["connections"].items())
+          pins[name] += cell["port_directions"][pin] == "input" &&
+                        bits == buffer["connections"]["GLOBAL_BUFFER_OUTPUT"];
+    }
+  }
+  /// What else than its buffer a net goes to.
+  std::vector<std::string> users(int net) const {
+    std::vector<std::string> users;
+    for (const json& cell : cells)
+      for (const auto& [pin, bits] : cell["connections"].items())
+        if (cell["type"] != "SB_GB" && cell["port_directions"][pin] == "input" && bits == json{net})
+          users.push_back(pin);
+    return users;
+  }
+};
+
+using Pins = std::map<std::string, int>;
+
+TEST(SynthGlobalBuffers, AreTheClocksAloneWithoutAnEnableOfFullSums) {
+  Netlist netlist;
+  netlist.enable("few", 7);
+  const int partial = netlist.net();
+  netlist.name("partial", {partial});
+  netlist.registers(partial, 9, "0aax");
+  netlist.registers(partial, 9, "a1ax");
+  netlist.registers(partial, 9, "aa0x");
+  netlist.registers(partial, 9, "aaaa");
+  netlist.registers(partial, 9, "aaxa");
+  const Buffered buffered(netlist.text());
+  EXPECT_EQ(buffered.pins, (Pins{{"clk_SB_GB", 7 + 5 * 9}}));
+  EXPECT_THAT(buffered.users(Netlist::kClock), IsEmpty());
+}
+
+TEST(SynthGlobalBuffers, AreOfTheFourLargestOfFiveEnables) {
+  Netlist netlist;
+  netlist.enable("a", 9);
+  netlist.enable("b", 8);
+  netlist.enable("c", 10);
+  netlist.enable("d", 12);
+  netlist.enable("e", 11);
+  EXPECT_EQ(Buffered(netlist.text()).pins,
+            (Pins{{"clk_SB_GB", 50}, {"a_SB_GB", 9}, {"c_SB_GB", 10}, {"d_SB_GB", 12}, {"e_SB_GB", 11}}));
+}
+
+TEST(SynthGlobalBuffers, AreOfTheFirstByNameOfEqualEnables) {
+  Netlist netlist;
+  const int several = netlist.enable("z", 8);
+  for (const char* name : {"e", "d", "c", "b"}) netlist.enable(name, 8);
+  EXPECT_EQ(Buffered(netlist.text()).pins,
+            (Pins{{"clk_SB_GB", 40}, {"b_SB_GB", 8}, {"c_SB_GB", 8}, {"d_SB_GB", 8}, {"e_SB_GB", 8}}));
+  netlist.name("a", {Netlist::kInput, several});
+  EXPECT_EQ(Buffered(netlist.text()).pins,
+            (Pins{{"clk_SB_GB", 40}, {"a[1]_SB_GB", 8}, {"b_SB_GB", 8}, {"c_SB_GB", 8}, {"d_SB_GB", 8}}));
+}
+
+TEST(SynthGlobalBuffers, AreInFrontOfEveryRegisterOfAnEnableAndOfNothingElse) {
+  Netlist netlist;
+  const int enable = netlist.enable("enable", 8), other = netlist.enable("other", 3);
+  netlist.registers(enable, 2, "00aa");
+  netlist.cell("SB_LUT4", {{"I0", {enable}}, {"O", {netlist.net()}}}, "O");
+  netlist.cell("SB_DFFSR", {{"C", {Netlist::kClock}}, {"D", {Netlist::kInput}}, {"R", {enable}}}, "Q");
+  netlist.cell("SB_RAM40_4K", {{"RCLK", {Netlist::kClock}}, {"WE", {enable}}}, "RDATA");
+  const Buffered buffered(netlist.text());
+  EXPECT_EQ(buffered.pins, (Pins{{"clk_SB_GB", 8 + 3 + 2 + 2}, {"enable_SB_GB", 10}}));
+  EXPECT_THAT(buffered.users(enable), ::testing::UnorderedElementsAre("I0", "R", "WE"));
+  EXPECT_THAT(buffered.users(other), ElementsAre("E", "E", "E"));
+}
+
+TEST(SynthGlobalBuffers, AreRefusedToWhatHasNoClock) {
+  const std::string netlist = Netlist().text();
+  ASSERT_TRUE(with_global_buffers(netlist));
+  const auto without = [&](const char* path) {
+    json whole = json::parse(netlist);
+    whole[json::json_pointer(path).parent_pointer()].erase(json::json_pointer(path).back());
+    const auto text = with_global_buffers(whole.dump());
+    return text ? std::string() : text.error().message;
+  };
+  for (const char* path : {"/modules/wrapped/ports/clk", "/modules/wrapped/ports", "/modules/wrapped/cells",
+                           "/modules/wrapped/netnames", "/modules/wrapped", "/modules"})
+    EXPECT_THAT(without(path), HasSubstr("not a netlist to place")) << path;
+  for (const char* bits : {"[]", "[\"0\"]", "7"}) {
+    json whole = json::parse(netlist);
+    whole["modules"]["wrapped"]["ports"]["clk"]["bits"] = json::parse(bits);
+    EXPECT_FALSE(with_global_buffers(whole.dump())) << bits;
+  }
+  EXPECT_FALSE(with_global_buffers(""));
+  EXPECT_FALSE(with_global_buffers("[1]"));
+}
+
+// Two sums with an enable each, and registers with another, which nextpnr would give a buffer.
+constexpr const char* c_entity = R"(library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+
+entity sums is
+  port (
+    clk    : in  std_logic;
+    enable : in  std_logic_vector(2 downto 0);
+    flip   : in  std_logic;
+    step   : in  unsigned(35 downto 0);
+    sum    : out unsigned(23 downto 0);
+    held   : out unsigned(35 downto 0)
+  );
+end entity;
+
+architecture rtl of sums is
+  signal low, high : unsigned(11 downto 0) := (others => '0');
+begin
+  p_registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      if enable(0) = '1' then
+        low <= (low + step(11 downto 0)) xor (11 downto 0 => flip);
+      end if;
+      if enable(1) = '1' then
+        high <= (high + step(11 downto 0)) xor (11 downto 0 => flip);
+      end if;
+      if enable(2) = '1' then
+        held <= step;
+      end if;
+    end if;
+  end process;
+  sum <= high & low;
+end architecture;
+)";
+
+TEST(SynthGlobalBuffers, AreWhatNextpnrPacks) {
+  for (const char* tool : {"ghdl", "yosys", "nextpnr-ice40"})
+    if (find_program(tool).empty()) GTEST_SKIP() << "no " << tool << ": " << kInstallTools;
+  auto folder = TemporaryFolder::make(fs::temp_directory_path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const fs::path root = folder->path(), cache = root / "cache";
+  ASSERT_TRUE(make_folders(root / "rtl"));
+  ASSERT_TRUE(write_file(root / "rtl/files.f", "sums.vhd\n"));
+  ASSERT_TRUE(write_file(root / "rtl/sums.vhd", c_entity));
+  const auto synthesizer = Synthesizer::open({root, cache}, true);
+  ASSERT_TRUE(synthesizer) << synthesizer.error().message;
+  const auto packing = synthesizer->pack({.name = "sums", .entity = "sums", .generics = {}});
+  ASSERT_TRUE(packing) << packing.error().message;
+  std::optional<std::string> said;
+  for (const auto& kept : fs::directory_iterator(cache / "synth"))
+    if (const auto text = read_file(kept.path() / "said")) said = *text;
+  ASSERT_TRUE(said);
+  EXPECT_THAT(*said, ::testing::ContainsRegex("SB_GB: +3/ +8 "));
+}
+
+}  // namespace
+}  // namespace halfway::synth
