@@ -6,6 +6,7 @@
 
 namespace halfway::golden {
 
+/// Of a clock load or step.
 template <int W>
 class PartInterpolator {
  public:

@@ -6,6 +6,7 @@
 
 namespace halfway::golden {
 
+/// Of a clock line_load or line_step, and span_load or span_step: the RTL takes no load in a step's clock.
 template <int W>
 class PlaneInterpolator {
  public:

@@ -8,6 +8,7 @@
 
 namespace halfway::golden {
 
+/// Of a clock line_load or line_step, and span_load or span_step: the RTL takes no load in a step's clock.
 template <class Preset>
 class QuadraticInterpolator {
  public:

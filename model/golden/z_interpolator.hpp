@@ -8,6 +8,7 @@
 
 namespace halfway::golden {
 
+/// Of a clock's strobes as PlaneInterpolator.
 template <class Preset>
 class ZInterpolator : public PlaneInterpolator<Preset::c_depth_sum_bits> {
  public:

@@ -3,7 +3,7 @@
 -- Purpose     A line_interpolator's word, or a part of one: a word cut into parts, each a clock behind the part below it, so
 --             that no sum is longer than a part.
 -- Contract    a part takes load and step, and its bits of start and increment, a clock after the part below it, whose
---             carry_out is its carry_in; the lowest one's is '0'
+--             carry_out is its carry_in; the lowest one's is '0'. load and step are never both '1'
 -- Formats     g_bits throughout; the sum of all parts wraps
 -- Latency     1 clock from load or step to value and carry_out
 -- Throughput  1 step a clock

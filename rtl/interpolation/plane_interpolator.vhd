@@ -5,7 +5,8 @@
 --               v(x + q,     y + 1) = v(x, y) + de0    where the edge's remainder does not carry
 --               v(x + q + 1, y + 1) = v(x, y) + de1    where it does
 --               v(x +- 1,    y)     = v(x, y) + dx     the sign is the span's direction
--- Contract    with g_split the upper halves of the plane's words stand still in the clock behind line_load too
+-- Contract    line_load and line_step are never both '1', nor span_load and span_step; with g_split the upper halves of
+--             the plane's words stand still in the clock behind line_load too
 -- Formats     plane: value, dx, de0 and, with g_carries, de1, the first lowest, g_bits each, signed; sums wrap, the value
 --             at a covered pixel fits
 -- Latency     1 clock from a load or step to its value, with g_split 2

@@ -6,7 +6,8 @@
 --                      value += de1    dx += dxe1    de0 += de0e1    de1 += de1e1    where it does
 --               pixel  value += dx     dx += dxx
 --             In preset published the edge steps by its real slope: e0 = (A, 1), and there is no e1.
--- Contract    with g_split the upper halves of init's words stand still in the clock behind line_load too
+-- Contract    line_load and line_step are never both '1', nor span_load and span_step; with g_split the upper halves of
+--             init's words stand still in the clock behind line_load too
 -- Formats     formats_pkg: intensity; sums wrap, the value at a covered pixel fits
 -- Latency     1 clock from a load or step to its value, with g_split 2
 -- Throughput  1 line and 1 pixel a clock

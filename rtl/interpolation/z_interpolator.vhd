@@ -2,7 +2,8 @@
 --
 -- Purpose     Depth at every pixel: the plane that the header of the init vector holds.
 -- Formats     formats_pkg: depth_sum; sums wrap, the value at a covered pixel fits
--- Contract    with g_split the upper halves of the plane's words stand still in the clock behind line_load too
+-- Contract    line_load and line_step are never both '1', nor span_load and span_step; with g_split the upper halves of
+--             the plane's words stand still in the clock behind line_load too
 -- Latency     1 clock from a load or step to its value, with g_split 2
 -- Throughput  1 line and 1 pixel a clock
 -- Error       0.19 of a depth step at most: see depth_sum in formats_pkg
