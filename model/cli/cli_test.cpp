@@ -619,7 +619,7 @@ TEST_F(RunawayRtl, HasNoCyclesThatNobodyCounted) {
 INSTANTIATE_TEST_SUITE_P(
     Mutants, WrongRtl,
     ::testing::Values(Fault{"part_interpolator_sign", "quadratic", "interpolation/part_interpolator.vhd",
-                            "sum_of(value, increment", "sum_of(value, not increment", "line stage"},
+                            "sum_of(value, addend", "sum_of(value, not addend", "line stage"},
                       Fault{"edge_without_carry", "quadratic", "raster/edge_walker.vhd",
                             "(r.quotient & r.carry)", "(r.quotient & '0')", "edge_walker"},
                       Fault{"saturate_off_by_a_bit", "quadratic", "arithmetic/saturate.vhd",
