@@ -25,7 +25,8 @@ std::vector<Proof> all_proofs() {
        {{"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= '1'"},
         {"stream/stream_register.vhd", "v.valid := '0'", "v.valid := r.valid"},
         {"stream/stream_register.vhd", "v.valid := in_valid", "v.valid := in_valid or r.valid"},
-        {"stream/stream_register.vhd", "take     <= in_valid and free", "take     <= in_valid"},
+        {"stream/stream_register.vhd", "load  => free", "load  => in_valid"},
+        {"stream/stream_register.vhd", "load  => free", "load  => out_ready"},
         {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= not r.valid"}}});
   proofs.push_back(
       {"stream/stream_queue",
@@ -90,8 +91,8 @@ std::vector<Proof> all_proofs() {
        {{"g_terms", "5"}, {"g_term_bits", "32"}, {"g_fraction_bits", "16"}, {"g_result_bits", "8"}},
        {{"arithmetic/saturating_sum.vhd", "positive := g_term_bits + carry_bits",
          "positive := g_term_bits + 2"},
-        {"arithmetic/saturating_sum.vhd", "for i in 1 to g_terms - 1 loop",
-         "for i in 1 to g_terms - 2 loop"}}});
+        {"arithmetic/saturating_sum.vhd", "for i in 1 to g_terms - 1 loop", "for i in 1 to g_terms - 2 loop"},
+        {"arithmetic/saturating_sum.vhd", "high := high or terms", "high := terms"}}});
 
   proofs.push_back(
       {"arithmetic/multiplier",
@@ -105,7 +106,8 @@ std::vector<Proof> all_proofs() {
        {{"g_a_bits", "6"}, {"g_b_bits", "6"}},
        {{"arithmetic/multiplier.vhd", "unsigned(padded((i + 1)", "1 + unsigned(padded((i + 1)"},
         {"arithmetic/multiplier.vhd", "enable & r.filled(1)", "enable & enable"},
-        {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"}}});
+        {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"},
+        {"arithmetic/multiplier.vhd", "and digit(digit'high)", "and not digit(digit'high)"}}});
   proofs.push_back(
       {"arithmetic/angle_address",
        "arithmetic/angle_address.psl",
@@ -208,10 +210,13 @@ std::vector<Proof> all_proofs() {
   const std::vector<Fault> walker_faults = {
       {"raster/triangle_walker.vhd", "init_ready <= edge_load", "init_ready <= line_load"},
       {"raster/triangle_walker.vhd", "v.edges.reads := not init_valid", "v.edges.reads := '1'"},
-      {"raster/triangle_walker.vhd", "init_valid and r.edges.reads and edge_goes",
-       "init_valid and r.edges.reads"},
+      {"raster/triangle_walker.vhd", "(moves and r.edges.reads) or not r.edges.valid",
+       "r.edges.reads or not r.edges.valid"},
+      {"raster/triangle_walker.vhd", "(moves and r.edges.reads) or not r.edges.valid", "not r.edges.valid"},
       {"raster/triangle_walker.vhd", "edge_step <= r.edges.valid and moves", "edge_step <= r.edges.valid"},
-      {"raster/triangle_walker.vhd", "line_load <= edge_step and r.edges.first;", "line_load <= edge_step;"},
+      {"raster/triangle_walker.vhd", "line_load <= moves and r.edges.first;", "line_load <= edge_step;"},
+      {"raster/triangle_walker.vhd", "line_load <= moves and r.edges.first;",
+       "line_load <= line_ready and r.edges.first;"},
       {"raster/triangle_walker.vhd", "moves <= fragment_ready and (ends or not draws)",
        "moves <= fragment_ready and ends"},
       {"raster/triangle_walker.vhd", "moves <= fragment_ready and (ends or not draws)",
@@ -219,7 +224,12 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "moves <= fragment_ready and", "moves <="},
       {"raster/triangle_walker.vhd", "(line_ready or not r.line.valid)", "'1'"},
       {"raster/triangle_walker.vhd", "(line_ready or not r.line.valid)", "line_ready"},
-      {"raster/triangle_walker.vhd", "begins := draws and line_ready", "begins := draws"},
+      {"raster/triangle_walker.vhd", "begins := r.line.valid and draws and line_ready",
+       "begins := r.line.valid and draws"},
+      {"raster/triangle_walker.vhd", "begins := r.line.valid and draws and line_ready",
+       "begins := draws and line_ready"},
+      {"raster/triangle_walker.vhd", "span_load <= r.line.valid and draws", "span_load <= draws"},
+      {"raster/triangle_walker.vhd", "none or not r.edges.valid", "none"},
       {"raster/triangle_walker.vhd", "v.line.valid    := r.edges.valid", "v.line.valid    := '1'"},
       {"raster/triangle_walker.vhd", "pixels - 1;", "pixels;"},
       {"raster/triangle_walker.vhd", "v.span.x        := r.line.start", "v.span.x        := r.line.stop"},
@@ -232,8 +242,18 @@ std::vector<Proof> all_proofs() {
        "v.edges.section_last := '0'"},
       {"raster/triangle_walker.vhd", "if init_upper_lines = 1 then", "if init_upper_lines = 0 then"},
       {"raster/triangle_walker.vhd", "not (v.edges.reads or v.edges.section_last)", "not v.edges.reads"},
-      {"raster/triangle_walker.vhd", "edge_load  <= init_valid and r.edges.reads",
-       "edge_load  <= r.edges.reads"},
+      {"raster/triangle_walker.vhd", "edge_load  <= init_valid and edge_reads", "edge_load  <= edge_reads"},
+      {"raster/triangle_walker.vhd", "edge_reads and not r.clears", "edge_reads"},
+      {"raster/triangle_walker.vhd", "not edge_goes) or (edge_load and edge_goes)", "not edge_goes)"},
+      {"raster/triangle_walker.vhd", "v.edges.first := not reset and", "v.edges.first :="},
+      {"raster/triangle_walker.vhd", "v.edges.valid := not reset and", "v.edges.valid :="},
+      {"raster/triangle_walker.vhd", "holds and not r.clears", "holds"},
+      {"raster/triangle_walker.vhd", "r.edges.valid and not moves", "r.edges.valid and not edge_load"},
+      {"raster/triangle_walker.vhd", "v.clears      := reset", "v.clears      := '0'"},
+      {"raster/triangle_walker.vhd", "v.edges.reads   := '1'", "v.edges.reads   := v.edges.reads"},
+      {"raster/triangle_walker.vhd", "if fragment_ready = '1' or r.clears",
+       "if fragment_ready = '1' and r.clears"},
+      {"raster/triangle_walker.vhd", "pixels := (others => '1')", "pixels := pixels"},
       {"raster/triangle_walker.vhd", "busy           <= r.edges.valid or r.line.valid",
        "busy           <= r.line.valid"},
       {"raster/triangle_walker.vhd", "v.line.valid  := '0'", "v.line.valid  := v.line.valid"},
@@ -252,7 +272,7 @@ std::vector<Proof> all_proofs() {
   exact_faults.push_back({"raster/triangle_walker.vhd", "to_x + not from_x", "to_x - from_x"});
   std::vector<Fault> published_faults = walker_faults;
   published_faults.push_back(
-      {"raster/triangle_walker.vhd", "last(last'high) = '1' or last = c_highest", "last(last'high) = '1'"});
+      {"raster/triangle_walker.vhd", "'1' when last = c_highest", "'0' when last = c_highest"});
   const std::vector<Width> narrow_walk = {
       {"span_x", 4, 0}, {"edge_error", 3, 0}, {"lines", 3, 0}, {"pixel_y", 3, 0}, {"triangle", 2, 0}};
   const std::vector<Fault> box_faults = {
@@ -578,6 +598,10 @@ std::vector<Proof> all_proofs() {
       {"interpolation/quadratic_interpolator.vhd", "increment => dx_step", "increment => dxx"},
       {"interpolation/quadratic_interpolator.vhd", "start     => part_dx", "start     => dxx"},
       {"interpolation/part_interpolator.vhd", "unsigned(addend)", "unsigned(not addend)"},
+      {"interpolation/part_interpolator.vhd", "addend := start", "addend := increment"},
+      {"interpolation/part_interpolator.vhd", "if step = '1' then\n        addend",
+       "if load = '1' then\n        addend"},
+      {"interpolation/part_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '1' then"},
   };
   const std::vector<Fault> split_faults = {
       {"interpolation/part_interpolator.vhd", "sum(g_bits + 1) xor word(g_bits - 1)", "sum(g_bits)"},
@@ -711,6 +735,8 @@ std::vector<Proof> all_proofs() {
          "load  => r.copy(1),\n            start"},
         {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + half),\n                start",
          "load  => r.copy(1),\n                start"},
+        {"shaders/quadratic_shader.vhd", "line_step and not line_load", "line_step"},
+        {"shaders/quadratic_shader.vhd", "span_step and not span_load", "span_step"},
         {"shaders/quadratic_shader.vhd", "pixels <= ((triangle, y, x), pixels(1))",
          "pixels <= ((triangle, y, x), (triangle, y, x))"},
         {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= not r.valid"}},
@@ -719,7 +745,8 @@ std::vector<Proof> all_proofs() {
        12});
   proofs.back().widths = narrow_pixels;
   proofs.back().full_width = true;
-  proofs.back().contracts = {"raster/triangle_walker_any.psl", "interpolation/interpolators_any.psl"};
+  proofs.back().contracts = {"raster/triangle_walker_any.psl", "interpolation/z_interpolator_any.psl",
+                             "interpolation/quadratic_interpolator_any.psl"};
   proofs.push_back(
       {"shaders/spherical_shader",
        "shaders/spherical_shader.psl",
@@ -739,14 +766,20 @@ std::vector<Proof> all_proofs() {
          "load  => line_load,\n      start => line_ambient"},
         {"shaders/spherical_shader.vhd", "span_place & places(1 to c_summed - 1)",
          "places(c_summed) & places(1 to c_summed - 1)"},
+        {"shaders/spherical_shader.vhd", "load  => header_load,\n      start => init(c_header_bits - 1",
+         "load  => '1',\n      start => init(c_header_bits - 1"},
+        {"shaders/spherical_shader.vhd", "load  => header_load,\n      start => init(c_header_bits + ",
+         "load  => '1',\n      start => init(c_header_bits + "},
+        {"shaders/spherical_shader.vhd", "header_load  <= not line_held", "header_load  <= not waiting"},
+        {"shaders/spherical_shader.vhd", "span_step and not span_load", "span_step"},
         {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
         {"shaders/spherical_shader.vhd", "line_step or line_load", "line_step or not waiting"}},
        {},
        true,
-       20});
+       26});
   proofs.back().widths = narrow_pixels;
   proofs.back().full_width = true;
-  proofs.back().contracts = {"raster/triangle_walker_any.psl", "interpolation/interpolators_any.psl"};
+  proofs.back().contracts = {"raster/triangle_walker_any.psl", "interpolation/z_interpolator_any.psl"};
   proofs.push_back(
       {"shaders/processors_shader",
        "shaders/processors_shader.psl",
@@ -767,6 +800,8 @@ std::vector<Proof> all_proofs() {
         {"shaders/processors_shader.vhd", "walk_valid <= waiting and not loads;", "walk_valid <= waiting;"},
         {"shaders/processors_shader.vhd", "waiting and loads and not walking and objects_idle",
          "waiting and loads and objects_idle"},
+        {"shaders/processors_shader.vhd", "line_step and not line_load", "line_step"},
+        {"shaders/processors_shader.vhd", "span_step and not span_load", "span_step"},
         {"shaders/processors_shader.vhd", "token_ready and load_valid when", "load_valid when"},
         {"shaders/processors_shader.vhd", "command_word(c_new_object) when",
          "command_word(c_new_pixel) when"},
@@ -779,7 +814,8 @@ std::vector<Proof> all_proofs() {
        {},
        true,
        11});
-  proofs.back().contracts = {"raster/triangle_walker_any.psl", "interpolation/interpolators_any.psl"};
+  proofs.back().contracts = {"raster/triangle_walker_any.psl", "interpolation/z_interpolator_any.psl",
+                             "interpolation/plane_interpolator_any.psl"};
   return proofs;
 }
 
