@@ -14,20 +14,27 @@ std::vector<Proof> all_proofs() {
   std::vector<Proof> proofs;
 
   // Streams.
-  proofs.push_back(
-      {"stream/stream_register",
-       "stream/stream_register.psl",
-       "Every word comes out once, the next clock on; none is lost, doubled or changed while it waits",
-       Method::induction,
-       3,
-       true,
-       {{"g_bits", "40"}},
-       {{"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= '1'"},
-        {"stream/stream_register.vhd", "v.valid := '0'", "v.valid := r.valid"},
-        {"stream/stream_register.vhd", "v.valid := in_valid", "v.valid := in_valid or r.valid"},
-        {"stream/stream_register.vhd", "load  => free", "load  => in_valid"},
-        {"stream/stream_register.vhd", "load  => free", "load  => out_ready"},
-        {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= not r.valid"}}});
+  for (const bool eager : {false, true}) {
+    const char* take = eager ? "take     <= free when" : "in_valid and free";
+    proofs.push_back(
+        {"stream/stream_register",
+         "stream/stream_register.psl",
+         eager ? "The same of one that takes what is offered while it is free, valid or not"
+               : "Every word comes out once, the next clock on; none is lost, doubled or changed while it "
+                 "waits",
+         Method::induction,
+         3,
+         true,
+         {{"g_bits", "40"}, {"g_eager", eager ? "true" : "false"}},
+         {{"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= '1'"},
+          {"stream/stream_register.vhd", "v.valid := '0'", "v.valid := r.valid"},
+          {"stream/stream_register.vhd", "v.valid := in_valid", "v.valid := in_valid or r.valid"},
+          {"stream/stream_register.vhd", take, eager ? "take     <= in_valid when" : "in_valid"},
+          {"stream/stream_register.vhd", take,
+           eager ? "take     <= out_ready when" : "in_valid and out_ready"},
+          {"stream/stream_register.vhd", "free     <= out_ready or not r.valid",
+           "free     <= not r.valid"}}});
+  }
   proofs.push_back(
       {"stream/stream_queue",
        "stream/stream_queue.psl",
@@ -599,8 +606,8 @@ std::vector<Proof> all_proofs() {
       {"interpolation/quadratic_interpolator.vhd", "start     => part_dx", "start     => dxx"},
       {"interpolation/part_interpolator.vhd", "unsigned(addend)", "unsigned(not addend)"},
       {"interpolation/part_interpolator.vhd", "addend := start", "addend := increment"},
-      {"interpolation/part_interpolator.vhd", "if step = '1' then\n        addend",
-       "if load = '1' then\n        addend"},
+      {"interpolation/part_interpolator.vhd", "if step = '1' then\n          addend",
+       "if load = '1' then\n          addend"},
       {"interpolation/part_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '1' then"},
   };
   const std::vector<Fault> split_faults = {
