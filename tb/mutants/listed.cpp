@@ -25,9 +25,10 @@ constexpr Listed c_listed[] = {
      "magnitude(c_sign downto c_fraction + 1) = c_inside(c_sign downto c_fraction + 1)"},
     {"arithmetic/angle_address.vhd", "angle(c_sign downto c_sign - g_address_bits + 1)",
      "angle(g_address_bits - 1 downto 0)"},
-    // A sum that wraps; the last term forgotten.
+    // A sum that wraps; the last term forgotten; the highest bit where the last term has it alone.
     {"arithmetic/saturating_sum.vhd", "positive := g_term_bits + carry_bits", "positive := g_term_bits + 1"},
     {"arithmetic/saturating_sum.vhd", "for i in 1 to g_terms - 1 loop", "for i in 1 to g_terms - 2 loop"},
+    {"arithmetic/saturating_sum.vhd", "high := high or terms", "high := terms"},
     // A slope that ends at the cell before; a table for another; a bit of an entry.
     {"tables/function_rom.vhd", "c_table(i + 1) - c_table(i)",
      "c_table(i + 1) - c_table(i) - boolean'pos(i = 7)"},
@@ -86,16 +87,18 @@ constexpr Listed c_listed[] = {
     {"stream/delay_line.vhd", "delayed <= before;", "delayed <= word;"},
     // Loads without being told to.
     {"stream/parameter_register.vhd", "if load = '1' then", "if load = '1' or start(0) = '1' then"},
-    // Overwrites a word that waits; survives reset.
+    // Overwrites a word that waits, or its bits alone; survives reset.
     {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= '1'"},
+    {"stream/stream_register.vhd", "in_valid and free", "in_valid"},
     {"stream/stream_register.vhd", "v.valid := '0'", "v.valid := r.valid"},
     // A word given out twice; a word too many; a claim that a reset leaves.
     {"stream/stream_queue.vhd", "v.read      := r.read + 1", "v.read      := r.read"},
     {"stream/stream_queue.vhd", "if v.claimed = c_most then", "if r.claimed = c_most then"},
     {"stream/stream_queue.vhd", "v.claimed   := (others => '0')", "v.claimed   := r.claimed"},
-    // A carry lost, and one that comes too high.
+    // A carry lost, and one that comes too high; the increment for the start.
     {"interpolation/part_interpolator.vhd", "carried := carry;", "carried := '0';"},
     {"interpolation/part_interpolator.vhd", "return carried & bits", "return bits(part_t'high) & bits"},
+    {"interpolation/part_interpolator.vhd", "addend := start", "addend := increment"},
     // The wrong sign; step wins over load.
     {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
     {"interpolation/line_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '0' then"},
@@ -130,6 +133,10 @@ constexpr Listed c_listed[] = {
     // An init vector read twice; one that nobody is told of until its first line is handed on.
     {"raster/triangle_walker.vhd", "v.edges.reads := not init_valid", "v.edges.reads := '1'"},
     {"raster/triangle_walker.vhd", "init_ready <= edge_load", "init_ready <= line_load"},
+    // One that is read while registers are still cleared; registers that are not; no line, and yet a pixel.
+    {"raster/triangle_walker.vhd", "edge_reads and not r.clears", "edge_reads"},
+    {"raster/triangle_walker.vhd", "v.clears      := reset", "v.clears      := '0'"},
+    {"raster/triangle_walker.vhd", "none or not r.edges.valid", "none"},
     // A line, or a span, that does not wait for what it needs.
     {"raster/triangle_walker.vhd", "(line_ready or not r.line.valid)", "'1'"},
     {"raster/triangle_walker.vhd", "moves <= fragment_ready and (ends or not draws)",
@@ -216,12 +223,11 @@ constexpr Listed c_listed[] = {
     {"shaders/quadratic_shader.vhd", "v.copy_waits and not v.placed", "v.copy_waits"},
     {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + half),\n                start",
      "load  => r.copy(1),\n                start"},
-    // A record taken as a header; an empty line's record taken for the next line's; the ambient light of the
-    // triangle behind; not busy while only
-    // the buffer holds a vector; pixels that nothing has a place for; another line's ambient light; white
-    // highlights all
-    // red.
+    // A record taken as a header, and by depth alone; an empty line's record taken for the next line's; the
+    // ambient light of the triangle behind; not busy while only the buffer holds a vector; pixels that
+    // nothing has a place for; another line's ambient light; white highlights all red.
     {"shaders/spherical_shader.vhd", "waiting and not line_held", "waiting"},
+    {"shaders/spherical_shader.vhd", "header_load  <= not line_held", "header_load  <= '1'"},
     {"shaders/spherical_shader.vhd", "line_step or line_load", "line_load or span_load"},
     {"shaders/spherical_shader.vhd", "load  => span_load,\n      start => line_ambient",
      "load  => line_load,\n      start => line_ambient"},
