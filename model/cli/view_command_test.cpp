@@ -255,11 +255,11 @@ TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
   const auto interpolator = copy / "rtl" / "interpolation" / "part_interpolator.vhd";
   const auto text = read_file(interpolator);
   ASSERT_TRUE(text);
-  const std::string from = "sum_of(value, increment";
+  const std::string from = "sum_of(value, addend";
   const std::size_t place = text->find(from);
   ASSERT_NE(place, std::string::npos) << "mend this test";
   std::string changed = *text;
-  changed.replace(place, from.size(), "sum_of(value, not increment");
+  changed.replace(place, from.size(), "sum_of(value, not addend");
   ASSERT_TRUE(write_file(interpolator, changed));
   ASSERT_TRUE(write_file(at("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
   ASSERT_TRUE(

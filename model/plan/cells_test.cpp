@@ -99,11 +99,11 @@ TEST_F(CellsTest, ChangedRtlIsCountedAnew) {
   const auto adder = copy / "rtl" / "interpolation" / "part_interpolator.vhd";
   const auto text = read_file(adder);
   ASSERT_TRUE(text);
-  const std::string from = "sum_of(value, increment";
+  const std::string from = "sum_of(value, addend";
   const std::size_t at = text->find(from);
   ASSERT_NE(at, std::string::npos) << "mend this test";
   std::string changed = *text;
-  ASSERT_TRUE(write_file(adder, changed.replace(at, from.size(), "sum_of(value, not increment")));
+  ASSERT_TRUE(write_file(adder, changed.replace(at, from.size(), "sum_of(value, not addend")));
   ASSERT_TRUE(count(grey_));
   EXPECT_EQ(cached(), 2U);
 }
