@@ -232,7 +232,7 @@ cat >"$scratch/bin/yosys" <<'END'
 #!/bin/sh
 [ "$1" = -V ] && echo 'Yosys 0.0, stands in' && exit
 echo >mapped.il
-echo '{"modules": {"wrapped": {"cells": {}, "netnames": {}}}}' >wrapped.json
+echo '{"modules": {"wrapped": {"ports": {"clk": {"direction": "input", "bits": [2]}}, "cells": {}, "netnames": {}}}}' >wrapped.json
 case "$*" in
   *synth_ice40*) echo '{"design": {"num_cells_by_type": {"SB_LUT4": 30, "SB_DFF": 4}}}' >cells.json ;;
   *) echo '{"design": {"num_cells_by_type": {"$lut": 20, "$_DFF_P_": 4}}}' >cells.json ;;
