@@ -170,13 +170,13 @@ bounds: configure ## every bound of formats and tables: derived, proved, and how
 synth: configure ## cells on two FPGAs, and the clock on one, against what is pinned (DESIGN, SEEDS, PIN=1)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth synth_frames
 	@build/tb/synth_frames
-	@build/tb/halfway_synth --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin) \
+	@build/tb/halfway_synth --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme README.md) \
 	  --page tb/synth/README.md . build/cache $${DESIGN:+"$$DESIGN"}
 
 bench: configure ## speed: other ways to the same picture, growth, small triangles, cores; writes its page
 	@scripts/unpack.sh build/tools/ghdl-mcode ghdl-mcode ghdl-common || true
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_bench
-	@build/halfway_bench --jobs "$(jobs)" --page model/bench/README.md
+	@build/halfway_bench --jobs "$(jobs)" --page model/bench/README.md --readme README.md
 
 build: program ## program and tests
 	@$(lock) cmake --build build -j "$(jobs)"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_bench [--page FILE] [--jobs N] [--benchmark_…]: speed, as ratios within one run. Every way to a
-// picture beside the project's own; how time and memory grow with triangles, pixels and lights; small
-// triangles; cores; `make sim` as a whole. --page: writes the tables. Figures are processor time, the best of
-// several repetitions in random order; absolute ones belong to the machine that prints them.
+// halfway_bench [--page FILE [--readme FILE]] [--jobs N] [--benchmark_…]: speed, as ratios within one run.
+// Every way to a picture beside the project's own; how time and memory grow with triangles, pixels and
+// lights; small triangles; cores; `make sim` as a whole. --page: writes the tables. Figures are processor
+// time, the best of several repetitions in random order; absolute ones belong to the machine that prints
+// them.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -21,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/readme_parts.hpp"
 #include "bench/ways.hpp"
 #include "bench/workload.hpp"
 #include "common/file.hpp"
@@ -772,7 +774,7 @@ std::string make_section(const EndToEnd& end) {
 }
 
 struct Options {
-  std::filesystem::path page{};
+  std::filesystem::path page{}, readme{};
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
 };
 
@@ -781,13 +783,21 @@ bool read_options(int argc, char** argv, Options& options) {
     const std::string_view argument = argv[i];
     if (argument == "--page" && i + 1 < argc)
       options.page = argv[++i];
+    else if (argument == "--readme" && i + 1 < argc)
+      options.readme = argv[++i];
     else if (argument == "--jobs" && i + 1 < argc)
       options.jobs = static_cast<unsigned>(std::clamp(std::atoi(argv[++i]), 1, 256));
     else
       return false;
   }
   // The page has all of it.
-  return options.page.empty() || benchmark::GetBenchmarkFilter().empty();
+  if (options.page.empty()) return options.readme.empty();
+  return benchmark::GetBenchmarkFilter().empty();
+}
+
+void write_readme(const std::filesystem::path& path, const std::string& page) {
+  const std::string text = must(with_readme_parts(must(read_file(path)), must(readme_parts(page))));
+  must(write_file(path, text));
 }
 
 int run(const Options& options) {
@@ -838,6 +848,7 @@ int run(const Options& options) {
   if (end) text += make_section(*end);
   fmt::print("\n{}", text);
   if (!options.page.empty()) must(write_file(options.page, text));
+  if (!options.readme.empty()) write_readme(options.readme, text);
   return end && end->rebuilt ? 1 : 0;
 }
 
@@ -854,7 +865,8 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&count, arguments.data());
   halfway::Options options;
   if (!halfway::read_options(count, arguments.data(), options)) {
-    fmt::print(stderr, "usage: halfway_bench [--page FILE] [--jobs N] [--benchmark_filter=REGEX]\n");
+    fmt::print(stderr,
+               "usage: halfway_bench [--page FILE [--readme FILE]] [--jobs N] [--benchmark_filter=REGEX]\n");
     return 2;
   }
   return halfway::run(options);

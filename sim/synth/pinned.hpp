@@ -33,6 +33,10 @@ using Pins = std::map<std::string, Pin>;
 Result<Pins> read_pins(const std::filesystem::path& path);
 Status write_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions);
 
+/// README's part "clocks": the shaders' cells and clocks. An error where a design of it is not pinned, or not
+/// placed.
+Result<std::string> readme_clocks(const Pins& pins);
+
 /// What is wrong with a design's figures, a line each with the pin's place; empty where nothing is. `mhz`
 /// none: not measured; 0: not placed.
 std::string compare(const std::string& name, const Pins& pins, const Ice40Cells& cells,

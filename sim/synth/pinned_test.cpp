@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/synth/pinned.hpp"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <regex>
 #include <string>
 
 #include "common/file.hpp"
+#include "common/page_part.hpp"
 
 namespace halfway::synth {
 namespace {
@@ -76,19 +75,27 @@ TEST(SynthPins, AreWhatReadmeSays) {
   const std::filesystem::path root = HALFWAY_SOURCE_DIR;
   const auto pins = read_pins(root / kPins);
   ASSERT_TRUE(pins) << pins.error().message;
+  const auto clocks = readme_clocks(*pins);
+  ASSERT_TRUE(clocks) << clocks.error().message;
   const auto readme = read_file(root / "README.md");
   ASSERT_TRUE(readme);
-  const std::regex row(R"(\n\| `([a-z_]+_shader_[a-z_]+)` \| ([^\n]*) \| [56]0 \|)");
-  int rows = 0;
-  for (std::sregex_iterator it(readme->begin(), readme->end(), row), end; it != end; ++it, ++rows) {
-    const auto found = pins->find((*it)[1]);
-    ASSERT_NE(found, pins->end()) << (*it)[1];
-    const Pin& pin = found->second;
-    EXPECT_EQ((*it)[2], fmt::format("{} | {} | {} | {:.0f} | {:.1f}", pin.cells.luts, pin.cells.flip_flops,
-                                    pin.cells.rams, pin.mhz, 1000 / pin.mhz))
-        << (*it)[1];
-  }
-  EXPECT_GE(rows, 6);
+  const auto part = page_part(*readme, "clocks");
+  ASSERT_TRUE(part) << part.error().message;
+  EXPECT_EQ(*part, *clocks) << "make synth PIN=1 writes it";
+}
+
+TEST(SynthPins, AllHaveAClockThatReadmeTells) {
+  const auto pins = read_pins(std::filesystem::path(HALFWAY_SOURCE_DIR) / kPins);
+  ASSERT_TRUE(pins) << pins.error().message;
+  Pins others = *pins;
+  others.at("accumulator_40").mhz = 0;
+  EXPECT_FALSE(readme_clocks(others));
+  others = *pins;
+  others.erase("spherical_shader_exact");
+  const auto clocks = readme_clocks(others);
+  ASSERT_FALSE(clocks);
+  EXPECT_THAT(clocks.error().message, HasSubstr("spherical_shader_exact: not pinned"));
+  EXPECT_FALSE(readme_clocks({}));
 }
 
 }  // namespace

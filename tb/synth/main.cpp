@@ -19,6 +19,7 @@
 #include "cli/options.hpp"
 #include "cli/program.hpp"
 #include "common/file.hpp"
+#include "common/page_part.hpp"
 #include "common/seconds.hpp"
 #include "common/subprocess.hpp"
 #include "common/threads.hpp"
@@ -42,7 +43,7 @@ constexpr const char* kEndless = "nextpnr does not end";
 struct Options {
   bool quick = false, cells = false, pin = false;
   unsigned seeds = kSeeds, jobs = 2;
-  std::filesystem::path page{};
+  std::filesystem::path page{}, readme{};
   SimulatorFolders folders{};
   std::string part{};
 };
@@ -142,6 +143,19 @@ Status write_page(const std::filesystem::path& path, const std::map<std::string,
   text->resize(figures);
   return write_file(path,
                     fmt::format("{}{}\nBy {}, on {}.\n\n{}", *text, kTable, versions, machine(), table));
+}
+
+// By the pins as they are read again: they are rounded there.
+Status write_readme(const std::filesystem::path& path, const std::filesystem::path& pinned) {
+  const auto pins = read_pins(pinned);
+  if (!pins) return pins.error();
+  const auto clocks = readme_clocks(*pins);
+  if (!clocks) return clocks.error();
+  const auto readme = read_file(path);
+  if (!readme) return readme.error();
+  const auto text = with_page_part(*readme, "clocks", *clocks);
+  if (!text) return bad_input(fmt::format("{}: {}", path.string(), text.error().message));
+  return write_file(path, *text);
 }
 
 class Run {
@@ -316,6 +330,9 @@ class Run {
     std::erase_if(pins_, [&](const auto& pin) { return !listed.contains(pin.first); });
     const Status written = write_pins(options_.folders.source / kPins, pins_, synthesizer_.versions());
     if (!written) return written.error();
+    if (!options_.readme.empty())
+      if (const Status told = write_readme(options_.readme, options_.folders.source / kPins); !told)
+        return told.error();
     fmt::print("{} designs are pinned\n", designs_.size());
     return ExitCode::equal;
   }
@@ -385,15 +402,18 @@ int main(int argc, char** argv) {
       "--quick", options.quick,
       fmt::format("small designs, without ECP5; exit code {} where a tool is missing", synth::kSkipped));
   auto* cells = app.add_flag("--cells", options.cells, "no place and route");
-  app.add_flag("--pin", options.pin, "write the figures into the pinned file in place of comparing")
-      ->excludes(quick)
-      ->excludes(cells);
+  auto* pin =
+      app.add_flag("--pin", options.pin, "write the figures into the pinned file in place of comparing")
+          ->excludes(quick)
+          ->excludes(cells);
   app.add_option("--seeds", options.seeds, "of placement")->check(CLI::Range(1, 999))->capture_default_str();
   app.add_option("--jobs", options.jobs, "at a time")->check(CLI::Range(1, 999))->capture_default_str();
   // Rows would have holes.
   app.add_option("--page", options.page, "file whose table is written anew")
       ->excludes(quick)
       ->excludes(cells);
+  app.add_option("--readme", options.readme, "file whose part 'clocks' is written by what is pinned")
+      ->needs(pin);
   app.add_option("SOURCE", options.folders.source, "the project's root")->required();
   app.add_option("CACHE", options.folders.cache, "folder of what was made before")->required();
   app.add_option("PART", options.part, "only designs whose names hold it");

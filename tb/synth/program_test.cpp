@@ -94,6 +94,18 @@ TEST_F(SynthProgram, WritesTheRowAndTellsWhatHasNoEnd) {
       HasSubstr("| `accumulator_24` | 24 | 23 | 24 | 0 | 90 | 90 to 90 of 2; nextpnr does not end: 1 |"));
 }
 
+// Of a part of the designs README's figures cannot be had: it stays as it is.
+TEST_F(SynthProgram, PinsAndLeavesReadmeWhereItLacksAClock) {
+  const fs::path readme = root() / "readme.md";
+  const std::string before = "\n<!-- clocks: written -->\nold\n<!-- end of clocks -->\n";
+  ASSERT_TRUE(write_file(readme, before));
+  const Outcome outcome = run({"--pin", "--readme", readme.string()});
+  EXPECT_EQ(outcome.exit_status, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("quadratic_shader_grey_published: not pinned"));
+  EXPECT_EQ(*read_file(readme), before);
+  EXPECT_EQ(run({"--readme", readme.string()}).exit_status, 2) << "without pinning";
+}
+
 TEST_F(SynthProgram, SaysOnStderrWhatIsNotAsPinnedAndWhere) {
   pin(120);
   const Outcome outcome = run({"--seeds", "1"});

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parts of a page that a command writes, between two comments on lines of their own that a reader does not
+// see.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "common/result.hpp"
+
+namespace halfway {
+
+/// What stands between `<!-- NAME: ... -->` and `<!-- end of NAME -->`, blank lines at both ends left out.
+Result<std::string> page_part(std::string_view page, std::string_view name);
+
+/// The page with that part's text in place of what stands there.
+Result<std::string> with_page_part(std::string_view page, std::string_view name, std::string_view text);
+
+}  // namespace halfway
