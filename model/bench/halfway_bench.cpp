@@ -537,6 +537,46 @@ EndToEnd measure_make() {
   return end;
 }
 
+struct ViewRow {
+  const char *shader, *what;
+  std::vector<std::string> options;
+  double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;  // frames a second
+  std::string parts;  // what of a frame's processor time went where
+};
+
+/// What the program itself prints, as a user would see it.
+std::vector<ViewRow> measure_view() {
+  std::vector<ViewRow> rows = {
+      {"quadratic", "PNG, compared", {}},
+      {"quadratic", "PPM, compared", {"--format", "ppm"}},
+      {"quadratic", "PPM, `--no-compare`", {"--format", "ppm", "--no-compare"}},
+      {"quadratic", "PPM, compared, `--simulator lanes`", {"--format", "ppm", "--simulator", "lanes"}},
+      {"spherical", "PNG, compared", {}},
+      {"spherical", "PPM, compared, `--simulator lanes`", {"--format", "ppm", "--simulator", "lanes"}},
+  };
+  const std::string out = (c_scratch / "view").string();
+  for (int repetition = 0; repetition < 4; ++repetition)  // the first may build
+    for (ViewRow& row : rows) {
+      Command view{
+          .arguments = {(c_source / "build/halfway").string(), "view", "spheres", "--shader", row.shader,
+                        "--size", "1000x1000", "--frames", "36", "--threads", "2", "--out", out},
+          .working_folder = c_source};
+      view.arguments.insert(view.arguments.end(), row.options.begin(), row.options.end());
+      const ProcessEnd ran = must(run_process(view, "make"));
+      if (!ran.succeeded()) fail(tool_failed("halfway view failed: " + ran.output));
+      std::smatch found;
+      const std::regex line(R"(\| ([0-9.]+) frames a second,[^\n]*\nprocessor time a frame: ([^\n]*))");
+      if (!std::regex_search(ran.output, found, line)) fail(tool_failed("halfway view said: " + ran.output));
+      if (repetition == 0) continue;
+      const double rate = std::stod(found[1]);
+      fmt::print(stderr, "view, {}, {}: {:.1f} frames a second\n", row.shader, row.what, rate);
+      row.slowest = std::min(row.slowest, rate);
+      row.fastest = std::max(row.fastest, rate);
+      row.parts = std::regex_replace(found.str(2), std::regex(" ms"), "");
+    }
+  return rows;
+}
+
 // --- The page
 
 std::string first_line(const std::vector<std::string>& question) {
@@ -773,6 +813,21 @@ std::string make_section(const EndToEnd& end) {
       end.seconds, end.processor, end.rebuilt ? "something, which is a fault" : "nothing", end.line);
 }
 
+std::string view_section(const std::vector<ViewRow>& rows) {
+  std::string text =
+      "\n## View\n\n"
+      "`halfway view spheres --size 1000x1000 --frames 36 --threads 2`, a whole turn in pictures of a "
+      "megapixel: the "
+      "slowest and the\nfastest of three by the clock, and what of a frame's processor time went where in "
+      "the last. "
+      "The shading processors' paper asks\nfor 16 frames a second.\n\n"
+      "| shader | images | frames a second | processor time a frame, ms |\n| --- | --- | --- | --- |\n";
+  for (const ViewRow& row : rows)
+    text += fmt::format("| {} | {} | {:.0f} to {:.0f} | {} |\n", row.shader, row.what, row.slowest,
+                        row.fastest, row.parts);
+  return text;
+}
+
 struct Options {
   std::filesystem::path page{}, readme{};
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
@@ -819,6 +874,7 @@ int run(const Options& options) {
   const std::vector<SmallRow> small =
       is_wanted("small_triangles") ? small_triangles() : std::vector<SmallRow>{};
   const std::optional<EndToEnd> end = is_wanted("make_sim") ? std::optional(measure_make()) : std::nullopt;
+  const std::vector<ViewRow> views = is_wanted("view") ? measure_view() : std::vector<ViewRow>{};
   const auto [load_after, load_long] = load();
 
   std::string text =
@@ -846,6 +902,7 @@ int run(const Options& options) {
   text += small_section(small);
   text += cores_section(cores);
   if (end) text += make_section(*end);
+  if (!views.empty()) text += view_section(views);
   fmt::print("\n{}", text);
   if (!options.page.empty()) must(write_file(options.page, text));
   if (!options.readme.empty()) write_readme(options.readme, text);

@@ -28,7 +28,8 @@ TEST(BenchPage, ReadmesPartsAreDrawnFromIt) {
   ASSERT_TRUE(written) << written.error().message;
   EXPECT_TRUE(*written == readme) << "make bench writes them anew; they would be\n"
                                   << parts->speed << '\n'
-                                  << parts->sim_line;
+                                  << parts->sim_line << '\n'
+                                  << parts->view;
 }
 
 TEST(BenchPage, GivesReadmeItsFigures) {
@@ -44,8 +45,9 @@ TEST(BenchPage, GivesReadmeItsFigures) {
 // A part of the measurements has no place in README.
 TEST(BenchPage, IsWholeOrNotTaken) {
   const std::string page = text_of("model/bench/README.md");
-  for (const char* heading : {"## Ways to a picture", "## Growth", "### Pixels, spherical shader",
-                              "### Triangles, quadratic shader", "## Small triangles", "## End to end"}) {
+  for (const char* heading :
+       {"## Ways to a picture", "## Growth", "### Pixels, spherical shader",
+        "### Triangles, quadratic shader", "## Small triangles", "## End to end", "## View"}) {
     std::string part = page;
     const std::size_t begin = part.find(heading);
     ASSERT_NE(begin, part.npos) << heading;

@@ -9,6 +9,7 @@
 namespace halfway {
 
 struct ReadmeParts {
+  std::string view;      ///< part "view": frames a second
   std::string speed;     ///< part "speed": ways to a picture, and how time grows
   std::string sim_line;  ///< part "sim line": what `make sim` prints for a scene
 };
@@ -17,7 +18,7 @@ struct ReadmeParts {
 /// measurements.
 Result<ReadmeParts> readme_parts(const std::string& page);
 
-/// README with both parts in place of what it has.
+/// README with these parts in place of what it has.
 Result<std::string> with_readme_parts(const std::string& readme, const ReadmeParts& parts);
 
 }  // namespace halfway

@@ -16,8 +16,9 @@ const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
 class Links : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Of, Links,
                          ::testing::Values("README.md", "rtl/README.md", "model/README.md",
+                                           "model/bench/README.md", "sim/README.md", "sim/lanes/README.md",
                                            "sim/scenes/README.md", "sim/studies/README.md",
-                                           "sim/figures/README.md"),
+                                           "tb/synth/README.md", "sim/figures/README.md"),
                          [](const auto& page) {
                            return std::regex_replace(std::string(page.param), std::regex("[^a-zA-Z]"), "_");
                          });
