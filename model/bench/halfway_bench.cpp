@@ -651,6 +651,24 @@ std::string mesa_note() {
       picture->psnr_db, picture->max_lsb, 1e6 * picture->outline_off, picture->renderer);
 }
 
+/// The same with a term for lines.
+std::string lines_note(const Series& series, std::vector<Terms> rows, std::span<const double> t) {
+  std::size_t i = 0;
+  for (const Point& point : series.points) {
+    if (point.repetitions.empty()) continue;
+    const InitBatches batches =
+        must(make_batches(point.scene(), point.size, {.shader = point.key.shader}, false));
+    rows[i++].push_back(static_cast<double>(count_walk(batches).lines));
+  }
+  const Fit plane = fit(rows, t);
+  if (rows.size() < 5 || plane.factors.empty()) return "";
+  return fmt::format(
+      "Lines of triangles are work, too, and grow with the root of the pixels: {:.3g} ms, {:.4g} ns for each "
+      "of the pixels and {:.3g} ns for each of the lines\nare at most {} beside these {} frames.\n",
+      1e3 * plane.factors[0], 1e9 * plane.factors[1], 1e9 * plane.factors[2],
+      percent(plane.largest_deviation), rows.size());
+}
+
 std::string growth_section(const std::vector<Series>& all) {
   std::string text = fmt::format(
       "\n## Growth\n\n"
@@ -663,22 +681,24 @@ std::string growth_section(const std::vector<Series>& all) {
       "least squares of relative deviations. Memory is the most beside the mesh and the program, the drawing "
       "before and the\nframe's {} bytes a pixel included. What is beside the frame is bounded: most of it "
       "what lanes "
-      "hold of large triangles,\na million fragments at a time and room for as many more.\n",
+      "hold of large triangles\nand of those that wait for them, a million fragments at most and room for as "
+      "many more.\n",
       c_frame_bytes);
   double best_pace = std::numeric_limits<double>::infinity();
   for (const Series& series : all)
     for (const Point& point : series.points)
       for (const FrameCost& cost : point.repetitions) best_pace = std::min(best_pace, cost.best_pace);
   for (const Series& series : all) {
-    std::vector<double> n, t;
+    std::vector<double> t;
+    std::vector<Terms> rows;
     for (const Point& point : series.points)
       if (!point.repetitions.empty()) {
         const FrameCost cost = typical(point, best_pace);
-        n.push_back(point.n);
+        rows.push_back({1.0, point.n});
         t.push_back(series.fitted == Fitted::drawing ? cost.drawing() : cost.seconds());
       }
     text += fmt::format("\n### {}\n\n{}\n\n", series.heading, series.note);
-    if (n.size() < 3) {
+    if (rows.size() < 3) {
       text += "Not measured.\n";
       continue;
     }
@@ -688,12 +708,12 @@ std::string growth_section(const std::vector<Series>& all) {
         "all |{} memory, "
         "MiB (frame) |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |{} --- |\n",
         series.unit, fitted ? " beside the line |" : "", fitted ? " --- |" : "");
-    const LinearFit line = fit_line(n, t);
+    const Fit line = fit(rows, t);
     std::size_t i = 0;
     for (const Point& point : series.points) {
       if (point.repetitions.empty()) continue;
       const FrameCost cost = typical(point, best_pace);
-      const std::string beside = fmt::format(" {:+.1f} % |", 100.0 * (t[i] / line.at(n[i]) - 1.0));
+      const std::string beside = fmt::format(" {:+.1f} % |", 100.0 * (t[i] / line.at(rows[i]) - 1.0));
       ++i;
       const double frame = static_cast<double>(c_frame_bytes) * point.size.width * point.size.height;
       text += fmt::format(
@@ -704,10 +724,12 @@ std::string growth_section(const std::vector<Series>& all) {
           static_cast<double>(cost.memory_bytes) / (1 << 20), frame / (1 << 20));
     }
     if (!fitted) continue;
-    const bool slow = line.slope >= 1e-4;
+    const double slope = line.factors[1];
+    const bool slow = slope >= 1e-4;
     text += fmt::format("\n{:.3g} ms, and {:.4g} {} for each of the {}: at most {} beside that line.\n",
-                        1e3 * line.constant, (slow ? 1e3 : 1e9) * line.slope, slow ? "ms" : "ns", series.unit,
+                        1e3 * line.factors[0], (slow ? 1e3 : 1e9) * slope, slow ? "ms" : "ns", series.unit,
                         percent(line.largest_deviation));
+    if (series.fitted == Fitted::drawing) text += lines_note(series, rows, t);
   }
   return text;
 }
