@@ -25,6 +25,7 @@
 #include "bench/readme_parts.hpp"
 #include "bench/ways.hpp"
 #include "bench/workload.hpp"
+#include "bench/yardstick.hpp"
 #include "common/file.hpp"
 #include "common/seconds.hpp"
 #include "common/subprocess.hpp"
@@ -431,12 +432,32 @@ std::vector<SmallRow> small_triangles() {
 struct CoreRow {
   unsigned threads;
   double speed, processor;  ///< as fast by the clock, and processor time of all threads, as one thread
+  double yardstick;         ///< as fast, in registers alone
+  double beside;            ///< ours by the yardstick's
 };
 
-/// Golden model, lanes and comparison of fifths of frames that the threads take by turns.
+/// Times of work that threads share, one of its pieces after the other.
+struct Shared {
+  double seconds, processor;  ///< by the clock, and of all threads
+};
+Shared share(unsigned threads, std::size_t pieces, const std::function<void(unsigned, std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  std::atomic<unsigned> thread = 0;
+  const double processor_start = process_seconds();
+  const auto start = std::chrono::steady_clock::now();
+  work_on_threads(threads, [&] {
+    const unsigned own = thread++;
+    for (std::size_t i; (i = next++) < pieces;) work(own, i);
+  });
+  return {seconds_since(start), process_seconds() - processor_start};
+}
+
+/// Golden model, lanes and comparison of fifths of frames that the threads take by turns, and after each the
+/// yardstick on as many threads.
 std::vector<CoreRow> measure_cores(const InitBatches& s, unsigned most) {
   constexpr std::size_t c_parts = 5, c_frames = 12;
   constexpr int c_repetitions = 15;
+  constexpr std::uint32_t c_yardstick_rounds = 1'000'000;  // about as long as a fifth of a frame
   std::vector<std::span<const std::uint32_t>> parts;
   const std::size_t each = (s.batches.size() + c_parts - 1) / c_parts;
   for (std::size_t at = 0, i = 0; i < s.batches.size();) {
@@ -453,41 +474,42 @@ std::vector<CoreRow> measure_cores(const InitBatches& s, unsigned most) {
   }
   // A core is now quicker, now slower: one thread is held against several right after it, and not the best of
   // its times, on the best of all cores, against moments in which all were quick together.
-  std::vector<std::vector<double>> speeds(most), processors(most);
+  std::vector<std::vector<double>> speeds(most), processors(most), yardsticks(most), besides(most);
+  const std::size_t pieces = c_frames * parts.size();
   for (int repetition = 0; repetition < c_repetitions; ++repetition) {
-    double one = 0.0, one_processor = 0.0;
+    Shared one{}, yard{};
     for (unsigned threads = 1; threads <= most; ++threads) {
-      std::atomic<std::size_t> next = 0, model = 0;
       std::atomic<std::uint64_t> mismatches = 0, fragments = 0;
-      const double processor_start = process_seconds();
-      const auto start = std::chrono::steady_clock::now();
-      work_on_threads(threads, [&] {
-        const std::size_t own = model++;
+      const Shared took = share(threads, pieces, [&](unsigned own, std::size_t piece) {
+        StreamComparator comparator;
         std::uint64_t drawn_here = 0;
-        for (std::size_t i; (i = next++) < c_frames * parts.size();) {
-          StreamComparator comparator;
-          must(models[own].draw(parts[i % parts.size()], true, [&](auto words, auto drawn) {
-            comparator.add(goldens[own]->draw(words), drawn);
-            drawn_here += drawn.size();
-          }));
-          comparator.finish();
-          mismatches += comparator.mismatches();
-        }
+        must(models[own].draw(parts[piece % parts.size()], true, [&](auto words, auto drawn) {
+          comparator.add(goldens[own]->draw(words), drawn);
+          drawn_here += drawn.size();
+        }));
+        comparator.finish();
+        mismatches += comparator.mismatches();
         fragments += drawn_here;
       });
-      const double seconds = seconds_since(start), processor = process_seconds() - processor_start;
-      if (threads == 1) {
-        one = seconds;
-        one_processor = processor;
-      }
-      speeds[threads - 1].push_back(one / seconds);
-      processors[threads - 1].push_back(processor / one_processor);
       if (mismatches != 0 || fragments != c_frames * s.golden.size())
         fail({ExitCode::differs, "cores: the RTL differs"});
+      const Shared took_yard = share(threads, pieces, [](unsigned, std::size_t) {
+        benchmark::DoNotOptimize(sum_in_registers(c_yardstick_rounds));
+      });
+      if (threads == 1) {
+        one = took;
+        yard = took_yard;
+      }
+      speeds[threads - 1].push_back(one.seconds / took.seconds);
+      processors[threads - 1].push_back(took.processor / one.processor);
+      yardsticks[threads - 1].push_back(yard.seconds / took_yard.seconds);
+      besides[threads - 1].push_back(speeds[threads - 1].back() / yardsticks[threads - 1].back());
     }
   }
   std::vector<CoreRow> rows;
-  for (unsigned i = 0; i < most; ++i) rows.push_back({i + 1, median(speeds[i]), median(processors[i])});
+  for (unsigned i = 0; i < most; ++i)
+    rows.push_back(
+        {i + 1, median(speeds[i]), median(processors[i]), median(yardsticks[i]), median(besides[i])});
   return rows;
 }
 
@@ -774,13 +796,20 @@ std::string cores_section(const std::map<std::string, std::vector<CoreRow>>& all
       "clock, so "
       "the load of the machine counts;\nthe processor time of all threads together says what sharing costs. "
       "Of each "
-      "repetition the ratios to its one thread; the median of all.\n\n"
-      "| shader | threads | times as fast by the clock | a core | processor time |\n| --- | --- | --- | --- "
-      "| --- |\n";
+      "repetition the ratios to its one thread; the median of all.\nThe yardstick is work in registers "
+      "alone, "
+      "independent sums of vectors as wide as lanes', on as many threads right after each of ours. What it "
+      "loses\nthe machine's processors take from one another, be they threads of one core or shared with "
+      "others; only what ours loses beyond it, the last column below 100 %, is\nours: memory that threads "
+      "share, or waiting.\n\n"
+      "| shader | threads | times as fast by the clock | a core | processor time | the yardstick, a core | "
+      "ours "
+      "by the yardstick |\n| --- | --- | --- | --- | --- | --- | --- |\n";
   for (const auto& [shader, rows] : all)
     for (const CoreRow& row : rows)
-      text += fmt::format("| {} | {} | {:.2f} | {} | {:.2f} |\n", shader, row.threads, row.speed,
-                          percent(row.speed / row.threads), row.processor);
+      text += fmt::format("| {} | {} | {:.2f} | {} | {:.2f} | {} | {} |\n", shader, row.threads, row.speed,
+                          percent(row.speed / row.threads), row.processor,
+                          percent(row.yardstick / row.threads), percent(row.beside));
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "bench/workload.hpp"
+#include "bench/yardstick.hpp"
 #include "common/file.hpp"
 #include "scene/load_scene.hpp"
 
@@ -126,6 +127,21 @@ TEST(BenchWorkload, SpheresHaveTheTrianglesAskedFor) {
     EXPECT_GT(sphere_scene(n).triangles.size(), n - n / 50);
     EXPECT_LE(many_spheres(n).triangles.size(), n);
     EXPECT_GT(many_spheres(n).triangles.size(), n - n / 20);
+  }
+}
+
+// All of it is worked out, on whatever processor.
+TEST(BenchYardstick, SumsAllThatItSays) {
+  for (const std::uint32_t rounds : {0U, 1U, 1000U}) {
+    std::uint32_t sums[8];
+    for (std::uint32_t i = 0; i < 8; ++i) sums[i] = rounds + i;
+    for (std::uint32_t round = 0; round < rounds; ++round) {
+      for (const int i : {0, 2, 4, 6}) sums[i] += sums[i + 1];
+      for (const int i : {1, 3, 5, 7}) sums[i] += sums[(i + 1) % 8];
+    }
+    std::uint32_t all = 0;
+    for (const std::uint32_t sum : sums) all ^= sum;
+    EXPECT_EQ(sum_in_registers(rounds), all) << rounds;
   }
 }
 
