@@ -25,6 +25,7 @@
 #include "bench/readme_parts.hpp"
 #include "bench/ways.hpp"
 #include "bench/workload.hpp"
+#include "bench/yardstick.hpp"
 #include "common/file.hpp"
 #include "common/seconds.hpp"
 #include "common/subprocess.hpp"
@@ -431,12 +432,32 @@ std::vector<SmallRow> small_triangles() {
 struct CoreRow {
   unsigned threads;
   double speed, processor;  ///< as fast by the clock, and processor time of all threads, as one thread
+  double yardstick;         ///< as fast, in registers alone
+  double beside;            ///< ours by the yardstick's
 };
 
-/// Golden model, lanes and comparison of fifths of frames that the threads take by turns.
+/// Times of work that threads share, one of its pieces after the other.
+struct Shared {
+  double seconds, processor;  ///< by the clock, and of all threads
+};
+Shared share(unsigned threads, std::size_t pieces, const std::function<void(unsigned, std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  std::atomic<unsigned> thread = 0;
+  const double processor_start = process_seconds();
+  const auto start = std::chrono::steady_clock::now();
+  work_on_threads(threads, [&] {
+    const unsigned own = thread++;
+    for (std::size_t i; (i = next++) < pieces;) work(own, i);
+  });
+  return {seconds_since(start), process_seconds() - processor_start};
+}
+
+/// Golden model, lanes and comparison of fifths of frames that the threads take by turns, and after each the
+/// yardstick on as many threads.
 std::vector<CoreRow> measure_cores(const InitBatches& s, unsigned most) {
   constexpr std::size_t c_parts = 5, c_frames = 12;
   constexpr int c_repetitions = 15;
+  constexpr std::uint32_t c_yardstick_rounds = 1'000'000;  // about as long as a fifth of a frame
   std::vector<std::span<const std::uint32_t>> parts;
   const std::size_t each = (s.batches.size() + c_parts - 1) / c_parts;
   for (std::size_t at = 0, i = 0; i < s.batches.size();) {
@@ -453,41 +474,42 @@ std::vector<CoreRow> measure_cores(const InitBatches& s, unsigned most) {
   }
   // A core is now quicker, now slower: one thread is held against several right after it, and not the best of
   // its times, on the best of all cores, against moments in which all were quick together.
-  std::vector<std::vector<double>> speeds(most), processors(most);
+  std::vector<std::vector<double>> speeds(most), processors(most), yardsticks(most), besides(most);
+  const std::size_t pieces = c_frames * parts.size();
   for (int repetition = 0; repetition < c_repetitions; ++repetition) {
-    double one = 0.0, one_processor = 0.0;
+    Shared one{}, yard{};
     for (unsigned threads = 1; threads <= most; ++threads) {
-      std::atomic<std::size_t> next = 0, model = 0;
       std::atomic<std::uint64_t> mismatches = 0, fragments = 0;
-      const double processor_start = process_seconds();
-      const auto start = std::chrono::steady_clock::now();
-      work_on_threads(threads, [&] {
-        const std::size_t own = model++;
+      const Shared took = share(threads, pieces, [&](unsigned own, std::size_t piece) {
+        StreamComparator comparator;
         std::uint64_t drawn_here = 0;
-        for (std::size_t i; (i = next++) < c_frames * parts.size();) {
-          StreamComparator comparator;
-          must(models[own].draw(parts[i % parts.size()], true, [&](auto words, auto drawn) {
-            comparator.add(goldens[own]->draw(words), drawn);
-            drawn_here += drawn.size();
-          }));
-          comparator.finish();
-          mismatches += comparator.mismatches();
-        }
+        must(models[own].draw(parts[piece % parts.size()], true, [&](auto words, auto drawn) {
+          comparator.add(goldens[own]->draw(words), drawn);
+          drawn_here += drawn.size();
+        }));
+        comparator.finish();
+        mismatches += comparator.mismatches();
         fragments += drawn_here;
       });
-      const double seconds = seconds_since(start), processor = process_seconds() - processor_start;
-      if (threads == 1) {
-        one = seconds;
-        one_processor = processor;
-      }
-      speeds[threads - 1].push_back(one / seconds);
-      processors[threads - 1].push_back(processor / one_processor);
       if (mismatches != 0 || fragments != c_frames * s.golden.size())
         fail({ExitCode::differs, "cores: the RTL differs"});
+      const Shared took_yard = share(threads, pieces, [](unsigned, std::size_t) {
+        benchmark::DoNotOptimize(sum_in_registers(c_yardstick_rounds));
+      });
+      if (threads == 1) {
+        one = took;
+        yard = took_yard;
+      }
+      speeds[threads - 1].push_back(one.seconds / took.seconds);
+      processors[threads - 1].push_back(took.processor / one.processor);
+      yardsticks[threads - 1].push_back(yard.seconds / took_yard.seconds);
+      besides[threads - 1].push_back(speeds[threads - 1].back() / yardsticks[threads - 1].back());
     }
   }
   std::vector<CoreRow> rows;
-  for (unsigned i = 0; i < most; ++i) rows.push_back({i + 1, median(speeds[i]), median(processors[i])});
+  for (unsigned i = 0; i < most; ++i)
+    rows.push_back(
+        {i + 1, median(speeds[i]), median(processors[i]), median(yardsticks[i]), median(besides[i])});
   return rows;
 }
 
@@ -691,6 +713,24 @@ std::string mesa_note() {
       picture->psnr_db, picture->max_lsb, 1e6 * picture->outline_off, picture->renderer);
 }
 
+/// The same with a term for lines.
+std::string lines_note(const Series& series, std::vector<Terms> rows, std::span<const double> t) {
+  std::size_t i = 0;
+  for (const Point& point : series.points) {
+    if (point.repetitions.empty()) continue;
+    const InitBatches batches =
+        must(make_batches(point.scene(), point.size, {.shader = point.key.shader}, false));
+    rows[i++].push_back(static_cast<double>(count_walk(batches).lines));
+  }
+  const Fit plane = fit(rows, t);
+  if (rows.size() < 5 || plane.factors.empty()) return "";
+  return fmt::format(
+      "Lines of triangles are work, too, and grow with the root of the pixels: {:.3g} ms, {:.4g} ns for each "
+      "of the pixels and {:.3g} ns for each of the lines\nare at most {} beside these {} frames.\n",
+      1e3 * plane.factors[0], 1e9 * plane.factors[1], 1e9 * plane.factors[2],
+      percent(plane.largest_deviation), rows.size());
+}
+
 std::string growth_section(const std::vector<Series>& all) {
   std::string text = fmt::format(
       "\n## Growth\n\n"
@@ -703,22 +743,24 @@ std::string growth_section(const std::vector<Series>& all) {
       "least squares of relative deviations. Memory is the most beside the mesh and the program, the drawing "
       "before and the\nframe's {} bytes a pixel included. What is beside the frame is bounded: most of it "
       "what lanes "
-      "hold of large triangles,\na million fragments at a time and room for as many more.\n",
+      "hold of large triangles\nand of those that wait for them, a million fragments at most and room for as "
+      "many more.\n",
       c_frame_bytes);
   double best_pace = std::numeric_limits<double>::infinity();
   for (const Series& series : all)
     for (const Point& point : series.points)
       for (const FrameCost& cost : point.repetitions) best_pace = std::min(best_pace, cost.best_pace);
   for (const Series& series : all) {
-    std::vector<double> n, t;
+    std::vector<double> t;
+    std::vector<Terms> rows;
     for (const Point& point : series.points)
       if (!point.repetitions.empty()) {
         const FrameCost cost = typical(point, best_pace);
-        n.push_back(point.n);
+        rows.push_back({1.0, point.n});
         t.push_back(series.fitted == Fitted::drawing ? cost.drawing() : cost.seconds());
       }
     text += fmt::format("\n### {}\n\n{}\n\n", series.heading, series.note);
-    if (n.size() < 3) {
+    if (rows.size() < 3) {
       text += "Not measured.\n";
       continue;
     }
@@ -728,12 +770,12 @@ std::string growth_section(const std::vector<Series>& all) {
         "all |{} memory, "
         "MiB (frame) |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |{} --- |\n",
         series.unit, fitted ? " beside the line |" : "", fitted ? " --- |" : "");
-    const LinearFit line = fit_line(n, t);
+    const Fit line = fit(rows, t);
     std::size_t i = 0;
     for (const Point& point : series.points) {
       if (point.repetitions.empty()) continue;
       const FrameCost cost = typical(point, best_pace);
-      const std::string beside = fmt::format(" {:+.1f} % |", 100.0 * (t[i] / line.at(n[i]) - 1.0));
+      const std::string beside = fmt::format(" {:+.1f} % |", 100.0 * (t[i] / line.at(rows[i]) - 1.0));
       ++i;
       const double frame = static_cast<double>(c_frame_bytes) * point.size.width * point.size.height;
       text += fmt::format(
@@ -744,10 +786,12 @@ std::string growth_section(const std::vector<Series>& all) {
           static_cast<double>(cost.memory_bytes) / (1 << 20), frame / (1 << 20));
     }
     if (!fitted) continue;
-    const bool slow = line.slope >= 1e-4;
+    const double slope = line.factors[1];
+    const bool slow = slope >= 1e-4;
     text += fmt::format("\n{:.3g} ms, and {:.4g} {} for each of the {}: at most {} beside that line.\n",
-                        1e3 * line.constant, (slow ? 1e3 : 1e9) * line.slope, slow ? "ms" : "ns", series.unit,
+                        1e3 * line.factors[0], (slow ? 1e3 : 1e9) * slope, slow ? "ms" : "ns", series.unit,
                         percent(line.largest_deviation));
+    if (series.fitted == Fitted::drawing) text += lines_note(series, rows, t);
   }
   return text;
 }
@@ -792,13 +836,20 @@ std::string cores_section(const std::map<std::string, std::vector<CoreRow>>& all
       "clock, so "
       "the load of the machine counts;\nthe processor time of all threads together says what sharing costs. "
       "Of each "
-      "repetition the ratios to its one thread; the median of all.\n\n"
-      "| shader | threads | times as fast by the clock | a core | processor time |\n| --- | --- | --- | --- "
-      "| --- |\n";
+      "repetition the ratios to its one thread; the median of all.\nThe yardstick is work in registers "
+      "alone, "
+      "independent sums of vectors as wide as lanes', on as many threads right after each of ours. What it "
+      "loses\nthe machine's processors take from one another, be they threads of one core or shared with "
+      "others; only what ours loses beyond it, the last column below 100 %, is\nours: memory that threads "
+      "share, or waiting.\n\n"
+      "| shader | threads | times as fast by the clock | a core | processor time | the yardstick, a core | "
+      "ours "
+      "by the yardstick |\n| --- | --- | --- | --- | --- | --- | --- |\n";
   for (const auto& [shader, rows] : all)
     for (const CoreRow& row : rows)
-      text += fmt::format("| {} | {} | {:.2f} | {} | {:.2f} |\n", shader, row.threads, row.speed,
-                          percent(row.speed / row.threads), row.processor);
+      text += fmt::format("| {} | {} | {:.2f} | {} | {:.2f} | {} | {} |\n", shader, row.threads, row.speed,
+                          percent(row.speed / row.threads), row.processor,
+                          percent(row.yardstick / row.threads), percent(row.beside));
   return text;
 }
 

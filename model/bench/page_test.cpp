@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "bench/readme_parts.hpp"
@@ -42,12 +43,34 @@ TEST(BenchPage, GivesReadmeItsFigures) {
   EXPECT_THAT(parts->sim_line, ::testing::StartsWith("```\nspheres "));
 }
 
+// What several threads lose is not told without what the machine loses.
+TEST(BenchPage, TellsOfCoresBesideTheYardstick) {
+  std::string page = text_of("model/bench/README.md");
+  const std::size_t begin = page.find("\n| quadratic | 4 |"), end = page.find('\n', begin + 1);
+  ASSERT_NE(begin, page.npos);
+  page.replace(begin, end - begin, "\n| quadratic | 4 | 2.00 | 50.0 % | 1.50 | 51.5 % | 97.1 % |");
+  const auto parts = readme_parts(page);
+  ASSERT_TRUE(parts) << parts.error().message;
+  std::string speed = parts->speed;
+  std::ranges::replace(speed, '\n', ' ');
+  EXPECT_THAT(speed,
+              ::testing::ContainsRegex(
+                  "On 4 threads each core is 50.0 % and [0-9.]+ % as fast as one "
+                  "alone, where work in registers alone, which shares nothing, is 51.5 % and [0-9.]+ %"));
+  page.replace(begin, page.find('\n', begin + 1) - begin, "\n| quadratic | 4 | 2.00 | 50.0 % | 1.50 |");
+  for (const char* fewer : {"2", "3"}) {
+    const std::size_t row = page.find(std::string("\n| quadratic | ") + fewer + " |");
+    page.erase(row, page.find('\n', row + 1) - row);
+  }
+  EXPECT_FALSE(readme_parts(page));
+}
+
 // A part of the measurements has no place in README.
 TEST(BenchPage, IsWholeOrNotTaken) {
   const std::string page = text_of("model/bench/README.md");
   for (const char* heading :
        {"## Ways to a picture", "## Growth", "### Pixels, spherical shader",
-        "### Triangles, quadratic shader", "## Small triangles", "## End to end", "## View"}) {
+         "### Triangles, quadratic shader", "## Small triangles", "## Cores", "## End to end", "## View"}) {
     std::string part = page;
     const std::size_t begin = part.find(heading);
     ASSERT_NE(begin, part.npos) << heading;

@@ -95,6 +95,15 @@ std::optional<std::string> clocks_of(const std::vector<Cells>& small, std::strin
   return {};
 }
 
+// Of four threads, or as many as there are: ours and the yardstick's.
+std::optional<std::pair<std::string, std::string>> cores_of(const std::vector<Cells>& cores,
+                                                            std::string_view shader) {
+  std::optional<std::pair<std::string, std::string>> found;
+  for (const Cells& row : cores)
+    if (row.size() > 6 && row[0] == shader && row[1] != "1") found.emplace(row[3], row[5]);
+  return found;
+}
+
 }  // namespace
 
 Result<ReadmeParts> readme_parts(const std::string& page) {
@@ -121,6 +130,9 @@ Result<ReadmeParts> readme_parts(const std::string& page) {
   const auto quadratic = clocks_of(small, "quadratic"), spherical = clocks_of(small, "spherical"),
              processors = clocks_of(small, "processors");
   if (!quadratic || !spherical || quadratic != processors) return lacks("clocks at ten pixels a triangle");
+  const std::vector<Cells> cores = rows_of(section(page, "## Cores"));
+  const auto quadratic_core = cores_of(cores, "quadratic"), spherical_core = cores_of(cores, "spherical");
+  if (!quadratic_core || !spherical_core) return lacks("cores beside a yardstick");
   const std::string_view end = section(page, "## End to end");
   const std::vector<std::string> seconds = all_of(end, "best of three: ([0-9.]+) s"),
                                  line = all_of(end, "\n```\n([^\n]+\n)```\n");
@@ -141,12 +153,16 @@ Result<ReadmeParts> readme_parts(const std::string& page) {
       "clocks "
       "(quadratic, processors) and {} (spherical, for its\nheaders); elsewhere lines without a pixel and "
       "triangles "
-      "of a single one are what is lost. `make sim SCENE=spheres` on an unchanged\ntree takes {} s, all of "
+      "of a single one are what is lost. On {} threads each core is {} and {} as\nfast as one alone, where "
+      "work in registers alone, which shares nothing, is {} and {}. `make sim SCENE=spheres` on an "
+      "unchanged\ntree "
+      "takes {} s, all of "
       "it.\n",
       machine[0], ways, *rates, larger(beside[0], beside[1]), larger(beside[2], beside[3]),
       larger(beside[4], beside[5]), most.substr(0, most.find(' ')),
       most.substr(most.find('(') + 1, most.find(')') - most.find('(') - 1), *quadratic, *spherical,
-      seconds[0]);
+      cores.back()[1], quadratic_core->first, spherical_core->first, quadratic_core->second,
+      spherical_core->second, seconds[0]);
   parts.sim_line = fmt::format("```\n{}```\n", line[0]);
   return parts;
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "bench/workload.hpp"
+#include "bench/yardstick.hpp"
 #include "common/file.hpp"
 #include "scene/load_scene.hpp"
 
@@ -129,15 +130,41 @@ TEST(BenchWorkload, SpheresHaveTheTrianglesAskedFor) {
   }
 }
 
+// All of it is worked out, on whatever processor.
+TEST(BenchYardstick, SumsAllThatItSays) {
+  for (const std::uint32_t rounds : {0U, 1U, 1000U}) {
+    std::uint32_t sums[8];
+    for (std::uint32_t i = 0; i < 8; ++i) sums[i] = rounds + i;
+    for (std::uint32_t round = 0; round < rounds; ++round) {
+      for (const int i : {0, 2, 4, 6}) sums[i] += sums[i + 1];
+      for (const int i : {1, 3, 5, 7}) sums[i] += sums[(i + 1) % 8];
+    }
+    std::uint32_t all = 0;
+    for (const std::uint32_t sum : sums) all ^= sum;
+    EXPECT_EQ(sum_in_registers(rounds), all) << rounds;
+  }
+}
+
 TEST(BenchWorkload, LinesAreFitted) {
   const double n[] = {1, 10, 100, 1000};
   const double straight[] = {7, 25, 205, 2005};
-  const LinearFit line = fit_line(n, straight);
-  EXPECT_NEAR(line.constant, 5.0, 1e-9);
-  EXPECT_NEAR(line.slope, 2.0, 1e-12);
+  std::vector<Terms> rows;
+  for (const double i : n) rows.push_back({1.0, i});
+  const Fit line = fit(rows, straight);
+  EXPECT_NEAR(line.factors[0], 5.0, 1e-9);
+  EXPECT_NEAR(line.factors[1], 2.0, 1e-12);
   EXPECT_LT(line.largest_deviation, 1e-9);
   const double bent[] = {7, 25, 205, 4010};
-  EXPECT_GT(fit_line(n, bent).largest_deviation, 0.1);
+  EXPECT_GT(fit(rows, bent).largest_deviation, 0.1);
+  // Bent by a third term, that is a second one where the rows have it, and nothing where they have it twice.
+  const double rooted[] = {5 + 2 + 30 * 1, 5 + 20 + 30 * 3, 5 + 200 + 30 * 10, 5 + 2000 + 30 * 32};
+  EXPECT_GT(fit(rows, rooted).largest_deviation, 0.1);
+  const double roots[] = {1, 3, 10, 32};
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].push_back(roots[i]);
+  EXPECT_NEAR(fit(rows, rooted).factors[2], 30.0, 1e-9);
+  EXPECT_LT(fit(rows, rooted).largest_deviation, 1e-9);
+  for (Terms& row : rows) row[2] = 3.0 * row[1];
+  EXPECT_TRUE(fit(rows, rooted).factors.empty());
 }
 
 }  // namespace

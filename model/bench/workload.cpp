@@ -219,14 +219,14 @@ Scene with_lights(Scene scene, unsigned lights) {
   return scene;
 }
 
-Result<InitBatches> make_batches(const Scene& scene, FrameSize size, const PlanRequest& plan) {
+Result<InitBatches> make_batches(const Scene& scene, FrameSize size, const PlanRequest& plan, bool draw) {
   const auto planned = plan_scene(scene, plan);
   if (!planned) return planned.error();
   InitBatches all;
   all.key = planned->key;
   const std::unique_ptr<Setup> setup = make_setup(scene, size, all.key, {});
   all.init_bits = setup->init_bits();
-  SceneStream source(*setup, all.key, 1);
+  SceneStream source(*setup, all.key, 1, {.golden = draw});
   for (Batch batch; source.next(batch);) {
     all.words.insert(all.words.end(), batch.init_words.begin(), batch.init_words.end());
     all.golden.insert(all.golden.end(), batch.golden.begin(), batch.golden.end());
@@ -342,25 +342,42 @@ WalkCounts count_walk(const InitBatches& batches) {
   return n;
 }
 
-LinearFit fit_line(std::span<const double> n, std::span<const double> t) {
-  // Of 1 = constant/t + slope n/t.
-  double aa = 0, ab = 0, bb = 0, a1 = 0, b1 = 0;
-  for (std::size_t i = 0; i < n.size(); ++i) {
-    const double a = 1.0 / t[i], b = n[i] / t[i];
-    aa += a * a;
-    ab += a * b;
-    bb += b * b;
-    a1 += a;
-    b1 += b;
+double Fit::at(const Terms& row) const {
+  return std::inner_product(factors.begin(), factors.end(), row.begin(), 0.0);
+}
+
+Fit fit(const std::vector<Terms>& rows, std::span<const double> t) {
+  // Of 1 = the sum of factors by terms / t: orthogonal columns, one after the other.
+  const std::size_t terms = rows.empty() ? 0 : rows.front().size();
+  std::vector<Terms> columns(terms + 1, Terms(rows.size(), 1.0));  // the last one is what they are to come to
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t k = 0; k < terms; ++k) columns[k][i] = rows[i][k] / t[i];
+  const auto product = [&](std::size_t a, std::size_t b) {
+    return std::inner_product(columns[a].begin(), columns[a].end(), columns[b].begin(), 0.0);
+  };
+  // How much of column k is in each behind it.
+  std::vector<Terms> parts(terms, Terms(terms + 1, 0.0));
+  for (std::size_t k = 0; k < terms; ++k) {
+    const double before = std::inner_product(
+        rows.begin(), rows.end(), t.begin(), 0.0, std::plus<>(),
+        [&](const Terms& row, double seconds) { return row[k] / seconds * (row[k] / seconds); });
+    const double length = product(k, k);
+    if (!(length > 1e-12 * before)) return {};
+    for (std::size_t behind = k + 1; behind <= terms; ++behind) {
+      parts[k][behind] = product(k, behind) / length;
+      for (std::size_t i = 0; i < rows.size(); ++i) columns[behind][i] -= parts[k][behind] * columns[k][i];
+    }
   }
-  const double determinant = aa * bb - ab * ab;
-  LinearFit fit;
-  if (!(determinant > 0)) return fit;
-  fit.constant = (a1 * bb - b1 * ab) / determinant;
-  fit.slope = (b1 * aa - a1 * ab) / determinant;
-  for (std::size_t i = 0; i < n.size(); ++i)
-    fit.largest_deviation = std::max(fit.largest_deviation, std::abs(t[i] / fit.at(n[i]) - 1.0));
-  return fit;
+  Fit found;
+  found.factors.resize(terms);
+  for (std::size_t k = terms; k-- > 0;) {
+    found.factors[k] = parts[k][terms];
+    for (std::size_t behind = k + 1; behind < terms; ++behind)
+      found.factors[k] -= parts[k][behind] * found.factors[behind];
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    found.largest_deviation = std::max(found.largest_deviation, std::abs(t[i] / found.at(rows[i]) - 1.0));
+  return found;
 }
 
 }  // namespace halfway

@@ -38,7 +38,9 @@ struct InitBatches {
 };
 inline constexpr std::size_t c_batch = 512;
 
-Result<InitBatches> make_batches(const Scene& scene, FrameSize size, const PlanRequest& plan);
+/// Without fragments where they are not to be drawn.
+Result<InitBatches> make_batches(const Scene& scene, FrameSize size, const PlanRequest& plan,
+                                 bool draw = true);
 
 /// The RTL on this core: in lanes where there are lanes for it, else in Verilator.
 class RtlModel {
@@ -98,12 +100,14 @@ struct WalkCounts {
 /// Of preset exact, without shadows.
 WalkCounts count_walk(const InitBatches& batches);
 
-/// t = constant + slope n, with the least squares of relative deviations.
-struct LinearFit {
-  double constant = 0, slope = 0;
-  double largest_deviation = 0;  ///< of t beside the line, as a part of it
-  double at(double n) const { return constant + slope * n; }
+/// t = the sum of a row's terms, each by its factor.
+using Terms = std::vector<double>;
+struct Fit {
+  Terms factors;                 ///< none where the rows do not tell them
+  double largest_deviation = 0;  ///< of t beside the sum, as a part of it
+  double at(const Terms& row) const;
 };
-LinearFit fit_line(std::span<const double> n, std::span<const double> t);
+/// With the least squares of relative deviations.
+Fit fit(const std::vector<Terms>& rows, std::span<const double> t);
 
 }  // namespace halfway

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "common/for_processors.hpp"
 #include "golden/processors_shader.hpp"
 #include "golden/quadratic_shader.hpp"
 #include "golden/spherical_shader.hpp"
@@ -41,14 +42,6 @@ class Room {
 
 // A block of fragments to stay in the processor's nearer caches.
 constexpr std::size_t c_block = 8192;
-
-// Compiled for several processors, and chosen by the one that it runs on; all that it calls is inlined.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define HALFWAY_FOR_PROCESSORS \
-  __attribute__((flatten, target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define HALFWAY_FOR_PROCESSORS
-#endif
 
 // Takes the next triangle's vectors off the front; none where there is no more, or one that is cut short,
 // which draws nothing.

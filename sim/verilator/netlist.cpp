@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -91,19 +92,33 @@ std::optional<std::string> constant_part(std::string_view text, unsigned high, u
   return fmt::format("{}'b{}", high - low + 1, text.substr(*width - 1 - high, high - low + 1));
 }
 
-/// Calls `f` with each name in the text; digits behind a constant's base are none.
+/// The text with `f(name, what follows)` in place of each name; digits behind a constant's base are none.
 template <class F>
-void for_each_name(std::string_view text, F&& f) {
+std::string with_names(std::string_view text, F&& f) {
+  std::string result;
   while (!text.empty()) {
     const bool constant = text.front() >= '0' && text.front() <= '9';
-    const std::string_view name = take_name(text);
-    if (constant && take(text, "'")) take_name(text);
+    const std::string name(take_name(text));
     if (name.empty()) {
+      result += text.front();
       text.remove_prefix(1);
-    } else if (!constant) {
-      f(std::string(name));
+    } else if (constant) {
+      result += name;
+      if (take(text, "'")) (result += '\'') += take_name(text);
+    } else {
+      result += f(name, text);
     }
   }
+  return result;
+}
+
+/// Calls `f` with each name in the text.
+template <class F>
+void for_each_name(std::string_view text, F&& f) {
+  with_names(text, [&](const std::string& name, std::string_view) {
+    f(name);
+    return name;
+  });
 }
 
 // A module of the netlist, as far as it is understood: GHDL writes one statement a line.
@@ -245,6 +260,24 @@ class Module {
   std::map<std::string, std::string, std::less<>> assigns_;
 };
 
+/// A slice or a constant.
+bool is_plain(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return is_name_character(c) || c == '[' || c == ']' || c == ':' || c == '\'';
+  });
+}
+
+/// `a & b`, or with another operation between plain operands.
+std::optional<std::pair<std::string, std::string>> to_operands(std::string_view expression,
+                                                               std::string_view operation) {
+  const std::size_t at = expression.find(operation);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view a = trim(expression.substr(0, at)),
+                         b = trim(expression.substr(at + operation.size()));
+  if (!is_plain(a) || !is_plain(b)) return std::nullopt;
+  return std::pair(std::string(a), std::string(b));
+}
+
 /// `condition ? a : b` with plain operands.
 struct Choice {
   std::string condition, then_value, else_value;
@@ -256,11 +289,8 @@ std::optional<Choice> to_choice(std::string_view expression) {
   Choice choice{std::string(trim(expression.substr(0, question))),
                 std::string(trim(expression.substr(question + 3, colon - question - 3))),
                 std::string(trim(expression.substr(colon + 3)))};
-  for (const std::string* part : {&choice.condition, &choice.then_value, &choice.else_value}) {
-    for (const char c : *part) {
-      if (!is_name_character(c) && c != '[' && c != ']' && c != ':' && c != '\'') return std::nullopt;
-    }
-  }
+  for (const std::string* part : {&choice.condition, &choice.then_value, &choice.else_value})
+    if (!is_plain(*part)) return std::nullopt;
   return choice;
 }
 
@@ -293,6 +323,188 @@ std::string Module::straight(const std::string& expression) const {
   }
   return joined.empty() ? to_text(from) : '{' + joined + '}';
 }
+
+/// What the RTL says for the sake of a synthesizer's cells, said as a simulator likes it. The meaning is the
+/// same.
+class Simplifier {
+ public:
+  explicit Simplifier(Module& module) : module_(module) {}
+
+  void apply() {
+    const auto before = module_.assigns();
+    for (const auto& [name, expression] : before) drop_mask(name, expression);
+    for (const auto& [name, expression] : before) join_parts(name, expression);
+    for (const auto& [name, expression] : before) part_choice(name, expression);
+  }
+  /// Wires that were not there before.
+  const std::vector<std::string>& fresh() const { return fresh_; }
+
+ private:
+  using Bits = std::set<std::pair<std::string, unsigned>>;
+
+  /// `x[high] & (a[i] | b[j] | …)`: the highest bit alone, where that is never set while those are not.
+  void drop_mask(const std::string& name, const std::string& expression) {
+    const auto both = to_operands(expression, " & ");
+    if (!both) return;
+    for (const auto& [bit, mask] : {*both, std::pair(both->second, both->first)}) {
+      const auto slice = module_.to_slice(bit);
+      if (!slice || slice->width() != 1) continue;
+      const Slice high = module_.origin(*slice);
+      const unsigned width = *module_.width(high.name);
+      if (width == 1 || high.low != width - 1 || module_.expression_of(high.name) == nullptr) continue;
+      Bits zeros;
+      gather(mask, zeros);
+      const auto most = most_of(Slice{high.name, width - 1, 0}, zeros);
+      if (!most || *most >> (width - 1) != 0) continue;
+      module_.assign(name, module_.to_text(high));
+      return;
+    }
+  }
+
+  /// The bits that are all zero where a mask is.
+  void gather(const std::string& mask, Bits& bits) const {
+    const auto slice = module_.to_slice(mask);
+    if (!slice || slice->width() != 1) return;
+    const Slice from = module_.origin(*slice);
+    bits.emplace(from.name, from.low);
+    const std::string* expression = module_.expression_of(from.name);
+    if (expression == nullptr || module_.width(from.name) != 1) return;
+    if (const auto either = to_operands(*expression, " | ")) {
+      gather(either->first, bits);
+      gather(either->second, bits);
+    }
+  }
+
+  /// A number that the slice's never exceeds where bits are zero.
+  std::optional<std::uint64_t> most_of(const Slice& slice, const Bits& zeros) const {
+    const Slice from = module_.origin(slice);
+    if (from.width() >= 64) return std::nullopt;
+    std::uint64_t most = 0;
+    for (unsigned bit = 0; bit < from.width(); ++bit)
+      if (zeros.count({from.name, from.low + bit}) == 0) most |= std::uint64_t{1} << bit;
+    const std::string* expression = module_.expression_of(from.name);
+    if (expression == nullptr || from.width() != module_.width(from.name)) return most;
+    if (const auto counted = most_of(*expression, zeros)) most = std::min(most, *counted);
+    return most;
+  }
+  /// Of a sum or a product, which may be too wide, or of parts.
+  std::optional<std::uint64_t> most_of(const std::string& expression, const Bits& zeros) const {
+    for (const char* operation : {" + ", " * "}) {
+      const auto terms = to_operands(expression, operation);
+      if (!terms) continue;
+      const auto a = module_.to_slice(terms->first), b = module_.to_slice(terms->second);
+      if (!a || !b || a->width() != b->width()) return std::nullopt;
+      const auto most_a = most_of(*a, zeros), most_b = most_of(*b, zeros);
+      if (!most_a || !most_b) return std::nullopt;
+      std::uint64_t most = 0;
+      const bool wraps = operation[1] == '+' ? __builtin_add_overflow(*most_a, *most_b, &most)
+                                             : __builtin_mul_overflow(*most_a, *most_b, &most);
+      return wraps || most >> a->width() != 0 ? std::nullopt : std::optional(most);
+    }
+    std::uint64_t most = 0;
+    unsigned low = 0;
+    for (const Module::Part& part : module_.to_parts(expression)) {
+      if (low + part.width >= 64) return std::nullopt;
+      std::uint64_t part_most = 0;
+      if (const auto slice = module_.to_slice(part.text)) {
+        const auto found = most_of(*slice, zeros);
+        if (!found) return std::nullopt;
+        part_most = *found;
+      } else if (part.text != fmt::format("{}'b0", part.width)) {
+        return std::nullopt;
+      }
+      most |= part_most << low;
+      low += part.width;
+    }
+    return low == 0 ? std::nullopt : std::optional(most);
+  }
+
+  /// `{x[3], x[2:0]}` is `x[3:0]`.
+  void join_parts(const std::string& name, const std::string& expression) {
+    std::optional<Slice> joined;
+    for (const Module::Part& part : module_.to_parts(expression)) {
+      const auto slice = module_.to_slice(part.text);
+      if (!slice) return;
+      const Slice from = module_.origin(*slice);
+      if (joined && (from.name != joined->name || from.low != joined->high + 1)) return;
+      joined = Slice{from.name, from.high, joined ? joined->low : from.low};
+    }
+    if (joined) module_.assign(name, module_.to_text(*joined));
+  }
+
+  /// `(a | b) ? (a ? x : y) : z` is `b ? (a ? x : y) : (a ? x : z)`, where b is known in what is chosen.
+  void part_choice(const std::string& name, const std::string& expression) {
+    const auto choice = to_choice(expression);
+    const std::string* condition = choice ? module_.expression_of(choice->condition) : nullptr;
+    const auto either = condition ? to_operands(*condition, " | ") : std::nullopt;
+    const auto inner = either ? choice_of(choice->then_value) : std::nullopt;
+    if (!inner) return;
+    for (const auto& [a, b] : {*either, std::pair(either->second, either->first)}) {
+      if (!same(inner->condition, a)) continue;
+      const std::string both = add(name, fmt::format("{} ? {} : {}", a, where({b, true}, inner->then_value),
+                                                     where({b, true}, inner->else_value))),
+                        one = add(name, fmt::format("{} ? {} : {}", a, where({b, false}, inner->then_value),
+                                                    choice->else_value));
+      module_.assign(name, fmt::format("{} ? {} : {}", b, both, one));
+      return;
+    }
+  }
+
+  /// Also `x & ~a`, which is `a ? 0 : x`.
+  std::optional<Choice> choice_of(const std::string& text) const {
+    const auto slice = module_.to_slice(text);
+    const std::string* expression = slice ? whole_expression(*slice) : nullptr;
+    if (expression == nullptr) return std::nullopt;
+    const auto both = slice->width() == 1 ? to_operands(*expression, " & ") : std::nullopt;
+    if (!both) return to_choice(*expression);
+    for (const auto& [value, mask] : {*both, std::pair(both->second, both->first)}) {
+      const auto inverse = module_.to_slice(mask);
+      const std::string* inverted = inverse ? whole_expression(module_.origin(*inverse)) : nullptr;
+      if (inverted != nullptr && inverted->front() == '~' && is_plain(inverted->substr(1)))
+        return Choice{inverted->substr(1), "1'b0", value};
+    }
+    return std::nullopt;
+  }
+  const std::string* whole_expression(const Slice& slice) const {
+    return slice.width() == module_.width(slice.name) ? module_.expression_of(slice.name) : nullptr;
+  }
+
+  bool same(const std::string& a, const std::string& b) const {
+    const auto x = module_.to_slice(a), y = module_.to_slice(b);
+    return x && y && module_.origin(*x) == module_.origin(*y);
+  }
+
+  using Known = std::pair<std::string, bool>;  ///< a condition, and whether it holds
+
+  /// A text where that is known: with wires of their own where it makes a difference.
+  std::string where(const Known& known, const std::string& text) {
+    return with_names(text, [&](const std::string& name, std::string_view) {
+      const std::string* expression = module_.expression_of(name);
+      if (expression == nullptr) return name;
+      const auto [found, first] = versions_.try_emplace({known, name}, name);
+      if (!first) return found->second;
+      const std::string was = *expression;
+      const auto choice = to_choice(was);
+      const bool decided = choice && same(choice->condition, known.first);
+      const std::string now = where(known, !decided       ? was
+                                           : known.second ? choice->then_value
+                                                          : choice->else_value);
+      return now == was ? name : versions_[{known, name}] = add(name, now);
+    });
+  }
+
+  /// A wire like another one.
+  std::string add(const std::string& like, const std::string& expression) {
+    fresh_.push_back(fmt::format("{}__part{}", like, fresh_.size()));
+    module_.declare(fresh_.back(), *module_.width(like));
+    module_.assign(fresh_.back(), expression);
+    return fresh_.back();
+  }
+
+  Module& module_;
+  std::map<std::pair<Known, std::string>, std::string> versions_;
+  std::vector<std::string> fresh_;
+};
 
 /// What a register does at the clock edge: nothing, `q <= value`, or one or the other by a condition.
 struct Update {
@@ -338,13 +550,15 @@ Update update_of(const Module& module, const Slice& value, const Slice& target, 
 }
 
 // What the registers do, as text: choices by their conditions, what is loaded under each, and before it the
-// wires that nothing else asks for.
+// wires that nothing else asks for, and inputs that are asked for in several places here and nowhere else:
+// what an input is given is formed where it is read, if that is one place.
 
 struct Block {
   struct Choice {
     std::string condition;
     std::vector<Block> branches;  ///< then, else
   };
+  std::vector<std::string> inputs;  ///< each copied to what copy_of names
   std::vector<std::string> wires;
   std::vector<Choice> choices;
   std::vector<std::pair<std::string, std::string>> loads;  ///< register, value
@@ -359,12 +573,26 @@ void add(Block& block, const Update& update, const std::string& target) {
   for (std::size_t i = 0; i < 2; ++i) add(choice->branches[i], update.branches[i], target);
 }
 
-std::string to_text(const Module& module, const Block& block) {
+std::string copy_of(const std::string& input) {
+  return input + "__here";
+}
+
+std::string to_text(const Module& module, const Block& block, std::set<std::string> copied = {}) {
   std::string text;
+  const auto with_copies = [&](std::string_view expression) {
+    return with_names(expression, [&](const std::string& name, std::string_view) {
+      return copied.count(name) != 0 ? copy_of(name) : name;
+    });
+  };
+  for (const std::string& input : block.inputs) {
+    text += fmt::format("{} = {}; ", copy_of(input), input);
+    copied.insert(input);
+  }
   for (const std::string& wire : block.wires)
-    text += fmt::format("{} = {}; ", wire, *module.expression_of(wire));
-  for (const auto& [condition, branches] : block.choices) {
-    const std::string then_text = to_text(module, branches[0]), else_text = to_text(module, branches[1]);
+    text += fmt::format("{} = {}; ", wire, with_copies(*module.expression_of(wire)));
+  for (const auto& [name, branches] : block.choices) {
+    const std::string condition = with_copies(name), then_text = to_text(module, branches[0], copied),
+                      else_text = to_text(module, branches[1], copied);
     if (then_text.empty()) {
       if (!else_text.empty()) text += fmt::format("if (!{}) begin {}end ", condition, else_text);
       continue;
@@ -372,12 +600,14 @@ std::string to_text(const Module& module, const Block& block) {
     text += fmt::format("if ({}) begin {}end ", condition, then_text);
     if (!else_text.empty()) text += fmt::format("else begin {}end ", else_text);
   }
-  for (const auto& [target, value] : block.loads) text += fmt::format("{} <= {}; ", target, value);
+  for (const auto& [target, value] : block.loads)
+    text += fmt::format("{} <= {}; ", target, with_copies(value));
   return text;
 }
 
-/// All wires of a block and its branches.
+/// All wires of a block and its branches, and copies of inputs.
 void gather_wires(const Block& block, std::vector<std::string>& wires) {
+  for (const std::string& input : block.inputs) wires.push_back(copy_of(input));
   wires.insert(wires.end(), block.wires.begin(), block.wires.end());
   for (const Block::Choice& choice : block.choices)
     for (const Block& branch : choice.branches) gather_wires(branch, wires);
@@ -390,20 +620,10 @@ class Inliner {
   explicit Inliner(const Module& module) : module_(module) {}
 
   std::string inlined(std::string_view text) const {
-    std::string result;
-    while (!text.empty()) {
-      const bool constant = text.front() >= '0' && text.front() <= '9';
-      const std::string name(take_name(text));
-      if (name.empty()) {
-        result += text.front();
-        text.remove_prefix(1);
-        continue;
-      }
-      const std::string* known = constant || text.substr(0, 1) == "[" ? nullptr : module_.expression_of(name);
-      result += known != nullptr && stands_alone(*known) ? inlined(*known) : name;
-      if (constant && take(text, "'")) (result += '\'') += take_name(text);
-    }
-    return result;
+    return with_names(text, [&](const std::string& name, std::string_view rest) {
+      const std::string* known = rest.substr(0, 1) == "[" ? nullptr : module_.expression_of(name);
+      return known != nullptr && stands_alone(*known) ? inlined(*known) : name;
+    });
   }
   void apply(Update& update) const {
     update.text = inlined(update.text);
@@ -419,10 +639,11 @@ class Inliner {
   const Module& module_;
 };
 
-/// Puts wires into the blocks that alone ask for them.
+/// Puts wires into the blocks that alone ask for them, and copies of inputs.
 class WirePlacer {
  public:
-  explicit WirePlacer(const Module& module) : module_(module) {}
+  WirePlacer(const Module& module, const std::vector<std::string>& inputs)
+      : module_(module), inputs_(inputs.begin(), inputs.end()) {}
 
   /// Where a wire is asked for: the branches that lead there; empty: outside, by an instance, a memory, a
   /// port.
@@ -430,7 +651,8 @@ class WirePlacer {
 
   void ask(std::string_view text, const Place& place = {}) {
     for_each_name(text, [&](const std::string& name) {
-      if (module_.expression_of(name) == nullptr) return;
+      if (module_.expression_of(name) == nullptr && inputs_.count(name) == 0) return;
+      ++asked_[name];
       const auto [at, fresh] = places_.try_emplace(name, place);
       if (fresh) return;
       Place& known = at->second;
@@ -462,6 +684,11 @@ class WirePlacer {
       if (const auto at = places_.find(wire); at != places_.end() && !at->second.empty())
         at->second.back()->wires.push_back(wire);
     }
+    for (const std::string& input : inputs_) {
+      if (const auto at = places_.find(input);
+          at != places_.end() && !at->second.empty() && asked_.at(input) > 1)
+        at->second.back()->inputs.push_back(input);
+    }
   }
 
   bool is_outside(const std::string& wire) const {
@@ -479,7 +706,9 @@ class WirePlacer {
   }
 
   const Module& module_;
+  std::set<std::string> inputs_;
   std::map<std::string, Place> places_;
+  std::map<std::string, int> asked_;  ///< how often
   std::set<std::string> ordered_;
   std::vector<std::string> order_;  ///< what is asked for before who asks
 };
@@ -545,6 +774,8 @@ void find_cuts(const Module& module, const Slice& value, unsigned low, Wires wir
   }
 }
 
+constexpr unsigned kWidestCopy = 64;  ///< bits of an input: wider ones are slow to copy
+
 constexpr std::string_view kClocked = "always @(posedge clk)";
 
 std::string declaration(const Module& module, const std::string& kind, const std::string& name) {
@@ -569,7 +800,7 @@ std::string to_processes(const Module& module, const std::vector<Field>& fields,
   for (const auto& [target, value] : root.loads)
     text += fmt::format("  {}\n    {} <= {};\n", kClocked, target, value);
   for (std::size_t i = 0; i < root.choices.size(); ++i) {
-    const Block block{{}, {root.choices[i]}, {}};
+    const Block block{{}, {}, {root.choices[i]}, {}};
     text += fmt::format("  {}\n    begin : at_edge_{}\n", kClocked, i);
     std::vector<std::string> wires;
     gather_wires(block, wires);
@@ -591,18 +822,19 @@ std::string split_module(const std::vector<std::string_view>& lines, Wires wires
   std::vector<std::string> code;
   code.reserve(lines.size());
   std::map<std::string, int> writes;  // of each register, over all statements
-  std::vector<std::string> outputs;
+  std::vector<std::string> inputs, outputs;
   for (const std::string_view line : lines) {
     code.push_back(without_comments(line));
     std::string_view text = trim(code.back());
     if (take(text, "(")) text = trim(text);
-    const bool output = text.substr(0, 7) == "output ";
+    const bool input = text.substr(0, 6) == "input ", output = text.substr(0, 7) == "output ";
     if (take(text, "input ") || take(text, "output ") || take(text, "wire ") || take(text, "reg ")) {
       const unsigned width = take_width(text);
       const std::string_view name = take_name(text);
       // What follows a plain declaration is its end; a memory goes on with its depth and stays unknown.
       if (text == ";" || text == "," || text == ");") module.declare(name, width);
       if (output) outputs.emplace_back(name);
+      if (input && width <= kWidestCopy) inputs.emplace_back(name);
     } else if (take(text, "assign ")) {
       const std::string_view name = take_name(text);
       if (take(text, " = ") && !text.empty() && text.back() == ';') {
@@ -613,6 +845,9 @@ std::string split_module(const std::vector<std::string_view>& lines, Wires wires
       ++writes[std::string(take_name(target))];
     }
   }
+
+  Simplifier simplifier(module);
+  simplifier.apply();
 
   // Registers whose next value is put together from parts become one register a part.
   std::vector<Field> fields;
@@ -673,7 +908,7 @@ std::string split_module(const std::vector<std::string_view>& lines, Wires wires
   }
 
   Block root;
-  WirePlacer placer(module);
+  WirePlacer placer(module, inputs);
   if (wires == Wires::inside) {
     for (const Field& field : fields) {
       add(root, field.update, field.name);
@@ -682,21 +917,30 @@ std::string split_module(const std::vector<std::string_view>& lines, Wires wires
     placer.ask(root, {});
     for (const std::string& output : outputs) placer.ask(output);
     for (std::size_t i = 0; i < code.size(); ++i) {
-      const std::string_view text = trim(code[i]);
-      const bool declares = text.substr(0, 5) == "wire " || text.substr(0, 4) == "reg ";
+      std::string_view text = trim(code[i]);
+      if (take(text, "(")) text = trim(text);
+      bool declares = false;
+      for (const char* kind : {"wire ", "reg ", "input ", "output "})
+        declares = declares || text.starts_with(kind);
       if (!declares && text.substr(0, 7) != "assign " && told.count(i) == 0) placer.ask(text);
     }
     placer.place();
+    for (const std::string& input : inputs) module.declare(copy_of(input), *module.width(input));
   }
   const auto is_there = [&](const std::string& wire) {
     return wires == Wires::outside || module.expression_of(wire) == nullptr || placer.is_outside(wire);
   };
 
   std::string out;
+  bool declares = false;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (told.count(i) != 0) continue;
     std::string_view text = trim(code[i]);
     if (take(text, "reg ") || take(text, "wire ")) {
+      if (!std::exchange(declares, true)) {
+        for (const std::string& wire : simplifier.fresh())
+          if (is_there(wire)) out += fmt::format("  {}\n", declaration(module, "wire", wire));
+      }
       take_width(text);
       const std::string name(take_name(text));
       if (const auto split = splits.find(name); split != splits.end()) {
@@ -714,6 +958,8 @@ std::string split_module(const std::vector<std::string_view>& lines, Wires wires
         continue;
       }
     } else if (text == "endmodule") {
+      for (const std::string& wire : simplifier.fresh())
+        if (is_there(wire)) out += fmt::format("  assign {} = {};\n", wire, *module.expression_of(wire));
       out += wires == Wires::outside ? to_processes(module, fields) : to_processes(module, fields, root);
     }
     out += lines[i];

@@ -26,8 +26,9 @@ enum class Wires {
 };
 
 /// Makes registers hold by condition: `q <= load ? d : q` becomes `if (load) q <= d`, and a register of
-/// several fields becomes one register a field. The meaning is the same; Verilator leaves out what does not
-/// change.
+/// several fields becomes one register a field. What the RTL says for the sake of a synthesizer's cells is
+/// said more simply: a bit is not masked where it is never set, and where two conditions open a register each
+/// branch knows which of them holds. The meaning is the same; Verilator leaves out what does not change.
 std::string split_registers(std::string_view netlist, Wires wires = Wires::outside);
 
 }  // namespace halfway

@@ -136,10 +136,12 @@ TEST(Netlist, FormsWhatIsLoadedWhereItIsLoaded) {
   const std::string inside = split_registers(kRecord, Wires::inside);
   EXPECT_EQ(inside.find("assign n4_o"), std::string::npos) << inside;
   EXPECT_EQ(inside.find("wire [4:0] n4_o"), std::string::npos) << inside;
-  EXPECT_NE(inside.find(
-                "if (step) begin if (load) begin q__0 <= d[3:0]; q__1 <= d[4]; end else begin n4_o = {q__1, "
-                "q__0} + d; q__0 <= n4_o[3:0]; q__1 <= n4_o[4]; end end\n      if (reset) q__1 <= 1'b0;\n"),
-            std::string::npos)
+  EXPECT_NE(
+      inside.find(
+          "if (step) begin d__here = d; if (load) begin q__0 <= d__here[3:0]; q__1 <= d__here[4]; end else "
+          "begin n4_o = {q__1, q__0} + d__here; q__0 <= n4_o[3:0]; q__1 <= n4_o[4]; end end\n      if "
+          "(reset) q__1 <= 1'b0;\n"),
+      std::string::npos)
       << inside;
   EXPECT_NE(inside.find("assign o = q__0;"), std::string::npos) << inside;
 }
@@ -149,6 +151,92 @@ TEST(Netlist, KeepsOutsideWhatOthersAskForToo) {
   netlist.insert(netlist.find("endmodule"), "  other other_1 (\n    .a(n4_o));\n");
   const std::string inside = split_registers(netlist, Wires::inside);
   EXPECT_NE(inside.find("assign n4_o = {q__1, q__0} + d;"), std::string::npos) << inside;
+}
+
+// As a multiplier's digit, or a sum of three.
+std::string masked(const std::string& a, const std::string& operation, const std::string& mask) {
+  return "module m\n  (input  clk,\n   input  [1:0] a,\n   input  [1:0] b,\n   output [3:0] o);\n"
+         "  wire [3:0] n1_o;\n  wire [3:0] n2_o;\n  wire [3:0] n3_o;\n  wire n4_o;\n  wire n5_o;\n"
+         "  wire n6_o;\n  wire n7_o;\n  wire [2:0] n8_o;\n  wire [3:0] n9_o;\n  reg [3:0] q;\n"
+         "  assign o = q;\n  assign n1_o = " +
+         a + ";\n  assign n2_o = {2'b0, b};\n  assign n3_o = n1_o " + operation +
+         " n2_o;\n  assign n4_o = n3_o[3];\n  assign n5_o = a[1];\n  assign n6_o = " + mask +
+         ";\n  assign n7_o = n4_o & n6_o;\n  assign n8_o = n3_o[2:0];\n  assign n9_o = {n7_o, n8_o};\n"
+         "  always @(posedge clk)\n    q <= n9_o;\nendmodule\n";
+}
+
+TEST(Netlist, DropsTheMaskOfABitThatItNeverClears) {
+  struct Case {
+    const char *a, *operation, *mask;
+    bool dropped;
+  };
+  for (const Case& c : {Case{"{2'b0, a}", "*", "n5_o | n5_o", true},   // 1 * 3
+                        Case{"{a, 2'b0}", "*", "n5_o | n5_o", false},  // 4 * 3
+                        Case{"{a, 2'b0}", "+", "1'b0 | n5_o", true},   // 4 + 3
+                        Case{"{a, 2'b0}", "+", "b[0] | b[0]", false},  // 12 + 2
+                        Case{"{2'b0, a}", "-", "n5_o | n5_o", false}}) {
+    for (const Wires wires : {Wires::outside, Wires::inside}) {
+      const std::string split = split_registers(masked(c.a, c.operation, c.mask), wires);
+      EXPECT_EQ(split.find("reg q__1;") == std::string::npos, c.dropped) << split;
+    }
+  }
+}
+
+// As an interpolator's part: an addend chosen in front of its sum.
+constexpr const char* kAddend = R"(module m
+  (input  clk,
+   input  load,
+   input  step,
+   input  [3:0] start,
+   input  [3:0] increment,
+   output [3:0] o,
+   output c);
+  wire n1_o;
+  wire [3:0] n2_o;
+  wire [3:0] n3_o;
+  wire [3:0] n4_o;
+  wire [3:0] n5_o;
+  wire n6_o;
+  wire n7_o;
+  wire n8_o;
+  wire n9_o;
+  reg [3:0] q;
+  reg p;
+  assign o = q;
+  assign c = p;
+  assign n1_o = load | step;
+  assign n2_o = step ? increment : start;
+  assign n3_o = q + n2_o;
+  assign n4_o = load ? n2_o : n3_o;
+  assign n5_o = n1_o ? n4_o : q;
+  assign n6_o = n3_o[3];
+  assign n7_o = ~load;
+  assign n8_o = n6_o & n7_o;
+  assign n9_o = n1_o ? n8_o : p;
+  always @(posedge clk)
+    q <= n5_o;
+  always @(posedge clk)
+    p <= n9_o;
+endmodule
+)";
+
+TEST(Netlist, KnowsInEachBranchWhichOfTwoConditionsHolds) {
+  const std::string inside = split_registers(kAddend, Wires::inside);
+  EXPECT_NE(inside.find("if (step) begin increment__here = increment; "
+                        "if (load) begin q <= increment__here; p <= 1'b0; end "
+                        "else begin n3_o__part1 = q + increment__here; q <= n3_o__part1; p <= "
+                        "n3_o__part1[3]; end end "
+                        "else begin if (load) begin q <= start; p <= 1'b0; end end"),
+            std::string::npos)
+      << inside;
+  EXPECT_NE(inside.find("reg [3:0] increment__here;"), std::string::npos) << inside;
+  const std::string outside = split_registers(kAddend);
+  EXPECT_NE(outside.find("  wire [3:0] n3_o__part1;\n"), std::string::npos) << outside;
+  EXPECT_NE(outside.find("  assign n3_o__part1 = q + n2_o__part0;\n"), std::string::npos) << outside;
+  EXPECT_NE(outside.find("if (step) begin q <= load ? n2_o__part0 : n3_o__part1; end else begin if (load) "
+                         "begin q <= start; end end"),
+            std::string::npos)
+      << outside;
 }
 
 TEST(Netlist, LeavesAloneWhatItDoesNotUnderstand) {

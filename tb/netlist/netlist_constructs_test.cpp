@@ -216,7 +216,7 @@ TEST_F(NetlistConstructs, TheShadingArithmeticIsEqual) {
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(differences(expected, *found), "");
   }
-  constexpr std::size_t used_lanes = 21;
+  constexpr std::size_t used_lanes = 24;
   for (std::size_t lane = 0; lane < used_lanes; ++lane) {
     const std::size_t at = (kLanes - 1 - lane) * kLaneBits / 4;
     std::set<std::string> values;

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- The shading processors' arithmetic, both presets, a result a lane: what GHDL simulates with its products taken
--- through integers must be what its netlist computes.
+-- through integers must be what its netlist computes. And what the way to a simulator says in another way than the RTL.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -39,6 +39,11 @@ architecture rtl of netlist_shading is
   signal line_1     : std_logic_vector(39 downto 0);
   signal line_2     : std_logic_vector(70 downto 0);
   signal line_9     : std_logic_vector(71 downto 0);
+  signal load, step : std_logic;
+  signal part       : std_logic_vector(19 downto 0);
+  signal part_carry : std_logic;
+  signal factored   : std_logic_vector(31 downto 0);
+  signal summed     : std_logic_vector(7 downto 0);
 begin
   control <= stimulus(15 downto 0);
   a       <= stimulus(87 downto 16);
@@ -139,6 +144,22 @@ begin
     generic map (g_bits => 72, g_depth => 9)
     port map (clk => clk, reset => reset, enable => enable, word => b, delayed => line_9);
 
+  load <= control(10) or not filled;
+  step <= control(11); -- with load, too, which is in no contract, and yet the RTL says what comes of it
+
+  interpolate : entity work.part_interpolator
+    generic map (g_bits => 20)
+    port map (clk => clk, load => load, start => a(19 downto 0), step => step, increment => b(19 downto 0),
+      carry_in => control(12), value => part, carry_out => part_carry);
+
+  factor_by : entity work.multiplier
+    generic map (g_a_bits => 8, g_b_bits => 24)
+    port map (clk => clk, enable => enable, a => a(31 downto 24), b => b(39 downto 16), product => factored);
+
+  sum_up : entity work.saturating_sum
+    generic map (g_terms => 3, g_term_bits => 18, g_fraction_bits => 11, g_result_bits => 8)
+    port map (clk => clk, enable => enable, terms => a(53 downto 0), result => summed);
+
   lanes(0)  <= lane(sum);
   lanes(1)  <= lane(products(71 downto 0));
   lanes(2)  <= lane(products(143 downto 72));
@@ -154,7 +175,11 @@ begin
   lanes(19) <= lane(std_logic_vector(product(signed(a(29 downto 0)), signed(b(17 downto 0)))));
   lanes(20) <= lane(std_logic_vector(product(unsigned(b(32 downto 0)), unsigned(a(33 downto 0)))));
 
-  unused : for i in 21 to c_lanes - 1 generate
+  lanes(21) <= lane(part_carry & part);
+  lanes(22) <= lane(factored);
+  lanes(23) <= lane(summed);
+
+  unused : for i in 24 to c_lanes - 1 generate
     lanes(i) <= (others => '0');
   end generate;
 
