@@ -120,6 +120,9 @@ Result<ReadmeParts> readme_parts(const std::string& page) {
   // Triangles, pixels, lights, two shaders each.
   const std::vector<std::string> beside = all_of(growth, "at most ([0-9.]+) % beside that line");
   if (beside.size() != 6) return lacks("six lines of growth");
+  // Pixels, two shaders.
+  const std::vector<std::string> with_lines = all_of(growth, "are at most ([0-9.]+) % beside these");
+  if (with_lines.size() != 2) return lacks("growth with pixels and lines");
   std::vector<std::string> memory;
   for (const char* shader : {"quadratic", "spherical"}) {
     const auto rows = rows_of(section(growth, fmt::format("### Triangles, {} shader", shader)));
@@ -144,25 +147,25 @@ Result<ReadmeParts> readme_parts(const std::string& page) {
   parts.view = fmt::format("On {}:\n{}", machine[0], view.substr(table));
   const std::string most = larger(memory[0], memory[1]);
   parts.speed = fmt::format(
-      "On {}:\n\n{}\n{}"
-      "Time grows with triangles (10³ to 10⁷), with pixels (10⁴ to 1.6·10⁷, setup apart) and with lights (1 "
-      "to 16) "
-      "within\n{}, {} and {} % of a line and a constant. A mesh of ten million triangles at 1000×1000 takes "
-      "{} MiB "
-      "beside itself, {} of them\nthe frame. At ten pixels a triangle a fragment costs the hardware {} "
-      "clocks "
-      "(quadratic, processors) and {} (spherical, for its\nheaders); elsewhere lines without a pixel and "
-      "triangles "
-      "of a single one are what is lost. On {} threads each core is {} and {} as\nfast as one alone, where "
-      "work in registers alone, which shares nothing, is {} and {}. `make sim SCENE=spheres` on an "
-      "unchanged\ntree "
-      "takes {} s, all of "
-      "it.\n",
-      machine[0], ways, *rates, larger(beside[0], beside[1]), larger(beside[2], beside[3]),
-      larger(beside[4], beside[5]), most.substr(0, most.find(' ')),
-      most.substr(most.find('(') + 1, most.find(')') - most.find('(') - 1), *quadratic, *spherical,
-      cores.back()[1], quadratic_core->first, spherical_core->first, quadratic_core->second,
-      spherical_core->second, seconds[0]);
+      R"(On {}:
+
+{}
+{}On {} threads each core is {} (quadratic) and {} (spherical) as fast as one alone, where work in registers alone,
+which shares nothing, is {} and {}.
+
+Time grows with triangles (10³ to 10⁷), with pixels (10⁴ to 1.6·10⁷, setup apart) and with lights (1 to 16) within
+{}, {} and {} % of a line and a constant; with pixels within {} % where each line of a triangle is given a time, too.
+A mesh of ten million triangles at 1000×1000 takes {} MiB beside itself, {} of them the frame. At ten pixels a triangle
+a fragment costs the hardware {} clocks (quadratic, processors) and {} (spherical, for its headers); elsewhere lines
+without a pixel and triangles of a single one are what is lost.
+
+`make sim SCENE=spheres` on an unchanged tree takes {} s, all of it, the best of three.
+)",
+      machine[0], ways, *rates, cores.back()[1], quadratic_core->first, spherical_core->first,
+      quadratic_core->second, spherical_core->second, larger(beside[0], beside[1]),
+      larger(beside[2], beside[3]), larger(beside[4], beside[5]), larger(with_lines[0], with_lines[1]),
+      most.substr(0, most.find(' ')), most.substr(most.find('(') + 1, most.find(')') - most.find('(') - 1),
+      *quadratic, *spherical, seconds[0]);
   parts.sim_line = fmt::format("```\n{}```\n", line[0]);
   return parts;
 }
