@@ -202,18 +202,22 @@ std::vector<Proof> all_proofs() {
         {"raster/edge_walker.vhd", "(increment & not below)", "(increment & '0')"},
         {"raster/edge_walker.vhd", "increment := '0' & r.rise", "increment := '0' & r.remainder"},
         {"raster/edge_walker.vhd", "v.carry   := next_reduced(next_reduced'high)", "v.carry   := below"}}});
-  proofs.push_back({"raster/slope_walker",
-                    "raster/slope_walker.psl",
-                    "The whole part of what the start and all slopes that were stepped make together",
-                    Method::induction,
-                    2,
-                    true,
-                    {},
-                    {{"raster/slope_walker.vhd", "(r.whole & r.carry)", "(r.whole & '0')"},
-                     {"raster/slope_walker.vhd", "part     := unsigned(load_slope(c_fraction - 1 downto 0))",
-                      "part     := r.part"},
-                     {"raster/slope_walker.vhd", "next_fraction(c_fraction) xor fraction(fraction_t'high)",
-                      "next_fraction(c_fraction)"}}});
+  for (const bool complement : {false, true})
+    proofs.push_back({"raster/slope_walker",
+                      "raster/slope_walker.psl",
+                      complement
+                          ? "The same as its complement"
+                          : "The whole part of what the start and all slopes that were stepped make together",
+                      Method::induction,
+                      2,
+                      true,
+                      {{"g_complement", complement ? "true" : "false"}},
+                      {{"raster/slope_walker.vhd", "(r.whole & r.carry)",
+                        complement ? "(r.whole & '1')" : "(r.whole & '0')"},
+                       {"raster/slope_walker.vhd",
+                        "part     := unsigned(load_slope(c_fraction - 1 downto 0))", "part     := r.part"},
+                       {"raster/slope_walker.vhd", "next_fraction(c_fraction) xor fraction(fraction_t'high)",
+                        "next_fraction(c_fraction)"}}});
   const std::vector<Fault> walker_faults = {
       {"raster/triangle_walker.vhd", "init_ready <= edge_load", "init_ready <= line_load"},
       {"raster/triangle_walker.vhd", "v.edges.reads := not init_valid", "v.edges.reads := '1'"},
