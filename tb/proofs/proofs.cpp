@@ -228,25 +228,37 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "line_load <= moves and r.edges.first;", "line_load <= edge_step;"},
       {"raster/triangle_walker.vhd", "line_load <= moves and r.edges.first;",
        "line_load <= line_ready and r.edges.first;"},
-      {"raster/triangle_walker.vhd", "moves <= fragment_ready and (ends or not draws)",
-       "moves <= fragment_ready and ends"},
-      {"raster/triangle_walker.vhd", "moves <= fragment_ready and (ends or not draws)",
-       "moves <= fragment_ready"},
+      {"raster/triangle_walker.vhd", "moves <= fragment_ready and r.flows",
+       "moves <= fragment_ready and r.span.ends"},
+      {"raster/triangle_walker.vhd", "moves <= fragment_ready and r.flows", "moves <= fragment_ready"},
       {"raster/triangle_walker.vhd", "moves <= fragment_ready and", "moves <="},
       {"raster/triangle_walker.vhd", "(line_ready or not r.line.valid)", "'1'"},
       {"raster/triangle_walker.vhd", "(line_ready or not r.line.valid)", "line_ready"},
-      {"raster/triangle_walker.vhd", "begins := r.line.valid and draws and line_ready",
-       "begins := r.line.valid and draws"},
-      {"raster/triangle_walker.vhd", "begins := r.line.valid and draws and line_ready",
-       "begins := draws and line_ready"},
-      {"raster/triangle_walker.vhd", "span_load <= r.line.valid and draws", "span_load <= draws"},
-      {"raster/triangle_walker.vhd", "none or not r.edges.valid", "none"},
+      {"raster/triangle_walker.vhd", "begins    := r.line.draws and line_ready", "begins    := r.line.draws"},
+      {"raster/triangle_walker.vhd", "begins    := r.line.draws and line_ready", "begins    := line_ready"},
+      {"raster/triangle_walker.vhd", "span_load <= fragment_ready and r.span.ends",
+       "span_load <= fragment_ready"},
+      {"raster/triangle_walker.vhd", "r.span.ends and r.line.draws and line_ready",
+       "r.span.ends and line_ready"},
+      {"raster/triangle_walker.vhd", "line_step <= fragment_ready and r.flows and",
+       "line_step <= fragment_ready and"},
+      {"raster/triangle_walker.vhd", "line_step <= fragment_ready and r.flows and r.line.valid",
+       "line_step <= fragment_ready and r.flows"},
+      {"raster/triangle_walker.vhd", "v.flows := last or (r.flows and", "v.flows := (r.flows and"},
+      {"raster/triangle_walker.vhd", "(r.flows and blank)", "r.flows"},
+      {"raster/triangle_walker.vhd", "if moves = '1' or r.flows = '0' then", "if moves = '1' then"},
+      {"raster/triangle_walker.vhd", "if moves = '1' or r.flows = '0' then", "if r.flows = '0' then"},
+      {"raster/triangle_walker.vhd", "if moves = '1' or r.flows = '0' then", "if true then"},
+      {"raster/triangle_walker.vhd", "last := not begins", "last := '0'"},
+      {"raster/triangle_walker.vhd", "if r.line.more = 0 then", "if r.line.more = 1 then"},
+      {"raster/triangle_walker.vhd", "behind(0) := not r.span.ends", "behind(0) := r.span.ends"},
+      {"raster/triangle_walker.vhd", "v.line.draws    := not blank", "v.line.draws    := '1'"},
+      {"raster/triangle_walker.vhd", "more(more_t'high) or not r.edges.valid", "more(more_t'high)"},
       {"raster/triangle_walker.vhd", "v.line.valid    := r.edges.valid", "v.line.valid    := '1'"},
-      {"raster/triangle_walker.vhd", "pixels - 1;", "pixels;"},
+      {"raster/triangle_walker.vhd", "pixels + behind", "pixels"},
       {"raster/triangle_walker.vhd", "v.span.x        := r.line.start", "v.span.x        := r.line.stop"},
       {"raster/triangle_walker.vhd", "span_step <= r.span.valid and fragment_ready",
        "span_step <= r.span.valid"},
-      {"raster/triangle_walker.vhd", "not r.line.more(more_t'high)", "'1'"},
       {"raster/triangle_walker.vhd", "r.edges.y + 1", "r.edges.y"},
       {"raster/triangle_walker.vhd", "fewer(1) := r.edges.follows", "fewer(1) := '1'"},
       {"raster/triangle_walker.vhd", "v.edges.section_last := r.edges.left(left_t'high)",
@@ -262,12 +274,12 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "r.edges.valid and not moves", "r.edges.valid and not edge_load"},
       {"raster/triangle_walker.vhd", "v.clears      := reset", "v.clears      := '0'"},
       {"raster/triangle_walker.vhd", "v.edges.reads   := '1'", "v.edges.reads   := v.edges.reads"},
-      {"raster/triangle_walker.vhd", "if fragment_ready = '1' or r.clears",
-       "if fragment_ready = '1' and r.clears"},
-      {"raster/triangle_walker.vhd", "pixels := (others => '1')", "pixels := pixels"},
       {"raster/triangle_walker.vhd", "busy           <= r.edges.valid or r.line.valid",
        "busy           <= r.line.valid"},
-      {"raster/triangle_walker.vhd", "v.line.valid  := '0'", "v.line.valid  := v.line.valid"},
+      {"raster/triangle_walker.vhd", "v.line.valid := '0'", "v.line.valid := v.line.valid"},
+      {"raster/triangle_walker.vhd", "v.line.draws := '0'", "v.line.draws := v.line.draws"},
+      {"raster/triangle_walker.vhd", "v.span.ends  := '1'", "v.span.ends  := v.span.ends"},
+      {"raster/triangle_walker.vhd", "v.flows      := '1'", "v.flows      := v.flows"},
   };
   std::vector<Fault> exact_faults = walker_faults;
   exact_faults.push_back(
@@ -282,8 +294,10 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "r.edges.lower_none or r.edges.lower_one", "r.edges.lower_none"});
   exact_faults.push_back({"raster/triangle_walker.vhd", "to_x + not from_x", "to_x - from_x"});
   std::vector<Fault> published_faults = walker_faults;
+  published_faults.push_back({"raster/triangle_walker.vhd", "resize(stop, more_t'length) + resize(not_start",
+                              "resize(stop, more_t'length) - resize(start"});
   published_faults.push_back(
-      {"raster/triangle_walker.vhd", "'1' when last = c_highest", "'0' when last = c_highest"});
+      {"raster/triangle_walker.vhd", "start     <= not not_start", "start     <= not_start"});
   const std::vector<Width> narrow_walk = {
       {"span_x", 4, 0}, {"edge_error", 3, 0}, {"lines", 3, 0}, {"pixel_y", 3, 0}, {"triangle", 2, 0}};
   const std::vector<Fault> box_faults = {
@@ -291,7 +305,7 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "else held_lower;", "else lower;"},
       {"raster/triangle_walker.vhd", "load_carry     => section(c_section_bits - 1)",
        "load_carry     => upper(c_section_bits - 1)"},
-      {"raster/triangle_walker.vhd", "not r.line.more(more_t'high)", "'1'"},
+      {"raster/triangle_walker.vhd", "v.line.draws    := not blank", "v.line.draws    := '1'"},
       {"raster/triangle_walker.vhd", "r.edges.y + 1", "r.edges.y + 2"},
       {"raster/triangle_walker.vhd", "v.line.carry    := edge_carry", "v.line.carry    := not edge_carry"},
       {"raster/edge_walker.vhd", "increment := '0' & r.rise", "increment := '0' & r.remainder"},
