@@ -16,9 +16,10 @@ constexpr Listed c_listed[] = {
     {"arithmetic/saturate.vhd", "value(c_sign - 1 downto c_result_high + 1) & '0'",
      "value(c_sign - 2 downto c_result_high + 1) & \"00\""},
     {"arithmetic/saturate.vhd", "result <= (others => '0')", "result <= (others => '1')"},
-    // One half for the other; halves taken a clock early.
+    // One half for the other; halves taken a clock early; digits added at one place.
     {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"},
     {"arithmetic/multiplier.vhd", "enable & r.filled(1)", "enable & enable"},
+    {"arithmetic/multiplier.vhd", "shift_left(result, 1)", "result"},
     // The bell is not folded; it has a second one beside it; preset published takes the lower bits.
     {"arithmetic/angle_address.vhd", "magnitude <= not angle when", "magnitude <= angle when"},
     {"arithmetic/angle_address.vhd", "magnitude(c_sign downto c_fraction) = c_inside",

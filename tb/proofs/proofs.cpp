@@ -101,20 +101,23 @@ std::vector<Proof> all_proofs() {
         {"arithmetic/saturating_sum.vhd", "for i in 1 to g_terms - 1 loop", "for i in 1 to g_terms - 2 loop"},
         {"arithmetic/saturating_sum.vhd", "high := high or terms", "high := terms"}}});
 
-  proofs.push_back(
-      {"arithmetic/multiplier",
-       "arithmetic/multiplier.psl",
-       "The sum of a's multiples that b's bits ask for, three clocks later, and it stands still without "
-       "enable: "
-       "6 by 6 bits",
-       Method::induction,
-       5,
-       true,
-       {{"g_a_bits", "6"}, {"g_b_bits", "6"}},
-       {{"arithmetic/multiplier.vhd", "unsigned(padded((i + 1)", "1 + unsigned(padded((i + 1)"},
-        {"arithmetic/multiplier.vhd", "enable & r.filled(1)", "enable & enable"},
-        {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"},
-        {"arithmetic/multiplier.vhd", "and digit(digit'high)", "and not digit(digit'high)"}}});
+  for (const bool gated : {true, false})
+    proofs.push_back(
+        {"arithmetic/multiplier",
+         "arithmetic/multiplier.psl",
+         gated ? "The sum of a's multiples that b's bits ask for, three clocks later, and it stands still "
+                 "without enable: 6 by 6 bits"
+               : "The same of one whose sums choose what they add",
+         Method::induction,
+         5,
+         true,
+         {{"g_a_bits", "6"}, {"g_b_bits", "6"}, {"g_gated", gated ? "true" : "false"}},
+         {{"arithmetic/multiplier.vhd", "unsigned(padded((i + 1)", "1 + unsigned(padded((i + 1)"},
+          {"arithmetic/multiplier.vhd", "enable & r.filled(1)", "enable & enable"},
+          {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"},
+          {"arithmetic/multiplier.vhd", "and digit(digit'high)", "and not digit(digit'high)"},
+          {"arithmetic/multiplier.vhd", gated ? "digit * unsigned(b)" : "shift_left(result, 1)",
+           gated ? "digit * unsigned(not b)" : "result"}}});
   proofs.push_back(
       {"arithmetic/angle_address",
        "arithmetic/angle_address.psl",
