@@ -18,7 +18,8 @@ use ieee.numeric_std.all;
 entity multiplier is
   generic (
     g_a_bits : positive;
-    g_b_bits : positive
+    g_b_bits : positive;
+    g_gated  : boolean := true -- a comes through a gate, not straight from registers
   );
   port (
     clk     : in  std_logic;
@@ -66,7 +67,19 @@ begin
       if enable = '1' then
         for i in digits_t'range loop
           digit  := unsigned(padded((i + 1) * c_digit - 1 downto i * c_digit));
-          result := digit * unsigned(b);
+          if g_gated then
+            result := digit * unsigned(b);
+          else
+            -- The sums' own cells choose whether b is added, and lookup tables stand in front of one term alone. With a gate
+            -- in front of a as well a cell would have an input too many.
+            result := (others => '0');
+            for place in digit'range loop
+              result := shift_left(result, 1);
+              if digit(place) = '1' then
+                result := result + unsigned(b);
+              end if;
+            end loop;
+          end if;
           -- Without the quarter's highest bit nothing carries so far. As that is said, a cell of the sum's own gives it.
           result(digit_t'high) := result(digit_t'high) and digit(digit'high);
           r.digits(i) <= result;

@@ -154,7 +154,8 @@ begin
           product : entity work.multiplier
             generic map (
               g_a_bits => g_data_bits,
-              g_b_bits => formats(g_exact).factor.bits
+              g_b_bits => formats(g_exact).factor.bits,
+              g_gated  => g_exact -- in preset published nothing is out of range
               )
             port map (
               clk     => clk,

@@ -2,6 +2,7 @@
 --
 -- Purpose     An edge by its real slope, line by line: a line_interpolator's whole part. The fraction runs a line ahead, so
 --             that what it carries into the next step is a register and no sum is longer than a part.
+--             g_complement: x comes as its complement, each bit a register's, so that who subtracts it need only add.
 -- Contract    load = '1' stays until step is; where both are, the edge is taken
 -- Formats     formats_pkg, preset published: edge_x, and x span_x; sums wrap
 -- Latency     1 clock from a step to x
@@ -16,6 +17,9 @@ use ieee.numeric_std.all;
 use work.formats_pkg.all;
 
 entity slope_walker is
+  generic (
+    g_complement : boolean := false
+  );
   port (
     clk        : in  std_logic;
     load       : in  std_logic; -- take another edge in place of the next step
@@ -43,6 +47,15 @@ architecture rtl of slope_walker is
   end record;
 
   signal r, r_next : reg_t;
+
+  -- As x, whole and carry stand in their registers: the complement of a sum is the sum of complements and of the carry's.
+  function held (word : std_logic_vector) return span_x_t is
+  begin
+    if g_complement then
+      return unsigned(not word);
+    end if;
+    return unsigned(word);
+  end function;
 
 begin
 
@@ -74,15 +87,18 @@ begin
 
     -- What the steps add is taken while load waits for its step: no sum of the edge before is wanted then.
     if load = '1' then
-      v.whole := unsigned(load_slope(c_high downto c_fraction));
+      v.whole := held(load_slope(c_high downto c_fraction));
       v.part  := unsigned(load_slope(c_fraction - 1 downto 0));
     end if;
     if step = '1' then
       v.x        := next_x(next_x'high downto 1);
       v.fraction := next_fraction(c_fraction - 1 downto 0);
       v.carry    := next_carry;
+      if g_complement then
+        v.carry := not next_carry;
+      end if;
       if load = '1' then
-        v.x := unsigned(load_x(c_high downto c_fraction));
+        v.x := held(load_x(c_high downto c_fraction));
       end if;
     end if;
     r_next <= v;

@@ -68,6 +68,9 @@ architecture rtl of triangle_walker is
   -- What a line covers: pixels behind its first; below zero where it covers none.
   subtype more_t is signed(c_formats.span_x.bits downto 0);
 
+  -- The same where it covers one.
+  subtype pixels_t is unsigned(c_formats.span_x.bits - 1 downto 0);
+
   -- Lines of a section less three, with a sign.
   subtype left_t is unsigned(c_formats.lines.bits downto 0);
 
@@ -93,7 +96,8 @@ architecture rtl of triangle_walker is
     y        : pixel_y_t;
     start    : span_x_t;
     stop     : span_x_t;
-    more     : more_t; -- pixels behind the first; below zero where the line covers none, or there is none
+    more     : pixels_t;
+    draws    : std_logic; -- here is a line, and it covers a pixel
     backward : std_logic;
     carry    : std_logic; -- of the step to the next line
   end record;
@@ -103,12 +107,14 @@ architecture rtl of triangle_walker is
     triangle : triangle_t;
     y        : pixel_y_t;
     x        : span_x_t;
-    more     : more_t; -- pixels behind x, less one; below zero where no span is here, too
+    more     : more_t; -- pixels behind x, less two
+    ends     : std_logic; -- x is the span's last, or no span is here
     backward : std_logic;
   end record;
 
   type reg_t is record
     clears : std_logic; -- reset was '1' in the clock before
+    flows  : std_logic; -- the line stage need not wait for the span: it ends, or no line draws
     edges  : edge_stage_t;
     line   : line_stage_t;
     span   : span_stage_t;
@@ -119,7 +125,6 @@ architecture rtl of triangle_walker is
   -- From the edges, for the line that the edge stage holds.
   signal start, stop : span_x_t;
   signal more        : more_t;
-  signal none        : std_logic; -- or no pixel at all
   signal edge_carry  : std_logic;
 
   -- From the init vector, where the preset has them.
@@ -128,8 +133,6 @@ architecture rtl of triangle_walker is
   signal init_none        : std_logic; -- no line: counted as 2**bits, as golden
   signal init_backward    : std_logic;
 
-  signal draws     : std_logic; -- the line stage holds a line that covers a pixel
-  signal ends      : std_logic; -- the span stage's pixel is its span's last, or there is none
   signal moves     : std_logic; -- the line that the line stage holds need not wait, or there is none
   signal edge_load : std_logic; -- read the init vector
   signal edge_step : std_logic; -- hand the line on, and go to the next one
@@ -145,13 +148,12 @@ begin
   init_none <= '1' when init_upper_lines = 0 else '0';
 
   -- While a fragment waits all stages stand: so what moves hangs on registers, and on few.
-  draws <= not r.line.more(more_t'high);
-  ends  <= r.span.more(more_t'high);
-  moves <= fragment_ready and (ends or not draws) and (line_ready or not r.line.valid);
+  moves <= fragment_ready and r.flows and (line_ready or not r.line.valid);
 
+  -- Each a lookup table of registers' outputs, where moves would be one in front of it.
   span_step <= r.span.valid and fragment_ready;
-  span_load <= r.line.valid and draws and moves;
-  line_step <= r.line.valid and moves;
+  span_load <= fragment_ready and r.span.ends and r.line.draws and line_ready;
+  line_step <= fragment_ready and r.flows and r.line.valid and line_ready;
 
   edge_last <= r.edges.section_last and r.edges.lower_none;
   turns     <= not r.edges.follows;
@@ -167,7 +169,10 @@ begin
   combinational : process (all)
     variable v      : reg_t;
     variable begins : std_logic; -- a span does, where the one before ends
+    variable last   : std_logic; -- the next pixel is its span's, or none comes
     variable pixels : more_t;
+    variable behind : more_t; -- a pixel less, or two where pixels are counted anew
+    variable blank  : std_logic; -- the line that the edge stage holds covers no pixel, or there is none
     variable lines  : left_t;
     variable fewer  : left_t;
     variable holds  : std_logic; -- the edge stage does, where it goes
@@ -175,26 +180,37 @@ begin
     v := r;
 
     -- Behind a span's last pixel comes what the line stage holds, be it a line or not.
-    begins := r.line.valid and draws and line_ready;
-    pixels := r.span.more;
-    if ends = '1' then
-      pixels := r.line.more;
+    begins    := r.line.draws and line_ready;
+    last      := r.span.more(more_t'high);
+    pixels    := r.span.more;
+    behind    := (others => '1');
+    behind(0) := not r.span.ends;
+    if r.span.ends = '1' then
+      last := not begins;
+      if r.line.more = 0 then
+        last := '1';
+      end if;
+      pixels := signed('0' & r.line.more);
     end if;
-    if r.clears = '1' then
-      pixels := (others => '1');
-    end if;
+    blank := more(more_t'high) or not r.edges.valid;
     if fragment_ready = '1' then
       if r.span.backward = '1' then
         v.span.x := r.span.x - 1;
       else
         v.span.x := r.span.x + 1;
       end if;
-      if ends = '1' then
+      if r.span.ends = '1' then
         v.span.valid    := begins;
         v.span.triangle := r.line.triangle;
         v.span.y        := r.line.y;
         v.span.x        := r.line.start;
         v.span.backward := r.line.backward;
+      end if;
+      v.span.more := pixels + behind;
+      v.span.ends := last;
+      -- While a line waits for line_ready alone it need wait for no span: none begins.
+      if moves = '1' or r.flows = '0' then
+        v.flows := last or (r.flows and blank);
       end if;
     end if;
 
@@ -204,16 +220,12 @@ begin
       v.line.y        := r.edges.y;
       v.line.start    := start;
       v.line.stop     := stop;
-      v.line.more     := more;
-      v.line.more(more_t'high) := more(more_t'high) or none or not r.edges.valid;
+      v.line.more     := unsigned(more(pixels_t'range));
+      v.line.draws    := not blank;
       v.line.backward := r.edges.backward;
       v.line.carry    := edge_carry;
     end if;
 
-    if fragment_ready = '1' or r.clears = '1' then
-      v.span.more               := pixels - 1;
-      v.span.more(more_t'high) := v.span.more(more_t'high) or (ends and not begins);
-    end if;
     -- Lines are counted so that a sign says that one is behind this, or none.
     lines := r.edges.left;
     if r.edges.reads = '1' then
@@ -276,8 +288,11 @@ begin
     end if;
 
     if reset = '1' then
-      v.line.valid  := '0';
-      v.span.valid  := '0';
+      v.line.valid := '0';
+      v.line.draws := '0';
+      v.span.valid := '0';
+      v.span.ends  := '1';
+      v.flows      := '1';
     end if;
     r_next <= v;
   end process;
@@ -363,14 +378,14 @@ begin
       from_x <= resize(stop, more_t'length) when r.edges.backward = '1' else resize(start, more_t'length);
       to_x   <= resize(start, more_t'length) when r.edges.backward = '1' else resize(stop, more_t'length);
       more   <= to_x + not from_x;
-      none   <= '0';
 
   else generate
 
-    signal start_x, stop_x : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
-    signal last            : span_x_t; -- pixel of the line
+    signal not_start_x, stop_x : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
+    signal upper_x, behind_x   : std_logic_vector(c_init.upper_x.high downto c_init.upper_x.low);
+    signal not_start           : span_x_t;
 
-    constant c_highest : span_x_t := to_signed(2 ** (span_x_t'length - 1) - 1, span_x_t'length);
+    constant c_one : unsigned(upper_x'length - 1 downto 0) := shift_left(to_unsigned(1, upper_x'length), upper_x'length - span_x_t'length);
 
     begin
 
@@ -378,32 +393,38 @@ begin
       init_backward    <= '0';
       edge_carry       <= '0';
 
+      -- Complemented, so that no lookup table stands in front of the sum that counts pixels.
       start_edge : entity work.slope_walker
+        generic map (
+          g_complement => true
+          )
         port map (
           clk        => clk,
           load       => r.edges.leaves,
           load_x     => init(c_init.start_x.high downto c_init.start_x.low),
           load_slope => init(c_init.start_slope.high downto c_init.start_slope.low),
           step       => edge_goes,
-          x          => start_x
+          x          => not_start_x
           );
+
+        -- The edge ends on a line's last pixel: this one goes a pixel beside it.
+      upper_x  <= init(c_init.upper_x.high downto c_init.upper_x.low);
+      behind_x <= std_logic_vector(unsigned(upper_x) + c_one);
 
       stop_edge : entity work.slope_walker
         port map (
           clk        => clk,
           load       => turns,
-          load_x     => init(c_init.upper_x.high downto c_init.upper_x.low),
+          load_x     => behind_x,
           load_slope => init(c_init.upper_slope.high downto c_init.upper_slope.low),
           step       => edge_goes,
           x          => stop_x
           );
 
-      start <= signed(start_x);
-      last  <= signed(stop_x);
-      stop  <= last + 1;
-      more  <= resize(last, more_t'length) - resize(start, more_t'length);
-      -- Behind the highest pixel lies the lowest.
-      none  <= '1' when last = c_highest else '0';
+      not_start <= signed(not_start_x);
+      start     <= not not_start;
+      stop      <= signed(stop_x);
+      more      <= resize(stop, more_t'length) + resize(not_start, more_t'length);
 
   end generate;
 

@@ -326,6 +326,9 @@ begin
 
     begin
 
+      -- Slices step wherever the walker may, be there a pixel or not, so that a register enables them: filled says which
+      -- clocks have one.
+
       diffuse : if c_diffuse_part generate
 
         constant c_fields  : diffuse_probe_header_t  := diffuse_probe_header(g_exact);
@@ -350,7 +353,7 @@ begin
               clk         => clk,
               part        => init(c_low + c_diffuse_bits - 1 downto c_low),
               span_load   => span_load,
-              span_step   => span_step,
+              span_step   => room,
               sample_step => r.filled(c_sampled),
               lit         => lit,
               angle       => angle,
@@ -417,7 +420,7 @@ begin
               clk         => clk,
               part        => init(c_low + c_diffuse_bits + c_specular_bits - 1 downto c_low + c_diffuse_bits),
               span_load   => span_load,
-              span_step   => span_step,
+              span_step   => room,
               sample_step => r.filled(c_sampled),
               lit         => lit,
               angle       => angle,

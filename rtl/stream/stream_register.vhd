@@ -52,9 +52,7 @@ begin
     variable v : reg_t;
   begin
     v := r;
-    if free = '1' then
-      v.valid := in_valid;
-    end if;
+    v.valid := in_valid or not free; -- what is not free holds a word
     if reset = '1' then
       v.valid := '0';
     end if;

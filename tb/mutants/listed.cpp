@@ -16,9 +16,10 @@ constexpr Listed c_listed[] = {
     {"arithmetic/saturate.vhd", "value(c_sign - 1 downto c_result_high + 1) & '0'",
      "value(c_sign - 2 downto c_result_high + 1) & \"00\""},
     {"arithmetic/saturate.vhd", "result <= (others => '0')", "result <= (others => '1')"},
-    // One half for the other; halves taken a clock early.
+    // One half for the other; halves taken a clock early; digits added at one place.
     {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"},
     {"arithmetic/multiplier.vhd", "enable & r.filled(1)", "enable & enable"},
+    {"arithmetic/multiplier.vhd", "shift_left(result, 1)", "result"},
     // The bell is not folded; it has a second one beside it; preset published takes the lower bits.
     {"arithmetic/angle_address.vhd", "magnitude <= not angle when", "magnitude <= angle when"},
     {"arithmetic/angle_address.vhd", "magnitude(c_sign downto c_fraction) = c_inside",
@@ -126,8 +127,7 @@ constexpr Listed c_listed[] = {
     // edge never bends.
     {"raster/triangle_walker.vhd", "v.edges.reads        := r.edges.lower_none and r.edges.left(left_t'high)",
      "v.edges.reads        := '0'"},
-    {"raster/triangle_walker.vhd", "moves <= fragment_ready and (ends or not draws)",
-     "moves <= fragment_ready and (not r.span.valid or not draws)"},
+    {"raster/triangle_walker.vhd", "v.flows := last or", "v.flows := (last and not v.span.valid) or"},
     {"raster/triangle_walker.vhd", "moves <= fragment_ready and", "moves <="},
     {"raster/triangle_walker.vhd", "load           => turns", "load           => r.edges.leaves"},
     // An init vector read twice; one that nobody is told of until its first line is handed on.
@@ -136,11 +136,15 @@ constexpr Listed c_listed[] = {
     // One that is read while registers are still cleared; registers that are not; no line, and yet a pixel.
     {"raster/triangle_walker.vhd", "edge_reads and not r.clears", "edge_reads"},
     {"raster/triangle_walker.vhd", "v.clears      := reset", "v.clears      := '0'"},
-    {"raster/triangle_walker.vhd", "none or not r.edges.valid", "none"},
+    {"raster/triangle_walker.vhd", "more(more_t'high) or not r.edges.valid", "more(more_t'high)"},
     // A line, or a span, that does not wait for what it needs.
     {"raster/triangle_walker.vhd", "(line_ready or not r.line.valid)", "'1'"},
-    {"raster/triangle_walker.vhd", "moves <= fragment_ready and (ends or not draws)",
-     "moves <= fragment_ready"},
+    {"raster/triangle_walker.vhd", "moves <= fragment_ready and r.flows", "moves <= fragment_ready"},
+    {"raster/triangle_walker.vhd", "if moves = '1' or r.flows = '0' then", "if r.flows = '0' then"},
+    // A span's end known too late, and where none is; a span of two pixels for one of one.
+    {"raster/triangle_walker.vhd", "behind(0) := not r.span.ends", "behind(0) := '1'"},
+    {"raster/triangle_walker.vhd", "last := not begins", "last := '0'"},
+    {"raster/triangle_walker.vhd", "if r.line.more = 0 then", "if r.line.more = 1 then"},
     // Of equal depths the last; a polygon on the surface is before it; a pixel shaded twice; a column that
     // the
     // token before has just changed; its change that does not go on with it; columns that a clear leaves; a

@@ -101,20 +101,23 @@ std::vector<Proof> all_proofs() {
         {"arithmetic/saturating_sum.vhd", "for i in 1 to g_terms - 1 loop", "for i in 1 to g_terms - 2 loop"},
         {"arithmetic/saturating_sum.vhd", "high := high or terms", "high := terms"}}});
 
-  proofs.push_back(
-      {"arithmetic/multiplier",
-       "arithmetic/multiplier.psl",
-       "The sum of a's multiples that b's bits ask for, three clocks later, and it stands still without "
-       "enable: "
-       "6 by 6 bits",
-       Method::induction,
-       5,
-       true,
-       {{"g_a_bits", "6"}, {"g_b_bits", "6"}},
-       {{"arithmetic/multiplier.vhd", "unsigned(padded((i + 1)", "1 + unsigned(padded((i + 1)"},
-        {"arithmetic/multiplier.vhd", "enable & r.filled(1)", "enable & enable"},
-        {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"},
-        {"arithmetic/multiplier.vhd", "and digit(digit'high)", "and not digit(digit'high)"}}});
+  for (const bool gated : {true, false})
+    proofs.push_back(
+        {"arithmetic/multiplier",
+         "arithmetic/multiplier.psl",
+         gated ? "The sum of a's multiples that b's bits ask for, three clocks later, and it stands still "
+                 "without enable: 6 by 6 bits"
+               : "The same of one whose sums choose what they add",
+         Method::induction,
+         5,
+         true,
+         {{"g_a_bits", "6"}, {"g_b_bits", "6"}, {"g_gated", gated ? "true" : "false"}},
+         {{"arithmetic/multiplier.vhd", "unsigned(padded((i + 1)", "1 + unsigned(padded((i + 1)"},
+          {"arithmetic/multiplier.vhd", "enable & r.filled(1)", "enable & enable"},
+          {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"},
+          {"arithmetic/multiplier.vhd", "and digit(digit'high)", "and not digit(digit'high)"},
+          {"arithmetic/multiplier.vhd", gated ? "digit * unsigned(b)" : "shift_left(result, 1)",
+           gated ? "digit * unsigned(not b)" : "result"}}});
   proofs.push_back(
       {"arithmetic/angle_address",
        "arithmetic/angle_address.psl",
@@ -202,18 +205,22 @@ std::vector<Proof> all_proofs() {
         {"raster/edge_walker.vhd", "(increment & not below)", "(increment & '0')"},
         {"raster/edge_walker.vhd", "increment := '0' & r.rise", "increment := '0' & r.remainder"},
         {"raster/edge_walker.vhd", "v.carry   := next_reduced(next_reduced'high)", "v.carry   := below"}}});
-  proofs.push_back({"raster/slope_walker",
-                    "raster/slope_walker.psl",
-                    "The whole part of what the start and all slopes that were stepped make together",
-                    Method::induction,
-                    2,
-                    true,
-                    {},
-                    {{"raster/slope_walker.vhd", "(r.whole & r.carry)", "(r.whole & '0')"},
-                     {"raster/slope_walker.vhd", "part     := unsigned(load_slope(c_fraction - 1 downto 0))",
-                      "part     := r.part"},
-                     {"raster/slope_walker.vhd", "next_fraction(c_fraction) xor fraction(fraction_t'high)",
-                      "next_fraction(c_fraction)"}}});
+  for (const bool complement : {false, true})
+    proofs.push_back({"raster/slope_walker",
+                      "raster/slope_walker.psl",
+                      complement
+                          ? "The same as its complement"
+                          : "The whole part of what the start and all slopes that were stepped make together",
+                      Method::induction,
+                      2,
+                      true,
+                      {{"g_complement", complement ? "true" : "false"}},
+                      {{"raster/slope_walker.vhd", "(r.whole & r.carry)",
+                        complement ? "(r.whole & '1')" : "(r.whole & '0')"},
+                       {"raster/slope_walker.vhd",
+                        "part     := unsigned(load_slope(c_fraction - 1 downto 0))", "part     := r.part"},
+                       {"raster/slope_walker.vhd", "next_fraction(c_fraction) xor fraction(fraction_t'high)",
+                        "next_fraction(c_fraction)"}}});
   const std::vector<Fault> walker_faults = {
       {"raster/triangle_walker.vhd", "init_ready <= edge_load", "init_ready <= line_load"},
       {"raster/triangle_walker.vhd", "v.edges.reads := not init_valid", "v.edges.reads := '1'"},
@@ -224,25 +231,37 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "line_load <= moves and r.edges.first;", "line_load <= edge_step;"},
       {"raster/triangle_walker.vhd", "line_load <= moves and r.edges.first;",
        "line_load <= line_ready and r.edges.first;"},
-      {"raster/triangle_walker.vhd", "moves <= fragment_ready and (ends or not draws)",
-       "moves <= fragment_ready and ends"},
-      {"raster/triangle_walker.vhd", "moves <= fragment_ready and (ends or not draws)",
-       "moves <= fragment_ready"},
+      {"raster/triangle_walker.vhd", "moves <= fragment_ready and r.flows",
+       "moves <= fragment_ready and r.span.ends"},
+      {"raster/triangle_walker.vhd", "moves <= fragment_ready and r.flows", "moves <= fragment_ready"},
       {"raster/triangle_walker.vhd", "moves <= fragment_ready and", "moves <="},
       {"raster/triangle_walker.vhd", "(line_ready or not r.line.valid)", "'1'"},
       {"raster/triangle_walker.vhd", "(line_ready or not r.line.valid)", "line_ready"},
-      {"raster/triangle_walker.vhd", "begins := r.line.valid and draws and line_ready",
-       "begins := r.line.valid and draws"},
-      {"raster/triangle_walker.vhd", "begins := r.line.valid and draws and line_ready",
-       "begins := draws and line_ready"},
-      {"raster/triangle_walker.vhd", "span_load <= r.line.valid and draws", "span_load <= draws"},
-      {"raster/triangle_walker.vhd", "none or not r.edges.valid", "none"},
+      {"raster/triangle_walker.vhd", "begins    := r.line.draws and line_ready", "begins    := r.line.draws"},
+      {"raster/triangle_walker.vhd", "begins    := r.line.draws and line_ready", "begins    := line_ready"},
+      {"raster/triangle_walker.vhd", "span_load <= fragment_ready and r.span.ends",
+       "span_load <= fragment_ready"},
+      {"raster/triangle_walker.vhd", "r.span.ends and r.line.draws and line_ready",
+       "r.span.ends and line_ready"},
+      {"raster/triangle_walker.vhd", "line_step <= fragment_ready and r.flows and",
+       "line_step <= fragment_ready and"},
+      {"raster/triangle_walker.vhd", "line_step <= fragment_ready and r.flows and r.line.valid",
+       "line_step <= fragment_ready and r.flows"},
+      {"raster/triangle_walker.vhd", "v.flows := last or (r.flows and", "v.flows := (r.flows and"},
+      {"raster/triangle_walker.vhd", "(r.flows and blank)", "r.flows"},
+      {"raster/triangle_walker.vhd", "if moves = '1' or r.flows = '0' then", "if moves = '1' then"},
+      {"raster/triangle_walker.vhd", "if moves = '1' or r.flows = '0' then", "if r.flows = '0' then"},
+      {"raster/triangle_walker.vhd", "if moves = '1' or r.flows = '0' then", "if true then"},
+      {"raster/triangle_walker.vhd", "last := not begins", "last := '0'"},
+      {"raster/triangle_walker.vhd", "if r.line.more = 0 then", "if r.line.more = 1 then"},
+      {"raster/triangle_walker.vhd", "behind(0) := not r.span.ends", "behind(0) := r.span.ends"},
+      {"raster/triangle_walker.vhd", "v.line.draws    := not blank", "v.line.draws    := '1'"},
+      {"raster/triangle_walker.vhd", "more(more_t'high) or not r.edges.valid", "more(more_t'high)"},
       {"raster/triangle_walker.vhd", "v.line.valid    := r.edges.valid", "v.line.valid    := '1'"},
-      {"raster/triangle_walker.vhd", "pixels - 1;", "pixels;"},
+      {"raster/triangle_walker.vhd", "pixels + behind", "pixels"},
       {"raster/triangle_walker.vhd", "v.span.x        := r.line.start", "v.span.x        := r.line.stop"},
       {"raster/triangle_walker.vhd", "span_step <= r.span.valid and fragment_ready",
        "span_step <= r.span.valid"},
-      {"raster/triangle_walker.vhd", "not r.line.more(more_t'high)", "'1'"},
       {"raster/triangle_walker.vhd", "r.edges.y + 1", "r.edges.y"},
       {"raster/triangle_walker.vhd", "fewer(1) := r.edges.follows", "fewer(1) := '1'"},
       {"raster/triangle_walker.vhd", "v.edges.section_last := r.edges.left(left_t'high)",
@@ -258,12 +277,12 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "r.edges.valid and not moves", "r.edges.valid and not edge_load"},
       {"raster/triangle_walker.vhd", "v.clears      := reset", "v.clears      := '0'"},
       {"raster/triangle_walker.vhd", "v.edges.reads   := '1'", "v.edges.reads   := v.edges.reads"},
-      {"raster/triangle_walker.vhd", "if fragment_ready = '1' or r.clears",
-       "if fragment_ready = '1' and r.clears"},
-      {"raster/triangle_walker.vhd", "pixels := (others => '1')", "pixels := pixels"},
       {"raster/triangle_walker.vhd", "busy           <= r.edges.valid or r.line.valid",
        "busy           <= r.line.valid"},
-      {"raster/triangle_walker.vhd", "v.line.valid  := '0'", "v.line.valid  := v.line.valid"},
+      {"raster/triangle_walker.vhd", "v.line.valid := '0'", "v.line.valid := v.line.valid"},
+      {"raster/triangle_walker.vhd", "v.line.draws := '0'", "v.line.draws := v.line.draws"},
+      {"raster/triangle_walker.vhd", "v.span.ends  := '1'", "v.span.ends  := v.span.ends"},
+      {"raster/triangle_walker.vhd", "v.flows      := '1'", "v.flows      := v.flows"},
   };
   std::vector<Fault> exact_faults = walker_faults;
   exact_faults.push_back(
@@ -278,8 +297,10 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "r.edges.lower_none or r.edges.lower_one", "r.edges.lower_none"});
   exact_faults.push_back({"raster/triangle_walker.vhd", "to_x + not from_x", "to_x - from_x"});
   std::vector<Fault> published_faults = walker_faults;
+  published_faults.push_back({"raster/triangle_walker.vhd", "resize(stop, more_t'length) + resize(not_start",
+                              "resize(stop, more_t'length) - resize(start"});
   published_faults.push_back(
-      {"raster/triangle_walker.vhd", "'1' when last = c_highest", "'0' when last = c_highest"});
+      {"raster/triangle_walker.vhd", "start     <= not not_start", "start     <= not_start"});
   const std::vector<Width> narrow_walk = {
       {"span_x", 4, 0}, {"edge_error", 3, 0}, {"lines", 3, 0}, {"pixel_y", 3, 0}, {"triangle", 2, 0}};
   const std::vector<Fault> box_faults = {
@@ -287,7 +308,7 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "else held_lower;", "else lower;"},
       {"raster/triangle_walker.vhd", "load_carry     => section(c_section_bits - 1)",
        "load_carry     => upper(c_section_bits - 1)"},
-      {"raster/triangle_walker.vhd", "not r.line.more(more_t'high)", "'1'"},
+      {"raster/triangle_walker.vhd", "v.line.draws    := not blank", "v.line.draws    := '1'"},
       {"raster/triangle_walker.vhd", "r.edges.y + 1", "r.edges.y + 2"},
       {"raster/triangle_walker.vhd", "v.line.carry    := edge_carry", "v.line.carry    := not edge_carry"},
       {"raster/edge_walker.vhd", "increment := '0' & r.rise", "increment := '0' & r.remainder"},

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Random edges, wrap-around among them, with steps and waits at random: clock by clock against the golden twin.
+-- Random edges, wrap-around among them, with steps and waits at random: clock by clock against the golden twin, x and, of
+-- a walker that gives that, its complement.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -19,7 +20,7 @@ architecture sim of slope_walker_tb is
   signal load_x     : edge_x_t := (others => '0');
   signal load_slope : edge_x_t := (others => '0');
   signal step       : std_logic := '0';
-  signal x          : std_logic_vector(c_published_formats.span_x.bits - 1 downto 0);
+  signal x, not_x   : std_logic_vector(c_published_formats.span_x.bits - 1 downto 0);
   signal finished   : boolean := false;
 begin
   dut : entity work.slope_walker
@@ -30,6 +31,16 @@ begin
       load_slope => load_slope,
       step       => step,
       x          => x);
+
+  complement : entity work.slope_walker
+    generic map (g_complement => true)
+    port map (
+      clk        => clk,
+      load       => load,
+      load_x     => load_x,
+      load_slope => load_slope,
+      step       => step,
+      x          => not_x);
 
   clk <= not clk after c_half_period when not finished;
 
@@ -51,6 +62,11 @@ begin
       step <= flag;
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "x", x);
+      if checked = '1' then
+        assert not_x = not x
+          report "slope_walker_tb: the complement of " & to_string(x) & " is given as " & to_string(not_x)
+          severity failure;
+      end if;
     end loop;
     finished <= true;
     report "slope_walker_tb: passed" severity note;
