@@ -263,7 +263,6 @@ class View {
       if (Status status = video_->commit(); !status) return status.error();
       fmt::print("{}: {} frames a second\n", printable(o_.video->string()), o_.rate);
     }
-    std::fflush(stdout);
     return !summary->difference.has_value();
   }
 
