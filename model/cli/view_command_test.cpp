@@ -150,6 +150,11 @@ TEST_F(ViewCommand, BadUsageExitsTwoAndSaysWhatToDo) {
       {{"matte", "--rate", "16"}, "--rate goes with --video"},
       {{"matte", "--rate", "0", "--video", "a.mp4"}, "--rate: 0 is not 1 to 1000"},
       {{"matte", "--video", "turn"}, "--video: 'turn' names no video"},
+      {{"matte", "--video", "turn.xyz"}, "--video: 'turn.xyz' does not end as a video; take one of .mp4"},
+      // Images: ffmpeg would write one over the other, or many, and none where the video is looked for.
+      {{"matte", "--video", "turn%d.png"}, "--video: 'turn%d.png' does not end as a video"},
+      {{"matte", "--video", "out/frame_0000.png", "--out", "out"}, "does not end as a video"},
+      {{"matte", "--video", "turn.h.jpg"}, "does not end as a video"},
       {{"matte", "--columns", "20"}, "--columns goes with --terminal"},
       {{"matte", "--colours", "256"}, "--colours goes with --terminal"},
       {{"matte", "--terminal", "--columns", "9", "--colours", "16"}, "--colours: '16' is not a kind"},
