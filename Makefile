@@ -30,6 +30,8 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
   $(call option,OUT,--out)
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
+synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme README.md) \
+  --page tb/synth/README.md . build/cache $${DESIGN:+"$$DESIGN"}
 
 .PHONY: help sim view compare why plan study slurm-test figures report check-report diagrams gallery tables \
   check-tables test sanitize fuzz kills mutate prove stability search bounds synth bench build program generator configure \
@@ -169,9 +171,9 @@ bounds: configure ## every bound of formats and tables: derived, proved, and how
 
 synth: configure ## cells on two FPGAs, and the clock on one, against what is pinned (DESIGN, SEEDS, PIN=1)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth synth_frames
+	@build/tb/halfway_synth --check $(synth_options)
 	@build/tb/synth_frames
-	@build/tb/halfway_synth --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme README.md) \
-	  --page tb/synth/README.md . build/cache $${DESIGN:+"$$DESIGN"}
+	@build/tb/halfway_synth $(synth_options)
 
 bench: configure ## speed: other ways to the same picture, growth, small triangles, cores; writes its page
 	@scripts/unpack.sh build/tools/ghdl-mcode ghdl-mcode ghdl-common || true

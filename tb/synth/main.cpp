@@ -38,10 +38,11 @@ constexpr std::string_view kHead =
     "flip-flops | RAMs | multipliers |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | "
     "--- | --- |\n";
 
+constexpr const char* kReadmePart = "clocks";
 constexpr const char* kEndless = "nextpnr does not end";
 
 struct Options {
-  bool quick = false, cells = false, pin = false;
+  bool quick = false, cells = false, pin = false, check = false;
   unsigned seeds = kSeeds, jobs = 2;
   std::filesystem::path page{}, readme{};
   SimulatorFolders folders{};
@@ -124,6 +125,18 @@ std::string row(const ListedDesign& listed, const Figures& f) {
   return text;
 }
 
+// What is written once all is measured, which takes long: that it can be is told before.
+Status check_written(const Options& options) {
+  if (!options.page.empty())
+    if (const auto page = read_file(options.page); !page) return page.error();
+  if (options.readme.empty()) return Ok{};
+  const auto readme = read_file(options.readme);
+  if (!readme) return readme.error();
+  if (const auto part = page_part(*readme, kReadmePart); !part)
+    return bad_input(fmt::format("{}: {}", options.readme.string(), part.error().message));
+  return Ok{};
+}
+
 // The rows of designs measured before stay, those of designs that are no more go.
 Status write_page(const std::filesystem::path& path, const std::map<std::string, std::string>& rows,
                   const std::string& versions) {
@@ -145,6 +158,13 @@ Status write_page(const std::filesystem::path& path, const std::map<std::string,
                     fmt::format("{}{}\nBy {}, on {}.\n\n{}", *text, kTable, versions, machine(), table));
 }
 
+// A part is pinned beside what is there; all anew, or where nothing is.
+Result<Pins> pins_before(const Options& options) {
+  const auto path = options.folders.source / kPins;
+  if (options.pin && (options.part.empty() || !std::filesystem::exists(path))) return Pins{};
+  return read_pins(path);
+}
+
 // By the pins as they are read again: they are rounded there.
 Status write_readme(const std::filesystem::path& path, const std::filesystem::path& pinned) {
   const auto pins = read_pins(pinned);
@@ -153,28 +173,22 @@ Status write_readme(const std::filesystem::path& path, const std::filesystem::pa
   if (!clocks) return clocks.error();
   const auto readme = read_file(path);
   if (!readme) return readme.error();
-  const auto text = with_page_part(*readme, "clocks", *clocks);
+  const auto text = with_page_part(*readme, kReadmePart, *clocks);
   if (!text) return bad_input(fmt::format("{}: {}", path.string(), text.error().message));
   return write_file(path, *text);
 }
 
 class Run {
  public:
-  Run(const Options& options, const Synthesizer& synthesizer, std::vector<ListedDesign> designs)
+  Run(const Options& options, const Synthesizer& synthesizer, std::vector<ListedDesign> designs, Pins pins)
       : options_(options),
         synthesizer_(synthesizer),
         designs_(std::move(designs)),
-        figures_(designs_.size()) {}
+        figures_(designs_.size()),
+        pins_(std::move(pins)) {}
 
   /// Large designs first, by what is pinned of them: else the last job is the longest.
   ExitCode run() {
-    // A part is pinned beside what is there; all anew, or where nothing is.
-    const auto path = options_.folders.source / kPins;
-    if (!options_.pin || (!options_.part.empty() && std::filesystem::exists(path))) {
-      auto pins = read_pins(path);
-      if (!pins) return failed(pins.error());
-      pins_ = std::move(*pins);
-    }
     std::vector<std::size_t> order(designs_.size());
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(),
@@ -379,6 +393,10 @@ int main_of(const Options& options) {
     return cli::report(bad_input(
         fmt::format("{}: no design has this in its name; tb/synth/README.md lists them", options.part)));
   }
+  if (const Status written = check_written(options); !written) return cli::report(written.error());
+  auto pins = pins_before(options);
+  if (!pins) return cli::report(pins.error());
+  if (options.check) return 0;
   const auto synthesizer = Synthesizer::open(options.folders, !options.cells, {kAccumulator});
   if (!synthesizer) {
     const bool missing =
@@ -387,7 +405,7 @@ int main_of(const Options& options) {
     cli::say((skipped ? "skipped: " : "") + synthesizer.error().message);
     return skipped ? kSkipped : static_cast<int>(synthesizer.error().code);
   }
-  return static_cast<int>(Run(options, *synthesizer, std::move(designs)).run());
+  return static_cast<int>(Run(options, *synthesizer, std::move(designs), std::move(*pins)).run());
 }
 
 }  // namespace
@@ -406,6 +424,7 @@ int main(int argc, char** argv) {
       app.add_flag("--pin", options.pin, "write the figures into the pinned file in place of comparing")
           ->excludes(quick)
           ->excludes(cells);
+  app.add_flag("--check", options.check, "measure nothing: only look whether what is asked for can be");
   app.add_option("--seeds", options.seeds, "of placement")->check(CLI::Range(1, 999))->capture_default_str();
   app.add_option("--jobs", options.jobs, "at a time")->check(CLI::Range(1, 999))->capture_default_str();
   // Rows would have holes.
