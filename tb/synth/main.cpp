@@ -327,9 +327,11 @@ class Run {
   }
 
   Result<ExitCode> pin() {
+    std::size_t pinned = 0;
     for (std::size_t i = 0; i < designs_.size(); ++i) {
       const Figures& f = figures_[i];
       if (!f.ice40) continue;
+      ++pinned;
       Pin& pin = pins_[designs_[i].design.name];
       pin.cells = *f.ice40;
       // Where no placement has come to an end the clock stays, and what it is of.
@@ -347,7 +349,7 @@ class Run {
     if (!options_.readme.empty())
       if (const Status told = write_readme(options_.readme, options_.folders.source / kPins); !told)
         return told.error();
-    fmt::print("{} designs are pinned\n", designs_.size());
+    fmt::print("{} designs are pinned\n", pinned);
     return ExitCode::equal;
   }
 

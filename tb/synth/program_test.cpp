@@ -17,6 +17,7 @@ namespace halfway::synth {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -92,6 +93,14 @@ TEST_F(SynthProgram, WritesTheRowAndTellsWhatHasNoEnd) {
   EXPECT_THAT(
       *text,
       HasSubstr("| `accumulator_24` | 24 | 23 | 24 | 0 | 90 | 90 to 90 of 2; nextpnr does not end: 1 |"));
+}
+
+// One of the two is for ECP5 alone.
+TEST_F(SynthProgram, CountsWhatItPins) {
+  const Outcome outcome = run({"--pin", "--seeds", "1"}, "shading_pipeline");
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("shading_pipeline_exact, ECP5"), HasSubstr("\n1 designs are pinned\n")));
 }
 
 // Of a part of the designs README's figures cannot be had: it stays as it is.
