@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "sim/synth/synthesis.hpp"
 
@@ -32,6 +33,10 @@ using Pins = std::map<std::string, Pin>;
 /// may be missing.
 Result<Pins> read_pins(const std::filesystem::path& path);
 Status write_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions);
+
+/// The ns that the papers print for a design, by its name, on an XCV300: a pixel of the quadratic and the
+/// spherical shader, a clock of a shading processor.
+std::optional<int> published_ns(std::string_view design);
 
 /// README's part "clocks": the shaders' cells and clocks. An error where a design of it is not pinned, or not
 /// placed.

@@ -71,6 +71,14 @@ TEST(SynthPins, ComeBackFromTheirFile) {
   }
 }
 
+TEST(SynthPins, HaveWhatThePapersPrintBeside) {
+  EXPECT_EQ(published_ns("quadratic_shader_grey_exact"), 50);
+  EXPECT_EQ(published_ns("spherical_shader_published"), 60);
+  EXPECT_EQ(published_ns("shading_processor_diffuse_published"), 50);
+  EXPECT_FALSE(published_ns("unrolled_shading_processor_diffuse_published"));
+  EXPECT_FALSE(published_ns("accumulator_24"));
+}
+
 TEST(SynthPins, AreWhatReadmeSays) {
   const std::filesystem::path root = HALFWAY_SOURCE_DIR;
   const auto pins = read_pins(root / kPins);

@@ -65,11 +65,14 @@ TEST(SynthDesigns, HaveTheirRowsInThePage) {
   const std::size_t figures = page->find("\n## Figures\n");
   ASSERT_NE(figures, std::string::npos);
   const std::string table = page->substr(figures);
-  const std::regex row(R"(\n\| `(\w+)` \| (\d+|–) \| (\d+|–) \| (\d+|–) \| (\d+|–) \| (\d+|–) \|)");
+  const std::regex row(
+      R"(\n\| `(\w+)` \| (\d+|–) \| (\d+|–) \| (\d+|–) \| (\d+|–) \| (\d+|–) \| [^|]+ \| [^|]+ \| (\d+|–) \|)");
   std::vector<std::string> rows;
   for (std::sregex_iterator it(table.begin(), table.end(), row), end; it != end; ++it) {
     const std::string name = (*it)[1];
     rows.push_back(name);
+    const auto published = published_ns(name);
+    EXPECT_EQ((*it)[7], published ? std::to_string(*published) : "–") << name;
     const auto found = pins->find(name);
     EXPECT_EQ(found == pins->end(), (*it)[2] == "–") << name;
     if (found == pins->end()) continue;

@@ -33,10 +33,9 @@ namespace {
 constexpr int kSkipped = 77;                         // as CMakeLists.txt has it in SKIP_RETURN_CODE
 constexpr std::string_view kTable = "## Figures\n";  // of the page: what stands behind it is written anew
 constexpr std::string_view kHead =
-    "| design | LUTs | carries | flip-flops | RAMs | clock, MHz | seeds, MHz | ns a pixel | critical path | "
-    "ECP5: LUTs | "
-    "flip-flops | RAMs | multipliers |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | "
-    "--- | --- |\n";
+    "| design | LUTs | carries | flip-flops | RAMs | clock, MHz | seeds, MHz | ns a pixel | published, ns | "
+    "critical path | ECP5: LUTs | flip-flops | RAMs | multipliers |\n"
+    "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
 
 constexpr const char* kReadmePart = "clocks";
 constexpr const char* kEndless = "nextpnr does not end";
@@ -112,11 +111,13 @@ std::string row(const ListedDesign& listed, const Figures& f) {
                         f.ice40->rams);
   else
     text += " – | – | – | – |";
+  const auto published = published_ns(listed.design.name);
+  const std::string printed = published ? std::to_string(*published) : "–";
   if (f.fits())
-    text += fmt::format(" {:.0f} | {} | {:.1f} | {} |", f.mhz(), seeds_text(f), 1000 / f.mhz(),
+    text += fmt::format(" {:.0f} | {} | {:.1f} | {} | {} |", f.mhz(), seeds_text(f), 1000 / f.mhz(), printed,
                         path_text(f.median()->path));
   else
-    text += fmt::format(" – | – | – | {} |", not_placed(f));
+    text += fmt::format(" – | – | – | {} | {} |", printed, not_placed(f));
   if (f.ecp5)
     text += fmt::format(" {} | {} | {} | {} |\n", f.ecp5->luts, f.ecp5->flip_flops, f.ecp5->rams,
                         f.ecp5->multipliers);
