@@ -328,7 +328,7 @@ class Run {
   }
 
   Result<ExitCode> pin() {
-    std::size_t pinned = 0;
+    std::size_t pinned = 0, hasty = 0;
     for (std::size_t i = 0; i < designs_.size(); ++i) {
       const Figures& f = figures_[i];
       if (!f.ice40) continue;
@@ -339,6 +339,8 @@ class Run {
       if (f.fits() || f.endless == 0 || pin.mhz == 0) {
         pin.mhz = f.mhz();
         pin.netlist = f.netlist;
+        if (f.fits()) pin.seeds = static_cast<unsigned>(f.placements.size());
+        if (f.fits() && pin.seeds < kSeeds) ++hasty;
       }
     }
     std::set<std::string> listed;
@@ -351,6 +353,11 @@ class Run {
       if (const Status told = write_readme(options_.readme, options_.folders.source / kPins); !told)
         return told.error();
     fmt::print("{} designs are pinned\n", pinned);
+    if (hasty > 0)
+      cli::say(fmt::format(
+          "note: {} clocks are pinned of fewer than the usual {} seeds, as {} says of each; of few "
+          "a median is luck",
+          hasty, kSeeds, kPins));
     return ExitCode::equal;
   }
 

@@ -94,6 +94,23 @@ TEST_F(SynthProgram, WritesTheRowAndTellsWhatHasNoEnd) {
                                "end: 1 | 11.1 | – | `"));
 }
 
+TEST_F(SynthProgram, PinsOfHowManySeedsAClockIs) {
+  const Outcome few = run({"--pin", "--seeds", "1"});
+  EXPECT_EQ(few.exit_status, 0) << few.errors;
+  EXPECT_THAT(few.errors, HasSubstr("note: 1 clocks are pinned of fewer than the usual 3 seeds"));
+  auto pins = read_pins(root() / kPins);
+  ASSERT_TRUE(pins) << pins.error().message;
+  EXPECT_EQ(pins->at("accumulator_24").seeds, 1U);
+  // One of four has no end.
+  const Outcome enough = run({"--pin", "--seeds", "4"});
+  EXPECT_EQ(enough.exit_status, 0) << enough.errors;
+  EXPECT_EQ(enough.errors, "");
+  pins = read_pins(root() / kPins);
+  ASSERT_TRUE(pins) << pins.error().message;
+  EXPECT_EQ(pins->at("accumulator_24").seeds, 3U);
+  EXPECT_THAT(*read_file(root() / kPins), Not(::testing::ContainsRegex("[0-9a-f]{32} 3\n")));
+}
+
 // One of the two is for ECP5 alone.
 TEST_F(SynthProgram, CountsWhatItPins) {
   const Outcome outcome = run({"--pin", "--seeds", "1"}, "shading_pipeline");
