@@ -23,6 +23,7 @@
 #include "common/printable.hpp"
 #include "common/seconds.hpp"
 #include "frame/image.hpp"
+#include "frame/image_library.hpp"
 #include "frame/terminal_picture.hpp"
 #include "run/result_files.hpp"
 #include "run/video.hpp"
@@ -206,6 +207,9 @@ class View {
     for (const std::string& note : scene->notes) say(note);
     const auto lock = prepare_folder(scene->name);
     if (!lock) return lock.error();
+    // Now, for it takes as long as many small frames, and may not be there.
+    if (o_.images && !o_.ppm)
+      if (const auto library = image_library(); !library) return library.error();
 
     ViewSettings settings;
     settings.plan = draw_.plan;

@@ -120,6 +120,31 @@ TEST_F(ViewCommand, DrawsWhatSimDrawsFromEachPlace) {
   }
 }
 
+// What is loaded once does not count as frames' time: OpenImageIO comes before the hardware, and so before
+// the clock starts; for images that do not need it, not at all.
+TEST_F(ViewCommand, LoadsTheImageLibraryBeforeItDraws) {
+  ASSERT_EQ(view({"matte", "--frames", "1"}).exit_code, 0);  // builds the hardware
+  for (const std::string format : {"png", "ppm"}) {
+    const Environment trace = {{"LD_DEBUG", "files"}, {"LD_DEBUG_OUTPUT", at(format).string()}};
+    const Outcome drawn = view({"matte", "--frames", "1", "--format", format, "--out", "out"}, trace);
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+    int programs = 0;
+    for (const auto& file : std::filesystem::directory_iterator(folder_->path())) {
+      if (!file.path().filename().string().starts_with(format + ".")) continue;
+      const auto text = read_file(file.path());
+      ASSERT_TRUE(text);
+      const std::size_t images = text->find("libhalfway_images"), hardware = text->find("/cache/verilator/");
+      if (hardware == std::string::npos) continue;
+      ++programs;
+      if (format == "png")
+        EXPECT_LT(images, hardware);
+      else
+        EXPECT_EQ(images, std::string::npos);
+    }
+    EXPECT_EQ(programs, 1);
+  }
+}
+
 TEST_F(ViewCommand, LanesThatCannotBeHadAreBadInput) {
   const Outcome other = view({"matte", "--simulator", "ghdl"});
   EXPECT_EQ(other.exit_code, 2) << other.output;
