@@ -13,12 +13,12 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include "cli/options.hpp"
 #include "cli/program.hpp"
 #include "common/file.hpp"
+#include "common/machine.hpp"
 #include "common/page_part.hpp"
 #include "common/seconds.hpp"
 #include "common/subprocess.hpp"
@@ -62,24 +62,6 @@ struct Figures {
   bool fits() const { return !placements.empty() && placements.front().fits(); }
   double mhz() const { return fits() ? median()->mhz : 0; }
 };
-
-std::string machine() {
-  std::string name = "unknown processor", system = "unknown system";
-  if (const auto text = read_file("/proc/cpuinfo")) {
-    const std::size_t at = text->find("model name");
-    if (at != std::string::npos) {
-      const std::size_t colon = text->find(": ", at);
-      name = text->substr(colon + 2, text->find('\n', colon) - colon - 2);
-    }
-  }
-  if (const auto text = read_file("/etc/os-release")) {
-    constexpr std::string_view c_key = "PRETTY_NAME=\"";
-    const std::size_t at = text->find(c_key);
-    if (at != std::string::npos)
-      system = text->substr(at + c_key.size(), text->find('"', at + c_key.size()) - at - c_key.size());
-  }
-  return fmt::format("{}, {} threads, {}", name, std::thread::hardware_concurrency(), system);
-}
 
 std::string path_text(const CriticalPath& path) {
   return fmt::format("`{}` → `{}`: {} LUTs, {} carries, {:.1f} ns in cells, {:.1f} ns in wires", path.from,
@@ -155,8 +137,8 @@ Status write_page(const std::filesystem::path& path, const std::map<std::string,
       table += text->substr(before, text->find('\n', before) + 1 - before);
   }
   text->resize(figures);
-  return write_file(path,
-                    fmt::format("{}{}\nBy {}, on {}.\n\n{}", *text, kTable, versions, machine(), table));
+  return write_file(path, fmt::format("{}{}\nBy {}, on {}, {}.\n\n{}", *text, kTable, versions, machine(),
+                                      operating_system(), table));
 }
 
 // A part is pinned beside what is there; all anew, or where nothing is.
