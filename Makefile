@@ -198,13 +198,14 @@ configure: setup
 
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs some packages more, and so
 # do `make study`, `make plan MEASURE=1`, `make synth`, `make prove`, `make bounds`, `make mutate`, `make fuzz`,
-# `make sanitize`, `make diagrams` and `make check-report`.
+# `make sanitize`, `make diagrams`, `make check-report` and `make view VIDEO=…`.
 setup:
 	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate synth study,$(MAKECMDGOALS)) \
 	  $(if $(filter gallery,$(MAKECMDGOALS)),study) \
 	  $(if $(filter fuzz sanitize,$(MAKECMDGOALS)),fuzz) $(if $(filter check-report diagrams,$(MAKECMDGOALS)),report) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth)) \
-	  $(if $(filter study,$(MAKECMDGOALS)),$(call flag,PLACE,synth))
+	  $(if $(filter study,$(MAKECMDGOALS)),$(call flag,PLACE,synth)) \
+  $(if $(filter view,$(MAKECMDGOALS)),$(call flag,VIDEO,video))
 
 doctor: ## tools and libraries found, and the command that mends what is missing
 	@sh scripts/setup.sh --doctor

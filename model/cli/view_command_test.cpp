@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "cli/command_test.hpp"
 #include "common/file.hpp"
@@ -234,6 +236,43 @@ TEST_F(ViewCommand, AVideoThatFailsLeavesNoHalf) {
     EXPECT_EQ(bytes("films/turn.mp4"), "old");
     EXPECT_THAT(names("films"), ElementsAre("turn.mp4"));
   }
+}
+
+// With every ending that the refusal of others offers.
+TEST_F(ViewCommand, AVideoByFfmpegItselfPlays) {
+  if (find_program("ffmpeg").empty()) GTEST_SKIP() << "no ffmpeg: apt-get install ffmpeg";
+  const std::string refused = view({"matte", "--video", "turn.xyz"}).output, offer = "take one of ";
+  ASSERT_THAT(refused, HasSubstr(offer));
+  std::istringstream endings(refused.substr(refused.find(offer) + offer.size()));
+  int played = 0;
+  for (std::string ending; endings >> ending; ++played) {
+    const std::string video = "turn 100%d" + ending;
+    const Outcome drawn =
+        view({"spheres", "--frames", "3", "--video", video, "--out", "turn", "--format", "ppm"});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+    const Outcome decoded =
+        run_as({"ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-i", at(video).string(), "-f", "rawvideo",
+                "-pix_fmt", "rgb24", "-vsync", "passthrough", at("decoded").string()});
+    ASSERT_EQ(decoded.exit_code, 0) << decoded.output;
+    std::string frames;
+    for (int n = 0; n < 3; ++n) frames += bytes(fmt::format("turn/frame_{:04}.ppm", n)).substr(13);
+    const std::string shown = bytes("decoded");
+    ASSERT_EQ(shown.size(), frames.size()) << ending;
+    double off = 0;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      off += std::abs(static_cast<unsigned char>(shown[i]) - static_cast<unsigned char>(frames[i]));
+    EXPECT_LT(off / static_cast<double>(shown.size()), 6.0) << ending << ": lossy, and near all the same";
+  }
+  EXPECT_GT(played, 5);
+}
+
+TEST_F(ViewCommand, DoctorTellsWhetherFfmpegIsThere) {
+  const std::string setup = std::string(HALFWAY_SOURCE_DIR) + "/scripts/setup.sh";
+  const bool there = !find_program("ffmpeg").empty();
+  EXPECT_THAT(run_as({"sh", setup, "--doctor"}).output,
+              AllOf(ContainsRegex(std::string("video +ffmpeg +[0-9.-]+ +[0-9.]+ +[0-9.]+ +") +
+                                  (there ? "(ok|older)" : "missing")),
+                    there ? HasSubstr("") : HasSubstr("optional group video: ")));
 }
 
 TEST_F(ViewCommand, DrawsInTheTerminal) {
