@@ -50,7 +50,7 @@ help: ## this list
 	@echo '  SIZE       WIDTHxHEIGHT in pixels                         (default: 640x480)'
 	@echo '  SIMULATOR  ghdl, verilator or lanes; make view: auto, verilator or lanes (default: both; auto)'
 	@echo '  OUT        the folder for results                         (default: build/out)'
-	@echo '  THREADS    threads for triangle setup and golden model    (default: all cores)'
+	@echo '  THREADS    threads for setup and golden model; make view: for whole frames   (default: all cores)'
 	@echo '  ALL_EFFECTS  1: hardware with every effect, whatever the scene calls for; LIGHTS  for how many lights'
 	@echo '  FRAMES     make view: steps of one turn of the camera         (default: 36)'
 	@echo '  VIDEO, RATE  make view: a file for a video, and its frames a second; TERMINAL  1: draw in the terminal'
@@ -74,7 +74,7 @@ help: ## this list
 sim: program ## scenes through golden model, GHDL and Verilator: compare, write frames
 	@build/halfway sim $(sim_options) $(scene)
 
-view: program ## one scene from all sides, by the RTL in Verilator (SCENE; VIDEO=turn.mp4, TERMINAL=1)
+view: program ## one scene from all sides, by the RTL in Verilator or lanes (SCENE; VIDEO=turn.mp4, TERMINAL=1)
 	@build/halfway view $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) $(call option,OUT,--out) \
 	  $(call option,FRAMES,--frames) $(call option,VIDEO,--video) $(call option,RATE,--rate) \
 	  $(call flag,TERMINAL,--terminal) $(scene)

@@ -47,6 +47,7 @@ TEST_F(CliTest, HelpGoesToStandardOutputAndExitsZero) {
     EXPECT_THAT(help.output, HasSubstr("Usage: "));
   }
   EXPECT_EQ(run({"--help"}).exit_code, 0);
+  EXPECT_THAT(run({"view", "--help"}).output, HasSubstr("threads, each of which draws whole frames"));
   // With standard output closed to us, nothing of the help may be left on standard error.
   const Outcome quiet = run_as({"sh", "-c", std::string("exec '") + HALFWAY_PROGRAM + "' --help >/dev/null"});
   EXPECT_EQ(quiet.output, "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway view`: a scene from all sides, by the RTL in Verilator, as fast as it draws.
+// `halfway view`: a scene from all sides, by the RTL in Verilator or lanes, as fast as it draws.
 #include "run/view.hpp"
 
 #include <fmt/format.h>
@@ -349,6 +349,7 @@ void add_view(CLI::App& app, const Folders& folders, int& exit_code) {
       "folder for frame_0000.png and on; older frames there are removed (default:\n"
       "build/out/<scene>/<shader>/view; none with --video or --terminal)");
   out->default_str("");
+  sub->get_option("--threads")->description("threads, each of which draws whole frames (0: all cores)");
   sub->add_option("--frames", command->frames,
                   fmt::format("of one turn of the camera around its target, 1 to {}", c_most_view_frames))
       ->capture_default_str();
