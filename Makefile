@@ -30,6 +30,8 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
   $(call option,OUT,--out)
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
+synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme README.md) \
+  --page tb/synth/README.md . build/cache $${DESIGN:+"$$DESIGN"}
 
 .PHONY: help sim view compare why plan study slurm-test figures report check-report diagrams gallery tables \
   check-tables test sanitize fuzz kills mutate prove stability search bounds synth bench build program generator configure \
@@ -48,7 +50,7 @@ help: ## this list
 	@echo '  SIZE       WIDTHxHEIGHT in pixels                         (default: 640x480)'
 	@echo '  SIMULATOR  ghdl, verilator or lanes; make view: auto, verilator or lanes (default: both; auto)'
 	@echo '  OUT        the folder for results                         (default: build/out)'
-	@echo '  THREADS    threads for triangle setup and golden model    (default: all cores)'
+	@echo '  THREADS    threads for setup and golden model; make view: for whole frames   (default: all cores)'
 	@echo '  ALL_EFFECTS  1: hardware with every effect, whatever the scene calls for; LIGHTS  for how many lights'
 	@echo '  FRAMES     make view: steps of one turn of the camera         (default: 36)'
 	@echo '  VIDEO, RATE  make view: a file for a video, and its frames a second; TERMINAL  1: draw in the terminal'
@@ -72,7 +74,7 @@ help: ## this list
 sim: program ## scenes through golden model, GHDL and Verilator: compare, write frames
 	@build/halfway sim $(sim_options) $(scene)
 
-view: program ## one scene from all sides, by the RTL in Verilator (SCENE; VIDEO=turn.mp4, TERMINAL=1)
+view: program ## one scene from all sides, by the RTL in Verilator or lanes (SCENE; VIDEO=turn.mp4, TERMINAL=1)
 	@build/halfway view $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) $(call option,OUT,--out) \
 	  $(call option,FRAMES,--frames) $(call option,VIDEO,--video) $(call option,RATE,--rate) \
 	  $(call flag,TERMINAL,--terminal) $(scene)
@@ -169,9 +171,9 @@ bounds: configure ## every bound of formats and tables: derived, proved, and how
 
 synth: configure ## cells on two FPGAs, and the clock on one, against what is pinned (DESIGN, SEEDS, PIN=1)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth synth_frames
+	@build/tb/halfway_synth --check $(synth_options)
 	@build/tb/synth_frames
-	@build/tb/halfway_synth --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme README.md) \
-	  --page tb/synth/README.md . build/cache $${DESIGN:+"$$DESIGN"}
+	@build/tb/halfway_synth $(synth_options)
 
 bench: configure ## speed: other ways to the same picture, growth, small triangles, cores; writes its page
 	@scripts/unpack.sh build/tools/ghdl-mcode ghdl-mcode ghdl-common || true
@@ -196,13 +198,14 @@ configure: setup
 
 # Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs some packages more, and so
 # do `make study`, `make plan MEASURE=1`, `make synth`, `make prove`, `make bounds`, `make mutate`, `make fuzz`,
-# `make sanitize`, `make diagrams` and `make check-report`.
+# `make sanitize`, `make diagrams`, `make check-report` and `make view VIDEO=…`.
 setup:
 	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate synth study,$(MAKECMDGOALS)) \
 	  $(if $(filter gallery,$(MAKECMDGOALS)),study) \
 	  $(if $(filter fuzz sanitize,$(MAKECMDGOALS)),fuzz) $(if $(filter check-report diagrams,$(MAKECMDGOALS)),report) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth)) \
-	  $(if $(filter study,$(MAKECMDGOALS)),$(call flag,PLACE,synth))
+	  $(if $(filter study,$(MAKECMDGOALS)),$(call flag,PLACE,synth)) \
+  $(if $(filter view,$(MAKECMDGOALS)),$(call flag,VIDEO,video))
 
 doctor: ## tools and libraries found, and the command that mends what is missing
 	@sh scripts/setup.sh --doctor

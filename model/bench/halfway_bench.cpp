@@ -27,6 +27,7 @@
 #include "bench/workload.hpp"
 #include "bench/yardstick.hpp"
 #include "common/file.hpp"
+#include "common/machine.hpp"
 #include "common/seconds.hpp"
 #include "common/subprocess.hpp"
 #include "common/threads.hpp"
@@ -606,19 +607,6 @@ std::string first_line(const std::vector<std::string>& question) {
   const auto end = run_process({.arguments = question}, "");
   if (!end) return "not here";
   return end->output.substr(0, end->output.find('\n'));
-}
-
-std::string machine() {
-  std::string processor = "unknown";
-  if (const auto text = read_file("/proc/cpuinfo"))
-    if (const std::size_t at = text->find("model name"); at != std::string::npos) {
-      const std::size_t from = text->find(": ", at) + 2;
-      processor = text->substr(from, text->find('\n', from) - from);
-    }
-  std::string memory;
-  if (const auto text = read_file("/proc/meminfo"))
-    memory = fmt::format("{:.0f} GiB", std::strtod(text->c_str() + text->find(':') + 1, nullptr) / (1 << 20));
-  return fmt::format("{} cores of {}, {}", std::thread::hardware_concurrency(), processor, memory);
 }
 
 /// Of the last one and fifteen minutes: processes that would run.

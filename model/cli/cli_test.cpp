@@ -47,6 +47,7 @@ TEST_F(CliTest, HelpGoesToStandardOutputAndExitsZero) {
     EXPECT_THAT(help.output, HasSubstr("Usage: "));
   }
   EXPECT_EQ(run({"--help"}).exit_code, 0);
+  EXPECT_THAT(run({"view", "--help"}).output, HasSubstr("threads, each of which draws whole frames"));
   // With standard output closed to us, nothing of the help may be left on standard error.
   const Outcome quiet = run_as({"sh", "-c", std::string("exec '") + HALFWAY_PROGRAM + "' --help >/dev/null"});
   EXPECT_EQ(quiet.output, "");
@@ -320,6 +321,9 @@ TEST_F(CliTest, CompareSeesAChangedTraceAndRefusesADamagedOne) {
   EXPECT_EQ(differs.exit_code, 1) << differs.output;
   EXPECT_THAT(differs.output,
               ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, blue: golden [0-9]+, verilator"));
+  EXPECT_EQ(
+      run_as({"sh", "-c", fmt::format("'{}' compare one --out out >/dev/full", HALFWAY_PROGRAM)}).exit_code,
+      1);
 
   for (const std::string& damaged :
        {whole->substr(0, whole->size() / 2), std::string("P6\n20 15\n"), std::string(),
@@ -457,6 +461,23 @@ TEST_F(CliTest, AFullDiskExitsThreeAndLeavesNothingHalfWritten) {
   EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
   for (const char* file : {"summary.json", "init.txt", "golden.trace", "verilator.trace"})
     EXPECT_FALSE(std::filesystem::exists(out() / "spheres" / "quadratic" / file)) << file;
+}
+
+// What is printed is a result as well.
+TEST_F(CliTest, AFullStandardOutputExitsThreeAndIsTold) {
+  const auto full = [&](const std::string& arguments) {
+    return run_as({"sh", "-c", fmt::format("exec '{}' {} >/dev/full", HALFWAY_PROGRAM, arguments)});
+  };
+  const std::string small = " matte --size 40x30 --out out --simulator verilator";
+  for (const std::string& arguments :
+       {std::string("--help"), std::string("plan matte"), "sim" + small, "view --frames 1" + small}) {
+    const Outcome outcome = full(arguments);
+    EXPECT_EQ(outcome.exit_code, 3) << arguments << outcome.output;
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("standard output: not all could be written"),
+                                      Not(HasSubstr("please report it"))))
+        << arguments;
+  }
+  EXPECT_THAT(full("view --frames 1" + small).output, HasSubstr("(No space left on device)"));
 }
 
 // A scene's name is a file's: any bytes. It goes into summary.json, whose texts are UTF-8.

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -20,7 +22,9 @@ int report(const Error& error) {
   return static_cast<int>(error.code);
 }
 
-int run_program(CLI::App& app, int argc, char** argv, const int& exit_code) {
+namespace {
+
+int parse_and_run(CLI::App& app, int argc, char** argv, const int& exit_code) {
   const std::string name = app.get_name();
   try {
     app.parse(argc, argv);
@@ -32,10 +36,22 @@ int run_program(CLI::App& app, int argc, char** argv, const int& exit_code) {
     fmt::print(stderr, "{}: out of memory; a smaller frame or mesh, or fewer threads, may fit\n", name);
     return static_cast<int>(ExitCode::tool_failed);
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return static_cast<int>(ExitCode::tool_failed);  // told by run_program
     say(fmt::format("{}: {}; this should not happen, please report it", name, error.what()));
     return static_cast<int>(ExitCode::tool_failed);
   }
   return exit_code;
+}
+
+}  // namespace
+
+int run_program(CLI::App& app, int argc, char** argv, const int& exit_code) {
+  const int code = parse_and_run(app, argc, argv, exit_code);
+  errno = 0;  // an earlier flush may have failed, and its reason is lost
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  const std::string why = errno == 0 ? "" : fmt::format(" ({})", std::strerror(errno));
+  say(fmt::format("standard output: not all could be written{}; make room, or send it elsewhere", why));
+  return code == 0 ? static_cast<int>(ExitCode::tool_failed) : code;
 }
 
 }  // namespace halfway::cli

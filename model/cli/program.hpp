@@ -25,6 +25,7 @@ int report(const Error& error);
 void say(std::string_view line);
 
 /// Parses, and so runs, what was asked for: the program's exit code. The command's callback sets `exit_code`.
+/// What could not be written to stdout is told, and ends with tool_failed what ended well.
 int run_program(CLI::App& app, int argc, char** argv, const int& exit_code);
 
 /// The command `tables`.

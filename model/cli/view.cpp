@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway view`: a scene from all sides, by the RTL in Verilator, as fast as it draws.
+// `halfway view`: a scene from all sides, by the RTL in Verilator or lanes, as fast as it draws.
 #include "run/view.hpp"
 
 #include <fmt/format.h>
@@ -23,6 +23,7 @@
 #include "common/printable.hpp"
 #include "common/seconds.hpp"
 #include "frame/image.hpp"
+#include "frame/image_library.hpp"
 #include "frame/terminal_picture.hpp"
 #include "run/result_files.hpp"
 #include "run/video.hpp"
@@ -206,6 +207,9 @@ class View {
     for (const std::string& note : scene->notes) say(note);
     const auto lock = prepare_folder(scene->name);
     if (!lock) return lock.error();
+    // Now, for it takes as long as many small frames, and may not be there.
+    if (o_.images && !o_.ppm)
+      if (const auto library = image_library(); !library) return library.error();
 
     ViewSettings settings;
     settings.plan = draw_.plan;
@@ -263,7 +267,6 @@ class View {
       if (Status status = video_->commit(); !status) return status.error();
       fmt::print("{}: {} frames a second\n", printable(o_.video->string()), o_.rate);
     }
-    std::fflush(stdout);
     return !summary->difference.has_value();
   }
 
@@ -346,6 +349,7 @@ void add_view(CLI::App& app, const Folders& folders, int& exit_code) {
       "folder for frame_0000.png and on; older frames there are removed (default:\n"
       "build/out/<scene>/<shader>/view; none with --video or --terminal)");
   out->default_str("");
+  sub->get_option("--threads")->description("threads, each of which draws whole frames (0: all cores)");
   sub->add_option("--frames", command->frames,
                   fmt::format("of one turn of the camera around its target, 1 to {}", c_most_view_frames))
       ->capture_default_str();

@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "cli/command_test.hpp"
 #include "common/file.hpp"
@@ -120,6 +122,31 @@ TEST_F(ViewCommand, DrawsWhatSimDrawsFromEachPlace) {
   }
 }
 
+// What is loaded once does not count as frames' time: OpenImageIO comes before the hardware, and so before
+// the clock starts; for images that do not need it, not at all.
+TEST_F(ViewCommand, LoadsTheImageLibraryBeforeItDraws) {
+  ASSERT_EQ(view({"matte", "--frames", "1"}).exit_code, 0);  // builds the hardware
+  for (const std::string format : {"png", "ppm"}) {
+    const Environment trace = {{"LD_DEBUG", "files"}, {"LD_DEBUG_OUTPUT", at(format).string()}};
+    const Outcome drawn = view({"matte", "--frames", "1", "--format", format, "--out", "out"}, trace);
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+    int programs = 0;
+    for (const auto& file : std::filesystem::directory_iterator(folder_->path())) {
+      if (!file.path().filename().string().starts_with(format + ".")) continue;
+      const auto text = read_file(file.path());
+      ASSERT_TRUE(text);
+      const std::size_t images = text->find("libhalfway_images"), hardware = text->find("/cache/verilator/");
+      if (hardware == std::string::npos) continue;
+      ++programs;
+      if (format == "png")
+        EXPECT_LT(images, hardware);
+      else
+        EXPECT_EQ(images, std::string::npos);
+    }
+    EXPECT_EQ(programs, 1);
+  }
+}
+
 TEST_F(ViewCommand, LanesThatCannotBeHadAreBadInput) {
   const Outcome other = view({"matte", "--simulator", "ghdl"});
   EXPECT_EQ(other.exit_code, 2) << other.output;
@@ -150,6 +177,11 @@ TEST_F(ViewCommand, BadUsageExitsTwoAndSaysWhatToDo) {
       {{"matte", "--rate", "16"}, "--rate goes with --video"},
       {{"matte", "--rate", "0", "--video", "a.mp4"}, "--rate: 0 is not 1 to 1000"},
       {{"matte", "--video", "turn"}, "--video: 'turn' names no video"},
+      {{"matte", "--video", "turn.xyz"}, "--video: 'turn.xyz' does not end as a video; take one of .mp4"},
+      // Images: ffmpeg would write one over the other, or many, and none where the video is looked for.
+      {{"matte", "--video", "turn%d.png"}, "--video: 'turn%d.png' does not end as a video"},
+      {{"matte", "--video", "out/frame_0000.png", "--out", "out"}, "does not end as a video"},
+      {{"matte", "--video", "turn.h.jpg"}, "does not end as a video"},
       {{"matte", "--columns", "20"}, "--columns goes with --terminal"},
       {{"matte", "--colours", "256"}, "--colours goes with --terminal"},
       {{"matte", "--terminal", "--columns", "9", "--colours", "16"}, "--colours: '16' is not a kind"},
@@ -204,6 +236,43 @@ TEST_F(ViewCommand, AVideoThatFailsLeavesNoHalf) {
     EXPECT_EQ(bytes("films/turn.mp4"), "old");
     EXPECT_THAT(names("films"), ElementsAre("turn.mp4"));
   }
+}
+
+// With every ending that the refusal of others offers.
+TEST_F(ViewCommand, AVideoByFfmpegItselfPlays) {
+  if (find_program("ffmpeg").empty()) GTEST_SKIP() << "no ffmpeg: apt-get install ffmpeg";
+  const std::string refused = view({"matte", "--video", "turn.xyz"}).output, offer = "take one of ";
+  ASSERT_THAT(refused, HasSubstr(offer));
+  std::istringstream endings(refused.substr(refused.find(offer) + offer.size()));
+  int played = 0;
+  for (std::string ending; endings >> ending; ++played) {
+    const std::string video = "turn 100%d" + ending;
+    const Outcome drawn =
+        view({"spheres", "--frames", "3", "--video", video, "--out", "turn", "--format", "ppm"});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+    const Outcome decoded =
+        run_as({"ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-i", at(video).string(), "-f", "rawvideo",
+                "-pix_fmt", "rgb24", "-vsync", "passthrough", at("decoded").string()});
+    ASSERT_EQ(decoded.exit_code, 0) << decoded.output;
+    std::string frames;
+    for (int n = 0; n < 3; ++n) frames += bytes(fmt::format("turn/frame_{:04}.ppm", n)).substr(13);
+    const std::string shown = bytes("decoded");
+    ASSERT_EQ(shown.size(), frames.size()) << ending;
+    double off = 0;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      off += std::abs(static_cast<unsigned char>(shown[i]) - static_cast<unsigned char>(frames[i]));
+    EXPECT_LT(off / static_cast<double>(shown.size()), 6.0) << ending << ": lossy, and near all the same";
+  }
+  EXPECT_GT(played, 5);
+}
+
+TEST_F(ViewCommand, DoctorTellsWhetherFfmpegIsThere) {
+  const std::string setup = std::string(HALFWAY_SOURCE_DIR) + "/scripts/setup.sh";
+  const bool there = !find_program("ffmpeg").empty();
+  EXPECT_THAT(run_as({"sh", setup, "--doctor"}).output,
+              AllOf(ContainsRegex(std::string("video +ffmpeg +[0-9.-]+ +[0-9.]+ +[0-9.]+ +") +
+                                  (there ? "(ok|older)" : "missing")),
+                    there ? HasSubstr("") : HasSubstr("optional group video: ")));
 }
 
 TEST_F(ViewCommand, DrawsInTheTerminal) {

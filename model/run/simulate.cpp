@@ -122,7 +122,7 @@ class Simulation {
   // A frame that proves little, or is worse than asked for, is not passed over in silence.
   void note_what_is_unusual() {
     if (scene_.shadows && s_.plan.shader != Shader::processors && !reflected_lights(scene_).empty())
-      note("its shadows are drawn by the shader processors alone; the frame has none, the reference has");
+      note("its shadows are drawn by the shading processors alone; the frame has none, the reference has");
     const SetupCounts& n = summary_.setup;
     if (summary_.fragments == 0)
       note(fmt::format(

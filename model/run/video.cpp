@@ -5,9 +5,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <iterator>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -16,6 +20,15 @@ namespace {
 
 constexpr const char* c_install = "apt-get install ffmpeg";
 constexpr std::chrono::seconds c_patience{2};  // with an ffmpeg that is to end at once
+// Of files that hold one video, at any rate; ffmpeg takes others for images, sound or playlists, or knows
+// them not at all.
+constexpr std::string_view c_endings[] = {".mp4", ".m4v", ".mov", ".mkv", ".webm", ".avi",
+                                          ".ogv", ".ts",  ".flv", ".wmv", ".gif"};
+
+bool is_ending(std::string ending) {
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return std::ranges::find(c_endings, ending) != std::end(c_endings);
+}
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
@@ -31,6 +44,9 @@ Status VideoWriter::check(const std::filesystem::path& file) {
   if (!file.has_filename() || !file.has_extension())
     return bad_input(
         fmt::format("--video: '{}' names no video; give a file such as turn.mp4", file.string()));
+  if (!is_ending(file.extension().string()))
+    return bad_input(fmt::format("--video: '{}' does not end as a video; take one of {}", file.string(),
+                                 fmt::join(c_endings, " ")));
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     return bad_input(fmt::format("--video: {} is a folder; name a file", file.string()));

@@ -17,8 +17,8 @@ namespace halfway {
 /// makes of the file's ending.
 class VideoWriter {
  public:
-  /// Whether a video could be written there: bad input where the folder or the name is none, tool_failed
-  /// without ffmpeg.
+  /// Whether a video could be written there: bad input where the folder or the name is none, or the ending no
+  /// video's, tool_failed without ffmpeg.
   static Status check(const std::filesystem::path& file);
 
   /// `rate` frames a second, all of this size.

@@ -13,6 +13,8 @@
 #include <tuple>
 #include <vector>
 
+#include "sim/synth/ice40_cells.hpp"
+
 namespace halfway::synth {
 namespace {
 
@@ -29,10 +31,6 @@ std::optional<Net> net_at(const json& cell, const char* pin) {
   const auto found = pins.find(pin);
   if (found == pins.end() || found->empty() || !is_net(found->front())) return {};
   return found->front().get<Net>();
-}
-
-bool is_register(const json& cell) {
-  return cell.at("type").get_ref<const std::string&>().starts_with("SB_DFF");
 }
 
 // What the lookup tables of full sums drive.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -14,6 +15,16 @@ namespace halfway::synth {
 namespace {
 
 constexpr std::size_t c_hash_digits = 32;
+
+bool is_hash(const std::string& word) {
+  return word.size() == c_hash_digits && word.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+bool read_seeds(const std::string& word, unsigned& seeds) {
+  const char* const end = word.data() + word.size();
+  const auto [read, error] = std::from_chars(word.data(), end, seeds);
+  return error == std::errc() && read == end && seeds > 0;
+}
 
 }  // namespace
 
@@ -26,18 +37,17 @@ Result<Pins> read_pins(const std::filesystem::path& path) {
     if (next == LineReader::Next::failed) return reader->error();
     if (line.empty() || line.front() == '#') continue;
     std::istringstream words{std::string(line)};
-    std::string name, more;
+    std::string name, seeds, more;
     Pin pin;
     Ice40Cells& cells = pin.cells;
     words >> name >> cells.luts >> cells.carries >> cells.flip_flops >> cells.rams >> pin.mhz;
     const bool figures = !words.fail();
-    words >> pin.netlist;
-    if (!figures || words >> more ||
-        !(pin.netlist.empty() || (pin.netlist.size() == c_hash_digits &&
-                                  pin.netlist.find_first_not_of("0123456789abcdef") == std::string::npos)))
+    words >> pin.netlist >> seeds;
+    if (!figures || words >> more || !(pin.netlist.empty() || is_hash(pin.netlist)) ||
+        !(seeds.empty() || read_seeds(seeds, pin.seeds)))
       return reader->at(
-          "not a name, four numbers of cells, a clock and a netlist's hash; write it anew with make synth "
-          "PIN=1");
+          "not a name, four numbers of cells, a clock, a netlist's hash and a number of seeds; write it anew "
+          "with make synth PIN=1");
     pin.line = reader->line_number();
     if (!pins.emplace(name, pin).second) return reader->at("a second line of this name");
   }
@@ -52,13 +62,23 @@ Status write_pins(const std::filesystem::path& path, const Pins& pins, const std
       "# `make synth` and ctest -R synth fail where flip-flops or RAMs differ, LUTs or carries by more than "
       "{:.0f} %\n"
       "# (and {}), or where the clock is more than {:.0f} % slower or faster.\n"
-      "# name luts carries flip_flops rams mhz netlist\n",
-      versions, 100 * c_lut_share, c_lut_slack, 100 * c_clock_share);
-  for (const auto& [name, pin] : pins)
-    text += fmt::format("{} {} {} {} {} {:.1f}{}{}\n", name, pin.cells.luts, pin.cells.carries,
-                        pin.cells.flip_flops, pin.cells.rams, pin.mhz, pin.netlist.empty() ? "" : " ",
-                        pin.netlist);
+      "# name luts carries flip_flops rams mhz netlist, and of how many seeds the clock is where not of {}\n",
+      versions, 100 * c_lut_share, c_lut_slack, 100 * c_clock_share, kSeeds);
+  for (const auto& [name, pin] : pins) {
+    text += fmt::format("{} {} {} {} {} {:.1f}", name, pin.cells.luts, pin.cells.carries,
+                        pin.cells.flip_flops, pin.cells.rams, pin.mhz);
+    if (!pin.netlist.empty()) text += " " + pin.netlist;
+    if (!pin.netlist.empty() && pin.mhz > 0 && pin.seeds != kSeeds) text += fmt::format(" {}", pin.seeds);
+    text += '\n';
+  }
   return write_file(path, text);
+}
+
+std::optional<int> published_ns(std::string_view design) {
+  if (design.starts_with("quadratic_shader_")) return 50;
+  if (design.starts_with("spherical_shader_")) return 60;
+  if (design.starts_with("shading_processor_")) return 50;
+  return {};
 }
 
 Result<std::string> readme_clocks(const Pins& pins) {
@@ -68,38 +88,42 @@ Result<std::string> readme_clocks(const Pins& pins) {
       return bad_input(fmt::format("{}: {}: not pinned with a clock, which README tells", kPins, name));
     return found->second;
   };
-  struct Shader {
-    const char* name;
-    int published_ns;  // a pixel, on an XCV300
-  };
-  constexpr Shader c_shaders[] = {
-      {"quadratic_shader_grey_published", 50}, {"quadratic_shader_grey_exact", 50},
-      {"quadratic_shader_published", 50},      {"spherical_shader_grey_published", 60},
-      {"spherical_shader_published", 60},      {"spherical_shader_grey_exact", 60},
-      {"spherical_shader_exact", 60}};
+  constexpr const char* c_shaders[] = {"quadratic_shader_grey_published", "quadratic_shader_grey_exact",
+                                       "quadratic_shader_published",      "spherical_shader_grey_published",
+                                       "spherical_shader_published",      "spherical_shader_grey_exact",
+                                       "spherical_shader_exact"};
   std::string text =
       "| design | LUTs | flip-flops | RAMs | clock, MHz | ns a pixel | published, ns |\n"
       "| --- | --- | --- | --- | --- | --- | --- |\n";
-  for (const Shader& shader : c_shaders) {
-    const auto pin = placed(shader.name);
+  unsigned fewest = ~0U, most = 0;
+  const auto count_seeds = [&](const Pin& pin) {
+    fewest = std::min(fewest, pin.seeds);
+    most = std::max(most, pin.seeds);
+  };
+  for (const char* shader : c_shaders) {
+    const auto pin = placed(shader);
     if (!pin) return pin.error();
-    text +=
-        fmt::format("| `{}` | {} | {} | {} | {:.0f} | {:.1f} | {} |\n", shader.name, pin->cells.luts,
-                    pin->cells.flip_flops, pin->cells.rams, pin->mhz, 1000 / pin->mhz, shader.published_ns);
+    count_seeds(*pin);
+    text += fmt::format("| `{}` | {} | {} | {} | {:.0f} | {:.1f} | {} |\n", shader, pin->cells.luts,
+                        pin->cells.flip_flops, pin->cells.rams, pin->mhz, 1000 / pin->mhz,
+                        published_ns(shader).value());
   }
-  const auto diffuse = placed("shading_processor_diffuse_published"),
-             specular = placed("shading_processor_specular_published"), sum_24 = placed("accumulator_24"),
-             sum_40 = placed("accumulator_40");
+  constexpr const char* c_diffuse = "shading_processor_diffuse_published";
+  const auto diffuse = placed(c_diffuse), specular = placed("shading_processor_specular_published"),
+             sum_24 = placed("accumulator_24"), sum_40 = placed("accumulator_40");
   for (const Result<Pin>* pin : {&diffuse, &specular, &sum_24, &sum_40})
-    if (!*pin) return pin->error();
-  return text + fmt::format(
-                    "\nA lone sum of 24 bits comes to {:.0f} MHz on it, of 40 to {:.0f}. One folded shading "
-                    "processor of preset "
-                    "`published`\ncomes to {:.0f} MHz (diffuse) and {:.0f} (specular), {:.0f} ns a clock, "
-                    "where the paper "
-                    "has 50.\n",
-                    sum_24->mhz, sum_40->mhz, diffuse->mhz, specular->mhz,
-                    1000 / std::min(diffuse->mhz, specular->mhz));
+    if (*pin)
+      count_seeds(**pin);
+    else
+      return pin->error();
+  const std::string seeds = fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most);
+  return text +
+         fmt::format(
+             "\nA clock is the median of {} seeds. A lone sum of 24 bits comes to {:.0f} MHz, of 40 to "
+             "{:.0f}. One folded shading processor of preset\n`published` comes to {:.0f} MHz "
+             "(diffuse) and {:.0f} (specular), {:.0f} ns a clock, where the paper has {}.\n",
+             seeds, sum_24->mhz, sum_40->mhz, diffuse->mhz, specular->mhz,
+             1000 / std::min(diffuse->mhz, specular->mhz), published_ns(c_diffuse).value());
 }
 
 std::string compare(const std::string& name, const Pins& pins, const Ice40Cells& cells,

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "sim/synth/synthesis.hpp"
 
@@ -22,16 +23,21 @@ inline constexpr double c_clock_share = 0.08;
 
 struct Pin {
   Ice40Cells cells;
-  double mhz = 0;         ///< of the median seed; 0 where the design is not placed
-  std::string netlist{};  ///< what the clock is of: Synthesizer::netlist_hash; empty: not known
-  std::size_t line = 0;   ///< of the file
+  double mhz = 0;           ///< of the median seed; 0 where the design is not placed
+  std::string netlist{};    ///< what the clock is of: Synthesizer::netlist_hash; empty: not known
+  unsigned seeds = kSeeds;  ///< of how many placements the clock is the median
+  std::size_t line = 0;     ///< of the file
 };
 using Pins = std::map<std::string, Pin>;
 
-/// A line a design: name luts carries flip-flops RAMs MHz netlist; `#` begins a comment. The netlist's hash
-/// may be missing.
+/// A line a design: name luts carries flip-flops RAMs MHz netlist seeds; `#` begins a comment. The netlist's
+/// hash may be missing, and the seeds, which stand behind it, where they are kSeeds.
 Result<Pins> read_pins(const std::filesystem::path& path);
 Status write_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions);
+
+/// The ns that the papers print for a design, by its name, on an XCV300: a pixel of the quadratic and the
+/// spherical shader, a clock of a shading processor.
+std::optional<int> published_ns(std::string_view design);
 
 /// README's part "clocks": the shaders' cells and clocks. An error where a design of it is not pinned, or not
 /// placed.

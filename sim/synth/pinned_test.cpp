@@ -51,24 +51,39 @@ TEST(SynthPins, ComeBackFromTheirFile) {
   ASSERT_TRUE(folder) << folder.error().message;
   const auto path = folder->path() / "pinned.txt";
   const std::string hash = "0123456789abcdef0123456789abcdef";
-  ASSERT_TRUE(write_pins(path, {{"a", {kCells, 123.4, hash}}, {"b", {{1, 2, 3, 4}, 0}}}, "Yosys 0.23"));
+  ASSERT_TRUE(write_pins(path,
+                         {{"a", {kCells, 123.4, hash}},
+                          {"b", {{1, 2, 3, 4}, 0}},
+                          {"c", {.cells = kCells, .mhz = 99, .netlist = hash, .seeds = 1}}},
+                         "Yosys 0.23"));
   const auto pins = read_pins(path);
   ASSERT_TRUE(pins) << pins.error().message;
-  ASSERT_EQ(pins->size(), 2U);
+  ASSERT_EQ(pins->size(), 3U);
   EXPECT_EQ(pins->at("a").cells, kCells);
   EXPECT_EQ(pins->at("a").mhz, 123.4);
   EXPECT_EQ(pins->at("a").netlist, hash);
+  EXPECT_EQ(pins->at("a").seeds, kSeeds);
+  EXPECT_EQ(pins->at("c").netlist, hash);
+  EXPECT_EQ(pins->at("c").seeds, 1U);
   EXPECT_EQ(pins->at("b").netlist, "");
   EXPECT_EQ(pins->at("b").line, pins->at("a").line + 1);
   EXPECT_EQ(pins->at("b").cells, (Ice40Cells{1, 2, 3, 4}));
-  for (const std::string& wrong :
-       std::initializer_list<std::string>{"a 1 2 3 4\n", "a 1 2 3 4 5 6\n", "a 1 2 3 4 5 " + hash + " 6\n",
-                                          "a 1 2 3 x 5\n", "a 1 2 3 4 5\na 1 2 3 4 5\n"}) {
+  for (const std::string& wrong : std::initializer_list<std::string>{
+           "a 1 2 3 4\n", "a 1 2 3 4 5 6\n", "a 1 2 3 4 5 " + hash + " 6 7\n", "a 1 2 3 4 5 " + hash + " 0\n",
+           "a 1 2 3 4 5 " + hash + " 3x\n", "a 1 2 3 x 5\n", "a 1 2 3 4 5\na 1 2 3 4 5\n"}) {
     ASSERT_TRUE(write_file(path, wrong));
     const auto read = read_pins(path);
     ASSERT_FALSE(read) << wrong;
     EXPECT_THAT(read.error().message, HasSubstr("pinned.txt:"));
   }
+}
+
+TEST(SynthPins, HaveWhatThePapersPrintBeside) {
+  EXPECT_EQ(published_ns("quadratic_shader_grey_exact"), 50);
+  EXPECT_EQ(published_ns("spherical_shader_published"), 60);
+  EXPECT_EQ(published_ns("shading_processor_diffuse_published"), 50);
+  EXPECT_FALSE(published_ns("unrolled_shading_processor_diffuse_published"));
+  EXPECT_FALSE(published_ns("accumulator_24"));
 }
 
 TEST(SynthPins, AreWhatReadmeSays) {
@@ -96,6 +111,11 @@ TEST(SynthPins, AllHaveAClockThatReadmeTells) {
   ASSERT_FALSE(clocks);
   EXPECT_THAT(clocks.error().message, HasSubstr("spherical_shader_exact: not pinned"));
   EXPECT_FALSE(readme_clocks({}));
+  others = *pins;
+  others.at("accumulator_40").seeds = 1;
+  const auto few = readme_clocks(others);
+  ASSERT_TRUE(few) << few.error().message;
+  EXPECT_THAT(*few, HasSubstr("the median of 1 to "));
 }
 
 }  // namespace

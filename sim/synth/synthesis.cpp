@@ -14,6 +14,7 @@
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
 #include "sim/synth/global_buffers.hpp"
+#include "sim/synth/ice40_cells.hpp"
 #include "sim/verilator/netlist.hpp"
 
 namespace halfway::synth {
@@ -159,8 +160,6 @@ class Registers {
   }
 
  private:
-  static bool is_register(const json& cell) { return cell.value("type", "").starts_with("SB_DFF"); }
-
   // Without the wrapper, and without what Yosys appends.
   static std::string tidy(std::string name) {
     if (name.starts_with("dut.")) name.erase(0, 4);
@@ -361,7 +360,7 @@ Result<Ice40Cells> Synthesizer::ice40(const Design& design) const {
       cells.luts += n;
     else if (type == "SB_CARRY")
       cells.carries += n;
-    else if (type.starts_with("SB_DFF"))
+    else if (is_register_type(type))
       cells.flip_flops += n;
     else if (type.starts_with("SB_RAM40_4K"))
       cells.rams += n;

@@ -2,6 +2,7 @@
 // The list of designs against rtl/, and what is pinned and printed of them against the list.
 #include "designs.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "common/file.hpp"
+#include "common/threads.hpp"
 #include "sim/synth/pinned.hpp"
 
 namespace halfway::synth {
@@ -56,6 +58,38 @@ TEST(SynthDesigns, ArePinnedEachOnceAndNothingElseIs) {
   EXPECT_THAT(pinned, ::testing::ContainerEq(listed));
 }
 
+// A clock is of a netlist, and so of the RTL that it was placed from. GHDL alone: seconds, and next to
+// nothing where the netlists are in the cache.
+TEST(SynthDesigns, HaveTheNetlistsThatArePinned) {
+  const auto tool = GhdlTool::find();
+  if (!tool) GTEST_SKIP() << tool.error().message;
+  auto sources = read_rtl_sources(c_root);
+  ASSERT_TRUE(sources) << sources.error().message;
+  auto beside = read_vhdl_source(c_root, kAccumulator);
+  ASSERT_TRUE(beside) << beside.error().message;
+  sources->push_back(std::move(*beside));
+  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, HALFWAY_CACHE_DIR);
+  ASSERT_TRUE(library) << library.error().message;
+  const auto pins = read_pins(c_root / kPins);
+  ASSERT_TRUE(pins) << pins.error().message;
+  const auto designs = all_designs();
+  std::vector<std::string> others(designs.size());
+  const Status made = for_each_on_threads(2, designs.size(), [&](std::size_t i) -> Status {
+    const Design& design = designs[i].design;
+    const auto pin = pins->find(design.name);
+    if (pin == pins->end()) return Ok{};
+    const auto hash = netlist_hash(*library, design);
+    if (!hash) return hash.error();
+    if (*hash != pin->second.netlist)
+      others[i] =
+          fmt::format("{}:{}: {}: its netlist is not the one that is pinned; make synth PIN=1 pins anew\n",
+                      kPins, pin->second.line, design.name);
+    return Ok{};
+  });
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(fmt::format("{}", fmt::join(others, "")), "");
+}
+
 // Within what may differ: the page may be of another run, and of other seeds.
 TEST(SynthDesigns, HaveTheirRowsInThePage) {
   const auto page = read_file(c_root / "tb/synth/README.md");
@@ -65,11 +99,14 @@ TEST(SynthDesigns, HaveTheirRowsInThePage) {
   const std::size_t figures = page->find("\n## Figures\n");
   ASSERT_NE(figures, std::string::npos);
   const std::string table = page->substr(figures);
-  const std::regex row(R"(\n\| `(\w+)` \| (\d+|–) \| (\d+|–) \| (\d+|–) \| (\d+|–) \| (\d+|–) \|)");
+  const std::regex row(
+      R"(\n\| `(\w+)` \| (\d+|–) \| (\d+|–) \| (\d+|–) \| (\d+|–) \| (\d+|–) \| [^|]+ \| [^|]+ \| (\d+|–) \|)");
   std::vector<std::string> rows;
   for (std::sregex_iterator it(table.begin(), table.end(), row), end; it != end; ++it) {
     const std::string name = (*it)[1];
     rows.push_back(name);
+    const auto published = published_ns(name);
+    EXPECT_EQ((*it)[7], published ? std::to_string(*published) : "–") << name;
     const auto found = pins->find(name);
     EXPECT_EQ(found == pins->end(), (*it)[2] == "–") << name;
     if (found == pins->end()) continue;

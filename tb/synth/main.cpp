@@ -13,12 +13,12 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include "cli/options.hpp"
 #include "cli/program.hpp"
 #include "common/file.hpp"
+#include "common/machine.hpp"
 #include "common/page_part.hpp"
 #include "common/seconds.hpp"
 #include "common/subprocess.hpp"
@@ -33,15 +33,15 @@ namespace {
 constexpr int kSkipped = 77;                         // as CMakeLists.txt has it in SKIP_RETURN_CODE
 constexpr std::string_view kTable = "## Figures\n";  // of the page: what stands behind it is written anew
 constexpr std::string_view kHead =
-    "| design | LUTs | carries | flip-flops | RAMs | clock, MHz | seeds, MHz | ns a pixel | critical path | "
-    "ECP5: LUTs | "
-    "flip-flops | RAMs | multipliers |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | "
-    "--- | --- |\n";
+    "| design | LUTs | carries | flip-flops | RAMs | clock, MHz | seeds, MHz | ns a pixel | published, ns | "
+    "critical path | ECP5: LUTs | flip-flops | RAMs | multipliers |\n"
+    "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
 
+constexpr const char* kReadmePart = "clocks";
 constexpr const char* kEndless = "nextpnr does not end";
 
 struct Options {
-  bool quick = false, cells = false, pin = false;
+  bool quick = false, cells = false, pin = false, check = false;
   unsigned seeds = kSeeds, jobs = 2;
   std::filesystem::path page{}, readme{};
   SimulatorFolders folders{};
@@ -62,24 +62,6 @@ struct Figures {
   bool fits() const { return !placements.empty() && placements.front().fits(); }
   double mhz() const { return fits() ? median()->mhz : 0; }
 };
-
-std::string machine() {
-  std::string name = "unknown processor", system = "unknown system";
-  if (const auto text = read_file("/proc/cpuinfo")) {
-    const std::size_t at = text->find("model name");
-    if (at != std::string::npos) {
-      const std::size_t colon = text->find(": ", at);
-      name = text->substr(colon + 2, text->find('\n', colon) - colon - 2);
-    }
-  }
-  if (const auto text = read_file("/etc/os-release")) {
-    constexpr std::string_view c_key = "PRETTY_NAME=\"";
-    const std::size_t at = text->find(c_key);
-    if (at != std::string::npos)
-      system = text->substr(at + c_key.size(), text->find('"', at + c_key.size()) - at - c_key.size());
-  }
-  return fmt::format("{}, {} threads, {}", name, std::thread::hardware_concurrency(), system);
-}
 
 std::string path_text(const CriticalPath& path) {
   return fmt::format("`{}` → `{}`: {} LUTs, {} carries, {:.1f} ns in cells, {:.1f} ns in wires", path.from,
@@ -111,17 +93,31 @@ std::string row(const ListedDesign& listed, const Figures& f) {
                         f.ice40->rams);
   else
     text += " – | – | – | – |";
+  const auto published = published_ns(listed.design.name);
+  const std::string printed = published ? std::to_string(*published) : "–";
   if (f.fits())
-    text += fmt::format(" {:.0f} | {} | {:.1f} | {} |", f.mhz(), seeds_text(f), 1000 / f.mhz(),
+    text += fmt::format(" {:.0f} | {} | {:.1f} | {} | {} |", f.mhz(), seeds_text(f), 1000 / f.mhz(), printed,
                         path_text(f.median()->path));
   else
-    text += fmt::format(" – | – | – | {} |", not_placed(f));
+    text += fmt::format(" – | – | – | {} | {} |", printed, not_placed(f));
   if (f.ecp5)
     text += fmt::format(" {} | {} | {} | {} |\n", f.ecp5->luts, f.ecp5->flip_flops, f.ecp5->rams,
                         f.ecp5->multipliers);
   else
     text += " – | – | – | – |\n";
   return text;
+}
+
+// What is written once all is measured, which takes long: that it can be is told before.
+Status check_written(const Options& options) {
+  if (!options.page.empty())
+    if (const auto page = read_file(options.page); !page) return page.error();
+  if (options.readme.empty()) return Ok{};
+  const auto readme = read_file(options.readme);
+  if (!readme) return readme.error();
+  if (const auto part = page_part(*readme, kReadmePart); !part)
+    return bad_input(fmt::format("{}: {}", options.readme.string(), part.error().message));
+  return Ok{};
 }
 
 // The rows of designs measured before stay, those of designs that are no more go.
@@ -141,8 +137,15 @@ Status write_page(const std::filesystem::path& path, const std::map<std::string,
       table += text->substr(before, text->find('\n', before) + 1 - before);
   }
   text->resize(figures);
-  return write_file(path,
-                    fmt::format("{}{}\nBy {}, on {}.\n\n{}", *text, kTable, versions, machine(), table));
+  return write_file(path, fmt::format("{}{}\nBy {}, on {}, {}.\n\n{}", *text, kTable, versions, machine(),
+                                      operating_system(), table));
+}
+
+// A part is pinned beside what is there; all anew, or where nothing is.
+Result<Pins> pins_before(const Options& options) {
+  const auto path = options.folders.source / kPins;
+  if (options.pin && (options.part.empty() || !std::filesystem::exists(path))) return Pins{};
+  return read_pins(path);
 }
 
 // By the pins as they are read again: they are rounded there.
@@ -153,28 +156,22 @@ Status write_readme(const std::filesystem::path& path, const std::filesystem::pa
   if (!clocks) return clocks.error();
   const auto readme = read_file(path);
   if (!readme) return readme.error();
-  const auto text = with_page_part(*readme, "clocks", *clocks);
+  const auto text = with_page_part(*readme, kReadmePart, *clocks);
   if (!text) return bad_input(fmt::format("{}: {}", path.string(), text.error().message));
   return write_file(path, *text);
 }
 
 class Run {
  public:
-  Run(const Options& options, const Synthesizer& synthesizer, std::vector<ListedDesign> designs)
+  Run(const Options& options, const Synthesizer& synthesizer, std::vector<ListedDesign> designs, Pins pins)
       : options_(options),
         synthesizer_(synthesizer),
         designs_(std::move(designs)),
-        figures_(designs_.size()) {}
+        figures_(designs_.size()),
+        pins_(std::move(pins)) {}
 
   /// Large designs first, by what is pinned of them: else the last job is the longest.
   ExitCode run() {
-    // A part is pinned beside what is there; all anew, or where nothing is.
-    const auto path = options_.folders.source / kPins;
-    if (!options_.pin || (!options_.part.empty() && std::filesystem::exists(path))) {
-      auto pins = read_pins(path);
-      if (!pins) return failed(pins.error());
-      pins_ = std::move(*pins);
-    }
     std::vector<std::size_t> order(designs_.size());
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(),
@@ -313,15 +310,19 @@ class Run {
   }
 
   Result<ExitCode> pin() {
+    std::size_t pinned = 0, hasty = 0;
     for (std::size_t i = 0; i < designs_.size(); ++i) {
       const Figures& f = figures_[i];
       if (!f.ice40) continue;
+      ++pinned;
       Pin& pin = pins_[designs_[i].design.name];
       pin.cells = *f.ice40;
       // Where no placement has come to an end the clock stays, and what it is of.
       if (f.fits() || f.endless == 0 || pin.mhz == 0) {
         pin.mhz = f.mhz();
         pin.netlist = f.netlist;
+        if (f.fits()) pin.seeds = static_cast<unsigned>(f.placements.size());
+        if (f.fits() && pin.seeds < kSeeds) ++hasty;
       }
     }
     std::set<std::string> listed;
@@ -333,7 +334,12 @@ class Run {
     if (!options_.readme.empty())
       if (const Status told = write_readme(options_.readme, options_.folders.source / kPins); !told)
         return told.error();
-    fmt::print("{} designs are pinned\n", designs_.size());
+    fmt::print("{} designs are pinned\n", pinned);
+    if (hasty > 0)
+      cli::say(fmt::format(
+          "note: {} clocks are pinned of fewer than the usual {} seeds, as {} says of each; of few "
+          "a median is luck",
+          hasty, kSeeds, kPins));
     return ExitCode::equal;
   }
 
@@ -379,6 +385,10 @@ int main_of(const Options& options) {
     return cli::report(bad_input(
         fmt::format("{}: no design has this in its name; tb/synth/README.md lists them", options.part)));
   }
+  if (const Status written = check_written(options); !written) return cli::report(written.error());
+  auto pins = pins_before(options);
+  if (!pins) return cli::report(pins.error());
+  if (options.check) return 0;
   const auto synthesizer = Synthesizer::open(options.folders, !options.cells, {kAccumulator});
   if (!synthesizer) {
     const bool missing =
@@ -387,7 +397,7 @@ int main_of(const Options& options) {
     cli::say((skipped ? "skipped: " : "") + synthesizer.error().message);
     return skipped ? kSkipped : static_cast<int>(synthesizer.error().code);
   }
-  return static_cast<int>(Run(options, *synthesizer, std::move(designs)).run());
+  return static_cast<int>(Run(options, *synthesizer, std::move(designs), std::move(*pins)).run());
 }
 
 }  // namespace
@@ -406,6 +416,7 @@ int main(int argc, char** argv) {
       app.add_flag("--pin", options.pin, "write the figures into the pinned file in place of comparing")
           ->excludes(quick)
           ->excludes(cells);
+  app.add_flag("--check", options.check, "measure nothing: only look whether what is asked for can be");
   app.add_option("--seeds", options.seeds, "of placement")->check(CLI::Range(1, 999))->capture_default_str();
   app.add_option("--jobs", options.jobs, "at a time")->check(CLI::Range(1, 999))->capture_default_str();
   // Rows would have holes.

@@ -17,6 +17,7 @@ namespace halfway::synth {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -69,9 +70,9 @@ class SynthProgram : public StandInTools {
     ASSERT_TRUE(write_pins(root() / kPins, {{"accumulator_24", {.cells = {24, 23, 24, 0}, .mhz = mhz}}},
                            "stand-ins"));
   }
-  Outcome run(std::vector<std::string> arguments) const {
+  Outcome run(std::vector<std::string> arguments, const std::string& part = "accumulator_24") const {
     arguments.insert(arguments.begin(), HALFWAY_SYNTH);
-    arguments.insert(arguments.end(), {root().string(), (root() / "cache").string(), "accumulator_24"});
+    arguments.insert(arguments.end(), {root().string(), (root() / "cache").string(), part});
     const auto end = run_process({.arguments = arguments,
                                   .standard_output = root() / "output",
                                   .environment = {{"PATH", path_before(std::getenv("PATH"))}}},
@@ -89,9 +90,33 @@ TEST_F(SynthProgram, WritesTheRowAndTellsWhatHasNoEnd) {
   EXPECT_THAT(outcome.output, HasSubstr("0 of 1 designs are not as pinned"));
   const auto text = read_file(page());
   ASSERT_TRUE(text);
-  EXPECT_THAT(
-      *text,
-      HasSubstr("| `accumulator_24` | 24 | 23 | 24 | 0 | 90 | 90 to 90 of 2; nextpnr does not end: 1 |"));
+  EXPECT_THAT(*text, HasSubstr("| `accumulator_24` | 24 | 23 | 24 | 0 | 90 | 90 to 90 of 2; nextpnr does not "
+                               "end: 1 | 11.1 | – | `"));
+}
+
+TEST_F(SynthProgram, PinsOfHowManySeedsAClockIs) {
+  const Outcome few = run({"--pin", "--seeds", "1"});
+  EXPECT_EQ(few.exit_status, 0) << few.errors;
+  EXPECT_THAT(few.errors, HasSubstr("note: 1 clocks are pinned of fewer than the usual 3 seeds"));
+  auto pins = read_pins(root() / kPins);
+  ASSERT_TRUE(pins) << pins.error().message;
+  EXPECT_EQ(pins->at("accumulator_24").seeds, 1U);
+  // One of four has no end.
+  const Outcome enough = run({"--pin", "--seeds", "4"});
+  EXPECT_EQ(enough.exit_status, 0) << enough.errors;
+  EXPECT_EQ(enough.errors, "");
+  pins = read_pins(root() / kPins);
+  ASSERT_TRUE(pins) << pins.error().message;
+  EXPECT_EQ(pins->at("accumulator_24").seeds, 3U);
+  EXPECT_THAT(*read_file(root() / kPins), Not(::testing::ContainsRegex("[0-9a-f]{32} 3\n")));
+}
+
+// One of the two is for ECP5 alone.
+TEST_F(SynthProgram, CountsWhatItPins) {
+  const Outcome outcome = run({"--pin", "--seeds", "1"}, "shading_pipeline");
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("shading_pipeline_exact, ECP5"), HasSubstr("\n1 designs are pinned\n")));
 }
 
 // Of a part of the designs README's figures cannot be had: it stays as it is.
@@ -104,6 +129,49 @@ TEST_F(SynthProgram, PinsAndLeavesReadmeWhereItLacksAClock) {
   EXPECT_THAT(outcome.errors, HasSubstr("quadratic_shader_grey_published: not pinned"));
   EXPECT_EQ(*read_file(readme), before);
   EXPECT_EQ(run({"--readme", readme.string()}).exit_status, 2) << "without pinning";
+}
+
+// Measuring takes minutes to hours: what cannot be had or written is told before, and by --check without it.
+TEST_F(SynthProgram, TellsWhatCannotBeBeforeItMeasures) {
+  const fs::path missing = root() / "none.md";
+  ASSERT_TRUE(write_file(root() / "readme.md", "no such part\n"));
+  const std::string readme = (root() / "readme.md").string();
+  const std::vector<std::vector<std::string>> cases = {{"--page", missing.string()},
+                                                       {"--pin", "--readme", missing.string()},
+                                                       {"--pin", "--readme", readme},
+                                                       {"--seeds", "0"}};
+  for (std::vector<std::string> arguments : cases) {
+    for (const bool check : {false, true}) {
+      if (check) arguments.insert(arguments.begin(), "--check");
+      const Outcome outcome = run(arguments);
+      EXPECT_EQ(outcome.exit_status, 2) << arguments.back();
+      EXPECT_THAT(outcome.errors, Not(::testing::IsEmpty()));
+      EXPECT_EQ(outcome.output, "");
+    }
+  }
+  const Outcome none = run({"--check"}, "no_such_design");
+  EXPECT_EQ(none.exit_status, 2);
+  EXPECT_THAT(none.errors, HasSubstr("no_such_design: no design has this in its name"));
+  const Outcome good = run({"--check", "--page", page().string()});
+  EXPECT_EQ(good.exit_status, 0) << good.errors;
+  EXPECT_EQ(good.output + good.errors, "");
+  ASSERT_TRUE(write_file(root() / kPins, "accumulator_24 1 2\n"));
+  EXPECT_EQ(run({"--check"}).exit_status, 2);
+  EXPECT_FALSE(fs::exists(root() / "cache/synth"));
+}
+
+// With it a reader of `make synth` is told at once: the frames, minutes of them, come behind it.
+TEST(SynthMakefile, LooksAtTheArgumentsBeforeItDrawsFrames) {
+  const auto makefile = read_file(c_source / "Makefile");
+  ASSERT_TRUE(makefile);
+  const std::size_t rule = makefile->find("\nsynth: ");
+  ASSERT_NE(rule, std::string::npos);
+  const std::size_t check = makefile->find("halfway_synth --check $(synth_options)", rule),
+                    frames = makefile->find("@build/tb/synth_frames", rule),
+                    measured = makefile->find("halfway_synth $(synth_options)", rule);
+  EXPECT_LT(check, frames);
+  EXPECT_LT(frames, measured);
+  EXPECT_LT(measured, makefile->find("\n\n", rule));
 }
 
 TEST_F(SynthProgram, SaysOnStderrWhatIsNotAsPinnedAndWhere) {

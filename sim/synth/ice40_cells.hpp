@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cells of an iCE40 in the JSON that Yosys writes.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace halfway::synth {
+
+inline bool is_register_type(std::string_view type) {
+  return type.starts_with("SB_DFF");
+}
+
+inline bool is_register(const nlohmann::json& cell) {
+  return is_register_type(cell.at("type").get_ref<const std::string&>());
+}
+
+}  // namespace halfway::synth
