@@ -9,32 +9,27 @@
 extern "C" {
 #endif
 
-#define HALFWAY_LANES_VERSION 2
+#define HALFWAY_LANES_VERSION 1
 
 /* Whole triangles, drawn by one lane from idle to idle. */
 typedef struct {
   size_t vector, vectors;     /* where in the words, and how many */
   uint32_t owner, lane;       /* which drew it */
   size_t fragment, fragments; /* where in the lane's, and how many */
-  int ended;                  /* all of it is drawn */
 } HalfwayPart;
 
 typedef struct {
   const uint32_t* words;
   HalfwayPart* parts;
   size_t count;
-  size_t* next;         /* the first part that nobody has begun; shared by all who draw the batch */
-  size_t taken;         /* parts in front whose fragments nobody asks for any more */
-  size_t max_fragments; /* of the others */
-  size_t enough;        /* a run ends, too, when it has drawn so many */
-  int begins;           /* nothing of an earlier run is left */
-  int more;             /* parts of the same words follow: a run ends, too, when a lane has none to begin */
+  size_t* next; /* the first part that nobody has begun; shared by all who draw the batch */
+  size_t max_fragments;
 } HalfwayBatch;
 
-/* Draws parts, each by the first lane that is free, until there are no more; parts that are begun are drawn
-   on in the next run. HALFWAY_BUFFER_FULL: more than `max_fragments`. */
+/* Draws parts, each by the first lane that is free, until there are no more. HALFWAY_BUFFER_FULL: more than
+   `max_fragments`. */
 int halfway_lanes_run(void* lanes, const HalfwayBatch* batch);
-/* What a lane drew, where the parts say, until the next run. */
+/* What a lane drew in the last run. */
 const HalfwayFragment* halfway_lanes_fragments(const void* lanes, uint32_t lane);
 /* The clocks of all lanes between taking a part and ending it. */
 uint64_t halfway_lanes_cycles(const void* lanes);

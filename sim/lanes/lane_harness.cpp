@@ -3,10 +3,8 @@
 //
 // A cycle is as in sim/verilator/harness.cpp at full speed: outputs are sampled just before the rising edge,
 // inputs change after it. A lane that has drawn its part is given the next one when its hardware is idle; one
-// that gets no more runs on empty, if others are to end theirs.
-#include <algorithm>
+// that gets no more runs on empty.
 #include <bit>
-#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -24,29 +22,28 @@ constexpr int kResetClocks = 4, kLateClocks = 8;  // as in sim/verilator/harness
 
 class Lanes {
  public:
-  Lanes(std::uint32_t owner, std::uint64_t idle_limit) : owner_(owner), idle_limit_(idle_limit) { reset(); }
+  Lanes(std::uint32_t owner, std::uint64_t idle_limit) : owner_(owner), idle_limit_(idle_limit) {
+    Outputs out;
+    for (int i = 0; i < kResetClocks; ++i) reset_step(state_, in_, out);
+  }
 
   int run(const HalfwayBatch& batch) {
     batch_ = &batch;
+    active_ = 0;
     faults_ = 0;
-    stops_ = false;
-    if (batch.begins && active_ != 0) reset();  // what an error has left
-    for (Lane& lane : lanes_) make_room(lane);
-    for (unsigned i = 0; i < kLanes; ++i)
-      if ((active_ >> i & 1) == 0) begin_part(i);
-    std::size_t before = SIZE_MAX;  // of earlier runs
-    while (goes()) {
+    in_.init_valid = 0;
+    for (Lane& lane : lanes_) lane.count = 0;
+    for (unsigned i = 0; i < kLanes; ++i) begin_part(i);
+    while (active_ != 0) {
       std::size_t total = 0;
       for (unsigned i = 0; i < kLanes; ++i) {
         Lane& lane = lanes_[i];
-        total += lane.count - lane.left;
+        total += lane.count;
         if (lane.fragments.size() < lane.count + kBlock + 1)
           lane.fragments.resize(2 * lane.fragments.size() + 4 * kBlock);
         lane.next = lane.fragments.data() + lane.count;
       }
       if (total > batch.max_fragments) return HALFWAY_BUFFER_FULL;
-      before = std::min(before, total);
-      if (total - before >= batch.enough) return HALFWAY_DONE;
       const M moved = block();
       for (unsigned i = 0; i < kLanes; ++i) {
         Lane& lane = lanes_[i];
@@ -56,7 +53,7 @@ class Lanes {
       if (faults_ != 0) return HALFWAY_FAULT;
     }
     Outputs out;
-    for (int i = 0; active_ == 0 && i < kLateClocks; ++i) {
+    for (int i = 0; i < kLateClocks; ++i) {
       step(state_, in_, out);
       faults_ |= out.fault;
     }
@@ -69,51 +66,22 @@ class Lanes {
  private:
   struct Lane {
     std::vector<HalfwayFragment> fragments;
-    std::size_t left = 0, count = 0;       // those that are asked for, and the end of all
-    HalfwayFragment* next = nullptr;       // where its fragments go, less those of this block's clocks
-    std::vector<std::size_t> parts;        // whose fragments are asked for, the last one the lane's own now
+    std::size_t count = 0;
+    HalfwayFragment* next = nullptr;  // where its fragments go, less those of this block's clocks
+    HalfwayPart* part = nullptr;
     const std::uint32_t* words = nullptr;  // of the vector that is offered
     std::size_t vectors = 0;               // still to be taken
     std::uint64_t still = 0;               // clocks in which nothing moved
   };
 
-  void reset() {
-    active_ = 0;
-    state_ = {};
-    in_ = {};
-    Outputs out;
-    for (int i = 0; i < kResetClocks; ++i) reset_step(state_, in_, out);
-  }
-
-  bool goes() const { return active_ != 0 && !stops_; }
-
-  /// Moves what is asked for to the front, where that is less than what is not.
-  void make_room(Lane& lane) {
-    if (batch_->begins) lane.parts.clear();
-    const auto asked = std::find_if(lane.parts.begin(), lane.parts.end(),
-                                    [&](std::size_t part) { return part >= batch_->taken; });
-    lane.parts.erase(lane.parts.begin(), asked);
-    lane.left = lane.parts.empty() ? lane.count : batch_->parts[lane.parts.front()].fragment;
-    if (lane.left < lane.count - lane.left) return;
-    const auto first = lane.fragments.begin();
-    std::copy(first + static_cast<std::ptrdiff_t>(lane.left), first + static_cast<std::ptrdiff_t>(lane.count),
-              first);
-    for (const std::size_t part : lane.parts) batch_->parts[part].fragment -= lane.left;
-    lane.count -= lane.left;
-    lane.left = 0;
-  }
-
   void begin_part(unsigned i) {
     const M bit = static_cast<M>(1u << i);
     active_ &= static_cast<M>(~bit);
     const std::size_t next = __atomic_fetch_add(batch_->next, 1, __ATOMIC_RELAXED);
-    if (next >= batch_->count) {
-      stops_ = batch_->more != 0;
-      return;
-    }
+    if (next >= batch_->count) return;
     Lane& lane = lanes_[i];
     HalfwayPart& part = batch_->parts[next];
-    lane.parts.push_back(next);
+    lane.part = &part;
     part.owner = owner_;
     part.lane = i;
     part.fragment = lane.count;
@@ -145,11 +113,8 @@ class Lanes {
   __attribute__((noinline)) void ended(M idle, std::size_t clocks) {
     for (; idle != 0; idle &= static_cast<M>(idle - 1)) {
       const auto i = static_cast<unsigned>(std::countr_zero(idle));
-      Lane& lane = lanes_[i];
-      count(lane, clocks);
-      HalfwayPart& part = batch_->parts[lane.parts.back()];
-      part.fragments = lane.count - part.fragment;
-      part.ended = 1;
+      count(lanes_[i], clocks);
+      lanes_[i].part->fragments = lanes_[i].count - lanes_[i].part->fragment;
       begin_part(i);
     }
   }
@@ -161,7 +126,7 @@ class Lanes {
   M block() {
     M moved = 0;
     std::size_t clock = 0;
-    while (clock < kBlock && goes()) {
+    while (clock < kBlock && active_ != 0) {
       Outputs out;
       const M offered = in_.init_valid;
       step(state_, in_, out);
@@ -192,7 +157,6 @@ class Lanes {
   Inputs in_;
   Lane lanes_[kLanes];
   M active_ = 0, faults_ = 0;
-  bool stops_ = false;  // a lane has nothing to begin, and the caller has more
   const HalfwayBatch* batch_ = nullptr;
   std::uint32_t owner_;
   std::uint64_t idle_limit_, cycles_ = 0;

@@ -18,14 +18,16 @@
 namespace halfway {
 namespace {
 
-/// Fragments, about: a part ends with some clocks in which nothing comes, and all with lanes that wait for
-/// the last one.
+/// Fragments, about: a part ends with some clocks in which nothing comes, a batch with lanes that wait for
+/// the last part.
 constexpr double kShortestPart = 100;
 /// Fragments a thread, about, that are drawn before they are handed on: they stay in the processor's second
 /// cache.
 constexpr double kBatch = 64 * 1024;
-/// Those a lane, and their vectors, that tell how many a vector has.
-constexpr double kToTell = 100;
+/// Large triangles: a lane has nothing to do while others end theirs, so there are to be a few for each, in
+/// memory if need be.
+constexpr std::size_t kTrianglesALane = 8;
+constexpr double kLargestBatch = 16 * kBatch;
 
 }  // namespace
 
@@ -35,8 +37,7 @@ struct LaneSimulator::Hardware {
   SharedLibrary library;
   unsigned init_bits = 0;
   std::size_t lanes = 0;
-  double fragments_per_vector = kBatch;              ///< of late; many, so that the first batch is small
-  std::size_t told_fragments = 0, told_vectors = 0;  ///< since then
+  double fragments_per_vector = kBatch;  ///< in the batch before; many, so that the first one is small
   decltype(&halfway_lanes_run) run = nullptr;
   decltype(&halfway_lanes_fragments) fragments = nullptr;
   decltype(&halfway_lanes_cycles) cycles = nullptr;
@@ -52,34 +53,10 @@ struct LaneSimulator::State : Hardware {
     for (void* thread : threads) destroy(thread);
   }
 
-  /// Whole triangles of `rest`, vector `at` and those behind it, `batch` vectors or a few more; the first
-  /// vector behind them.
-  std::size_t add_parts(std::span<const std::uint32_t> rest, std::size_t at, std::size_t batch);
-
   std::unique_ptr<GoldenModel> golden;  ///< knows which vectors belong together
   std::vector<void*> threads;
   std::vector<HalfwayPart> parts;
 };
-
-std::size_t LaneSimulator::State::add_parts(std::span<const std::uint32_t> rest, std::size_t at,
-                                            std::size_t batch) {
-  const std::size_t words_per_vector = (init_bits + 31) / 32, all = lanes * threads.size();
-  const std::size_t first = at, behind = at + rest.size() / words_per_vector;
-  const auto shortest = to_integer<std::size_t>(kShortestPart / (fragments_per_vector + 1)) + 1;
-  while (at < behind && at - first < batch) {
-    // Shorter ones at the end, so that all lanes end together.
-    const std::size_t wanted = std::max(shortest, std::min(batch, behind - at) / (4 * all));
-    HalfwayPart part{.vector = at};
-    while (at < behind && part.vectors < wanted) {
-      const std::size_t triangle = std::clamp<std::size_t>(
-          golden->group(rest.subspan((at - first) * words_per_vector)), 1, behind - at);
-      part.vectors += triangle;
-      at += triangle;
-    }
-    parts.push_back(part);
-  }
-  return at;
-}
 
 std::string LaneSimulator::refused(const HardwareKey& key) {
   if (key.shader == Shader::processors) return "its lights and counters outlive a triangle";
@@ -150,80 +127,27 @@ std::uint64_t LaneSimulator::cycles() const {
 Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
                           const OnDrawn& on_drawn) {
   State& s = *state_;
-  const std::size_t words_per_vector = (s.init_bits + 31) / 32, threads = s.threads.size();
-  const std::size_t vectors = init_words.size() / words_per_vector;
-  const auto words_of = [&](std::size_t vector, std::size_t count) {
-    return init_words.subspan(vector * words_per_vector, count * words_per_vector);
-  };
-  const auto too_many = [&] {
-    return Error{ExitCode::differs,
-                 fmt::format("{} in lanes: more than {} fragments", s.key.name(), max_fragments)};
-  };
-  s.parts.clear();
-  std::size_t next_part = 0, taken = 0, left = max_fragments;
-  for (std::size_t at = 0; at < vectors || taken < s.parts.size();) {
-    const bool begins = at == 0;
-    if (next_part == s.parts.size() && at < vectors) {
-      const auto batch =
-          to_integer<std::size_t>(kBatch * static_cast<double>(threads) / (s.fragments_per_vector + 1)) + 1;
-      at = s.add_parts(words_of(at, vectors - at), at, batch);
+  const std::size_t words_per_vector = (s.init_bits + 31) / 32;
+  const std::size_t few_triangles = kTrianglesALane * s.lanes * s.threads.size();
+  while (init_words.size() >= words_per_vector) {
+    const auto words_of = [&](double fragments) {  // about so many a thread
+      return (to_integer<std::size_t>(fragments * static_cast<double>(s.threads.size()) /
+                                      (s.fragments_per_vector + 1)) +
+              1) *
+             words_per_vector;
+    };
+    const std::size_t wanted = words_of(kBatch), most = words_of(kLargestBatch);
+    std::size_t words = 0;
+    for (std::size_t triangles = 0;
+         words < init_words.size() && (words < wanted || (triangles < few_triangles && words < most));
+         ++triangles) {
+      const std::size_t triangle = s.golden->group(init_words.subspan(words)) * words_per_vector;
+      words = std::min(words + std::max(triangle, words_per_vector), init_words.size());
     }
-    std::size_t waiting = 0;
-    for (std::size_t part = taken; part < next_part; ++part) waiting += s.parts[part].fragments;
-    const bool ends = waiting > s.options.most_waiting * threads;  // what is begun, and nothing else
-    const std::size_t count = ends ? next_part : s.parts.size();
-
-    std::atomic<int> worst = HALFWAY_DONE;
-    std::atomic<std::size_t> next_thread = 0;
-    work_on_threads(static_cast<unsigned>(std::min(threads, s.parts.size())), [&] {
-      for (std::size_t i; (i = next_thread++) < threads;) {
-        const HalfwayBatch now{.words = init_words.data(),
-                               .parts = s.parts.data(),
-                               .count = count,
-                               .next = &next_part,
-                               .taken = taken,
-                               .max_fragments = left,
-                               .enough = ends ? SIZE_MAX : static_cast<std::size_t>(kBatch),
-                               .begins = begins,
-                               .more = !ends && at < vectors};
-        const int status = s.run(s.threads[i], &now);
-        for (int seen = worst; status > seen && !worst.compare_exchange_weak(seen, status);) {
-        }
-      }
-    });
-    switch (worst) {
-      case HALFWAY_DONE:
-        break;
-      case HALFWAY_BUFFER_FULL:
-        return too_many();
-      case HALFWAY_HANG:
-        return Error{
-            ExitCode::differs,
-            fmt::format("{} in lanes: hang: nothing moved in a lane for as long as is allowed, after {} "
-                        "cycles of all lanes",
-                        s.key.name(), cycles())};
-      case HALFWAY_FAULT:
-        return Error{ExitCode::differs, fmt::format("{} in lanes: the hardware tells a fault", s.key.name())};
-      default:
-        return tool_failed(fmt::format("{} in lanes: unknown status {}", s.key.name(), worst.load()));
-    }
-    // Who found none to begin has counted, too.
-    next_part = std::min(next_part, count);
-
-    for (; taken < s.parts.size() && s.parts[taken].ended != 0; ++taken) {
-      const HalfwayPart& part = s.parts[taken];
-      if (part.fragments > left) return too_many();
-      left -= part.fragments;
-      s.told_fragments += part.fragments;
-      s.told_vectors += part.vectors;
-      const auto* first = reinterpret_cast<const Fragment*>(s.fragments(s.threads[part.owner], part.lane));
-      on_drawn(words_of(part.vector, part.vectors), {first + part.fragment, part.fragments});
-    }
-    // A few may be of another size than most.
-    if (static_cast<double>(s.told_fragments + s.told_vectors) < kToTell * static_cast<double>(s.lanes))
-      continue;
-    s.fragments_per_vector = static_cast<double>(s.told_fragments) / static_cast<double>(s.told_vectors);
-    s.told_fragments = s.told_vectors = 0;
+    const auto drawn = draw(init_words.first(words), max_fragments, on_drawn);
+    if (!drawn) return drawn.error();
+    max_fragments -= *drawn;
+    init_words = init_words.subspan(words);
   }
   return Ok{};
 }
@@ -238,6 +162,69 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
              [&](auto, std::span<const Fragment> fragments) {
                out.insert(out.end(), fragments.begin(), fragments.end());
              });
+}
+
+Result<std::size_t> LaneSimulator::draw(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
+                                        const OnDrawn& on_drawn) {
+  State& s = *state_;
+  const auto too_many = [&] {
+    return Error{ExitCode::differs,
+                 fmt::format("{} in lanes: more than {} fragments", s.key.name(), max_fragments)};
+  };
+  // Long parts first, then shorter ones, so that all lanes end together.
+  const std::size_t words_per_vector = (s.init_bits + 31) / 32, all = s.lanes * s.threads.size();
+  const std::size_t vectors = init_words.size() / words_per_vector;
+  const auto shortest = to_integer<std::size_t>(kShortestPart / (s.fragments_per_vector + 1)) + 1;
+  s.parts.clear();
+  for (std::size_t at = 0; at < vectors;) {
+    const std::size_t wanted = std::max(shortest, (vectors - at) / (4 * all));
+    HalfwayPart part{.vector = at};
+    while (at < vectors && part.vectors < wanted) {
+      const auto rest = init_words.subspan(at * words_per_vector, (vectors - at) * words_per_vector);
+      const std::size_t triangle = std::clamp<std::size_t>(s.golden->group(rest), 1, vectors - at);
+      part.vectors += triangle;
+      at += triangle;
+    }
+    s.parts.push_back(part);
+  }
+
+  std::size_t next_part = 0;
+  std::atomic<int> worst = HALFWAY_DONE;
+  std::atomic<std::size_t> next_thread = 0;
+  work_on_threads(static_cast<unsigned>(std::min(s.threads.size(), s.parts.size())), [&] {
+    for (std::size_t i; (i = next_thread++) < s.threads.size();) {
+      HalfwayBatch batch{init_words.data(), s.parts.data(), s.parts.size(), &next_part, max_fragments};
+      const int status = s.run(s.threads[i], &batch);
+      for (int seen = worst; status > seen && !worst.compare_exchange_weak(seen, status);) {
+      }
+    }
+  });
+  std::size_t total = 0;
+  for (const HalfwayPart& part : s.parts) total += part.fragments;
+  switch (worst) {
+    case HALFWAY_DONE:
+      if (total > max_fragments) return too_many();
+      break;
+    case HALFWAY_BUFFER_FULL:
+      return too_many();
+    case HALFWAY_HANG:
+      return Error{
+          ExitCode::differs,
+          fmt::format("{} in lanes: hang: nothing moved in a lane for as long as is allowed, after {} "
+                      "cycles of all lanes",
+                      s.key.name(), cycles())};
+    case HALFWAY_FAULT:
+      return Error{ExitCode::differs, fmt::format("{} in lanes: the hardware tells a fault", s.key.name())};
+    default:
+      return tool_failed(fmt::format("{} in lanes: unknown status {}", s.key.name(), worst.load()));
+  }
+  if (vectors > 0) s.fragments_per_vector = static_cast<double>(total) / static_cast<double>(vectors);
+  for (const HalfwayPart& part : s.parts) {
+    const auto* first = reinterpret_cast<const Fragment*>(s.fragments(s.threads[part.owner], part.lane));
+    on_drawn(init_words.subspan(part.vector * words_per_vector, part.vectors * words_per_vector),
+             {first + part.fragment, part.fragments});
+  }
+  return total;
 }
 
 }  // namespace halfway

@@ -21,11 +21,8 @@ namespace halfway {
 struct LaneOptions {
   unsigned threads = 1;                ///< each with lanes of its own
   std::uint64_t idle_limit = 100'000;  ///< cycles in which nothing moves in a lane: a hang
-  /// Fragments a thread that wait for a part in front of theirs: when there are more, all parts are ended
-  /// first, so that memory is bounded.
-  std::size_t most_waiting = std::size_t{1} << 20;
-  bool fast = true;        ///< worth a long compilation
-  std::string compiler{};  ///< empty: clang++ where it is installed, else g++
+  bool fast = true;                    ///< worth a long compilation
+  std::string compiler{};              ///< empty: clang++ where it is installed, else g++
 };
 
 class LaneSimulator {
@@ -50,16 +47,15 @@ class LaneSimulator {
 
   /// Draws whole triangles from idle to idle, and hands on their fragments part by part in the order of a
   /// single stream, whatever the number of lanes and threads; this thread calls `on_drawn`. More than
-  /// `max_fragments` is an error, and nothing of it is left in the next call. A fault of the hardware (a
-  /// hang) has the exit code `differs`; some parts may have been handed on then. More vectors in a call are
-  /// faster: thousands.
+  /// `max_fragments` is an error. A fault of the hardware (a hang) has the exit code `differs`; some parts
+  /// may have been handed on then. More vectors in a call are faster: thousands.
   Status run(std::span<const std::uint32_t> init_words, std::size_t max_fragments, const OnDrawn& on_drawn);
   /// The same, appended to `out`, which holds no more than `max_fragments`.
   Status run(std::span<const std::uint32_t> init_words, std::size_t vectors, std::vector<Fragment>& out,
              std::size_t max_fragments);
 
   /// Clocks of all lanes while they had something to draw, summed: more than one hardware would need, as each
-  /// part ends with the pipeline running empty.
+  /// part of a batch ends with the pipeline running empty.
   std::uint64_t cycles() const;
 
  private:
@@ -67,6 +63,8 @@ class LaneSimulator {
   struct State;
   static LaneSimulator with_lanes(Hardware hardware);
   explicit LaneSimulator(std::shared_ptr<State> state) : state_(std::move(state)) {}
+  Result<std::size_t> draw(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
+                           const OnDrawn& on_drawn);
   std::shared_ptr<State> state_;
 };
 

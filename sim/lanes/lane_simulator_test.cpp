@@ -98,23 +98,6 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
   }
 }
 
-TEST_P(ShadersInLanes, WaitForALongPartOrGoOn) {
-  for (const std::size_t most_waiting : {std::size_t{0}, std::size_t{200}, kMost}) {
-    auto lanes =
-        LaneSimulator::open(key_, kFolders, {.threads = 2, .most_waiting = most_waiting, .fast = false});
-    ASSERT_TRUE(lanes) << lanes.error().message;
-    for (int again = 0; again < 3; ++again) {
-      std::vector<Fragment> drawn;
-      const Status ran = lanes->run(words_, words_.size() / words_per_vector_, drawn, expected_.size());
-      ASSERT_TRUE(ran) << ran.error().message;
-      EXPECT_TRUE(drawn == expected_);
-      // What is left by one that was too long is no part of the next.
-      drawn.clear();
-      EXPECT_FALSE(lanes->run(words_, words_.size() / words_per_vector_, drawn, expected_.size() / 2));
-    }
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(All, ShadersInLanes,
                          testing::Values(Case{"spheres", Shader::quadratic, Preset::exact},
                                          Case{"matte", Shader::quadratic, Preset::published},
