@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -55,6 +56,23 @@ class ViewCommand : public CommandTest {
       if (entry.path().filename() != ".lock") found.insert(entry.path().filename().string());
     return found;
   }
+  /// A triangle that is seen from behind, in frame 2 of 4 from before.
+  void write_averted() const {
+    ASSERT_TRUE(write_file(at("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    ASSERT_TRUE(
+        write_file(at("averted.toml"),
+                   "ambient = 0.5\n[camera]\neye = [0.3, 0.3, -3]\ntarget = [0.3, 0.3, 0]\n[[directional]]\n"
+                   "to_light = [0.4, 0.3, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nfile = \"one.obj\"\n"
+                   "material = \"m\"\n"));
+  }
+  static void spoil(const std::filesystem::path& file, const std::string& from, const std::string& to) {
+    auto text = read_file(file);
+    ASSERT_TRUE(text);
+    const std::size_t place = text->find(from);
+    ASSERT_NE(place, std::string::npos) << "mend this test";
+    ASSERT_TRUE(write_file(file, text->replace(place, from.size(), to)));
+  }
+
   Frame frame(const std::string& name) const {
     auto read = read_png(at(name));
     EXPECT_TRUE(read) << read.error().message;
@@ -321,21 +339,8 @@ TEST_F(ViewCommand, BrokenOffLeavesNoHalfFile) {
 // Hardware whose fault shows from the third place alone: the only triangle is averted before.
 TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
   const std::filesystem::path copy = copy_checkout();
-  const auto interpolator = copy / "rtl" / "interpolation" / "part_interpolator.vhd";
-  const auto text = read_file(interpolator);
-  ASSERT_TRUE(text);
-  const std::string from = "sum_of(value, addend";
-  const std::size_t place = text->find(from);
-  ASSERT_NE(place, std::string::npos) << "mend this test";
-  std::string changed = *text;
-  changed.replace(place, from.size(), "sum_of(value, not addend");
-  ASSERT_TRUE(write_file(interpolator, changed));
-  ASSERT_TRUE(write_file(at("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-  ASSERT_TRUE(
-      write_file(at("averted.toml"),
-                 "ambient = 0.5\n[camera]\neye = [0.3, 0.3, -3]\ntarget = [0.3, 0.3, 0]\n[[directional]]\n"
-                 "to_light = [0.4, 0.3, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nfile = \"one.obj\"\n"
-                 "material = \"m\"\n"));
+  spoil(copy / "rtl/interpolation/part_interpolator.vhd", "sum_of(value, addend", "sum_of(value, not addend");
+  write_averted();
   // Lanes leave it to Verilator to tell.
   for (const std::string simulator : {"verilator", "lanes"}) {
     const Outcome drawn =
@@ -348,7 +353,9 @@ TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
         AllOf(HasSubstr("averted: frame 2: verilator differs from the golden model\n"),
               ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, [a-z]+: golden [0-9]+, Verilator"),
               HasSubstr("of the scene with eye = [0.3, 0.3, 3] in [camera]"),
-              ContainsRegex("3 frames of 1 triangles.*" + simulator + ": [1-9][0-9]* mismatches in frame 2 "),
+              ContainsRegex("3 frames of 1 triangles.*" + simulator +
+                            (simulator == "lanes" ? ", verilator in frame 2" : "") +
+                            ": [1-9][0-9]* mismatches in frame 2 "),
               HasSubstr("2 of 3 frames show no triangle")));
     EXPECT_FALSE(std::filesystem::exists(at("turn.mp4")));
   }
@@ -359,6 +366,87 @@ TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
   EXPECT_EQ(blind.exit_code, 0) << blind.output;
   EXPECT_THAT(blind.output, AllOf(HasSubstr("verilator: not compared with the golden model"),
                                   Not(HasSubstr("mismatches")), Not(HasSubstr("golden model 0"))));
+}
+
+// Lanes that stop in the middle of frame 0's triangles: Verilator draws it, which is told, and what they
+// still hold comes in no later frame.
+TEST_F(ViewCommand, WhatLanesBreakOffIsDrawnInVerilatorAndTold) {
+  const std::filesystem::path copy = copy_checkout();
+  spoil(copy / "sim/lanes/lane_harness.cpp", "      const M moved = block();\n",
+        "      const M moved = block();\n      static bool broken = false;\n"
+        "      if (!broken) {\n        broken = true;\n        return HALFWAY_HANG;\n      }\n");
+  const Outcome expected = run({"view", "matte", "--size", "320x240", "--frames", "3", "--simulator",
+                                "verilator", "--threads", "1", "--out", "expected"});
+  ASSERT_EQ(expected.exit_code, 0) << expected.output;
+  for (const bool compare : {true, false}) {
+    std::vector<std::string> arguments = {"--source",  copy,       "view",  "matte",       "--size",
+                                          "320x240",   "--frames", "3",     "--simulator", "lanes",
+                                          "--threads", "1",        "--out", "turn"};
+    if (!compare) arguments.push_back("--no-compare");
+    const Outcome drawn = run(arguments);
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
+    EXPECT_THAT(drawn.output,
+                AllOf(ContainsRegex("matte: frame 0: [^\n]* in lanes: hang: [^\n]*; Verilator drew it, "
+                                    "without a fault; please report it\n"),
+                      ContainsRegex("lanes, verilator in frame 0: (0 mismatches|not compared)")));
+    for (const std::string name : {"/frame_0000.png", "/frame_0001.png", "/frame_0002.png"})
+      EXPECT_EQ(frame("turn" + name).rgb, frame("expected" + name).rgb) << name << compare;
+  }
+}
+
+// By `auto` too, which takes lanes for as much as this.
+TEST_F(ViewCommand, WhereLanesCannotBeHadVerilatorDraws) {
+  const std::filesystem::path copy = copy_checkout();
+  ASSERT_TRUE(write_file(copy / "sim/lanes/lane_harness.cpp", "#error spoilt\n"));
+  const Outcome asked = run({"--source", copy, "view", "matte", "--size", "64x48", "--simulator", "lanes"});
+  EXPECT_EQ(asked.exit_code, 3) << asked.output;
+  EXPECT_THAT(asked.output, HasSubstr("spoilt"));
+#ifdef __x86_64__
+  if (!__builtin_cpu_supports("avx512f")) GTEST_SKIP() << "auto takes no lanes here";
+  write_averted();
+  const Outcome drawn = run({"--source", copy, "view", "averted.toml", "--size", "2048x2048", "--frames",
+                             "64", "--video", "turn.mp4", "--no-compare"},
+                            path_with_ffmpeg(c_copy));
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
+  EXPECT_THAT(drawn.output, AllOf(HasSubstr("averted: Verilator draws, for lanes cannot be had: "),
+                                  ContainsRegex("fragments \\| verilator: not compared")));
+#endif
+}
+
+// Small triangles lead batches to hold many; then come layers that fill the frame. Of a thread, what is drawn
+// at a time takes some 50 MB; all layers' fragments take 800.
+TEST_F(ViewCommand, MemoryDoesNotGrowWithTheMesh) {
+  std::string text;
+  int vertices = 0;
+  const auto add = [&](double x, double y, double z, double side) {
+    text += fmt::format("v {} {} {}\nv {} {} {}\nv {} {} {}\nf {} {} {}\n", x, y, z, x + side, y, z, x,
+                        y + side, z, vertices + 1, vertices + 2, vertices + 3);
+    vertices += 3;
+  };
+  for (int i = 0; i < 10'000; ++i) add(-0.9 + 0.018 * (i % 100), -0.9 + 0.018 * (i / 100), 1.0, 0.004);
+  for (int i = 0; i < 50; ++i) add(-3.0, -3.0, -0.001 * i, 12.0);
+  ASSERT_TRUE(write_file(at("layers.obj"), text));
+  ASSERT_TRUE(write_file(at("layers.toml"),
+                         "ambient = 0.5\n[camera]\neye = [0, 0, 8]\ntarget = [0, 0, 0]\nfov = 24\n"
+                         "[[directional]]\nto_light = [0, 0, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\n"
+                         "file = \"layers.obj\"\nmaterial = \"m\"\n"));
+  std::vector<std::vector<std::uint8_t>> frames;
+  for (const std::string simulator : {"verilator", "lanes"})
+    for (const bool compare : {true, false}) {
+      std::vector<std::string> arguments = {"view",      "layers.toml", "--frames",    "1",
+                                            "--size",    "1000x1000",   "--simulator", simulator,
+                                            "--threads", "1",           "--out",       "turn"};
+      if (!compare) arguments.push_back("--no-compare");
+      const Outcome drawn = run(arguments);
+      EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
+      EXPECT_THAT(drawn.output, ContainsRegex(" 5[0-9]{7} fragments"));
+      frames.push_back(frame("turn/frame_0000.png").rgb);
+      EXPECT_EQ(frames.back(), frames.front()) << simulator << compare;
+      // The most of any program so far, in KiB.
+      rusage used{};
+      ASSERT_EQ(::getrusage(RUSAGE_CHILDREN, &used), 0);
+      EXPECT_LT(used.ru_maxrss, 600'000) << simulator << compare;
+    }
 }
 
 }  // namespace

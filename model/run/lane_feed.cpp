@@ -5,15 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 
 #include "common/seconds.hpp"
-#include "run/limits.hpp"
 
 namespace halfway {
 namespace {
-
-// Fragments of a batch where no golden model says how many there are.
-constexpr std::size_t c_most_uncompared = std::size_t{1} << 26;
 
 bool has_avx512() {
 #ifdef __x86_64__
@@ -42,10 +39,8 @@ Result<bool> use_lanes(RtlEngine engine, const HardwareKey& key, double pixels) 
 
 Status LaneFeed::add(std::span<const std::uint32_t> init_words, std::span<const Fragment> golden) {
   if (!alive_) return Ok{};
-  const bool known = rtl_.compares() && golden_ == nullptr;
-  const std::size_t most = known ? golden.size() + c_most_surplus : c_most_uncompared;
   const auto start = std::chrono::steady_clock::now();
-  const Status ran = simulator_.run(init_words, most, [&](auto words, std::span<const Fragment> drawn) {
+  const Status ran = simulator_.run(init_words, SIZE_MAX, [&](auto words, std::span<const Fragment> drawn) {
     if (golden_ != nullptr) {
       const auto golden_start = std::chrono::steady_clock::now();
       const std::span<const Fragment> expected = golden_->draw(words);

@@ -13,7 +13,7 @@ namespace {
 
 // Where no golden model says how many fragments there are: vectors a call, so that its fragments, at most one
 // a pixel and vector, stay below this.
-constexpr std::size_t c_most_uncompared = std::size_t{1} << 24;
+constexpr std::size_t c_most_uncompared = std::size_t{1} << 22;
 constexpr std::size_t c_most_slice = 64;
 constexpr std::size_t c_in_flight = 4;  // vectors that the hardware may hold from calls before
 

@@ -77,7 +77,9 @@ class RtlStream {
 };
 
 /// Feeds a model in Verilator the init vectors of one frame, and an RtlStream what it draws. A fault of the
-/// hardware goes into the stream and ends the feeding.
+/// hardware goes into the stream and ends the feeding. Where nothing is compared, it draws 2^22 fragments at
+/// a time at most, or one vector's, and what a few vectors in the hardware are behind; else as many as a
+/// call's vectors cover.
 class VerilatorFeed {
  public:
   using OnDrawn = std::function<void(std::span<const Fragment>)>;

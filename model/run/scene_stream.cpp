@@ -25,6 +25,17 @@ std::size_t bytes(const Batch& batch) {
          batch.golden.size() * sizeof(batch.golden[0]);
 }
 
+// What the golden model is going to draw for a unit's vectors.
+std::size_t fragment_bytes(const GoldenModel& golden, std::span<const std::uint32_t> words) {
+  const std::size_t vector_words = (golden.init_bits() + 31) / 32;
+  std::uint64_t pixels = 0;
+  while (!words.empty()) {
+    pixels += golden.pixels(words);
+    words = words.subspan(std::min(words.size(), golden.group(words) * vector_words));
+  }
+  return static_cast<std::size_t>(pixels) * sizeof(Fragment);
+}
+
 }  // namespace
 
 SceneStream::SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads,
@@ -85,25 +96,35 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batc
   parts[0].batch = std::move(room);
   std::mutex mutex;
   std::size_t taken = 0, held = 0;
+  bool full = false;
+  struct Chunk {
+    std::size_t number, held;
+  };
   // None behind the last, or when the batch holds enough.
-  const auto take = [&]() -> std::optional<std::size_t> {
+  const auto take = [&]() -> std::optional<Chunk> {
     const std::scoped_lock lock(mutex);
-    if (taken == chunks || held > c_batch_bytes) return std::nullopt;
-    return taken++;
+    if (taken == chunks || full) return std::nullopt;
+    return Chunk{taken++, held};
   };
   const auto work = [&] {
     const std::unique_ptr<GoldenModel> golden = options_.golden ? make_golden_model(key_) : nullptr;
     std::vector<Fragment> none;
     if (golden) golden->draw(prologue_, none);
-    while (const auto i = take()) {
-      Work& part = parts[alone ? 0 : *i];
+    while (const auto chunk = take()) {
+      Work& part = parts[alone ? 0 : chunk->number];
       const std::size_t before = bytes(part.batch);
-      const auto first = static_cast<std::uint32_t>(begin + *i * chunk_units);
+      const auto first = static_cast<std::uint32_t>(begin + chunk->number * chunk_units);
+      const std::uint32_t last = std::min(end, first + chunk_units);
       const double setup_start = thread_seconds();
       if (first == 0) part.batch.init_words = prologue_;
       const std::size_t drawn = part.batch.init_words.size();
-      for (std::uint32_t unit = first; unit < std::min(end, first + chunk_units); ++unit)
-        setup_.append(unit, part.batch.init_words, part.counts);
+      std::size_t holds = chunk->held;
+      for (part.end = first; part.end < last && holds <= c_batch_bytes; ++part.end) {
+        const std::size_t begins = part.batch.init_words.size();
+        setup_.append(part.end, part.batch.init_words, part.counts);
+        const auto words = std::span(part.batch.init_words).subspan(begins);
+        holds += words.size_bytes() + (golden ? fragment_bytes(*golden, words) : 0);
+      }
       const double golden_start = thread_seconds();
       part.setup_seconds += golden_start - setup_start;
       if (golden) {
@@ -113,30 +134,34 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batc
       }
       const std::scoped_lock lock(mutex);
       held += bytes(part.batch) - before;
+      full = full || held > c_batch_bytes || part.end < last;
     }
   };
   work_on_threads(static_cast<unsigned>(std::min<std::size_t>(threads_, chunks)), work);
   Work all = std::move(parts[0]);
-  std::size_t words = 0, fragments = 0;
-  for (const Work& part : parts) {
-    words += part.batch.init_words.size();
-    fragments += part.batch.golden.size();
+  // A part that was ended early is the last; those behind it are made again.
+  std::size_t joined = 1, words = 0, fragments = 0;
+  for (; joined < parts.size() && all.end == begin + joined * chunk_units; ++joined) {
+    if (parts[joined].end == 0) break;
+    all.end = parts[joined].end;
+    words += parts[joined].batch.init_words.size();
+    fragments += parts[joined].batch.golden.size();
   }
   all.batch.init_words.reserve(all.batch.init_words.size() + words);
   all.batch.golden.reserve(all.batch.golden.size() + fragments);
   for (std::size_t i = 1; i < parts.size(); ++i) {
     Work& part = parts[i];
-    all.batch.init_words.insert(all.batch.init_words.end(), part.batch.init_words.begin(),
-                                part.batch.init_words.end());
-    all.batch.golden.insert(all.batch.golden.end(), part.batch.golden.begin(), part.batch.golden.end());
-    all.fault = all.fault || part.fault;
-    part.batch = {};
-    all.counts += part.counts;
     all.setup_seconds += part.setup_seconds;
     all.golden_seconds += part.golden_seconds;
+    if (i < joined) {
+      all.batch.init_words.insert(all.batch.init_words.end(), part.batch.init_words.begin(),
+                                  part.batch.init_words.end());
+      all.batch.golden.insert(all.batch.golden.end(), part.batch.golden.begin(), part.batch.golden.end());
+      all.fault = all.fault || part.fault;
+      all.counts += part.counts;
+    }
+    part.batch = {};
   }
-  all.end =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>(end, begin + std::uint64_t{taken} * chunk_units));
   all.batch.done = static_cast<double>(all.end) / setup_.units();
   return all;
 }

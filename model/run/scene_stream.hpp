@@ -28,8 +28,10 @@ struct SceneStreamOptions {
 
 /// Setup and golden model on `threads` threads, one batch ahead of who takes them. The stream does not depend
 /// on the number of threads. The first batch begins with setup's prologue, which every thread's golden model
-/// is given first. Memory is bounded by a batch, not by the mesh: batches of large triangles, of triangles
-/// with many line records, or of crowded lines hold fewer units.
+/// is given first. Memory is bounded by a batch, not by the mesh: a thread ends its part of a batch, before
+/// the golden model draws it, with the unit that takes it past 8 MB of vectors and fragments, and begins none
+/// once all of them hold so much. So a batch holds 8 MB and a unit for each thread at most; a unit may be
+/// larger than that: a triangle that covers 2^19 pixels, or a crowded line.
 class SceneStream {
  public:
   /// The setup must outlive the stream.
@@ -50,7 +52,7 @@ class SceneStream {
  private:
   struct Work {
     Batch batch;
-    std::uint32_t end = 0;  ///< the first unit behind it
+    std::uint32_t end = 0;  ///< the first unit behind it; 0 of a part that was not begun
     SetupCounts counts;
     double setup_seconds = 0, golden_seconds = 0;
     bool fault = false;

@@ -94,6 +94,50 @@ TEST(SceneStream, BatchesOfLargeTrianglesAreOfFew) {
   }
 }
 
+// Many small triangles make large batches, into which no more than one large triangle a thread past their
+// room goes.
+TEST(SceneStream, LargeTrianglesBehindSmallOnesEndTheirBatch) {
+  constexpr FrameSize c_size{400, 400};
+  constexpr int c_layers = 60;
+  Scene scene;
+  scene.name = "layers";
+  scene.materials = {{.name = "paper"}};
+  scene.directional = {{.to_light_world = {0.0, 0.0, 1.0}}};
+  Mesh mesh;
+  mesh.normals = {{0.0, 0.0, 1.0}};
+  const auto add = [&](glm::dvec3 at, double side) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(),
+                          {at, at + glm::dvec3(side, 0.0, 0.0), at + glm::dvec3(0.0, side, 0.0)});
+    mesh.triangles.push_back({.position = {first, first + 1, first + 2}});
+  };
+  for (int i = 0; i < 3000; ++i) add({-0.9 + 0.018 * (i % 100), -0.9 + 0.018 * (i / 100), 1.0}, 0.004);
+  for (int i = 0; i < c_layers; ++i) add({-3.0, -3.0, -0.001 * i}, 12.0);
+  add_mesh(scene, mesh);
+  scene.camera = {.eye_world = {0.0, 0.0, 8.0}, .target_world = {}, .vertical_fov_degrees = 24.0};
+  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+    const HardwareKey key = key_of(scene, shader);
+    const auto setup = make_setup(scene, c_size, key, {});
+    std::vector<std::uint32_t> words;
+    SetupCounts counts;
+    for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, words, counts);
+    for (const unsigned threads : {1U, 4U}) {
+      SceneStream stream(*setup, key, threads);
+      std::vector<std::uint32_t> all;
+      std::size_t fragments = 0, largest = 0;
+      for (Batch batch; stream.next(batch);) {
+        all.insert(all.end(), batch.init_words.begin(), batch.init_words.end());
+        fragments += batch.golden.size();
+        largest = std::max(largest, batch.golden.size());
+      }
+      EXPECT_TRUE(all == words) << threads;
+      EXPECT_EQ(stream.counts().vectors, counts.vectors) << threads;
+      EXPECT_GT(fragments, c_layers * c_size.width * c_size.height);
+      EXPECT_LT(largest * sizeof(Fragment), threads * (std::size_t{12} << 20)) << threads;
+    }
+  }
+}
+
 // Sheets behind one another before a wall, the light behind the eye.
 Scene sheets(int count) {
   Scene scene;

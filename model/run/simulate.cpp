@@ -246,8 +246,8 @@ class Simulation {
                                        scene_.name, status.error().message));
       if (lane_feed)
         if (Status status = lane_feed->add(batch.init_words, batch.golden); !status) return status;
-      rtl.add_golden(batch.golden);
       if (!feed) continue;
+      rtl.add_golden(batch.golden);
       if (Status status = feed->add(batch.init_words); !status) return status;
     }
     if (feed)

@@ -2,6 +2,7 @@
 #include "run/view.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -9,6 +10,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <span>
 
 #include "common/seconds.hpp"
 #include "common/threads.hpp"
@@ -35,6 +37,7 @@ struct DrawnFrame {
   ViewSeconds seconds;
   std::vector<std::string> notes;
   bool covered = false;
+  bool lanes_failed = false;  ///< Verilator drew
   std::optional<ViewDifference> difference;
 };
 
@@ -67,15 +70,19 @@ class Easel {
     SimulatorRun run = finish(rtl, drawn, to_string(lanes_ ? RtlEngine::lanes : RtlEngine::verilator));
     if (lanes_ && !run.equal()) {
       // Verilator tells it better: the cycle of a fault, and what was drawn before.
-      const std::uint64_t mismatches = run.mismatches;
+      const SimulatorRun in_lanes = std::move(run);
+      drawn.lanes_failed = true;
       rtl.clear();
       if (Status status = draw_in_verilator(rtl, drawn); !status) return status.error();
       run = finish(rtl, drawn, to_string(RtlEngine::verilator));
-      if (run.equal() && mismatches != 0)
+      if (run.equal() && in_lanes.mismatches != 0)
         return tool_failed(fmt::format(
             "{}: frame {}: {} fragments differ in lanes, and none in Verilator; please report it, and take "
             "--simulator verilator",
-            scene_.name, number, mismatches));
+            scene_.name, number, in_lanes.mismatches));
+      if (run.equal())
+        drawn.notes.push_back(fmt::format(
+            "frame {}: {}; Verilator drew it, without a fault; please report it", number, in_lanes.fault));
     }
     drawn.fragments = run.fragments;
     drawn.covered = run.fragments != 0;
@@ -190,6 +197,7 @@ class Turn {
     summary_.parts += drawn->seconds;
     for (const std::string& note : drawn->notes) add_note(note);
     if (!drawn->covered) ++bare_;
+    if (drawn->lanes_failed) summary_.lanes_failed.push_back(number);
     ++summary_.frames;
     ++taken_;
     if (drawn->difference) {  // the last, whatever later ones came to
@@ -242,6 +250,17 @@ class Turn {
   std::uint32_t bare_ = 0;
 };
 
+// "lanes", or "lanes, verilator in frames 3, 8".
+std::string who_drew(const ViewSummary& s) {
+  if (s.lanes_failed.empty()) return to_string(s.engine);
+  constexpr std::size_t c_named = 10;
+  const auto named = std::span(s.lanes_failed).first(std::min(c_named, s.lanes_failed.size()));
+  const std::size_t others = s.lanes_failed.size() - named.size();
+  return fmt::format("{}, verilator in frame{} {}{}", to_string(s.engine),
+                     s.lanes_failed.size() == 1 ? "" : "s", fmt::join(named, ", "),
+                     others == 0 ? "" : fmt::format(" and {} others", others));
+}
+
 }  // namespace
 
 ViewSeconds& ViewSeconds::operator+=(const ViewSeconds& other) {
@@ -274,9 +293,17 @@ Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
   std::optional<LaneSimulator> lanes;
   if (*in_lanes) {
     auto opened = LaneSimulator::open(key, settings.folders, {.idle_limit = c_idle_limit});
-    if (!opened) return opened.error();
-    lanes.emplace(std::move(*opened));
-  } else {
+    if (!opened && settings.engine == RtlEngine::lanes) return opened.error();
+    if (opened) {
+      lanes.emplace(std::move(*opened));
+    } else {
+      summary.notes.push_back(fmt::format("{}: Verilator draws, for lanes cannot be had: {}", scene.name,
+                                          opened.error().message));
+      summary.engine = RtlEngine::verilator;
+      settings.on_build(key.name(), summary.engine);
+    }
+  }
+  if (!lanes) {
     auto opened = VerilatorSimulator::open(key, settings.folders, {.idle_limit = c_idle_limit});
     if (!opened) return opened.error();
     verilator.emplace(std::move(*opened));
@@ -330,7 +357,7 @@ std::string to_lines(const ViewSummary& s) {
       "{:<12} {:<10} {:<9} {:>4}x{:<4} {:>4} frame{} of {} triangles, {} fragments | {}: {} | {:.2f} "
       "frames a second, {:.2f} s on {} thread{}\n",
       s.scene, to_string(s.plan.key.shader), to_string(s.plan.key.preset), s.size.width, s.size.height,
-      s.frames, s.frames == 1 ? "" : "s", s.triangles, s.fragments, to_string(s.engine), compared, s.rate(),
+      s.frames, s.frames == 1 ? "" : "s", s.triangles, s.fragments, who_drew(s), compared, s.rate(),
       s.seconds, s.threads, s.threads == 1 ? "" : "s");
   if (s.frames == 0) return text;
   const auto ms = [&](double seconds) { return 1e3 * seconds / s.frames; };

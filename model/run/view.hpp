@@ -65,7 +65,8 @@ struct ViewSummary {
   std::uint32_t frames = 0;     ///< drawn; all, unless one differs
   std::uint64_t fragments = 0;  ///< of the RTL, in all frames
   bool compared = true;
-  RtlEngine engine = RtlEngine::verilator;  ///< which drew
+  RtlEngine engine = RtlEngine::verilator;  ///< which drew, but for the frames that follow
+  std::vector<std::uint32_t> lanes_failed;  ///< which Verilator drew
   unsigned threads = 1;
   double seconds = 0.0;  ///< from when the hardware was there until the last frame was taken
   ViewSeconds parts;
@@ -76,10 +77,12 @@ struct ViewSummary {
 
 /// Draws the scene from `frames` places around its camera's target. Hardware is planned and built once: no
 /// effect depends on the camera. Threads draw whole frames, each on a model of its own, which is not reset
-/// between them; lanes where they pay, see use_lanes(), and a frame that differs in lanes is drawn again in
-/// Verilator, which tells more: its cycles, and what was drawn until a fault. Memory is bounded by the
-/// threads, not by the frames. Ends after the first frame that differs, which is no error: see
-/// ViewSummary::difference.
+/// between them; lanes where they pay, see use_lanes(), and can be had: else Verilator, with a note. A frame
+/// that differs in lanes, or in which they end with a fault, is drawn again in Verilator, which tells more:
+/// its cycles, and what was drawn until a fault. Where Verilator finds no fault, a note tells that of lanes;
+/// where it finds no mismatch, those of lanes are an error. Memory is bounded by the threads, by the frame,
+/// and by SceneStream, LaneSimulator and VerilatorFeed, not by the number of frames or of triangles. Ends
+/// after the first frame that differs, which is no error: see ViewSummary::difference.
 Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings);
 
 /// Two lines: frames a second, mismatches; the parts of a frame's time.

@@ -4,10 +4,11 @@
 // A cycle is as in sim/verilator/harness.cpp at full speed: outputs are sampled just before the rising edge,
 // inputs change after it. A lane that has drawn its part is given the next one when its hardware is idle; one
 // that gets no more runs on empty.
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <memory>
-#include <vector>
+#include <utility>
 
 #include "sim/lanes/lane_api.h"
 #include "sim/lanes/lane_vectors.hpp"
@@ -17,7 +18,9 @@ namespace {
 #include "lanes.hpp"
 
 constexpr std::size_t kInitWords = (HALFWAY_INIT_BITS + 31) / 32;
-constexpr std::size_t kBlock = 256;               // clocks between two looks at the room for fragments
+constexpr std::size_t kBlock = 256;  // clocks between two looks at the room for fragments
+// Fragments of room that stay from batch to batch; a room for large triangles goes with its batch.
+constexpr std::size_t kKeptRoom = std::size_t{1} << 21;
 constexpr int kResetClocks = 4, kLateClocks = 8;  // as in sim/verilator/harness.cpp
 
 class Lanes {
@@ -32,16 +35,15 @@ class Lanes {
     active_ = 0;
     faults_ = 0;
     in_.init_valid = 0;
-    for (Lane& lane : lanes_) lane.count = 0;
+    empty_rooms();
     for (unsigned i = 0; i < kLanes; ++i) begin_part(i);
     while (active_ != 0) {
       std::size_t total = 0;
       for (unsigned i = 0; i < kLanes; ++i) {
         Lane& lane = lanes_[i];
         total += lane.count;
-        if (lane.fragments.size() < lane.count + kBlock + 1)
-          lane.fragments.resize(2 * lane.fragments.size() + 4 * kBlock);
-        lane.next = lane.fragments.data() + lane.count;
+        if (lane.room < lane.count + kBlock + 1) grow(lane);
+        lane.next = lane.fragments.get() + lane.count;
       }
       if (total > batch.max_fragments) return HALFWAY_BUFFER_FULL;
       const M moved = block();
@@ -60,19 +62,38 @@ class Lanes {
     return faults_ != 0 ? HALFWAY_FAULT : HALFWAY_DONE;
   }
 
-  const HalfwayFragment* fragments(std::uint32_t lane) const { return lanes_[lane].fragments.data(); }
+  const HalfwayFragment* fragments(std::uint32_t lane) const { return lanes_[lane].fragments.get(); }
   std::uint64_t cycles() const { return cycles_; }
 
  private:
   struct Lane {
-    std::vector<HalfwayFragment> fragments;
-    std::size_t count = 0;
+    std::unique_ptr<HalfwayFragment[]> fragments;
+    std::size_t room = 0, count = 0;
     HalfwayFragment* next = nullptr;  // where its fragments go, less those of this block's clocks
     HalfwayPart* part = nullptr;
     const std::uint32_t* words = nullptr;  // of the vector that is offered
     std::size_t vectors = 0;               // still to be taken
     std::uint64_t still = 0;               // clocks in which nothing moved
   };
+
+  void empty_rooms() {
+    std::size_t room = 0;
+    for (const Lane& lane : lanes_) room += lane.room;
+    for (Lane& lane : lanes_) {
+      lane.count = 0;
+      if (room <= kKeptRoom) continue;
+      lane.fragments.reset();
+      lane.room = 0;
+    }
+  }
+
+  // What is not written takes no memory: the system gives it page by page.
+  static void grow(Lane& lane) {
+    lane.room = 2 * lane.count + 4 * kBlock;
+    auto larger = std::make_unique_for_overwrite<HalfwayFragment[]>(lane.room);
+    std::copy_n(lane.fragments.get(), lane.count, larger.get());
+    lane.fragments = std::move(larger);
+  }
 
   void begin_part(unsigned i) {
     const M bit = static_cast<M>(1u << i);
@@ -120,7 +141,7 @@ class Lanes {
   }
 
   static void count(Lane& lane, std::size_t clocks) {
-    lane.count = static_cast<std::size_t>(lane.next + clocks - lane.fragments.data());
+    lane.count = static_cast<std::size_t>(lane.next + clocks - lane.fragments.get());
   }
 
   M block() {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "common/threads.hpp"
-#include "common/to_integer.hpp"
 #include "run/golden_run.hpp"
+#include "run/limits.hpp"
 #include "sim/lanes/lane_api.h"
 #include "sim/lanes/lane_library.hpp"
 #include "sim/verilator/netlist.hpp"
@@ -18,16 +18,20 @@
 namespace halfway {
 namespace {
 
-/// Fragments, about: a part ends with some clocks in which nothing comes, a batch with lanes that wait for
-/// the last part.
-constexpr double kShortestPart = 100;
-/// Fragments a thread, about, that are drawn before they are handed on: they stay in the processor's second
-/// cache.
-constexpr double kBatch = 64 * 1024;
+/// In vectors and fragments: a part ends with some clocks in which nothing comes, a batch with lanes that
+/// wait for the last part.
+constexpr std::size_t kShortestPart = 100;
+/// Of a thread, drawn before they are handed on: they stay in the processor's second cache.
+constexpr std::size_t kBatch = 64 * 1024;
 /// Large triangles: a lane has nothing to do while others end theirs, so there are to be a few for each, in
 /// memory if need be.
 constexpr std::size_t kTrianglesALane = 8;
-constexpr double kLargestBatch = 16 * kBatch;
+constexpr std::size_t kLargestBatch = 16 * kBatch;
+
+struct Triangle {
+  std::size_t vectors, pixels;
+  std::size_t work() const { return vectors + pixels; }
+};
 
 }  // namespace
 
@@ -37,7 +41,6 @@ struct LaneSimulator::Hardware {
   SharedLibrary library;
   unsigned init_bits = 0;
   std::size_t lanes = 0;
-  double fragments_per_vector = kBatch;  ///< in the batch before; many, so that the first one is small
   decltype(&halfway_lanes_run) run = nullptr;
   decltype(&halfway_lanes_fragments) fragments = nullptr;
   decltype(&halfway_lanes_cycles) cycles = nullptr;
@@ -46,15 +49,47 @@ struct LaneSimulator::Hardware {
 };
 
 struct LaneSimulator::State : Hardware {
-  explicit State(Hardware hardware) : Hardware(std::move(hardware)), golden(make_golden_model(key)) {}
+  explicit State(Hardware hardware)
+      : Hardware(std::move(hardware)),
+        golden(make_golden_model(key)),
+        knows_pixels(golden->init_bits() == init_bits) {
+    create_lanes();
+  }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
-  ~State() {
-    for (void* thread : threads) destroy(thread);
+  ~State() { destroy_lanes(); }
+
+  void create_lanes() {
+    for (unsigned i = 0; i < std::max(options.threads, 1U); ++i)
+      threads.push_back(create(i, std::max<std::uint64_t>(options.idle_limit, 1)));
+  }
+  void destroy_lanes() {
+    for (void* thread : threads) {
+      cycles_before += cycles(thread);
+      destroy(thread);
+    }
+    threads.clear();
+  }
+  void replace_lanes() {
+    destroy_lanes();
+    create_lanes();
   }
 
-  std::unique_ptr<GoldenModel> golden;  ///< knows which vectors belong together
+  /// The one that the words begin with.
+  Triangle triangle(std::span<const std::uint32_t> words) const {
+    const std::size_t vectors =
+        std::clamp<std::size_t>(golden->group(words), 1, words.size() / vector_words());
+    return {vectors, knows_pixels ? static_cast<std::size_t>(golden->pixels(words)) : kShortestPart};
+  }
+  std::size_t vector_words() const { return (init_bits + 31) / 32; }
+
+  std::unique_ptr<GoldenModel>
+      golden;                       ///< knows which vectors belong together, and how many pixels they cover
+  bool knows_pixels;                ///< not of other hardware than the shaders
+  bool drawing = false;             ///< or they broke off, and stand in the middle of triangles
+  std::uint64_t cycles_before = 0;  ///< of lanes that were replaced
   std::vector<void*> threads;
+  std::vector<Triangle> triangles;  ///< of a batch
   std::vector<HalfwayPart> parts;
 };
 
@@ -104,10 +139,7 @@ Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const Simulato
 }
 
 LaneSimulator LaneSimulator::with_lanes(Hardware hardware) {
-  auto state = std::make_shared<State>(std::move(hardware));
-  for (unsigned i = 0; i < std::max(state->options.threads, 1U); ++i)
-    state->threads.push_back(state->create(i, std::max<std::uint64_t>(state->options.idle_limit, 1)));
-  return LaneSimulator(std::move(state));
+  return LaneSimulator(std::make_shared<State>(std::move(hardware)));
 }
 
 LaneSimulator LaneSimulator::another() const {
@@ -119,7 +151,7 @@ unsigned LaneSimulator::init_bits() const {
 }
 
 std::uint64_t LaneSimulator::cycles() const {
-  std::uint64_t sum = 0;
+  std::uint64_t sum = state_->cycles_before;
   for (const void* thread : state_->threads) sum += state_->cycles(thread);
   return sum;
 }
@@ -127,25 +159,26 @@ std::uint64_t LaneSimulator::cycles() const {
 Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
                           const OnDrawn& on_drawn) {
   State& s = *state_;
-  const std::size_t words_per_vector = (s.init_bits + 31) / 32;
-  const std::size_t few_triangles = kTrianglesALane * s.lanes * s.threads.size();
-  while (init_words.size() >= words_per_vector) {
-    const auto words_of = [&](double fragments) {  // about so many a thread
-      return (to_integer<std::size_t>(fragments * static_cast<double>(s.threads.size()) /
-                                      (s.fragments_per_vector + 1)) +
-              1) *
-             words_per_vector;
-    };
-    const std::size_t wanted = words_of(kBatch), most = words_of(kLargestBatch);
-    std::size_t words = 0;
-    for (std::size_t triangles = 0;
-         words < init_words.size() && (words < wanted || (triangles < few_triangles && words < most));
-         ++triangles) {
-      const std::size_t triangle = s.golden->group(init_words.subspan(words)) * words_per_vector;
-      words = std::min(words + std::max(triangle, words_per_vector), init_words.size());
+  const std::size_t words_per_vector = s.vector_words(), threads = s.threads.size();
+  if (init_words.size() % words_per_vector != 0)
+    return bad_input(fmt::format("{}: {} words are no whole vectors of {} bits", s.key.name(),
+                                 init_words.size(), s.init_bits));
+  if (s.drawing) s.replace_lanes();
+  while (!init_words.empty()) {
+    std::size_t words = 0, work = 0;
+    s.triangles.clear();
+    while (words < init_words.size() &&
+           (work < kBatch * threads || s.triangles.size() < kTrianglesALane * s.lanes * threads)) {
+      const Triangle triangle = s.triangle(init_words.subspan(words));
+      if (work != 0 && work + triangle.work() > kLargestBatch * threads) break;
+      s.triangles.push_back(triangle);
+      words += triangle.vectors * words_per_vector;
+      work += triangle.work();
     }
+    s.drawing = true;
     const auto drawn = draw(init_words.first(words), max_fragments, on_drawn);
     if (!drawn) return drawn.error();
+    s.drawing = false;
     max_fragments -= *drawn;
     init_words = init_words.subspan(words);
   }
@@ -167,24 +200,29 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
 Result<std::size_t> LaneSimulator::draw(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
                                         const OnDrawn& on_drawn) {
   State& s = *state_;
+  // Long parts first, then shorter ones, so that all lanes end together.
+  const std::size_t words_per_vector = s.vector_words(), all = s.lanes * s.threads.size();
+  std::size_t left = 0, pixels = 0;
+  for (const Triangle& triangle : s.triangles) {
+    left += triangle.work();
+    pixels += triangle.pixels;
+  }
+  if (s.knows_pixels) max_fragments = std::min<std::size_t>(max_fragments, pixels + c_most_surplus);
   const auto too_many = [&] {
     return Error{ExitCode::differs,
                  fmt::format("{} in lanes: more than {} fragments", s.key.name(), max_fragments)};
   };
-  // Long parts first, then shorter ones, so that all lanes end together.
-  const std::size_t words_per_vector = (s.init_bits + 31) / 32, all = s.lanes * s.threads.size();
-  const std::size_t vectors = init_words.size() / words_per_vector;
-  const auto shortest = to_integer<std::size_t>(kShortestPart / (s.fragments_per_vector + 1)) + 1;
   s.parts.clear();
-  for (std::size_t at = 0; at < vectors;) {
-    const std::size_t wanted = std::max(shortest, (vectors - at) / (4 * all));
-    HalfwayPart part{.vector = at};
-    while (at < vectors && part.vectors < wanted) {
-      const auto rest = init_words.subspan(at * words_per_vector, (vectors - at) * words_per_vector);
-      const std::size_t triangle = std::clamp<std::size_t>(s.golden->group(rest), 1, vectors - at);
-      part.vectors += triangle;
-      at += triangle;
+  std::size_t vector = 0;
+  for (auto next = s.triangles.begin(); next != s.triangles.end();) {
+    const std::size_t wanted = std::max(kShortestPart, left / (4 * all));
+    HalfwayPart part{.vector = vector};
+    for (std::size_t work = 0; next != s.triangles.end() && work < wanted; ++next) {
+      part.vectors += next->vectors;
+      work += next->work();
+      left -= next->work();
     }
+    vector += part.vectors;
     s.parts.push_back(part);
   }
 
@@ -218,7 +256,6 @@ Result<std::size_t> LaneSimulator::draw(std::span<const std::uint32_t> init_word
     default:
       return tool_failed(fmt::format("{} in lanes: unknown status {}", s.key.name(), worst.load()));
   }
-  if (vectors > 0) s.fragments_per_vector = static_cast<double>(total) / static_cast<double>(vectors);
   for (const HalfwayPart& part : s.parts) {
     const auto* first = reinterpret_cast<const Fragment*>(s.fragments(s.threads[part.owner], part.lane));
     on_drawn(init_words.subspan(part.vector * words_per_vector, part.vectors * words_per_vector),

@@ -31,8 +31,9 @@ class LaneSimulator {
   static std::string refused(const HardwareKey& key);
 
   /// Builds the lanes, or takes them from the cache, and resets them. What lanes cannot be had for is an
-  /// error that says so, and the caller takes VerilatorSimulator: the processors shader, whose lights and
-  /// counters outlive a triangle, a key with probes, a netlist with what the generator does not know.
+  /// error that says so: who may, as view() in `auto`, takes VerilatorSimulator. Such are the processors
+  /// shader, whose lights and counters outlive a triangle, a key with probes, a netlist with what the
+  /// generator does not know.
   static Result<LaneSimulator> open(const HardwareKey& key, const SimulatorFolders& folders,
                                     const LaneOptions& options = {});
 
@@ -47,8 +48,13 @@ class LaneSimulator {
 
   /// Draws whole triangles from idle to idle, and hands on their fragments part by part in the order of a
   /// single stream, whatever the number of lanes and threads; this thread calls `on_drawn`. More than
-  /// `max_fragments` is an error. A fault of the hardware (a hang) has the exit code `differs`; some parts
-  /// may have been handed on then. More vectors in a call are faster: thousands.
+  /// `max_fragments` is an error, and so are more than the vectors cover, and some. A fault of the hardware
+  /// (a hang) has the exit code `differs`; some parts may have been handed on then. After an error the next
+  /// call begins with lanes just reset. More vectors in a call are faster: thousands.
+  ///
+  /// Memory does not grow with a call's vectors. A thread's lanes draw 2^20 fragments at a time, or one
+  /// triangle where that covers more, and hold twice that at most while their room grows; room for 2^21 in
+  /// all stays for what comes next.
   Status run(std::span<const std::uint32_t> init_words, std::size_t max_fragments, const OnDrawn& on_drawn);
   /// The same, appended to `out`, which holds no more than `max_fragments`.
   Status run(std::span<const std::uint32_t> init_words, std::size_t vectors, std::vector<Fragment>& out,

@@ -82,6 +82,14 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
     EXPECT_EQ(at, expected_.size());
     EXPECT_GT(parts, 8U);
     EXPECT_FALSE(others.run(words_, expected_.size() - 1, take));
+    // Broken off in the middle of triangles, which come in no later call.
+    EXPECT_FALSE(others.run(words_, 1, take));
+    at = 0;
+    ASSERT_TRUE(others.run(words_, kMost, take));
+    EXPECT_EQ(at, expected_.size());
+    const Status cut = others.run(std::span(words_).first(words_.size() - 1), kMost, take);
+    ASSERT_FALSE(cut);
+    EXPECT_EQ(cut.error().code, ExitCode::bad_input);
 
     // Again, in batches of nothing, one triangle, fewer than lanes, and many, into what is there already.
     drawn.clear();
