@@ -2,8 +2,8 @@
 // halfway_bench [--page FILE [--readme FILE]] [--jobs N] [--benchmark_…]: speed, as ratios within one run.
 // Every way to a picture beside the project's own; how time and memory grow with triangles, pixels and
 // lights; small triangles; cores; `make sim` as a whole. --page: writes the tables. Figures are processor
-// time, the best of several repetitions in random order; absolute ones belong to the machine that prints
-// them.
+// time, the median of several repetitions in random order, at the pace of the best moment; absolute ones
+// belong to the machine that prints them.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -724,15 +724,15 @@ std::string growth_section(const std::vector<Series>& all) {
       "\n## Growth\n\n"
       "A frame on one core, in seconds of it: setup, golden model, RTL (in lanes; the shading processors in "
       "Verilator), "
-      "comparison of every\nfield, assembly to a picture, its clearing included; the mean of 1 to 21 "
+      "comparison of every\nfield, assembly to a picture, its clearing included; the mean of 2 to 31 "
       "repetitions. Each frame is drawn in a process that has drawn the same\nfor a quarter of a second, or "
       "whole, before: as all frames of `make view` but the first. The line is t = constant + slope n "
       "with\nthe "
       "least squares of relative deviations. Memory is the most beside the mesh and the program, the drawing "
       "before and the\nframe's {} bytes a pixel included. What is beside the frame is bounded: most of it "
       "what lanes "
-      "hold of large triangles\nand of those that wait for them, a million fragments at most and room for as "
-      "many more.\n",
+      "hold of large triangles,\na million fragments at a time, or one triangle's where that covers more, as "
+      "many again while their room grows,\nand room for two million kept from before.\n",
       c_frame_bytes);
   double best_pace = std::numeric_limits<double>::infinity();
   for (const Series& series : all)
@@ -923,10 +923,10 @@ int run(const Options& options) {
       "not. Times are those of\nthe processor, not of the clock, where nothing else is said. A shared "
       "machine's "
       "processors are now slower, now quicker: a fixed piece\nof work is timed before and after, or in long "
-      "measurements all the while, and times are told at the pace of its best moment.\nEvery way is checked "
-      "to draw the "
-      "right fragments, or the right picture, each time that it is timed; `make test` does so at a tiny "
-      "size.\n\n";
+      "measurements all the while, and times are told at the pace of its best moment.\nEvery way of "
+      "the RTL is checked "
+      "to draw the right fragments, and Mesa the right picture, each time that it is timed; `make test` does "
+      "so at a tiny size.\n\n";
   text += fmt::format(
       "Machine: {}. Load, processes that would run, of which one was this:\n{:.1f} before, {:.1f} after, "
       "{:.1f} "
