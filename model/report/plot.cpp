@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -43,6 +44,10 @@ Result<std::string> run_gnuplot(const std::string& script, const std::filesystem
   return read_file(picture);
 }
 
+std::string tick_label(double tick) {
+  return tick < 1e6 ? fmt::format("{:g}", tick) : fmt::format("{:g} M", tick / 1e6);
+}
+
 // Round numbers between two that are less than two decades apart, as gnuplot takes them: the fewer the
 // farther these are apart.
 std::string ticks_within(double least, double most) {
@@ -52,9 +57,47 @@ std::string ticks_within(double least, double most) {
   for (double decade = std::pow(10.0, std::floor(std::log10(least))); decade <= most; decade *= 10.0)
     for (const double digit : digits)
       if (const double tick = digit * decade; tick > least / 1.1 && tick < most * 1.1)
-        ticks += fmt::format("{}\"{:g}\" {}", ticks.empty() ? "" : ", ", tick, tick);
+        ticks += fmt::format("{}\"{}\" {}", ticks.empty() ? "" : ", ", tick_label(tick), tick);
   return ticks;
 }
+
+// A logarithmic axis, on which 0 has a place of its own.
+struct Axis {
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;  // of what is above 0
+  bool has_zero = false;
+
+  void add(double value) {
+    if (value <= 0) {
+      has_zero = true;
+      return;
+    }
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  // Of nothing but 0: any.
+  void close() {
+    if (most == 0.0) least = most = 1.0;
+  }
+  // As far below the least as an eighth of the axis is long.
+  double zero() const { return least * std::pow(std::max(10.0, most / least), -0.125); }
+  double place(double value) const { return value > 0 ? value : zero(); }
+  double begin() const { return has_zero ? zero() : least; }
+  // Between 0 and the rest.
+  double gap() const { return std::pow(zero(), 0.3) * std::pow(least, 0.7); }
+  std::string ticks(const char* name) const {
+    // gnuplot's own, which stand beside ours: millions in words, too.
+    const std::string own = most < 1e6 ? "" : fmt::format("set format {} \"%.0s %c\"\n", name);
+    if (!has_zero && most / least >= 100) return own;
+    std::string text = most / least < 100 ? ticks_within(least, most) : std::string();
+    if (text.empty())
+      for (double tick = std::pow(10.0, std::ceil(std::log10(least))); tick <= most * 1.1; tick *= 10.0)
+        text += fmt::format("{}\"{}\" {}", text.empty() ? "" : ", ", tick_label(tick), tick);
+    // Ticks of a decade's tens alone are too few where there is no more than one of them; and none of them
+    // means anything beside 0.
+    if (!has_zero) return own + fmt::format("set {}tics add ({})\n", name, text);
+    return fmt::format("set {}tics (\"0\" {}{}{})\n", name, zero(), text.empty() ? "" : ", ", text);
+  }
+};
 
 std::string to_text(const pugi::xml_document& document) {
   std::ostringstream out;
@@ -69,15 +112,16 @@ PointLook look_of(std::size_t series) {
 }
 
 Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scratch) {
-  double x_least = plot.points.front().x, x_most = x_least, y_least = plot.points.front().y, y_most = y_least;
+  Axis x, y;
   std::size_t count = 0;  // of series
   for (const PlotPoint& point : plot.points) {
-    x_least = std::min(x_least, point.x);
-    x_most = std::max(x_most, point.x);
-    y_least = std::min(y_least, point.y);
-    y_most = std::max(y_most, point.y);
+    x.add(point.x);
+    y.add(point.y);
     count = std::max(count, point.series + 1);
   }
+  for (const PlotLevel& level : plot.levels) y.add(level.y);
+  x.close();
+  y.close();
   std::string script = fmt::format(
       "set encoding utf8\n"
       "set terminal svg size {} dynamic noenhanced font \"sans-serif,14\" background \"#ffffff\"\n"
@@ -85,26 +129,30 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
       "set xlabel {}\nset ylabel {}\n"
       "set logscale xy\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
       "set grid linecolor rgb \"#8a8a8a\" linewidth 0.3\nset border 3\nset tics nomirror\n{}\n",
-      plot.legend.empty() ? "520,390" : "800,420", quoted(plot.x_label), quoted(plot.y_label), x_least / 1.15,
-      x_most * 1.15, y_least / 1.5, y_most * 1.5,
+      plot.legend.empty() ? "520,390" : "800,420", quoted(plot.x_label), quoted(plot.y_label),
+      x.begin() / 1.15, x.most * 1.15, y.begin() / 1.5, y.most * 1.5,
       plot.legend.empty() ? "unset key" : "set key outside right center Left reverse spacing 1.4");
-  // Ticks of a decade's tens alone are too few where there is no more than one of them.
-  for (const auto& [axis, ratio] : {std::pair{"x", x_most / x_least}, std::pair{"y", y_most / y_least}})
-    if (ratio < 100)
-      script +=
-          fmt::format("set {}tics add ({})\n", axis,
-                      ticks_within(axis[0] == 'x' ? x_least : y_least, axis[0] == 'x' ? x_most : y_most));
+  script += x.ticks("x") + y.ticks("y");
+  constexpr const char* c_gap = "nohead linecolor rgb \"#8a8a8a\" linewidth 1";
+  if (x.has_zero) script += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 {1}\n", x.gap(), c_gap);
+  if (y.has_zero)
+    script += fmt::format("set arrow from graph 0, first {0} to graph 1, first {0} {1}\n", y.gap(), c_gap);
+  for (const PlotLevel& level : plot.levels)
+    script += fmt::format(
+        "set arrow from graph 0, first {0} to graph 1, first {0} nohead dashtype 3 linecolor rgb \"{1}\"\n"
+        "set label {2} at graph 1, first {0} right offset 0, 0.5 textcolor rgb \"{1}\"\n",
+        y.place(level.y), "#767676", quoted(level.name));
   // The front first: what lies above takes the pointer.
   std::string blocks = "$front << END\n",
               curves = "plot $front using 1:2 with steps linecolor rgb \"black\" dashtype 2 notitle";
-  for (const auto& [x, y] : plot.front) blocks += fmt::format("{} {}\n", x, y);
+  for (const auto& [at_x, at_y] : plot.front) blocks += fmt::format("{} {}\n", x.place(at_x), y.place(at_y));
   blocks += plot.front.empty() ? "NaN NaN\nEND\n" : "END\n";
   std::string legend;
   for (std::size_t s = 0; s < count; ++s) {
     blocks += fmt::format("$series{} << END\n", s);
     const std::size_t before = blocks.size();
     for (const PlotPoint& point : plot.points)
-      if (point.series == s) blocks += fmt::format("{} {}\n", point.x, point.y);
+      if (point.series == s) blocks += fmt::format("{} {}\n", x.place(point.x), y.place(point.y));
     if (blocks.size() == before) blocks += "NaN NaN\n";
     blocks += "END\n";
     const PointLook look = look_of(s);

@@ -13,16 +13,23 @@
 namespace halfway::report {
 
 struct PlotPoint {
-  double x = 0.0, y = 0.0;  ///< above 0: both axes are logarithmic
+  /// Both axes are logarithmic; what is 0 stands apart, below the least or left of it.
+  double x = 0.0, y = 0.0;
   std::size_t series = 0;
   std::size_t number = 0;  ///< links to #point-<number>
   std::string name;        ///< what a reader hears
   bool aside = false;      ///< of class `aside`: not what the front is of
 };
+/// A line across the plot.
+struct PlotLevel {
+  double y = 0.0;
+  std::string name;
+};
 struct Plot {
   std::string x_label, y_label;
   std::vector<PlotPoint> points;                 ///< one at least
   std::vector<std::pair<double, double>> front;  ///< joined by a line; may be empty
+  std::vector<PlotLevel> levels;                 ///< such as a yardstick's, which has no place along x
   std::vector<std::string> legend;               ///< of each series, on the right; empty: none is drawn
 };
 

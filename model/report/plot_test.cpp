@@ -15,6 +15,25 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+/// Where each point stands, by its link and its name.
+std::map<std::string, std::pair<double, double>> places_in(const std::string& svg) {
+  std::map<std::string, std::pair<double, double>> places;
+  pugi::xml_document document;
+  EXPECT_TRUE(document.load_string(svg.c_str()));
+  for (const auto& found : document.select_nodes("//a")) {
+    const pugi::xml_node link = found.node();
+    const pugi::xml_node circle = link.child("circle");
+    EXPECT_TRUE(link.child("use"));
+    std::pair<double, double> place;
+    EXPECT_EQ(
+        std::sscanf(circle.attribute("transform").value(), "translate(%lf,%lf)", &place.first, &place.second),
+        2)
+        << circle.attribute("transform").value();
+    places[std::string(link.attribute("href").value()) + " " + link.attribute("aria-label").value()] = place;
+  }
+  return places;
+}
+
 class PlotTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -29,20 +48,7 @@ TEST_F(PlotTest, EachPointIsALinkInItsPlace) {
   plot.front = {{10, 1}, {1000, 100}};
   const auto svg = draw_plot(plot, folder_->path());
   ASSERT_TRUE(svg) << svg.error().message;
-  pugi::xml_document document;
-  ASSERT_TRUE(document.load_string(svg->c_str()));
-  std::map<std::string, std::pair<double, double>> places;
-  for (const auto& found : document.select_nodes("//a")) {
-    const pugi::xml_node link = found.node();
-    const pugi::xml_node circle = link.child("circle");
-    ASSERT_TRUE(link.child("use"));
-    std::pair<double, double> place;
-    ASSERT_EQ(
-        std::sscanf(circle.attribute("transform").value(), "translate(%lf,%lf)", &place.first, &place.second),
-        2)
-        << circle.attribute("transform").value();
-    places[std::string(link.attribute("href").value()) + " " + link.attribute("aria-label").value()] = place;
-  }
+  const auto places = places_in(*svg);
   ASSERT_EQ(places.size(), 3U);
   const auto below = places.at("#point-0 far < below"), above = places.at("#point-1 above"),
              between = places.at("#point-2 between");
@@ -53,6 +59,32 @@ TEST_F(PlotTest, EachPointIsALinkInItsPlace) {
   EXPECT_GT(below.second, between.second);
   EXPECT_NEAR(between.first, (below.first + above.first) / 2, 1.0);
   EXPECT_NEAR(between.second, (below.second + above.second) / 2, 1.0);
+}
+
+TEST_F(PlotTest, ZeroHasAPlaceOfItsOwn) {
+  Plot plot{.x_label = "evaluations", .y_label = "pixels seen"};
+  plot.points = {{0, 5, 0, 0, "none on the host"},
+                 {10, 1, 0, 1, "least"},
+                 {40, 0, 1, 2, "none seen"},
+                 {20, 300, 1, 3, "most"}};
+  plot.levels = {{0, "the best"}, {30, "a yardstick"}};
+  plot.front = {{0, 5}, {10, 1}, {40, 0}};
+  const auto svg = draw_plot(plot, folder_->path());
+  ASSERT_TRUE(svg) << svg.error().message;
+  const auto places = places_in(*svg);
+  ASSERT_EQ(places.size(), 4U);
+  const auto left = places.at("#point-0 none on the host"), least = places.at("#point-1 least"),
+             bottom = places.at("#point-2 none seen"), most = places.at("#point-3 most");
+  // As far apart as eyes see; SVG's y goes down.
+  EXPECT_LT(left.first, least.first - 20);
+  EXPECT_GT(bottom.second, least.second + 20);
+  EXPECT_LT(most.second, least.second);
+  EXPECT_LT(least.first, most.first);
+  EXPECT_THAT(*svg, HasSubstr(">0<"));
+  EXPECT_THAT(*svg, HasSubstr("a yardstick"));
+  EXPECT_THAT(*svg, HasSubstr("the best"));
+  // Of nothing else, too.
+  EXPECT_TRUE(draw_plot({.points = {{0, 0, 0, 0, "alone"}}}, folder_->path()));
 }
 
 TEST_F(PlotTest, TimingShowsLevelsAndValues) {
