@@ -62,17 +62,22 @@ Status add_hardware(Page& page) {
       page.report.notes.push_back(fmt::format("no timing diagram of {}: {}", name, timing.error().message));
       continue;
     }
-    const std::string label =
-        fmt::format("The first clocks of two small triangles in {}: {}", timing->key, timing->words);
-    const auto drawn = inline_svg(timing->svg, name + "-timing-", label);
-    if (!drawn) return drawn.error();
+    std::string drawn;
+    for (std::size_t n = 0; n < timing->svgs.size(); ++n) {
+      const std::string label = n == 0 ? fmt::format("The first clocks of two small triangles in {}: {}",
+                                                     timing->key, timing->words)
+                                       : "The clocks that follow";
+      const auto row = inline_svg(timing->svgs[n], fmt::format("{}-timing-{}-", name, n), label);
+      if (!row) return row.error();
+      drawn += *row;
+    }
     html += fmt::format(
         "<figure class=\"timing\" id=\"timing/{}\"><div class=\"scroll\" role=\"region\" tabindex=\"0\" "
         "aria-label=\"{}: timing diagram\">{}</div><figcaption>Two small triangles in <code>{}</code>, "
         "traced in "
         "GHDL: clock 0 takes the first init vector. What a signal holds before each edge; "
         "{}.</figcaption></figure>\n",
-        name, part.title, *drawn, escaped(timing->key), escaped(timing->words));
+        name, part.title, drawn, escaped(timing->key), escaped(timing->words));
   }
   return Ok{};
 }

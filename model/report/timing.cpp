@@ -20,6 +20,7 @@ namespace {
 
 constexpr FrameSize c_size{16, 12};
 constexpr std::size_t c_fragments = 24;  // after which the picture ends
+constexpr std::size_t c_row = 50;        // clocks that a page has the width for
 constexpr std::size_t c_read = 200;      // looked at, for the first vector
 
 enum class Shown { wire, decimal, hexadecimal };
@@ -137,13 +138,23 @@ Result<TimingDiagram> draw_shader_timing(Shader shader, const SimulatorFolders& 
     }
     lanes.push_back(std::move(lane));
   }
-  auto svg = draw_timing(lanes, 0, scratch->path());
-  if (!svg) return svg.error();
+  TimingDiagram diagram{.key = key.name()};
+  const std::size_t clocks = last - first, rows = (clocks + c_row - 1) / c_row;
+  const std::size_t in_row = ((clocks + rows - 1) / rows + 1) / 2 * 2;  // even: a tick stands at every other
+  for (std::size_t begin = 0; begin < clocks; begin += in_row) {
+    std::vector<Lane> part = lanes;
+    for (Lane& lane : part)
+      lane.values = {lane.values.begin() + static_cast<std::ptrdiff_t>(begin),
+                     lane.values.begin() + static_cast<std::ptrdiff_t>(std::min(clocks, begin + in_row))};
+    auto svg = draw_timing(part, begin, scratch->path());
+    if (!svg) return svg.error();
+    diagram.svgs.push_back(std::move(*svg));
+  }
 
   const auto lane_of = [&](const char* name) -> const Lane& {
     return *std::ranges::find(lanes, name, &Lane::name);
   };
-  std::string words;
+  std::string& words = diagram.words;
   for (std::size_t edge = 0, told = 0; edge < last - first && told < 4; ++edge)
     if (lane_of("fragment_valid").values[edge] == "1") {
       words += fmt::format("{}clock {}: fragment x {}, y {}, red {}", told == 0 ? "" : "; ", edge,
@@ -151,7 +162,7 @@ Result<TimingDiagram> draw_shader_timing(Shader shader, const SimulatorFolders& 
                            lane_of("fragment_red").values[edge]);
       ++told;
     }
-  return TimingDiagram{key.name(), std::move(*svg), words};
+  return diagram;
 }
 
 }  // namespace halfway::report

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/result.hpp"
 #include "plan/hardware_key.hpp"
@@ -11,8 +12,8 @@
 namespace halfway::report {
 
 struct TimingDiagram {
-  std::string key;  ///< of the hardware
-  std::string svg;
+  std::string key;                ///< of the hardware
+  std::vector<std::string> svgs;  ///< the clocks in order, as many in each as a page is wide
   /// What the picture shows, in words: the clocks of the first fragments, with place and colour.
   std::string words;
 };

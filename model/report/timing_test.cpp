@@ -52,8 +52,18 @@ TEST_P(Timing, ShowsTheGoldenModelsFragmentsInVerilatorsClocks) {
     words += fmt::format("{}clock {}: fragment x {}, y {}, red {}", n == 0 ? "" : "; ", *clock + n,
                          batch.golden[n].x, batch.golden[n].y, batch.golden[n].red);
   EXPECT_EQ(timing->words, words);
-  for (const char* signal : {"init_valid", "line_step", "span_step", "fragment_red"})
-    EXPECT_THAT(timing->svg, HasSubstr(signal));
+  for (const std::string& svg : timing->svgs) {
+    for (const char* signal : {"init_valid", "line_step", "span_step", "fragment_red"})
+      EXPECT_THAT(svg, HasSubstr(signal));
+    // As wide as a page is, at most.
+    int width = 0;
+    ASSERT_EQ(std::sscanf(svg.c_str() + svg.find("viewBox"), "viewBox=\"0 0 %d", &width), 1);
+    EXPECT_LE(width, 1312);
+  }
+  // The first fragment's clock stands at a tick or beside one.
+  std::string all;
+  for (const std::string& svg : timing->svgs) all += svg;
+  EXPECT_THAT(all, HasSubstr(fmt::format(">{}<", *clock / 2 * 2)));
 }
 
 }  // namespace
