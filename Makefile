@@ -106,9 +106,9 @@ figures: program ## what the papers print, drawn and measured anew: published be
 
 # What the page is made of is made first where it is missing; GHDL draws by shading processors for minutes.
 report: program ## one HTML page: frames, accuracy against time, effects, figures, waveforms, tables
-	@for shader in quadratic spherical processors; do \
-	  ls build/out/*/$$shader/summary.json >/dev/null 2>&1 || build/halfway sim --shader $$shader \
-	    $$([ $$shader != processors ] || echo --simulator verilator) || [ $$? = 1 ] || exit 3; done
+	@for shader in quadratic spherical processors; do for scene in sim/scenes/*.toml; do name=$$(basename "$$scene" .toml); \
+	  [ -f "build/out/$$name/$$shader/summary.json" ] || build/halfway sim --shader $$shader \
+	    $$([ $$shader != processors ] || echo --simulator verilator) -- "$$name" || [ $$? = 1 ] || exit 3; done; done
 	@[ -f build/study/study.csv ] || $(MAKE) study
 	@[ -f build/figures/figures.json ] || [ -f sim/figures/figures.json ] || $(MAKE) figures
 	@build/halfway report

@@ -38,6 +38,8 @@ int run(const Folders& folders, const ReportCommand& command) {
   std::filesystem::path figures = command.figures.value_or("build/figures");
   if (!command.figures && !std::filesystem::exists(figures / "figures.json"))
     figures = folders.source / "sim" / "figures";
+  auto scenes = builtin_scenes(folders);
+  if (!scenes) return report(scenes.error());
   Progress progress("report");
   const auto made =
       report::write_report({.page = command.out,
@@ -45,6 +47,7 @@ int run(const Folders& folders, const ReportCommand& command) {
                             .study = command.study,
                             .figures = figures,
                             .folders = {folders.source, folders.cache()},
+                            .scenes = std::move(*scenes),
                             .timing = !command.no_timing,
                             .on_progress = [&](const std::string& what) { progress.show(what); }});
   progress.clear();

@@ -87,6 +87,21 @@ std::string effects_table(const std::string& scene, const std::vector<std::pair<
   return table("Effects of " + scene, head, rows);
 }
 
+// Scenes that a shader has no frame of, a run of which did not end among them.
+std::string gaps(Page& page) {
+  std::string html;
+  for (const Shader shader : c_shaders) {
+    std::string scenes;
+    for (const std::string& scene : page.settings.scenes)
+      if (!std::filesystem::exists(ResultFiles{page.settings.results / scene / to_string(shader)}.summary()))
+        scenes += (scenes.empty() ? "" : ", ") + scene;
+    if (!scenes.empty())
+      html +=
+          page.lacks(fmt::format("Frames by the shader {} of {}", to_string(shader), scenes), "make report");
+  }
+  return html;
+}
+
 }  // namespace
 
 Status add_frames(Page& page) {
@@ -161,7 +176,8 @@ Status add_frames(Page& page) {
           "Runs: every fragment of the RTL against the golden model's, and the frame against the reference",
           {"scene", "shader", "preset", "size", "triangles", "fragments", "clocks, GHDL", "clocks, Verilator",
            "mismatches, GHDL", "mismatches, Verilator", "PSNR, dB", "largest error, /255", "hardware"},
-          rows);
+          rows) +
+      gaps(page);
   page.parts["effects"] = std::move(effects);
   return Ok{};
 }

@@ -18,7 +18,8 @@ struct ReportSettings {
   std::filesystem::path study;    ///< what study left: study.csv, points/
   std::filesystem::path figures;  ///< what figures left: figures.json and its pictures
   SimulatorFolders folders;
-  bool timing = true;  ///< simulate in GHDL for timing diagrams
+  std::vector<std::string> scenes{};  ///< whose frames are missed where a shader's are not there
+  bool timing = true;                 ///< simulate in GHDL for timing diagrams
   std::function<void(const std::string& what)> on_progress = [](const std::string&) {};
 };
 

@@ -2,6 +2,7 @@
 // `halfway report`, as a user meets it.
 #include "report/report.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,6 +70,31 @@ TEST_F(ReportCommand, RefusesWhatIsDamaged) {
   }
 }
 
+TEST_F(ReportCommand, MakeDrawsEveryFrameThatIsMissing) {
+  const auto here = folder_->path();
+  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
+  std::filesystem::copy_file(source / "Makefile", here / "Makefile");
+  for (const char* scene : {"lights", "matte"}) put(fmt::format("sim/scenes/{}.toml", scene), "");
+  // A first run was broken off in the second shader.
+  for (const char* drawn : {"lights/quadratic", "matte/quadratic", "lights/spherical"})
+    put(fmt::format("build/out/{}/summary.json", drawn), "{}");
+  put("build/out/matte/spherical/init.txt", "");
+  put("build/study/study.csv", "");
+  put("sim/figures/figures.json", "");
+  put("build/halfway", "#!/bin/sh\necho \"$@\" >>said\n[ \"$1\" != sim ]\n");  // 1: a difference
+  std::filesystem::permissions(here / "build/halfway", std::filesystem::perms::owner_all);
+  const auto made =
+      run_process({.arguments = {"make", "-o", "program", "report"}, .working_folder = here}, "");
+  ASSERT_TRUE(made && made->succeeded()) << (made ? made->output : made.error().message);
+  const auto said = read_file(here / "said");
+  ASSERT_TRUE(said);
+  EXPECT_EQ(*said,
+            "sim --shader spherical -- matte\n"
+            "sim --shader processors --simulator verilator -- lights\n"
+            "sim --shader processors --simulator verilator -- matte\n"
+            "report\n");
+}
+
 TEST_F(ReportCommand, EqualPicturesAreOne) {
   const Outcome drawn =
       run({"sim", "spheres", "--size", "96x72", "--simulator", "verilator", "--out", "out"});
@@ -85,6 +111,11 @@ TEST_F(ReportCommand, EqualPicturesAreOne) {
   EXPECT_EQ(image_of("golden"), image_of("verilator"));
   EXPECT_NE(image_of("golden"), image_of("reference"));
   EXPECT_EQ(image_of("ghdl"), -1);
+  // What is drawn of no scene but this is told.
+  for (const char* gap :
+       {"Frames by the shader quadratic of highlights, lights, matte, shadows, teapot:",
+        "Frames by the shader spherical of highlights, lights, matte, shadows, spheres, teapot:"})
+    EXPECT_THAT(page(), HasSubstr(gap));
   // A wrong picture is shown as what it is.
   const auto folder = folder_->path() / "out/spheres/quadratic";
   std::filesystem::copy_file(folder / "reference.png", folder / "verilator.png",
