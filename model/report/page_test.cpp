@@ -32,7 +32,7 @@ class ReportPage : public CommandTest {
     ASSERT_TRUE(make_folders(here / "figures"));
     ASSERT_TRUE(write_file(
         here / "figures/figures.json",
-        R"([{"id": "quadratic-09", "paper": "quadratic", "number": "figure 9", "caption": "A <sphere>",
+        R"([{"id": "quadratic-09", "paper": "quadratic", "number": "figure 9", "caption": "A <sphere> of `lights`",
              "shows": "ours", "pictures": [{"file": "a.svg", "alt": "a line"}],
              "rows": [{"what": "triangles", "published": "168", "measured": "168", "value": 168,
                        "criterion": "the same", "verdict": "agrees", "reason": "", "slow": false}]}])"));
@@ -54,7 +54,8 @@ class ReportPage : public CommandTest {
     ASSERT_TRUE(browser_->becomes_true("document.querySelector('#frame-viewer .values td')"));
   }
 
-  // Four points of one picture, as `halfway study` leaves them where Yosys and Valgrind are not there.
+  // Four points of one picture, as `halfway study` leaves them where Yosys and
+  // Valgrind are not there.
   static void make_study(const std::filesystem::path& out) {
     const std::filesystem::path source = HALFWAY_SOURCE_DIR;
     study::StudySettings settings;
@@ -151,6 +152,9 @@ TEST_F(ReportPage, FitsPhonesPaperAndTheDark) {
     browser_->resize(width, 844);
     EXPECT_LE(evaluate("document.documentElement.scrollWidth").get<int>(), width);
   }
+  // A phone shows the verdict beside its figure.
+  browser_->resize(390, 844);
+  EXPECT_LE(evaluate("document.querySelector('.agrees').getBoundingClientRect().right").get<double>(), 390);
   // Words stand out from the paper: WCAG's contrast.
   const std::string contrast = R"((() => {
     const light = (rgb) => rgb.match(/[\d.]+/g).slice(0, 3).map((v) => v / 255)
@@ -176,10 +180,19 @@ TEST_F(ReportPage, PrintsWhatIsFolded) {
   ASSERT_EQ(evaluate("document.querySelectorAll('details[open]').length"), 0);
   const std::string printed = print();
   // From the papers' figures, the points' table, the effects and a page of tb/.
-  for (const char* words :
-       {"Here: ours", "Points of the study", "Effects of spheres", "make bench writes this page"})
+  for (const char* words : {"Here: ours", "Points of the study", "Effects of spheres",
+                            "make bench writes this page"})
     EXPECT_NE(printed.find(words), std::string::npos) << words;
   EXPECT_EQ(evaluate("document.querySelectorAll('details[open]').length"), 0);
+}
+
+TEST_F(ReportPage, FiguresHaveTheirRoomAndTheirWords) {
+  const std::string image = "document.querySelector('img.figure')";
+  EXPECT_EQ(evaluate(image + ".getAttribute('width')"), "9");
+  EXPECT_EQ(evaluate(image + ".getAttribute('height')"), "9");
+  const std::string words = evaluate("document.getElementById('figure/quadratic-09').textContent");
+  EXPECT_NE(words.find("A <sphere> of lights"), std::string::npos) << words;
+  EXPECT_EQ(evaluate("document.querySelector('#figures details code').textContent"), "lights");
 }
 
 TEST_F(ReportPage, EverythingHasAName) {
