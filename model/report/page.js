@@ -39,6 +39,19 @@ function differenceOf(a, b) {
   return { canvas, pixels: image.data };
 }
 
+/// The pixel nearest the middle that is not of the corner's colour: of a body, where there is one.
+function firstPixelOf({ canvas, pixels }) {
+  const { width, height } = canvas;
+  let best = { x: width >> 1, y: height >> 1 }, least = Infinity;
+  for (let at = 0; at < pixels.length; at += 4) {
+    if (pixels[at] === pixels[0] && pixels[at + 1] === pixels[1] && pixels[at + 2] === pixels[2]) continue;
+    const x = (at >> 2) % width, y = Math.floor((at >> 2) / width);
+    const distance = (x - (width >> 1)) ** 2 + (y - (height >> 1)) ** 2;
+    if (distance < least) [best, least] = [{ x, y }, distance];
+  }
+  return best;
+}
+
 const zooms = [1, 2, 4, 8, 16, 32, 64, 128];
 const valuesFrom = 30; // CSS pixels a pixel from which on values are written into it
 
@@ -56,6 +69,7 @@ class Viewer {
     this.range.setAttribute("aria-label", "wipe: where the left picture ends");
     this.choices = ["left", "right"].map((side) => element("select", { className: side }));
     this.values = element("div", { className: "values" });
+    this.label = element("p", { className: "on-paper" }); // where there are no lists to read it from
     this.values.setAttribute("aria-live", "polite");
     const button = (text, label, act) => {
       const made = element("button", { type: "button", textContent: text, onclick: act });
@@ -69,7 +83,7 @@ class Viewer {
           button("+", "zoom in", () => this.zoomIn()), " ", button("whole", "show the whole picture",
             () => this.zoomTo(1)))),
       element("div", { className: "panes" },
-        element("div", {}, this.canvas, element("label", { className: "bar wipe" }, "wipe ", this.range)),
+        element("div", {}, this.canvas, this.label, element("label", { className: "bar wipe" }, "wipe ", this.range)),
         this.values));
     this.range.oninput = () => { this.wipe = this.range.value / 1000; this.draw(); };
     for (const choice of this.choices) choice.onchange = () => { this.draw(); this.tellPixel(); };
@@ -89,7 +103,7 @@ class Viewer {
     if (!same) {
       this.zoom = 1;
       this.left = this.top = 0;
-      this.pixel = { x: this.width >> 1, y: this.height >> 1 };
+      this.pixel = firstPixelOf(layers[0].picture);
     }
     this.choices.forEach((choice, side) => {
       choice.replaceChildren(...layers.map((layer) => element("option", { value: layer.id, textContent: layer.name })));
@@ -138,6 +152,8 @@ class Viewer {
     canvas.setAttribute("aria-label", `${this.what}: ${this.layer(0).name} left of ` +
       `${Math.round(100 * this.wipe)} percent of the width, ${this.layer(1).name} right of it, zoom ` +
       `${Math.round(10 * this.zoom) / 10}. Arrow keys choose a pixel, plus and minus zoom, square brackets move the line.`);
+    this.label.textContent =
+      `${this.what}: ${this.layer(0).name} left of the line, ${this.layer(1).name} right of it`;
     this.range.value = Math.round(1000 * this.wipe);
     this.range.setAttribute("aria-valuetext", `${Math.round(100 * this.wipe)} percent`);
   }

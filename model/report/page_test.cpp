@@ -134,9 +134,11 @@ class ReportPage : public CommandTest {
     const auto decoded =
         run_process({.arguments = {"base64", "-d", coded.string()}, .standard_output = pdf}, "");
     EXPECT_TRUE(decoded && decoded->succeeded());
-    const auto text = run_process({.arguments = {"pdftotext", pdf.string(), "-"}}, "");
-    EXPECT_TRUE(text && text->succeeded());
-    return text ? text->output : std::string();
+    const std::filesystem::path words = folder_->path() / "page.txt";  // a process's output is not kept whole
+    const auto read = run_process({.arguments = {"pdftotext", pdf.string(), words.string()}}, "");
+    EXPECT_TRUE(read && read->succeeded());
+    const auto text = read_file(words);
+    return text ? *text : std::string();
   }
   static std::vector<int> pixel(const Frame& frame, std::uint32_t x, std::uint32_t y) {
     const std::size_t at = frame.offset(x, y);
@@ -181,9 +183,14 @@ TEST_F(ReportPage, PrintsWhatIsFolded) {
   const std::string printed = print();
   // From the papers' figures, the points' table, the effects and a page of tb/.
   for (const char* words : {"Here: ours", "Points of the study", "Effects of spheres",
-                            "make bench writes this page"})
+                            "make bench writes this page", "spheres by the shader quadratic: reference left"})
     EXPECT_NE(printed.find(words), std::string::npos) << words;
   EXPECT_EQ(evaluate("document.querySelectorAll('details[open]').length"), 0);
+  // Narrow columns break no word: each is printed as often as the page has it.
+  const std::string word = "edge_error";
+  int whole = 0;
+  for (std::size_t at = 0; (at = printed.find(word, at)) != std::string::npos; at += word.size()) ++whole;
+  EXPECT_EQ(evaluate("document.querySelector('main').textContent.split('" + word + "').length - 1"), whole);
 }
 
 TEST_F(ReportPage, FiguresHaveTheirRoomAndTheirWords) {
@@ -193,6 +200,13 @@ TEST_F(ReportPage, FiguresHaveTheirRoomAndTheirWords) {
   const std::string words = evaluate("document.getElementById('figure/quadratic-09').textContent");
   EXPECT_NE(words.find("A <sphere> of lights"), std::string::npos) << words;
   EXPECT_EQ(evaluate("document.querySelector('#figures details code').textContent"), "lights");
+}
+
+TEST_F(ReportPage, BeginsWithAPixelOfABody) {
+  const auto reference = read_png(folder_->path() / "out/spheres/quadratic/reference.png");
+  ASSERT_TRUE(reference);
+  ASSERT_EQ(pixel(*reference, 48, 36), pixel(*reference, 0, 0));  // in the middle lies none
+  EXPECT_NE(told("#frame-viewer", "reference"), pixel(*reference, 0, 0));
 }
 
 TEST_F(ReportPage, EverythingHasAName) {
