@@ -368,7 +368,28 @@ function makeFrames() {
 function makePoints() {
   const dialog = document.getElementById("point");
   const holder = document.getElementById("point-viewer");
+  const crowd = document.getElementById("point-crowd");
   let viewer = null;
+
+  /// Points of its plot that lie where a pointer meant one of them, the nearest first.
+  function crowdOf(link, event) {
+    const svg = link.closest(".plot svg");
+    if (svg === null || event.detail === 0) return []; // keys go from point to point
+    const distance = (other) => {
+      const box = other.querySelector("circle").getBoundingClientRect();
+      return Math.hypot(box.x + box.width / 2 - event.clientX, box.y + box.height / 2 - event.clientY);
+    };
+    return [...svg.querySelectorAll("a")].map((other) => ({ other, far: distance(other) }))
+      .filter(({ far }) => far <= 10).sort((a, b) => a.far - b.far)
+      .map(({ other }) => Number(other.getAttribute("href").slice(7)));
+  }
+  function tellCrowd(numbers) {
+    crowd.hidden = numbers.length < 2;
+    crowd.open = false;
+    crowd.replaceChildren(element("summary", { textContent: `${numbers.length} points lie here` }),
+      element("ul", {}, ...numbers.map((number) =>
+        element("li", {}, element("a", { href: `#point-${number}`, textContent: data.points[number].name })))));
+  }
 
   async function open(number) {
     const point = data.points[number];
@@ -376,7 +397,7 @@ function makePoints() {
     document.getElementById("point-told").replaceChildren(...point.told.map(([what, value]) =>
       element("tr", {}, element("th", { scope: "row", textContent: what }), element("td", { textContent: value }))));
     holder.hidden = !point.image;
-    dialog.showModal();
+    if (!dialog.open) dialog.showModal();
     dialog.scrollTop = 0;
     if (!point.image) return;
     viewer = viewer || new Viewer(holder);
@@ -394,7 +415,9 @@ function makePoints() {
     const link = event.target.closest("a[href^='#point-']");
     if (link === null) return;
     event.preventDefault();
-    open(Number(link.getAttribute("href").slice(7)));
+    const numbers = crowdOf(link, event);
+    if (!crowd.contains(link)) tellCrowd(numbers);
+    open(numbers[0] ?? Number(link.getAttribute("href").slice(7)));
   });
 
   // One stop of the tab key a plot; in it the arrows go to the nearest point on that side.

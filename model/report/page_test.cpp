@@ -54,7 +54,7 @@ class ReportPage : public CommandTest {
     ASSERT_TRUE(browser_->becomes_true("document.querySelector('#frame-viewer .values td')"));
   }
 
-  // Four points of one picture, as `halfway study` leaves them where Yosys and
+  // Five points of one picture, two of them in one place, as `halfway study` leaves them where Yosys and
   // Valgrind are not there.
   static void make_study(const std::filesystem::path& out) {
     const std::filesystem::path source = HALFWAY_SOURCE_DIR;
@@ -66,6 +66,7 @@ class ReportPage : public CommandTest {
     for (const study::Method method :
          {study::Method::phong, study::Method::gouraud, study::Method::quadratic, study::Method::adaptive})
       settings.points.push_back({.method = method, .size = {160, 120}});
+    settings.points.push_back({.method = study::Method::adaptive, .threshold = 250, .size = {160, 120}});
     const auto made = study::run_study(settings);
     ASSERT_TRUE(made) << made.error().message;
     const auto table = study::to_csv(made->provenance, made->records, {}, {});
@@ -366,6 +367,10 @@ TEST_F(ReportPage, PointsOpenTheirFrames) {
                 .get<std::string>()
                 .find("quadratic_shader"),
             std::string::npos);
+  // Another has the same figures, and so the same place: it is there, too.
+  const std::string crowd = "document.getElementById('point-crowd')";
+  EXPECT_EQ(evaluate(crowd + ".hidden"), false);
+  EXPECT_EQ(evaluate("document.querySelectorAll('#point-crowd a[href=\"#point-4\"]').length"), 1);
   // The frame is the one that the study kept.
   std::size_t equal = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder_->path() / "study/points")) {
@@ -379,6 +384,10 @@ TEST_F(ReportPage, PointsOpenTheirFrames) {
     ++equal;
   }
   EXPECT_EQ(equal, 1U);
+  evaluate("document.querySelector('#point-crowd a[href=\"#point-4\"]').click()");
+  EXPECT_TRUE(
+      browser_->becomes_true("document.getElementById('point-name').textContent === data.points[4].name"));
+  EXPECT_EQ(evaluate(crowd + ".hidden"), false);
   shut();
   // By keys alone: focus, an arrow to a neighbour, Enter.
   evaluate("document.querySelector(\"" + point + "\").focus()");
