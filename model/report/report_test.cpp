@@ -70,6 +70,82 @@ TEST_F(ReportCommand, RefusesWhatIsDamaged) {
   }
 }
 
+// A picture of five designs and two of software, one design without a clock.
+constexpr const char* c_study =
+    R"(scene,scene_hash,tools,point,method,preset,tessellation,exponent,width,height,hardware,cells,cycles,clock_mhz,clock,frame_ns,rms,largest_error,error_99,psnr_db,highlight_rms,perceived_pixels,mach_rms,host_evaluations,host_instructions,front,record
+"ball",77,"GHDL 9, Verilator 8",P,phong,,1,5,320,240,,,0,,,,0,0,0,inf,0,0,0,0,,,a
+"ball",77,"GHDL 9, Verilator 8",G,gouraud,,1,5,320,240,,,0,,,,4.5,9,8,33.1,7,31,1,0,,,b
+"ball",77,"GHDL 9, Verilator 8",Q,quadratic,exact,1,5,320,240,q,5334,32813,112.1,"pinned",292712,0.5,4,3,50.9,1,0,0.5,1452,5417130,1,c
+"ball",77,"GHDL 9, Verilator 8",R,quadratic,exact,1,5,320,240,q,5334,33813,112.1,"pinned",301633,0.4,3,2,51.9,1,12,0.4,1474,78705437,0,d
+"ball",77,"GHDL 9, Verilator 8",S,spherical,exact,1,5,320,240,s,5985,33100,,"not placed",,0.3,2,1,57,0.4,0,0.3,31283,6417130,1,e
+"ball",77,"GHDL 9, Verilator 8",V,processors-1,exact,1,5,320,240,v,12214,31460,,"not placed",,5.7,39,25,33,10,61,0.8,0,0,1,f
+"ball",77,"GHDL 9, Verilator 8",W,processors-2,exact,1,5,320,240,w,14214,31460,,"",,5.8,39,25,33,10,61,0.8,0,,0,g
+)";
+
+TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
+  if (find_program("gnuplot").empty()) GTEST_SKIP() << "no gnuplot here: apt-get install gnuplot-nox";
+  put("study/study.csv", c_study);
+  const Outcome outcome = report();
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const auto part = [text = page()](const std::string& begin, const std::string& end) {
+    const std::size_t at = text.find(begin);
+    return at == std::string::npos ? std::string() : text.substr(at, text.find(end, at) - at);
+  };
+  const auto plot = [&](const std::string& id) { return part("id=\"plot/" + id + "\"", "</figure>"); };
+  // Time where a clock is known; what has none is counted.
+  EXPECT_THAT(
+      plot("rms-time"),
+      AllOf(HasSubstr("aria-label=\"Q: time of the frame, ns 292712, rms error, steps of 1/255 0.5\""),
+            HasSubstr("href=\"#point-3\""), Not(HasSubstr("href=\"#point-4\"")),
+            HasSubstr("1 of processors-1; 1 of processors-2; 1 of spherical; in all 3"),
+            HasSubstr("gouraud (software)"), HasSubstr("phong (software)")));
+  // Clocks of all hardware; software has none, and is no point.
+  EXPECT_THAT(plot("rms-clocks"), AllOf(HasSubstr("href=\"#point-6\""), Not(HasSubstr("not here")),
+                                        Not(HasSubstr("href=\"#point-0\"")), Not(HasSubstr("e+0"))));
+  // 0 is a place, also of the host's work.
+  EXPECT_THAT(plot("perceived-time"), AllOf(HasSubstr("href=\"#point-2\""), HasSubstr("href=\"#point-3\"")));
+  EXPECT_THAT(plot("rms-host"),
+              AllOf(HasSubstr("href=\"#point-5\""), HasSubstr("V: instructions of setup on the host 0,"),
+                    HasSubstr("instructions of setup on the host 78705437,"),
+                    HasSubstr("1 of processors-2; in all 1")));
+  EXPECT_THAT(part("<ul class=\"legend\"", "</ul>"),
+              AllOf(HasSubstr("spherical"), Not(HasSubstr("software"))));
+  // The table tells all of them, and no 0 where there is nothing.
+  const auto row = [&](const std::string& point) {
+    return part("<td><a href=\"#point-" + point + "\">", "</tr>");
+  };
+  EXPECT_THAT(part("Points of the study</caption>", "</thead>"),
+              AllOf(HasSubstr("on the front"), HasSubstr("ns a frame"), HasSubstr("cells"), HasSubstr("PSNR"),
+                    HasSubstr("99th percentile")));
+  EXPECT_THAT(row("1"),
+              AllOf(HasSubstr("G</a></td><td>–</td><td>–</td><td>–</td><td>–</td><td>–</td><td>4.5</td>"),
+                    HasSubstr("<td>33.1</td>")));
+  EXPECT_THAT(row("2"),
+              HasSubstr("Q</a></td><td>yes</td><td>292712</td><td>32813</td><td>5334</td><td>5417130</td>"));
+  EXPECT_THAT(row("4"), HasSubstr("S</a></td><td>yes</td><td>–</td><td>33100</td>"));
+  // Which study it is, and that it is not the usual one.
+  EXPECT_THAT(part("id=\"study/of\"", "</p>"),
+              AllOf(HasSubstr("<strong>ball</strong>"), HasSubstr("<code>77</code>"),
+                    HasSubstr("7 points, of no space"), HasSubstr("GHDL 9, Verilator 8")));
+  const std::string other = "The study is of the scene ball, not of sim/studies/sphere.toml";
+  EXPECT_THAT(page(), HasSubstr(other));
+  EXPECT_THAT(outcome.output, HasSubstr(other));
+  // A point's panel says why it has no clock.
+  EXPECT_THAT(page(), AllOf(HasSubstr("[\"where that clock is from\",\"not placed\"]"),
+                            HasSubstr("[\"99th percentile of errors, /255\",\"25\"]"),
+                            HasSubstr("[\"on the front\",\"no\"]")));
+}
+
+TEST_F(ReportCommand, NamesTheStudysSceneAndSpace) {
+  const auto front = read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/gallery/front.csv");
+  ASSERT_TRUE(front);
+  put("study/study.csv", *front);
+  const Outcome outcome = report();
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(page(), HasSubstr("points of <code>sim/studies/small.toml</code>, in a table of 20"));
+  EXPECT_THAT(outcome.output, Not(HasSubstr("The study is of the scene")));
+}
+
 TEST_F(ReportCommand, MakeDrawsEveryFrameThatIsMissing) {
   const auto here = folder_->path();
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
