@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/file.hpp"
+#include "common/subprocess.hpp"
 #include "report/html.hpp"
 #include "report/section.hpp"
 
@@ -32,6 +33,21 @@ std::string table(const std::string& caption, const std::vector<std::string>& he
   return text + "</tbody></table></div>\n";
 }
 
+namespace {
+
+// What the page is made by; empty where that cannot be told, as without Git.
+std::string told_commit(const std::filesystem::path& source) {
+  if (find_program("git").empty()) return "";
+  const auto said = run_process({.arguments = {"git", "-C", source.string(), "describe", "--always", "--tags",
+                                               "--dirty= with changes"}},
+                                "");
+  if (!said || !said->succeeded()) return "";
+  return fmt::format("<p id=\"commit\">Made at commit {}.</p>\n",
+                     escaped(said->output.substr(0, said->output.find('\n'))));
+}
+
+}  // namespace
+
 Result<Report> write_report(const ReportSettings& settings) {
   const std::filesystem::path here = settings.folders.source / "model" / "report";
   if (const auto folder = settings.page.parent_path(); !folder.empty())
@@ -46,6 +62,7 @@ Result<Report> write_report(const ReportSettings& settings) {
   }
   for (const auto add : {add_frames, add_study, add_figures, add_hardware, add_pages})
     if (Status added = add(page); !added) return added.error();
+  page.parts["commit"] = told_commit(settings.folders.source);
   page.parts["data"] = script_safe(page.data.dump());
 
   const auto outline = read_file(here / "page.html");

@@ -45,6 +45,9 @@ TEST_F(ReportCommand, SaysWhatIsMissingAndWhatMakesIt) {
               AllOf(HasSubstr("<summary>Proofs</summary>"), HasSubstr("<summary>Hard cases</summary>"),
                     HasSubstr("<summary>Mutants and coverage</summary>"),
                     HasSubstr(">unrolled_shading_processor: "), Not(HasSubstr("{{"))));
+  if (std::filesystem::exists(std::filesystem::path(HALFWAY_SOURCE_DIR) / ".git") &&
+      !find_program("git").empty())
+    EXPECT_THAT(page(), HasSubstr("<p id=\"commit\">Made at commit "));
   EXPECT_THAT(page(), AllOf(Not(HasSubstr("src=\"http")), Not(HasSubstr("url(http"))));
 }
 
