@@ -8,10 +8,8 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "common/file.hpp"
@@ -109,22 +107,6 @@ Result<Frame> read_png(const std::filesystem::path& path) {
   Result<Frame> frame = Frame{};
   library->decode_png(path.string(), frame);
   return frame;
-}
-
-bool has_png_ends(const std::filesystem::path& path, FrameSize size) {
-  using namespace std::string_view_literals;
-  constexpr std::string_view c_begin = "\x89PNG\r\n\x1a\n\0\0\0\rIHDR"sv,
-                             c_end = "\0\0\0\0IEND\xae\x42\x60\x82"sv;
-  std::string begin(c_begin);
-  for (const std::uint32_t side : {size.width, size.height})
-    for (int shift = 24; shift >= 0; shift -= 8) begin += static_cast<char>(side >> shift);
-  std::ifstream file(path, std::ios::binary);
-  const auto comes = [&](std::string_view expected) {
-    std::string found(expected.size(), '\0');
-    return file.read(found.data(), static_cast<std::streamsize>(found.size())) && found == expected;
-  };
-  return comes(begin) && file.seekg(-static_cast<std::streamoff>(c_end.size()), std::ios::end) &&
-         comes(c_end);
 }
 
 }  // namespace halfway

@@ -25,7 +25,4 @@ Status write_ppm(const std::filesystem::path& path, const Frame& frame);
 /// refused.
 Result<Frame> read_png(const std::filesystem::path& path);
 
-/// Whether the file begins as a PNG of this size and ends as one; what lies between is not read.
-bool has_png_ends(const std::filesystem::path& path, FrameSize size);
-
 }  // namespace halfway

@@ -144,22 +144,14 @@ TEST_F(Image, RefusesToReadWhatIsNoWholePicture) {
     EXPECT_EQ(frame.error().message.find(path.string() + ": "), 0u) << frame.error().message;
   };
   expect_refused();  // missing
-  EXPECT_FALSE(has_png_ends(path, {64, 48}));
   ASSERT_TRUE(write_png(path, noise({64, 48}, 3)));
-  EXPECT_TRUE(has_png_ends(path, {64, 48}));
-  EXPECT_FALSE(has_png_ends(path, {48, 64}));
   const std::string whole = bytes_of(path);
   for (const std::size_t length : {std::size_t{0}, std::size_t{7}, std::size_t{40}, whole.size() / 2}) {
     std::ofstream(path, std::ios::binary | std::ios::trunc) << whole.substr(0, length);
     expect_refused();
-    EXPECT_FALSE(has_png_ends(path, {64, 48}));
   }
-  // All pixels are there.
-  std::ofstream(path, std::ios::binary | std::ios::trunc) << whole.substr(0, whole.size() - 1);
-  EXPECT_FALSE(has_png_ends(path, {64, 48}));
   std::ofstream(path, std::ios::binary | std::ios::trunc) << "P6 1 1 255 abc";
   expect_refused();
-  EXPECT_FALSE(has_png_ends(path, {64, 48}));
   std::string damaged = whole;
   damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 0x10);
   std::ofstream(path, std::ios::binary | std::ios::trunc) << damaged;

@@ -166,7 +166,8 @@ Result<Demand> read_demand(const std::string& error, const std::string& psnr, co
 std::vector<Market> markets_of(std::span<const Record> records, const HardwareTable& hardware, Clock clock) {
   std::vector<Market> markets;
   for (std::size_t at = 0; at < records.size(); ++at) {
-    const auto& [point, measured] = records[at];
+    const DesignPoint& point = records[at].point;
+    const Measurement& measured = records[at].measured;
     if (!in_hardware(point.method)) continue;
     Offer offer{.record = at,
                 .largest_error = static_cast<double>(measured.picture.max_lsb),

@@ -19,6 +19,7 @@
 #include "sim/verilator/shared_library.hpp"
 #include "study/figures.hpp"
 #include "study/host_setup.hpp"
+#include "study/sealed.hpp"
 
 namespace halfway::study {
 namespace {
@@ -173,27 +174,33 @@ Result<std::optional<Record>> Records::find(const DesignPoint& point) const {
   const auto damaged = [](const std::filesystem::path& path) {
     return bad_input(path.string() + ": damaged; the point is measured anew");
   };
-  if (!has_png_ends(picture(point), point.size)) return damaged(picture(point));
-  const Json json = Json::parse(*text, nullptr, false);
+  const std::optional<Json> json = unsealed(*text);
+  if (!json) return damaged(file(point));
+  Record record{point, {}};
   try {
-    Record record{point, {}};
     for_each_figure(record.measured,
-                    [&](const char* name, auto& value) { take(json.at("figures").at(name), value); });
-    return std::optional(std::move(record));
+                    [&](const char* name, auto& value) { take(json->at("figures").at(name), value); });
+    json->at("picture").get_to(record.picture);
   } catch (const Json::exception&) {
     return damaged(file(point));
   }
+  const auto is = checksum_of(picture(point));
+  if (!is || *is != record.picture) return damaged(picture(point));
+  return std::optional(std::move(record));
 }
 
-Status Records::add_frame(const DesignPoint& point, const Frame& frame) const {
-  return write_png(picture(point), frame);
+Result<std::string> Records::add_frame(const DesignPoint& point, const Frame& frame) const {
+  if (Status written = write_png(picture(point), frame); !written) return written.error();
+  return checksum_of(picture(point));
 }
 
 Status Records::add(const Record& record) const {
   Json figures;
   for_each_figure(record.measured, [&](const char* name, const auto& value) { figures[name] = told(value); });
-  const Json json = {{"point", record.point.name()}, {"provenance", told(provenance_)}, {"figures", figures}};
-  return write_file(file(record.point), json.dump(2) + "\n");
+  return write_file(file(record.point), sealed({{"point", record.point.name()},
+                                                {"provenance", told(provenance_)},
+                                                {"figures", figures},
+                                                {"picture", record.picture}}));
 }
 
 }  // namespace halfway::study

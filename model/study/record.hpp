@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a study keeps of a point: its frame as PNG, one JSON file, each written whole or not at all, and one
-// line of a table.
+// What a study keeps of a point: its frame as PNG, one JSON file with checksums of both, each written whole
+// or not at all, and one line of a table.
 #pragma once
 
 #include <filesystem>
@@ -32,6 +32,7 @@ Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& fol
 struct Record {
   DesignPoint point;
   Measurement measured;
+  std::string picture{};  ///< checksum of the frame's file
 };
 
 /// By which the files of something are called, without ending: a point's by its name.
@@ -47,8 +48,8 @@ class Records {
   /// None where there is none of this provenance, or no frame of it; an error where either is damaged.
   Result<std::optional<Record>> find(const DesignPoint& point) const;
   Status add(const Record& record) const;
-  /// Of a point whose record follows.
-  Status add_frame(const DesignPoint& point, const Frame& frame) const;
+  /// Of a point whose record follows: what that has for Record::picture.
+  Result<std::string> add_frame(const DesignPoint& point, const Frame& frame) const;
   std::filesystem::path file(const DesignPoint& point) const;
   std::filesystem::path picture(const DesignPoint& point) const;
 

@@ -132,14 +132,15 @@ TEST_F(RecordsTest, AreFoundByWhatTheyWereMeasuredWithAlone) {
   Record record{{.method = Method::adaptive}, {}};
   record.measured.picture.psnr_db = std::numeric_limits<double>::infinity();
   record.measured.cycles = 77;
+  const auto picture = Records(folder_->path(), here).add_frame(record.point, Frame(record.point.size));
+  ASSERT_TRUE(picture) << picture.error().message;
+  record.picture = *picture;
   ASSERT_TRUE(Records(folder_->path(), here).add(record));
   const auto find = [&](const Provenance& provenance, const DesignPoint& point) {
     const auto kept = Records(folder_->path(), provenance).find(point);
     EXPECT_TRUE(kept) << kept.error().message;
     return kept ? *kept : std::nullopt;
   };
-  EXPECT_FALSE(find(here, record.point));  // without its frame
-  ASSERT_TRUE(Records(folder_->path(), here).add_frame(record.point, Frame(record.point.size)));
   const auto found = find(here, record.point);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->measured.cycles, 77U);
@@ -154,29 +155,37 @@ TEST_F(RecordsTest, AreFoundByWhatTheyWereMeasuredWithAlone) {
   DesignPoint other = record.point;
   other.threshold = 4.0;
   EXPECT_FALSE(find(here, other));
+  std::filesystem::remove(Records(folder_->path(), here).picture(record.point));
+  EXPECT_FALSE(find(here, record.point));
 }
 
 // Each in turn, with what is beside it whole.
 TEST_F(RecordsTest, TellWhichFileIsDamaged) {
   const Records records(folder_->path(), {"scene", "1", "2", "3", "4"});
-  const Record record{{.method = Method::adaptive, .size = {40, 30}}, {}};
-  const auto write = [&] {
+  Record record{{.method = Method::adaptive, .size = {40, 30}}, {}};
+  const auto add = [&](const Frame& frame) {
+    const auto picture = records.add_frame(record.point, frame);
+    ASSERT_TRUE(picture) << picture.error().message;
+    record.picture = *picture;
     ASSERT_TRUE(records.add(record));
-    ASSERT_TRUE(records.add_frame(record.point, Frame(record.point.size)));
   };
-  write();
+  add(Frame(record.point.size));
   for (const std::filesystem::path& file : {records.file(record.point), records.picture(record.point)}) {
     const auto whole = read_file(file);
     ASSERT_TRUE(whole);
-    for (const std::string& text : {std::string(), whole->substr(0, whole->size() - 5), "{}" + *whole}) {
+    std::string other = *whole;
+    other[other.size() / 2] ^= 1;
+    for (const std::string& text :
+         {std::string(), whole->substr(0, whole->size() - 5), "{}" + *whole, other}) {
       ASSERT_TRUE(write_file(file, text));
       const auto found = records.find(record.point);
       ASSERT_FALSE(found) << text;
       EXPECT_EQ(found.error().message, file.string() + ": damaged; the point is measured anew");
     }
-    write();
+    ASSERT_TRUE(write_file(file, *whole));
     EXPECT_TRUE(records.find(record.point));
   }
+  // A whole picture, but another one.
   ASSERT_TRUE(records.add_frame(record.point, Frame({30, 40})));
   EXPECT_FALSE(records.find(record.point));
 }

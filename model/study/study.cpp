@@ -144,7 +144,9 @@ class Bench {
     auto measured = measure(**pictures, std::move(drawing));
     if (!measured) return measured.error();
     Record record{point, std::move(*measured)};
-    if (Status added = kept_.add_frame(point, record.measured.frame); !added) return added.error();
+    auto added_frame = kept_.add_frame(point, record.measured.frame);
+    if (!added_frame) return added_frame.error();
+    record.picture = std::move(*added_frame);
     record.measured.frame = {};
     if (Status added = kept_.add(record); !added) return added.error();
     if (of_tiles) tiles_.remove_drawing(point);

@@ -97,14 +97,20 @@ TEST_F(StudyTest, GoesOnWhereItWasBrokenOff) {
 }
 
 TEST_F(StudyTest, MeasuresAnewWhatIsDamagedOrOfAnotherScene) {
-  study();
-  const auto file =
-      folder_->path() / "points" / (record_name(study().provenance, settings_.points[0]) + ".json");
-  ASSERT_TRUE(write_file(file, "{\"figures\": {}}"));
-  const Study again = study();
-  EXPECT_EQ(again.measured, 1U);
-  EXPECT_THAT(again.notes, ::testing::ElementsAre(file.string() + ": damaged; the point is measured anew"));
-  EXPECT_TRUE(study().notes.empty());
+  const std::string table = table_of(study());
+  const std::string stem = folder_->path() / "points" / record_name(study().provenance, settings_.points[0]);
+  for (const char* ending : {".json", ".png"}) {
+    const std::string file = stem + ending;
+    auto text = read_file(file);
+    ASSERT_TRUE(text);
+    (*text)[text->size() / 2] ^= 1;
+    ASSERT_TRUE(write_file(file, *text));
+    const Study again = study();
+    EXPECT_EQ(again.measured, 1U);
+    EXPECT_THAT(again.notes, ::testing::ElementsAre(file + ": damaged; the point is measured anew"));
+    EXPECT_EQ(table_of(again), table);
+    EXPECT_TRUE(study().notes.empty());
+  }
   settings_.scene = "matte";
   EXPECT_EQ(study().measured, 4U);
 }
@@ -233,11 +239,23 @@ TEST_F(BrokenOffStudyTest, LeavesOfTilesTheReferencesAlone) {
   EXPECT_EQ(table_of(again), table_);
 }
 
-// Cut short, of another size, or no picture at all: the point that is put together of it draws it anew.
+// Cut short, with a byte another, another tile's or no picture at all: the point that is put together of it
+// draws it anew.
 TEST_F(BrokenOffStudyTest, DrawsADamagedTileAnew) {
   const auto cut = [](const std::filesystem::path& path) {
     const auto whole = read_file(path);
     return whole && write_file(path, whole->substr(0, whole->size() / 2));
+  };
+  const auto flip = [](const std::filesystem::path& path) {
+    auto whole = read_file(path);
+    if (!whole) return false;
+    (*whole)[whole->size() / 2] ^= 1;
+    return !!write_file(path, *whole);
+  };
+  const auto takes = [&](const char* other) {
+    return [path = file(drawing_, other)](const std::filesystem::path& at) {
+      return std::filesystem::copy_file(path, at, std::filesystem::copy_options::overwrite_existing);
+    };
   };
   const auto holds = [](const char* text) {
     return [text](const std::filesystem::path& path) { return !!write_file(path, text); };
@@ -246,10 +264,11 @@ TEST_F(BrokenOffStudyTest, DrawsADamagedTileAnew) {
       damages = {{file(drawing_, "-tile-0.png"), cut},
                  {file(drawing_, "-tile-1-mask.png"), cut},
                  {file(drawing_, "-tile-2.json"), cut},
-                 {file(drawing_, "-tile-3.png"),
-                  [](const std::filesystem::path& path) {
-                    return !!write_png(path, Frame({29, 37}));
-                  }},
+                 {file(drawing_, "-tile-0.png"), flip},
+                 {file(drawing_, "-tile-1-mask.png"), flip},
+                 {file(drawing_, "-tile-2.json"), flip},
+                 {file(drawing_, "-tile-3.png"), takes("-tile-1.png")},
+                 {file(drawing_, "-tile-3.json"), takes("-tile-1.json")},
                  {file(drawing_, "-tile-3.json"), holds("{\"tile\": 3}\n")},
                  {file(reference_, "-tile-0.png"), holds("")},
                  {file(reference_, "-tile-2-mask.png"), holds("no picture")}};

@@ -92,7 +92,8 @@ Result<std::string> to_csv(const Provenance& provenance, std::span<const Record>
       "host_instructions_a_triangle,record,multiplier_luts,clock_mhz,clock,frame_ns,fragment_ns,ice40_luts,"
       "ice40_carries,ice40_flip_flops,ice40_rams,angle_bits,fraction_bits,seed_bits,newton,tiles\n";
   for (std::size_t at = 0; at < records.size(); ++at) {
-    const auto& [p, measured] = records[at];
+    const DesignPoint& p = records[at].point;
+    const Measurement& measured = records[at].measured;
     text += fmt::format(
         "\"{}\",{},\"{}\",\"{}\",{},{},{},{},{},{},{:g},{},{},{}", provenance.scene, provenance.scene_hash,
         provenance.tools, p.name(), to_string(p.method), in_hardware(p.method) ? to_string(p.preset) : "",

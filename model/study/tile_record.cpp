@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/file.hpp"
 #include "frame/image.hpp"
 #include "study/figures.hpp"
+#include "study/sealed.hpp"
 
 namespace halfway::study {
 namespace {
@@ -22,6 +25,15 @@ constexpr const char* c_colours = ".png";
 constexpr const char* c_masks = "-mask.png";  // red: covered, green: in a highlight
 constexpr const char* c_figures = ".json";    // written last
 constexpr std::array c_endings = {c_colours, c_masks, c_figures};
+
+// Whose figures they are, with the number of the tile.
+constexpr const char* c_tile = "tile";
+Json reference_label(const DesignPoint& point) {
+  return {{"picture", point.picture()}};
+}
+Json drawing_label(const DesignPoint& point) {
+  return {{"point", point.name()}};
+}
 
 // With their names. Those of all tiles add up to the frame's.
 template <class Counts, class Visit>
@@ -44,44 +56,43 @@ std::vector<std::uint8_t> mask_of(const Frame& picture, std::size_t channel) {
   return mask;
 }
 
-Status add_files(const std::filesystem::path& stem, const Frame& colours, const Frame& masks,
-                 const Json& figures) {
-  if (Status added = write_png(stem.string() + c_colours, colours); !added) return added;
-  if (Status added = write_png(stem.string() + c_masks, masks); !added) return added;
-  return write_file(stem.string() + c_figures, figures.dump(2) + "\n");
-}
-
-// A tile's picture, of the tile's size.
-Result<Frame> read_tile(const std::filesystem::path& path, const Tile& tile) {
-  auto frame = read_png(path);
-  if (frame && !(frame->size == tile.size))
-    return bad_input(fmt::format("{}: it is {} and not {}; remove it, and it is drawn anew", path.string(),
-                                 to_string(frame->size), to_string(tile.size)));
-  return frame;
-}
-
-Result<Json> read_figures(const std::filesystem::path& path) {
-  const auto text = read_file(path);
-  if (!text) return text.error();
-  Json json = Json::parse(*text, nullptr, false);
-  try {
-    Drawing counts;
-    static_cast<void>(json.at("hardware").get<std::string>());
-    for_each_count(counts, [&](const char* name, std::uint64_t& count) { json.at(name).get_to(count); });
-  } catch (const Json::exception&) {
-    return bad_input(path.string() + ": it is no tile's; remove it, and the tile is drawn anew");
+Status add_files(const std::filesystem::path& stem, const Frame& colours, const Frame& masks, Json figures) {
+  for (const auto& [ending, picture] : {std::pair{c_colours, &colours}, {c_masks, &masks}}) {
+    const std::filesystem::path path = stem.string() + ending;
+    if (Status added = write_png(path, *picture); !added) return added;
+    const auto checksum = checksum_of(path);
+    if (!checksum) return checksum.error();
+    figures[ending] = *checksum;
   }
-  return json;
+  return write_file(stem.string() + c_figures, sealed(std::move(figures)));
 }
 
-// What `read` makes of a tile's file, which is drawn anew where it is damaged.
-template <class Read>
-auto read_whole(const std::filesystem::path& path, std::size_t tile, const TileRecords::Redraw& redraw,
-                const Read& read) -> decltype(read(path)) {
-  auto found = read(path);
-  if (found || found.error().code != ExitCode::bad_input) return found;
-  if (Status drawn = redraw(tile, path); !drawn) return drawn.error();
-  return read(path);
+struct TileFiles {
+  Json figures{};
+  Frame colours{}, masks{};
+  std::filesystem::path damaged{};  // the first file that is; empty: none
+};
+
+// `label`: what the figures must hold.
+Result<TileFiles> read_files(const std::filesystem::path& stem, FrameSize size, const Json& label) {
+  TileFiles files;
+  const std::filesystem::path figures = stem.string() + c_figures;
+  const auto text = read_file(figures);
+  auto json = text ? unsealed(*text) : std::nullopt;
+  if (!json) return TileFiles{.damaged = figures};
+  for (const auto& [key, value] : label.items())
+    if (json->value(key, Json()) != value) return TileFiles{.damaged = figures};
+  files.figures = std::move(*json);
+  for (const auto& [ending, picture] : {std::pair{c_colours, &files.colours}, {c_masks, &files.masks}}) {
+    const std::filesystem::path path = stem.string() + ending;
+    const auto checksum = checksum_of(path);
+    if (!checksum || files.figures.value(ending, "") != *checksum) return TileFiles{.damaged = path};
+    auto frame = read_png(path);
+    if (!frame) return frame.error();
+    if (!(frame->size == size)) return TileFiles{.damaged = path};
+    *picture = std::move(*frame);
+  }
+  return files;
 }
 
 }  // namespace
@@ -125,59 +136,65 @@ bool TileRecords::complete(const DesignPoint& point) const {
 Status TileRecords::add_reference(const DesignPoint& point, std::size_t tile,
                                   const Reference& reference) const {
   const auto& [frame, mask] = reference.image;
+  Json json = reference_label(point);
+  json[c_tile] = tile;
   return add_files(file(reference_name(point), tile, ""), frame,
-                   to_picture(frame.size, mask, reference.highlight),
-                   {{"picture", point.picture()}, {"tile", tile}});
+                   to_picture(frame.size, mask, reference.highlight), std::move(json));
 }
 
 Status TileRecords::add_drawing(const DesignPoint& point, std::size_t tile, const Drawing& drawing) const {
-  Json json = {{"point", point.name()}, {"tile", tile}, {"hardware", drawing.hardware}};
+  Json json = drawing_label(point);
+  json[c_tile] = tile;
+  json["hardware"] = drawing.hardware;
   for_each_count(drawing, [&](const char* name, std::uint64_t count) { json[name] = count; });
   return add_files(file(drawing_name(point), tile, ""), drawing.frame,
-                   to_picture(drawing.frame.size, drawing.mask, {}), json);
+                   to_picture(drawing.frame.size, drawing.mask, {}), std::move(json));
 }
 
-Result<Frame> TileRecords::put_together(const DesignPoint& point, const std::string& name, const char* ending,
-                                        const Redraw& redraw) const {
-  Frame whole(point.size);
+struct TileRecords::Whole {
+  Frame colours, masks;
+  std::vector<Json> figures{};  // by tile
+};
+
+Result<TileRecords::Whole> TileRecords::put_together(const DesignPoint& point, const std::string& name,
+                                                     Json label, const Redraw& redraw) const {
+  Whole whole{Frame(point.size), Frame(point.size)};
   const std::vector<Tile> tiles = point.tiles();
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    const auto picture = read_whole(file(name, i, ending), i, redraw,
-                                    [&](const auto& path) { return read_tile(path, tiles[i]); });
-    if (!picture) return picture.error();
-    put_tile(whole, *picture, tiles[i]);
+    const std::filesystem::path stem = file(name, i, "");
+    label[c_tile] = i;
+    auto files = read_files(stem, tiles[i].size, label);
+    if (files && !files->damaged.empty()) {
+      if (Status drawn = redraw(i, files->damaged); !drawn) return drawn.error();
+      files = read_files(stem, tiles[i].size, label);
+      if (files && !files->damaged.empty())
+        return tool_failed(files->damaged.string() + ": damaged as soon as it is written; try another disk");
+    }
+    if (!files) return files.error();
+    put_tile(whole.colours, files->colours, tiles[i]);
+    put_tile(whole.masks, files->masks, tiles[i]);
+    whole.figures.push_back(std::move(files->figures));
   }
   return whole;
 }
 
 Result<Reference> TileRecords::reference(const DesignPoint& point, const Redraw& redraw) const {
-  Reference whole;
-  auto colours = put_together(point, reference_name(point), c_colours, redraw);
-  if (!colours) return colours.error();
-  const auto masks = put_together(point, reference_name(point), c_masks, redraw);
-  if (!masks) return masks.error();
-  whole.image.frame = std::move(*colours);
-  whole.image.mask = mask_of(*masks, 0);
-  whole.highlight = mask_of(*masks, 1);
-  return whole;
+  auto whole = put_together(point, reference_name(point), reference_label(point), redraw);
+  if (!whole) return whole.error();
+  return Reference{{std::move(whole->colours), mask_of(whole->masks, 0)}, mask_of(whole->masks, 1)};
 }
 
 Result<Drawing> TileRecords::drawing(const DesignPoint& point, const Redraw& redraw) const {
-  Drawing whole;
-  auto colours = put_together(point, drawing_name(point), c_colours, redraw);
-  if (!colours) return colours.error();
-  const auto masks = put_together(point, drawing_name(point), c_masks, redraw);
-  if (!masks) return masks.error();
-  whole.frame = std::move(*colours);
-  if (in_hardware(point.method)) whole.mask = mask_of(*masks, 0);
-  for (std::size_t i = 0; i < point.tiles().size(); ++i) {
-    const auto figures = read_whole(file(drawing_name(point), i, c_figures), i, redraw, read_figures);
-    if (!figures) return figures.error();
-    figures->at("hardware").get_to(whole.hardware);
+  auto whole = put_together(point, drawing_name(point), drawing_label(point), redraw);
+  if (!whole) return whole.error();
+  Drawing drawing{.frame = std::move(whole->colours)};
+  if (in_hardware(point.method)) drawing.mask = mask_of(whole->masks, 0);
+  for (const Json& figures : whole->figures) {
+    figures.at("hardware").get_to(drawing.hardware);
     for_each_count(
-        whole, [&](const char* name, std::uint64_t& sum) { sum += figures->at(name).get<std::uint64_t>(); });
+        drawing, [&](const char* name, std::uint64_t& sum) { sum += figures.at(name).get<std::uint64_t>(); });
   }
-  return whole;
+  return drawing;
 }
 
 }  // namespace halfway::study

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a study keeps of a tile: colours and masks as PNG, figures as JSON. The JSON file comes last, and each
-// is written whole or not at all. Those of a drawing go when the point is put together; those of a reference
-// are for whichever point of the picture comes next.
+// What a study keeps of a tile: colours and masks as PNG, figures and checksums as JSON. The JSON file comes
+// last, and each is written whole or not at all. Those of a drawing go when the point is put together; those
+// of a reference are for whichever point of the picture comes next.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 
@@ -46,8 +47,9 @@ class TileRecords {
   std::string reference_name(const DesignPoint& point) const;
   std::string drawing_name(const DesignPoint& point) const;
   bool has(const std::string& name, std::size_t tile) const;
-  /// The frame of all tiles' pictures with this ending.
-  Result<Frame> put_together(const DesignPoint& point, const std::string& name, const char* ending,
+  struct Whole;
+  /// Of all tiles whose files are called so and have this label.
+  Result<Whole> put_together(const DesignPoint& point, const std::string& name, nlohmann::ordered_json label,
                              const Redraw& redraw) const;
   std::filesystem::path file(const std::string& name, std::size_t tile, const char* ending) const;
 
