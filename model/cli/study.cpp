@@ -172,7 +172,9 @@ Status run_on_slurm(study::StudySettings settings, const Folders& folders, const
     if (!open) return open.error();
     array.open = std::move(*open);
     array.folder = absolute_path(folder);
-    if (Status ran = study::run_job_array(array); !ran) return ran;
+    const Status ran = study::run_job_array(array);
+    for (const std::string& note : study::notes_of(array)) say(note);
+    if (!ran) return ran;
   }
   return Ok{};
 }
@@ -213,10 +215,13 @@ int run(const Folders& folders, const StudyCommand& command) {
       return report(ran.error());
   Progress progress("study");
   settings.on_progress = [&](const std::string& text) { progress.show(text); };
+  settings.on_note = [&](const std::string& note) {
+    progress.clear();
+    say(fmt::format("{}{}", study::c_note, note));
+  };
   const auto study = study::run_study(settings);
   progress.clear();
   if (!study) return report(study.error());
-  for (const std::string& note : study->notes) say(note);
   if (!command.part.empty()) {
     fmt::print("part {}: {} points, {} measured anew, {} tiles drawn, {} placements\n", command.part,
                study->records.size(), study->measured, study->drawn_tiles, study->placements);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "cli/command_test.hpp"
 #include "common/file.hpp"
+#include "study/stand_in_slurm_test.hpp"
 
 namespace halfway {
 namespace {
@@ -20,13 +22,13 @@ using ::testing::Not;
 
 class StudyCommandTest : public CommandTest {
  protected:
-  Outcome study(std::vector<std::string> arguments) const {
+  Outcome study(std::vector<std::string> arguments, Environment environment = {}) const {
     EXPECT_TRUE(
         write_file(folder_->path() / "space.toml",
                    "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
     std::vector<std::string> words = {"study", "--space", "space.toml", "--out", "out"};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    return run(words);
+    return run(words, std::move(environment));
   }
 };
 
@@ -91,6 +93,26 @@ TEST_F(StudyCommandTest, AQuestionLeavesTheStudysTable) {
   ASSERT_TRUE(kept && question);
   EXPECT_EQ(*kept, *table);
   EXPECT_THAT(*question, AllOf(HasSubstr(",80,60,"), Not(HasSubstr(",160,120,"))));
+}
+
+// What a task finds damaged is told where the study was started, not in the task's log alone.
+TEST_F(StudyCommandTest, WhatTasksFindDamagedIsTold) {
+  ASSERT_EQ(study({}).exit_code, 0);
+  const std::filesystem::path points = folder_->path() / "out/points";
+  std::filesystem::path frame;
+  for (const auto& entry : std::filesystem::directory_iterator(points))
+    if (entry.path().extension() == ".png") frame = entry.path();
+  auto bytes = read_file(frame);
+  ASSERT_TRUE(bytes);
+  (*bytes)[bytes->size() / 2] ^= 1;
+  ASSERT_TRUE(write_file(frame, *bytes));
+  study::put_slurm(folder_->path());
+  const std::string path = folder_->path().string() + ":" + std::getenv("PATH");
+  const Outcome outcome = study({"--executor", "slurm"}, {{"PATH", path}});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr(frame.filename().string() + ": damaged; the point is measured anew\n"),
+                    HasSubstr("3 points, 0 measured anew")));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <fstream>
+
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
 
@@ -37,6 +39,10 @@ std::string job_script(const JobArray& array) {
 
 Status run_job_array(const JobArray& array) {
   if (array.open.empty()) return Ok{};
+  for (const std::size_t part : array.open) {
+    std::error_code ignored;
+    std::filesystem::remove(task_log(array, part), ignored);
+  }
   if (Status made = make_folders(array.folder); !made) return made;
   const std::filesystem::path script = array.folder / "job.sh";
   if (Status written = write_file(script, job_script(array)); !written) return written;
@@ -45,10 +51,6 @@ Status run_job_array(const JobArray& array) {
                                "--output=" + (array.folder / "task-%a.log").string(), "--open-mode=append"}};
   submit.arguments.insert(submit.arguments.end(), array.options.begin(), array.options.end());
   submit.arguments.push_back(script.string());
-  for (const std::size_t part : array.open) {
-    std::error_code ignored;
-    std::filesystem::remove(task_log(array, part), ignored);
-  }
   const auto end = run_process(submit, c_install);
   if (!end) return end.error();
   if (end->succeeded()) return Ok{};
@@ -61,6 +63,16 @@ Status run_job_array(const JobArray& array) {
     break;
   }
   return tool_failed(what);
+}
+
+std::vector<std::string> notes_of(const JobArray& array) {
+  std::vector<std::string> notes;
+  for (const std::size_t part : array.open) {
+    std::ifstream log(task_log(array, part));
+    for (std::string line; std::getline(log, line);)
+      if (line.starts_with(c_note)) notes.push_back(line);
+  }
+  return notes;
 }
 
 }  // namespace halfway::study

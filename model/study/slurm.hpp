@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/result.hpp"
@@ -28,5 +29,10 @@ std::string job_script(const JobArray& array);
 /// Submits the array and waits for its end. Where a task fails for good, an error with the end of what it
 /// said.
 Status run_job_array(const JobArray& array);
+
+/// How a line of a worker's begins that whoever submitted the array is to be told, too.
+inline constexpr std::string_view c_note = "note: ";
+/// Such lines of all tasks that ran, however the array ended.
+std::vector<std::string> notes_of(const JobArray& array);
 
 }  // namespace halfway::study

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// The script of a job array, run by a shell in the place of Slurm. tb/slurm has a real one.
+// The script of a job array, and the array, run by a shell in the place of Slurm. tb/slurm has a real one.
 #include "study/slurm.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <optional>
+#include <string>
 
 #include "common/file.hpp"
 #include "common/subprocess.hpp"
+#include "study/stand_in_slurm_test.hpp"
 
 namespace halfway::study {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 class JobScriptTest : public ::testing::Test {
@@ -54,6 +60,47 @@ TEST_F(JobScriptTest, HasSlurmTryAgainAFewTimes) {
   const ProcessEnd end = run(array, "2");
   EXPECT_THAT(end.output, Not(HasSubstr("scontrol")));
   EXPECT_EQ(end.exit_status, 5);
+}
+
+class JobArrayTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    put_slurm(folder_->path());
+    ::setenv("PATH", (folder_->path().string() + ":" + path_).c_str(), 1);
+  }
+  void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
+  // Tasks 1, 4 and 5 of 8; $2 is the part.
+  JobArray array(const std::string& script) const {
+    return {.worker = {"sh", "-c", script, "worker"},
+            .parts = 8,
+            .open = {1, 4, 5},
+            .folder = folder_->path() / "slurm"};
+  }
+  const std::string path_ = std::getenv("PATH");
+  std::optional<TemporaryFolder> folder_;
+};
+
+TEST_F(JobArrayTest, WhatTasksNoteIsFound) {
+  const JobArray noted = array("echo working; [ $2 = 4/8 ] || echo \"note: $2\" >&2; echo 'no note: here'");
+  const Status ran = run_job_array(noted);
+  ASSERT_TRUE(ran) << ran.error().message;
+  EXPECT_THAT(notes_of(noted), ElementsAre("note: 1/8", "note: 5/8"));
+  const JobArray silent = array(":");
+  ASSERT_TRUE(run_job_array(silent));
+  EXPECT_THAT(notes_of(silent), IsEmpty());
+}
+
+TEST_F(JobArrayTest, ATaskThatFailsIsToldWithWhatItSaid) {
+  const JobArray broken = array("echo \"note: $2\"; [ $2 != 5/8 ] || { echo 'no such scene' >&2; exit 2; }");
+  const Status ran = run_job_array(broken);
+  ASSERT_FALSE(ran);
+  EXPECT_EQ(ran.error().code, ExitCode::tool_failed);
+  EXPECT_THAT(ran.error().message, AllOf(HasSubstr("sbatch: exit status 1"), HasSubstr("task-5.log:\n"),
+                                         HasSubstr("no such scene"), Not(HasSubstr("task-4.log"))));
+  EXPECT_THAT(notes_of(broken), ElementsAre("note: 1/8", "note: 4/8", "note: 5/8", "note: 5/8", "note: 5/8"));
 }
 
 }  // namespace

@@ -90,13 +90,10 @@ class Bench {
   }
   bool can_gather(const Piece& piece) const { return is_done(piece) || tiles_.complete(point_of(piece)); }
 
-  Result<Made> make(const Piece& piece) const {
-    Made made;
+  Status make(const Piece& piece, Made& made) const {
     const DesignPoint& point = point_of(piece);
-    const Status done = is_point(piece) ? make_point(point, piece.kind == PieceKind::gathering, made)
-                                        : make_tile(point, piece.kind, piece.tile, made);
-    if (!done) return done.error();
-    return made;
+    return is_point(piece) ? make_point(point, piece.kind == PieceKind::gathering, made)
+                           : make_tile(point, piece.kind, piece.tile, made);
   }
 
  private:
@@ -276,19 +273,15 @@ Result<Study> run_study(const StudySettings& settings) {
     auto found = bench->find(piece);
     const bool anew = is_point(piece) ? !found || !*found : !bench->is_done(piece);
     Made made;
-    if (anew) {
-      auto fresh = bench->make(piece);
-      if (!fresh)
-        return Error{fresh.error().code, settings.points[piece.point].name() + ": " + fresh.error().message};
-      made = std::move(*fresh);
-    } else {
-      made.record = std::move(*found);
-    }
     if (!found) made.notes.push_back(found.error().message);
+    if (!anew) made.record = std::move(*found);
+    const Status worked = anew ? bench->make(piece, made) : Ok{};
     const std::scoped_lock lock(mutex);
+    for (const std::string& note : made.notes) settings.on_note(note);
+    if (!worked)
+      return Error{worked.error().code, settings.points[piece.point].name() + ": " + worked.error().message};
     study.measured += anew && is_point(piece);
     study.drawn_tiles += made.tiles;
-    study.notes.insert(study.notes.end(), made.notes.begin(), made.notes.end());
     records[at] = std::move(made.record);
     settings.on_progress(fmt::format("{} of {} {}", ++done, mine.size(),
                                      all.size() == settings.points.size() ? "points" : "points and tiles"));

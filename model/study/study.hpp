@@ -30,15 +30,16 @@ struct StudySettings {
   std::vector<std::string> set_up;
   /// Told what is done; points that were measured before count.
   std::function<void(const std::string&)> on_progress = [](const std::string&) {};
+  /// Told at once which file was damaged, and what was made anew for it.
+  std::function<void(const std::string&)> on_note = [](const std::string&) {};
 };
 
 struct Study {
   Provenance provenance;
-  std::vector<Record> records;     ///< in the points' order; of the part alone, as far as they are there
-  std::size_t measured = 0;        ///< of these anew, in this run
-  std::size_t drawn_tiles = 0;     ///< in this run
-  std::size_t placements = 0;      ///< likewise
-  std::vector<std::string> notes;  ///< files that were damaged, and of what was made anew
+  std::vector<Record> records;  ///< in the points' order; of the part alone, as far as they are there
+  std::size_t measured = 0;     ///< of these anew, in this run
+  std::size_t drawn_tiles = 0;  ///< in this run
+  std::size_t placements = 0;   ///< likewise
 };
 
 /// The points that can be drawn of the scene. What is left out is told: each reason once.

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Studies on a real Slurm: munged, slurmctld and slurmd of this machine's own, started here and ended here. The job
 # array's table equals the local run's byte for byte; a task that is killed is tried again by Slurm; a study that
-# is killed goes on where it was. First with a point a task, then with placements, by stand-ins for Yosys and nextpnr,
-# then with frames that are cut into tiles: of those the pictures that are put together equal the local run's and
-# those of the frames in one.
+# is killed goes on where it was, and what a task then finds damaged is told. First with a point a task, then with
+# placements, by stand-ins for Yosys and nextpnr, then with frames that are cut into tiles: of those the pictures that
+# are put together equal the local run's and those of the frames in one.
 #
 #   tb/slurm/slurm.sh HALFWAY CHECKOUT SCRATCH
 #
@@ -223,6 +223,13 @@ same_table array local
 note "job array, a task killed and tried again by Slurm: $(cat "$scratch/array.log")"
 run_until_killed resumed 6 '"figures":' "${on_slurm[@]}"
 go_on resumed 6 'measured anew' "${on_slurm[@]}"
+same_table resumed local
+damaged=$(find "$scratch/resumed/points" -name '*.png' | head -n 1)
+printf x | dd of="$damaged" bs=1 seek=2000 conv=notrunc status=none
+"$halfway" "${on_slurm[@]}" --out "$scratch/resumed" >"$scratch/resumed.log" 2>&1 ||
+  fail "a damaged frame: exit code $?: $(cat "$scratch/resumed.log")"
+grep -q "note: $damaged: damaged; the point is measured anew" "$scratch/resumed.log" ||
+  fail "a task found a damaged frame, which was not told: $(cat "$scratch/resumed.log")"
 same_table resumed local
 
 # ---- Placements: a seed a task, each task another one, and one that was there before
