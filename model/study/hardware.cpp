@@ -272,7 +272,7 @@ Result<Placements> Placements::open(const std::string& scene, std::span<const De
   const auto synthesizer = synth::Synthesizer::open(folders, true);
   if (!synthesizer) return synthesizer.error();
   ContentHash made_by;
-  made_by.add("placed 1").add(synth::kFlow).add(rtl).add(synthesizer->versions());
+  made_by.add("placed 1").add(synth::flow_hash()).add(rtl).add(synthesizer->versions());
   for (const auto& [netlist, mhz] : *pinned) made_by.add(netlist);
   placements.pinned_ = std::move(*pinned);
   placements.made_by_ = made_by.hex();

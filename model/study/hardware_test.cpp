@@ -126,14 +126,17 @@ TEST_F(HardwareFiguresTest, AClockIsThePinnedOneOfTheSameNetlistAlone) {
   const auto hash = synth::netlist_hash(
       *library, {.name = "another", .entity = key_.entity(), .generics = key_.generics()});
   ASSERT_TRUE(hash) << hash.error().message;
-  pin(fmt::format("any 1 2 3 4 87.5 {}\n", *hash));
+  const std::string flow = fmt::format("flow {}\n", synth::flow_hash());
+  pin(flow + fmt::format("any 1 2 3 4 87.5 {}\n", *hash));
   const HardwareFigures pinned = figures(true);
   EXPECT_EQ(pinned.mhz, 87.5);
   EXPECT_EQ(pinned.clock, "pinned");
   EXPECT_EQ(placements(), 0U);
   std::string other = *hash;
   other[0] = other[0] == '0' ? '1' : '0';
-  pin(fmt::format("any 1 2 3 4 87.5 {}\n", other));
+  pin(flow + fmt::format("any 1 2 3 4 87.5 {}\n", other));
+  EXPECT_FALSE(figures(false).mhz);
+  pin(fmt::format("any 1 2 3 4 87.5 {}\n", *hash));  // of no flow that is known
   EXPECT_FALSE(figures(false).mhz);
 }
 

@@ -16,6 +16,10 @@ inline constexpr std::size_t kEnableBuffers = 4;
 /// Full sums that an enable has to be of for a buffer: a tile's cells.
 inline constexpr std::size_t kLeastSums = 8;
 
+/// Says in hashes what with_global_buffers does, so that nothing of another rule is taken: another one
+/// wherever its result changes, as a test of it asks.
+inline constexpr const char* kBuffersRule = "flow 2";
+
 /// `netlist`, JSON by Yosys, with an SB_GB between port clk of module `wrapped` and all that it goes to, and
 /// one each in front of the registers of at most kEnableBuffers enables. What else such an enable goes to
 /// stays as it was: a buffer that reaches enables reaches no reset. Of enables those of the most full sums

@@ -159,6 +159,31 @@ TEST(SynthGlobalBuffers, AreInFrontOfEveryRegisterOfAnEnableAndOfNothingElse) {
   EXPECT_THAT(buffered.users(other), ElementsAre("E", "E", "E"));
 }
 
+// All of the above: a hash of results stands for the rule, which other hashes know by its name alone.
+TEST(SynthGlobalBuffers, AreAnotherRulesWhereTheResultIsAnother) {
+  Netlist many, few;
+  many.enable("c", 12);
+  const int several = many.enable("z", 8);
+  for (const char* name : {"e", "d", "b"}) many.enable(name, 8);
+  many.name("a", {Netlist::kInput, several});
+  few.enable("seven", 7);
+  const int enable = few.enable("eight", 8), partial = few.net();
+  few.name("partial", {partial});
+  for (const char* inputs : {"0aax", "a1ax", "aa0x", "aaaa", "aaxa"}) few.registers(partial, 9, inputs);
+  few.registers(enable, 2, "00aa");
+  few.cell("SB_LUT4", {{"I0", {enable}}, {"O", {few.net()}}}, "O");
+  few.cell("SB_DFFSR", {{"C", {Netlist::kClock}}, {"D", {Netlist::kInput}}, {"R", {enable}}}, "Q");
+  few.cell("SB_RAM40_4K", {{"RCLK", {Netlist::kClock}}, {"WE", {enable}}}, "RDATA");
+  ContentHash results;
+  for (const Netlist& netlist : {many, few}) {
+    const auto text = with_global_buffers(netlist.text());
+    ASSERT_TRUE(text) << text.error().message;
+    results.add(*text);
+  }
+  EXPECT_EQ(fmt::format("{}: {}", kBuffersRule, results.hex()), "flow 2: a2b226e0f65aeedd6d833118f083aebd")
+      << "give it another name, kBuffersRule, and then this hash; pin the clocks anew by make synth PIN=1";
+}
+
 TEST(SynthGlobalBuffers, AreRefusedToWhatHasNoClock) {
   const std::string netlist = Netlist().text();
   ASSERT_TRUE(with_global_buffers(netlist));

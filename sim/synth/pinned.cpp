@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 #include "common/file.hpp"
 #include "common/to_integer.hpp"
@@ -14,10 +15,12 @@
 namespace halfway::synth {
 namespace {
 
-constexpr std::size_t c_hash_digits = 32;
+// A line of its own: of which flow the clocks are.
+constexpr std::string_view c_flow = "flow ";
 
-bool is_hash(const std::string& word) {
-  return word.size() == c_hash_digits && word.find_first_not_of("0123456789abcdef") == std::string::npos;
+bool is_hash(std::string_view text) {
+  constexpr std::size_t c_digits = 32;
+  return text.size() == c_digits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
 bool read_seeds(const std::string& word, unsigned& seeds) {
@@ -32,10 +35,15 @@ Result<Pins> read_pins(const std::filesystem::path& path) {
   auto reader = LineReader::open(path);
   if (!reader) return reader.error();
   Pins pins;
+  bool same_flow = false;
   std::string_view line;
   for (auto next = reader->next(line); next != LineReader::Next::end_of_file; next = reader->next(line)) {
     if (next == LineReader::Next::failed) return reader->error();
     if (line.empty() || line.front() == '#') continue;
+    if (line.starts_with(c_flow) && is_hash(line.substr(c_flow.size()))) {
+      same_flow = line.substr(c_flow.size()) == flow_hash();
+      continue;
+    }
     std::istringstream words{std::string(line)};
     std::string name, seeds, more;
     Pin pin;
@@ -51,6 +59,8 @@ Result<Pins> read_pins(const std::filesystem::path& path) {
     pin.line = reader->line_number();
     if (!pins.emplace(name, pin).second) return reader->at("a second line of this name");
   }
+  if (!same_flow)
+    for (auto& [name, pin] : pins) pin.netlist.clear();
   return pins;
 }
 
@@ -59,11 +69,12 @@ Status write_pins(const std::filesystem::path& path, const Pins& pins, const std
       "# Cells of each design on an iCE40 by itself, and its clock on an HX8K with registered ports, median "
       "seed.\n"
       "# Written by `make synth PIN=1` with {}.\n"
+      "{}{}\n"
       "# `make synth` and ctest -R synth fail where flip-flops or RAMs differ, LUTs or carries by more than "
       "{:.0f} %\n"
       "# (and {}), or where the clock is more than {:.0f} % slower or faster.\n"
       "# name luts carries flip_flops rams mhz netlist, and of how many seeds the clock is where not of {}\n",
-      versions, 100 * c_lut_share, c_lut_slack, 100 * c_clock_share, kSeeds);
+      versions, c_flow, flow_hash(), 100 * c_lut_share, c_lut_slack, 100 * c_clock_share, kSeeds);
   for (const auto& [name, pin] : pins) {
     text += fmt::format("{} {} {} {} {} {:.1f}", name, pin.cells.luts, pin.cells.carries,
                         pin.cells.flip_flops, pin.cells.rams, pin.mhz);

@@ -24,14 +24,15 @@ inline constexpr double c_clock_share = 0.08;
 struct Pin {
   Ice40Cells cells;
   double mhz = 0;           ///< of the median seed; 0 where the design is not placed
-  std::string netlist{};    ///< what the clock is of: Synthesizer::netlist_hash; empty: not known
+  std::string netlist{};    ///< what the clock is of: Synthesizer::netlist_hash; empty: not known here
   unsigned seeds = kSeeds;  ///< of how many placements the clock is the median
   std::size_t line = 0;     ///< of the file
 };
 using Pins = std::map<std::string, Pin>;
 
 /// A line a design: name luts carries flip-flops RAMs MHz netlist seeds; `#` begins a comment. The netlist's
-/// hash may be missing, and the seeds, which stand behind it, where they are kSeeds.
+/// hash may be missing, and the seeds, which stand behind it, where they are kSeeds. A line
+/// `flow HASH` says what flow_hash was: where it is another now, or there is none, no netlist is known.
 Result<Pins> read_pins(const std::filesystem::path& path);
 Status write_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions);
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -68,9 +69,24 @@ TEST(SynthPins, ComeBackFromTheirFile) {
   EXPECT_EQ(pins->at("b").netlist, "");
   EXPECT_EQ(pins->at("b").line, pins->at("a").line + 1);
   EXPECT_EQ(pins->at("b").cells, (Ice40Cells{1, 2, 3, 4}));
+  auto text = read_file(path);
+  ASSERT_TRUE(text);
+  const std::size_t flow = text->find("flow " + flow_hash() + "\n");
+  ASSERT_NE(flow, std::string::npos);
+  std::string other = *text, none = *text;
+  other[flow + 5] ^= 1;
+  none.erase(flow, text->find('\n', flow) + 1 - flow);
+  for (const std::string& another : {other, none}) {
+    ASSERT_TRUE(write_file(path, another));
+    const auto read = read_pins(path);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->at("a").netlist, "");
+    EXPECT_EQ(read->at("a").mhz, 123.4);
+  }
   for (const std::string& wrong : std::initializer_list<std::string>{
-           "a 1 2 3 4\n", "a 1 2 3 4 5 6\n", "a 1 2 3 4 5 " + hash + " 6 7\n", "a 1 2 3 4 5 " + hash + " 0\n",
-           "a 1 2 3 4 5 " + hash + " 3x\n", "a 1 2 3 x 5\n", "a 1 2 3 4 5\na 1 2 3 4 5\n"}) {
+           "flow 2\n", "flow\n", "a 1 2 3 4\n", "a 1 2 3 4 5 6\n", "a 1 2 3 4 5 " + hash + " 6 7\n",
+           "a 1 2 3 4 5 " + hash + " 0\n", "a 1 2 3 4 5 " + hash + " 3x\n", "a 1 2 3 x 5\n",
+           "a 1 2 3 4 5\na 1 2 3 4 5\n"}) {
     ASSERT_TRUE(write_file(path, wrong));
     const auto read = read_pins(path);
     ASSERT_FALSE(read) << wrong;
@@ -84,6 +100,14 @@ TEST(SynthPins, HaveWhatThePapersPrintBeside) {
   EXPECT_EQ(published_ns("shading_processor_diffuse_published"), 50);
   EXPECT_FALSE(published_ns("unrolled_shading_processor_diffuse_published"));
   EXPECT_FALSE(published_ns("accumulator_24"));
+}
+
+// Else a study knows no clock.
+TEST(SynthPins, AreOfTheFlowAsItIs) {
+  const auto pins = read_pins(std::filesystem::path(HALFWAY_SOURCE_DIR) / kPins);
+  ASSERT_TRUE(pins) << pins.error().message;
+  EXPECT_TRUE(std::ranges::any_of(*pins, [](const auto& pin) { return !pin.second.netlist.empty(); }))
+      << "of another flow than " << flow_hash() << ": make synth PIN=1";
 }
 
 TEST(SynthPins, AreWhatReadmeSays) {

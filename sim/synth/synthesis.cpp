@@ -57,6 +57,36 @@ Status run_yosys(const std::string& script, const std::filesystem::path& folder,
   return Ok{};
 }
 
+std::string ice40_script(std::string_view entity) {
+  return fmt::format(
+      "read_verilog netlist.v; synth_ice40 -device hx -top {}; tee -q -o cells.json stat "
+      "-json; write_rtlil mapped.il",
+      entity);
+}
+
+// The wrapper first, then the design that it holds as it was counted: nothing of one is optimized into the
+// other.
+std::string wrapped_script(std::string_view entity) {
+  return fmt::format(
+      "read_rtlil mapped.il; blackbox {0}; setattr -mod -unset top {0}; read_verilog wrapper.v; "
+      "synth_ice40 -device hx -top wrapped; read_rtlil -overwrite mapped.il; setattr -mod -unset "
+      "top {0}; "
+      "hierarchy -top wrapped; flatten; opt_clean -purge; write_json {1}",
+      entity, kWrapped);
+}
+
+std::vector<std::string> nextpnr_arguments() {
+  return {"nextpnr-ice40",       "--hx8k", "--package", "ct256", "--freq", std::to_string(kFrequency),
+          "--no-promote-globals"};
+}
+// Of those for a placement, what its result hangs on.
+std::vector<std::string> place_arguments(unsigned seed) {
+  std::vector<std::string> arguments = nextpnr_arguments();
+  arguments.insert(arguments.end(), {"--seed", std::to_string(seed), "--timing-allow-fail", "--quiet",
+                                     "--report", "report.json"});
+  return arguments;
+}
+
 std::string first_line(std::string_view text) {
   return std::string(text.substr(0, text.find('\n')));
 }
@@ -294,7 +324,22 @@ Result<Packing> read_packing(std::string_view said) {
 Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design) {
   const auto text = netlist_of(library, design);
   if (!text) return text.error();
-  return ContentHash().add("netlist 1").add(kFlow).add(design.entity).add(*text).hex();
+  // As those that are pinned were made.
+  return ContentHash().add("netlist 1").add("flow 2").add(design.entity).add(*text).hex();
+}
+
+std::string flow_hash() {
+  constexpr std::string_view c_top = "top";
+  // A port of each kind, and more inputs than the wrapper has flip-flops for.
+  static_assert(kMostInputs < 300);
+  const auto around = wrapper(
+      "module top\n  (input  clk,\n   input  [299:0] a,\n   input  b,\n   output [1:0] c,\n   output d,\n   "
+      "output [8:0] probe);\nendmodule\n",
+      c_top, kMostInputs);
+  ContentHash hash;
+  hash.add(ice40_script(c_top)).add(wrapped_script(c_top)).add(*around).add(kBuffersRule);
+  for (const std::string& argument : place_arguments(1)) hash.add(argument);
+  return hash.hex();
 }
 
 Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool place,
@@ -341,11 +386,7 @@ Result<std::filesystem::path> Synthesizer::synthesized(const Design& design, con
 }
 
 Result<std::filesystem::path> Synthesizer::ice40_folder(const Design& design) const {
-  return synthesized(
-      design, "ice40",
-      fmt::format("read_verilog netlist.v; synth_ice40 -device hx -top {}; tee -q -o cells.json stat "
-                  "-json; write_rtlil mapped.il",
-                  design.entity));
+  return synthesized(design, "ice40", ice40_script(design.entity));
 }
 
 Result<Ice40Cells> Synthesizer::ice40(const Design& design) const {
@@ -377,7 +418,7 @@ Result<std::filesystem::path> Synthesizer::from_mapped(const Design& design, con
   if (!core) return core.error();
   ContentHash hash;
   hash.add("mapped 1").add(yosys_).add(script).add(around).add(core->filename().string());
-  if (!around.empty()) hash.add(kFlow);
+  if (!around.empty()) hash.add(kBuffersRule);
   return kept(
       cache_ / fmt::format("{}-{}-{}", design.name, kind, hash.hex()),
       [&](const std::filesystem::path& fresh) -> Status {
@@ -439,21 +480,7 @@ Result<std::filesystem::path> Synthesizer::wrapped_folder(const Design& design) 
   if (!text) return text.error();
   const auto around = wrapper(*text, design.entity, kMostInputs);
   if (!around) return around.error();
-  // The wrapper first, then the design that it holds as it was counted: nothing of one is optimized into the
-  // other.
-  return from_mapped(
-      design, "wrapped",
-      fmt::format("read_rtlil mapped.il; blackbox {0}; setattr -mod -unset top {0}; read_verilog wrapper.v; "
-                  "synth_ice40 -device hx -top wrapped; read_rtlil -overwrite mapped.il; setattr -mod -unset "
-                  "top {0}; "
-                  "hierarchy -top wrapped; flatten; opt_clean -purge; write_json {1}",
-                  design.entity, kWrapped),
-      *around);
-}
-
-std::vector<std::string> Synthesizer::nextpnr_arguments() const {
-  return {"nextpnr-ice40",       "--hx8k", "--package", "ct256", "--freq", std::to_string(kFrequency),
-          "--no-promote-globals"};
+  return from_mapped(design, "wrapped", wrapped_script(design.entity), *around);
 }
 
 Result<std::string> Synthesizer::netlist_hash(const Design& design) const {
@@ -502,9 +529,7 @@ Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const 
   const auto wrapped = wrapped_folder(design);
   if (!wrapped) return wrapped.error();
   const std::string net = (*wrapped / kWrapped).string();
-  std::vector<std::string> arguments = nextpnr_arguments();
-  arguments.insert(arguments.end(), {"--seed", std::to_string(seed), "--timing-allow-fail", "--quiet",
-                                     "--report", "report.json"});
+  const std::vector<std::string> arguments = place_arguments(seed);
   ContentHash hash;
   hash.add("placed 1").add(nextpnr_).add(wrapped->filename().string());
   for (const std::string& argument : arguments) hash.add(argument);

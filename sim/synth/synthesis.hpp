@@ -28,10 +28,6 @@ inline constexpr unsigned kSeeds = 3;
 /// takes a tenth of it.
 inline constexpr std::chrono::seconds kPlaceTime{20 * 60};
 
-/// What a clock hangs on beside the netlist and the tools' versions: another one wherever the wrapper, the
-/// global buffers or nextpnr's options change.
-inline constexpr const char* kFlow = "flow 2";
-
 /// What is synthesized: an entity of rtl/, or of what `open` is given beside it.
 struct Design {
   std::string name;  ///< without spaces: messages and the cache's folders begin with it
@@ -77,9 +73,14 @@ std::string does_not_fit(std::string_view what, std::uint64_t count, std::uint64
 /// From what nextpnr says of a device's utilisation.
 Result<Packing> read_packing(std::string_view said);
 
-/// Of what GHDL and mend_netlist make of a design: of one hash is the same hardware, whatever its name,
-/// and by kFlow the same clock.
+/// Of what GHDL and mend_netlist make of a design: of one hash is the same hardware, whatever its name, and
+/// of one flow_hash the same clock.
 Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design);
+
+/// Of what a clock hangs on beside the netlist and the tools' versions: the scripts for Yosys, the wrapper,
+/// the global buffers, nextpnr's options. From what they are, so that no change of them goes without another
+/// hash.
+std::string flow_hash();
 
 /// The wrapper around `top` for nextpnr: a flip-flop in front of every input but the clock, and one behind
 /// every output bit that is connected. Input flip-flops are a shift register of at most `most_inputs`; wider
@@ -120,7 +121,6 @@ class Synthesizer {
  private:
   Synthesizer(GhdlLibrary library, std::filesystem::path cache)
       : library_(std::move(library)), cache_(std::move(cache)) {}
-  std::vector<std::string> nextpnr_arguments() const;
   /// Where Yosys has left what `script` makes of the netlist, netlist.v.
   Result<std::filesystem::path> synthesized(const Design& design, const std::string& family,
                                             const std::string& script) const;

@@ -358,10 +358,10 @@ class Run {
     }
     fmt::print("{} of {} designs are not as pinned\n", wrong, designs_.size());
     if (others > 0)
-      cli::say(
-          fmt::format("note: {} netlists are not those that are pinned: a study knows no clock of them until "
-                      "make synth PIN=1",
-                      others));
+      cli::say(fmt::format(
+          "note: {} clocks that are pinned are of another netlist or flow: a study knows none of them until "
+          "make synth PIN=1",
+          others));
     return wrong == 0 ? ExitCode::equal : ExitCode::differs;
   }
 

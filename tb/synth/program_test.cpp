@@ -179,7 +179,7 @@ TEST_F(SynthProgram, SaysOnStderrWhatIsNotAsPinnedAndWhere) {
   const Outcome outcome = run({"--seeds", "1"});
   EXPECT_EQ(outcome.exit_status, 1);
   EXPECT_THAT(outcome.errors,
-              ::testing::StartsWith("tb/synth/pinned.txt:6: accumulator_24: 90.0 MHz, 120.0 are"));
+              ::testing::StartsWith("tb/synth/pinned.txt:7: accumulator_24: 90.0 MHz, 120.0 are"));
   EXPECT_THAT(outcome.output, HasSubstr("1 of 1 designs are not as pinned"));
 }
 
