@@ -73,6 +73,19 @@ class SynthProgram : public StandInTools {
   Outcome run(std::vector<std::string> arguments, const std::string& part = "accumulator_24") const {
     arguments.insert(arguments.begin(), HALFWAY_SYNTH);
     arguments.insert(arguments.end(), {root().string(), (root() / "cache").string(), part});
+    return outcome_of(arguments);
+  }
+  /// Both streams are its output.
+  Outcome run_on_terminal(const std::vector<std::string>& options) const {
+    Command program{.arguments = {HALFWAY_SYNTH}};
+    program.arguments.insert(program.arguments.end(), options.begin(), options.end());
+    program.arguments.insert(program.arguments.end(),
+                             {root().string(), (root() / "cache").string(), "accumulator_24"});
+    return outcome_of({"script", "--quiet", "--return", "--command", to_string(program), "/dev/null"});
+  }
+
+ private:
+  Outcome outcome_of(const std::vector<std::string>& arguments) const {
     const auto end = run_process({.arguments = arguments,
                                   .standard_output = root() / "output",
                                   .environment = {{"PATH", path_before(std::getenv("PATH"))}}},
@@ -181,6 +194,26 @@ TEST_F(SynthProgram, SaysOnStderrWhatIsNotAsPinnedAndWhere) {
   EXPECT_THAT(outcome.errors,
               ::testing::StartsWith("tb/synth/pinned.txt:7: accumulator_24: 90.0 MHz, 120.0 are"));
   EXPECT_THAT(outcome.output, HasSubstr("1 of 1 designs are not as pinned"));
+}
+
+// What is under way stands on one line that is written over; elsewhere nothing of it is.
+TEST_F(SynthProgram, ShowsOnATerminalAloneWhatIsUnderWay) {
+  if (find_program("script").empty()) GTEST_SKIP() << "no script: apt-get install bsdutils";
+  const std::vector<std::string> arguments = {"--seeds", "1", "--jobs", "1"};
+  const Outcome elsewhere = run(arguments);
+  EXPECT_EQ(elsewhere.exit_status, 0) << elsewhere.errors;
+  EXPECT_THAT(elsewhere.output + elsewhere.errors, Not(HasSubstr("\033")));
+  const Outcome terminal = run_on_terminal(arguments);
+  EXPECT_EQ(terminal.exit_status, 0) << terminal.output << terminal.errors;
+  const std::string over = "\r\033[K";
+  for (const char* shown : {"cells: 0 of 2; accumulator_24, iCE40", "cells: 1 of 2; accumulator_24, ECP5",
+                            "clocks: 0 of 1; accumulator_24, seed 1"})
+    EXPECT_THAT(terminal.output, HasSubstr(over + shown + over)) << shown;
+  for (const char* said : {"[1/2] accumulator_24, iCE40: 24 LUTs", "[2/2] accumulator_24, ECP5: 24 LUTs",
+                           "[1/1] accumulator_24, seed 1: 90.0 MHz"})
+    EXPECT_THAT(terminal.output, HasSubstr(over + said)) << said;
+  // Nothing is left below the table.
+  EXPECT_GT(terminal.output.find("| design |"), terminal.output.rfind(over));
 }
 
 TEST_F(SynthProgram, TellsABrokenToolOnStderrAndComparesNothing) {
