@@ -33,7 +33,7 @@ table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--add
 synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme README.md) \
   --page tb/synth/README.md . build/cache $${DESIGN:+"$$DESIGN"}
 
-.PHONY: help sim view compare why plan study slurm-test figures report check-report diagrams gallery tables \
+.PHONY: help sim view compare why plan savings study slurm-test figures report check-report diagrams gallery tables \
   check-tables test sanitize fuzz kills mutate prove stability search bounds synth bench build program generator configure \
   setup doctor format check-format clean
 
@@ -89,6 +89,9 @@ why: program ## one pixel stage by stage, golden beside RTL (SCENE, PIXEL)
 plan: program ## the hardware that a scene calls for, and why (SCENE; MEASURE=1: cells and time)
 	@build/halfway plan $(run_options) $(call flag,MEASURE,--measure) $(call option,SIMULATOR,--simulator) \
 	  $(call option,OBJECTS,--objects) $(call option,RATE,--rate) $(call option,THREADS,--threads) $(scene)
+
+savings: program ## what README tells of hardware left out, measured anew and written there: minutes
+	@build/halfway savings $(call option,THREADS,--threads)
 
 study: program ## accuracy against time over the design space (FULL=1; SCENE; ERROR, PSNR, TIME ask; EXECUTOR=slurm)
 	@build/halfway study $${SPACE:+--space "$$SPACE"} $$(case "$$SPACE$${FULL:-0}" in \
@@ -201,7 +204,7 @@ configure: setup
 # `make sanitize`, `make diagrams`, `make check-report` and `make view VIDEO=…`.
 setup:
 	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate synth study,$(MAKECMDGOALS)) \
-	  $(if $(filter gallery,$(MAKECMDGOALS)),study) \
+	  $(if $(filter gallery,$(MAKECMDGOALS)),study) $(if $(filter savings,$(MAKECMDGOALS)),synth) \
 	  $(if $(filter fuzz sanitize,$(MAKECMDGOALS)),fuzz) $(if $(filter check-report diagrams,$(MAKECMDGOALS)),report) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth)) \
 	  $(if $(filter study,$(MAKECMDGOALS)),$(call flag,PLACE,synth)) \
