@@ -47,8 +47,9 @@ TEST_F(ReportCommand, SaysWhatIsMissingAndWhatMakesIt) {
                     HasSubstr(">unrolled_shading_processor: "), Not(HasSubstr("{{"))));
   const auto commit =
       run_process({.arguments = {"git", "-C", HALFWAY_SOURCE_DIR, "describe", "--always", "--tags"}}, "");
-  if (commit && commit->succeeded())
+  if (commit && commit->succeeded()) {
     EXPECT_THAT(page(), HasSubstr("Made at commit " + commit->output.substr(0, commit->output.find('\n'))));
+  }
   EXPECT_THAT(page(), AllOf(Not(HasSubstr("src=\"http")), Not(HasSubstr("url(http"))));
 }
 
