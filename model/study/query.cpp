@@ -45,19 +45,21 @@ struct Scales {
   bool cells;
   bool seconds;  ///< of some
   bool cycles;   ///< besides, because the seconds of others are not known
+  bool host;
 };
 Scales scales_of(std::span<const Offer> offers) {
   const auto timed = [](const Offer& o) { return o.seconds.has_value(); };
   return {.cells = std::ranges::all_of(offers, [](const Offer& o) { return o.cells.has_value(); }),
           .seconds = std::ranges::any_of(offers, timed),
-          .cycles = !std::ranges::all_of(offers, [](const Offer& o) { return o.seconds || !o.fits; })};
+          .cycles = !std::ranges::all_of(offers, [](const Offer& o) { return o.seconds || !o.fits; }),
+          .host = std::ranges::all_of(offers, [](const Offer& o) { return o.host.has_value(); })};
 }
 
 // Cells, time, host: the order of prices is the dictionary's.
 Costs price_of(const Offer& offer, Scales scales) {
   constexpr double c_none = std::numeric_limits<double>::infinity();
   return {scales.cells ? *offer.cells : 0.0, scales.seconds ? offer.seconds.value_or(c_none) : 0.0,
-          scales.cycles || !offer.seconds ? offer.cycles : 0.0, offer.host};
+          scales.cycles || !offer.seconds ? offer.cycles : 0.0, scales.host ? *offer.host : 0.0};
 }
 
 bool accurate_enough(const Offer& offer, const Demand& demand) {
@@ -99,12 +101,18 @@ std::string offer_text(const Offer& o) {
   if (o.cells) text += fmt::format(", {:.0f} cells", *o.cells);
   text += fmt::format(", {:.0f} cycles", o.cycles);
   if (o.seconds) text += fmt::format(" ({})", time_text(*o.seconds));
-  return text + fmt::format(", {:.0f} host evaluations", o.host);
+  if (o.host) text += fmt::format(", {:.0f} host instructions a triangle", *o.host);
+  return text;
 }
 
 const char* time_scale(Scales scales) {
   if (!scales.cycles) return "nanoseconds";
   return scales.seconds ? "cycles, and in nanoseconds where the clock is known" : "cycles";
+}
+
+const char* host_scale(Scales scales) {
+  return scales.host ? "the host's work in instructions a triangle"
+                     : "the host's work not compared: its instructions are not counted (that takes Valgrind)";
 }
 
 // How much more `there` takes than `here`, figure by figure.
@@ -122,7 +130,7 @@ std::string difference_text(const Offer& here, const Offer& there) {
     texts.push_back(fmt::format("{}{} ({:+.3g} %)", *there.seconds < *here.seconds ? '-' : '+',
                                 time_text(std::fabs(*there.seconds - *here.seconds)),
                                 100.0 * (*there.seconds / *here.seconds - 1.0)));
-  add(here.host, there.host, "host evaluations");
+  if (here.host && there.host) add(*here.host, *there.host, "host instructions a triangle");
   return texts.empty() ? "no other cost" : fmt::format("{}", fmt::join(texts, ", "));
 }
 
@@ -172,8 +180,9 @@ std::vector<Market> markets_of(std::span<const Record> records, const HardwareTa
     Offer offer{.record = at,
                 .largest_error = static_cast<double>(measured.picture.max_lsb),
                 .psnr_db = measured.picture.psnr_db,
-                .cycles = static_cast<double>(measured.cycles),
-                .host = static_cast<double>(measured.setup.shaded)};
+                .cycles = static_cast<double>(measured.cycles)};
+    if (measured.host_instructions && measured.triangles > 0)
+      offer.host = static_cast<double>(*measured.host_instructions) / static_cast<double>(measured.triangles);
     std::optional<double> mhz = clock.mhz;
     if (const auto found = hardware.find(measured.hardware); found != hardware.end()) {
       const HardwareFigures& figures = found->second;
@@ -260,8 +269,10 @@ std::string to_text(const Market& market, const Answer& answer, const Demand& de
     text += fmt::format(
         "  {} points would be accurate enough, but no clock of theirs is known (--place, or --clock)\n",
         answer.unknown);
-  return text + fmt::format("  front          {} of {} points of hardware, time in {}\n", answer.front.size(),
-                            market.offers.size(), time_scale(scales_of(market.offers)));
+  const Scales scales = scales_of(market.offers);
+  return text + fmt::format("  front          {} of {} points of hardware, time in {}, {}\n",
+                            answer.front.size(), market.offers.size(), time_scale(scales),
+                            host_scale(scales));
 }
 
 }  // namespace halfway::study

@@ -37,7 +37,8 @@ struct Offer {
   double cycles = 0;              ///< for the frame
   std::optional<double> seconds;  ///< the same at the hardware's clock
   bool fits = true;               ///< else the device that clocks are of has no room for it
-  double host = 0;                ///< evaluations for the frame
+  /// Instructions of the host for each triangle of the scene; none where nothing counted them.
+  std::optional<double> host{};
 };
 
 /// The offers of one picture. Software is none.
@@ -57,6 +58,7 @@ std::vector<Market> markets_of(std::span<const Record> records, const HardwareTa
 /// Largest error, PSNR, cells, time and host, as costs. Cells count where they are known of all. Time is in
 /// seconds where they are known of all that fit the device, and what does not is slower than that, among its
 /// like by cycles; else it is in cycles for all, and in seconds besides for those of which they are known.
+/// The host counts where its instructions are known of all.
 std::vector<Costs> costs_of(std::span<const Offer> offers);
 
 /// Numbers of offers. All but `fastest` and `best` are on the front.
