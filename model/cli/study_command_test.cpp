@@ -67,7 +67,7 @@ TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
   // In three channels, which no pinned clock is of.
   const Outcome timed = study({"spheres", "--time", "1s"});
   EXPECT_EQ(timed.exit_code, 1) << timed.output;
-  EXPECT_THAT(timed.output, HasSubstr("2 points would be accurate enough, but no clock of theirs is known"));
+  EXPECT_THAT(timed.output, HasSubstr("2 points might be fast enough, but no clock of theirs is known"));
   const Outcome fast = study({"--time", "1s", "--clock", "50"});
   EXPECT_EQ(fast.exit_code, 0) << fast.output;
   EXPECT_THAT(fast.output, AllOf(HasSubstr("cheapest       quadratic exact"), HasSubstr("us)"),

@@ -129,6 +129,14 @@ TEST_P(RandomMarket, AnswersAreWhatTheyAreCalled) {
       }
       EXPECT_THAT(found->front, Contains(*found->cheaper));
     }
+    // Each step is dearer than the one before, and better; the last is the best.
+    ASSERT_FALSE(found->steps.empty());
+    for (std::size_t i = 1; i < found->steps.size(); ++i) {
+      const Offer &before = offers[found->steps[i - 1]], &after = offers[found->steps[i]];
+      EXPECT_LE(*before.cells, *after.cells);
+      EXPECT_TRUE(better(after, before));
+    }
+    EXPECT_FALSE(better(offers[*found->best], offers[found->steps.back()]));
   }
   EXPECT_GT(met, 100);
   EXPECT_GT(missed, 100);
@@ -181,18 +189,26 @@ TEST_F(QueryTest, HasAMarketAPictureAndNoSoftwareInIt) {
 }
 
 TEST_F(QueryTest, TellsTheCheapestItsNeighboursAndTheNextStepsCost) {
-  EXPECT_EQ(ask({.largest_error = 2.0}),
-            "320x240: largest error at most 2/255\n"
-            "  cheapest       adaptive exact, threshold 2: largest error 2/255, PSNR 59.00 dB, 2000 cells, "
-            "1010 cycles, 18208 host instructions a triangle\n"
-            "  cheaper        quadratic exact: largest error 42/255, PSNR 39.00 dB, 2000 cells, 1000 cycles, "
-            "6360 host instructions a triangle; -10 cycles (-0.99 %), -11848 host instructions a triangle "
-            "(-65.1 %)\n"
-            "  more accurate  processors-2 exact: largest error 1/255, PSNR 59.50 dB, 10000 cells, "
-            "1005 cycles, 5000 host instructions a triangle; +8000 cells (+400 %), -5 cycles (-0.495 %), "
-            "-13208 host instructions a triangle (-72.5 %)\n"
-            "  front          3 of 3 points of hardware, time in cycles, the host's work in instructions a "
-            "triangle\n");
+  EXPECT_EQ(
+      ask({.largest_error = 2.0}),
+      "320x240: largest error at most 2/255\n"
+      "  cheapest       adaptive exact, threshold 2: largest error 2/255, PSNR 59.00 dB, 2000 cells, "
+      "1010 cycles, 18208 host instructions a triangle\n"
+      "  cheaper        quadratic exact: largest error 42/255, PSNR 39.00 dB, 2000 cells, 1000 cycles, "
+      "6360 host instructions a triangle; -10 cycles (-0.99 %), -11848 host instructions a triangle "
+      "(-65.1 %)\n"
+      "  more accurate  processors-2 exact: largest error 1/255, PSNR 59.50 dB, 10000 cells, "
+      "1005 cycles, 5000 host instructions a triangle; +8000 cells (+400 %), -5 cycles (-0.495 %), "
+      "-13208 host instructions a triangle (-72.5 %)\n"
+      "  looked at      3 points of hardware; turned: method; not turned: preset, fraction_bits, threshold, "
+      "form, seed_bits, newton\n"
+      "  front          3 of 3 points of hardware, time in cycles, the host's work in instructions a "
+      "triangle\n"
+      "  of it what is more accurate (by largest error) than all that is cheaper:\n"
+      "  error/255 PSNR, dB     cells    cycles       time host/triangle  design\n"
+      "         42    39.00      2000      1000          -          6360  quadratic exact\n"
+      "          2    59.00      2000      1010          -         18208  adaptive exact, threshold 2\n"
+      "          1    59.50     10000      1005          -          5000  processors-2 exact\n");
 }
 
 TEST_F(QueryTest, TakesTimeByTheClockAlone) {
@@ -237,15 +253,52 @@ TEST_F(QueryTest, TellsTheBestOfWhatIsNotEnough) {
   const std::string text = ask({.largest_error = 0.0});
   EXPECT_THAT(text,
               HasSubstr("none of 3 points of hardware meets it\n  most accurate  processors-2 exact: "));
-  EXPECT_THAT(text, HasSubstr("  fastest        quadratic exact: "));
+  EXPECT_THAT(text, AllOf(HasSubstr("  fewest cycles  quadratic exact: "), Not(HasSubstr("fastest"))));
+  // Faster than another is only what has a time.
+  hardware_["processors"].mhz = 50.0;
+  EXPECT_THAT(ask({.largest_error = 0.0}),
+              AllOf(HasSubstr("  fastest        processors-2 exact: "),
+                    HasSubstr("; of those whose clock is known\n  fewest cycles  quadratic exact: ")));
+  hardware_["quadratic"].mhz = 60.0;
+  EXPECT_THAT(ask({.largest_error = 0.0}),
+              AllOf(HasSubstr("  fastest        quadratic exact: "), Not(HasSubstr("fewest cycles"))));
   EXPECT_THAT(ask({.largest_error = 1.0}), HasSubstr("  more accurate  nothing is\n"));
+}
+
+// With a time alone to meet, any accuracy is enough: the best that there is in it is told, too.
+TEST_F(QueryTest, TellsTheMostAccurateInATime) {
+  const std::string text = ask({.seconds = 10.07e-6}, {100.0});
+  EXPECT_THAT(text, HasSubstr("  cheapest       quadratic exact: "));
+  EXPECT_THAT(text, HasSubstr("  most accurate  processors-2 exact: "));
+  EXPECT_THAT(text, HasSubstr("; +8000 cells (+400 %), +5 cycles"));
+  EXPECT_THAT(ask({.seconds = 10.02e-6}, {100.0}), HasSubstr("  most accurate  quadratic exact: "));
+  EXPECT_THAT(ask({.seconds = 1.0}), HasSubstr("  3 points might be fast enough, but no clock"));
+}
+
+TEST_F(QueryTest, TellsWhichKnobsWereTurned) {
+  const auto more = [&](const DesignPoint& point) { add(point, "quadratic", 3, 1000, 63600); };
+  more({.method = Method::spherical});
+  more({.method = Method::spherical, .tables = TableSize{6, 8}});
+  more({.method = Method::adaptive, .threshold = 4.0});
+  const auto markets = markets_of(records_, hardware_, {});
+  const auto text = ask({.largest_error = 2.0});
+  EXPECT_THAT(
+      text, HasSubstr("looked at      6 points of hardware; turned: method, threshold, address_bits, "
+                      "data_bits; not turned: preset, fraction_bits, form, seed_bits, newton, angle_bits\n"));
+}
+
+TEST_F(QueryTest, WithoutADemandTellsTheFront) {
+  const std::string text = ask({});
+  EXPECT_THAT(text, AllOf(::testing::StartsWith("320x240\n  front          3 of 3 points"),
+                          HasSubstr("  processors-2 exact\n"), Not(HasSubstr("looked at")),
+                          Not(HasSubstr("cheapest"))));
 }
 
 TEST_F(QueryTest, WithoutCellsGoesByCyclesAndHost) {
   hardware_.clear();
   const std::string text = ask({.largest_error = 2.0});
   EXPECT_THAT(text, HasSubstr("cheapest       processors-2 exact"));
-  EXPECT_THAT(text, Not(HasSubstr("cells")));
+  EXPECT_THAT(text, Not(HasSubstr(" cells,")));
 }
 
 // Evaluations of one shader are not another's, and a count that one lacks compares nothing.
