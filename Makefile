@@ -94,8 +94,8 @@ savings: program ## what README tells of hardware left out, measured anew and wr
 	@build/halfway savings $(call option,THREADS,--threads)
 
 study: program ## accuracy against time over the design space (FULL=1; SCENE; ERROR, PSNR, TIME ask; EXECUTOR=slurm)
-	@build/halfway study $${SPACE:+--space "$$SPACE"} $$(case "$$SPACE$${FULL:-0}" in \
-	  0) ;; 1) echo --space sim/studies/full.toml ;; esac) $(call option,SIZE,--size) $(call option,TILE,--tile) $(call option,ERROR,--error) \
+	@case "$${SPACE:+$${FULL#0}}" in ('') ;; (*) echo 'study: FULL is a space, too; give it or SPACE' >&2; exit 2 ;; esac
+	@build/halfway study $${SPACE:+--space "$$SPACE"} $(call flag,FULL,--space sim/studies/full.toml) $(call option,SIZE,--size) $(call option,TILE,--tile) $(call option,ERROR,--error) \
 	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) \
 	  $(call option,EXECUTOR,--executor) $(call option,PARTS,--parts) $(call option,THREADS,--threads) \
 	  $(call option,OUT,--out) $(scene)
@@ -126,7 +126,7 @@ diagrams: setup ## the shaders' block diagrams in rtl/diagrams, drawn from their
 gallery: program ## the pictures in sim/gallery, drawn anew by the RTL; README.md's front, measured anew
 	@scripts/gallery.sh build/gallery
 	@build/halfway study --out build/gallery/study $(call option,THREADS,--threads)
-	@build/halfway report --study build/gallery/study --front sim/gallery
+	@build/halfway report --study build/gallery/study --front sim/gallery --readme README.md
 
 tables: generator ## write ROMs and formats anew
 	@build/halfway_generator tables $(table_options)

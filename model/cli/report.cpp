@@ -6,6 +6,7 @@
 
 #include "cli/options.hpp"
 #include "common/file.hpp"
+#include "common/page_part.hpp"
 #include "report/front.hpp"
 
 namespace halfway::cli {
@@ -16,8 +17,19 @@ struct ReportCommand {
   std::string results = "build/out", study = "build/study";
   std::optional<std::string> figures;  ///< none: those of the last make figures, or the checkout's
   bool no_timing = false;
-  std::string front;  ///< a folder for the front, and no page
+  std::string front;   ///< a folder for the front, and no page
+  std::string readme;  ///< with it: the page whose part "front" it writes
 };
+
+Status tell_front(const report::Table& front, const std::string& readme) {
+  const auto page = read_file(readme);
+  if (!page) return page.error();
+  const auto words = report::readme_front(front);
+  if (!words) return words.error();
+  const auto told = with_page_part(*page, "front", *words);
+  if (!told) return Error{told.error().code, readme + ": " + told.error().message};
+  return write_file(readme, *told);
+}
 
 int write_front(const ReportCommand& command) {
   const auto study = report::read_csv(std::filesystem::path(command.study) / "study.csv");
@@ -28,6 +40,9 @@ int write_front(const ReportCommand& command) {
   if (!designs) return report(designs.error());
   if (*designs == 0)
     return report(bad_input(command.study + ": no design in it has both a cost and an error; make study"));
+  if (!command.readme.empty())
+    if (Status told = tell_front(report::front_of(*study), command.readme); !told)
+      return report(told.error());
   fmt::print("{}: the front of {} designs\n", (std::filesystem::path(command.front) / "front.svg").string(),
              *designs);
   return 0;
@@ -71,6 +86,7 @@ void add_report(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option(
       "--front", command->front,
       "folder for front.svg and front.csv, the plot of a study's error against cells, and no page");
+  sub->add_option("--readme", command->readme, "with --front: a page whose part \"front\" is written anew");
   sub->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });
 }
 

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <shared_mutex>
 #include <thread>
 
 #include "cli/options.hpp"
 #include "common/file.hpp"
+#include "common/interruption.hpp"
 #include "common/subprocess.hpp"
 #include "scene/load_scene.hpp"
 #include "sim/synth/synthesis.hpp"
@@ -69,6 +71,7 @@ Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
       (std::sscanf(command.part.c_str(), "%zu/%zu", &settings.part, &settings.parts) != 2 ||
        settings.part >= settings.parts))
     return bad_input("--part: '" + command.part + "' is no part; take I/N, I from 0 to N - 1");
+  if (command.parts == 0) return bad_input("--parts: takes 1 or more");
   settings.scene = command.scene.empty() ? (studies / "sphere.toml").string() : command.scene;
   settings.out = command.out;
   settings.threads =
@@ -179,7 +182,7 @@ Status run_on_slurm(study::StudySettings settings, const Folders& folders, const
   return Ok{};
 }
 
-// The table, and the answer to what was asked of each picture.
+// The table, and the answer to what was asked of each picture, or the front of the main one.
 int conclude(const StudyPlan& plan, const study::Study& made, const study::HardwareTable& hardware,
              study::Clock clock) {
   const std::vector<study::Market> markets = study::markets_of(made.records, hardware, clock);
@@ -189,14 +192,21 @@ int conclude(const StudyPlan& plan, const study::Study& made, const study::Hardw
       plan.settings.out / (plan.demand.any() ? c_question_table : c_study_table);
   if (Status written = write_file(table, *csv); !written) return report(written.error());
   fmt::print("{}: {} points, {} measured anew\n", table.string(), made.records.size(), made.measured);
-  bool met = true;
-  for (const study::Market& market : markets) {
-    const auto answer = study::answer(market.offers, plan.demand);
-    if (!answer) return report(answer.error());
-    if (!plan.demand.any()) continue;
-    fmt::print("{}", study::to_text(market, *answer, plan.demand, made.records));
-    met = met && answer->cheapest;
+  if (plan.demand.any() && markets.empty()) {
+    fmt::print("nothing meets it: none of the points is hardware\n");
+    return static_cast<int>(ExitCode::differs);
   }
+  // Of a study's fronts the one that most of its hardware is held against.
+  const auto main = std::ranges::max_element(markets, {}, [](const auto& m) { return m.offers.size(); });
+  bool met = true;
+  for (auto market = markets.begin(); market != markets.end(); ++market) {
+    const auto answer = study::answer(market->offers, plan.demand);
+    if (!answer) return report(answer.error());
+    if (plan.demand.any() || market == main)
+      fmt::print("{}", study::to_text(*market, *answer, plan.demand, made.records));
+    met = met && (!plan.demand.any() || answer->cheapest);
+  }
+  if (!plan.demand.any()) fmt::print("make report draws it\n");
   return static_cast<int>(met ? ExitCode::equal : ExitCode::differs);
 }
 
@@ -219,7 +229,16 @@ int run(const Folders& folders, const StudyCommand& command) {
     progress.clear();
     say(fmt::format("{}{}", study::c_note, note));
   };
+  std::optional<Interruption> interruption;
+  if (command.part.empty())
+    interruption.emplace([&] {
+      say(fmt::format("\nbroken off; what was measured is kept in {}, and the same command goes on there",
+                      (settings.out / "points").string()));
+    });
   const auto study = study::run_study(settings);
+  // Never had again once a signal has come: what it broke off is no error.
+  std::shared_lock<std::shared_timed_mutex> writing;
+  if (interruption) writing = interruption->writing();
   progress.clear();
   if (!study) return report(study.error());
   if (!command.part.empty()) {

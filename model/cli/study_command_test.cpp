@@ -41,6 +41,7 @@ TEST_F(StudyCommandTest, RefusesWhatIsNoQuestion) {
       {{"--size", "huge"}, "--size: 'huge'"},
       {{"--executor", "cloud"}, "--executor: 'cloud'"},
       {{"--part", "3/3"}, "--part: '3/3'"},
+      {{"--executor", "slurm", "--parts", "0"}, "--parts: takes 1 or more"},
       {{"no-such-scene"}, "no-such-scene"}};
   for (const auto& [arguments, message] : cases) {
     const Outcome outcome = study(arguments);
@@ -67,11 +68,34 @@ TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
   // In three channels, which no pinned clock is of.
   const Outcome timed = study({"spheres", "--time", "1s"});
   EXPECT_EQ(timed.exit_code, 1) << timed.output;
-  EXPECT_THAT(timed.output, HasSubstr("2 points would be accurate enough, but no clock of theirs is known"));
+  EXPECT_THAT(timed.output, HasSubstr("2 points might be fast enough, but no clock of theirs is known"));
   const Outcome fast = study({"--time", "1s", "--clock", "50"});
   EXPECT_EQ(fast.exit_code, 0) << fast.output;
   EXPECT_THAT(fast.output, AllOf(HasSubstr("cheapest       quadratic exact"), HasSubstr("us)"),
                                  Not(HasSubstr("no clock"))));
+}
+
+TEST_F(StudyCommandTest, SoftwareAloneMeetsNoDemand) {
+  ASSERT_TRUE(write_file(folder_->path() / "software.toml",
+                         "[[sweep]]\nmethod = [\"phong\", \"gouraud\"]\nsize = \"80x60\"\n"));
+  const Outcome asked = run({"study", "--space", "software.toml", "--out", "out", "--error", "200"});
+  EXPECT_EQ(asked.exit_code, 1) << asked.output;
+  EXPECT_THAT(asked.output, HasSubstr("nothing meets it: none of the points is hardware"));
+  const Outcome made = run({"study", "--space", "software.toml", "--out", "out"});
+  EXPECT_EQ(made.exit_code, 0) << made.output;
+}
+
+// Of several pictures the one with most hardware.
+TEST_F(StudyCommandTest, EndsWithTheFrontOfItsMainPicture) {
+  ASSERT_TRUE(write_file(folder_->path() / "two.toml",
+                         "[[sweep]]\nmethod = \"quadratic\"\nsize = \"80x60\"\n"
+                         "[[sweep]]\nmethod = [\"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
+  const Outcome made = run({"study", "--space", "two.toml", "--out", "out"});
+  EXPECT_EQ(made.exit_code, 0) << made.output;
+  EXPECT_THAT(made.output,
+              AllOf(HasSubstr("160x120\n  front          2 of 2 points"), HasSubstr("  quadratic exact\n"),
+                    HasSubstr("  adaptive exact, threshold 2\n"), HasSubstr("make report draws it"),
+                    Not(HasSubstr("80x60\n"))));
 }
 
 // The table that the report shows is the study's; the question's has its points, from the same records.

@@ -14,6 +14,8 @@ namespace halfway {
 
 // What that library has; the same compiler makes both sides.
 extern "C" {
+/// Of OpenImageIO, such as `OpenImageIO 2.4.7`.
+void halfway_image_versions(std::string& text);
 /// A whole PNG. `path` is for messages.
 void halfway_encode_png(const std::string& path, const Frame& frame, bool quick,
                         Result<std::vector<unsigned char>>& bytes);
@@ -26,6 +28,7 @@ long halfway_seen_by_yee(const std::vector<float>& a, const std::vector<float>& 
 }
 
 struct ImageLibrary {
+  decltype(&halfway_image_versions) versions = nullptr;
   decltype(&halfway_encode_png) encode_png = nullptr;
   decltype(&halfway_decode_png) decode_png = nullptr;
   decltype(&halfway_seen_by_yee) seen_by_yee = nullptr;

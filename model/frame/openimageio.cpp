@@ -89,6 +89,11 @@ void halfway_decode_png(const std::string& path, Result<Frame>& frame) {
   frame = decoded(path);
 }
 
+void halfway_image_versions(std::string& text) {
+  const int version = OIIO::openimageio_version();
+  text = fmt::format("OpenImageIO {}.{}.{}", version / 10000, version / 100 % 100, version % 100);
+}
+
 long halfway_seen_by_yee(const std::vector<float>& a, const std::vector<float>& b, FrameSize size,
                          float luminance, float field) {
   OIIO::ImageBufAlgo::CompareResults results;

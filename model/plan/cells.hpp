@@ -45,6 +45,8 @@ class CellCounter {
 
   /// Synthesizes the flattened netlist, or takes its figures from the cache. Threads may call it at once.
   Result<Cells> count(const HardwareKey& key) const;
+  /// Of Yosys, as it says it.
+  const std::string& version() const { return version_; }
 
  private:
   CellCounter(std::string version, GhdlLibrary library, std::filesystem::path cache)

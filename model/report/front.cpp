@@ -2,10 +2,12 @@
 #include "report/front.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 
 #include "common/file.hpp"
 
@@ -96,6 +98,49 @@ Result<std::string> draw_front(const Table& front, const std::filesystem::path& 
   const Plot plot = plot_of(front);
   if (plot.points.empty()) return bad_input("front: no design has both a cost and an error to plot");
   return draw_plot(plot, scratch);
+}
+
+Result<std::string> readme_front(const Table& front) {
+  const Plot plot = plot_of(front);
+  for (const PlotPoint& point : plot.points)
+    if (!front.number(point.number, c_cells))
+      return bad_input("front: not all cells are counted; install Yosys");
+  if (plot.front.size() < 2) return bad_input("front: no two designs to join");
+  const auto name = [&](const PlotPoint& point) {
+    const std::string& text = front.text(point.number, "point");
+    return text.substr(0, text.find(fmt::format(", {}x{}", front.text(point.number, "width"),
+                                                front.text(point.number, "height"))));
+  };
+  const auto all = [&](const auto& which) {
+    std::vector<std::string> names;
+    for (const PlotPoint& point : plot.points)
+      if (which(point)) names.push_back(name(point));
+    return fmt::format("{}", fmt::join(names, " and "));
+  };
+  std::vector<std::string> joined, hidden;
+  for (const std::pair<double, double>& corner : plot.front)
+    joined.push_back(fmt::format("{} ({} cells, {:.3g})",
+                                 all([&](const PlotPoint& p) { return std::pair(p.x, p.y) == corner; }),
+                                 corner.first, corner.second));
+  for (std::size_t at = 0; at < plot.points.size(); ++at) {
+    const PlotPoint& here = plot.points[at];
+    const auto same = [&](const PlotPoint& p) { return p.x == here.x && p.y == here.y; };
+    const auto others = std::span(plot.points).first(at);
+    if (std::ranges::find_if(others, same) == others.end() &&
+        std::ranges::count_if(plot.points,
+                              [&](const PlotPoint& p) { return same(p) && p.series != here.series; }) > 0)
+      hidden.push_back(all(same));
+  }
+  return fmt::format(
+      "![Rms error against cells, a point for each of {} designs](sim/gallery/front.svg)\n\n"
+      "*What accuracy costs: {} designs that draw one picture. The dashed line joins those that no other "
+      "beats "
+      "in both, cells and\nrms error in steps of 1/255:\n{}.{}\nDrawn from [its "
+      "table](sim/gallery/front.csv), "
+      "which `make gallery` measures anew; `make report` has this plot and others, with\npoints that "
+      "open.*\n",
+      plot.points.size(), plot.points.size(), fmt::join(joined, ";\n"),
+      hidden.empty() ? "" : fmt::format("\nOne mark for equal figures: {}.", fmt::join(hidden, "; ")));
 }
 
 Result<std::size_t> write_front(const Table& study, const std::filesystem::path& folder,

@@ -29,6 +29,8 @@ Table front_of(const Table& study);
 /// Error against cells, or where they were not counted against clocks, as an SVG. Bad input where there is
 /// nothing to plot.
 Result<std::string> draw_front(const Table& front, const std::filesystem::path& scratch);
+/// README's part "front": the picture with what its line joins, in words. Bad input where not all is counted.
+Result<std::string> readme_front(const Table& front);
 /// Writes front.csv and, drawn from it, front.svg; neither where there is nothing to plot. How many designs.
 Result<std::size_t> write_front(const Table& study, const std::filesystem::path& folder,
                                 const std::filesystem::path& scratch);

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "common/file.hpp"
+#include "common/page_part.hpp"
 #include "common/subprocess.hpp"
 #include "plan/cells.hpp"
 #include "scene/load_scene.hpp"
@@ -69,12 +70,24 @@ TEST_F(FrontTest, PlotsThePictureThatMostDesignsDraw) {
             (std::vector<std::pair<double, double>>{{100, 8}, {200, 2}}));
   EXPECT_EQ(lower_left({{.x = 50, .y = 1, .aside = true}, {200, 2}}),
             (std::vector<std::pair<double, double>>{{200, 2}}));
+  // README's words: what the line joins, and what lies under another mark.
+  const auto words = readme_front(front);
+  ASSERT_TRUE(words) << words.error().message;
+  EXPECT_THAT(*words,
+              AllOf(HasSubstr("each of 3 designs"), HasSubstr("1/255:\nq (100 cells, 8);\ns (200 cells, 2)."),
+                    Not(HasSubstr("dear")), Not(HasSubstr("One mark"))));
+  std::string equal = c_study;
+  equal += "twin,adaptive,exact,7,20,q,100,10,8,h\n";
+  EXPECT_THAT(
+      *readme_front(front_of(read(equal))),
+      AllOf(HasSubstr("q and twin (100 cells, 8)"), HasSubstr("One mark for equal figures: q and twin.")));
   // A count that is missing takes cells off the axis.
   std::string uncounted = c_study;
   uncounted.replace(uncounted.find(",300,"), 5, ",,");
   const auto clocks = draw_front(front_of(read(uncounted)), here());
   ASSERT_TRUE(clocks) << clocks.error().message;
   EXPECT_THAT(*clocks, HasSubstr("clocks of the frame"));
+  EXPECT_FALSE(readme_front(front_of(read(uncounted))));
   EXPECT_FALSE(draw_front(front_of(read("point,method\n")), here()));
 }
 
@@ -110,6 +123,15 @@ TEST_F(GalleryFront, IsDrawnFromItsTable) {
   };
   if (gnuplot(*drawn) != gnuplot(*svg)) GTEST_SKIP() << "drawn by " << gnuplot(*drawn);
   EXPECT_TRUE(*drawn == *svg) << c_anew;
+}
+
+TEST_F(GalleryFront, IsWhatReadmeSays) {
+  const auto readme = read_file(c_source / "README.md");
+  ASSERT_TRUE(readme) << readme.error().message;
+  const auto part = page_part(*readme, "front"), told = readme_front(front_);
+  ASSERT_TRUE(part) << part.error().message;
+  ASSERT_TRUE(told) << told.error().message;
+  EXPECT_EQ(*part, *told) << c_anew;
 }
 
 TEST_F(GalleryFront, IsOfTheCheckoutsDesigns) {

@@ -86,6 +86,26 @@ TEST_F(SpaceTest, HasWordLengthsWhereTheyMeanSomething) {
               HasSubstr("space.toml:3: fraction_bits takes numbers from 2 to 40"));
 }
 
+// What questions are answered by turns the tables' lengths; the whole space turns every knob that any other
+// does, word lengths among them.
+TEST(Spaces, HoldWhatTheyPromise) {
+  const std::filesystem::path studies = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/studies";
+  const auto designs_of = [&](const char* file) {
+    const auto points = read_space(studies / file);
+    EXPECT_TRUE(points) << points.error().message;
+    std::set<std::string> designs;
+    for (const DesignPoint& point : *points) designs.insert(point.design());
+    return designs;
+  };
+  const auto asked = designs_of("designs.toml"), full = designs_of("full.toml");
+  EXPECT_THAT(asked,
+              ::testing::IsSupersetOf({"spherical exact 8x7, threshold 8", "spherical exact 6x6, threshold 8",
+                                       "spherical exact, threshold 8", "spherical published 4x4"}));
+  for (const char* file : {"words.toml", "small.toml"})
+    for (const std::string& design : designs_of(file))
+      EXPECT_TRUE(full.contains(design)) << file << ": " << design;
+}
+
 TEST_F(SpaceTest, TellsFileAndLineOfWhatItCannotTake) {
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nexponent = 0.5\n"),
               HasSubstr("space.toml:3: exponent takes numbers from 1"));

@@ -118,14 +118,21 @@ Status do_all(std::size_t count, const FiguresOptions& options, const std::strin
 Result<PinnedClocks> pinned_clocks(const SimulatorFolders& folders) {
   const auto pins = synth::read_pins(folders.source / synth::kPins);
   if (!pins) return pins.error();
-  PinnedClocks clocks;
+  auto tools = synth::pin_versions(folders.source / synth::kPins);
+  if (!tools) return tools.error();
+  PinnedClocks clocks{{}, std::move(*tools)};
   for (const auto& [name, pin] : *pins)
-    if (!pin.netlist.empty() && pin.mhz > 0) clocks[pin.netlist] = pin.mhz;
+    if (!pin.netlist.empty() && pin.mhz > 0) clocks.mhz[pin.netlist] = pin.mhz;
   return clocks;
 }
 
+void add_tools(HardwareFigures& figures, const std::string& tools) {
+  if (!figures.tools.empty() && !tools.empty()) figures.tools += ", ";
+  figures.tools += tools;
+}
+
 Status take_pinned(const HardwareSource& source, const PinnedClocks& clocks, HardwareFigures& figures) {
-  if (clocks.empty()) return Ok{};
+  if (clocks.mhz.empty()) return Ok{};
   const auto tool = GhdlTool::find();
   if (!tool) return tool.error();
   const auto sources = read_rtl_sources(source.folders.source);
@@ -134,9 +141,10 @@ Status take_pinned(const HardwareSource& source, const PinnedClocks& clocks, Har
   if (!library) return library.error();
   const auto hash = synth::netlist_hash(*library, source.design());
   if (!hash) return hash.error();
-  if (const auto found = clocks.find(*hash); found != clocks.end()) {
+  if (const auto found = clocks.mhz.find(*hash); found != clocks.mhz.end()) {
     figures.mhz = found->second;
     figures.clock = "pinned";
+    if (!clocks.tools.empty()) add_tools(figures, "pinned with " + clocks.tools);
   }
   return Ok{};
 }
@@ -147,6 +155,7 @@ Status count_cells(const HardwareSource& source, HardwareFigures& figures) {
   const auto cells = counter->count(source.hardware.key);
   if (!cells) return cells.error();
   figures.cells = *cells;
+  add_tools(figures, "cells by " + counter->version().substr(0, counter->version().find('\n')));
   return Ok{};
 }
 
@@ -171,6 +180,7 @@ Result<std::optional<synth::Synthesizer>> placer_of(const HardwareSource& source
     const auto cells = synthesizer->ice40(source.design());
     if (!cells) return cells.error();
     figures.ice40 = *cells;
+    add_tools(figures, "placed with " + synthesizer->versions());
     auto told = synthesizer->no_room(source.design());
     if (!told) return told.error();
     no_room = std::move(*told);
@@ -273,7 +283,7 @@ Result<Placements> Placements::open(const std::string& scene, std::span<const De
   if (!synthesizer) return synthesizer.error();
   ContentHash made_by;
   made_by.add("placed 1").add(synth::flow_hash()).add(rtl).add(synthesizer->versions());
-  for (const auto& [netlist, mhz] : *pinned) made_by.add(netlist);
+  for (const auto& [netlist, mhz] : pinned->mhz) made_by.add(netlist);
   placements.pinned_ = std::move(*pinned);
   placements.made_by_ = made_by.hex();
   placements.marks_ = folders.cache / "placed";

@@ -61,6 +61,8 @@ struct HardwareFigures {
   std::optional<synth::Ice40Cells> ice40;
   /// The device has no room for it: it never has a clock there.
   bool fits = true;
+  /// Versions of what all that is by, such as `pinned with nextpnr-ice40 0.4, cells by Yosys 0.23`.
+  std::string tools{};
 };
 /// By the key's name.
 using HardwareTable = std::map<std::string, HardwareFigures>;
@@ -69,7 +71,10 @@ using HardwareTable = std::map<std::string, HardwareFigures>;
 double cell_count(const Cells& cells);
 
 /// By the hash of the netlist that each is of.
-using PinnedClocks = std::map<std::string, double>;
+struct PinnedClocks {
+  std::map<std::string, double> mhz;
+  std::string tools;  ///< that they were placed with
+};
 
 struct FiguresOptions {
   unsigned threads = 1;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/file.hpp"
+#include "sim/synth/pinned.hpp"
 #include "study/pictures.hpp"
 #include "study/study.hpp"
 
@@ -131,7 +132,11 @@ TEST_F(HardwareFiguresTest, AClockIsThePinnedOneOfTheSameNetlistAlone) {
   const HardwareFigures pinned = figures(true);
   EXPECT_EQ(pinned.mhz, 87.5);
   EXPECT_EQ(pinned.clock, "pinned");
+  EXPECT_EQ(pinned.tools, "cells by Yosys 0.23");
   EXPECT_EQ(placements(), 0U);
+  ASSERT_TRUE(synth::write_pins(folders_.source / "tb/synth/pinned.txt",
+                                {{"any", {{1, 2, 3, 4}, 87.5, *hash}}}, "Placer 1, Router 2.5"));
+  EXPECT_EQ(figures(false).tools, "pinned with Placer 1, Router 2.5, cells by Yosys 0.23");
   std::string other = *hash;
   other[0] = other[0] == '0' ? '1' : '0';
   pin(flow + fmt::format("any 1 2 3 4 87.5 {}\n", other));
@@ -147,6 +152,8 @@ TEST_F(HardwareFiguresTest, AClockIsTheMedianOfAllSeedsAndIsKept) {
   EXPECT_EQ(placed.clock, "placed");
   EXPECT_TRUE(placed.fits);
   EXPECT_EQ(placed.ice40, (synth::Ice40Cells{.luts = 30, .flip_flops = 4}));
+  EXPECT_THAT(placed.tools, ::testing::MatchesRegex(
+                                "cells by Yosys 0.23, placed with GHDL .*, Yosys 0.23, nextpnr-ice40 0.4"));
   EXPECT_EQ(placements(), synth::kSeeds);
   EXPECT_EQ(figures(true).mhz, 102.0);
   EXPECT_EQ(placements(), synth::kSeeds);

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace halfway::study {
@@ -45,19 +46,21 @@ struct Scales {
   bool cells;
   bool seconds;  ///< of some
   bool cycles;   ///< besides, because the seconds of others are not known
+  bool host;
 };
 Scales scales_of(std::span<const Offer> offers) {
   const auto timed = [](const Offer& o) { return o.seconds.has_value(); };
   return {.cells = std::ranges::all_of(offers, [](const Offer& o) { return o.cells.has_value(); }),
           .seconds = std::ranges::any_of(offers, timed),
-          .cycles = !std::ranges::all_of(offers, [](const Offer& o) { return o.seconds || !o.fits; })};
+          .cycles = !std::ranges::all_of(offers, [](const Offer& o) { return o.seconds || !o.fits; }),
+          .host = std::ranges::all_of(offers, [](const Offer& o) { return o.host.has_value(); })};
 }
 
 // Cells, time, host: the order of prices is the dictionary's.
 Costs price_of(const Offer& offer, Scales scales) {
   constexpr double c_none = std::numeric_limits<double>::infinity();
   return {scales.cells ? *offer.cells : 0.0, scales.seconds ? offer.seconds.value_or(c_none) : 0.0,
-          scales.cycles || !offer.seconds ? offer.cycles : 0.0, offer.host};
+          scales.cycles || !offer.seconds ? offer.cycles : 0.0, scales.host ? *offer.host : 0.0};
 }
 
 bool accurate_enough(const Offer& offer, const Demand& demand) {
@@ -99,12 +102,18 @@ std::string offer_text(const Offer& o) {
   if (o.cells) text += fmt::format(", {:.0f} cells", *o.cells);
   text += fmt::format(", {:.0f} cycles", o.cycles);
   if (o.seconds) text += fmt::format(" ({})", time_text(*o.seconds));
-  return text + fmt::format(", {:.0f} host evaluations", o.host);
+  if (o.host) text += fmt::format(", {:.0f} host instructions a triangle", *o.host);
+  return text;
 }
 
 const char* time_scale(Scales scales) {
   if (!scales.cycles) return "nanoseconds";
   return scales.seconds ? "cycles, and in nanoseconds where the clock is known" : "cycles";
+}
+
+const char* host_scale(Scales scales) {
+  return scales.host ? "the host's work in instructions a triangle"
+                     : "the host's work not compared: its instructions are not counted (that takes Valgrind)";
 }
 
 // How much more `there` takes than `here`, figure by figure.
@@ -122,8 +131,79 @@ std::string difference_text(const Offer& here, const Offer& there) {
     texts.push_back(fmt::format("{}{} ({:+.3g} %)", *there.seconds < *here.seconds ? '-' : '+',
                                 time_text(std::fabs(*there.seconds - *here.seconds)),
                                 100.0 * (*there.seconds / *here.seconds - 1.0)));
-  add(here.host, there.host, "host evaluations");
+  if (here.host && there.host) add(*here.host, *there.host, "host instructions a triangle");
   return texts.empty() ? "no other cost" : fmt::format("{}", fmt::join(texts, ", "));
+}
+
+struct Knob {
+  const char* name;  // a space's key
+  std::string value;
+};
+
+// What sets designs apart. A key that means nothing for a design is not among its own.
+std::vector<Knob> knobs_of(const DesignPoint& p) {
+  const auto told = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
+  std::vector<Knob> knobs = {{"method", to_string(p.method)}, {"preset", to_string(p.preset)}};
+  switch (p.method) {
+    case Method::quadratic:
+    case Method::adaptive:
+      knobs.push_back({"fraction_bits", told(p.words.fraction_bits)});
+      break;
+    case Method::spherical:
+      knobs.push_back({"address_bits", p.tables ? std::to_string(p.tables->address_bits) : ""});
+      knobs.push_back({"data_bits", p.tables ? std::to_string(p.tables->data_bits) : ""});
+      knobs.push_back({"angle_bits", told(p.words.angle_bits)});
+      break;
+    case Method::processors_1:
+    case Method::processors_2:
+      knobs.push_back({"form", to_string(p.form)});
+      knobs.push_back({"seed_bits", told(p.words.seed_bits)});
+      knobs.push_back({"newton", told(p.words.newton)});
+      break;
+    case Method::phong:
+    case Method::gouraud:
+      break;
+  }
+  if (p.has_threshold()) knobs.push_back({"threshold", fmt::format("{:g}", p.threshold)});
+  return knobs;
+}
+
+// The space that an answer is the best of: how many designs, and in what they differ.
+std::string knobs_text(const Market& market, std::span<const Record> records) {
+  std::vector<std::pair<std::string, std::set<std::string>>> values;
+  for (const Offer& offer : market.offers)
+    for (const auto& [name, value] : knobs_of(records[offer.record].point)) {
+      auto known = std::ranges::find(values, name, &std::pair<std::string, std::set<std::string>>::first);
+      if (known == values.end()) known = values.insert(known, {name, {}});
+      known->second.insert(value);
+    }
+  std::vector<std::string> turned, left;
+  for (const auto& [name, of] : values) (of.size() > 1 ? turned : left).push_back(name);
+  std::string text = fmt::format("  {:<14} {} points of hardware", "looked at", market.offers.size());
+  if (!turned.empty()) text += fmt::format("; turned: {}", fmt::join(turned, ", "));
+  if (!left.empty()) text += fmt::format("; not turned: {}", fmt::join(left, ", "));
+  return text + "\n";
+}
+
+// The front as a table: of the whole front, which has designs for each of its figures, the steps.
+std::string front_text(const Market& market, const Answer& answer, const Demand& demand,
+                       std::span<const Record> records) {
+  const Scales scales = scales_of(market.offers);
+  std::string text =
+      fmt::format("  {:<14} {} of {} points of hardware, time in {}, {}\n", "front", answer.front.size(),
+                  market.offers.size(), time_scale(scales), host_scale(scales));
+  text += fmt::format("  of it what is more accurate (by {}) than all that is cheaper:\n",
+                      by_psnr(demand) ? "PSNR" : "largest error");
+  text += fmt::format("  {:>9} {:>8}  {:>8} {:>9} {:>10} {:>13}  {}\n", "error/255", "PSNR, dB", "cells",
+                      "cycles", "time", "host/triangle", "design");
+  for (const std::size_t at : answer.steps) {
+    const Offer& o = market.offers[at];
+    text += fmt::format("  {:>9g} {:>8.2f}  {:>8} {:>9.0f} {:>10} {:>13}  {}\n", o.largest_error, o.psnr_db,
+                        o.cells ? fmt::format("{:.0f}", *o.cells) : "-", o.cycles,
+                        o.seconds ? time_text(*o.seconds) : "-",
+                        o.host ? fmt::format("{:.0f}", *o.host) : "-", records[o.record].point.design());
+  }
+  return text;
 }
 
 }  // namespace
@@ -172,8 +252,9 @@ std::vector<Market> markets_of(std::span<const Record> records, const HardwareTa
     Offer offer{.record = at,
                 .largest_error = static_cast<double>(measured.picture.max_lsb),
                 .psnr_db = measured.picture.psnr_db,
-                .cycles = static_cast<double>(measured.cycles),
-                .host = static_cast<double>(measured.setup.shaded)};
+                .cycles = static_cast<double>(measured.cycles)};
+    if (measured.host_instructions && measured.triangles > 0)
+      offer.host = static_cast<double>(*measured.host_instructions) / static_cast<double>(measured.triangles);
     std::optional<double> mhz = clock.mhz;
     if (const auto found = hardware.find(measured.hardware); found != hardware.end()) {
       const HardwareFigures& figures = found->second;
@@ -216,14 +297,17 @@ Result<Answer> answer(std::span<const Offer> offers, const Demand& demand) {
   found.unknown = static_cast<std::size_t>(std::ranges::count_if(offers, [&](const Offer& o) {
     return demand.seconds && !o.seconds && o.fits && accurate_enough(o, demand);
   }));
+  for (const std::size_t at : found.front)
+    if (found.steps.empty() || errors(offers[at])[0] < errors(offers[found.steps.back()])[0])
+      found.steps.push_back(at);
   found.best = least(offers, best_first, any);
+  found.best_met = least(offers, best_first,
+                         [&](const Offer& o) { return accurate_enough(o, demand) && in_time(o, demand); });
   found.fastest = least(
-      offers,
-      [&](const Offer& o) {
-        const Costs p = price(o);
-        return joined({p[1], p[2]}, best_first(o));
-      },
-      any);
+      offers, [&](const Offer& o) { return joined({o.seconds.value_or(0)}, best_first(o)); },
+      [](const Offer& o) { return o.seconds.has_value(); });
+  found.fewest_cycles = least(
+      offers, [&](const Offer& o) { return joined({o.cycles}, best_first(o)); }, any);
   if (!found.cheapest) return found;
   const Offer& here = offers[*found.cheapest];
   found.cheaper = least(offers, best_first, [&](const Offer& o) { return price(o) < price(here); });
@@ -235,21 +319,30 @@ Result<Answer> answer(std::span<const Offer> offers, const Demand& demand) {
 
 std::string to_text(const Market& market, const Answer& answer, const Demand& demand,
                     std::span<const Record> records) {
+  const Scales scales = scales_of(market.offers);
   const auto name = [&](std::size_t at) { return records[market.offers[at].record].point.design(); };
+  if (!demand.any()) return market.picture + "\n" + front_text(market, answer, demand, records);
   std::string text = fmt::format("{}: {}\n", market.picture, demand.text());
-  const auto line = [&](const char* what, std::size_t at, const std::string& difference) {
-    text += fmt::format("  {:<14} {}: {}{}\n", what, name(at), offer_text(market.offers[at]), difference);
+  const auto line = [&](const char* what, std::size_t at, const std::string& more) {
+    text += fmt::format("  {:<14} {}: {}{}\n", what, name(at), offer_text(market.offers[at]), more);
+  };
+  const auto against = [&](std::size_t from, std::size_t to) {
+    return "; " + difference_text(market.offers[from], market.offers[to]);
   };
   if (!answer.cheapest) {
     text += fmt::format("  none of {} points of hardware meets it\n", market.offers.size());
     if (answer.best) line("most accurate", *answer.best, "");
-    if (answer.fastest) line("fastest", *answer.fastest, "");
+    if (answer.fastest)
+      line("fastest", *answer.fastest, scales.cycles ? "; of those whose clock is known" : "");
+    if (answer.fewest_cycles && scales.cycles) line("fewest cycles", *answer.fewest_cycles, "");
+  } else if (!demand.accuracy()) {
+    line("cheapest", *answer.cheapest, "");
+    line("most accurate", *answer.best_met, against(*answer.cheapest, *answer.best_met));
   } else {
-    const Offer& here = market.offers[*answer.cheapest];
     line("cheapest", *answer.cheapest, "");
     const auto neighbour = [&](const char* what, std::optional<std::size_t> at, const char* none) {
       if (at)
-        line(what, *at, fmt::format("; {}", difference_text(here, market.offers[*at])));
+        line(what, *at, against(*answer.cheapest, *at));
       else
         text += fmt::format("  {:<14} {}\n", what, none);
     };
@@ -257,11 +350,10 @@ std::string to_text(const Market& market, const Answer& answer, const Demand& de
     neighbour("more accurate", answer.accurate, demand.seconds ? "nothing is, in that time" : "nothing is");
   }
   if (answer.unknown > 0)
-    text += fmt::format(
-        "  {} points would be accurate enough, but no clock of theirs is known (--place, or --clock)\n",
-        answer.unknown);
-  return text + fmt::format("  front          {} of {} points of hardware, time in {}\n", answer.front.size(),
-                            market.offers.size(), time_scale(scales_of(market.offers)));
+    text +=
+        fmt::format("  {} points {}, but no clock of theirs is known (--place, or --clock)\n", answer.unknown,
+                    demand.accuracy() ? "would be accurate enough" : "might be fast enough");
+  return text + knobs_text(market, records) + front_text(market, answer, demand, records);
 }
 
 }  // namespace halfway::study

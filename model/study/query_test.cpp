@@ -15,6 +15,7 @@
 namespace halfway::study {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -128,6 +129,14 @@ TEST_P(RandomMarket, AnswersAreWhatTheyAreCalled) {
       }
       EXPECT_THAT(found->front, Contains(*found->cheaper));
     }
+    // Each step is dearer than the one before, and better; the last is the best.
+    ASSERT_FALSE(found->steps.empty());
+    for (std::size_t i = 1; i < found->steps.size(); ++i) {
+      const Offer &before = offers[found->steps[i - 1]], &after = offers[found->steps[i]];
+      EXPECT_LE(*before.cells, *after.cells);
+      EXPECT_TRUE(better(after, before));
+    }
+    EXPECT_FALSE(better(offers[*found->best], offers[found->steps.back()]));
   }
   EXPECT_GT(met, 100);
   EXPECT_GT(missed, 100);
@@ -139,23 +148,24 @@ INSTANTIATE_TEST_SUITE_P(Clocks, RandomMarket, ::testing::Bool());
 class QueryTest : public ::testing::Test {
  protected:
   QueryTest() {
-    add({.method = Method::gouraud}, "", 66, 0, 0);
-    add({.method = Method::quadratic}, "quadratic", 42, 1000, 6360);
-    add({.method = Method::adaptive}, "quadratic", 2, 1010, 18208);
-    add({.method = Method::processors_2}, "processors", 1, 1005, 0);
-    add({.method = Method::processors_2, .exponent = 5.0}, "processors", 1, 1005, 0);
+    add({.method = Method::gouraud}, "", 66, 0, std::nullopt);
+    add({.method = Method::quadratic}, "quadratic", 42, 1000, 63600);
+    add({.method = Method::adaptive}, "quadratic", 2, 1010, 182080);
+    add({.method = Method::processors_2}, "processors", 1, 1005, 50000);
+    add({.method = Method::processors_2, .exponent = 5.0}, "processors", 1, 1005, 50000);
     hardware_["quadratic"].cells = Cells{.luts = 1500, .flip_flops = 500};
     hardware_["processors"].cells = Cells{
         .luts = 1000, .flip_flops = 800, .memory_bits = 3200, .multipliers = 10, .multiplier_luts = 8000};
   }
   void add(const DesignPoint& point, const std::string& hardware, unsigned error, std::uint64_t cycles,
-           std::uint64_t shaded) {
+           std::optional<std::uint64_t> instructions) {
     Record record{point, {}};
     record.measured.hardware = hardware;
     record.measured.picture.max_lsb = error;
     record.measured.picture.psnr_db = 60.0 - error / 2.0;
     record.measured.cycles = cycles;
-    record.measured.setup.shaded = shaded;
+    record.measured.triangles = 10;
+    record.measured.host_instructions = instructions;
     records_.push_back(record);
   }
   std::string ask(const Demand& demand, Clock clock = {}) const {
@@ -179,16 +189,26 @@ TEST_F(QueryTest, HasAMarketAPictureAndNoSoftwareInIt) {
 }
 
 TEST_F(QueryTest, TellsTheCheapestItsNeighboursAndTheNextStepsCost) {
-  EXPECT_EQ(ask({.largest_error = 2.0}),
-            "320x240: largest error at most 2/255\n"
-            "  cheapest       adaptive exact, threshold 2: largest error 2/255, PSNR 59.00 dB, 2000 cells, "
-            "1010 cycles, 18208 host evaluations\n"
-            "  cheaper        quadratic exact: largest error 42/255, PSNR 39.00 dB, 2000 cells, 1000 cycles, "
-            "6360 host evaluations; -10 cycles (-0.99 %), -11848 host evaluations (-65.1 %)\n"
-            "  more accurate  processors-2 exact: largest error 1/255, PSNR 59.50 dB, 10000 cells, "
-            "1005 cycles, 0 host evaluations; +8000 cells (+400 %), -5 cycles (-0.495 %), -18208 host "
-            "evaluations (-100 %)\n"
-            "  front          3 of 3 points of hardware, time in cycles\n");
+  EXPECT_EQ(
+      ask({.largest_error = 2.0}),
+      "320x240: largest error at most 2/255\n"
+      "  cheapest       adaptive exact, threshold 2: largest error 2/255, PSNR 59.00 dB, 2000 cells, "
+      "1010 cycles, 18208 host instructions a triangle\n"
+      "  cheaper        quadratic exact: largest error 42/255, PSNR 39.00 dB, 2000 cells, 1000 cycles, "
+      "6360 host instructions a triangle; -10 cycles (-0.99 %), -11848 host instructions a triangle "
+      "(-65.1 %)\n"
+      "  more accurate  processors-2 exact: largest error 1/255, PSNR 59.50 dB, 10000 cells, "
+      "1005 cycles, 5000 host instructions a triangle; +8000 cells (+400 %), -5 cycles (-0.495 %), "
+      "-13208 host instructions a triangle (-72.5 %)\n"
+      "  looked at      3 points of hardware; turned: method; not turned: preset, fraction_bits, threshold, "
+      "form, seed_bits, newton\n"
+      "  front          3 of 3 points of hardware, time in cycles, the host's work in instructions a "
+      "triangle\n"
+      "  of it what is more accurate (by largest error) than all that is cheaper:\n"
+      "  error/255 PSNR, dB     cells    cycles       time host/triangle  design\n"
+      "         42    39.00      2000      1000          -          6360  quadratic exact\n"
+      "          2    59.00      2000      1010          -         18208  adaptive exact, threshold 2\n"
+      "          1    59.50     10000      1005          -          5000  processors-2 exact\n");
 }
 
 TEST_F(QueryTest, TakesTimeByTheClockAlone) {
@@ -207,13 +227,13 @@ TEST_F(QueryTest, TakesTimeByTheHardwaresOwnClockBeforeAnyOther) {
   EXPECT_THAT(mixed, HasSubstr("1010 cycles (20.2 us)"));
   EXPECT_THAT(mixed, HasSubstr("1005 cycles (10.05 us)"));
   EXPECT_THAT(mixed, HasSubstr("-10.15 us (-50.2 %)"));
-  EXPECT_THAT(mixed, HasSubstr("time in nanoseconds\n"));
+  EXPECT_THAT(mixed, HasSubstr("time in nanoseconds, the"));
   // Of one of the three no clock is known.
   EXPECT_THAT(ask({.largest_error = 2.0}), HasSubstr("time in cycles, and in nanoseconds where"));
   // None fits: slower than what does, whatever its cycles are, and not unknown.
   hardware_["processors"].fits = false;
   const std::string fitting = ask({.seconds = 1.0});
-  EXPECT_THAT(fitting, HasSubstr("time in nanoseconds\n"));
+  EXPECT_THAT(fitting, HasSubstr("time in nanoseconds, the"));
   EXPECT_THAT(fitting, Not(HasSubstr("no clock of theirs")));
 }
 
@@ -233,15 +253,70 @@ TEST_F(QueryTest, TellsTheBestOfWhatIsNotEnough) {
   const std::string text = ask({.largest_error = 0.0});
   EXPECT_THAT(text,
               HasSubstr("none of 3 points of hardware meets it\n  most accurate  processors-2 exact: "));
-  EXPECT_THAT(text, HasSubstr("  fastest        quadratic exact: "));
+  EXPECT_THAT(text, AllOf(HasSubstr("  fewest cycles  quadratic exact: "), Not(HasSubstr("fastest"))));
+  // Faster than another is only what has a time.
+  hardware_["processors"].mhz = 50.0;
+  EXPECT_THAT(ask({.largest_error = 0.0}),
+              AllOf(HasSubstr("  fastest        processors-2 exact: "),
+                    HasSubstr("; of those whose clock is known\n  fewest cycles  quadratic exact: ")));
+  hardware_["quadratic"].mhz = 60.0;
+  EXPECT_THAT(ask({.largest_error = 0.0}),
+              AllOf(HasSubstr("  fastest        quadratic exact: "), Not(HasSubstr("fewest cycles"))));
   EXPECT_THAT(ask({.largest_error = 1.0}), HasSubstr("  more accurate  nothing is\n"));
+}
+
+// With a time alone to meet, any accuracy is enough: the best that there is in it is told, too.
+TEST_F(QueryTest, TellsTheMostAccurateInATime) {
+  const std::string text = ask({.seconds = 10.07e-6}, {100.0});
+  EXPECT_THAT(text, HasSubstr("  cheapest       quadratic exact: "));
+  EXPECT_THAT(text, HasSubstr("  most accurate  processors-2 exact: "));
+  EXPECT_THAT(text, HasSubstr("; +8000 cells (+400 %), +5 cycles"));
+  EXPECT_THAT(ask({.seconds = 10.02e-6}, {100.0}), HasSubstr("  most accurate  quadratic exact: "));
+  EXPECT_THAT(ask({.seconds = 1.0}), HasSubstr("  3 points might be fast enough, but no clock"));
+}
+
+TEST_F(QueryTest, TellsWhichKnobsWereTurned) {
+  const auto more = [&](const DesignPoint& point) { add(point, "quadratic", 3, 1000, 63600); };
+  more({.method = Method::spherical});
+  more({.method = Method::spherical, .tables = TableSize{6, 8}});
+  more({.method = Method::adaptive, .threshold = 4.0});
+  const auto markets = markets_of(records_, hardware_, {});
+  const auto text = ask({.largest_error = 2.0});
+  EXPECT_THAT(
+      text, HasSubstr("looked at      6 points of hardware; turned: method, threshold, address_bits, "
+                      "data_bits; not turned: preset, fraction_bits, form, seed_bits, newton, angle_bits\n"));
+}
+
+TEST_F(QueryTest, WithoutADemandTellsTheFront) {
+  const std::string text = ask({});
+  EXPECT_THAT(text, AllOf(::testing::StartsWith("320x240\n  front          3 of 3 points"),
+                          HasSubstr("  processors-2 exact\n"), Not(HasSubstr("looked at")),
+                          Not(HasSubstr("cheapest"))));
 }
 
 TEST_F(QueryTest, WithoutCellsGoesByCyclesAndHost) {
   hardware_.clear();
   const std::string text = ask({.largest_error = 2.0});
   EXPECT_THAT(text, HasSubstr("cheapest       processors-2 exact"));
-  EXPECT_THAT(text, Not(HasSubstr("cells")));
+  EXPECT_THAT(text, Not(HasSubstr(" cells,")));
+}
+
+// Evaluations of one shader are not another's, and a count that one lacks compares nothing.
+TEST_F(QueryTest, ComparesTheHostByInstructionsThatAllHaveCounted) {
+  // As good and as dear as the quadratic but for the host, which evaluates less and works more.
+  Record record{{.method = Method::spherical}, records_[1].measured};
+  record.measured.setup.shaded = 0;
+  record.measured.host_instructions = 90000;
+  records_[1].measured.setup.shaded = 6360;
+  records_.push_back(record);
+  EXPECT_THAT(ask({.largest_error = 50.0}),
+              AllOf(HasSubstr("cheapest       quadratic exact"), HasSubstr("front          3 of 4 points"),
+                    HasSubstr("the host's work in instructions a triangle\n")));
+  records_[3].measured.host_instructions.reset();
+  const auto uncounted = markets_of(records_, hardware_, {}).at(0);
+  EXPECT_FALSE(uncounted.offers[2].host);
+  EXPECT_THAT(ask({.largest_error = 50.0}),
+              AllOf(HasSubstr("front          4 of 4 points"), HasSubstr("the host's work not compared")));
 }
 
 // Whatever a text says is in the offers, or is the difference of two of them.
@@ -252,7 +327,7 @@ TEST_F(QueryTest, EveryFigureIsTheData) {
     for (Record& record : records_) {
       record.measured.picture.max_lsb = static_cast<unsigned>(1 + random() % 50);
       record.measured.cycles = 1000 + random() % 1000;
-      record.measured.setup.shaded = 1000 + random() % 1000;
+      record.measured.host_instructions = 10 * (1000 + random() % 1000);
     }
     const auto market = markets_of(records_, hardware_, {}).at(0);
     const std::string text = ask({.largest_error = 25.0});
@@ -262,7 +337,7 @@ TEST_F(QueryTest, EveryFigureIsTheData) {
     for (auto it = std::sregex_iterator(text.begin(), text.end(), line); it != std::sregex_iterator(); ++it) {
       ++lines;
       EXPECT_TRUE(std::ranges::any_of(market.offers, [&](const Offer& o) {
-        return fmt::format("{:g} {:g} {:g} {:g}", o.largest_error, *o.cells, o.cycles, o.host) ==
+        return fmt::format("{:g} {:g} {:g} {:g}", o.largest_error, *o.cells, o.cycles, *o.host) ==
                fmt::format("{} {} {} {}", (*it)[1].str(), (*it)[2].str(), (*it)[3].str(), (*it)[4].str());
       })) << text;
     }

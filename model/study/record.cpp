@@ -140,7 +140,11 @@ Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& fol
   if (!ghdl) return ghdl.error();
   const auto verilator = version_of("verilator", kInstallVerilator);
   if (!verilator) return verilator.error();
-  std::string tools = *ghdl + ", " + *verilator;
+  const auto image_functions = image_library();
+  if (!image_functions) return image_functions.error();
+  std::string image_versions;
+  image_functions->versions(image_versions);
+  std::string tools = *ghdl + ", " + *verilator + ", " + image_versions;
   if (!find_program("valgrind").empty()) {
     const auto valgrind = version_of("valgrind", c_install_valgrind);
     if (!valgrind) return valgrind.error();

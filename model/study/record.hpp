@@ -20,7 +20,7 @@ struct Provenance {
   std::string scene_hash;  ///< of all its numbers
   std::string program;     ///< hash of this program
   std::string rtl;         ///< hash of every file of the RTL
-  std::string tools;       ///< versions of those that make hardware of the RTL
+  std::string tools;       ///< versions of those that draw hardware, count and compare
 };
 /// Of all numbers of the scene that a picture depends on.
 std::string scene_hash(const Scene& scene);

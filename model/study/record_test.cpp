@@ -222,6 +222,8 @@ TEST_F(RecordsTest, ProvenanceIsOfTheProgram) {
   ASSERT_TRUE(images);
   const auto provenance = provenance_of(scene_of_everything(), {c_source, folder_->path()});
   ASSERT_TRUE(provenance) << provenance.error().message;
+  EXPECT_THAT(provenance->tools,
+              ::testing::ContainsRegex("GHDL .*Verilator .*OpenImageIO [0-9]+[.][0-9]+[.][0-9]+"));
   EXPECT_EQ(provenance->program, ContentHash().add(*mine).add(*images).hex());
   EXPECT_NE(provenance->program, ContentHash().add(*mine + '\0').add(*images).hex());
 }

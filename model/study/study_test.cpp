@@ -412,6 +412,7 @@ TEST_F(StudyTest, TheTableTellsTheFront) {
   figures.cells = Cells{.luts = 100, .flip_flops = 20};
   figures.mhz = 80.0;
   figures.clock = "pinned";
+  figures.tools = "cells by Tool 1";
   const auto csv = to_csv(made.provenance, made.records, hardware, markets_of(made.records, hardware, {}));
   ASSERT_TRUE(csv) << csv.error().message;
   std::vector<std::string> lines;
@@ -427,6 +428,9 @@ TEST_F(StudyTest, TheTableTellsTheFront) {
   EXPECT_THAT(lines[1], EndsWith(",,,,,,,,,,," + record_name(made.provenance, made.records[0].point) +
                                  ",,,,,,,,,,,,,,1"));
   EXPECT_THAT(lines[3], HasSubstr(",100,20,0,0,0,120,1,1."));
+  // The tools of what has figures by them.
+  EXPECT_THAT(lines[1], HasSubstr(",\"" + made.provenance.tools + "\","));
+  EXPECT_THAT(lines[3], HasSubstr(",\"" + made.provenance.tools + ", cells by Tool 1\","));
   const auto cycles = static_cast<double>(made.records[2].measured.cycles),
              fragments = static_cast<double>(made.records[2].measured.fragments);
   EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"pinned\",{:.6g},{:.6g},,,,,,,,,1", 12.5 * cycles,

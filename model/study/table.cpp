@@ -70,6 +70,13 @@ std::string words_columns(const tables::WordLengths& words) {
   return text + (!words.newton ? "," : *words.newton ? ",1" : ",0");
 }
 
+// Those of all points, and those of what the hardware costs.
+std::string tools_of(const Provenance& provenance, const HardwareTable& hardware, const std::string& key) {
+  const auto found = hardware.find(key);
+  if (found == hardware.end() || found->second.tools.empty()) return provenance.tools;
+  return provenance.tools + ", " + found->second.tools;
+}
+
 std::string multiplier_column(const HardwareTable& hardware, const std::string& key) {
   const auto found = hardware.find(key);
   if (found == hardware.end() || !found->second.cells) return ",";
@@ -94,13 +101,14 @@ Result<std::string> to_csv(const Provenance& provenance, std::span<const Record>
   for (std::size_t at = 0; at < records.size(); ++at) {
     const DesignPoint& p = records[at].point;
     const Measurement& measured = records[at].measured;
-    text += fmt::format(
-        "\"{}\",{},\"{}\",\"{}\",{},{},{},{},{},{},{:g},{},{},{}", provenance.scene, provenance.scene_hash,
-        provenance.tools, p.name(), to_string(p.method), in_hardware(p.method) ? to_string(p.preset) : "",
-        p.tables ? std::to_string(p.tables->address_bits) : "",
-        p.tables ? std::to_string(p.tables->data_bits) : "", p.plan().form ? to_string(p.form) : "",
-        p.has_threshold() ? fmt::format("{:g}", p.threshold) : "", p.tessellation,
-        p.exponent ? fmt::format("{:g}", *p.exponent) : "", p.size.width, p.size.height);
+    text += fmt::format("\"{}\",{},\"{}\",\"{}\",{},{},{},{},{},{},{:g},{},{},{}", provenance.scene,
+                        provenance.scene_hash, tools_of(provenance, hardware, measured.hardware), p.name(),
+                        to_string(p.method), in_hardware(p.method) ? to_string(p.preset) : "",
+                        p.tables ? std::to_string(p.tables->address_bits) : "",
+                        p.tables ? std::to_string(p.tables->data_bits) : "",
+                        p.plan().form ? to_string(p.form) : "",
+                        p.has_threshold() ? fmt::format("{:g}", p.threshold) : "", p.tessellation,
+                        p.exponent ? fmt::format("{:g}", *p.exponent) : "", p.size.width, p.size.height);
     for_each_figure(measured, [&](const char*, const auto& value) { text += column(value); });
     text += cells_columns(hardware, measured.hardware);
     const std::optional<bool> front = (*on_front)[at];

@@ -17,6 +17,7 @@ namespace {
 
 // A line of its own: of which flow the clocks are.
 constexpr std::string_view c_flow = "flow ";
+constexpr std::string_view c_written_with = "# Written by `make synth PIN=1` with ";
 
 bool is_hash(std::string_view text) {
   constexpr std::size_t c_digits = 32;
@@ -64,17 +65,29 @@ Result<Pins> read_pins(const std::filesystem::path& path) {
   return pins;
 }
 
+Result<std::string> pin_versions(const std::filesystem::path& path) {
+  const auto text = read_file(path);
+  if (!text) return text.error();
+  const std::size_t at = text->find(c_written_with);
+  if (at == std::string::npos) return std::string();
+  const std::size_t begin = at + c_written_with.size();
+  std::string versions = text->substr(begin, text->find('\n', begin) - begin);
+  if (versions.ends_with('.')) versions.pop_back();
+  return versions;
+}
+
 Status write_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions) {
   std::string text = fmt::format(
       "# Cells of each design on an iCE40 by itself, and its clock on an HX8K with registered ports, median "
       "seed.\n"
-      "# Written by `make synth PIN=1` with {}.\n"
+      "{}{}.\n"
       "{}{}\n"
       "# `make synth` and ctest -R synth fail where flip-flops or RAMs differ, LUTs or carries by more than "
       "{:.0f} %\n"
       "# (and {}), or where the clock is more than {:.0f} % slower or faster.\n"
       "# name luts carries flip_flops rams mhz netlist, and of how many seeds the clock is where not of {}\n",
-      versions, c_flow, flow_hash(), 100 * c_lut_share, c_lut_slack, 100 * c_clock_share, kSeeds);
+      c_written_with, versions, c_flow, flow_hash(), 100 * c_lut_share, c_lut_slack, 100 * c_clock_share,
+      kSeeds);
   for (const auto& [name, pin] : pins) {
     text += fmt::format("{} {} {} {} {} {:.1f}", name, pin.cells.luts, pin.cells.carries,
                         pin.cells.flip_flops, pin.cells.rams, pin.mhz);

@@ -35,6 +35,9 @@ using Pins = std::map<std::string, Pin>;
 /// `flow HASH` says what flow_hash was: where it is another now, or there is none, no netlist is known.
 Result<Pins> read_pins(const std::filesystem::path& path);
 Status write_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions);
+/// The tools' versions that the pins were written with, as write_pins was told them; empty where the file
+/// does not say.
+Result<std::string> pin_versions(const std::filesystem::path& path);
 
 /// The ns that the papers print for a design, by its name, on an XCV300: a pixel of the quadratic and the
 /// spherical shader, a clock of a shading processor.

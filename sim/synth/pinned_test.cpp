@@ -69,6 +69,7 @@ TEST(SynthPins, ComeBackFromTheirFile) {
   EXPECT_EQ(pins->at("b").netlist, "");
   EXPECT_EQ(pins->at("b").line, pins->at("a").line + 1);
   EXPECT_EQ(pins->at("b").cells, (Ice40Cells{1, 2, 3, 4}));
+  EXPECT_EQ(*pin_versions(path), "Yosys 0.23");
   auto text = read_file(path);
   ASSERT_TRUE(text);
   const std::size_t flow = text->find("flow " + flow_hash() + "\n");

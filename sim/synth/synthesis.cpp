@@ -191,9 +191,9 @@ class Registers {
 
  private:
   // Without the wrapper, and without what Yosys appends.
-  static std::string tidy(std::string name) {
-    if (name.starts_with("dut.")) name.erase(0, 4);
-    return name.substr(0, name.find("_SB_"));
+  static std::string tidy(std::string_view name) {
+    if (name.starts_with("dut.")) name.remove_prefix(4);
+    return std::string(name.substr(0, name.find("_SB_")));
   }
 
   // GHDL's own names say nothing, Yosys's little.
