@@ -241,6 +241,7 @@ int run(const Folders& folders, const StudyCommand& command) {
   if (interruption) writing = interruption->writing();
   progress.clear();
   if (!study) return report(study.error());
+  if (writing) writing.unlock();
   if (!command.part.empty()) {
     fmt::print("part {}: {} points, {} measured anew, {} tiles drawn, {} placements\n", command.part,
                study->records.size(), study->measured, study->drawn_tiles, study->placements);
@@ -251,6 +252,7 @@ int run(const Folders& folders, const StudyCommand& command) {
       {.threads = settings.threads, .place = command.place, .on_progress = [&](const std::string& text) {
          progress.show(text);
        }});
+  if (interruption) writing.lock();
   progress.clear();
   if (!hardware) return report(hardware.error());
   return conclude(*plan, *study, *hardware, {command.clock_mhz});
