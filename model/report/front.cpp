@@ -134,11 +134,9 @@ Result<std::string> readme_front(const Table& front) {
   return fmt::format(
       "![Rms error against cells, a point for each of {} designs](sim/gallery/front.svg)\n\n"
       "*What accuracy costs: {} designs that draw one picture. The dashed line joins those that no other "
-      "beats "
-      "in both, cells and\nrms error in steps of 1/255:\n{}.{}\nDrawn from [its "
-      "table](sim/gallery/front.csv), "
-      "which `make gallery` measures anew; `make report` has this plot and others, with\npoints that "
-      "open.*\n",
+      "beats in both, cells and\nrms error in steps of 1/255:\n{}.{}\nDrawn from [its "
+      "table](sim/gallery/front.csv), which `make gallery` measures anew; `make report` has this plot and "
+      "others, with\npoints that open.*\n",
       plot.points.size(), plot.points.size(), fmt::join(joined, ";\n"),
       hidden.empty() ? "" : fmt::format("\nOne mark for equal figures: {}.", fmt::join(hidden, "; ")));
 }
