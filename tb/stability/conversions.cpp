@@ -100,7 +100,6 @@ constexpr Site c_sites[] = {
     {"model/tables/functions.cpp", 2,
      "entries, and the root's raise, less than 2^24 of relative errors below 1; functions_test"},
     {"sim/synth/pinned.cpp", 1, "a share of a count of cells; pinned_test"},
-    {"sim/lanes/lane_simulator.cpp", 2, "vectors of a batch and of a part, by how much the last one drew"},
 };
 
 std::size_t closing(const std::string& text, std::size_t open) {
