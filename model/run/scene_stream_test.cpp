@@ -70,27 +70,41 @@ TEST(SceneStream, IsPrologueAndUnitsForAnyNumberOfThreads) {
     }
 }
 
+std::vector<std::uint32_t> words_of(const Setup& setup, SetupCounts& counts) {
+  std::vector<std::uint32_t> words;
+  for (std::uint32_t unit = 0; unit < setup.units(); ++unit) setup.append(unit, words, counts);
+  return words;
+}
+
+// What comes out of a stream, batch by batch.
+struct Streamed {
+  std::vector<std::uint32_t> words{};
+  std::size_t fragments = 0, largest = 0;  ///< of a batch
+};
+Streamed streamed(SceneStream& stream) {
+  Streamed all;
+  for (Batch batch; stream.next(batch);) {
+    all.words.insert(all.words.end(), batch.init_words.begin(), batch.init_words.end());
+    all.fragments += batch.golden.size();
+    all.largest = std::max(all.largest, batch.golden.size());
+  }
+  return all;
+}
+
 // What a frame's fragments take, 60 MB here, is not kept.
 TEST(SceneStream, BatchesOfLargeTrianglesAreOfFew) {
   const auto scene = load_scene("spheres", std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
   ASSERT_TRUE(scene) << scene.error().message;
   const HardwareKey key = key_of(*scene, Shader::quadratic);
   const auto setup = make_setup(*scene, {2800, 2800}, key, {});
-  std::vector<std::uint32_t> words;
   SetupCounts counts;
-  for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, words, counts);
+  const std::vector<std::uint32_t> words = words_of(*setup, counts);
   for (const unsigned threads : {1U, 4U}) {
     SceneStream stream(*setup, key, threads);
-    std::vector<std::uint32_t> all;
-    std::size_t fragments = 0, largest = 0;
-    for (Batch batch; stream.next(batch);) {
-      all.insert(all.end(), batch.init_words.begin(), batch.init_words.end());
-      fragments += batch.golden.size();
-      largest = std::max(largest, batch.golden.size());
-    }
-    EXPECT_TRUE(all == words) << threads;
-    EXPECT_GT(fragments * sizeof(Fragment), std::size_t{56} << 20);
-    EXPECT_LT(largest * sizeof(Fragment), std::size_t{13} << 20) << threads;
+    const Streamed all = streamed(stream);
+    EXPECT_TRUE(all.words == words) << threads;
+    EXPECT_GT(all.fragments * sizeof(Fragment), std::size_t{56} << 20);
+    EXPECT_LT(all.largest * sizeof(Fragment), std::size_t{13} << 20) << threads;
   }
 }
 
@@ -118,22 +132,15 @@ TEST(SceneStream, LargeTrianglesBehindSmallOnesEndTheirBatch) {
   for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
     const HardwareKey key = key_of(scene, shader);
     const auto setup = make_setup(scene, c_size, key, {});
-    std::vector<std::uint32_t> words;
     SetupCounts counts;
-    for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, words, counts);
+    const std::vector<std::uint32_t> words = words_of(*setup, counts);
     for (const unsigned threads : {1U, 4U}) {
       SceneStream stream(*setup, key, threads);
-      std::vector<std::uint32_t> all;
-      std::size_t fragments = 0, largest = 0;
-      for (Batch batch; stream.next(batch);) {
-        all.insert(all.end(), batch.init_words.begin(), batch.init_words.end());
-        fragments += batch.golden.size();
-        largest = std::max(largest, batch.golden.size());
-      }
-      EXPECT_TRUE(all == words) << threads;
+      const Streamed all = streamed(stream);
+      EXPECT_TRUE(all.words == words) << threads;
       EXPECT_EQ(stream.counts().vectors, counts.vectors) << threads;
-      EXPECT_GT(fragments, c_layers * c_size.width * c_size.height);
-      EXPECT_LT(largest * sizeof(Fragment), threads * (std::size_t{12} << 20)) << threads;
+      EXPECT_GT(all.fragments, c_layers * c_size.width * c_size.height);
+      EXPECT_LT(all.largest * sizeof(Fragment), threads * (std::size_t{12} << 20)) << threads;
     }
   }
 }
