@@ -2,7 +2,6 @@
 // Cells of an iCE40 in the JSON that Yosys writes.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
@@ -12,8 +11,10 @@ inline bool is_register_type(std::string_view type) {
   return type.starts_with("SB_DFF");
 }
 
-inline bool is_register(const nlohmann::json& cell) {
-  return is_register_type(cell.at("type").get_ref<const std::string&>());
+/// `Json`: nlohmann's, ordered or not; one as the other would be a copy.
+template <class Json>
+bool is_register(const Json& cell) {
+  return is_register_type(cell.at("type").template get_ref<const std::string&>());
 }
 
 }  // namespace halfway::synth
