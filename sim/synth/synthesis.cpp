@@ -174,7 +174,7 @@ class Registers {
   std::string name(std::string cell) const {
     for (const std::string_view suffix : {"_DFFLC", "_LC", "_RAM", "$nextpnr_RAM"})
       if (cell.ends_with(suffix)) {
-        cell.resize(cell.size() - suffix.size());
+        cell.erase(cell.size() - suffix.size());
         break;
       }
     const auto found = cells_.find(cell);
