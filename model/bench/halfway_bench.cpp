@@ -28,6 +28,7 @@
 #include "bench/yardstick.hpp"
 #include "common/file.hpp"
 #include "common/machine.hpp"
+#include "common/page_part.hpp"
 #include "common/seconds.hpp"
 #include "common/subprocess.hpp"
 #include "common/threads.hpp"
@@ -890,8 +891,8 @@ bool read_options(int argc, char** argv, Options& options) {
 }
 
 void write_readme(const std::filesystem::path& path, const std::string& page) {
-  const std::string text = must(with_readme_parts(must(read_file(path)), must(readme_parts(page))));
-  must(write_file(path, text));
+  const ReadmeParts parts = must(readme_parts(page));
+  must(rewrite_page(path, [&](const std::string& readme) { return with_readme_parts(readme, parts); }));
 }
 
 int run(const Options& options) {

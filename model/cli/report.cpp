@@ -22,13 +22,9 @@ struct ReportCommand {
 };
 
 Status tell_front(const report::Table& front, const std::string& readme) {
-  const auto page = read_file(readme);
-  if (!page) return page.error();
   const auto words = report::readme_front(front);
   if (!words) return words.error();
-  const auto told = with_page_part(*page, "front", *words);
-  if (!told) return Error{told.error().code, readme + ": " + told.error().message};
-  return write_file(readme, *told);
+  return rewrite_page(readme, [&](const std::string& page) { return with_page_part(page, "front", *words); });
 }
 
 int write_front(const ReportCommand& command) {

@@ -12,6 +12,7 @@
 
 #include "cli/options.hpp"
 #include "common/file.hpp"
+#include "common/page_part.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -39,13 +40,9 @@ Result<std::vector<Savings>> savings_of(const Folders& folders, const SavingsCom
 int run(const Folders& folders, const SavingsCommand& command) {
   const auto savings = savings_of(folders, command);
   if (!savings) return report(savings.error());
-  const std::filesystem::path page = folders.source / "README.md";
-  const auto readme = read_file(page);
-  if (!readme) return report(readme.error());
-  const auto text = with_savings(*readme, *savings);
-  if (!text) return report(bad_input(fmt::format("{}: {}", page.string(), text.error().message)));
-  if (const Status written = write_file(page, *text); !written) return report(written.error());
-  return 0;
+  const Status written = rewrite_page(folders.source / "README.md",
+                                      [&](const std::string& page) { return with_savings(page, *savings); });
+  return written ? 0 : report(written.error());
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "common/file.hpp"
+
 namespace halfway {
 namespace {
 
@@ -38,6 +40,15 @@ Result<std::string> with_page_part(std::string_view page, std::string_view name,
   const auto place = place_of(page, name);
   if (!place) return place.error();
   return fmt::format("{}\n{}\n{}", page.substr(0, place->begin), text, page.substr(place->end));
+}
+
+Status rewrite_page(const std::filesystem::path& path,
+                    const std::function<Result<std::string>(const std::string& page)>& rewritten) {
+  const auto page = read_file(path);
+  if (!page) return page.error();
+  const auto text = rewritten(*page);
+  if (!text) return Error{text.error().code, fmt::format("{}: {}", path.string(), text.error().message)};
+  return write_file(path, *text);
 }
 
 }  // namespace halfway

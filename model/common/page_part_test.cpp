@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "common/file.hpp"
+
 namespace halfway {
 namespace {
 
@@ -41,6 +45,23 @@ TEST(PagePart, IsThereOnceAndEnds) {
     ASSERT_FALSE(written) << page;
     EXPECT_THAT(written.error().message, ::testing::HasSubstr("'<!-- end of one -->'"));
   }
+}
+
+TEST(PagePart, IsRewrittenInItsFileOrTheFileStays) {
+  const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const std::filesystem::path path = folder->path() / "page.md";
+  const auto with_one = [](const char* name) {
+    return [name](const std::string& page) { return with_page_part(page, name, "new\n"); };
+  };
+  EXPECT_FALSE(rewrite_page(path, with_one("one"))) << "there is no page";
+  ASSERT_TRUE(write_file(path, std::string(c_page)));
+  const Status failed = rewrite_page(path, with_one("three"));
+  ASSERT_FALSE(failed);
+  EXPECT_THAT(failed.error().message, ::testing::StartsWith(path.string() + ": wants one part"));
+  EXPECT_EQ(*read_file(path), c_page);
+  ASSERT_TRUE(rewrite_page(path, with_one("one")));
+  EXPECT_EQ(*page_part(*read_file(path), "one"), "new\n");
 }
 
 }  // namespace

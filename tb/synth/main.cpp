@@ -154,11 +154,8 @@ Status write_readme(const std::filesystem::path& path, const std::filesystem::pa
   if (!pins) return pins.error();
   const auto clocks = readme_clocks(*pins);
   if (!clocks) return clocks.error();
-  const auto readme = read_file(path);
-  if (!readme) return readme.error();
-  const auto text = with_page_part(*readme, kReadmePart, *clocks);
-  if (!text) return bad_input(fmt::format("{}: {}", path.string(), text.error().message));
-  return write_file(path, *text);
+  return rewrite_page(path,
+                      [&](const std::string& page) { return with_page_part(page, kReadmePart, *clocks); });
 }
 
 class Run {
