@@ -9,28 +9,32 @@
 extern "C" {
 #endif
 
-#define HALFWAY_LANES_VERSION 1
+#define HALFWAY_LANES_VERSION 2
 
 /* Whole triangles, drawn by one lane from idle to idle. */
 typedef struct {
-  size_t vector, vectors;     /* where in the words, and how many */
-  uint32_t owner, lane;       /* which drew it */
-  size_t fragment, fragments; /* where in the lane's, and how many */
+  size_t vector, vectors; /* where in the words, and how many */
+  uint32_t owner, lane;   /* which draws it */
+  size_t fragments;       /* how many it drew */
+  int ended;
 } HalfwayPart;
 
+/* Parts are numbered in their order from the first run on in which no lane has one. */
 typedef struct {
   const uint32_t* words;
   HalfwayPart* parts;
-  size_t count;
-  size_t* next; /* the first part that nobody has begun; shared by all who draw the batch */
-  size_t max_fragments;
+  size_t first, end;    /* numbers of the first of the parts, and behind the last */
+  size_t* next;         /* number of the first part that nobody has begun; shared by all who draw them */
+  size_t max_fragments; /* drawn and not taken */
+  size_t enough;        /* a run ends, too, when it has drawn so many */
+  int more;             /* other parts follow: a run ends, too, when a lane has none to begin */
 } HalfwayBatch;
 
-/* Draws parts, each by the first lane that is free, until there are no more. HALFWAY_BUFFER_FULL: more than
-   `max_fragments`. */
+/* Draws parts, each by the first lane that is free, until there are no more; what is begun then is drawn on in
+   the next run. HALFWAY_BUFFER_FULL: more than `max_fragments`. */
 int halfway_lanes_run(void* lanes, const HalfwayBatch* batch);
-/* What a lane drew in the last run. */
-const HalfwayFragment* halfway_lanes_fragments(const void* lanes, uint32_t lane);
+/* The first `count` fragments of what a lane drew and nobody has taken; there until the next run. */
+const HalfwayFragment* halfway_lanes_take(void* lanes, uint32_t lane, size_t count);
 /* The clocks of all lanes between taking a part and ending it. */
 uint64_t halfway_lanes_cycles(const void* lanes);
 uint32_t halfway_lanes_count(void);

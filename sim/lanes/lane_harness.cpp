@@ -3,7 +3,7 @@
 //
 // A cycle is as in sim/verilator/harness.cpp at full speed: outputs are sampled just before the rising edge,
 // inputs change after it. A lane that has drawn its part is given the next one when its hardware is idle; one
-// that gets no more runs on empty.
+// that gets no more runs on empty, if others are to end theirs.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kInitWords = (HALFWAY_INIT_BITS + 31) / 32;
 constexpr std::size_t kBlock = 256;  // clocks between two looks at the room for fragments
-// Fragments of room that stay from batch to batch; a room for large triangles goes with its batch.
+// Fragments of room that stay from run to run; a room for large triangles goes when these are taken.
 constexpr std::size_t kKeptRoom = std::size_t{1} << 21;
 constexpr int kResetClocks = 4, kLateClocks = 8;  // as in sim/verilator/harness.cpp
 
@@ -32,20 +32,20 @@ class Lanes {
 
   int run(const HalfwayBatch& batch) {
     batch_ = &batch;
-    active_ = 0;
     faults_ = 0;
-    in_.init_valid = 0;
-    empty_rooms();
-    for (unsigned i = 0; i < kLanes; ++i) begin_part(i);
-    while (active_ != 0) {
-      std::size_t total = 0;
-      for (unsigned i = 0; i < kLanes; ++i) {
-        Lane& lane = lanes_[i];
-        total += lane.count;
-        if (lane.room < lane.count + kBlock + 1) grow(lane);
+    stops_ = false;
+    make_room();
+    const std::size_t before = waiting();
+    for (unsigned i = 0; i < kLanes; ++i)
+      if ((active_ >> i & 1) == 0) begin_part(i);
+    while (goes()) {
+      const std::size_t now = waiting();
+      if (now > batch.max_fragments) return HALFWAY_BUFFER_FULL;
+      if (now - before >= batch.enough) return HALFWAY_DONE;
+      for (Lane& lane : lanes_) {
+        if (lane.room < lane.count + kBlock + 1) move(lane, 2 * lane.waiting() + 4 * kBlock);
         lane.next = lane.fragments.get() + lane.count;
       }
-      if (total > batch.max_fragments) return HALFWAY_BUFFER_FULL;
       const M moved = block();
       for (unsigned i = 0; i < kLanes; ++i) {
         Lane& lane = lanes_[i];
@@ -55,57 +55,83 @@ class Lanes {
       if (faults_ != 0) return HALFWAY_FAULT;
     }
     Outputs out;
-    for (int i = 0; i < kLateClocks; ++i) {
+    for (int i = 0; active_ == 0 && i < kLateClocks; ++i) {
       step(state_, in_, out);
       faults_ |= out.fault;
     }
     return faults_ != 0 ? HALFWAY_FAULT : HALFWAY_DONE;
   }
 
-  const HalfwayFragment* fragments(std::uint32_t lane) const { return lanes_[lane].fragments.get(); }
+  const HalfwayFragment* take(std::uint32_t number, std::size_t count) {
+    Lane& lane = lanes_[number];
+    const HalfwayFragment* first = lane.fragments.get() + lane.taken;
+    lane.taken += count;
+    return first;
+  }
   std::uint64_t cycles() const { return cycles_; }
 
  private:
   struct Lane {
     std::unique_ptr<HalfwayFragment[]> fragments;
-    std::size_t room = 0, count = 0;
-    HalfwayFragment* next = nullptr;  // where its fragments go, less those of this block's clocks
-    HalfwayPart* part = nullptr;
+    std::size_t room = 0, taken = 0, begun = 0, count = 0;  // in that room; `begun`: its part's first
+    HalfwayFragment* next = nullptr;       // where its fragments go, less those of this block's clocks
+    std::size_t part = 0;                  // its number
     const std::uint32_t* words = nullptr;  // of the vector that is offered
     std::size_t vectors = 0;               // still to be taken
     std::uint64_t still = 0;               // clocks in which nothing moved
+    std::size_t waiting() const { return count - taken; }
   };
 
-  void empty_rooms() {
+  bool goes() const { return active_ != 0 && !stops_; }
+  std::size_t waiting() const {
+    std::size_t sum = 0;
+    for (const Lane& lane : lanes_) sum += lane.waiting();
+    return sum;
+  }
+
+  // A fragment is moved once at most for each time that its lane's room is filled.
+  void make_room() {
     std::size_t room = 0;
     for (const Lane& lane : lanes_) room += lane.room;
     for (Lane& lane : lanes_) {
-      lane.count = 0;
-      if (room <= kKeptRoom) continue;
-      lane.fragments.reset();
-      lane.room = 0;
+      const std::size_t waiting = lane.waiting();
+      if (lane.taken < waiting) continue;
+      const std::size_t fitting = waiting == 0 ? 0 : 2 * waiting + 4 * kBlock;
+      move(lane, room > kKeptRoom ? fitting : lane.room);
     }
   }
 
   // What is not written takes no memory: the system gives it page by page.
-  static void grow(Lane& lane) {
-    lane.room = 2 * lane.count + 4 * kBlock;
-    auto larger = std::make_unique_for_overwrite<HalfwayFragment[]>(lane.room);
-    std::copy_n(lane.fragments.get(), lane.count, larger.get());
-    lane.fragments = std::move(larger);
+  static void move(Lane& lane, std::size_t room) {
+    const HalfwayFragment* const from = lane.fragments.get() + lane.taken;
+    const std::size_t waiting = lane.waiting();
+    if (room == lane.room) {
+      std::copy(from, from + waiting, lane.fragments.get());
+    } else {
+      auto other = room == 0 ? nullptr : std::make_unique_for_overwrite<HalfwayFragment[]>(room);
+      std::copy(from, from + waiting, other.get());
+      lane.fragments = std::move(other);
+      lane.room = room;
+    }
+    lane.begun -= lane.taken;
+    lane.count = waiting;
+    lane.taken = 0;
   }
 
   void begin_part(unsigned i) {
     const M bit = static_cast<M>(1u << i);
     active_ &= static_cast<M>(~bit);
     const std::size_t next = __atomic_fetch_add(batch_->next, 1, __ATOMIC_RELAXED);
-    if (next >= batch_->count) return;
+    if (next >= batch_->end) {
+      stops_ = batch_->more != 0;
+      return;
+    }
     Lane& lane = lanes_[i];
-    HalfwayPart& part = batch_->parts[next];
-    lane.part = &part;
+    HalfwayPart& part = batch_->parts[next - batch_->first];
     part.owner = owner_;
     part.lane = i;
-    part.fragment = lane.count;
+    lane.part = next;
+    lane.begun = lane.count;
     lane.words = batch_->words + part.vector * kInitWords;
     lane.vectors = part.vectors;
     lane.still = 0;
@@ -134,8 +160,11 @@ class Lanes {
   __attribute__((noinline)) void ended(M idle, std::size_t clocks) {
     for (; idle != 0; idle &= static_cast<M>(idle - 1)) {
       const auto i = static_cast<unsigned>(std::countr_zero(idle));
-      count(lanes_[i], clocks);
-      lanes_[i].part->fragments = lanes_[i].count - lanes_[i].part->fragment;
+      Lane& lane = lanes_[i];
+      count(lane, clocks);
+      HalfwayPart& part = batch_->parts[lane.part - batch_->first];
+      part.fragments = lane.count - lane.begun;
+      part.ended = 1;
       begin_part(i);
     }
   }
@@ -147,7 +176,7 @@ class Lanes {
   M block() {
     M moved = 0;
     std::size_t clock = 0;
-    while (clock < kBlock && active_ != 0) {
+    while (clock < kBlock && goes()) {
       Outputs out;
       const M offered = in_.init_valid;
       step(state_, in_, out);
@@ -178,6 +207,7 @@ class Lanes {
   Inputs in_;
   Lane lanes_[kLanes];
   M active_ = 0, faults_ = 0;
+  bool stops_ = false;  // a lane has nothing to begin, and the caller has more
   const HalfwayBatch* batch_ = nullptr;
   std::uint32_t owner_;
   std::uint64_t idle_limit_, cycles_ = 0;
@@ -192,8 +222,8 @@ using halfway::lanes::Lanes;
 HALFWAY_EXPORT int halfway_lanes_run(void* lanes, const HalfwayBatch* batch) {
   return static_cast<Lanes*>(lanes)->run(*batch);
 }
-HALFWAY_EXPORT const HalfwayFragment* halfway_lanes_fragments(const void* lanes, uint32_t lane) {
-  return static_cast<const Lanes*>(lanes)->fragments(lane);
+HALFWAY_EXPORT const HalfwayFragment* halfway_lanes_take(void* lanes, uint32_t lane, size_t count) {
+  return static_cast<Lanes*>(lanes)->take(lane, count);
 }
 HALFWAY_EXPORT uint64_t halfway_lanes_cycles(const void* lanes) {
   return static_cast<const Lanes*>(lanes)->cycles();

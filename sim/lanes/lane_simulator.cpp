@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
+#include <numeric>
 #include <utility>
 
 #include "common/threads.hpp"
@@ -18,15 +20,11 @@
 namespace halfway {
 namespace {
 
-/// In vectors and fragments: a part ends with some clocks in which nothing comes, a batch with lanes that
-/// wait for the last part.
+/// In vectors and fragments: a part ends with some clocks in which nothing comes, all with lanes that wait
+/// for the last part.
 constexpr std::size_t kShortestPart = 100;
 /// Of a thread, drawn before they are handed on: they stay in the processor's second cache.
 constexpr std::size_t kBatch = 64 * 1024;
-/// Large triangles: a lane has nothing to do while others end theirs, so there are to be a few for each, in
-/// memory if need be.
-constexpr std::size_t kTrianglesALane = 8;
-constexpr std::size_t kLargestBatch = 16 * kBatch;
 
 struct Triangle {
   std::size_t vectors, pixels;
@@ -42,7 +40,7 @@ struct LaneSimulator::Hardware {
   unsigned init_bits = 0;
   std::size_t lanes = 0;
   decltype(&halfway_lanes_run) run = nullptr;
-  decltype(&halfway_lanes_fragments) fragments = nullptr;
+  decltype(&halfway_lanes_take) take = nullptr;
   decltype(&halfway_lanes_cycles) cycles = nullptr;
   decltype(&halfway_lanes_create) create = nullptr;
   decltype(&halfway_lanes_destroy) destroy = nullptr;
@@ -75,6 +73,12 @@ struct LaneSimulator::State : Hardware {
     create_lanes();
   }
 
+  std::uint64_t cycles_of_all() const {
+    std::uint64_t sum = cycles_before;
+    for (const void* thread : threads) sum += cycles(thread);
+    return sum;
+  }
+
   /// The one that the words begin with.
   Triangle triangle(std::span<const std::uint32_t> words) const {
     const std::size_t vectors =
@@ -89,9 +93,146 @@ struct LaneSimulator::State : Hardware {
   bool drawing = false;             ///< or they broke off, and stand in the middle of triangles
   std::uint64_t cycles_before = 0;  ///< of lanes that were replaced
   std::vector<void*> threads;
-  std::vector<Triangle> triangles;  ///< of a batch
+  std::deque<Triangle> ahead;  ///< behind the last part
   std::vector<HalfwayPart> parts;
+  std::vector<std::size_t> pixels;  ///< that each covers
 };
+
+// A call's vectors on their way through the lanes: what is ahead becomes parts, lanes draw these, and the
+// first ones that are whole are handed on.
+class LaneSimulator::Passage {
+ public:
+  Passage(State& state, std::span<const std::uint32_t> init_words, std::size_t max_fragments)
+      : s_(state), words_(init_words), left_(max_fragments) {
+    s_.ahead.clear();
+    s_.parts.clear();
+    s_.pixels.clear();
+  }
+
+  /// Enough for all lanes to have some, unless too many wait already; false where none are left.
+  bool add_parts();
+  Status draw();
+  Status hand_on(const OnDrawn& on_drawn);
+
+ private:
+  std::size_t threads() const { return s_.threads.size(); }
+  std::size_t lanes() const { return s_.lanes * threads(); }
+  void look_ahead();
+  Error too_many(std::size_t limit) const {
+    return {ExitCode::differs, fmt::format("{} in lanes: more than {} fragments", s_.key.name(), limit)};
+  }
+
+  State& s_;
+  std::span<const std::uint32_t> words_;
+  std::size_t left_;            ///< fragments that may still be handed on
+  std::size_t seen_ = 0;        ///< vectors that are ahead or before
+  std::size_t vector_ = 0;      ///< behind the last part
+  std::size_t work_ahead_ = 0;  ///< of the triangles ahead
+  std::size_t first_ = 0;       ///< number of the first part
+  std::size_t next_ = 0;        ///< of the first that no lane has begun
+  bool more_ = false;           ///< parts are to be added when lanes have begun these
+};
+
+void LaneSimulator::Passage::look_ahead() {
+  const std::size_t words_per_vector = s_.vector_words();
+  while (work_ahead_ < kBatch * threads() && seen_ * words_per_vector < words_.size()) {
+    const Triangle triangle = s_.triangle(words_.subspan(seen_ * words_per_vector));
+    s_.ahead.push_back(triangle);
+    seen_ += triangle.vectors;
+    work_ahead_ += triangle.work();
+  }
+}
+
+bool LaneSimulator::Passage::add_parts() {
+  std::size_t waiting = 0, work = 0;
+  for (std::size_t i = 0; i < s_.parts.size(); ++i) {
+    const std::size_t own = Triangle{s_.parts[i].vectors, s_.pixels[i]}.work();
+    waiting += own;
+    if (first_ + i >= next_) work += own;
+  }
+  const auto full = [&] { return waiting != 0 && waiting >= s_.options.most_waiting * threads(); };
+  const auto enough = [&] {
+    return work >= kBatch * threads() && first_ + s_.parts.size() >= next_ + lanes();
+  };
+  for (look_ahead(); !s_.ahead.empty() && !full() && !enough(); look_ahead()) {
+    // Shorter ones at the end, so that all lanes end together.
+    const std::size_t wanted = std::max(kShortestPart, work_ahead_ / (4 * lanes()));
+    Triangle sum{0, 0};
+    for (; !s_.ahead.empty() && sum.work() < wanted; s_.ahead.pop_front()) {
+      sum.vectors += s_.ahead.front().vectors;
+      sum.pixels += s_.ahead.front().pixels;
+    }
+    s_.parts.push_back({.vector = vector_, .vectors = sum.vectors});
+    s_.pixels.push_back(sum.pixels);
+    vector_ += sum.vectors;
+    work_ahead_ -= sum.work();
+    waiting += sum.work();
+    work += sum.work();
+  }
+  more_ = !s_.ahead.empty() && !full();
+  return !s_.parts.empty();
+}
+
+Status LaneSimulator::Passage::draw() {
+  std::size_t limit = left_;
+  if (s_.knows_pixels)
+    limit = std::min<std::size_t>(
+        limit, std::accumulate(s_.pixels.begin(), s_.pixels.end(), std::size_t{c_most_surplus}));
+  const HalfwayBatch batch{.words = words_.data(),
+                           .parts = s_.parts.data(),
+                           .first = first_,
+                           .end = first_ + s_.parts.size(),
+                           .next = &next_,
+                           .max_fragments = limit,
+                           .enough = kBatch,
+                           .more = more_};
+  std::atomic<int> worst = HALFWAY_DONE;
+  std::atomic<std::size_t> next_thread = 0;
+  work_on_threads(static_cast<unsigned>(std::min(threads(), s_.parts.size())), [&] {
+    for (std::size_t i; (i = next_thread++) < threads();) {
+      const int status = s_.run(s_.threads[i], &batch);
+      for (int seen = worst; status > seen && !worst.compare_exchange_weak(seen, status);) {
+      }
+    }
+  });
+  next_ = std::min(next_, batch.end);  // who found none to begin has counted, too
+  switch (worst) {
+    case HALFWAY_DONE:
+      return Ok{};
+    case HALFWAY_BUFFER_FULL:
+      return too_many(limit);
+    case HALFWAY_HANG:
+      return Error{
+          ExitCode::differs,
+          fmt::format("{} in lanes: hang: nothing moved in a lane for as long as is allowed, after {} "
+                      "cycles of all lanes",
+                      s_.key.name(), s_.cycles_of_all())};
+    case HALFWAY_FAULT:
+      return Error{ExitCode::differs, fmt::format("{} in lanes: the hardware tells a fault", s_.key.name())};
+    default:
+      return tool_failed(fmt::format("{} in lanes: unknown status {}", s_.key.name(), worst.load()));
+  }
+}
+
+Status LaneSimulator::Passage::hand_on(const OnDrawn& on_drawn) {
+  const std::size_t words_per_vector = s_.vector_words();
+  std::size_t whole = 0;
+  for (; whole < s_.parts.size() && s_.parts[whole].ended != 0; ++whole) {
+    const HalfwayPart& part = s_.parts[whole];
+    const std::size_t limit =
+        s_.knows_pixels ? std::min<std::size_t>(left_, s_.pixels[whole] + c_most_surplus) : left_;
+    if (part.fragments > limit) return too_many(limit);
+    left_ -= part.fragments;
+    const auto* first =
+        reinterpret_cast<const Fragment*>(s_.take(s_.threads[part.owner], part.lane, part.fragments));
+    on_drawn(words_.subspan(part.vector * words_per_vector, part.vectors * words_per_vector),
+             {first, part.fragments});
+  }
+  first_ += whole;
+  s_.parts.erase(s_.parts.begin(), s_.parts.begin() + static_cast<std::ptrdiff_t>(whole));
+  s_.pixels.erase(s_.pixels.begin(), s_.pixels.begin() + static_cast<std::ptrdiff_t>(whole));
+  return Ok{};
+}
 
 std::string LaneSimulator::refused(const HardwareKey& key) {
   if (key.shader == Shader::processors) return "its lights and counters outlive a triangle";
@@ -126,8 +267,8 @@ Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const Simulato
   decltype(&halfway_lanes_count) count = nullptr;
   if (Status bound = hardware.library.bind(
           version, "halfway_lanes_version", count, "halfway_lanes_count", hardware.run, "halfway_lanes_run",
-          hardware.fragments, "halfway_lanes_fragments", hardware.cycles, "halfway_lanes_cycles",
-          hardware.create, "halfway_lanes_create", hardware.destroy, "halfway_lanes_destroy");
+          hardware.take, "halfway_lanes_take", hardware.cycles, "halfway_lanes_cycles", hardware.create,
+          "halfway_lanes_create", hardware.destroy, "halfway_lanes_destroy");
       !bound)
     return bound.error();
   if (version() != HALFWAY_LANES_VERSION) {
@@ -151,37 +292,23 @@ unsigned LaneSimulator::init_bits() const {
 }
 
 std::uint64_t LaneSimulator::cycles() const {
-  std::uint64_t sum = state_->cycles_before;
-  for (const void* thread : state_->threads) sum += state_->cycles(thread);
-  return sum;
+  return state_->cycles_of_all();
 }
 
 Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
                           const OnDrawn& on_drawn) {
   State& s = *state_;
-  const std::size_t words_per_vector = s.vector_words(), threads = s.threads.size();
-  if (init_words.size() % words_per_vector != 0)
+  if (init_words.size() % s.vector_words() != 0)
     return bad_input(fmt::format("{}: {} words are no whole vectors of {} bits", s.key.name(),
                                  init_words.size(), s.init_bits));
   if (s.drawing) s.replace_lanes();
-  while (!init_words.empty()) {
-    std::size_t words = 0, work = 0;
-    s.triangles.clear();
-    while (words < init_words.size() &&
-           (work < kBatch * threads || s.triangles.size() < kTrianglesALane * s.lanes * threads)) {
-      const Triangle triangle = s.triangle(init_words.subspan(words));
-      if (work != 0 && work + triangle.work() > kLargestBatch * threads) break;
-      s.triangles.push_back(triangle);
-      words += triangle.vectors * words_per_vector;
-      work += triangle.work();
-    }
-    s.drawing = true;
-    const auto drawn = draw(init_words.first(words), max_fragments, on_drawn);
-    if (!drawn) return drawn.error();
-    s.drawing = false;
-    max_fragments -= *drawn;
-    init_words = init_words.subspan(words);
+  s.drawing = true;
+  Passage passage(s, init_words, max_fragments);
+  while (passage.add_parts()) {
+    if (Status drawn = passage.draw(); !drawn) return drawn;
+    if (Status taken = passage.hand_on(on_drawn); !taken) return taken;
   }
+  s.drawing = false;
   return Ok{};
 }
 
@@ -195,73 +322,6 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
              [&](auto, std::span<const Fragment> fragments) {
                out.insert(out.end(), fragments.begin(), fragments.end());
              });
-}
-
-Result<std::size_t> LaneSimulator::draw(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
-                                        const OnDrawn& on_drawn) {
-  State& s = *state_;
-  // Long parts first, then shorter ones, so that all lanes end together.
-  const std::size_t words_per_vector = s.vector_words(), all = s.lanes * s.threads.size();
-  std::size_t left = 0, pixels = 0;
-  for (const Triangle& triangle : s.triangles) {
-    left += triangle.work();
-    pixels += triangle.pixels;
-  }
-  if (s.knows_pixels) max_fragments = std::min<std::size_t>(max_fragments, pixels + c_most_surplus);
-  const auto too_many = [&] {
-    return Error{ExitCode::differs,
-                 fmt::format("{} in lanes: more than {} fragments", s.key.name(), max_fragments)};
-  };
-  s.parts.clear();
-  std::size_t vector = 0;
-  for (auto next = s.triangles.begin(); next != s.triangles.end();) {
-    const std::size_t wanted = std::max(kShortestPart, left / (4 * all));
-    HalfwayPart part{.vector = vector};
-    for (std::size_t work = 0; next != s.triangles.end() && work < wanted; ++next) {
-      part.vectors += next->vectors;
-      work += next->work();
-      left -= next->work();
-    }
-    vector += part.vectors;
-    s.parts.push_back(part);
-  }
-
-  std::size_t next_part = 0;
-  std::atomic<int> worst = HALFWAY_DONE;
-  std::atomic<std::size_t> next_thread = 0;
-  work_on_threads(static_cast<unsigned>(std::min(s.threads.size(), s.parts.size())), [&] {
-    for (std::size_t i; (i = next_thread++) < s.threads.size();) {
-      HalfwayBatch batch{init_words.data(), s.parts.data(), s.parts.size(), &next_part, max_fragments};
-      const int status = s.run(s.threads[i], &batch);
-      for (int seen = worst; status > seen && !worst.compare_exchange_weak(seen, status);) {
-      }
-    }
-  });
-  std::size_t total = 0;
-  for (const HalfwayPart& part : s.parts) total += part.fragments;
-  switch (worst) {
-    case HALFWAY_DONE:
-      if (total > max_fragments) return too_many();
-      break;
-    case HALFWAY_BUFFER_FULL:
-      return too_many();
-    case HALFWAY_HANG:
-      return Error{
-          ExitCode::differs,
-          fmt::format("{} in lanes: hang: nothing moved in a lane for as long as is allowed, after {} "
-                      "cycles of all lanes",
-                      s.key.name(), cycles())};
-    case HALFWAY_FAULT:
-      return Error{ExitCode::differs, fmt::format("{} in lanes: the hardware tells a fault", s.key.name())};
-    default:
-      return tool_failed(fmt::format("{} in lanes: unknown status {}", s.key.name(), worst.load()));
-  }
-  for (const HalfwayPart& part : s.parts) {
-    const auto* first = reinterpret_cast<const Fragment*>(s.fragments(s.threads[part.owner], part.lane));
-    on_drawn(init_words.subspan(part.vector * words_per_vector, part.vectors * words_per_vector),
-             {first + part.fragment, part.fragments});
-  }
-  return total;
 }
 
 }  // namespace halfway

@@ -21,8 +21,10 @@ namespace halfway {
 struct LaneOptions {
   unsigned threads = 1;                ///< each with lanes of its own
   std::uint64_t idle_limit = 100'000;  ///< cycles in which nothing moves in a lane: a hang
-  bool fast = true;                    ///< worth a long compilation
-  std::string compiler{};              ///< empty: clang++ where it is installed, else g++
+  /// Fragments a thread that wait for a part in front of theirs, from which on no part is begun.
+  std::size_t most_waiting = std::size_t{1} << 20;
+  bool fast = true;        ///< worth a long compilation
+  std::string compiler{};  ///< empty: clang++ where it is installed, else g++
 };
 
 class LaneSimulator {
@@ -52,25 +54,25 @@ class LaneSimulator {
   /// (a hang) has the exit code `differs`; some parts may have been handed on then. After an error the next
   /// call begins with lanes just reset. More vectors in a call are faster: thousands.
   ///
-  /// Memory does not grow with a call's vectors. A thread's lanes draw 2^20 fragments at a time, or one
-  /// triangle where that covers more, and hold twice that at most while their room grows; room for 2^21 in
-  /// all stays for what comes next.
+  /// Lanes go on from part to part and wait for one another at a call's end alone, and where `most_waiting`
+  /// fragments wait. Memory does not grow with a call's vectors: a thread's lanes hold that many and a part
+  /// or triangle that covers more, in room for four times as many at most; room for 2^21 in all stays for
+  /// what comes next.
   Status run(std::span<const std::uint32_t> init_words, std::size_t max_fragments, const OnDrawn& on_drawn);
   /// The same, appended to `out`, which holds no more than `max_fragments`.
   Status run(std::span<const std::uint32_t> init_words, std::size_t vectors, std::vector<Fragment>& out,
              std::size_t max_fragments);
 
   /// Clocks of all lanes while they had something to draw, summed: more than one hardware would need, as each
-  /// part of a batch ends with the pipeline running empty.
+  /// part ends with the pipeline running empty.
   std::uint64_t cycles() const;
 
  private:
   struct Hardware;  // what others of the same share
   struct State;
+  class Passage;
   static LaneSimulator with_lanes(Hardware hardware);
   explicit LaneSimulator(std::shared_ptr<State> state) : state_(std::move(state)) {}
-  Result<std::size_t> draw(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
-                           const OnDrawn& on_drawn);
   std::shared_ptr<State> state_;
 };
 

@@ -106,6 +106,28 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
   }
 }
 
+TEST_P(ShadersInLanes, WaitForWhatIsInFrontOrGoOn) {
+  for (const std::size_t most_waiting : {std::size_t{0}, std::size_t{200}, kMost}) {
+    for (const unsigned threads : {1U, 2U}) {
+      auto lanes = LaneSimulator::open(key_, kFolders,
+                                       {.threads = threads, .most_waiting = most_waiting, .fast = false});
+      ASSERT_TRUE(lanes) << lanes.error().message;
+      // Many times what a run draws before it hands on.
+      constexpr std::size_t kTurns = 24;
+      std::vector<std::uint32_t> words;
+      for (std::size_t i = 0; i < kTurns; ++i) words.insert(words.end(), words_.begin(), words_.end());
+      std::vector<Fragment> drawn;
+      const Status ran = lanes->run(words, words.size() / words_per_vector_, drawn, kMost);
+      ASSERT_TRUE(ran) << ran.error().message;
+      ASSERT_EQ(drawn.size(), kTurns * expected_.size());
+      for (std::size_t i = 0; i < kTurns; ++i)
+        ASSERT_TRUE(std::equal(expected_.begin(), expected_.end(),
+                               drawn.begin() + static_cast<std::ptrdiff_t>(i * expected_.size())))
+            << "turn " << i;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, ShadersInLanes,
                          testing::Values(Case{"spheres", Shader::quadratic, Preset::exact},
                                          Case{"matte", Shader::quadratic, Preset::published},
