@@ -120,8 +120,7 @@ check-report: build ## the page of make report in headless Chromium, by mouse an
 	@ctest --test-dir build --output-on-failure --no-tests=error -R '^ReportPage'
 
 diagrams: setup ## the shaders' block diagrams in rtl/diagrams, drawn from their text
-	@for text in rtl/diagrams/*.dot; do dot -Tsvg "$$text" >build/diagram.svg && \
-	  mv build/diagram.svg "$${text%.dot}.svg" || exit 3; done
+	@scripts/diagrams.sh build/diagrams
 
 gallery: program ## the pictures in sim/gallery, drawn anew by the RTL; README.md's front, measured anew
 	@scripts/gallery.sh build/gallery
