@@ -30,8 +30,8 @@ typedef struct {
   int more;             /* other parts follow: a run ends, too, when a lane has none to begin */
 } HalfwayBatch;
 
-/* Draws parts, each by the first lane that is free, until there are no more; what is begun then is drawn on in
-   the next run. HALFWAY_BUFFER_FULL: more than `max_fragments`. */
+/* Draws parts, each by the first lane that is free, until there are no more; what is begun then is drawn on
+   in the next run. HALFWAY_BUFFER_FULL: more than `max_fragments`. */
 int halfway_lanes_run(void* lanes, const HalfwayBatch* batch);
 /* The first `count` fragments of what a lane drew and nobody has taken; there until the next run. */
 const HalfwayFragment* halfway_lanes_take(void* lanes, uint32_t lane, size_t count);
