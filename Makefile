@@ -69,7 +69,7 @@ help: ## this list
 	@echo '  JOBS       parallel compilations, tests and fuzzers       (default: all cores)'
 	@echo '  SECONDS, TARGET   make fuzz: for how long each (default: 60), and one target alone'
 	@echo '  DESIGN, SEEDS  make synth: only designs with this in their names; seeds of placement  (default: all, 3)'
-	@echo '  PIN        1: make synth pins the figures in place of comparing'
+	@echo '  PIN        1: make synth pins the figures in place of comparing; make study PLACE=1 the clocks'
 
 sim: program ## scenes through golden model, GHDL and Verilator: compare, write frames
 	@build/halfway sim $(sim_options) $(scene)
@@ -96,7 +96,7 @@ savings: program ## what README tells of hardware left out, measured anew and wr
 study: program ## accuracy against time over the design space (FULL=1; SCENE; ERROR, PSNR, TIME ask; EXECUTOR=slurm)
 	@case "$${SPACE:+$${FULL#0}}" in ('') ;; (*) echo 'study: FULL is a space, too; give it or SPACE' >&2; exit 2 ;; esac
 	@build/halfway study $${SPACE:+--space "$$SPACE"} $(call flag,FULL,--space sim/studies/full.toml) $(call option,SIZE,--size) $(call option,TILE,--tile) $(call option,ERROR,--error) \
-	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) \
+	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) $(call flag,PIN,--pin) \
 	  $(call option,EXECUTOR,--executor) $(call option,PARTS,--parts) $(call option,THREADS,--threads) \
 	  $(call option,OUT,--out) $(scene)
 

@@ -37,7 +37,7 @@ struct StudyCommand {
   std::string size, tile;  ///< empty: the space's
   std::string error, psnr, time;
   std::optional<double> clock_mhz;
-  bool place = false;
+  bool place = false, pin = false;
   std::string out = "build/study";
   unsigned threads = 0;
   std::string executor = "local";
@@ -61,6 +61,7 @@ Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
   if (!demand) return demand.error();
   plan.demand = *demand;
   if (command.clock_mhz && !(*command.clock_mhz > 0)) return bad_input("--clock: takes MHz above 0");
+  if (command.pin && !command.place) return bad_input("--pin: needs --place: what is placed is pinned");
   if (command.place && (find_program("yosys").empty() || find_program("nextpnr-ice40").empty()))
     return tool_failed(
         fmt::format("--place: yosys or nextpnr-ice40 is not found; install both: {}", synth::kInstallTools));
@@ -255,6 +256,11 @@ int run(const Folders& folders, const StudyCommand& command) {
   if (interruption) writing.lock();
   progress.clear();
   if (!hardware) return report(hardware.error());
+  if (command.pin) {
+    const auto pinned = study::pin_clocks(*hardware, settings.folders);
+    if (!pinned) return report(pinned.error());
+    fmt::print("{}: {} pinned\n", (settings.folders.source / synth::kStudyPins).string(), *pinned);
+  }
   return conclude(*plan, *study, *hardware, {command.clock_mhz});
 }
 
@@ -277,6 +283,8 @@ void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
                     "MHz that hardware is taken to run at whose clock is not known");
   study->add_flag("--place", command->place,
                   "place and route the hardware whose clock is not known: minutes for each design");
+  study->add_flag("--pin", command->pin,
+                  fmt::format("write what is placed, or has no room, into {}", synth::kStudyPins));
   study
       ->add_option("--out", command->out,
                    fmt::format("folder for results: the table {}, of a question {}, and points/",

@@ -115,14 +115,22 @@ Status do_all(std::size_t count, const FiguresOptions& options, const std::strin
   });
 }
 
-Result<PinnedClocks> pinned_clocks(const SimulatorFolders& folders) {
-  const auto pins = synth::read_pins(folders.source / synth::kPins);
+Status add_pinned(const std::filesystem::path& file, PinnedClocks& clocks) {
+  const auto pins = synth::read_pins(file);
   if (!pins) return pins.error();
-  auto tools = synth::pin_versions(folders.source / synth::kPins);
+  const auto tools = synth::pin_versions(file);
   if (!tools) return tools.error();
-  PinnedClocks clocks{{}, std::move(*tools)};
   for (const auto& [name, pin] : *pins)
-    if (!pin.netlist.empty() && pin.mhz > 0) clocks.mhz[pin.netlist] = pin.mhz;
+    if (!pin.netlist.empty()) clocks.try_emplace(pin.netlist, PinnedClock{pin, *tools});
+  return Ok{};
+}
+
+Result<PinnedClocks> pinned_clocks(const SimulatorFolders& folders) {
+  PinnedClocks clocks;
+  if (Status added = add_pinned(folders.source / synth::kPins, clocks); !added) return added.error();
+  const std::filesystem::path of_studies = folders.source / synth::kStudyPins;
+  if (std::filesystem::exists(of_studies))
+    if (Status added = add_pinned(of_studies, clocks); !added) return added.error();
   return clocks;
 }
 
@@ -131,8 +139,15 @@ void add_tools(HardwareFigures& figures, const std::string& tools) {
   figures.tools += tools;
 }
 
+// Why what is pinned without a clock has none.
+std::string no_placement(const synth::Ice40Cells& cells) {
+  std::string why = synth::does_not_fit("LUTs", cells.luts, synth::kDeviceCells);
+  if (why.empty()) why = synth::does_not_fit("flip-flops", cells.flip_flops, synth::kDeviceCells);
+  if (why.empty()) why = synth::does_not_fit("RAMs", cells.rams, synth::kDeviceRams);
+  return why.empty() ? "too full, or nextpnr does not end" : why;
+}
+
 Status take_pinned(const HardwareSource& source, const PinnedClocks& clocks, HardwareFigures& figures) {
-  if (clocks.mhz.empty()) return Ok{};
   const auto tool = GhdlTool::find();
   if (!tool) return tool.error();
   const auto sources = read_rtl_sources(source.folders.source);
@@ -141,11 +156,19 @@ Status take_pinned(const HardwareSource& source, const PinnedClocks& clocks, Har
   if (!library) return library.error();
   const auto hash = synth::netlist_hash(*library, source.design());
   if (!hash) return hash.error();
-  if (const auto found = clocks.mhz.find(*hash); found != clocks.mhz.end()) {
-    figures.mhz = found->second;
+  figures.netlist = *hash;
+  const auto found = clocks.find(*hash);
+  if (found == clocks.end()) return Ok{};
+  const auto& [pin, tools] = found->second;
+  figures.ice40 = pin.cells;
+  if (pin.mhz > 0) {
+    figures.mhz = pin.mhz;
     figures.clock = "pinned";
-    if (!clocks.tools.empty()) add_tools(figures, "pinned with " + clocks.tools);
+  } else {
+    figures.clock = no_placement(pin.cells);
+    figures.fits = false;
   }
+  if (!tools.empty()) add_tools(figures, "pinned with " + tools);
   return Ok{};
 }
 
@@ -159,35 +182,31 @@ Status count_cells(const HardwareSource& source, HardwareFigures& figures) {
   return Ok{};
 }
 
-// Why cells that Yosys counted for no family cannot be on the device, where each takes a logic cell, too:
-// told without synthesis for it, which is minutes and gigabytes of what is much too large.
-std::string too_large(const std::optional<Cells>& cells) {
-  if (!cells) return {};
-  std::string why = synth::does_not_fit("flip-flops", cells->flip_flops, synth::kDeviceCells);
+// Cells that Yosys counted for no family are told not to be on the device, where each takes a logic cell,
+// too, without synthesis for it, which is minutes and gigabytes of what is much too large.
+void take_size(HardwareFigures& figures) {
+  if (figures.mhz || !figures.fits || !figures.cells) return;
+  std::string why = synth::does_not_fit("flip-flops", figures.cells->flip_flops, synth::kDeviceCells);
   if (why.empty())
-    why = synth::does_not_fit("LUTs of multipliers", cells->multiplier_luts, synth::kDeviceCells);
-  return why;
+    why = synth::does_not_fit("LUTs of multipliers", figures.cells->multiplier_luts, synth::kDeviceCells);
+  if (why.empty()) return;
+  figures.clock = std::move(why);
+  figures.fits = false;
 }
 
 // What is to place it; none where its clock is known, or why it has none.
 Result<std::optional<synth::Synthesizer>> placer_of(const HardwareSource& source, HardwareFigures& figures) {
-  if (figures.mhz) return std::optional<synth::Synthesizer>();
-  std::string no_room = too_large(figures.cells);
-  std::optional<synth::Synthesizer> placer;
-  if (no_room.empty()) {
-    auto synthesizer = synth::Synthesizer::open(source.folders, true);
-    if (!synthesizer) return synthesizer.error();
-    const auto cells = synthesizer->ice40(source.design());
-    if (!cells) return cells.error();
-    figures.ice40 = *cells;
-    add_tools(figures, "placed with " + synthesizer->versions());
-    auto told = synthesizer->no_room(source.design());
-    if (!told) return told.error();
-    no_room = std::move(*told);
-    placer = std::move(*synthesizer);
-  }
-  if (no_room.empty()) return placer;
-  figures.clock = std::move(no_room);
+  if (figures.mhz || !figures.fits) return std::optional<synth::Synthesizer>();
+  auto synthesizer = synth::Synthesizer::open(source.folders, true);
+  if (!synthesizer) return synthesizer.error();
+  const auto cells = synthesizer->ice40(source.design());
+  if (!cells) return cells.error();
+  figures.ice40 = *cells;
+  add_tools(figures, "placed with " + synthesizer->versions());
+  auto no_room = synthesizer->no_room(source.design());
+  if (!no_room) return no_room.error();
+  if (no_room->empty()) return std::optional(std::move(*synthesizer));
+  figures.clock = std::move(*no_room);
   figures.fits = false;
   return std::optional<synth::Synthesizer>();
 }
@@ -258,15 +277,39 @@ Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const
     return take_pinned(open[at].source, *clocks, *open[at].figures);
   });
   if (!pinned) return pinned.error();
-  if (!find_program("yosys").empty()) {
+  if (options.cells && !find_program("yosys").empty()) {
     const Status counted = do_all(open.size(), options, "cells", [&](std::size_t at) {
       return count_cells(open[at].source, *open[at].figures);
     });
     if (!counted) return counted.error();
   }
+  for (const Open& each : open) take_size(*each.figures);
   if (options.place)
     if (Status placed = place_all(open, options); !placed) return placed.error();
   return table;
+}
+
+Result<std::size_t> pin_clocks(const HardwareTable& table, const SimulatorFolders& folders) {
+  const std::filesystem::path file = folders.source / synth::kStudyPins;
+  synth::Pins pins;
+  if (std::filesystem::exists(file)) {
+    auto there = synth::read_pins(file);
+    if (!there) return there.error();
+    pins = std::move(*there);
+    std::erase_if(pins, [](const auto& entry) { return entry.second.netlist.empty(); });
+  }
+  PinnedClocks designs;
+  if (Status added = add_pinned(folders.source / synth::kPins, designs); !added) return added.error();
+  for (const auto& [name, figures] : table) {
+    pins.erase(name);
+    if (figures.ice40 && !designs.contains(figures.netlist))
+      pins[name] = {*figures.ice40, figures.mhz.value_or(0), figures.netlist};
+  }
+  const auto synthesizer = synth::Synthesizer::open(folders, true);
+  if (!synthesizer) return synthesizer.error();
+  if (Status written = synth::write_study_pins(file, pins, synthesizer->versions()); !written)
+    return written.error();
+  return pins.size();
 }
 
 Result<Placements> Placements::open(const std::string& scene, std::span<const DesignPoint> points,
@@ -283,7 +326,7 @@ Result<Placements> Placements::open(const std::string& scene, std::span<const De
   if (!synthesizer) return synthesizer.error();
   ContentHash made_by;
   made_by.add("placed 1").add(synth::flow_hash()).add(rtl).add(synthesizer->versions());
-  for (const auto& [netlist, mhz] : pinned->mhz) made_by.add(netlist);
+  for (const auto& [netlist, clock] : *pinned) made_by.add(netlist);
   placements.pinned_ = std::move(*pinned);
   placements.made_by_ = made_by.hex();
   placements.marks_ = folders.cache / "placed";
@@ -308,6 +351,7 @@ Status Placements::make(std::size_t number) const {
   HardwareFigures figures;
   if (Status pinned = take_pinned(source, pinned_, figures); !pinned) return pinned;
   if (Status counted = count_cells(source, figures); !counted) return counted;
+  take_size(figures);
   const auto placer = placer_of(source, figures);
   if (!placer) return placer.error();
   if (*placer)

@@ -18,6 +18,7 @@
 #include "scene/scene.hpp"
 #include "setup/made_formats.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/synth/pinned.hpp"
 #include "sim/synth/synthesis.hpp"
 #include "study/design_point.hpp"
 #include "study/record.hpp"
@@ -57,12 +58,13 @@ struct HardwareFigures {
   std::optional<double> mhz;
   /// Where that is from, `pinned` or `placed`; or why there is none.
   std::string clock = c_not_placed;
-  /// Of hardware that was placed: by itself, without the registers around it.
+  /// Of hardware that was placed, then or when that was pinned: by itself, without the registers around it.
   std::optional<synth::Ice40Cells> ice40;
   /// The device has no room for it: it never has a clock there.
   bool fits = true;
   /// Versions of what all that is by, such as `pinned with nextpnr-ice40 0.4, cells by Yosys 0.23`.
   std::string tools{};
+  std::string netlist{};  ///< synth::netlist_hash of it
 };
 /// By the key's name.
 using HardwareTable = std::map<std::string, HardwareFigures>;
@@ -70,24 +72,30 @@ using HardwareTable = std::map<std::string, HardwareFigures>;
 /// LUTs and flip-flops, tables and multipliers as LUTs among them; memory that is written as LUTs of 16 bits.
 double cell_count(const Cells& cells);
 
-/// By the hash of the netlist that each is of.
-struct PinnedClocks {
-  std::map<std::string, double> mhz;
-  std::string tools;  ///< that they were placed with
+struct PinnedClock {
+  synth::Pin pin;
+  std::string tools;  ///< that it was placed with
 };
+/// By the hash of the netlist that each is of.
+using PinnedClocks = std::map<std::string, PinnedClock>;
 
 struct FiguresOptions {
   unsigned threads = 1;
+  bool cells = true;  ///< else by Yosys no more than `place` takes
   /// Synthesizes and places what has no pinned clock, minutes each; else such a clock is not known.
   bool place = false;
   std::function<void(const std::string&)> on_progress = [](const std::string&) {};
 };
 
 /// The cells and clocks of all hardware that the records name, each from the cache where it is there. Without
-/// Yosys there is a table without cells; a clock is pinned in tb/synth/pinned.txt by the hash of the netlist
-/// that it is of.
+/// Yosys there is a table without cells; a clock is pinned in synth::kPins or synth::kStudyPins by the hash
+/// of the netlist that it is of.
 Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const Record> records,
                                        const SimulatorFolders& folders, const FiguresOptions& options);
+
+/// Pins in synth::kStudyPins what a table made with `place` tells and synth::kPins does not, and leaves there
+/// what other hardware has of the same flow; how many are pinned then.
+Result<std::size_t> pin_clocks(const HardwareTable& table, const SimulatorFolders& folders);
 
 /// What takes longest of that with `place`, in pieces that may be done by anyone, in any order: a placement
 /// of each hardware by each seed. Each is left in the cache, with a mark that it is done: what the device has

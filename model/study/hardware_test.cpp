@@ -54,9 +54,12 @@ class HardwareFiguresTest : public ::testing::Test {
     ASSERT_TRUE(folder) << folder.error().message;
     folder_.emplace(std::move(*folder));
     folders_ = {folder_->path() / "source", folder_->path() / "cache"};
-    ASSERT_TRUE(make_folders(folders_.source / "tb/synth"));
-    for (const char* name : {"rtl", "sim"})
-      fs::create_directory_symlink(c_source / name, folders_.source / name);
+    // Where clocks are pinned is its own.
+    for (const char* name : {"tb/synth", "sim/studies"}) ASSERT_TRUE(make_folders(folders_.source / name));
+    fs::create_directory_symlink(c_source / "rtl", folders_.source / "rtl");
+    for (const auto& entry : fs::directory_iterator(c_source / "sim"))
+      if (entry.is_directory() && entry.path().filename() != "studies")
+        fs::create_directory_symlink(entry.path(), folders_.source / "sim" / entry.path().filename());
     // Analysis is GHDL's own, and takes longest.
     ASSERT_TRUE(make_folders(folders_.cache));
     ASSERT_TRUE(make_folders(c_source / "build/cache/ghdl"));
@@ -173,6 +176,89 @@ TEST_F(HardwareFiguresTest, WhatTheDeviceHasNoRoomForHasNoClockAndSaysWhy) {
   // Told before it is synthesized for the device.
   EXPECT_EQ(why("7681", "NONE", "40"), "does not fit the HX8K: 7681 flip-flops of 7680");
   EXPECT_EQ(placements(), 0U);
+}
+
+TEST_F(HardwareFiguresTest, WhatIsPlacedCanBePinned) {
+  const auto table = [&](bool place) {
+    auto made = hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place});
+    EXPECT_TRUE(made) << made.error().message;
+    return made ? *made : HardwareTable{};
+  };
+  const auto pins = [&] {
+    const auto read = synth::read_pins(folders_.source / synth::kStudyPins);
+    EXPECT_TRUE(read) << read.error().message;
+    return read ? *read : synth::Pins{};
+  };
+  const auto pinned = [&](const HardwareTable& of) {
+    const auto count = pin_clocks(of, folders_);
+    EXPECT_TRUE(count) << count.error().message;
+    return count ? *count : 99;
+  };
+  EXPECT_EQ(pinned(table(false)), 0U);  // nothing is known of it
+  EXPECT_EQ(pinned(table(true)), 1U);
+  const synth::Ice40Cells cells{.luts = 30, .flip_flops = 4};
+  EXPECT_EQ(pins().at(key_.name()).cells, cells);
+  for (const bool place : {false, true}) {
+    const HardwareFigures figures = table(place).at(key_.name());
+    EXPECT_EQ(figures.mhz, 102.0);
+    EXPECT_EQ(figures.clock, "pinned");
+    EXPECT_EQ(figures.ice40, cells);
+  }
+  EXPECT_EQ(placements(), synth::kSeeds);
+  // Other hardware's stay, of the same flow.
+  synth::Pins others = pins();
+  others["other"] = {{1, 2, 3, 4}, 50.0, std::string(32, 'a')};
+  ASSERT_TRUE(synth::write_study_pins(folders_.source / synth::kStudyPins, others, "tools"));
+  EXPECT_EQ(pinned(table(false)), 2U);
+  EXPECT_EQ(pins().at("other").mhz, 50.0);
+  // A design's pin is enough.
+  pin(fmt::format("flow {}\nany 1 2 3 4 87.5 {}\n", synth::flow_hash(), pins().at(key_.name()).netlist));
+  EXPECT_EQ(pinned(table(false)), 1U);
+  EXPECT_EQ(table(false).at(key_.name()).mhz, 87.5);
+  pin("");
+  for (const char* made : {"yosys", "synth"}) fs::remove_all(folders_.cache / made);
+  put_tools("4", "7681", "40");
+  EXPECT_EQ(pinned(table(true)), 2U);
+  const HardwareFigures large = table(false).at(key_.name());
+  EXPECT_FALSE(large.mhz);
+  EXPECT_FALSE(large.fits);
+  EXPECT_EQ(large.clock, "does not fit the HX8K: 7681 LUTs of 7680");
+}
+
+// What the files tell is of the hardware that is drawn today.
+TEST(StudyClocks, AreOfTheSmallStudysHardware) {
+  const auto pins = synth::read_pins(c_source / synth::kStudyPins);
+  ASSERT_TRUE(pins) << pins.error().message;
+  const auto points = read_space((c_source / "sim/studies/small.toml").string());
+  ASSERT_TRUE(points) << points.error().message;
+  const std::string scene = c_source / "sim/studies/sphere.toml";
+  const SimulatorFolders folders{c_source, c_source / "build/cache"};
+  std::vector<Record> records;
+  for (const DesignPoint& point : *points) {
+    if (!in_hardware(point.method)) continue;
+    const auto drawn = drawn_scene(scene, c_source / "sim/scenes", point);
+    ASSERT_TRUE(drawn) << drawn.error().message;
+    const auto hardware = hardware_of(point, *drawn);
+    if (!hardware) continue;  // what cannot draw the scene
+    records.push_back({point, {}});
+    records.back().measured.hardware = hardware->key.name();
+  }
+  const auto table = hardware_figures(scene, records, folders, {.threads = 2, .cells = false});
+  ASSERT_TRUE(table) << table.error().message;
+  std::size_t clocks = 0;
+  for (const auto& [name, figures] : *table) {
+    clocks += figures.mhz ? 1 : 0;
+    const auto pin = pins->find(name);
+    if (pin != pins->end()) {
+      EXPECT_EQ(pin->second.netlist, figures.netlist) << name;
+    }
+    // Of most processors their multipliers alone are too large, which nobody need synthesize to know.
+    if (!name.starts_with("processors")) {
+      EXPECT_NE(figures.clock, c_not_placed)
+          << name << ": not pinned; make study PLACE=1 PIN=1 places it, minutes for each seed";
+    }
+  }
+  EXPECT_GT(clocks, 18U);
 }
 
 // As pieces of a study: what each part leaves in the cache is all that the table needs.

@@ -17,11 +17,29 @@ namespace {
 
 // A line of its own: of which flow the clocks are.
 constexpr std::string_view c_flow = "flow ";
-constexpr std::string_view c_written_with = "# Written by `make synth PIN=1` with ";
+constexpr std::string_view c_written_by = "\n# Written by `", c_written_with = "` with ";
 
 bool is_hash(std::string_view text) {
   constexpr std::size_t c_digits = 32;
   return text.size() == c_digits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+// `command` writes the file; `notes`: lines of comment on what it is held against.
+Status write(const std::filesystem::path& path, const Pins& pins, const std::string& versions,
+             std::string_view command, const std::string& notes) {
+  std::string text = fmt::format(
+      "# Cells of each design on an iCE40 by itself, and its clock on an HX8K with registered ports, median "
+      "seed.{}{}{}{}.\n{}{}\n{}"
+      "# name luts carries flip_flops rams mhz netlist, and of how many seeds the clock is where not of {}\n",
+      c_written_by, command, c_written_with, versions, c_flow, flow_hash(), notes, kSeeds);
+  for (const auto& [name, pin] : pins) {
+    text += fmt::format("{} {} {} {} {} {:.1f}", name, pin.cells.luts, pin.cells.carries,
+                        pin.cells.flip_flops, pin.cells.rams, pin.mhz);
+    if (!pin.netlist.empty()) text += " " + pin.netlist;
+    if (!pin.netlist.empty() && pin.mhz > 0 && pin.seeds != kSeeds) text += fmt::format(" {}", pin.seeds);
+    text += '\n';
+  }
+  return write_file(path, text);
 }
 
 bool read_seeds(const std::string& word, unsigned& seeds) {
@@ -56,7 +74,7 @@ Result<Pins> read_pins(const std::filesystem::path& path) {
         !(seeds.empty() || read_seeds(seeds, pin.seeds)))
       return reader->at(
           "not a name, four numbers of cells, a clock, a netlist's hash and a number of seeds; write it anew "
-          "with make synth PIN=1");
+          "with make synth PIN=1, or make study PLACE=1 PIN=1");
     pin.line = reader->line_number();
     if (!pins.emplace(name, pin).second) return reader->at("a second line of this name");
   }
@@ -68,8 +86,8 @@ Result<Pins> read_pins(const std::filesystem::path& path) {
 Result<std::string> pin_versions(const std::filesystem::path& path) {
   const auto text = read_file(path);
   if (!text) return text.error();
-  const std::size_t at = text->find(c_written_with);
-  if (at == std::string::npos) return std::string();
+  const std::size_t written = text->find(c_written_by), at = text->find(c_written_with, written);
+  if (written == std::string::npos || at == std::string::npos) return std::string();
   const std::size_t begin = at + c_written_with.size();
   std::string versions = text->substr(begin, text->find('\n', begin) - begin);
   if (versions.ends_with('.')) versions.pop_back();
@@ -77,25 +95,18 @@ Result<std::string> pin_versions(const std::filesystem::path& path) {
 }
 
 Status write_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions) {
-  std::string text = fmt::format(
-      "# Cells of each design on an iCE40 by itself, and its clock on an HX8K with registered ports, median "
-      "seed.\n"
-      "{}{}.\n"
-      "{}{}\n"
-      "# `make synth` and ctest -R synth fail where flip-flops or RAMs differ, LUTs or carries by more than "
-      "{:.0f} %\n"
-      "# (and {}), or where the clock is more than {:.0f} % slower or faster.\n"
-      "# name luts carries flip_flops rams mhz netlist, and of how many seeds the clock is where not of {}\n",
-      c_written_with, versions, c_flow, flow_hash(), 100 * c_lut_share, c_lut_slack, 100 * c_clock_share,
-      kSeeds);
-  for (const auto& [name, pin] : pins) {
-    text += fmt::format("{} {} {} {} {} {:.1f}", name, pin.cells.luts, pin.cells.carries,
-                        pin.cells.flip_flops, pin.cells.rams, pin.mhz);
-    if (!pin.netlist.empty()) text += " " + pin.netlist;
-    if (!pin.netlist.empty() && pin.mhz > 0 && pin.seeds != kSeeds) text += fmt::format(" {}", pin.seeds);
-    text += '\n';
-  }
-  return write_file(path, text);
+  return write(path, pins, versions, "make synth PIN=1",
+               fmt::format("# `make synth` and ctest -R synth fail where flip-flops or RAMs differ, LUTs or "
+                           "carries by more than {:.0f} %\n"
+                           "# (and {}), or where the clock is more than {:.0f} % slower or faster.\n",
+                           100 * c_lut_share, c_lut_slack, 100 * c_clock_share));
+}
+
+Status write_study_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions) {
+  return write(
+      path, pins, versions, "make study PLACE=1 PIN=1",
+      "# `make study` takes them where its hardware has the netlist; 0 MHz: nextpnr has no placement of "
+      "it.\n");
 }
 
 std::optional<int> published_ns(std::string_view design) {

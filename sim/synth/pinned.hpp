@@ -12,7 +12,9 @@
 
 namespace halfway::synth {
 
-inline constexpr const char* kPins = "tb/synth/pinned.txt";  ///< from the project's root
+// From the project's root.
+inline constexpr const char* kPins = "tb/synth/pinned.txt";
+inline constexpr const char* kStudyPins = "sim/studies/clocks.txt";  ///< of hardware that studies draw by
 
 /// Luts and carries may differ by this share and this many, whichever is more: another Yosys maps a little
 /// differently. Flip-flops and RAMs are what the RTL says, to one.
@@ -35,6 +37,8 @@ using Pins = std::map<std::string, Pin>;
 /// `flow HASH` says what flow_hash was: where it is another now, or there is none, no netlist is known.
 Result<Pins> read_pins(const std::filesystem::path& path);
 Status write_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions);
+/// kStudyPins.
+Status write_study_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions);
 /// The tools' versions that the pins were written with, as write_pins was told them; empty where the file
 /// does not say.
 Result<std::string> pin_versions(const std::filesystem::path& path);
