@@ -732,8 +732,9 @@ std::string growth_section(const std::vector<Series>& all) {
       "least squares of relative deviations. Memory is the most beside the mesh and the program, the drawing "
       "before and the\nframe's {} bytes a pixel included. What is beside the frame is bounded: most of it "
       "what lanes "
-      "hold of large triangles,\na million fragments at a time, or one triangle's where that covers more, as "
-      "many again while their room grows,\nand room for two million kept from before.\n",
+      "hold of large triangles,\ntwo million fragments, and a triangle's more, in room for four times as "
+      "many at most,"
+      "\nand room for two million kept from before.\n",
       c_frame_bytes);
   double best_pace = std::numeric_limits<double>::infinity();
   for (const Series& series : all)

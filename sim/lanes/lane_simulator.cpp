@@ -151,9 +151,7 @@ bool LaneSimulator::Passage::add_parts() {
     if (first_ + i >= next_) work += own;
   }
   const auto full = [&] { return waiting != 0 && waiting >= s_.options.most_waiting * threads(); };
-  const auto enough = [&] {
-    return work >= kBatch * threads() && first_ + s_.parts.size() >= next_ + lanes();
-  };
+  const auto enough = [&] { return work >= kBatch * threads(); };
   for (look_ahead(); !s_.ahead.empty() && !full() && !enough(); look_ahead()) {
     // Shorter ones at the end, so that all lanes end together.
     const std::size_t wanted = std::max(kShortestPart, work_ahead_ / (4 * lanes()));

@@ -22,7 +22,7 @@ struct LaneOptions {
   unsigned threads = 1;                ///< each with lanes of its own
   std::uint64_t idle_limit = 100'000;  ///< cycles in which nothing moves in a lane: a hang
   /// Fragments a thread that wait for a part in front of theirs, from which on no part is begun.
-  std::size_t most_waiting = std::size_t{1} << 20;
+  std::size_t most_waiting = std::size_t{1} << 21;
   bool fast = true;        ///< worth a long compilation
   std::string compiler{};  ///< empty: clang++ where it is installed, else g++
 };
