@@ -82,6 +82,7 @@ TEST_P(Diagram, IsDrawnFromItsText) {
       const std::size_t end = label.find("\\n", at);
       std::string line = label.substr(at, end == std::string::npos ? end : end - at);
       line = std::regex_replace(line, std::regex("'"), "&#39;");
+      line = std::regex_replace(line, std::regex("^  "), " &#160;");
       EXPECT_NE(svg.find('>' + line + '<'), std::string::npos) << line << ": run make diagrams";
       at = end == std::string::npos ? end : end + 2;
     }
