@@ -65,10 +65,10 @@ TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
   EXPECT_THAT(missed.output, AllOf(HasSubstr("3 points, 0 measured anew"),
                                    HasSubstr("none of 2 points of hardware meets it"),
                                    HasSubstr("most accurate  adaptive exact")));
-  // In three channels, which no pinned clock is of.
+  // In three channels, which are pinned to have no room.
   const Outcome timed = study({"spheres", "--time", "1s"});
   EXPECT_EQ(timed.exit_code, 1) << timed.output;
-  EXPECT_THAT(timed.output, HasSubstr("2 points might be fast enough, but no clock of theirs is known"));
+  EXPECT_THAT(timed.output, HasSubstr("2 points have no clock: the device has no room for them (--clock)"));
   const Outcome fast = study({"--time", "1s", "--clock", "50"});
   EXPECT_EQ(fast.exit_code, 0) << fast.output;
   EXPECT_THAT(fast.output, AllOf(HasSubstr("cheapest       quadratic exact"), HasSubstr("us)"),

@@ -18,6 +18,7 @@
 #include "run/scene_stream.hpp"
 #include "scene/camera.hpp"
 #include "scene/turntable.hpp"
+#include "setup/spherical_setup.hpp"
 
 namespace halfway {
 namespace {
@@ -46,12 +47,13 @@ class Easel {
  public:
   /// `lanes`: none where Verilator draws.
   Easel(Scene scene, std::optional<VerilatorSimulator> verilator, std::optional<LaneSimulator> lanes,
-        const ViewSettings& settings, const HardwareKey& key, unsigned threads)
+        const ViewSettings& settings, const SetupOptions& setup, const HardwareKey& key, unsigned threads)
       : scene_(std::move(scene)),
         first_camera_(scene_.camera),
         verilator_(std::move(verilator)),
         lanes_(std::move(lanes)),
         s_(settings),
+        setup_(setup),
         key_(key),
         threads_(threads),
         rtl_(settings.size, scene_.background, settings.compare) {}
@@ -133,7 +135,7 @@ class Easel {
   template <class Feed>
   Status draw(DrawnFrame& drawn, bool golden, const Feed& feed) {
     const double setup_start = thread_seconds();
-    const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, key_, s_.setup);
+    const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, key_, setup_);
     drawn.notes = setup->notes();
     drawn.seconds.setup += thread_seconds() - setup_start;
     // With a thread a frame there is another frame to draw meanwhile.
@@ -163,6 +165,7 @@ class Easel {
   std::unique_ptr<GoldenModel> golden_;  ///< beside lanes
   Stretch fed_;                          ///< in which this frame's RTL draws, and all that hangs on it
   const ViewSettings& s_;
+  const SetupOptions& setup_;
   const HardwareKey& key_;
   unsigned threads_;
   RtlStream rtl_;
@@ -313,6 +316,9 @@ Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
   const Clock::time_point start = Clock::now();
   const auto fit = static_cast<unsigned>(std::clamp<std::size_t>(
       c_most_copied_bytes / std::max<std::size_t>(bytes(scene), 1), 1, settings.threads));
+  SetupOptions setup = settings.setup;
+  if (key.shader == Shader::spherical && key.preset == Preset::exact)
+    setup.spherical.bells = std::make_shared<const Bells>(fitted_bells(scene));
   const unsigned easels = std::min({settings.threads, fit, settings.frames});
   Turn turn(settings, summary);
   work_on_threads(easels, [&] {
@@ -328,7 +334,7 @@ Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
         }
         own.emplace(std::move(*model));
       }
-      Easel easel(scene, std::move(own), std::move(own_lanes), settings, key,
+      Easel easel(scene, std::move(own), std::move(own_lanes), settings, setup, key,
                   std::max(1U, settings.threads / easels));
       while (const auto number = turn.next()) {
         const auto drawn = easel.draw(*number);

@@ -109,6 +109,13 @@ Bell fitted_bell(double exponent) {
   return best;
 }
 
+Bells fitted_bells(std::span<const double> exponents) {
+  Bells bells;
+  for (const double exponent : exponents)
+    if (!bells.contains(exponent)) bells.emplace(exponent, fitted_bell(exponent));
+  return bells;
+}
+
 double published_scale(double exponent) {
   // With t = pi/4a and q = pi/2 the equation's right side is (q^2 sin^2 t - t^2)/(q^2 - t^2): no cancellation
   // for large a, and its 0/0 at a = 1/2, t = q, is where n = 0. It grows with t, as 0.60 t^2 for small t,

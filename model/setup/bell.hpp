@@ -3,6 +3,9 @@
 // Here a smaller one is taken as 1, one above 10^15 as 10^15.
 #pragma once
 
+#include <map>
+#include <span>
+
 namespace halfway {
 
 /// gain * cos^power(scale * x) where |scale * x| < pi/2, zero outside. The table knows the power, the angle
@@ -22,6 +25,9 @@ struct Bell {
 /// least that any such bell has, for n >= 2. Between 1 and 2 no such bell is good: cos^n has a corner at pi/2
 /// there, and the error reaches 8.7/255.
 Bell fitted_bell(double exponent);
+/// By exponent, each fitted once.
+using Bells = std::map<double, Bell>;
+Bells fitted_bells(std::span<const double> exponents);
 
 /// Preset published: a(n) of cos^n x ~ cos^2 ax, from 1/(n+1) = (2a^2 (1 - cos(pi/2a)) - 1)/(4a^2 - 1): both
 /// have the same integral with sin x, one over [0, pi/2], the other over [0, pi/2a]. n < 2 makes a < 1: then

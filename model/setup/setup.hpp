@@ -12,6 +12,7 @@
 #include "golden/formats.hpp"
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
+#include "setup/bell.hpp"
 #include "setup/project.hpp"
 
 namespace halfway {
@@ -44,6 +45,9 @@ struct SphericalSetupOptions {
   /// turns, lights, horizons and spots suggest: of 44 million pixels of random scenes, lights of all kinds
   /// close to the surface, exponents 1 to 10^5, one was farther off than all that, by 8 steps.
   double threshold = 2.0;
+  /// Preset exact: the scene's bells (fitted_bells), where it is drawn more than once; none: setup fits them,
+  /// milliseconds each.
+  std::shared_ptr<const Bells> bells{};
 };
 
 struct ProcessorsSetupOptions {

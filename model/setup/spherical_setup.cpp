@@ -71,7 +71,17 @@ std::array<Crossing, 2> crossings(const ScreenTriangle& triangle, int subpixel_b
   return side;
 }
 
+double held_exponent(const Material& material) {
+  return std::min(material.exponent, c_largest_exponent);
+}
+
 }  // namespace
+
+Bells fitted_bells(const Scene& scene) {
+  std::vector<double> exponents;
+  for (const Material& m : scene.materials) exponents.push_back(held_exponent(m));
+  return fitted_bells(exponents);
+}
 
 SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const HardwareKey& key,
                                SphericalSetupOptions options)
@@ -89,10 +99,11 @@ SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const Hardwa
       projector_(scene, frame,
                  preset_ == Preset::exact ? ProjectionOptions{.subpixel_bits = 4, .clip_to_frame = false}
                                           : ProjectionOptions{.subpixel_bits = 0, .clip_to_frame = true}) {
-  for (const Material& m : scene.materials) {
-    const double exponent = std::min(m.exponent, c_largest_exponent);
-    bells_.push_back(preset_ == Preset::exact ? fitted_bell(exponent) : Bell{2, published_scale(exponent)});
-  }
+  if (preset_ == Preset::exact && !options_.bells)
+    options_.bells = std::make_shared<const Bells>(fitted_bells(scene));
+  for (const Material& m : scene.materials)
+    bells_.push_back(preset_ == Preset::exact ? options_.bells->at(held_exponent(m))
+                                              : Bell{2, published_scale(held_exponent(m))});
 }
 
 PointVectors SphericalSetup::vectors_at(const Material& material, const SurfacePoint& point) const {

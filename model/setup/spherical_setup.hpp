@@ -21,6 +21,9 @@ namespace halfway {
 /// Larger exponents are held at it: the bell's angle would leave its format.
 inline constexpr double c_largest_exponent = 1e6;
 
+/// Of all materials, for SphericalSetupOptions.
+Bells fitted_bells(const Scene& scene);
+
 /// Factors are held at it, in colour steps. Preset exact: so bright that a table's least entry other than 0,
 /// of up to c_white_data_bits, gives white: the picture is the one without a limit. With wider tables, and in
 /// preset published (four times white) always, all under a bell whose factor is held comes out too dark.

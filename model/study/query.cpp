@@ -294,9 +294,13 @@ Result<Answer> answer(std::span<const Offer> offers, const Demand& demand) {
 
   found.cheapest = least(offers, cheapest_first,
                          [&](const Offer& o) { return accurate_enough(o, demand) && in_time(o, demand); });
-  found.unknown = static_cast<std::size_t>(std::ranges::count_if(offers, [&](const Offer& o) {
-    return demand.seconds && !o.seconds && o.fits && accurate_enough(o, demand);
-  }));
+  const auto without_clock = [&](bool fits) {
+    return static_cast<std::size_t>(std::ranges::count_if(offers, [&](const Offer& o) {
+      return demand.seconds && !o.seconds && o.fits == fits && accurate_enough(o, demand);
+    }));
+  };
+  found.unknown = without_clock(true);
+  found.no_room = without_clock(false);
   for (const std::size_t at : found.front)
     if (found.steps.empty() || errors(offers[at])[0] < errors(offers[found.steps.back()])[0])
       found.steps.push_back(at);
@@ -353,6 +357,9 @@ std::string to_text(const Market& market, const Answer& answer, const Demand& de
     text +=
         fmt::format("  {} points {}, but no clock of theirs is known (--place, or --clock)\n", answer.unknown,
                     demand.accuracy() ? "would be accurate enough" : "might be fast enough");
+  if (answer.no_room > 0)
+    text += fmt::format("  {} points{} have no clock: the device has no room for them (--clock)\n",
+                        answer.no_room, demand.accuracy() ? " would be accurate enough, but" : "");
   return text + knobs_text(market, records) + front_text(market, answer, demand, records);
 }
 

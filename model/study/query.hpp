@@ -71,6 +71,7 @@ struct Answer {
   std::optional<std::size_t> cheaper;   ///< the most accurate of those that are cheaper
   std::optional<std::size_t> accurate;  ///< the cheapest of those that are more accurate, and in time
   std::size_t unknown = 0;              ///< how many might meet the demand, if their time were known
+  std::size_t no_room = 0;              ///< and how many that never have one
   std::optional<std::size_t> best;      ///< the most accurate of all
   std::optional<std::size_t> fastest;   ///< of those whose time is known, if it is of any
   std::optional<std::size_t> fewest_cycles;
