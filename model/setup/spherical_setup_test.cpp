@@ -502,7 +502,7 @@ Scene random_scene(RandomScenes& random) {
   return scene;
 }
 
-constexpr SphericalSetupOptions c_never_cut = {.threshold = 1e9}, c_cut = {};
+const SphericalSetupOptions c_never_cut = {.threshold = 1e9}, c_cut = {};
 
 TEST(SphericalSetup, ExactIsThePapersFormulasWithinEveryRounding) {
   RandomScenes random(1);

@@ -235,6 +235,9 @@ TEST_F(QueryTest, TakesTimeByTheHardwaresOwnClockBeforeAnyOther) {
   const std::string fitting = ask({.seconds = 1.0});
   EXPECT_THAT(fitting, HasSubstr("time in nanoseconds, the"));
   EXPECT_THAT(fitting, Not(HasSubstr("no clock of theirs")));
+  EXPECT_THAT(fitting, HasSubstr("  1 points have no clock: the device has no room for them\n"));
+  EXPECT_THAT(ask({.largest_error = 2.0, .seconds = 1.0}),
+              HasSubstr("1 points would be accurate enough, but have no clock: the device"));
 }
 
 TEST_F(QueryTest, WhatDoesNotFitTheDeviceIsSlowerThanWhatDoes) {
