@@ -358,8 +358,8 @@ std::string to_text(const Market& market, const Answer& answer, const Demand& de
         fmt::format("  {} points {}, but no clock of theirs is known (--place, or --clock)\n", answer.unknown,
                     demand.accuracy() ? "would be accurate enough" : "might be fast enough");
   if (answer.no_room > 0)
-    text += fmt::format("  {} points{} have no clock: the device has no room for them\n",
-                        answer.no_room, demand.accuracy() ? " would be accurate enough, but" : "");
+    text += fmt::format("  {} points{} have no clock: the device has no room for them\n", answer.no_room,
+                        demand.accuracy() ? " would be accurate enough, but" : "");
   return text + knobs_text(market, records) + front_text(market, answer, demand, records);
 }
 
