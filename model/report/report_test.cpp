@@ -83,7 +83,7 @@ constexpr const char* c_study =
 "ball",77,"GHDL 9, Verilator 8",Q,quadratic,exact,1,5,320,240,q,5334,32813,112.1,"pinned",292712,0.5,4,3,50.9,1,0,0.5,1452,5417130,1,c
 "ball",77,"GHDL 9, Verilator 8",R,quadratic,exact,1,5,320,240,q,5334,33813,112.1,"pinned",301633,0.4,3,2,51.9,1,12,0.4,1474,78705437,0,d
 "ball",77,"GHDL 9, Verilator 8",S,spherical,exact,1,5,320,240,s,5985,33100,,"not placed",,0.3,2,1,57,0.4,0,0.3,31283,6417130,1,e
-"ball",77,"GHDL 9, Verilator 8",V,processors-1,exact,1,5,320,240,v,12214,31460,,"not placed",,5.7,39,25,33,10,61,0.8,0,0,1,f
+"ball",77,"GHDL 9, Verilator 8",V,processors-1,exact,1,5,320,240,v,12214,31460,,"does not fit the HX8K: 9578 LUTs of 7680",,5.7,39,25,33,10,61,0.8,0,0,1,f
 "ball",77,"GHDL 9, Verilator 8",W,processors-2,exact,1,5,320,240,w,14214,31460,,"",,5.8,39,25,33,10,61,0.8,0,,0,g
 )";
 
@@ -102,7 +102,8 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
       plot("rms-time"),
       AllOf(HasSubstr("aria-label=\"Q: time of the frame, ns 292712, rms error, steps of 1/255 0.5\""),
             HasSubstr("href=\"#point-3\""), Not(HasSubstr("href=\"#point-4\"")),
-            HasSubstr("1 of processors-1; 1 of processors-2; 1 of spherical; in all 3"),
+            HasSubstr("PLACE=1</code> finds: 1 of processors-2; 1 of spherical; in all 2"),
+            HasSubstr("the device has no room for their hardware: 1 of processors-1; in all 1"),
             HasSubstr("gouraud (software)"), HasSubstr("phong (software)")));
   // Clocks of all hardware; software has none, and is no point.
   EXPECT_THAT(plot("rms-clocks"), AllOf(HasSubstr("href=\"#point-6\""), Not(HasSubstr("not here")),

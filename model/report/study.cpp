@@ -17,6 +17,7 @@
 #include "report/table.hpp"
 #include "scene/load_scene.hpp"
 #include "study/design_point.hpp"
+#include "study/hardware.hpp"
 #include "study/record.hpp"
 
 namespace halfway::report {
@@ -130,7 +131,7 @@ bool has_any(const Table& table, const char* column) {
 }
 
 // What a plot does not show.
-std::string missing_note(const std::map<std::string, std::size_t>& missing, const Measure& along) {
+std::string missing_note(const std::map<std::string, std::size_t>& missing, const std::string& why) {
   if (missing.empty()) return "";
   std::size_t count = 0;
   std::string names;
@@ -138,11 +139,7 @@ std::string missing_note(const std::map<std::string, std::size_t>& missing, cons
     count += points;
     names += fmt::format("{}{} of {}", names.empty() ? "" : "; ", points, escaped(name));
   }
-  return fmt::format(" <small>(not here, as {}: {}; in all {})</small>",
-                     along.column == c_time.column
-                         ? "no clock of their hardware is known, which <code>make study PLACE=1</code> finds"
-                         : "this was not measured of them",
-                     names, count);
+  return fmt::format(" <small>(not here, as {}: {}; in all {})</small>", why, names, count);
 }
 
 // In words; of any of its rows.
@@ -252,7 +249,8 @@ Status add_study(Page& page) {
     if (!timed && axes.x.column == c_clocks.column) continue;  // drawn already
     const Measure& along = of_time && !timed ? c_clocks : axes.x;
     Plot plot{.x_label = along.words, .y_label = axes.y.words};
-    std::map<std::string, std::size_t> missing;  // how many have no place along x, by series
+    // How many have no place along x, by series, and of these those that never have one.
+    std::map<std::string, std::size_t> missing, too_large;
     for (std::size_t row = 0; row < points->rows.size(); ++row) {
       const auto x = points->number(row, along.column), y = points->number(row, axes.y.column);
       const std::string name = series_of(*points, row);
@@ -262,7 +260,10 @@ Status add_study(Page& page) {
         continue;
       }
       if (!x) {
-        ++missing[name];
+        const std::string& clock = points->text(row, "clock");
+        const bool has_no_room =
+            along.column == c_time.column && !clock.empty() && clock != study::c_not_placed;
+        ++(has_no_room ? too_large : missing)[name];
         continue;
       }
       const auto s = static_cast<std::size_t>(std::ranges::find(series, name) - series.begin());
@@ -285,7 +286,13 @@ Status add_study(Page& page) {
     html += fmt::format(
         "<figure class=\"plot\" id=\"plot/{}\"><figcaption>{}{}</figcaption><div class=\"scroll\">{}</div>"
         "</figure>\n",
-        axes.id, title, missing_note(missing, along), *svg);
+        axes.id, title,
+        missing_note(missing, along.column == c_time.column
+                                  ? "no clock of their hardware is known, which <code>make study "
+                                    "PLACE=1</code> finds"
+                                  : "this was not measured of them") +
+            missing_note(too_large, "the device has no room for their hardware"),
+        *svg);
   }
   std::string legend;
   for (std::size_t s = 0; s < series.size(); ++s) {
