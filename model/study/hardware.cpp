@@ -141,9 +141,7 @@ void add_tools(HardwareFigures& figures, const std::string& tools) {
 
 // Why what is pinned without a clock has none.
 std::string no_placement(const synth::Ice40Cells& cells) {
-  std::string why = synth::does_not_fit("LUTs", cells.luts, synth::kDeviceCells);
-  if (why.empty()) why = synth::does_not_fit("flip-flops", cells.flip_flops, synth::kDeviceCells);
-  if (why.empty()) why = synth::does_not_fit("RAMs", cells.rams, synth::kDeviceRams);
+  const std::string why = synth::does_not_fit(cells);
   return why.empty() ? "too full, or nextpnr does not end" : why;
 }
 

@@ -308,6 +308,14 @@ std::string does_not_fit(std::string_view what, std::uint64_t count, std::uint64
   return count > most ? fmt::format("does not fit the HX8K: {} {} of {}", count, what, most) : std::string();
 }
 
+std::string does_not_fit(const Ice40Cells& cells) {
+  for (const auto& [what, count, most] : {std::tuple{"LUTs", cells.luts, kDeviceCells},
+                                          {"flip-flops", cells.flip_flops, kDeviceCells},
+                                          {"RAMs", cells.rams, kDeviceRams}})
+    if (std::string why = does_not_fit(what, count, most); !why.empty()) return why;
+  return {};
+}
+
 Result<Packing> read_packing(std::string_view said) {
   constexpr std::string_view c_cells = "ICESTORM_LC:";
   const std::size_t at = said.find(c_cells);
@@ -513,10 +521,7 @@ Result<std::string> Synthesizer::no_room(const Design& design) const {
   const auto cells = ice40(design);
   if (!cells) return cells.error();
   // Each takes a logic cell, and some share one.
-  for (const auto& [what, count, most] : {std::tuple{"LUTs", cells->luts, kDeviceCells},
-                                          {"flip-flops", cells->flip_flops, kDeviceCells},
-                                          {"RAMs", cells->rams, kDeviceRams}})
-    if (std::string why = does_not_fit(what, count, most); !why.empty()) return why;
+  if (std::string why = does_not_fit(*cells); !why.empty()) return why;
   const auto packing = pack(design);
   if (!packing) return packing.error();
   if (packing->cells_used > kMostPlaced)

@@ -69,6 +69,8 @@ struct Packing {
 
 /// Why the device has no room for so many of what it has `most` of; empty where it has.
 std::string does_not_fit(std::string_view what, std::uint64_t count, std::uint64_t most);
+/// The same of a design's cells, the first of which there are too many.
+std::string does_not_fit(const Ice40Cells& cells);
 
 /// From what nextpnr says of a device's utilisation.
 Result<Packing> read_packing(std::string_view said);
