@@ -93,9 +93,6 @@ struct LaneSimulator::State : Hardware {
   bool drawing = false;             ///< or they broke off, and stand in the middle of triangles
   std::uint64_t cycles_before = 0;  ///< of lanes that were replaced
   std::vector<void*> threads;
-  std::deque<Triangle> ahead;  ///< behind the last part
-  std::vector<HalfwayPart> parts;
-  std::vector<std::size_t> pixels;  ///< that each covers
 };
 
 // A call's vectors on their way through the lanes: what is ahead becomes parts, lanes draw these, and the
@@ -103,13 +100,9 @@ struct LaneSimulator::State : Hardware {
 class LaneSimulator::Passage {
  public:
   Passage(State& state, std::span<const std::uint32_t> init_words, std::size_t max_fragments)
-      : s_(state), words_(init_words), left_(max_fragments) {
-    s_.ahead.clear();
-    s_.parts.clear();
-    s_.pixels.clear();
-  }
+      : s_(state), words_(init_words), left_(max_fragments) {}
 
-  /// Enough for all lanes to have some, unless too many wait already; false where none are left.
+  /// Enough for a run, unless too many wait already; false where none are left.
   bool add_parts();
   Status draw();
   Status hand_on(const OnDrawn& on_drawn);
@@ -124,20 +117,23 @@ class LaneSimulator::Passage {
 
   State& s_;
   std::span<const std::uint32_t> words_;
-  std::size_t left_;            ///< fragments that may still be handed on
-  std::size_t seen_ = 0;        ///< vectors that are ahead or before
-  std::size_t vector_ = 0;      ///< behind the last part
-  std::size_t work_ahead_ = 0;  ///< of the triangles ahead
-  std::size_t first_ = 0;       ///< number of the first part
-  std::size_t next_ = 0;        ///< of the first that no lane has begun
-  bool more_ = false;           ///< parts are to be added when lanes have begun these
+  std::deque<Triangle> ahead_;  ///< behind the last part
+  std::vector<HalfwayPart> parts_;
+  std::vector<std::size_t> pixels_;  ///< that each covers
+  std::size_t left_;                 ///< fragments that may still be handed on
+  std::size_t seen_ = 0;             ///< vectors that are ahead or before
+  std::size_t vector_ = 0;           ///< behind the last part
+  std::size_t work_ahead_ = 0;       ///< of the triangles ahead
+  std::size_t first_ = 0;            ///< number of the first part
+  std::size_t next_ = 0;             ///< of the first that no lane has begun
+  bool more_ = false;                ///< parts are to be added when lanes have begun these
 };
 
 void LaneSimulator::Passage::look_ahead() {
   const std::size_t words_per_vector = s_.vector_words();
   while (work_ahead_ < kBatch * threads() && seen_ * words_per_vector < words_.size()) {
     const Triangle triangle = s_.triangle(words_.subspan(seen_ * words_per_vector));
-    s_.ahead.push_back(triangle);
+    ahead_.push_back(triangle);
     seen_ += triangle.vectors;
     work_ahead_ += triangle.work();
   }
@@ -145,48 +141,48 @@ void LaneSimulator::Passage::look_ahead() {
 
 bool LaneSimulator::Passage::add_parts() {
   std::size_t waiting = 0, work = 0;
-  for (std::size_t i = 0; i < s_.parts.size(); ++i) {
-    const std::size_t own = Triangle{s_.parts[i].vectors, s_.pixels[i]}.work();
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const std::size_t own = Triangle{parts_[i].vectors, pixels_[i]}.work();
     waiting += own;
     if (first_ + i >= next_) work += own;
   }
   const auto full = [&] { return waiting != 0 && waiting >= s_.options.most_waiting * threads(); };
   const auto enough = [&] { return work >= kBatch * threads(); };
-  for (look_ahead(); !s_.ahead.empty() && !full() && !enough(); look_ahead()) {
+  for (look_ahead(); !ahead_.empty() && !full() && !enough(); look_ahead()) {
     // Shorter ones at the end, so that all lanes end together.
     const std::size_t wanted = std::max(kShortestPart, work_ahead_ / (4 * lanes()));
     Triangle sum{0, 0};
-    for (; !s_.ahead.empty() && sum.work() < wanted; s_.ahead.pop_front()) {
-      sum.vectors += s_.ahead.front().vectors;
-      sum.pixels += s_.ahead.front().pixels;
+    for (; !ahead_.empty() && sum.work() < wanted; ahead_.pop_front()) {
+      sum.vectors += ahead_.front().vectors;
+      sum.pixels += ahead_.front().pixels;
     }
-    s_.parts.push_back({.vector = vector_, .vectors = sum.vectors});
-    s_.pixels.push_back(sum.pixels);
+    parts_.push_back({.vector = vector_, .vectors = sum.vectors});
+    pixels_.push_back(sum.pixels);
     vector_ += sum.vectors;
     work_ahead_ -= sum.work();
     waiting += sum.work();
     work += sum.work();
   }
-  more_ = !s_.ahead.empty() && !full();
-  return !s_.parts.empty();
+  more_ = !ahead_.empty() && !full();
+  return !parts_.empty();
 }
 
 Status LaneSimulator::Passage::draw() {
   std::size_t limit = left_;
   if (s_.knows_pixels)
     limit = std::min<std::size_t>(
-        limit, std::accumulate(s_.pixels.begin(), s_.pixels.end(), std::size_t{c_most_surplus}));
+        limit, std::accumulate(pixels_.begin(), pixels_.end(), std::size_t{c_most_surplus}));
   const HalfwayBatch batch{.words = words_.data(),
-                           .parts = s_.parts.data(),
+                           .parts = parts_.data(),
                            .first = first_,
-                           .end = first_ + s_.parts.size(),
+                           .end = first_ + parts_.size(),
                            .next = &next_,
                            .max_fragments = limit,
                            .enough = kBatch,
                            .more = more_};
   std::atomic<int> worst = HALFWAY_DONE;
   std::atomic<std::size_t> next_thread = 0;
-  work_on_threads(static_cast<unsigned>(std::min(threads(), s_.parts.size())), [&] {
+  work_on_threads(static_cast<unsigned>(std::min(threads(), parts_.size())), [&] {
     for (std::size_t i; (i = next_thread++) < threads();) {
       const int status = s_.run(s_.threads[i], &batch);
       for (int seen = worst; status > seen && !worst.compare_exchange_weak(seen, status);) {
@@ -215,10 +211,10 @@ Status LaneSimulator::Passage::draw() {
 Status LaneSimulator::Passage::hand_on(const OnDrawn& on_drawn) {
   const std::size_t words_per_vector = s_.vector_words();
   std::size_t whole = 0;
-  for (; whole < s_.parts.size() && s_.parts[whole].ended != 0; ++whole) {
-    const HalfwayPart& part = s_.parts[whole];
+  for (; whole < parts_.size() && parts_[whole].ended != 0; ++whole) {
+    const HalfwayPart& part = parts_[whole];
     const std::size_t limit =
-        s_.knows_pixels ? std::min<std::size_t>(left_, s_.pixels[whole] + c_most_surplus) : left_;
+        s_.knows_pixels ? std::min<std::size_t>(left_, pixels_[whole] + c_most_surplus) : left_;
     if (part.fragments > limit) return too_many(limit);
     left_ -= part.fragments;
     const auto* first =
@@ -227,8 +223,8 @@ Status LaneSimulator::Passage::hand_on(const OnDrawn& on_drawn) {
              {first, part.fragments});
   }
   first_ += whole;
-  s_.parts.erase(s_.parts.begin(), s_.parts.begin() + static_cast<std::ptrdiff_t>(whole));
-  s_.pixels.erase(s_.pixels.begin(), s_.pixels.begin() + static_cast<std::ptrdiff_t>(whole));
+  parts_.erase(parts_.begin(), parts_.begin() + static_cast<std::ptrdiff_t>(whole));
+  pixels_.erase(pixels_.begin(), pixels_.begin() + static_cast<std::ptrdiff_t>(whole));
   return Ok{};
 }
 
