@@ -820,6 +820,7 @@ class Writer {
       Group group{guard, {}, {}, mask_of(guard), {}, {}};
       for (const Update& update : updates)
         if (live.count(update.cell) != 0 && !is_late(update.cell)) group.updates.push_back(update);
+      put_masks_last(group);
       if (!group.updates.empty()) groups_.push_back(std::move(group));
     }
     for (const auto& [guard, banks] : banks_of(step, rooms)) {
@@ -965,6 +966,20 @@ class Writer {
     return all;
   }
 
+  /// The cell that a group's condition is, read where the group stands.
+  std::optional<std::size_t> mask_cell_of(const Group& group) const {
+    const LaneNode& mask = step_.graph[group.mask];
+    return mask.op == LaneOp::mask_cell ? std::optional<std::size_t>(mask.value) : std::nullopt;
+  }
+
+  /// A mask that the group writes may say where its numbers change, and the group's own where all do: until
+  /// they have, it keeps its old value.
+  void put_masks_last(Group& group) const {
+    std::ranges::stable_sort(group.updates, {}, [&](const Update& update) {
+      return std::pair(step_.cells[update.cell].mask, mask_cell_of(group) == update.cell);
+    });
+  }
+
   bool is_late(std::size_t cell) const {
     const auto ring = rings_.find(cell);
     return ring != rings_.end() && ring->second.age > 0;
@@ -991,7 +1006,7 @@ class Writer {
   }
 
   /// Who reads a register's old value comes before who writes it; where there is no such order, the old value
-  /// is kept. Conditions that exclude each other do not meet in a lane.
+  /// is kept. Conditions that exclude each other do not meet in a lane, but each is read in all lanes.
   void order() {
     std::vector<Group> ordered, left = std::move(groups_);
     while (!left.empty()) {
@@ -1000,7 +1015,12 @@ class Writer {
       for (std::size_t i = 0; i < left.size(); ++i) {
         std::set<std::size_t> broken;
         for (std::size_t k = 0; k < left.size(); ++k) {
-          if (k == i || excludes(left[i].guard, left[k].guard)) continue;
+          if (k == i) continue;
+          if (excludes(left[i].guard, left[k].guard)) {
+            if (const auto cell = mask_cell_of(left[k]); cell && left[i].writes.count(*cell) != 0)
+              broken.insert(*cell);
+            continue;
+          }
           std::set_intersection(left[i].writes.begin(), left[i].writes.end(), left[k].reads.begin(),
                                 left[k].reads.end(), std::inserter(broken, broken.end()));
         }
