@@ -58,7 +58,11 @@ Result<HardwareCost> measure(const SavingsCase& which, bool all, const Simulator
   if (!counter) return counter.error();
   const auto cells = counter->count(key);
   if (!cells) return cells.error();
-  const auto frame = simulation_cost(*scene, key, {.size = which.size(), .ghdl = false, .folders = folders});
+  CostSettings settings;
+  settings.size = which.size();
+  settings.ghdl = false;
+  settings.folders = folders;
+  const auto frame = simulation_cost(*scene, key, settings);
   if (!frame) return frame.error();
   return HardwareCost{key.name(),         cells->luts,        cells->flip_flops,
                       cells->memory_bits, cells->multipliers, frame->cycles};
