@@ -206,6 +206,10 @@ std::string front_text(const Market& market, const Answer& answer, const Demand&
   return text;
 }
 
+std::string points_text(std::size_t count) {
+  return fmt::format("{} point{}", count, count == 1 ? "" : "s");
+}
+
 }  // namespace
 
 std::string Demand::text() const {
@@ -354,12 +358,14 @@ std::string to_text(const Market& market, const Answer& answer, const Demand& de
     neighbour("more accurate", answer.accurate, demand.seconds ? "nothing is, in that time" : "nothing is");
   }
   if (answer.unknown > 0)
-    text +=
-        fmt::format("  {} points {}, but no clock of theirs is known (--place, or --clock)\n", answer.unknown,
-                    demand.accuracy() ? "would be accurate enough" : "might be fast enough");
+    text += fmt::format("  {} {}, but {} known (--place, or --clock)\n", points_text(answer.unknown),
+                        demand.accuracy() ? "would be accurate enough" : "might be fast enough",
+                        answer.unknown == 1 ? "its clock is not" : "no clock of theirs is");
   if (answer.no_room > 0)
-    text += fmt::format("  {} points{} have no clock: the device has no room for them\n", answer.no_room,
-                        demand.accuracy() ? " would be accurate enough, but" : "");
+    text += fmt::format("  {}{} {}\n", points_text(answer.no_room),
+                        demand.accuracy() ? " would be accurate enough, but" : "",
+                        answer.no_room == 1 ? "has no clock: the device has no room for it"
+                                            : "have no clock: the device has no room for them");
   return text + knobs_text(market, records) + front_text(market, answer, demand, records);
 }
 

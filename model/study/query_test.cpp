@@ -219,6 +219,9 @@ TEST_F(QueryTest, TakesTimeByTheClockAlone) {
   const std::string unknown = ask({.largest_error = 2.0, .seconds = 1.0});
   EXPECT_THAT(unknown, HasSubstr("none of 3 points of hardware meets it"));
   EXPECT_THAT(unknown, HasSubstr("2 points would be accurate enough, but no clock of theirs is known"));
+  EXPECT_THAT(
+      ask({.largest_error = 1.0, .seconds = 1.0}),
+      HasSubstr("1 point would be accurate enough, but its clock is not known (--place, or --clock)"));
 }
 
 TEST_F(QueryTest, TakesTimeByTheHardwaresOwnClockBeforeAnyOther) {
@@ -235,9 +238,14 @@ TEST_F(QueryTest, TakesTimeByTheHardwaresOwnClockBeforeAnyOther) {
   const std::string fitting = ask({.seconds = 1.0});
   EXPECT_THAT(fitting, HasSubstr("time in nanoseconds, the"));
   EXPECT_THAT(fitting, Not(HasSubstr("no clock of theirs")));
-  EXPECT_THAT(fitting, HasSubstr("  1 points have no clock: the device has no room for them\n"));
-  EXPECT_THAT(ask({.largest_error = 2.0, .seconds = 1.0}),
-              HasSubstr("1 points would be accurate enough, but have no clock: the device"));
+  EXPECT_THAT(fitting, HasSubstr("  1 point has no clock: the device has no room for it\n"));
+  EXPECT_THAT(
+      ask({.largest_error = 2.0, .seconds = 1.0}),
+      HasSubstr("1 point would be accurate enough, but has no clock: the device has no room for it\n"));
+  hardware_["quadratic"].fits = false;
+  EXPECT_THAT(
+      ask({.largest_error = 2.0, .seconds = 1.0}),
+      HasSubstr("2 points would be accurate enough, but have no clock: the device has no room for them\n"));
 }
 
 TEST_F(QueryTest, WhatDoesNotFitTheDeviceIsSlowerThanWhatDoes) {
