@@ -1247,6 +1247,12 @@ Result<Netlist> read_netlist(const pugi::xml_document& document) {
       return tool_failed(fmt::format("the lanes do not know '{}' in a module", kind));
     }
   }
+  // What nothing drives is a register that never changes.
+  for (const auto& [name, type] : type_of) {
+    const auto width = netlist.types.find(type);
+    if (width != netlist.types.end() && netlist.inputs.count(name) == 0 && netlist.drivers.count(name) == 0)
+      netlist.registers.emplace(name, width->second);
+  }
   netlist.inputs.erase("clk");
   for (const auto& [name, width] : netlist.registers) netlist.roms.erase(name);
   for (const auto& [name, memory] : netlist.memories) {

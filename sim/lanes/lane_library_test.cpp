@@ -84,6 +84,7 @@ ROM
   reg [11:0] left, right;
   reg stored, held, beside;
   reg [11:0] counted, caught;
+  reg [3:0] unset;
   wire [39:0] next;
   assign next = e ? sum + a : sum - b;
   always @(posedge clk)
@@ -121,7 +122,7 @@ ROM
   always @(posedge clk)
     if (held) begin held <= e; beside <= h; caught <= g ? c : caught; end else begin held <= f; end
   assign response = {
-    829'b0, stored, held, beside, counted, caught, left, right, k + l, k - l, k * l, -k, k << n, k >> n, $signed(k) >>> n, {k[70:0], 1'b1} + {l[70:0], e},
+    819'b0, unset, {2'b0, unset} + n, stored, held, beside, counted, caught, left, right, k + l, k - l, k * l, -k, k << n, k >> n, $signed(k) >>> n, {k[70:0], 1'b1} + {l[70:0], e},
     k == l, k < l, k >= l, $signed(k) < $signed(l), {a[38:0], 1'b1} + {b[38:0], e}, {b[38:0], f} + {a[38:0], 1'b1}, places[n[4:2]], place, {f, place[68:0]}, c != d ? a : b,
     {40{two}}, {24'b0, c, mixed[18], n, d[3:0]}, one, two, product, read, mixed, wide, q, p, sum,
     a << 5, a >> 7, a << n, a >> n, {52'b0, c} << n, $signed(c) >>> 3, $signed(d) >>> n[3:0],
