@@ -783,13 +783,14 @@ std::string declaration(const Module& module, const std::string& kind, const std
   return width == 1 ? fmt::format("{} {};", kind, name) : fmt::format("{} [{}:0] {};", kind, width - 1, name);
 }
 
-/// The fields, a process each.
+/// The fields, a process each; none for what only holds.
 std::string to_processes(const Module& module, const std::vector<Field>& fields) {
   std::string text;
   for (const Field& field : fields) {
     Block block;
     add(block, field.update, field.name);
-    text += fmt::format("  {}\n    {}\n", kClocked, trim(to_text(module, block)));
+    const std::string statement = to_text(module, block);
+    if (!statement.empty()) text += fmt::format("  {}\n    {}\n", kClocked, trim(statement));
   }
   return text;
 }

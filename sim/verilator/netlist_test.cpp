@@ -239,6 +239,38 @@ TEST(Netlist, KnowsInEachBranchWhichOfTwoConditionsHolds) {
       << outside;
 }
 
+// A record of which one field is never assigned, and one is chosen from itself.
+TEST(Netlist, WritesNoProcessForWhatNeverChanges) {
+  const std::string netlist = R"(module m
+  (input  clk,
+   input  load,
+   input  [3:0] d,
+   output [6:0] o);
+  wire [6:0] r;
+  wire n1_o;
+  wire [1:0] n2_o;
+  wire [1:0] n3_o;
+  wire [6:0] n4_o;
+  reg [6:0] q;
+  assign o = q;
+  assign r = q;
+  assign n1_o = r[4];
+  assign n2_o = r[6:5];
+  assign n3_o = load ? n2_o : n2_o;
+  assign n4_o = {n3_o, n1_o, d};
+  always @(posedge clk)
+    q <= n4_o;
+endmodule
+)";
+  const std::string outside = split_registers(netlist);
+  EXPECT_NE(outside.find("  assign q = {q__2, q__1, q__0};\n"), std::string::npos) << outside;
+  EXPECT_NE(outside.find("  always @(posedge clk)\n    q__0 <= d;\nendmodule\n"), std::string::npos)
+      << outside;
+  const std::string inside = split_registers(netlist, Wires::inside);
+  EXPECT_EQ(inside.find("q__1 <="), std::string::npos) << inside;
+  EXPECT_EQ(inside.find("q__2 <="), std::string::npos) << inside;
+}
+
 TEST(Netlist, LeavesAloneWhatItDoesNotUnderstand) {
   const std::string netlist =
       "module m\n  (input  clk,\n   input  a);\n  reg [3:0] mem[15:0] ; // memory\n  always @(posedge clk)\n"

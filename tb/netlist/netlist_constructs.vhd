@@ -116,7 +116,7 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 
--- A register that holds, and one that loads, as a component inside.
+-- A register that holds, and one that loads, as a component inside; a field of it never changes.
 entity netlist_register is
   generic (
     g_bits : positive
@@ -133,6 +133,7 @@ end entity;
 architecture rtl of netlist_register is
   type reg_t is record
     value : signed(g_bits - 1 downto 0);
+    unset : std_logic_vector(3 downto 0);
   end record;
 
   signal r, r_next : reg_t;
