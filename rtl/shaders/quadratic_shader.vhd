@@ -244,7 +244,7 @@ begin
   depth : entity work.z_interpolator
     generic map (
       g_exact => g_exact,
-      g_split => true
+      g_parts => 2
       )
     port map (
       clk        => clk,
@@ -295,7 +295,7 @@ begin
       interpolator : entity work.quadratic_interpolator
         generic map (
           g_exact => g_exact,
-          g_split => true
+          g_parts => 2
           )
         port map (
           clk        => clk,
