@@ -139,7 +139,8 @@ begin
 
       along_edge : entity work.part_interpolator
         generic map (
-          g_bits => c_part_bits
+          g_bits  => c_part_bits,
+          g_ahead => g_ahead
           )
         port map (
           clk       => clk,
@@ -166,7 +167,8 @@ begin
 
       along_line : entity work.part_interpolator
         generic map (
-          g_bits => c_part_bits
+          g_bits  => c_part_bits,
+          g_ahead => g_ahead
           )
         port map (
           clk       => clk,

@@ -198,7 +198,8 @@ begin
     variable last         : std_logic; -- the next pixel is its span's, or none comes
     variable pixels       : unsigned(low_pixels_t'length downto 0);
     variable fewer_pixels : unsigned(low_pixels_t'length downto 0); -- a pixel less, or two where they are counted anew
-    variable taken        : line_t; -- what was measured goes on
+    variable comes        : std_logic; -- what was measured goes on
+    variable taken        : line_t;
     variable lines        : unsigned(low_lines_t'length downto 0);
     variable fewer_lines  : unsigned(low_lines_t'length downto 0); -- a line less, or three where they are counted anew
     variable section_ends : std_logic; -- the next line is its section's last
@@ -242,12 +243,15 @@ begin
     end if;
 
     -- The line that waits, and the second place. Nothing is measured where nothing is accepted.
-    taken.valid := r.measured.valid and r.accepts;
-    taken.first := r.measured.first;
-    taken.draws := r.measured.covers and taken.valid;
-    taken.long  := '0';
-    taken.few   := '0';
-    taken.place := r.measured.place;
+    comes := r.measured.valid and r.accepts;
+    taken := (
+      valid => comes,
+      first => r.measured.first,
+      draws => r.measured.covers and comes,
+      long  => '0',
+      few   => '0',
+      place => r.measured.place
+    );
     if r.measured.place.more /= 0 then
       taken.long := taken.draws;
     end if;

@@ -254,7 +254,7 @@ begin
     v.walk_valid := (r.walk_valid and not walk_ready) or takes;
     -- Known a clock before: a register lets all these words in.
     v.copy_waits := (r.copy_waits and not r.copy(1)) or takes;
-    v.placed     := r.copy(1) or (r.placed and not line_load);
+    v.placed     := (r.copy(1) or r.placed) and not line_load;
     v.copy       := (v.copy_waits and not v.placed) & r.copy(1 to c_parts - 1);
     v.line_load  := line_load & r.line_load(1 to c_parts - 1);
     v.line_step  := line_step and not line_load;
@@ -338,7 +338,7 @@ begin
   -- With g_fast a plane is a clock before a quadratic.
   beside_colour : if g_fast generate
 
-    registers : process (clk)
+    depth_waits : process (clk)
     begin
       if rising_edge(clk) then
         line_z <= sum_line_z;
