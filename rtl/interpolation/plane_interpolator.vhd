@@ -5,11 +5,11 @@
 --               v(x + q,     y + 1) = v(x, y) + de0    where the edge's remainder does not carry
 --               v(x + q + 1, y + 1) = v(x, y) + de1    where it does
 --               v(x +- 1,    y)     = v(x, y) + dx     the sign is the span's direction
--- Contract    line_load and line_step are never both '1', nor span_load and span_step; with g_split the upper halves of
---             the plane's words stand still in the clock behind line_load too
+-- Contract    line_load and line_step are never both '1', nor span_load and span_step; a part's bits of the plane's
+--             words stand still in the clock of its line_load, a clock behind the part's below it
 -- Formats     plane: value, dx, de0 and, with g_carries, de1, the first lowest, g_bits each, signed; sums wrap, the value
 --             at a covered pixel fits
--- Latency     1 clock from a load or step to its value, with g_split 2
+-- Latency     g_parts clocks from a load or step to its value, with g_ahead 2 more
 -- Throughput  1 line and 1 pixel a clock
 -- Error       each word half a unit off, so the value (1 + lines + steps)/2 units at most: see plane_sum and depth_sum
 --             in formats_pkg
@@ -22,8 +22,9 @@ use ieee.std_logic_1164.all;
 entity plane_interpolator is
   generic (
     g_bits    : positive;
-    g_carries : boolean := true; -- false: edges step by a real slope, and de1 does not exist
-    g_split   : boolean := false -- words in two halves, the upper one a clock behind the lower
+    g_carries : boolean  := true; -- false: edges step by a real slope, and de1 does not exist
+    g_parts   : positive := 1;    -- of a word, each a clock behind the one below it
+    g_ahead   : boolean  := false -- what is added is chosen a clock ahead of its sum
   );
   port (
     clk        : in  std_logic;
@@ -40,15 +41,16 @@ end entity;
 
 architecture rtl of plane_interpolator is
 
-  constant c_parts : positive := 1 + boolean'pos(g_split);
+  -- Clocks by which the span is behind the edge that it begins from.
+  constant c_behind : natural := boolean'pos(g_ahead);
 
-  -- The strobes, as each part of the words takes them, the lowest first.
-  subtype strobe_t is std_logic_vector(c_parts - 1 downto 0);
+  -- The strobes, clock by clock: each part of the words takes them from a register of its own, the lowest first.
+  subtype strobe_t is std_logic_vector(g_parts + c_behind - 1 downto 0);
 
   signal line_loads, line_steps, line_carries, span_loads, span_steps : strobe_t;
 
   -- From part to part.
-  signal edge_carries, span_carries : std_logic_vector(c_parts downto 0);
+  signal edge_carries, span_carries : std_logic_vector(g_parts downto 0);
 
 begin
 
@@ -60,25 +62,25 @@ begin
   edge_carries(0) <= '0';
   span_carries(0) <= '0';
 
-  later : if g_split generate
+  later : if strobe_t'length > 1 generate
 
     registers : process (clk)
     begin
       if rising_edge(clk) then
-        line_loads(1)   <= line_load;
-        line_steps(1)   <= line_step;
-        line_carries(1) <= line_carry;
-        span_loads(1)   <= span_load;
-        span_steps(1)   <= span_step;
+        line_loads(strobe_t'high downto 1)   <= line_loads(strobe_t'high - 1 downto 0);
+        line_steps(strobe_t'high downto 1)   <= line_steps(strobe_t'high - 1 downto 0);
+        line_carries(strobe_t'high downto 1) <= line_carries(strobe_t'high - 1 downto 0);
+        span_loads(strobe_t'high downto 1)   <= span_loads(strobe_t'high - 1 downto 0);
+        span_steps(strobe_t'high downto 1)   <= span_steps(strobe_t'high - 1 downto 0);
       end if;
     end process;
 
   end generate;
 
-  parts : for part in 0 to c_parts - 1 generate
+  parts : for part in 0 to g_parts - 1 generate
 
-    constant c_low       : natural  := part * g_bits / c_parts; -- elaboration only
-    constant c_high      : natural  := (part + 1) * g_bits / c_parts - 1; -- elaboration only
+    constant c_low       : natural  := part * g_bits / g_parts; -- elaboration only
+    constant c_high      : natural  := (part + 1) * g_bits / g_parts - 1; -- elaboration only
     constant c_part_bits : positive := c_high - c_low + 1;
 
     subtype part_t is std_logic_vector(c_part_bits - 1 downto 0);
@@ -137,7 +139,8 @@ begin
 
       along_edge : entity work.part_interpolator
         generic map (
-          g_bits => c_part_bits
+          g_bits  => c_part_bits,
+          g_ahead => g_ahead
           )
         port map (
           clk       => clk,
@@ -164,34 +167,64 @@ begin
 
       along_line : entity work.part_interpolator
         generic map (
-          g_bits => c_part_bits
+          g_bits  => c_part_bits,
+          g_ahead => g_ahead
           )
         port map (
           clk       => clk,
-          load      => span_loads(part),
+          load      => span_loads(part + c_behind),
           start     => part_value,
-          step      => span_steps(part),
+          step      => span_steps(part + c_behind),
           increment => span_dx,
           carry_in  => span_carries(part),
           value     => pixel_value,
           carry_out => span_carries(part + 1)
           );
 
-        -- A lower part waits for the upper one.
-      in_step : if part < c_parts - 1 generate
+        -- A lower part waits for the upper ones, the edge for the span.
+      line_waits : if part < g_parts - 1 + c_behind generate
 
-        registers : process (clk)
+        type waits_t is array (1 to g_parts - 1 + c_behind - part) of part_t;
+
+        signal waits : waits_t;
+
         begin
-          if rising_edge(clk) then
-            line_value(c_high downto c_low) <= part_value;
-            value(c_high downto c_low)      <= pixel_value;
-          end if;
-        end process;
+
+          registers : process (clk)
+          begin
+            if rising_edge(clk) then
+              waits <= waits_t'(part_value & waits(1 to waits_t'high - 1));
+            end if;
+          end process;
+
+          line_value(c_high downto c_low) <= waits(waits_t'high);
 
       else generate
 
         line_value(c_high downto c_low) <= part_value;
-        value(c_high downto c_low)      <= pixel_value;
+
+      end generate;
+
+      span_waits : if part < g_parts - 1 generate
+
+        type waits_t is array (1 to g_parts - 1 - part) of part_t;
+
+        signal waits : waits_t;
+
+        begin
+
+          registers : process (clk)
+          begin
+            if rising_edge(clk) then
+              waits <= waits_t'(pixel_value & waits(1 to waits_t'high - 1));
+            end if;
+          end process;
+
+          value(c_high downto c_low) <= waits(waits_t'high);
+
+      else generate
+
+        value(c_high downto c_low) <= pixel_value;
 
       end generate;
 

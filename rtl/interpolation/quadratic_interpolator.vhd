@@ -6,10 +6,10 @@
 --                      value += de1    dx += dxe1    de0 += de0e1    de1 += de1e1    where it does
 --               pixel  value += dx     dx += dxx
 --             In preset published the edge steps by its real slope: e0 = (A, 1), and there is no e1.
--- Contract    line_load and line_step are never both '1', nor span_load and span_step; with g_split the upper halves of
---             init's words stand still in the clock behind line_load too
+-- Contract    line_load and line_step are never both '1', nor span_load and span_step; a part's bits of init's words stand
+--             still in the clock of its line_load, a clock behind the part's below it
 -- Formats     formats_pkg: intensity; sums wrap, the value at a covered pixel fits
--- Latency     1 clock from a load or step to its value, with g_split 2
+-- Latency     g_parts clocks from a load or step to its value, with g_ahead 3 more
 -- Throughput  1 line and 1 pixel a clock
 -- Error       0.15 of a colour step at most in preset exact, 16 in published: see intensity in formats_pkg
 -- Source      quadratic paper, section 5 (the nested loops) and figure 6
@@ -21,8 +21,9 @@ use work.formats_pkg.all;
 
 entity quadratic_interpolator is
   generic (
-    g_exact : boolean := true;
-    g_split : boolean := false -- words in two halves, the upper one a clock behind the lower
+    g_exact : boolean  := true;
+    g_parts : positive := 1;    -- of a word, each a clock behind the one below it
+    g_ahead : boolean  := false -- what is added is chosen a clock ahead of its sum
   );
   port (
     clk        : in  std_logic;
@@ -43,19 +44,21 @@ end entity;
 
 architecture rtl of quadratic_interpolator is
 
-  constant c_bits  : positive       := formats(g_exact).intensity.bits;
-  constant c_init  : init_channel_t := init_channel(g_exact);
-  constant c_parts : positive       := 1 + boolean'pos(g_split);
+  constant c_bits : positive       := formats(g_exact).intensity.bits;
+  constant c_init : init_channel_t := init_channel(g_exact);
 
-  -- The strobes, as each part of the words takes them, the lowest first.
-  subtype strobe_t is std_logic_vector(c_parts - 1 downto 0);
+  -- Clocks by which a sum is behind another whose word it takes: values behind differences, spans behind the edge.
+  constant c_behind : natural := boolean'pos(g_ahead);
+
+  -- The strobes, clock by clock: each part of the words takes them from a register of its own, the lowest first.
+  subtype strobe_t is std_logic_vector(g_parts + 2 * c_behind - 1 downto 0);
 
   signal line_loads, line_steps, line_carries, span_loads, span_steps : strobe_t;
 
   -- The sums, and what each carries from part to part.
   type sum_t is (edge_value, edge_dx, edge_de0, edge_de1, span_value, span_dx);
 
-  type carries_t is array (sum_t) of std_logic_vector(c_parts downto 0);
+  type carries_t is array (sum_t) of std_logic_vector(g_parts downto 0);
 
   signal carries : carries_t;
 
@@ -67,16 +70,16 @@ begin
   span_loads(0)   <= span_load;
   span_steps(0)   <= span_step;
 
-  later : if g_split generate
+  later : if strobe_t'length > 1 generate
 
     registers : process (clk)
     begin
       if rising_edge(clk) then
-        line_loads(1)   <= line_load;
-        line_steps(1)   <= line_step;
-        line_carries(1) <= line_carry;
-        span_loads(1)   <= span_load;
-        span_steps(1)   <= span_step;
+        line_loads(strobe_t'high downto 1)   <= line_loads(strobe_t'high - 1 downto 0);
+        line_steps(strobe_t'high downto 1)   <= line_steps(strobe_t'high - 1 downto 0);
+        line_carries(strobe_t'high downto 1) <= line_carries(strobe_t'high - 1 downto 0);
+        span_loads(strobe_t'high downto 1)   <= span_loads(strobe_t'high - 1 downto 0);
+        span_steps(strobe_t'high downto 1)   <= span_steps(strobe_t'high - 1 downto 0);
       end if;
     end process;
 
@@ -86,10 +89,10 @@ begin
     carries(sum)(0) <= '0';
   end generate;
 
-  parts : for part in 0 to c_parts - 1 generate
+  parts : for part in 0 to g_parts - 1 generate
 
-    constant c_low       : natural  := part * c_bits / c_parts; -- elaboration only
-    constant c_high      : natural  := (part + 1) * c_bits / c_parts - 1; -- elaboration only
+    constant c_low       : natural  := part * c_bits / g_parts; -- elaboration only
+    constant c_high      : natural  := (part + 1) * c_bits / g_parts - 1; -- elaboration only
     constant c_part_bits : positive := c_high - c_low + 1;
 
     subtype part_t is std_logic_vector(c_part_bits - 1 downto 0);
@@ -101,6 +104,7 @@ begin
     -- What the next step along the edge adds.
     signal value_step, dx_step, de0_step : part_t;
 
+    signal value_start                             : part_t; -- of the value along the edge, when it loads
     signal part_value, part_dx, part_de0, part_de1 : part_t; -- along the edge
     signal pixel_value, pixel_dx                   : part_t; -- along the line
 
@@ -181,7 +185,8 @@ begin
 
           de1_along_edge : entity work.part_interpolator
             generic map (
-              g_bits => c_part_bits
+              g_bits  => c_part_bits,
+              g_ahead => g_ahead
               )
             port map (
               clk       => clk,
@@ -194,7 +199,7 @@ begin
               carry_out => carries(edge_de1)(part + 1)
               );
 
-          value_step <= part_de1 when line_carries(part) = '1' else part_de0;
+          value_step <= part_de1 when line_carries(part + c_behind) = '1' else part_de0;
           dx_step    <= dxe1 when line_carries(part) = '1' else dxe0;
           de0_step   <= de0e1 when line_carries(part) = '1' else de0e0;
           de1_step   <= de1e1 when line_carries(part) = '1' else de0e1;
@@ -209,15 +214,33 @@ begin
 
       end generate;
 
+      value_behind : if g_ahead generate
+
+        registers : process (clk)
+        begin
+          if rising_edge(clk) then
+            if line_loads(part) = '1' then
+              value_start <= init(c_init.value.low + c_high downto c_init.value.low + c_low);
+            end if;
+          end if;
+        end process;
+
+      else generate
+
+        value_start <= init(c_init.value.low + c_high downto c_init.value.low + c_low);
+
+      end generate;
+
       value_along_edge : entity work.part_interpolator
         generic map (
-          g_bits => c_part_bits
+          g_bits  => c_part_bits,
+          g_ahead => g_ahead
           )
         port map (
           clk       => clk,
-          load      => line_loads(part),
-          start     => init(c_init.value.low + c_high downto c_init.value.low + c_low),
-          step      => line_steps(part),
+          load      => line_loads(part + c_behind),
+          start     => value_start,
+          step      => line_steps(part + c_behind),
           increment => value_step,
           carry_in  => carries(edge_value)(part),
           value     => part_value,
@@ -226,7 +249,8 @@ begin
 
       dx_along_edge : entity work.part_interpolator
         generic map (
-          g_bits => c_part_bits
+          g_bits  => c_part_bits,
+          g_ahead => g_ahead
           )
         port map (
           clk       => clk,
@@ -241,7 +265,8 @@ begin
 
       de0_along_edge : entity work.part_interpolator
         generic map (
-          g_bits => c_part_bits
+          g_bits  => c_part_bits,
+          g_ahead => g_ahead
           )
         port map (
           clk       => clk,
@@ -268,13 +293,14 @@ begin
 
       value_along_line : entity work.part_interpolator
         generic map (
-          g_bits => c_part_bits
+          g_bits  => c_part_bits,
+          g_ahead => g_ahead
           )
         port map (
           clk       => clk,
-          load      => span_loads(part),
+          load      => span_loads(part + 2 * c_behind),
           start     => part_value,
-          step      => span_steps(part),
+          step      => span_steps(part + 2 * c_behind),
           increment => pixel_dx,
           carry_in  => carries(span_value)(part),
           value     => pixel_value,
@@ -283,42 +309,96 @@ begin
 
       dx_along_line : entity work.part_interpolator
         generic map (
-          g_bits => c_part_bits
+          g_bits  => c_part_bits,
+          g_ahead => g_ahead
           )
         port map (
           clk       => clk,
-          load      => span_loads(part),
+          load      => span_loads(part + c_behind),
           start     => part_dx,
-          step      => span_steps(part),
+          step      => span_steps(part + c_behind),
           increment => span_dxx,
           carry_in  => carries(span_dx)(part),
           value     => pixel_dx,
           carry_out => carries(span_dx)(part + 1)
           );
 
-        -- A lower part waits for the upper one.
-      in_step : if part < c_parts - 1 generate
+        -- A lower part waits for the upper ones, and all for the last of the sums.
+      edge_differences : if part < g_parts - 1 + 2 * c_behind generate
 
-        registers : process (clk)
+        type waits_t is array (1 to g_parts - 1 + 2 * c_behind - part) of part_t;
+
+        signal line_dx_waits, line_de0_waits, line_de1_waits : waits_t;
+
         begin
-          if rising_edge(clk) then
-            line_value(c_high downto c_low) <= part_value;
-            line_dx(c_high downto c_low)    <= part_dx;
-            line_de0(c_high downto c_low)   <= part_de0;
-            line_de1(c_high downto c_low)   <= part_de1;
-            value(c_high downto c_low)      <= pixel_value;
-            dx(c_high downto c_low)         <= pixel_dx;
-          end if;
-        end process;
+
+          registers : process (clk)
+          begin
+            if rising_edge(clk) then
+              line_dx_waits  <= waits_t'(part_dx & line_dx_waits(1 to waits_t'high - 1));
+              line_de0_waits <= waits_t'(part_de0 & line_de0_waits(1 to waits_t'high - 1));
+              line_de1_waits <= waits_t'(part_de1 & line_de1_waits(1 to waits_t'high - 1));
+            end if;
+          end process;
+
+          line_dx(c_high downto c_low)  <= line_dx_waits(waits_t'high);
+          line_de0(c_high downto c_low) <= line_de0_waits(waits_t'high);
+          line_de1(c_high downto c_low) <= line_de1_waits(waits_t'high);
+
+      else generate
+
+        line_dx(c_high downto c_low)  <= part_dx;
+        line_de0(c_high downto c_low) <= part_de0;
+        line_de1(c_high downto c_low) <= part_de1;
+
+      end generate;
+
+      differences : if part < g_parts - 1 + c_behind generate
+
+        type waits_t is array (1 to g_parts - 1 + c_behind - part) of part_t;
+
+        signal line_value_waits, dx_waits : waits_t;
+
+        begin
+
+          registers : process (clk)
+          begin
+            if rising_edge(clk) then
+              line_value_waits <= waits_t'(part_value & line_value_waits(1 to waits_t'high - 1));
+              dx_waits         <= waits_t'(pixel_dx & dx_waits(1 to waits_t'high - 1));
+            end if;
+          end process;
+
+          line_value(c_high downto c_low) <= line_value_waits(waits_t'high);
+          dx(c_high downto c_low)         <= dx_waits(waits_t'high);
 
       else generate
 
         line_value(c_high downto c_low) <= part_value;
-        line_dx(c_high downto c_low)    <= part_dx;
-        line_de0(c_high downto c_low)   <= part_de0;
-        line_de1(c_high downto c_low)   <= part_de1;
-        value(c_high downto c_low)      <= pixel_value;
         dx(c_high downto c_low)         <= pixel_dx;
+
+      end generate;
+
+      values : if part < g_parts - 1 generate
+
+        type waits_t is array (1 to g_parts - 1 - part) of part_t;
+
+        signal value_waits : waits_t;
+
+        begin
+
+          registers : process (clk)
+          begin
+            if rising_edge(clk) then
+              value_waits <= waits_t'(pixel_value & value_waits(1 to waits_t'high - 1));
+            end if;
+          end process;
+
+          value(c_high downto c_low) <= value_waits(waits_t'high);
+
+      else generate
+
+        value(c_high downto c_low) <= pixel_value;
 
       end generate;
 

@@ -2,9 +2,9 @@
 --
 -- Purpose     Depth at every pixel: the plane that the header of the init vector holds.
 -- Formats     formats_pkg: depth_sum; sums wrap, the value at a covered pixel fits
--- Contract    line_load and line_step are never both '1', nor span_load and span_step; with g_split the upper halves of
---             the plane's words stand still in the clock behind line_load too
--- Latency     1 clock from a load or step to its value, with g_split 2
+-- Contract    line_load and line_step are never both '1', nor span_load and span_step; a part's bits of the plane's
+--             words stand still in the clock of its line_load, a clock behind the part's below it
+-- Latency     g_parts clocks from a load or step to its value, with g_ahead 2 more
 -- Throughput  1 line and 1 pixel a clock
 -- Error       0.19 of a depth step at most: see depth_sum in formats_pkg
 -- Source      plane_interpolator; the papers leave depth to the host
@@ -16,8 +16,9 @@ use work.formats_pkg.all;
 
 entity z_interpolator is
   generic (
-    g_exact : boolean := true; -- false: edges step by a real slope, and de1 does not exist
-    g_split : boolean := false -- words in two halves, the upper one a clock behind the lower
+    g_exact : boolean  := true; -- false: edges step by a real slope, and de1 does not exist
+    g_parts : positive := 1;    -- of a word, each a clock behind the one below it
+    g_ahead : boolean  := false -- what is added is chosen a clock ahead of its sum
   );
   port (
     clk        : in  std_logic;
@@ -46,7 +47,8 @@ begin
     generic map (
       g_bits    => c_bits,
       g_carries => g_exact,
-      g_split   => g_split
+      g_parts   => g_parts,
+      g_ahead   => g_ahead
       )
     port map (
       clk        => clk,

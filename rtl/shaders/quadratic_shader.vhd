@@ -5,12 +5,15 @@
 --             -> stream_queue
 --             The walker alone waits for whoever takes the fragments. What it tells the interpolators goes through
 --             registers, and all behind it runs on; the queue has a place for every pixel that is on its way.
+--             g_fast: the same fragments by hardware that is built for the clock: queued_walker, words in three parts in
+--             place of two, what they add chosen a clock ahead.
 -- Contract    Both streams are valid/ready; a fragment stands still while it waits. One channel (g_channels = 1) is
 --             given out as red, green and blue.
 -- Formats     formats_pkg: init (header, then a block a channel), depth, colour
--- Latency     8 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel)
+-- Latency     8 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel), with
+--             g_fast 12, and a vector is taken a clock after it is offered or later
 -- Throughput  1 fragment a clock, with no bubble between spans, lines and triangles, but that a triangle takes 2 clocks
---             at least; lines that cover no pixel cost a clock each where no span is being drawn meanwhile
+--             at least, with g_fast 3; lines that cover no pixel cost a clock each where no span is being drawn meanwhile
 -- Error       preset exact: the colour is within 0.65 steps of the quadratic through the six samples (0.5 rounding,
 --             0.15 differences), depth within 0.69 of the triangle's plane, and a step more within a step of 0 or of
 --             its largest value, which setup keeps clear
@@ -25,6 +28,7 @@ entity quadratic_shader is
   generic (
     g_exact    : boolean  := true;
     g_channels : positive := 3;
+    g_fast     : boolean  := false; -- for the clock, in place of registers and of clocks between triangles
     g_probe    : boolean  := false -- bring the stages' registers out
   );
   port (
@@ -74,25 +78,31 @@ architecture rtl of quadratic_shader is
     x        : span_x_t;
   end record;
 
-  type pixels_t is array (1 to 2) of pixel_t;
+  -- The interpolators' words come in parts, the lowest first, a clock from part to part. With g_fast depth and colour are
+  -- clocks later than the last part's sum.
+  constant c_parts : positive := 2 + boolean'pos(g_fast);
+  constant c_late  : natural  := 3 * boolean'pos(g_fast);
+  constant c_whole : positive := c_parts + c_late; -- clocks from what the walker says to a whole word
 
-  -- What the walker has said, one clock ago and two: the lower halves of the interpolators' words follow at once, the
-  -- upper ones a clock later. Then a word is whole.
-  type strobe_t is array (1 to 2) of std_logic;
+  type pixels_t is array (1 to c_whole) of pixel_t;
 
-  -- Behind the buffer the interpolators' words have a second place, from which they load: so the buffer is free a clock
-  -- after the walker has read it. The upper halves go there, too, a clock behind the lower ones.
+  -- What the walker has said, a clock ago and more: for each part of the words, and until a word is whole.
+  subtype strobe_t is std_logic_vector(1 to c_parts);
+
+  -- Behind the buffer the interpolators' words have a second place, from which they load: so the buffer is free when the
+  -- last part has gone there, a clock behind the walker's reading, with g_fast two.
   type reg_t is record
-    walk_valid : std_logic; -- the buffer holds a triangle that the walker has not taken
+    walk_valid : std_logic; -- the buffer holds a triangle that the walker has not taken; with g_fast: one is offered, and the
+                            -- buffer takes it with the walker
     walk_taken : std_logic; -- the walker took it in the clock before: the buffer lets it go
     copy_waits : std_logic; -- the buffer holds a triangle whose words have not gone on
     placed     : std_logic; -- the second place holds words of a triangle that has not begun
-    copy       : strobe_t;  -- words go on, now (the lower halves) or a clock ago
+    copy       : strobe_t;  -- words go on, now (the lowest parts) or clocks ago
     line_load  : strobe_t;
     line_step  : std_logic;
     line_carry : std_logic;
     span_load  : std_logic;
-    span_step  : strobe_t;
+    span_step  : std_logic_vector(1 to c_whole);
     span_goes  : std_logic; -- a step that is no load, too
   end record;
 
@@ -116,10 +126,10 @@ architecture rtl of quadratic_shader is
   signal line_y, y                     : std_logic_vector(fragment_y'range);
   signal line_start, line_stop, x      : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
   signal triangle                      : std_logic_vector(fragment_triangle'range);
-  signal line_z, z                     : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
+  signal sum_line_z, sum_z, line_z, z  : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
   signal whole_z                       : std_logic_vector(fragment_z'range);
   signal colours                       : std_logic_vector(3 * c_colour - 1 downto 0); -- red lowest
-  signal buffer_free                   : std_logic;
+  signal takes                         : std_logic; -- a vector comes into the buffer
   signal room, coming                  : std_logic;
   signal pixel_valid                   : std_logic;
   signal walking                       : std_logic;
@@ -136,73 +146,139 @@ begin
     & " whole bits, depth " & integer'image(c_formats.depth.bits)
     severity failure;
 
-  init_buffer : entity work.stream_register
-    generic map (
-      g_bits => init_data'length
-      )
-    port map (
-      clk       => clk,
-      reset     => reset,
-      in_valid  => init_valid,
-      in_ready  => buffer_free,
-      in_data   => init_data,
-      out_valid => waiting,
-      out_ready => r.walk_taken,
-      out_data  => init
-      );
+  front : if not g_fast generate
 
-  walker : entity work.triangle_walker
-    generic map (
-      g_exact => g_exact
-      )
-    port map (
-      clk            => clk,
-      reset          => reset,
-      init_valid     => r.walk_valid,
-      init_ready     => walk_ready,
-      init           => init(c_header_bits - 1 downto 0),
-      line_ready     => '1',
-      line_held      => open,
-      line_load      => line_load,
-      line_step      => line_step,
-      line_carry     => line_carry,
-      span_load      => span_load,
-      span_step      => span_step,
-      line_y         => line_y,
-      line_start     => line_start,
-      line_stop      => line_stop,
-      fragment_valid => open,
-      fragment_ready => room,
-      triangle       => triangle,
-      y              => y,
-      x              => x,
-      busy           => walking
-      );
+    signal buffer_free : std_logic;
+
+    begin
+
+      init_buffer : entity work.stream_register
+        generic map (
+          g_bits => init_data'length
+          )
+        port map (
+          clk       => clk,
+          reset     => reset,
+          in_valid  => init_valid,
+          in_ready  => buffer_free,
+          in_data   => init_data,
+          out_valid => waiting,
+          out_ready => r.walk_taken,
+          out_data  => init
+          );
+
+      walker : entity work.triangle_walker
+        generic map (
+          g_exact => g_exact
+          )
+        port map (
+          clk            => clk,
+          reset          => reset,
+          init_valid     => r.walk_valid,
+          init_ready     => walk_ready,
+          init           => init(c_header_bits - 1 downto 0),
+          line_ready     => '1',
+          line_held      => open,
+          line_load      => line_load,
+          line_step      => line_step,
+          line_carry     => line_carry,
+          span_load      => span_load,
+          span_step      => span_step,
+          line_y         => line_y,
+          line_start     => line_start,
+          line_stop      => line_stop,
+          fragment_valid => open,
+          fragment_ready => room,
+          triangle       => triangle,
+          y              => y,
+          x              => x,
+          busy           => walking
+          );
+
+      init_ready <= buffer_free;
+      takes      <= init_valid and buffer_free;
+
+  else generate
+
+    -- The walker takes a vector from where it is offered; the buffer has only the interpolators' words.
+    words_buffer : entity work.parameter_register
+      generic map (
+        g_bits => init_data'length - c_depth_low
+        )
+      port map (
+        clk   => clk,
+        load  => r.walk_valid,
+        start => init_data(init_data'high downto c_depth_low),
+        value => init(init'high downto c_depth_low)
+        );
+
+    init(c_depth_low - 1 downto 0) <= (others => '0'); -- the walker's alone
+    waiting                        <= '0'; -- the walker holds whatever the buffer does
+
+    walker : entity work.queued_walker
+      generic map (
+        g_exact => g_exact
+        )
+      port map (
+        clk            => clk,
+        reset          => reset,
+        init_valid     => r.walk_valid,
+        init_ready     => walk_ready,
+        init           => init_data(c_header_bits - 1 downto 0),
+        line_load      => line_load,
+        line_step      => line_step,
+        line_carry     => line_carry,
+        span_load      => span_load,
+        span_step      => span_step,
+        line_y         => line_y,
+        line_start     => line_start,
+        line_stop      => line_stop,
+        fragment_valid => open,
+        fragment_ready => room,
+        triangle       => triangle,
+        y              => y,
+        x              => x,
+        busy           => walking
+        );
+
+    init_ready <= walk_ready;
+    takes      <= walk_ready;
+
+  end generate;
 
   combinational : process (all)
     variable v : reg_t;
   begin
     v            := r;
     v.walk_taken := r.walk_valid and walk_ready;
-    v.walk_valid := (r.walk_valid and not walk_ready) or (init_valid and buffer_free);
+    v.walk_valid := (r.walk_valid and not walk_ready) or takes;
     -- Known a clock before: a register lets all these words in.
-    v.copy_waits := (r.copy_waits and not r.copy(1)) or (init_valid and buffer_free);
-    v.placed     := r.copy(1) or (r.placed and not line_load);
-    v.copy       := (v.copy_waits and not v.placed, r.copy(1));
-    v.line_load  := (line_load, r.line_load(1));
+    v.copy_waits := (r.copy_waits and not r.copy(1)) or takes;
+    v.placed     := (r.copy(1) or r.placed) and not line_load;
+    v.copy       := (v.copy_waits and not v.placed) & r.copy(1 to c_parts - 1);
+    v.line_load  := line_load & r.line_load(1 to c_parts - 1);
     v.line_step  := line_step and not line_load;
     v.line_carry := line_carry;
     v.span_load  := span_load;
-    v.span_step  := (span_step, r.span_step(1));
+    v.span_step  := span_step & r.span_step(1 to c_whole - 1);
     v.span_goes  := span_step and not span_load;
+    if g_fast then
+      -- A vector is taken when it has been offered for a clock, and the last part of the one before it goes on.
+      v.walk_valid := init_valid and not takes and not v.copy_waits;
+      for part in 2 to c_parts - 1 loop
+        if v.copy(part) = '1' then
+          v.walk_valid := '0';
+        end if;
+      end loop;
+    end if;
     if reset = '1' then
       v.walk_valid := '0';
       v.walk_taken := '0';
       v.copy_waits := '0';
       v.placed := '0';
-      v.copy := ('0', '0');
-      v.line_load := ('0', '0');
-      v.span_step := ('0', '0');
+      v.copy := (others => '0');
+      v.line_load := (others => '0');
+      v.span_step := (others => '0');
     end if;
     r_next <= v;
   end process;
@@ -211,7 +287,7 @@ begin
   begin
     if rising_edge(clk) then
       r      <= r_next;
-      pixels <= ((triangle, y, x), pixels(1));
+      pixels <= pixel_t'(triangle, y, x) & pixels(1 to c_whole - 1);
     end if;
   end process;
 
@@ -219,10 +295,10 @@ begin
 
   depth_words : for word in 0 to c_depth_words - 1 generate
 
-    halves : for half in 0 to 1 generate
+    parts : for part in 0 to c_parts - 1 generate
 
-      constant c_low  : natural := c_depth_low + word * c_depth_bits + half * c_depth_bits / 2; -- elaboration only
-      constant c_high : natural := c_depth_low + word * c_depth_bits + (half + 1) * c_depth_bits / 2 - 1; -- elaboration only
+      constant c_low  : natural := c_depth_low + word * c_depth_bits + part * c_depth_bits / c_parts; -- elaboration only
+      constant c_high : natural := c_depth_low + word * c_depth_bits + (part + 1) * c_depth_bits / c_parts - 1; -- elaboration only
 
       begin
 
@@ -232,7 +308,7 @@ begin
             )
           port map (
             clk   => clk,
-            load  => r.copy(1 + half),
+            load  => r.copy(1 + part),
             start => init(c_high downto c_low),
             value => words(c_high downto c_low)
             );
@@ -244,7 +320,8 @@ begin
   depth : entity work.z_interpolator
     generic map (
       g_exact => g_exact,
-      g_split => true
+      g_parts => c_parts,
+      g_ahead => g_fast
       )
     port map (
       clk        => clk,
@@ -254,9 +331,27 @@ begin
       line_carry => r.line_carry,
       span_load  => r.span_load,
       span_step  => r.span_goes,
-      line_value => line_z,
-      value      => z
+      line_value => sum_line_z,
+      value      => sum_z
       );
+
+  -- With g_fast a plane is a clock before a quadratic.
+  beside_colour : if g_fast generate
+
+    depth_waits : process (clk)
+    begin
+      if rising_edge(clk) then
+        line_z <= sum_line_z;
+        z      <= sum_z;
+      end if;
+    end process;
+
+  else generate
+
+    line_z <= sum_line_z;
+    z      <= sum_z;
+
+  end generate;
 
   channels : for channel in 0 to g_channels - 1 generate
 
@@ -270,22 +365,22 @@ begin
 
       channel_words : for word in 0 to c_channel_words - 1 generate
 
-        halves : for half in 0 to 1 generate
+        parts : for part in 0 to c_parts - 1 generate
 
-          constant c_half : natural := c_low + word * c_value_bits + half * c_value_bits / 2; -- elaboration only
-          constant c_high : natural := c_low + word * c_value_bits + (half + 1) * c_value_bits / 2 - 1; -- elaboration only
+          constant c_part_low : natural := c_low + word * c_value_bits + part * c_value_bits / c_parts; -- elaboration only
+          constant c_high : natural := c_low + word * c_value_bits + (part + 1) * c_value_bits / c_parts - 1; -- elaboration only
 
           begin
 
             place : entity work.parameter_register
               generic map (
-                g_bits => c_high - c_half + 1
+                g_bits => c_high - c_part_low + 1
                 )
               port map (
                 clk   => clk,
-                load  => r.copy(1 + half),
-                start => init(c_high downto c_half),
-                value => words(c_high downto c_half)
+                load  => r.copy(1 + part),
+                start => init(c_high downto c_part_low),
+                value => words(c_high downto c_part_low)
                 );
 
         end generate;
@@ -295,7 +390,8 @@ begin
       interpolator : entity work.quadratic_interpolator
         generic map (
           g_exact => g_exact,
-          g_split => true
+          g_parts => c_parts,
+          g_ahead => g_fast
           )
         port map (
           clk        => clk,
@@ -345,12 +441,13 @@ begin
   end generate;
 
   whole_z     <= z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction);
-  pixel_valid <= r.span_step(2);
-  pixel       <= colours & whole_z & pixels(2).x(fragment_x'range) & pixels(2).y & pixels(2).triangle;
+  pixel_valid <= r.span_step(c_whole);
+  pixel       <= colours & whole_z & pixels(c_whole).x(fragment_x'range) & pixels(c_whole).y & pixels(c_whole).triangle;
 
   queue : entity work.stream_queue
     generic map (
-      g_bits => pixel'length
+      g_bits       => pixel'length,
+      g_index_bits => 3 + boolean'pos(g_fast)
       )
     port map (
       clk       => clk,
@@ -373,8 +470,6 @@ begin
   fragment_green    <= fragment_pixel(c_green_low + fragment_green'length - 1 downto c_green_low);
   fragment_blue     <= fragment_pixel(c_blue_low + fragment_blue'length - 1 downto c_blue_low);
 
-  init_ready <= buffer_free;
-
   busy  <= waiting or walking or coming;
   fault <= '0';
 
@@ -389,7 +484,7 @@ begin
       stop   : span_x_t;
     end record;
 
-    type lines_t is array (1 to 2) of line_t;
+    type lines_t is array (1 to c_whole) of line_t;
 
     signal lines : lines_t;
 
@@ -398,28 +493,29 @@ begin
       beside_lines : process (clk)
       begin
         if rising_edge(clk) then
-          lines <= ((span_load, line_carry, line_y, line_start, line_stop), lines(1));
+          lines <= line_t'(span_load, line_carry, line_y, line_start, line_stop) & lines(1 to c_whole - 1);
           if reset = '1' then
-            lines(1).begins <= '0';
-            lines(2).begins <= '0';
+            for clock in lines_t'range loop
+              lines(clock).begins <= '0';
+            end loop;
           end if;
         end if;
       end process;
 
-      probe(c_probe.line_event.low)                                <= lines(2).begins;
-      probe(c_probe.span_event.low)                                <= r.span_step(2);
+      probe(c_probe.line_event.low)                                <= lines(c_whole).begins;
+      probe(c_probe.span_event.low)                                <= r.span_step(c_whole);
       probe(c_probe.sample_event.low)                              <= '0'; -- stages of another shader
       probe(c_probe.product_event.low)                             <= '0';
-      probe(c_probe.line_y.high downto c_probe.line_y.low)         <= lines(2).y;
-      probe(c_probe.line_start.high downto c_probe.line_start.low) <= lines(2).start;
-      probe(c_probe.line_stop.high downto c_probe.line_stop.low)   <= lines(2).stop;
+      probe(c_probe.line_y.high downto c_probe.line_y.low)         <= lines(c_whole).y;
+      probe(c_probe.line_start.high downto c_probe.line_start.low) <= lines(c_whole).start;
+      probe(c_probe.line_stop.high downto c_probe.line_stop.low)   <= lines(c_whole).stop;
       probe(c_probe.line_z.high downto c_probe.line_z.low)         <= line_z;
-      probe(c_probe.span_y.high downto c_probe.span_y.low)         <= pixels(2).y;
-      probe(c_probe.span_x.high downto c_probe.span_x.low)         <= pixels(2).x;
+      probe(c_probe.span_y.high downto c_probe.span_y.low)         <= pixels(c_whole).y;
+      probe(c_probe.span_x.high downto c_probe.span_x.low)         <= pixels(c_whole).x;
       probe(c_probe.span_z.high downto c_probe.span_z.low)         <= z;
 
       probed_carry : if g_exact generate
-        probe(c_probe.line_carry.low) <= lines(2).carry;
+        probe(c_probe.line_carry.low) <= lines(c_whole).carry;
       end generate;
 
   else generate

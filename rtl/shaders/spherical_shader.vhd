@@ -275,7 +275,7 @@ begin
   depth : entity work.z_interpolator
     generic map (
       g_exact => g_exact,
-      g_split => true
+      g_parts => 2
       )
     port map (
       clk        => clk,

@@ -48,26 +48,27 @@ architecture rtl of stream_queue is
   type reg_t is record
     claimed   : index_t; -- words claimed and not given out
     room      : std_logic;
+    stored    : std_logic; -- a word lies in memory: a register, so that no comparison is behind who takes the words
+    single    : std_logic; -- and no other
     write     : index_t;
     read      : index_t;
+    second    : index_t; -- read + 2
     out_valid : std_logic;
   end record;
 
   signal r, r_next : reg_t;
 
-  signal stored  : std_logic; -- a word lies in memory
   signal advance : std_logic; -- and goes to the output
   signal leaves  : std_logic;
 
 begin
 
-  -- One word less is claimed than there are places: indices that are the same say that there is none.
-  stored  <= '1' when r.write /= r.read else '0';
-  advance <= stored and (out_ready or not r.out_valid);
+  advance <= r.stored and (out_ready or not r.out_valid);
   leaves  <= r.out_valid and out_ready;
 
   combinational : process (all)
-    variable v : reg_t;
+    variable v   : reg_t;
+    variable two : std_logic; -- words lie in memory, where any do
   begin
     v := r;
     if claim = '1' and leaves = '0' then
@@ -79,20 +80,33 @@ begin
     if v.claimed = c_most then
       v.room := '0';
     end if;
+    two := '0';
+    if r.write = r.second then
+      two := '1';
+    end if;
+    if in_valid = '1' and advance = '0' then
+      v.stored := '1';
+      v.single := not r.stored;
+    elsif in_valid = '0' and advance = '1' then
+      v.stored := not r.single;
+      v.single := two;
+    end if;
     if in_valid = '1' then
       v.write := r.write + 1;
     end if;
     if advance = '1' then
-      v.read      := r.read + 1;
-      v.out_valid := '1';
-    elsif out_ready = '1' then
-      v.out_valid := '0';
+      v.read   := r.read + 1;
+      v.second := r.second + 1;
     end if;
+    v.out_valid := r.stored or (r.out_valid and not out_ready);
     if reset = '1' then
       v.claimed   := (others => '0');
       v.room      := '1';
+      v.stored    := '0';
+      v.single    := '0';
       v.write     := (others => '0');
       v.read      := (others => '0');
+      v.second    := to_unsigned(2 mod 2 ** g_index_bits, g_index_bits);
       v.out_valid := '0';
     end if;
     r_next <= v;
