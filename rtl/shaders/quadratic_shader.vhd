@@ -25,6 +25,7 @@ entity quadratic_shader is
   generic (
     g_exact    : boolean  := true;
     g_channels : positive := 3;
+    g_fast     : boolean  := false; -- built for the clock, the same fragments
     g_probe    : boolean  := false -- bring the stages' registers out
   );
   port (
