@@ -7,7 +7,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 # What a target hands to the program. Values travel through the environment and are quoted where they are
 # used: neither make nor a shell ever reads them as code.
 variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS \
-  ALL_EFFECTS LIGHTS FORM MEASURE OBJECTS RATE TRIANGLES SEED SECONDS TARGET FRAMES VIDEO TERMINAL \
+  ALL_EFFECTS LIGHTS FORM FAST MEASURE OBJECTS RATE TRIANGLES SEED SECONDS TARGET FRAMES VIDEO TERMINAL \
   SPACE FULL ERROR PSNR TIME CLOCK EXECUTOR PARTS TILE DESIGN SEEDS PIN
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
@@ -25,7 +25,8 @@ sanitized = $(lock) sh -c 'cmake --log-level=NOTICE -S . -B build/sanitize -G Ni
   -DCMAKE_CXX_COMPILER=clang++ && cmake --build build/sanitize -j "$$@"' make "$(jobs)"
 scene := $${SCENE:+-- "$$SCENE"}
 run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size) \
-  $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights)
+  $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights) \
+  $(call flag,FAST,--fast)
 sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) \
   $(call option,OUT,--out)
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
@@ -52,6 +53,7 @@ help: ## this list
 	@echo '  OUT        the folder for results                         (default: build/out)'
 	@echo '  THREADS    threads for setup and golden model; make view: for whole frames   (default: all cores)'
 	@echo '  ALL_EFFECTS  1: hardware with every effect, whatever the scene calls for; LIGHTS  for how many lights'
+	@echo '  FAST       1: the quadratic shader built for the clock: the same fragments'
 	@echo '  FRAMES     make view: steps of one turn of the camera         (default: 36)'
 	@echo '  VIDEO, RATE  make view: a file for a video, and its frames a second; TERMINAL  1: draw in the terminal'
 	@echo '  MEASURE    1: make plan counts cells by Yosys, and cycles and seconds by simulation'
@@ -81,7 +83,7 @@ view: program ## one scene from all sides, by the RTL in Verilator or lanes (SCE
 
 compare: program ## the frames that make sim left, once more
 	@build/halfway compare $(call option,SHADER,--shader) $(call flag,ALL_EFFECTS,--all-effects) \
-	  $(call option,OUT,--out) $(scene)
+	  $(call flag,FAST,--fast) $(call option,OUT,--out) $(scene)
 
 why: program ## one pixel stage by stage, golden beside RTL (SCENE, PIXEL)
 	@build/halfway why $(run_options) $(call option,PIXEL,--pixel) $(call option,OUT,--out) $(scene)

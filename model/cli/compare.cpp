@@ -21,7 +21,7 @@ namespace {
 
 struct CompareCommand {
   std::string shader = "quadratic";
-  bool all_effects = false;
+  bool all_effects = false, fast = false;
   std::string out = "build/out";
   std::vector<std::string> scenes;
 };
@@ -62,16 +62,18 @@ std::string make_sim(const std::string& scene, const CompareCommand& command) {
   std::string text = "make sim SCENE=" + scene;
   if (command.shader != CompareCommand{}.shader) text += " SHADER=" + command.shader;
   if (command.all_effects) text += " ALL_EFFECTS=1";
+  if (command.fast) text += " FAST=1";
   if (command.out != CompareCommand{}.out) text += " OUT=" + command.out;
   return text;
 }
 
 // Whether all that a run left of a scene is equal.
-Result<bool> compare_scene(const std::string& scene, const CompareCommand& command) {
+Result<bool> compare_scene(const std::string& scene, const CompareCommand& command, Shader shader) {
   if (const std::string name = result_name(scene); name.empty() || name == "." || name == "..")
     return bad_input(fmt::format("'{}' is no scene's name", scene));
   const ResultFiles files =
-      ResultFiles::of(command.out, result_name(scene), command.shader, command.all_effects);
+      ResultFiles::of(command.out, result_name(scene),
+                      {.shader = shader, .all_effects = command.all_effects, .fast = command.fast});
   const auto none = [&](const char* what) {
     return bad_input(
         fmt::format("{}: {}; run `{}` first", files.folder.string(), what, make_sim(scene, command)));
@@ -118,7 +120,11 @@ Result<bool> compare_scene(const std::string& scene, const CompareCommand& comma
 }
 
 int run(const Folders& folders, const CompareCommand& command) {
-  if (const auto shader = checked_shader(command.shader); !shader) return report(shader.error());
+  const auto shader = checked_shader(command.shader);
+  if (!shader) return report(shader.error());
+  if (command.fast && *shader != Shader::quadratic)
+    return report(bad_input(fmt::format(
+        "--fast belongs to the quadratic shader, and says nothing for the {} shader", to_string(*shader))));
   std::vector<std::string> scenes = command.scenes;
   if (scenes.empty()) {
     auto builtin = builtin_scenes(folders);
@@ -127,7 +133,7 @@ int run(const Folders& folders, const CompareCommand& command) {
   }
   bool equal = true;
   for (const std::string& scene : scenes) {
-    const auto same = compare_scene(scene, command);
+    const auto same = compare_scene(scene, command, *shader);
     if (!same) return report(same.error());
     equal = *same && equal;
   }
@@ -143,6 +149,7 @@ void add_compare(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("scene", command->scenes, "as for sim; none: all built-in scenes");
   sub->add_option("--shader", command->shader, c_shader_names)->capture_default_str();
   sub->add_flag("--all-effects", command->all_effects, "what sim --all-effects left");
+  sub->add_flag("--fast", command->fast, "what sim --fast left");
   sub->add_option("--out", command->out, "folder of results")->capture_default_str();
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }

@@ -141,8 +141,7 @@ int run(const Folders& folders, const SimOptions& options) {
                                   scenes[i], scenes[j])));
 
   for (const std::string& scene : scenes) {
-    const auto files = ResultFiles::of(settings.out, result_name(scene), to_string(settings.plan.shader),
-                                       settings.plan.all_effects);
+    const auto files = ResultFiles::of(settings.out, result_name(scene), settings.plan);
     if (const Status status = forget_summary(files, [&] { say_waiting(files.folder); }); !status)
       return report(status.error());
   }

@@ -274,11 +274,7 @@ class View {
   // Held while frames go there; none where none do.
   Result<std::optional<FolderLock>> prepare_folder(const std::string& scene) {
     if (!o_.images) return std::optional<FolderLock>();
-    o_.folder =
-        c_.out_given
-            ? draw_.out
-            : ResultFiles::of(draw_.out, scene, to_string(draw_.plan.shader), draw_.plan.all_effects).folder /
-                  "view";
+    o_.folder = c_.out_given ? draw_.out : ResultFiles::of(draw_.out, scene, draw_.plan).folder / "view";
     if (const auto writable = TemporaryFolder::make(o_.folder); !writable) return writable.error();
     auto lock = FolderLock::take(o_.folder, [&] {
       say(fmt::format("waiting for {} (another halfway view draws into it)", o_.folder.string()));

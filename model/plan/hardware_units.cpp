@@ -9,6 +9,8 @@ namespace {
 
 // The quadratic shader cuts the words of its interpolators in halves, the spherical one those of depth.
 constexpr int kHalves = 2;
+// The quadratic shader built for the clock.
+constexpr int kThirds = 3;
 
 // Entities below one, with all that lies below them.
 class Units {
@@ -29,7 +31,7 @@ class Units {
     add("parameter_register", count);
   }
   void add_walker() {
-    add("triangle_walker");
+    add(key_.walker());
     add("edge_walker", exact_ ? 2 : 0);
     add("slope_walker", exact_ ? 0 : 2);
     add("parameter_register", exact_ ? 1 : 0);  // the lower section
@@ -43,10 +45,10 @@ class Units {
   }
   // The spherical shader's: in the stages of line and span.
   void add_ambient() { add("parameter_register", 2); }
-  void add_quadratic_interpolator() {
+  void add_quadratic_interpolator(int parts) {
     add("quadratic_interpolator");
-    add("part_interpolator", (exact_ ? 6 : 5) * kHalves);
-    add("parameter_register", (exact_ ? 7 : 4) * kHalves);
+    add("part_interpolator", (exact_ ? 6 : 5) * parts);
+    add("parameter_register", (exact_ ? 7 : 4) * parts);
   }
   // channels 0: the light's horizon alone
   void add_diffuse_slice(int channels) {
@@ -68,14 +70,15 @@ class Units {
     add("multiplier", static_cast<int>(key_.spherical.highlight_channels));
   }
   void add_quadratic_shader() {
+    const int parts = key_.fast ? kThirds : kHalves;
     add_stream_registers(1);
     add("stream_queue");
     add_walker();
-    add_z_interpolator(kHalves);
-    for (unsigned c = 0; c < key_.channels; ++c) add_quadratic_interpolator();
+    add_z_interpolator(parts);
+    for (unsigned c = 0; c < key_.channels; ++c) add_quadratic_interpolator(parts);
     // The second place of their words.
     const int channels = static_cast<int>(key_.channels);
-    add("parameter_register", kHalves * (exact_ ? 4 + 10 * channels : 3 + 6 * channels));
+    add("parameter_register", parts * (exact_ ? 4 + 10 * channels : 3 + 6 * channels));
     add("saturate", static_cast<int>(key_.channels));
   }
   void add_spherical_shader() {

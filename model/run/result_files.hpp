@@ -5,16 +5,20 @@
 #include <filesystem>
 #include <string>
 
+#include "plan/plan.hpp"
+
 namespace halfway {
 
-/// The files that a run leaves in <out>/<scene>/<shader>/; with all effects in <shader>-all-effects/, so that
-/// both can be compared.
+/// The files that a run leaves in <out>/<scene>/<shader>/; with all effects in <shader>-all-effects/, and of
+/// hardware built for the clock in <shader>-fast/ or <shader>-all-effects-fast/, so that all can be compared.
 struct ResultFiles {
   std::filesystem::path folder;
 
-  static ResultFiles of(const std::filesystem::path& out, const std::string& scene, const std::string& shader,
-                        bool all_effects) {
-    return {out / scene / (all_effects ? shader + "-all-effects" : shader)};
+  static ResultFiles of(const std::filesystem::path& out, const std::string& scene, const PlanRequest& plan) {
+    std::string hardware = to_string(plan.shader);
+    if (plan.all_effects) hardware += "-all-effects";
+    if (plan.fast) hardware += "-fast";
+    return {out / scene / hardware};
   }
   std::filesystem::path init() const { return folder / "init.txt"; }
   std::filesystem::path trace(const std::string& who) const { return folder / (who + ".trace"); }

@@ -45,8 +45,7 @@ class Simulation {
   Simulation(const Scene& scene, const SimulateSettings& settings)
       : scene_(scene),
         s_(settings),
-        files_(ResultFiles::of(settings.out, scene.name, to_string(settings.plan.shader),
-                               settings.plan.all_effects)),
+        files_(ResultFiles::of(settings.out, scene.name, settings.plan)),
         golden_(settings.size, scene.background) {
     summary_.scene = scene.name;
     summary_.shader = to_string(s_.plan.shader);
@@ -459,7 +458,11 @@ std::string to_json(const SceneSummary& s) {
       {"height", s.size.height},
       {"triangles", s.triangles},
       {"fragments", s.fragments},
-      {"hardware", {{"key", s.plan.key.name()}, {"all_effects", s.all_effects}, {"units", units}}},
+      {"hardware",
+       {{"key", s.plan.key.name()},
+        {"all_effects", s.all_effects},
+        {"fast", s.plan.key.fast},
+        {"units", units}}},
       {"runs", runs},
       // JSON has no infinity: null where golden and reference are the same.
       {"accuracy",
@@ -495,6 +498,7 @@ std::string to_line(const SceneSummary& s) {
       fmt::format("{:<12} {:<10} {:<9} {:>4}x{:<4} {:>8} triangles {:>9} fragments", s.scene, s.shader,
                   to_string(s.plan.key.preset), s.size.width, s.size.height, s.triangles, s.fragments);
   if (s.all_effects) line += ", all effects";
+  if (s.plan.key.fast) line += ", fast";
   line += unusual_tables(s.plan.key);
   for (const SimulatorRun& run : s.runs) {
     const auto to = std::back_inserter(line);

@@ -55,7 +55,7 @@ struct SceneSummary {
 /// yet to be drawn they must not pass for this run's. Waits while another run holds the folder.
 Status forget_summary(const ResultFiles& files, const std::function<void()>& on_wait);
 
-/// Results lie in ResultFiles::of(out, scene, shader, all_effects). Hardware that differs is no error: see
+/// Results lie in ResultFiles::of(out, scene, plan). Hardware that differs is no error: see
 /// SceneSummary::equal.
 Result<SceneSummary> simulate(const Scene& scene, const SimulateSettings& settings);
 

@@ -43,9 +43,9 @@ struct Layouts {
   unsigned clocks_to_fragment = 1;  ///< from the last stage's event, where nothing waits
 };
 
-std::vector<ProbedStage> walked_stages(std::initializer_list<const char*> names) {
+std::vector<ProbedStage> walked_stages(const HardwareKey& key, std::initializer_list<const char*> names) {
   std::vector<ProbedStage> stages;
-  for (const char* name : names) stages.push_back({name, static_cast<int>(stages.size()), "triangle_walker"});
+  for (const char* name : names) stages.push_back({name, static_cast<int>(stages.size()), key.walker()});
   return stages;
 }
 
@@ -60,29 +60,29 @@ std::string within(std::string_view entity, std::string_view around) {
 }
 
 template <class P>
-std::string walk_entity(std::string_view field, const std::string& shader) {
+std::string walk_entity(std::string_view field, const HardwareKey& key) {
   if (field == "line_start" || field == "line_stop" || field == "line_carry")
-    return within(std::is_same_v<P, golden::Exact> ? "edge_walker" : "slope_walker", "triangle_walker");
-  return within(field.ends_with("_z") ? "z_interpolator" : "triangle_walker", shader);
+    return within(std::is_same_v<P, golden::Exact> ? "edge_walker" : "slope_walker", key.walker());
+  return within(field.ends_with("_z") ? "z_interpolator" : key.walker(), key.entity());
 }
 
 template <class P>
-void place_probe_header(Layouts& layouts, const std::string& shader) {
+void place_probe_header(Layouts& layouts, const HardwareKey& key) {
   for (const golden::Field& f : P::c_probe_header)
     if (!f.name.ends_with("_event"))
       layouts.probe.push_back({std::string(f.name), f, 0,
                                f.name.starts_with("line_") ? Stage::line : Stage::span,
-                               walk_entity<P>(f.name, shader)});
+                               walk_entity<P>(f.name, key)});
 }
 
 template <class P>
 Layouts quadratic_layouts(const HardwareKey& key) {
   const unsigned channels = key.channels;
   Layouts layouts;
-  layouts.stages = walked_stages({"line", "span"});
+  layouts.stages = walked_stages(key, {"line", "span"});
   layouts.clocks_to_fragment = 2;  // a span's pixel goes into the queue
   for (const golden::Field& f : P::c_init_header) layouts.init.push_back({std::string(f.name), f, 0});
-  place_probe_header<P>(layouts, key.entity());
+  place_probe_header<P>(layouts, key);
   for (unsigned c = 0; c < channels; ++c) {
     const auto name = [&](const golden::Field& f) {
       return fmt::format("{} {}", channel_name(c, channels), f.name);
@@ -104,12 +104,12 @@ Layouts spherical_layouts(const HardwareKey& key) {
   const golden::SphericalConfig config = golden_config(key);
   const golden::SphericalLayout<P> at(config);
   Layouts layouts;
-  layouts.stages = walked_stages({"line", "span", "sample", "product"});
+  layouts.stages = walked_stages(key, {"line", "span", "sample", "product"});
   for (const golden::Field& f : P::c_init_header) layouts.init.push_back({std::string(f.name), f, 0});
   for (int c = 0; c < config.channels; ++c)
     layouts.init.push_back({channel_name(static_cast<unsigned>(c), key.channels) + " ambient",
                             P::ambient_channel_at::ambient, at.ambient_low(c)});
-  place_probe_header<P>(layouts, key.entity());
+  place_probe_header<P>(layouts, key);
   // One slice's part of a record or of the probe: its header's fields, then a word a channel.
   const auto place = [](std::vector<PlacedField>& fields, std::span<const golden::Field> header,
                         int header_bits, std::span<const golden::Field> channel, int channel_bits,
@@ -160,7 +160,7 @@ Layouts processors_layouts(const HardwareKey& key) {
   const bool folded = key.processors.form == ProcessorForm::folded;
   const std::string_view processor = folded ? "shading_processor" : "unrolled_shading_processor";
   Layouts layouts;
-  layouts.stages = walked_stages({"line", "span"});
+  layouts.stages = walked_stages(key, {"line", "span"});
   const auto colour = [&](int channel) { return channel_name(static_cast<unsigned>(channel), key.channels); };
   // What the planes are of.
   std::vector<std::string> planes;
@@ -192,7 +192,7 @@ Layouts processors_layouts(const HardwareKey& key) {
     if (config.specular) place_coefficient("k specular", at.specular_low(c), c);
   }
 
-  place_probe_header<golden::Exact>(layouts, key.entity());
+  place_probe_header<golden::Exact>(layouts, key);
   for (std::size_t p = 0; p < planes.size(); ++p)
     layouts.probe.push_back({planes[p],
                              {"", 0, P::c_vector_bits, true, P::c_vector_fraction_bits},
