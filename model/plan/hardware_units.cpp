@@ -33,7 +33,7 @@ class Units {
   void add_walker() {
     add(key_.walker());
     add("edge_walker", exact_ ? 2 : 0);
-    add("slope_walker", exact_ ? 0 : 2);
+    add(key_.fast ? "split_slope_walker" : "slope_walker", exact_ ? 0 : 2);
     add("parameter_register", exact_ ? 1 : 0);  // the lower section
   }
   // `parts`: of each word
@@ -71,7 +71,7 @@ class Units {
   }
   void add_quadratic_shader() {
     const int parts = key_.fast ? kThirds : kHalves;
-    add_stream_registers(1);
+    add(key_.fast ? "parameter_register" : "stream_register");  // the init buffer
     add("stream_queue");
     add_walker();
     add_z_interpolator(parts);

@@ -62,7 +62,10 @@ std::string within(std::string_view entity, std::string_view around) {
 template <class P>
 std::string walk_entity(std::string_view field, const HardwareKey& key) {
   if (field == "line_start" || field == "line_stop" || field == "line_carry")
-    return within(std::is_same_v<P, golden::Exact> ? "edge_walker" : "slope_walker", key.walker());
+    return within(std::is_same_v<P, golden::Exact> ? "edge_walker"
+                  : key.fast                       ? "split_slope_walker"
+                                                   : "slope_walker",
+                  key.walker());
   return within(field.ends_with("_z") ? "z_interpolator" : key.walker(), key.entity());
 }
 
