@@ -71,7 +71,11 @@ class Units {
   }
   void add_quadratic_shader() {
     const int parts = key_.fast ? kThirds : kHalves;
-    add(key_.fast ? "parameter_register" : "stream_register");  // the init buffer
+    // The init buffer.
+    if (key_.fast)
+      add("parameter_register");
+    else
+      add_stream_registers(1);
     add("stream_queue");
     add_walker();
     add_z_interpolator(parts);

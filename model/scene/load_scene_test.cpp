@@ -467,7 +467,7 @@ TEST_F(LoadScene, KeysOfManyPartsAreRefused) {
         << before;
   // In texts and comments dots are no more than that.
   const std::string dots(40, '.');
-  for (const std::string text :
+  for (const std::string& text :
        {'"' + dots + '"', "'" + dots + "'", "\"\"\"\n" + dots + "\"\"\"", "'''" + dots + "'''"})
     EXPECT_EQ(error("[[material]] # " + dots + "\nname = " + text + "\n" + mesh), "loaded") << text;
 }
