@@ -58,13 +58,17 @@ architecture rtl of stream_queue is
 
   signal r, r_next : reg_t;
 
-  signal advance : std_logic; -- and goes to the output
+  signal advance : std_logic; -- a word goes from memory to the output
+  signal reads   : std_logic; -- the same, by the indices
   signal leaves  : std_logic;
 
 begin
 
   advance <= r.stored and (out_ready or not r.out_valid);
   leaves  <= r.out_valid and out_ready;
+
+  -- So a synthesizer sees that no place is read while it is written; else it brings registers for that.
+  reads <= (out_ready or not r.out_valid) when r.write /= r.read else '0';
 
   combinational : process (all)
     variable v   : reg_t;
@@ -135,7 +139,7 @@ begin
         variable memory : memory_t;
       begin
         if rising_edge(clk) then
-          if advance = '1' then
+          if reads = '1' then
             out_data(word_t'range) <= memory(to_integer(r.read));
           end if;
           if in_valid = '1' then
