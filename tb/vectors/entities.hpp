@@ -33,6 +33,7 @@ Status write_z_interpolator(const std::filesystem::path& folder);
 Status write_quadratic_interpolator(const std::filesystem::path& folder);
 Status write_edge_walker(const std::filesystem::path& folder);
 Status write_slope_walker(const std::filesystem::path& folder);
+Status write_split_slope_walker(const std::filesystem::path& folder);
 Status write_object_stage(const std::filesystem::path& folder);
 Status write_triangle_walker(const std::filesystem::path& folder);
 Status write_diffuse_slice(const std::filesystem::path& folder);

@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
       std::pair{"quadratic_interpolator", &write_quadratic_interpolator},
       std::pair{"edge_walker", &write_edge_walker},
       std::pair{"slope_walker", &write_slope_walker},
+      std::pair{"split_slope_walker", &write_split_slope_walker},
       std::pair{"object_stage", &write_object_stage},
       std::pair{"triangle_walker", &write_triangle_walker},
       std::pair{"diffuse_slice", &write_diffuse_slice},

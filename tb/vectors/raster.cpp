@@ -154,6 +154,43 @@ Status write_objects(const std::filesystem::path& folder) {
   return out.write(folder / (std::string(Preset::c_name) + "_out.txt"));
 }
 
+// A line: checked, load, x, slope, step; x, before the edge. Words of all kinds: sums wrap. `stands`: where
+// an edge is taken its words have stood still since the clock before; and what the fraction's lower half
+// carries goes through the upper one often.
+Status write_slopes(const std::filesystem::path& folder, bool stands) {
+  using EdgeX = golden::SlopeWalker::EdgeX;
+  Random random(15);
+  VectorFile file;
+  golden::SlopeWalker twin;
+  bool waits = false;  // a load, for its step
+  bool taken = false;
+  EdgeX x, slope;
+  for (int i = 0; i < 6000; ++i) {
+    const bool fresh = i == 0 || (!waits && (!stands || random.one_in(2)));
+    if (fresh) {
+      x = EdgeX::from_bits(random.word(Published::c_edge_x_bits));
+      slope = EdgeX::from_bits(random.word(Published::c_edge_x_bits));
+      if (stands && random.one_in(2)) {
+        constexpr std::uint64_t c_upper = ((1u << Published::c_edge_x_fraction_bits) - 1) &
+                                          ~((1u << Published::c_edge_x_fraction_bits / 2) - 1);
+        x = EdgeX::from_bits(x.bits() | c_upper);
+        slope = EdgeX::from_bits(slope.bits() & ~c_upper);
+      }
+    }
+    const bool load = !taken || waits || random.one_in(12);
+    const bool step = (!taken || !random.one_in(5)) && !(load && fresh && stands);
+    waits = load && !step;
+    file.flag(taken).flag(load).word(x).word(slope).flag(step).word(twin.x()).end_vector();
+    if (load && step) {
+      twin.load(x, slope);
+      taken = true;
+    } else if (step) {
+      twin.step();
+    }
+  }
+  return file.write(folder / "edges.txt");
+}
+
 }  // namespace
 
 // A line: checked, load, x, quotient, remainder, divisor, error, carry, step; x, carry, before the edge.
@@ -187,28 +224,12 @@ Status write_edge_walker(const std::filesystem::path& folder) {
   return file.write(folder / "edges.txt");
 }
 
-// A line: checked, load, x, slope, step; x, before the edge. Words of all kinds: sums wrap.
 Status write_slope_walker(const std::filesystem::path& folder) {
-  using EdgeX = golden::SlopeWalker::EdgeX;
-  Random random(15);
-  VectorFile file;
-  golden::SlopeWalker twin;
-  bool waits = false;  // a load, for its step
-  EdgeX x, slope;
-  for (int i = 0; i < 6000; ++i) {
-    if (!waits) {
-      x = EdgeX::from_bits(random.word(Published::c_edge_x_bits));
-      slope = EdgeX::from_bits(random.word(Published::c_edge_x_bits));
-    }
-    const bool load = i == 0 || waits || random.one_in(12), step = i == 0 || !random.one_in(5);
-    waits = load && !step;
-    file.flag(i > 0).flag(load).word(x).word(slope).flag(step).word(twin.x()).end_vector();
-    if (load && step)
-      twin.load(x, slope);
-    else if (step)
-      twin.step();
-  }
-  return file.write(folder / "edges.txt");
+  return write_slopes(folder, false);
+}
+
+Status write_split_slope_walker(const std::filesystem::path& folder) {
+  return write_slopes(folder, true);
 }
 
 Status write_object_stage(const std::filesystem::path& folder) {
