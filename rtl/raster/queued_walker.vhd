@@ -12,8 +12,9 @@
 --             triangle, in their order; up to three are taken before it does.
 -- Formats     formats_pkg: the header of init; x span_x, y pixel_y
 -- Latency     4 clocks from init taken to the triangle's first fragment, 2 from line_load
--- Throughput  1 fragment a clock, within and between spans and triangles; a triangle a clock, where whoever offers them has
---             one; a line without a pixel costs a clock only where no span is being drawn meanwhile
+-- Throughput  1 fragment a clock, within and between spans and triangles, but that init stands still for a clock where it
+--             is another: then a triangle takes 2 clocks at least; a line without a pixel costs a clock only where no span
+--             is being drawn meanwhile
 -- Error       none in preset exact: a pixel belongs to the triangle by its centre, top-left rule
 -- Source      quadratic paper, section 5 and figure 6 (X counter, Y counter)
 -- Golden twin model/golden/triangle_walker.hpp
@@ -251,7 +252,7 @@ begin
       long  => '0',
       few   => '0',
       place => r.measured.place
-    );
+      );
     if r.measured.place.more /= 0 then
       taken.long := taken.draws;
     end if;

@@ -36,6 +36,7 @@ Status write_slope_walker(const std::filesystem::path& folder);
 Status write_split_slope_walker(const std::filesystem::path& folder);
 Status write_object_stage(const std::filesystem::path& folder);
 Status write_triangle_walker(const std::filesystem::path& folder);
+Status write_queued_walker(const std::filesystem::path& folder);
 Status write_diffuse_slice(const std::filesystem::path& folder);
 Status write_specular_slice(const std::filesystem::path& folder);
 Status write_shadow_counter(const std::filesystem::path& folder);

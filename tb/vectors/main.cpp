@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
       std::pair{"split_slope_walker", &write_split_slope_walker},
       std::pair{"object_stage", &write_object_stage},
       std::pair{"triangle_walker", &write_triangle_walker},
+      std::pair{"queued_walker", &write_queued_walker},
       std::pair{"diffuse_slice", &write_diffuse_slice},
       std::pair{"specular_slice", &write_specular_slice},
       std::pair{"shadow_counter", &write_shadow_counter},
