@@ -12,8 +12,9 @@
 --             triangle, in their order; up to three are taken before it does.
 -- Formats     formats_pkg: the header of init; x span_x, y pixel_y
 -- Latency     4 clocks from init taken to the triangle's first fragment, 2 from line_load
--- Throughput  1 fragment a clock, within and between spans and triangles; a triangle a clock, where whoever offers them has
---             one; a line without a pixel costs a clock only where no span is being drawn meanwhile
+-- Throughput  1 fragment a clock, within and between spans and triangles, but that init stands still for a clock where it
+--             is another: then a triangle takes 2 clocks at least; a line without a pixel costs a clock only where no span
+--             is being drawn meanwhile
 -- Error       none in preset exact: a pixel belongs to the triangle by its centre, top-left rule
 -- Source      quadratic paper, section 5 and figure 6 (X counter, Y counter)
 -- Golden twin model/golden/triangle_walker.hpp
@@ -251,7 +252,7 @@ begin
       long  => '0',
       few   => '0',
       place => r.measured.place
-    );
+      );
     if r.measured.place.more /= 0 then
       taken.long := taken.draws;
     end if;
@@ -355,7 +356,7 @@ begin
     end if;
     holds := not (r.edges.section_last and r.edges.lower_none);
     if r.edges.reads = '1' then
-      holds := init_valid and not r.clears;
+      holds := init_valid;
     end if;
 
     -- By and and or, so that no enable of theirs hangs on reset, too.
@@ -370,7 +371,7 @@ begin
     v.second.valid   := not reset and not moves and (r.second.valid or taken.valid);
     v.accepts        := reset or moves or not (r.second.valid or taken.valid);
     v.measured.valid := not reset and ((r.measured.valid and not r.accepts) or (r.edges.valid and r.accepts));
-    v.edges.valid    := not reset and ((r.edges.valid and not r.accepts) or (holds and r.accepts));
+    v.edges.valid    := not reset and ((r.edges.valid and not r.accepts) or (holds and r.accepts and not r.clears));
     v.clears         := reset;
     -- A clock behind reset, when nothing is here.
     if r.clears = '1' then

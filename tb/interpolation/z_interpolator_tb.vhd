@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets: every combination of the walker's strobes at random, clock by clock against the golden twin;
--- in halves the same a clock later.
+-- Both presets: every combination of the walker's strobes at random, clock by clock against the golden twin; in parts,
+-- and with what is added chosen ahead, the same clocks later.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -8,8 +8,8 @@ use work.tb_pkg.all;
 
 entity z_interpolator_run is
   generic (
-    g_exact : boolean;
-    g_file  : string
+    g_exact   : boolean;
+    g_file    : string
   );
   port (
     finished : out boolean := false
@@ -17,6 +17,22 @@ entity z_interpolator_run is
 end entity;
 
 architecture sim of z_interpolator_run is
+  type field_t is (line_value, value);
+
+  type words_t is array (field_t) of std_logic_vector(formats(g_exact).depth_sum.bits - 1 downto 0);
+
+  -- As more hardware has it: parts of a word, what is added chosen ahead, clocks behind the plain one.
+  type form_t is record
+    parts  : positive;
+    ahead  : boolean;
+    behind : positive;
+  end record;
+
+  type forms_t is array (natural range <>) of form_t;
+  type outputs_t is array (natural range <>) of words_t;
+
+  constant c_forms : forms_t := ((2, false, 1), (3, false, 2), (1, true, 2), (3, true, 4));
+
   signal clk        : std_logic := '0';
   signal init       : std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0) := (others => '0');
   signal line_load  : std_logic := '0';
@@ -24,10 +40,9 @@ architecture sim of z_interpolator_run is
   signal line_carry : std_logic := '0';
   signal span_load  : std_logic := '0';
   signal span_step  : std_logic := '0';
-  signal line_value : std_logic_vector(formats(g_exact).depth_sum.bits - 1 downto 0);
-  signal value      : std_logic_vector(line_value'range);
 
-  signal split_line_value, split_value : std_logic_vector(line_value'range);
+  signal plain   : words_t;
+  signal outputs : outputs_t(c_forms'range);
 begin
   dut : entity work.z_interpolator
     generic map (g_exact => g_exact)
@@ -39,55 +54,57 @@ begin
       line_carry => line_carry,
       span_load  => span_load,
       span_step  => span_step,
-      line_value => line_value,
-      value      => value);
+      line_value => plain(line_value),
+      value      => plain(value));
 
-    -- A clock later the same.
-  split : entity work.z_interpolator
-    generic map (g_exact => g_exact, g_split => true)
-    port map (
-      clk        => clk,
-      init       => init,
-      line_load  => line_load,
-      line_step  => line_step,
-      line_carry => line_carry,
-      span_load  => span_load,
-      span_step  => span_step,
-      line_value => split_line_value,
-      value      => split_value);
+  forms : for i in c_forms'range generate
+    form : entity work.z_interpolator
+      generic map (g_exact => g_exact, g_parts => c_forms(i).parts, g_ahead => c_forms(i).ahead)
+      port map (
+        clk        => clk,
+        init       => init,
+        line_load  => line_load,
+        line_step  => line_step,
+        line_carry => line_carry,
+        span_load  => span_load,
+        span_step  => span_step,
+        line_value => outputs(i)(line_value),
+        value      => outputs(i)(value));
+  end generate;
 
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors  : vectors_t;
-    variable checked  : std_logic;
-    variable before   : std_logic := '0'; -- checked, in the clock before
-    variable before_line_value : std_logic_vector(line_value'range);
-    variable before_value : std_logic_vector(line_value'range);
-    variable init_now : std_logic_vector(init'range);
-    variable strobe   : std_logic_vector(1 to 5);
+    constant c_most : positive := 4; -- clocks behind
+
+    variable vectors : vectors_t;
+    variable strobe  : std_logic_vector(1 to 5);
+    variable checked : std_logic_vector(0 to c_most) := (others => '0'); -- now, in the clock before, ...
+    variable before  : outputs_t(0 to c_most);
+    variable words   : std_logic_vector(init'range);
   begin
     vectors.open_file(g_file);
     while vectors.next_vector loop
-      vectors.read_flag(checked);
-      vectors.read_word(init_now);
+      checked(1 to c_most) := checked(0 to c_most - 1);
+      vectors.read_flag(checked(0));
+      vectors.read_word(words);
       for i in strobe'range loop
         vectors.read_flag(strobe(i));
       end loop;
-      init <= init_now;
+      init <= words;
       (line_load, line_step, line_carry, span_load, span_step) <= strobe;
       wait until rising_edge(clk);
-      vectors.check_word_if(checked, "line_value", line_value);
-      vectors.check_word_if(checked, "value", value);
-      assert before = '0' or split_line_value = before_line_value
-        report "z_interpolator: split, line_value is " & to_hstring(split_line_value) & ", expected " & to_hstring(before_line_value)
-        severity failure;
-      assert before = '0' or split_value = before_value
-        report "z_interpolator: split, value is " & to_hstring(split_value) & ", expected " & to_hstring(before_value)
-        severity failure;
-      before_line_value := line_value;
-      before_value := value;
-      before := checked;
+      before := plain & before(0 to c_most - 1);
+      for field in field_t loop
+        vectors.check_word_if(checked(0), field_t'image(field), plain(field));
+        for i in c_forms'range loop
+          if checked(c_forms(i).behind) = '1' and outputs(i)(field) /= before(c_forms(i).behind)(field) then
+            vectors.fail(field_t'image(field) & " in parts: " & to_string(c_forms(i).parts) & ", ahead: "
+              & to_string(c_forms(i).ahead) & ", is " & to_hstring(outputs(i)(field)) & ", expected "
+              & to_hstring(before(c_forms(i).behind)(field)) & ", of " & to_string(c_forms(i).behind) & " clocks before");
+          end if;
+        end loop;
+      end loop;
     end loop;
     finished <= true;
     wait;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 
 #include "golden/line_interpolator.hpp"
@@ -58,13 +59,16 @@ struct Strobes {
   bool line_load, line_step, line_carry, span_load, span_step;
 };
 
+// For so many clocks behind a load the words stand still: a word's parts, three at most, load one by one.
+constexpr int c_held = 2;
+
 // Every combination that the contract has comes up, though the walker does not give them all. The first two
-// fill the registers. A load `held` behind another does not come: the words stand still for it.
-Strobes random_strobes(Random& random, int i, bool held) {
+// fill the registers.
+Strobes random_strobes(Random& random, int i) {
   if (i == 0) return {true, false, false, false, false};
   if (i == 1) return {false, false, false, true, false};
   const bool busy = i / 200 % 2 == 0;
-  const bool line_load = !held && random.one_in(busy ? 4 : 40), span_load = random.one_in(busy ? 3 : 20);
+  const bool line_load = random.one_in(busy ? 4 : 40), span_load = random.one_in(busy ? 3 : 20);
   return {line_load, !line_load && !random.one_in(3), random.one_in(2), span_load,
           !span_load && !random.one_in(4)};
 }
@@ -95,15 +99,15 @@ Status write_plane(const std::filesystem::path& path) {
   golden::PlaneInterpolator<W> twin;
   std::array<std::uint32_t, (c_bits + 31) / 32> plane{};
   std::array<golden::Word<W>, 4> words;
-  bool held = false;
+  int held = 0;
   for (int i = 0; i < 2500; ++i) {
-    for (int w = 0; !held && w < 4; ++w) {
+    for (int w = 0; held == 0 && w < 4; ++w) {
       words[static_cast<std::size_t>(w)] = random.word<W>();
       if (w * W < c_bits)
         golden::set_bits(plane, {"", w * W, W, true, 0}, words[static_cast<std::size_t>(w)].bits());
     }
-    const Strobes s = random_strobes(random, i, held);
-    held = s.line_load;
+    const Strobes s = random_strobes(random, i);
+    held = s.line_load ? c_held : std::max(held - 1, 0);
     file.flag(i > 1).words_of(plane, c_bits);
     add_strobes(file, s);
     file.word(twin.line_value()).word(twin.value()).end_vector();
@@ -120,15 +124,15 @@ Status write_z(const std::filesystem::path& folder) {
   VectorFile file;
   golden::ZInterpolator<Preset> twin;
   std::array<std::uint32_t, (Preset::c_init_header_bits + 31) / 32> init;
-  bool held = false;
+  int held = 0;
   for (int i = 0; i < 2500; ++i) {
-    if (!held) {
+    if (held == 0) {
       random.fill(init);
       for (const golden::Field* field : {&At::z, &At::z_dx, &At::z_de0})
         set_bits(init, *field, random.word(field->bits));
     }
-    const Strobes s = random_strobes(random, i, held);
-    held = s.line_load;
+    const Strobes s = random_strobes(random, i);
+    held = s.line_load ? c_held : std::max(held - 1, 0);
     file.flag(i > 1).words_of(init, Preset::c_init_header_bits);
     add_strobes(file, s);
     file.word(twin.line_value()).word(twin.value()).end_vector();
@@ -144,15 +148,15 @@ Status write_quadratic(const std::filesystem::path& folder) {
   VectorFile file;
   golden::QuadraticInterpolator<Preset> twin;
   std::array<std::uint32_t, (Preset::c_init_channel_bits + 31) / 32> init;
-  bool held = false;
+  int held = 0;
   for (int i = 0; i < 3000; ++i) {
-    if (!held) {
+    if (held == 0) {
       random.fill(init);
       for (const golden::Field& field : Preset::c_init_channel)
         set_bits(init, field, random.word(field.bits));
     }
-    const Strobes s = random_strobes(random, i, held);
-    held = s.line_load;
+    const Strobes s = random_strobes(random, i);
+    held = s.line_load ? c_held : std::max(held - 1, 0);
     file.flag(i > 1).words_of(init, Preset::c_init_channel_bits);
     add_strobes(file, s);
     file.word(twin.line_value()).word(twin.line_dx()).word(twin.line_de0()).word(twin.line_de1());

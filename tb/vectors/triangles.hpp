@@ -2,6 +2,8 @@
 // Random triangles as init vectors, what the golden walker makes of them, and when the hardware must show it.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -49,6 +51,54 @@ std::vector<WalkedLine> walk_lines(const InitVector& init) {
   }
 }
 
+/// When queued_walker does things at full speed, from what the header of rtl/raster/queued_walker.vhd
+/// promises: between the edges, the line that is measured and the span stands a queue of two lines. Clocks
+/// count from that in which the first init vector is taken.
+class QueuedWalkerClock {
+ public:
+  /// The clock in which an init vector is taken that is offered from `offered` on.
+  std::int64_t take_init(std::int64_t offered) {
+    const std::int64_t taken = accepted(std::max(offered, left_));
+    left_ = accepted(taken + 1);
+    lines_ = 0;
+    return taken;
+  }
+
+  /// The clock in which the next line goes to the span, or where it covers no pixel nowhere. Its first pixel
+  /// leaves a clock later, the others follow.
+  std::int64_t take_line(std::int64_t pixels) {
+    if (lines_++ != 0) left_ = measured_;
+    measured_ = accepted(left_ + 1);
+    waits_from_ = std::max(measured_, gone_) + 1;
+    // In the second place until the line before has gone.
+    occupied_[0] = occupied_[1];
+    occupied_[1] = {measured_, gone_};
+    gone_ = pixels == 0 ? waits_from_ : std::max(waits_from_, span_free_);
+    if (pixels != 0) span_free_ = gone_ + pixels;
+    return gone_;
+  }
+
+  /// The clock in which that line came to wait for the span; of a triangle's first one, that of line_load.
+  std::int64_t line_load() const { return waits_from_ - 1; }
+
+ private:
+  struct Stay {
+    std::int64_t behind, last;  // clocks; in none where last is not behind `behind`
+  };
+
+  // The first clock from `clock` on in which the second place is free.
+  std::int64_t accepted(std::int64_t clock) const {
+    for (const Stay& stay : occupied_)
+      if (stay.behind < clock && clock <= stay.last) clock = stay.last + 1;
+    return clock;
+  }
+
+  std::array<Stay, 2> occupied_{{{0, 0}, {0, 0}}};
+  // Of the last line: left the edge stage, was measured for the last clock, came to wait, went.
+  std::int64_t left_ = 0, measured_ = 0, waits_from_ = 0, gone_ = 0;
+  std::int64_t span_free_ = 0, lines_ = 0;
+};
+
 /// The clocks that are lost between triangles of which every line covers a pixel, held against a promise.
 class LostClocks {
  public:
@@ -67,6 +117,7 @@ class LostClocks {
 /// What a set of triangles is for.
 enum class Mix {
   dense,  ///< every line covers a pixel: not a clock may be lost
+  small,  ///< the same, and three pixels at most
   mixed   ///< with empty lines, and with words that setup would never write
 };
 
@@ -91,8 +142,9 @@ std::vector<InitVector> random_triangles(Random& random, Mix mix, int init_bits,
       empty |= line.pixels() == 0;
     }
     // Long spans of garbage are rare: they tell no more than short ones.
-    if (covered > 400 && (mix == Mix::dense || !random.one_in(40) || covered > pixels)) continue;
-    if (mix == Mix::dense && empty) continue;
+    if (covered > 400 && (mix != Mix::mixed || !random.one_in(40) || covered > pixels)) continue;
+    if (mix != Mix::mixed && empty) continue;
+    if (mix == Mix::small && covered > 3) continue;
     pixels -= covered + 1;
     set.push_back(std::move(init));
   }

@@ -1,0 +1,313 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- Both presets, on triangles without an empty line, on such of three pixels at most, and on a mix with empty lines and
+-- garbage, some vectors several times in a row: every line, strobe and pixel against triangle_walker's golden twin, in
+-- order. At full speed, which is vectors as close as the contract lets them come, every one is taken, every triangle
+-- begins and every fragment is given out in the very clock that the entity's header promises (tb/vectors/raster.cpp).
+-- Then with both sides stalling at random, with vectors three clocks from each other, as the shader has them, or more,
+-- and with resets in the middle. A vector stands in the clock before init_valid and until it is taken, no longer.
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.formats_pkg.all;
+use work.tb_pkg.all;
+
+entity queued_walker_run is
+  generic (
+    g_exact : boolean;
+    g_stem  : string -- of the files' names
+  );
+  port (
+    finished : out boolean := false
+  );
+end entity;
+
+architecture sim of queued_walker_run is
+  constant c_latency    : positive := 4;      -- clocks from init taken to the first fragment
+  constant c_behind     : positive := 2;      -- clocks from line_load to the first fragment, from init taken to line_load
+  constant c_most       : positive := 3;      -- triangles taken that have not begun
+  constant c_idle_limit : positive := 10_000; -- clocks in which nothing moves: a hang
+
+  signal clk            : std_logic := '0';
+  signal reset          : std_logic := '1';
+  signal init_valid     : std_logic := '0';
+  signal init_ready     : std_logic;
+  signal init           : std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0) := (others => '0');
+  signal line_load      : std_logic;
+  signal line_step      : std_logic;
+  signal line_carry     : std_logic;
+  signal span_load      : std_logic;
+  signal span_step      : std_logic;
+  signal line_y         : std_logic_vector(formats(g_exact).pixel_y.bits - 1 downto 0);
+  signal line_start     : std_logic_vector(formats(g_exact).span_x.bits - 1 downto 0);
+  signal line_stop      : std_logic_vector(line_start'range);
+  signal fragment_valid : std_logic;
+  signal fragment_ready : std_logic := '0';
+  signal triangle       : std_logic_vector(formats(g_exact).triangle.bits - 1 downto 0);
+  signal y              : std_logic_vector(line_y'range);
+  signal x              : std_logic_vector(line_start'range);
+  signal busy           : std_logic;
+begin
+  dut : entity work.queued_walker
+    generic map (g_exact => g_exact)
+    port map (
+      clk            => clk,
+      reset          => reset,
+      init_valid     => init_valid,
+      init_ready     => init_ready,
+      init           => init,
+      line_load      => line_load,
+      line_step      => line_step,
+      line_carry     => line_carry,
+      span_load      => span_load,
+      span_step      => span_step,
+      line_y         => line_y,
+      line_start     => line_start,
+      line_stop      => line_stop,
+      fragment_valid => fragment_valid,
+      fragment_ready => fragment_ready,
+      triangle       => triangle,
+      y              => y,
+      x              => x,
+      busy           => busy);
+
+  clk <= not clk after c_half_period when not finished;
+
+  run : process is
+    variable inits, lines, fragments : vectors_t;
+    variable filled                  : boolean := false; -- as many were taken as may be
+
+    procedure check_flag (name : string; got, expected : std_logic; clock : integer) is
+    begin
+      assert got = expected
+        report g_stem & ": clock " & to_string(clock) & ": " & name & " is " & to_string(got) & ", expected "
+        & to_string(expected)
+        severity failure;
+    end procedure;
+
+    -- One pass over a set. Where it stalls, init is offered in one clock of 2**init_pause, and fragments are taken in
+    -- one of 2**fragment_pause; from vector to vector `least` clocks go by. reset_at is the clock of a reset that ends
+    -- the pass; 0: none.
+    procedure pass (set : string; seed, init_pause, fragment_pause, reset_at : natural; least : positive := 1) is
+      constant c_full : boolean := init_pause = 0 and fragment_pause = 0 and least = 1;
+
+      type clocks_t is array (0 to c_most - 1) of natural;
+
+      variable random     : unsigned(31 downto 0) := to_unsigned(seed, 32);
+      variable init_now   : std_logic_vector(init'range);
+      variable to_come    : boolean;            -- an init vector not yet taken
+      variable stands     : boolean := false;   -- it did in the clock before
+      variable offered    : boolean := false;
+      variable since      : natural := least;   -- clocks behind the one in which the last was taken
+      variable pending    : natural := 0;       -- triangles that are taken and have not begun
+      variable takes      : clocks_t;           -- the clocks in which they were taken, the oldest first
+      variable begins     : clocks_t;           -- those in which they shall begin
+      variable begun      : natural := 0;       -- when the triangle that is drawn did
+      variable in_line    : boolean := false;   -- a triangle has begun, and its last line has not gone
+      variable waiting    : boolean := false;   -- the last clock's fragment was not taken
+      variable empty      : std_logic;
+      variable last       : std_logic;
+      variable clock      : integer := -1;      -- 0: the first init vector is taken
+      variable ticks      : natural := 0;
+      variable idle       : natural := 0;
+      variable taken      : natural := 0;
+      variable given      : natural := 0;
+      variable init_clock : natural;
+      variable load_clock : natural;
+      variable next_init  : std_logic_vector(init'range);
+    begin
+      inits.open_file(g_stem & set & "_init.txt");
+      lines.open_file(g_stem & set & "_lines.txt");
+      fragments.open_file(g_stem & set & "_fragments.txt");
+      to_come := inits.next_vector;
+      inits.read_word(init_now);
+      init_clock := inits.read_number;
+      load_clock := inits.read_number;
+
+      loop
+        random  := next_random(random);
+        offered := to_come and stands and (offered or (since >= least and chance(random(19 downto 12), init_pause)));
+        init_valid <= to_flag(offered);
+        stands := to_come and (stands or since + 1 >= least);
+        if stands then
+          init <= init_now;
+        else
+          init <= (others => '1');
+        end if;
+        since := since + 1;
+        fragment_ready <= to_flag(chance(random(30 downto 23), fragment_pause));
+        ticks := ticks + 1;
+        reset <= to_flag(ticks = reset_at);
+        wait until rising_edge(clk);
+        exit when ticks = reset_at;
+        if clock >= 0 or (init_valid = '1' and init_ready = '1') then
+          clock := clock + 1;
+        end if;
+        idle := idle + 1;
+
+        -- The contract, whatever is drawn.
+        check_flag("busy", busy, to_flag(pending > 0 or in_line) or fragment_valid, clock);
+        check_flag("span_step", span_step, fragment_valid and fragment_ready, clock);
+        if waiting then
+          check_flag("fragment_valid of a fragment not taken", fragment_valid, '1', clock);
+        end if;
+
+        if fragment_valid = '1' then
+          -- Compared in every clock, so that it has to stand still.
+          if not waiting then
+            fragments.expect_vector("fragment " & to_string(given));
+            given := given + 1;
+            fragments.check_word("triangle", triangle);
+            fragments.check_word("y", y);
+            fragments.check_word("x", x);
+            if c_full then
+              fragments.check_word("clock", std_logic_vector(to_unsigned(clock, 32)));
+              if given = 1 and set /= "mixed" and (clock /= c_latency or clock /= begun + c_behind) then
+                fragments.fail("comes in clock " & to_string(clock) & ", expected " & to_string(c_latency));
+              end if;
+            end if;
+          else
+            assert y'stable(2 * c_half_period) and x'stable(2 * c_half_period) and triangle'stable(2 * c_half_period)
+              report g_stem & ": fragment " & to_string(given) & " changes while it waits" severity failure;
+          end if;
+          idle := 0;
+        end if;
+        waiting := fragment_valid = '1' and fragment_ready = '0';
+
+        if line_step = '1' then
+          check_flag("line_step without a triangle", to_flag(in_line), '1', clock);
+          lines.expect_vector("line");
+          lines.check_word("line_y", line_y);
+          lines.check_word("line_start", line_start);
+          lines.check_word("line_stop", line_stop);
+          lines.read_flag(empty);
+          lines.read_flag(last);
+          lines.check_flag_if(not last, "line_carry", line_carry);
+          check_flag("span_load", span_load, not empty, clock);
+          in_line := last = '0';
+          idle    := 0;
+        else
+          check_flag("span_load", span_load, '0', clock);
+        end if;
+
+        if line_load = '1' then
+          check_flag("line_load without a triangle", to_flag(pending > 0), '1', clock);
+          check_flag("line_load over a triangle not yet drawn", to_flag(in_line), '0', clock);
+          check_flag("line_load two clocks behind the taking, or later", to_flag(clock >= takes(0) + c_behind), '1', clock);
+          if c_full and clock /= begins(0) then
+            inits.fail("is read, an earlier one begins in clock " & to_string(clock) & ", expected " & to_string(begins(0)));
+          end if;
+          takes   := takes(1 to takes'high) & 0;
+          begins  := begins(1 to begins'high) & 0;
+          pending := pending - 1;
+          begun   := clock;
+          in_line := true;
+          idle    := 0;
+        end if;
+
+        check_flag("init_ready without init_valid", init_ready and not init_valid, '0', clock);
+        if init_valid = '1' and init_ready = '1' then
+          check_flag("init_ready when as many wait as may", to_flag(pending < c_most), '1', clock);
+          if c_full and clock /= init_clock then
+            inits.fail("is taken in clock " & to_string(clock) & ", expected " & to_string(init_clock));
+          end if;
+          takes(pending)  := clock;
+          begins(pending) := load_clock;
+          pending         := pending + 1;
+          filled          := filled or pending = c_most;
+          offered         := false;
+          since           := 1;
+          taken           := taken + 1;
+          to_come         := inits.next_vector;
+          if to_come then
+            inits.read_word(next_init);
+            stands     := next_init = init_now;
+            init_now   := next_init;
+            init_clock := inits.read_number;
+            load_clock := inits.read_number;
+          end if;
+          idle := 0;
+        end if;
+
+        exit when not to_come and pending = 0 and not in_line and line_step = '0' and fragment_valid = '0';
+        assert idle < c_idle_limit
+          report g_stem & set & ": nothing moved for " & to_string(c_idle_limit) & " clocks after "
+          & to_string(taken) & " init vectors and " & to_string(given) & " fragments"
+          severity failure;
+      end loop;
+
+      if ticks /= reset_at then
+        if lines.next_vector then
+          lines.fail("this line was not drawn");
+        end if;
+        if fragments.next_vector then
+          fragments.fail("this fragment was not given out");
+        end if;
+      end if;
+      inits.close_file;
+      lines.close_file;
+      fragments.close_file;
+
+      -- Idle, after a reset as after the last triangle.
+      init_valid     <= '0';
+      reset          <= '0';
+      fragment_ready <= '1';
+      for i in 1 to 3 loop
+        wait until rising_edge(clk);
+        check_flag("init_ready when idle", init_ready, '0', clock);
+        check_flag("fragment_valid when idle", fragment_valid, '0', clock);
+        check_flag("busy when idle", busy, '0', clock);
+        check_flag("line_step when idle", line_step, '0', clock);
+        check_flag("span_load when idle", span_load, '0', clock);
+      end loop;
+    end procedure;
+
+    constant c_resets : integer_vector := (2, 3, 4, 5, 6, 23, 57, 311, 1_002, 2_741);
+  begin
+    wait until rising_edge(clk);
+    wait until rising_edge(clk);
+    pass("dense", 1, 0, 0, 0);
+    pass("small", 1, 0, 0, 0);
+    pass("mixed", 1, 0, 0, 0);
+    pass("dense", 11, 1, 1, 0);
+    pass("small", 12, 1, 1, 0);
+    pass("mixed", 13, 1, 1, 0);
+    pass("mixed", 14, 6, 0, 0);
+    pass("small", 15, 0, 2, 0);
+    pass("dense", 16, 0, 2, 0);
+    assert filled
+      report g_stem & ": never were " & to_string(c_most) & " triangles taken that had not begun" severity failure;
+    pass("small", 17, 0, 0, 0, 3);
+    pass("mixed", 18, 0, 1, 0, 3);
+    for i in c_resets'range loop
+      pass("mixed", 20 + i, i / 2 mod 2, i mod 2, c_resets(i));
+    end loop;
+    pass("mixed", 1, 0, 0, 0);
+    finished <= true;
+    wait;
+  end process;
+end architecture;
+
+entity queued_walker_tb is
+  generic (
+    g_folder : string := "queued_walker"
+  );
+end entity;
+
+architecture sim of queued_walker_tb is
+  signal finished : boolean_vector(0 to 1);
+begin
+  exact : entity work.queued_walker_run
+    generic map (g_exact => true, g_stem => g_folder & "/exact_")
+    port map (finished => finished(0));
+
+  published : entity work.queued_walker_run
+    generic map (g_exact => false, g_stem => g_folder & "/published_")
+    port map (finished => finished(1));
+
+  done : process is
+  begin
+    wait until and finished;
+    report "queued_walker_tb: passed" severity note;
+    wait;
+  end process;
+end architecture;

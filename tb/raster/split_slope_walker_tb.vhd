@@ -1,0 +1,76 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- Random edges, wrap-around among them, with steps and waits at random: clock by clock against slope_walker's golden twin,
+-- x and, of a walker that gives that, its complement. An edge's words have stood still for a clock when it is taken, and
+-- change in the clock behind.
+library ieee;
+use ieee.std_logic_1164.all;
+use work.formats_pkg.all;
+use work.tb_pkg.all;
+
+entity split_slope_walker_tb is
+  generic (
+    g_folder : string := "split_slope_walker"
+  );
+end entity;
+
+architecture sim of split_slope_walker_tb is
+  subtype edge_x_t is std_logic_vector(c_published_formats.edge_x.bits - 1 downto 0);
+
+  signal clk        : std_logic := '0';
+  signal load       : std_logic := '0';
+  signal load_x     : edge_x_t := (others => '0');
+  signal load_slope : edge_x_t := (others => '0');
+  signal step       : std_logic := '0';
+  signal x, not_x   : std_logic_vector(c_published_formats.span_x.bits - 1 downto 0);
+  signal finished   : boolean := false;
+begin
+  dut : entity work.split_slope_walker
+    port map (
+      clk        => clk,
+      load       => load,
+      load_x     => load_x,
+      load_slope => load_slope,
+      step       => step,
+      x          => x);
+
+  complement : entity work.split_slope_walker
+    generic map (g_complement => true)
+    port map (
+      clk        => clk,
+      load       => load,
+      load_x     => load_x,
+      load_slope => load_slope,
+      step       => step,
+      x          => not_x);
+
+  clk <= not clk after c_half_period when not finished;
+
+  run : process is
+    variable vectors       : vectors_t;
+    variable checked, flag : std_logic;
+    variable word          : edge_x_t;
+  begin
+    vectors.open_file(g_folder & "/edges.txt");
+    while vectors.next_vector loop
+      vectors.read_flag(checked);
+      vectors.read_flag(flag);
+      load <= flag;
+      vectors.read_word(word);
+      load_x <= word;
+      vectors.read_word(word);
+      load_slope <= word;
+      vectors.read_flag(flag);
+      step <= flag;
+      wait until rising_edge(clk);
+      vectors.check_word_if(checked, "x", x);
+      if checked = '1' then
+        assert not_x = not x
+          report "split_slope_walker_tb: the complement of " & to_string(x) & " is given as " & to_string(not_x)
+          severity failure;
+      end if;
+    end loop;
+    finished <= true;
+    report "split_slope_walker_tb: passed" severity note;
+    wait;
+  end process;
+end architecture;
