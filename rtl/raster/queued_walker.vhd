@@ -59,8 +59,8 @@ architecture rtl of queued_walker is
 
   -- Pixels of a span and lines of a section are counted in two parts, the higher one a clock behind: so the sum that a
   -- count begins with is short.
-  constant c_low_pixels : positive := c_formats.span_x.bits / 2;
-  constant c_low_lines  : positive := c_formats.lines.bits / 2;
+  constant c_low_pixels : positive := c_formats.span_x.bits / 2; -- elaboration only
+  constant c_low_lines  : positive := c_formats.lines.bits / 2; -- elaboration only
 
   subtype triangle_t is std_logic_vector(c_formats.triangle.bits - 1 downto 0);
   subtype pixel_y_t  is unsigned(c_formats.pixel_y.bits - 1 downto 0);

@@ -106,7 +106,7 @@ begin
       v.single    := '0';
       v.write     := (others => '0');
       v.read      := (others => '0');
-      v.second    := to_unsigned(2 mod 2 ** g_index_bits, g_index_bits);
+      v.second    := shift_left(to_unsigned(1, g_index_bits), 1); -- 2, or 0 where that is no index
       v.out_valid := '0';
     end if;
     r_next <= v;
