@@ -14,7 +14,8 @@
 -- Latency     4 clocks from init taken to the triangle's first fragment, 2 from line_load
 -- Throughput  1 fragment a clock, within and between spans and triangles, but that init stands still for a clock where it
 --             is another: then a triangle takes 2 clocks at least; a line without a pixel costs a clock only where no span
---             is being drawn meanwhile
+--             is being drawn meanwhile. An init that comes when both places of the queue are full waits until one is free,
+--             though the edge stage be empty: behind lines of few pixels up to three clocks are lost then
 -- Error       none in preset exact: a pixel belongs to the triangle by its centre, top-left rule
 -- Source      quadratic paper, section 5 and figure 6 (X counter, Y counter)
 -- Golden twin model/golden/triangle_walker.hpp

@@ -34,7 +34,7 @@ end entity;
 architecture rtl of split_slope_walker is
 
   constant c_fraction : positive := c_published_formats.edge_x.fraction;
-  constant c_low      : positive := c_fraction / 2; -- elaboration only; bits of the lower half
+  constant c_low      : positive := c_fraction / 2; -- elaboration only: bits of the lower half
   constant c_high     : natural  := c_published_formats.edge_x.bits - 1;
 
   subtype span_x_t is unsigned(c_published_formats.span_x.bits - 1 downto 0);

@@ -13,7 +13,9 @@
 -- Latency     8 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel), with
 --             g_fast 12, and a vector is taken a clock after it is offered or later
 -- Throughput  1 fragment a clock, with no bubble between spans, lines and triangles, but that a triangle takes 2 clocks
---             at least, with g_fast 3; lines that cover no pixel cost a clock each where no span is being drawn meanwhile
+--             at least, with g_fast 3, where behind one as many clocks may be lost as it has pixels less than 4, or its
+--             last two lines less than 3; lines that cover no pixel cost a clock each where no span is being drawn
+--             meanwhile
 -- Error       preset exact: the colour is within 0.65 steps of the quadratic through the six samples (0.5 rounding,
 --             0.15 differences), depth within 0.69 of the triangle's plane, and a step more within a step of 0 or of
 --             its largest value, which setup keeps clear
@@ -92,8 +94,7 @@ architecture rtl of quadratic_shader is
   -- Behind the buffer the interpolators' words have a second place, from which they load: so the buffer is free when the
   -- last part has gone there, a clock behind the walker's reading, with g_fast two.
   type reg_t is record
-    walk_valid : std_logic; -- the buffer holds a triangle that the walker has not taken; with g_fast: one is offered, and the
-                            -- buffer takes it with the walker
+    walk_valid : std_logic; -- a triangle that the walker has not taken is in the buffer, with g_fast in front of both
     walk_taken : std_logic; -- the walker took it in the clock before: the buffer lets it go
     copy_waits : std_logic; -- the buffer holds a triangle whose words have not gone on
     placed     : std_logic; -- the second place holds words of a triangle that has not begun
@@ -335,7 +336,7 @@ begin
       value      => sum_z
       );
 
-  -- With g_fast a plane is a clock before a quadratic.
+    -- With g_fast a plane is a clock before a quadratic.
   beside_colour : if g_fast generate
 
     depth_waits : process (clk)

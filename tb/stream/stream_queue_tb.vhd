@@ -113,7 +113,7 @@ entity stream_queue_tb is
 end entity;
 
 architecture sim of stream_queue_tb is
-  signal finished : boolean_vector(0 to 2);
+  signal finished : boolean_vector(0 to 3);
 begin
   one_bit : entity work.stream_queue_run
     generic map (g_bits => 1, g_index_bits => 2, g_folder => g_folder)
@@ -126,6 +126,10 @@ begin
   fragment : entity work.stream_queue_run
     generic map (g_bits => 97, g_index_bits => 3, g_folder => g_folder)
     port map (finished => finished(2));
+
+  longer : entity work.stream_queue_run
+    generic map (g_bits => 98, g_index_bits => 4, g_folder => g_folder)
+    port map (finished => finished(3));
 
   done : process is
   begin

@@ -103,7 +103,8 @@ Status write_stream_register(const std::filesystem::path& folder) {
 Status write_stream_queue(const std::filesystem::path& folder) {
   if (auto s = write_queue<1, 2>(folder); !s) return s;
   if (auto s = write_queue<32, 3>(folder); !s) return s;
-  return write_queue<97, 3>(folder);
+  if (auto s = write_queue<97, 3>(folder); !s) return s;
+  return write_queue<98, 4>(folder);
 }
 
 }  // namespace halfway::vectors
