@@ -93,7 +93,7 @@ constexpr Listed c_listed[] = {
     {"stream/stream_register.vhd", "in_valid and free", "in_valid"},
     {"stream/stream_register.vhd", "v.valid := '0'", "v.valid := r.valid"},
     // A word given out twice; a word too many; a claim that a reset leaves.
-    {"stream/stream_queue.vhd", "v.read      := r.read + 1", "v.read      := r.read"},
+    {"stream/stream_queue.vhd", "v.read   := r.read + 1", "v.read   := r.read"},
     {"stream/stream_queue.vhd", "if v.claimed = c_most then", "if r.claimed = c_most then"},
     {"stream/stream_queue.vhd", "v.claimed   := (others => '0')", "v.claimed   := r.claimed"},
     // A carry lost, and one that comes too high; the increment for the start.
@@ -123,6 +123,14 @@ constexpr Listed c_listed[] = {
      "part     := r.part", "raster/triangle_walker.vhd"},
     {"raster/slope_walker.vhd", "next_fraction(c_fraction) xor fraction(fraction_t'high)",
      "next_fraction(c_fraction)", "raster/triangle_walker.vhd"},
+    // A carry of the lower half lost in the first step, and the half itself; an edge stage that never waits;
+    // a
+    // line that there was not, behind a reset; a long line taken for a short one.
+    {"raster/split_slope_walker.vhd", "high_carry := r.first_carry", "high_carry := '0'"},
+    {"raster/split_slope_walker.vhd", "low        := r.first_low", "low        := r.low"},
+    {"raster/queued_walker.vhd", "reset or moves or not (r.second.valid or taken.valid)", "'1'"},
+    {"raster/queued_walker.vhd", "holds and r.accepts and not r.clears", "holds and r.accepts"},
+    {"raster/queued_walker.vhd", "few   => '0'", "few   => '1'"},
     // A clock lost between lines of different triangles, and between lines; a line lost to a stall; the stop
     // edge never bends.
     {"raster/triangle_walker.vhd", "v.edges.reads        := r.edges.lower_none and r.edges.left(left_t'high)",
@@ -221,11 +229,11 @@ constexpr Listed c_listed[] = {
     // the position of the next; a triangle let go before the upper halves have it.
     {"shaders/quadratic_shader.vhd", "waiting or walking or coming", "walking or coming"},
     {"shaders/quadratic_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
-    {"shaders/quadratic_shader.vhd", "pixels <= ((triangle, y, x), pixels(1))",
-     "pixels <= ((triangle, y, x), (triangle, y, x))"},
+    {"shaders/quadratic_shader.vhd", "pixel_t'(triangle, y, x) & pixels(1 to c_whole - 1)",
+     "pixel_t'(triangle, y, x) & pixels_t'(1 to c_whole - 1 => (triangle, y, x))"},
     {"shaders/quadratic_shader.vhd", "out_ready => r.walk_taken", "out_ready => walk_ready"},
     {"shaders/quadratic_shader.vhd", "v.copy_waits and not v.placed", "v.copy_waits"},
-    {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + half),\n                start",
+    {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + part),\n                start",
      "load  => r.copy(1),\n                start"},
     // A record taken as a header, and by depth alone; an empty line's record taken for the next line's; the
     // ambient light of the triangle behind; not busy while only the buffer holds a vector; pixels that
