@@ -228,7 +228,9 @@ constexpr Listed c_listed[] = {
     // with
     // the position of the next; a triangle let go before the upper halves have it.
     {"shaders/quadratic_shader.vhd", "waiting or walking or coming", "walking or coming"},
-    {"shaders/quadratic_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
+    {"shaders/quadratic_shader.vhd", "\n          fragment_ready => room",
+     "\n          fragment_ready => '1'"},
+    {"shaders/quadratic_shader.vhd", "\n        fragment_ready => room", "\n        fragment_ready => '1'"},
     {"shaders/quadratic_shader.vhd", "pixel_t'(triangle, y, x) & pixels(1 to c_whole - 1)",
      "pixel_t'(triangle, y, x) & pixels_t'(1 to c_whole - 1 => (triangle, y, x))"},
     {"shaders/quadratic_shader.vhd", "out_ready => r.walk_taken", "out_ready => walk_ready"},

@@ -52,7 +52,7 @@ std::vector<Proof> all_proofs() {
       {"stream/stream_queue.vhd", "in_valid = '1' and advance = '0'", "in_valid = '1'"},
       {"stream/stream_queue.vhd", "in_valid = '0' and advance = '1'", "advance = '1'"},
       {"stream/stream_queue.vhd", "r.second + 1", "r.second"},
-      {"stream/stream_queue.vhd", "to_unsigned(2 mod", "to_unsigned(1 mod"},
+      {"stream/stream_queue.vhd", "to_unsigned(2, g_index_bits + 1)", "to_unsigned(1, g_index_bits + 1)"},
       {"stream/stream_queue.vhd", "r.stored or (r.out_valid and not out_ready)", "r.stored or r.out_valid"},
       {"stream/stream_queue.vhd", "r.stored or (r.out_valid and not out_ready)", "r.stored"},
       {"stream/stream_queue.vhd", "v.stored    := '0'", "v.stored    := r.stored"}};
