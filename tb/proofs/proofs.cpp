@@ -35,23 +35,46 @@ std::vector<Proof> all_proofs() {
           {"stream/stream_register.vhd", "free     <= out_ready or not r.valid",
            "free     <= not r.valid"}}});
   }
-  proofs.push_back(
-      {"stream/stream_queue",
-       "stream/stream_queue.psl",
-       "Numbered words come out with every number, in order, two clocks behind when nothing waits; never "
-       "more "
-       "are claimed than it has places for: 3 places, 3 bits",
-       Method::pdr,
-       12,
-       true,
-       {{"g_bits", "3"}, {"g_index_bits", "2"}},
-       {{"stream/stream_queue.vhd", "stored and (out_ready or not r.out_valid)",
-         "stored and not r.out_valid"},
-        {"stream/stream_queue.vhd", "stored and (out_ready or not r.out_valid)", "stored"},
-        {"stream/stream_queue.vhd", "r.out_valid and out_ready;", "r.out_valid;"},
-        {"stream/stream_queue.vhd", "if v.claimed = c_most then", "if r.claimed = c_most then"},
-        {"stream/stream_queue.vhd", "v.claimed   := (others => '0')", "v.claimed   := r.claimed"},
-        {"stream/stream_queue.vhd", "memory(to_integer(r.read))", "memory(to_integer(r.write))"}}});
+  const std::vector<Fault> queue_faults = {
+      {"stream/stream_queue.vhd", "r.stored and (out_ready or not r.out_valid)",
+       "r.stored and not r.out_valid"},
+      {"stream/stream_queue.vhd", "r.stored and (out_ready or not r.out_valid)", "r.stored"},
+      {"stream/stream_queue.vhd", "r.out_valid and out_ready;", "r.out_valid;"},
+      {"stream/stream_queue.vhd", "if v.claimed = c_most then", "if r.claimed = c_most then"},
+      {"stream/stream_queue.vhd", "v.claimed   := (others => '0')", "v.claimed   := r.claimed"},
+      {"stream/stream_queue.vhd", "memory(to_integer(r.read))", "memory(to_integer(r.write))"},
+      {"stream/stream_queue.vhd", "v.stored := '1'", "v.stored := r.stored"},
+      {"stream/stream_queue.vhd", "v.stored := not r.single", "v.stored := '0'"},
+      {"stream/stream_queue.vhd", "v.stored := not r.single", "v.stored := '1'"},
+      {"stream/stream_queue.vhd", "v.single := not r.stored", "v.single := '1'"},
+      {"stream/stream_queue.vhd", "v.single := not r.stored", "v.single := '0'"},
+      {"stream/stream_queue.vhd", "v.single := two", "v.single := '0'"},
+      {"stream/stream_queue.vhd", "in_valid = '1' and advance = '0'", "in_valid = '1'"},
+      {"stream/stream_queue.vhd", "in_valid = '0' and advance = '1'", "advance = '1'"},
+      {"stream/stream_queue.vhd", "r.second + 1", "r.second"},
+      {"stream/stream_queue.vhd", "to_unsigned(2 mod", "to_unsigned(1 mod"},
+      {"stream/stream_queue.vhd", "r.stored or (r.out_valid and not out_ready)", "r.stored or r.out_valid"},
+      {"stream/stream_queue.vhd", "r.stored or (r.out_valid and not out_ready)", "r.stored"},
+      {"stream/stream_queue.vhd", "v.stored    := '0'", "v.stored    := r.stored"}};
+  proofs.push_back({"stream/stream_queue",
+                    "stream/stream_queue.psl",
+                    "Numbered words come out with every number, in order, two clocks behind when nothing "
+                    "waits; never more are claimed than it has places for: 3 places, 3 bits",
+                    Method::pdr,
+                    12,
+                    true,
+                    {{"g_bits", "3"}, {"g_index_bits", "2"}},
+                    queue_faults});
+  // Three words lie in memory in more than three places alone.
+  proofs.push_back({"stream/stream_queue",
+                    "stream/stream_queue.psl",
+                    "The same of 7 places, 4 bits",
+                    Method::pdr,
+                    12,
+                    false,
+                    {{"g_bits", "4"}, {"g_index_bits", "3"}},
+                    queue_faults});
+  proofs.back().faults.push_back({"stream/stream_queue.vhd", "v.single := two", "v.single := '1'"});
   proofs.push_back({"stream/delay_line",
                     "stream/delay_line.psl",
                     "The word of g_depth = 5 enabled clocks ago, whatever stalls",
@@ -627,24 +650,46 @@ std::vector<Proof> all_proofs() {
       {"interpolation/quadratic_interpolator.vhd", "start     => part_dx", "start     => dxx"},
       {"interpolation/part_interpolator.vhd", "unsigned(addend)", "unsigned(not addend)"},
       {"interpolation/part_interpolator.vhd", "addend := start", "addend := increment"},
-      {"interpolation/part_interpolator.vhd", "if step = '1' then\n          addend",
-       "if load = '1' then\n          addend"},
-      {"interpolation/part_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '1' then"},
+      {"interpolation/part_interpolator.vhd", "if step = '1' then\n            addend",
+       "if load = '1' then\n            addend"},
+      {"interpolation/part_interpolator.vhd", "if load = '1' then\n            value",
+       "if load = '1' and step = '1' then\n            value"},
   };
   const std::vector<Fault> split_faults = {
       {"interpolation/part_interpolator.vhd", "sum(g_bits + 1) xor word(g_bits - 1)", "sum(g_bits)"},
-      {"interpolation/quadratic_interpolator.vhd", "span_steps(1)   <= span_step",
-       "span_steps(1)   <= span_load"},
+      {"interpolation/quadratic_interpolator.vhd", "span_steps(strobe_t'high - 1 downto 0)",
+       "span_loads(strobe_t'high - 1 downto 0)"},
+      {"interpolation/quadratic_interpolator.vhd", "carry_in  => carries(span_dx)(part)",
+       "carry_in  => carries(span_value)(part)"},
+  };
+  const std::vector<Fault> ahead_faults = {
+      {"interpolation/part_interpolator.vhd", "loads <= load;", "loads <= step;"},
+      {"interpolation/part_interpolator.vhd", "goes  <= load or step", "goes  <= step"},
+      {"interpolation/part_interpolator.vhd", "addend <= start", "addend <= increment"},
+      {"interpolation/part_interpolator.vhd", "addend <= increment;", "addend <= start;"},
+      {"interpolation/part_interpolator.vhd", "if goes = '1' then", "if goes = '1' or load = '1' then"},
+      {"interpolation/part_interpolator.vhd", "if loads = '1' then", "if load = '1' then"},
+      {"interpolation/part_interpolator.vhd", "sum(g_bits + 1) xor word(g_bits - 1)", "sum(g_bits)"},
+      {"interpolation/quadratic_interpolator.vhd", "step      => line_steps(part + c_behind)",
+       "step      => line_steps(part)"},
+      {"interpolation/quadratic_interpolator.vhd", "load      => span_loads(part + 2 * c_behind)",
+       "load      => span_loads(part + c_behind)"},
+      {"interpolation/quadratic_interpolator.vhd", "step      => span_steps(part + 2 * c_behind)",
+       "step      => span_steps(part + c_behind)"},
+      {"interpolation/quadratic_interpolator.vhd", "step      => span_steps(part + c_behind)",
+       "step      => span_steps(part + 2 * c_behind)"},
+      {"interpolation/quadratic_interpolator.vhd", "span_steps(strobe_t'high - 1 downto 0)",
+       "span_loads(strobe_t'high - 1 downto 0)"},
       {"interpolation/quadratic_interpolator.vhd", "carry_in  => carries(span_dx)(part)",
        "carry_in  => carries(span_value)(part)"},
   };
   std::vector<Fault> carried_faults = quadratic_faults;
-  for (const auto& [from, to] :
-       {std::pair{"de1_step   <= de1e1 when", "de1_step   <= de0e1 when"},
-        std::pair{"dx_step    <= dxe1 when", "dx_step    <= dxe0 when"},
-        std::pair{"part_de1 when line_carries(part) = '1'", "part_de1 when line_carries(part) = '0'"},
-        std::pair{"de0_step   <= de0e1 when line_carries(part) = '1' else de0e0;",
-                  "de0_step   <= de0e0 when line_carries(part) = '1' else de0e1;"}})
+  for (const auto& [from, to] : {std::pair{"de1_step   <= de1e1 when", "de1_step   <= de0e1 when"},
+                                 std::pair{"dx_step    <= dxe1 when", "dx_step    <= dxe0 when"},
+                                 std::pair{"part_de1 when line_carries(part + c_behind) = '1'",
+                                           "part_de1 when line_carries(part + c_behind) = '0'"},
+                                 std::pair{"de0_step   <= de0e1 when line_carries(part) = '1' else de0e0;",
+                                           "de0_step   <= de0e0 when line_carries(part) = '1' else de0e1;"}})
     carried_faults.push_back({"interpolation/quadratic_interpolator.vhd", from, to});
   proofs.push_back(
       {"interpolation/line_interpolator",
@@ -670,8 +715,8 @@ std::vector<Proof> all_proofs() {
        {{"interpolation/plane_interpolator.vhd", "de <= de1 when line_carries(part) = '1' else de0",
          "de <= de0 when line_carries(part) = '1' else de1"},
         {"interpolation/plane_interpolator.vhd", "increment => span_dx", "increment => dx"},
-        {"interpolation/plane_interpolator.vhd", "load      => span_loads(part)",
-         "load      => line_loads(part)"}},
+        {"interpolation/plane_interpolator.vhd", "load      => span_loads(part + c_behind)",
+         "load      => line_loads(part + c_behind)"}},
        {},
        false,
        6});
@@ -688,7 +733,7 @@ std::vector<Proof> all_proofs() {
            Method::induction,
            split ? 4 : 2,
            true,
-           {{"g_exact", exact ? "true" : "false"}, {"g_split", split ? "true" : "false"}},
+           {{"g_exact", exact ? "true" : "false"}, {"g_parts", split ? "2" : "1"}},
            exact ? carried_faults : quadratic_faults,
            {},
            false,
@@ -696,6 +741,25 @@ std::vector<Proof> all_proofs() {
       if (split)
         proofs.back().faults.insert(proofs.back().faults.end(), split_faults.begin(), split_faults.end());
     }
+  for (const bool exact : {true, false}) {
+    std::vector<Fault> faults = ahead_faults;
+    if (exact)
+      faults.push_back({"interpolation/quadratic_interpolator.vhd", "line_carries(part + c_behind)",
+                        "line_carries(part)"});
+    proofs.push_back({"interpolation/quadratic_interpolator",
+                      "interpolation/quadratic_interpolator.psl",
+                      exact ? "The same of words in three parts, what they add chosen a clock ahead"
+                            : "The same in preset `published`; three parts, chosen a clock ahead",
+                      Method::induction,
+                      8,
+                      false,
+                      {{"g_exact", exact ? "true" : "false"}, {"g_parts", "3"}, {"g_ahead", "true"}},
+                      faults,
+                      {},
+                      false,
+                      12});
+    proofs.back().bit_registers = true;
+  }
   proofs.push_back(
       {"interpolation/quadratic_interpolator",
        "interpolation/quadratic_interpolator_error.psl",
@@ -752,21 +816,23 @@ std::vector<Proof> all_proofs() {
        true,
        {{"g_channels", "1"}, {"g_probe", "true"}},
        {{"shaders/quadratic_shader.vhd", "waiting or walking or coming", "walking or coming"},
-        {"shaders/quadratic_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
-        {"shaders/quadratic_shader.vhd", "pixel_valid <= r.span_step(2)", "pixel_valid <= r.span_step(1)"},
-        {"shaders/quadratic_shader.vhd", "v.span_step := ('0', '0')", "v.span_step := v.span_step"},
+        {"shaders/quadratic_shader.vhd", "room,\n          triangle", "'1',\n          triangle"},
+        {"shaders/quadratic_shader.vhd", "pixel_valid <= r.span_step(c_whole)",
+         "pixel_valid <= r.span_step(1)"},
+        {"shaders/quadratic_shader.vhd", "v.span_step := (others => '0')", "v.span_step := v.span_step"},
         {"shaders/quadratic_shader.vhd", "(r.walk_valid and not walk_ready) or", "waiting or"},
         {"shaders/quadratic_shader.vhd", "out_ready => r.walk_taken", "out_ready => walk_ready"},
         {"shaders/quadratic_shader.vhd", "v.copy_waits and not v.placed", "v.copy_waits"},
-        {"shaders/quadratic_shader.vhd", "(r.placed and not line_load)", "r.placed"},
-        {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + half),\n            start",
+        {"shaders/quadratic_shader.vhd", "(r.copy(1) or r.placed) and not line_load",
+         "r.copy(1) or r.placed"},
+        {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + part),\n            start",
          "load  => r.copy(1),\n            start"},
-        {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + half),\n                start",
+        {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + part),\n                start",
          "load  => r.copy(1),\n                start"},
         {"shaders/quadratic_shader.vhd", "line_step and not line_load", "line_step"},
         {"shaders/quadratic_shader.vhd", "span_step and not span_load", "span_step"},
-        {"shaders/quadratic_shader.vhd", "pixels <= ((triangle, y, x), pixels(1))",
-         "pixels <= ((triangle, y, x), (triangle, y, x))"},
+        {"shaders/quadratic_shader.vhd", "pixels <= pixel_t'(triangle, y, x) & pixels(1 to c_whole - 1)",
+         "pixels <= (others => pixel_t'(triangle, y, x))"},
         {"stream/stream_register.vhd", "free     <= out_ready or not r.valid", "free     <= not r.valid"}},
        {},
        false,

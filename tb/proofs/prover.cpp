@@ -164,7 +164,7 @@ int count_of(std::string_view unit, std::string_view word) {
 }
 
 constexpr std::string_view kPrepared =
-    "read_verilog -formal formal.v; prep -flatten -top {0}; {1}setundef -undriven -anyseq; opt -full; "
+    "read_verilog -formal formal.v; prep -flatten -top {0}; {1}setundef -undriven -anyseq; opt -full; {2}"
     "opt_clean -purge; async2sync; dffunmap; opt_clean; ";
 
 // A unit is bound to its entity, or an entity around it.
@@ -334,7 +334,8 @@ Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fa
   // they are found in seconds, by cvc5 in minutes; but ABC takes nothing that has no register.
   const bool bits = proof.method == Method::pdr || proof.method == Method::unrolled ||
                     (fault != nullptr && proof.depth > 1);
-  std::string script = fmt::format(kPrepared, *top, proof.any_products ? "cutpoint t:$mul; " : "");
+  std::string script = fmt::format(kPrepared, *top, proof.any_products ? "cutpoint t:$mul; " : "",
+                                   proof.bit_registers ? "simplemap t:$dff r:WIDTH<8 %i; opt -full; " : "");
   script +=
       bits
           ? "delete -output; techmap; opt -fast; memory_map; techmap; opt -full; dffunmap; abc -g AND -fast; "

@@ -51,6 +51,7 @@ struct Proof {
   bool full_width = false;      ///< `widths` are the faults' alone
   std::vector<std::uint64_t> entries{};  ///< of the golden model's table, for `$entries` in the unit
   int entry_bits = 0;
+  bool bit_registers = false;  ///< of less than a byte, so that Yosys makes one of those that are the same
   std::vector<const char*> contracts{};  ///< files beside `unit`: architectures that give out anything that
                                          ///< their entity's contract lets them, in place of the RTL's
 };
