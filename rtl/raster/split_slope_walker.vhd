@@ -3,8 +3,8 @@
 -- Purpose     An edge by its real slope, line by line, as slope_walker, with the fraction in two halves: the upper one runs a
 --             line ahead of x, the lower one two, so that what either carries is a register and no sum is longer than x's.
 --             g_complement: x comes as its complement, each bit a register's, so that who subtracts it need only add.
--- Contract    load = '1' stays until step is; where both are, the edge is taken, and load_x and load_slope have stood still
---             since the clock before: the lower half's first step is taken from there
+-- Contract    load = '1' stays until step is; where both are, the edge is taken, and the lower halves of load_x's and
+--             load_slope's fractions have stood still since the clock before: their first step is taken from there
 -- Formats     formats_pkg, preset published: edge_x, and x span_x; sums wrap
 -- Latency     1 clock from a step to x
 -- Throughput  1 line a clock

@@ -244,6 +244,32 @@ std::vector<Proof> all_proofs() {
                         "part     := unsigned(load_slope(c_fraction - 1 downto 0))", "part     := r.part"},
                        {"raster/slope_walker.vhd", "next_fraction(c_fraction) xor fraction(fraction_t'high)",
                         "next_fraction(c_fraction)"}}});
+  for (const bool complement : {false, true})
+    proofs.push_back(
+        {"raster/split_slope_walker",
+         "raster/split_slope_walker.psl",
+         complement
+             ? "The same as its complement"
+             : "The same with the fraction in two halves, a line ahead and two, from each load whose lower "
+               "half has stood still",
+         Method::induction,
+         2,
+         true,
+         {{"g_complement", complement ? "true" : "false"}},
+         {{"raster/split_slope_walker.vhd", "(r.whole & r.carry)",
+           complement ? "(r.whole & '1')" : "(r.whole & '0')"},
+          {"raster/split_slope_walker.vhd", "low        := r.first_low", "low        := x_low"},
+          {"raster/split_slope_walker.vhd", "part_low   := slope_low", "part_low   := r.part_low"},
+          {"raster/split_slope_walker.vhd", "part_high  := unsigned(load_slope(c_fraction - 1 downto c_low))",
+           "part_high  := r.part_high"},
+          {"raster/split_slope_walker.vhd", "high_carry := r.first_carry", "high_carry := '0'"},
+          {"raster/split_slope_walker.vhd", "v.first_carry := next_low(c_low)", "v.first_carry := '0'"},
+          {"raster/split_slope_walker.vhd", "('0' & part_high & high_carry)", "('0' & part_high & '0')"},
+          {"raster/split_slope_walker.vhd", "next_high(next_high'high) xor high(high_t'high)",
+           "next_high(next_high'high)"},
+          {"raster/split_slope_walker.vhd", "next_low(next_low'high) xor low(low_t'high)",
+           "next_low(next_low'high)"},
+          {"raster/split_slope_walker.vhd", "v.part_low  := part_low", "v.part_low  := r.part_low"}}});
   const std::vector<Fault> walker_faults = {
       {"raster/triangle_walker.vhd", "init_ready <= edge_load", "init_ready <= line_load"},
       {"raster/triangle_walker.vhd", "v.edges.reads := not init_valid", "v.edges.reads := '1'"},
