@@ -355,7 +355,7 @@ begin
     end if;
     holds := not (r.edges.section_last and r.edges.lower_none);
     if r.edges.reads = '1' then
-      holds := init_valid and not r.clears;
+      holds := init_valid;
     end if;
 
     -- By and and or, so that no enable of theirs hangs on reset, too.
@@ -370,7 +370,7 @@ begin
     v.second.valid   := not reset and not moves and (r.second.valid or taken.valid);
     v.accepts        := reset or moves or not (r.second.valid or taken.valid);
     v.measured.valid := not reset and ((r.measured.valid and not r.accepts) or (r.edges.valid and r.accepts));
-    v.edges.valid    := not reset and ((r.edges.valid and not r.accepts) or (holds and r.accepts));
+    v.edges.valid    := not reset and ((r.edges.valid and not r.accepts) or (holds and r.accepts and not r.clears));
     v.clears         := reset;
     -- A clock behind reset, when nothing is here.
     if r.clears = '1' then
