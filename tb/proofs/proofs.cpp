@@ -1014,6 +1014,66 @@ std::vector<Proof> all_proofs() {
   proofs.back().contracts = {"raster/triangle_walker_any.psl", "interpolation/z_interpolator_any.psl",
                              "interpolation/quadratic_interpolator_any.psl"};
   proofs.push_back(
+      {"shaders/quadratic_shader",
+       "shaders/quadratic_shader_fast.psl",
+       "The same of the fast form, six clocks later; the walker takes a triangle from where it is offered, "
+       "its words stand in "
+       "the buffer until their last part has gone on, and each of three parts where the interpolators load "
+       "it, however soon "
+       "behind one another triangles begin",
+       Method::induction,
+       4,
+       false,
+       {{"g_channels", "1"}, {"g_probe", "true"}, {"g_fast", "true"}},
+       {{"shaders/quadratic_shader.vhd", "busy  <= waiting or walking or coming",
+         "busy  <= waiting or coming"},
+        {"shaders/quadratic_shader.vhd", "busy  <= waiting or walking or coming",
+         "busy  <= waiting or walking"},
+        {"shaders/quadratic_shader.vhd", "room,\n        triangle", "'1',\n        triangle"},
+        {"shaders/quadratic_shader.vhd", "pixel_valid <= r.span_step(c_whole)",
+         "pixel_valid <= r.span_step(c_whole - 1)"},
+        {"shaders/quadratic_shader.vhd", "v.span_step := (others => '0')", "v.span_step := v.span_step"},
+        {"shaders/quadratic_shader.vhd", "pixels <= pixel_t'(triangle, y, x) & pixels(1 to c_whole - 1)",
+         "pixels <= (others => pixel_t'(triangle, y, x))"},
+        {"shaders/quadratic_shader.vhd", "pixels(c_whole).y &", "pixels(c_whole - 1).y &"},
+        {"shaders/quadratic_shader.vhd", "load  => r.walk_valid,", "load  => '1',"},
+        {"shaders/quadratic_shader.vhd", "(r.copy_waits and not r.copy(1)) or takes", "takes"},
+        {"shaders/quadratic_shader.vhd", "(r.copy_waits and not r.copy(1)) or takes",
+         "r.copy_waits or takes"},
+        {"shaders/quadratic_shader.vhd", "(r.copy(1) or r.placed) and not line_load",
+         "r.copy(1) or r.placed"},
+        {"shaders/quadratic_shader.vhd", "(r.copy(1) or r.placed) and not line_load",
+         "r.copy(1) or (r.placed and not line_load)"},
+        {"shaders/quadratic_shader.vhd", "v.copy_waits and not v.placed", "v.copy_waits"},
+        {"shaders/quadratic_shader.vhd", "v.copy_waits and not v.placed", "v.copy_waits and not r.placed"},
+        {"shaders/quadratic_shader.vhd", "r.copy(1 to c_parts - 1)", "r.copy(1) & r.copy(1)"},
+        {"shaders/quadratic_shader.vhd", "line_load & r.line_load(1 to c_parts - 1)",
+         "line_load & r.line_load(2 to c_parts)"},
+        {"shaders/quadratic_shader.vhd", "v.walk_valid := init_valid and not takes and not v.copy_waits",
+         "v.walk_valid := init_valid and not takes"},
+        {"shaders/quadratic_shader.vhd", "v.walk_valid := init_valid and not takes and not v.copy_waits",
+         "v.walk_valid := not takes and not v.copy_waits"},
+        {"shaders/quadratic_shader.vhd", "if v.copy(part) = '1' then", "if r.copy(part) = '1' then"},
+        {"shaders/quadratic_shader.vhd", "if v.copy(part) = '1' then", "if false then"},
+        {"shaders/quadratic_shader.vhd", "for part in 2 to c_parts - 1 loop",
+         "for part in 2 to c_parts loop"},
+        {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + part),\n            start",
+         "load  => r.copy(1),\n            start"},
+        {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + part),\n                start",
+         "load  => r.copy(1),\n                start"},
+        {"shaders/quadratic_shader.vhd", "line_step and not line_load", "line_step"},
+        {"shaders/quadratic_shader.vhd", "span_step and not span_load", "span_step"},
+        {"shaders/quadratic_shader.vhd", "v.copy_waits := '0'", "v.copy_waits := v.copy_waits"},
+        {"shaders/quadratic_shader.vhd", "v.placed := '0'", "v.placed := v.placed"},
+        {"shaders/quadratic_shader.vhd", "v.line_load := (others => '0')", "v.line_load := v.line_load"}},
+       {},
+       false,
+       20});
+  proofs.back().widths = narrow_pixels;
+  proofs.back().full_width = true;
+  proofs.back().contracts = {"raster/queued_walker_any.psl", "interpolation/z_interpolator_any.psl",
+                             "interpolation/quadratic_interpolator_any.psl"};
+  proofs.push_back(
       {"shaders/spherical_shader",
        "shaders/spherical_shader.psl",
        "The same five clocks later, each with its own depth and ambient light and the sum of its products; a "
