@@ -11,6 +11,15 @@ package tb_pkg is
 
   constant c_half_period : time := 5 ns;
 
+  -- An interpolator as faster hardware has it: parts of a word, what is added chosen ahead, clocks behind the plain one.
+  type interpolator_form_t is record
+    parts  : positive;
+    ahead  : boolean;
+    behind : positive;
+  end record;
+
+  type interpolator_forms_t is array (natural range <>) of interpolator_form_t;
+
   -- A file of vectors, read one by one.
   type vectors_t is protected
     procedure open_file (name : in string);

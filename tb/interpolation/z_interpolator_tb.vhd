@@ -21,17 +21,9 @@ architecture sim of z_interpolator_run is
 
   type words_t is array (field_t) of std_logic_vector(formats(g_exact).depth_sum.bits - 1 downto 0);
 
-  -- As more hardware has it: parts of a word, what is added chosen ahead, clocks behind the plain one.
-  type form_t is record
-    parts  : positive;
-    ahead  : boolean;
-    behind : positive;
-  end record;
-
-  type forms_t is array (natural range <>) of form_t;
   type outputs_t is array (natural range <>) of words_t;
 
-  constant c_forms : forms_t := ((2, false, 1), (3, false, 2), (1, true, 2), (3, true, 4));
+  constant c_forms : interpolator_forms_t := ((2, false, 1), (3, false, 2), (1, true, 2), (3, true, 4));
 
   signal clk        : std_logic := '0';
   signal init       : std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0) := (others => '0');
