@@ -123,8 +123,7 @@ int run(const Folders& folders, const CompareCommand& command) {
   const auto shader = checked_shader(command.shader);
   if (!shader) return report(shader.error());
   if (command.fast && *shader != Shader::quadratic)
-    return report(bad_input(fmt::format(
-        "--fast belongs to the quadratic shader, and says nothing for the {} shader", to_string(*shader))));
+    return report(bad_input(of_other_hardware("--fast", "the quadratic shader", *shader)));
   std::vector<std::string> scenes = command.scenes;
   if (scenes.empty()) {
     auto builtin = builtin_scenes(folders);

@@ -58,9 +58,9 @@ Status check_hardware(const DrawOptions& o, Shader shader, Preset preset) {
       continue;
     std::vector<std::string> names;
     std::ranges::transform(option.belongs_to, std::back_inserter(names), name_of);
-    return bad_input(fmt::format("{} belongs to {}, and says nothing for the {} shader in preset {}",
-                                 option.name, fmt::join(names, " and "), to_string(shader),
-                                 to_string(preset)));
+    const std::string owners = fmt::format("{}", fmt::join(names, " and "));
+    return bad_input(
+        fmt::format("{} in preset {}", of_other_hardware(option.name, owners, shader), to_string(preset)));
   }
   return Ok{};
 }
@@ -79,6 +79,11 @@ Status check_table_size(const DrawOptions& o) {
 }
 
 }  // namespace
+
+std::string of_other_hardware(std::string_view option, std::string_view owners, Shader shader) {
+  return fmt::format("{} belongs to {}, and says nothing for the {} shader", option, owners,
+                     to_string(shader));
+}
 
 void DrawOptions::add_to(CLI::App& command) {
   command.add_option("--shader", shader, c_shader_names)->capture_default_str();
@@ -114,8 +119,8 @@ void DrawOptions::add_to(CLI::App& command) {
                      "processor, several clocks an object (default: unrolled)");
   command.add_flag(
       "--fast", fast,
-      "quadratic: hardware built for the clock: the same fragments at more MHz, for about half again as\n"
-      "many flip-flops; a triangle takes 3 clocks at least in place of 2");
+      "quadratic: hardware built for the clock: the same fragments at more MHz, for a third more\n"
+      "flip-flops; a triangle takes 3 clocks at least in place of 2");
   command.add_option(
       "--span-ends", span_ends,
       "spherical, preset exact: vectors at a span's ends from the surface, or by slerp along the\n"

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/program.hpp"
@@ -53,6 +54,8 @@ Result<FrameSize> checked_size(const std::string& text, const char* option = "--
 inline constexpr const char* c_shader_names = "quadratic, spherical or processors";
 /// By its name.
 Result<Shader> checked_shader(const std::string& name);
+/// Why an option is refused that is another shader's; `owners`: such as "the quadratic shader".
+std::string of_other_hardware(std::string_view option, std::string_view owners, Shader shader);
 
 struct Simulators {
   bool ghdl = true, verilator = true, lanes = false;
