@@ -323,32 +323,79 @@ class SphericalSetup::ExactTriangle {
     return plan_walks(corners_, subpixel_bits_, columns, setup_.frame_.height);
   }
 
+  // A triangle's part as it is drawn. A line's arcs are most of what setup takes: so they are kept from where
+  // they are looked at to where they are written.
+  struct Line {
+    bool empty;
+    double first, step;  ///< as SpanArcs
+  };
+  struct Part {
+    std::vector<std::vector<std::uint32_t>> headers;
+    std::vector<std::size_t> ends;  ///< of each header's lines
+    std::vector<Line> lines;
+    std::vector<LightArcs> arcs;  ///< of all lights, line by line where one is not empty
+    SetupCounts counts;
+  };
+
   void append(Columns columns, std::vector<Walk> walks) {
     if (walks.empty()) return;
     // Along edges that stay what they are nothing is won by cutting.
     const bool may_cut = setup_.options_.ends == SpanEnds::on_surface && !setup_.lights_.empty();
-    if (may_cut && columns.width() > 1 && !interpolates_well(walks)) {
+    Part part;
+    if (!plan(walks, may_cut && columns.width() > 1, part)) {
       if (!split_) ++counts_.subdivided;
       split_ = true;
       const std::int64_t middle = columns.begin + columns.width() / 2;
-      for (const Columns part : {Columns{columns.begin, middle}, Columns{middle, columns.end}})
-        append(part, walks_of(part));
+      for (const Columns half : {Columns{columns.begin, middle}, Columns{middle, columns.end}})
+        append(half, walks_of(half));
       return;
     }
     ++counts_.leaves;
-    for (const Walk& walk : walks) {
+    counts_ += part.counts;
+    SpanArcs arcs;
+    auto line = part.lines.begin();
+    auto light = part.arcs.begin();
+    for (std::size_t i = 0; i < part.headers.size(); ++i) {
       ++counts_.vectors;
-      const std::vector<std::uint32_t> header = header_of(walk, counts_);
-      words_.insert(words_.end(), header.begin(), header.end());
-      if (!setup_.has_records_) continue;
-      walk_lines<Exact>(header, [&](const golden::TriangleWalker<Exact>& walker) {
+      words_.insert(words_.end(), part.headers[i].begin(), part.headers[i].end());
+      for (; line != part.lines.begin() + static_cast<std::ptrdiff_t>(part.ends[i]); ++line) {
         ++counts_.records;
         InitVector record(words_, setup_.init_bits_);
-        if (walker.line_empty() || setup_.lights_.empty()) return;
-        const Span at = span_of(walker);
-        setup_.put_record<Exact>(record, triangle_.material, arcs_of(at), counts_);
-      });
+        if (line->empty) continue;
+        arcs.first = line->first;
+        arcs.step = line->step;
+        std::copy_n(light, setup_.lights_.size(), arcs.light.begin());
+        light += static_cast<std::ptrdiff_t>(setup_.lights_.size());
+        setup_.put_record<Exact>(record, triangle_.material, arcs, counts_);
+      }
     }
+  }
+
+  // Whether all of it may be drawn so; `look`: only where each line's error stays below the threshold.
+  bool plan(const std::vector<Walk>& walks, bool look, Part& part) const {
+    for (const Walk& walk : walks) {
+      part.headers.push_back(header_of(walk, part.counts));
+      bool well = true;
+      if (setup_.has_records_)
+        walk_lines<Exact>(part.headers.back(), [&](const golden::TriangleWalker<Exact>& walker) {
+          well = well && plan(walker, look, part);
+        });
+      if (!well) return false;
+      part.ends.push_back(part.lines.size());
+    }
+    return true;
+  }
+  bool plan(const golden::TriangleWalker<Exact>& line, bool look, Part& part) const {
+    const bool empty = line.line_empty() || setup_.lights_.empty();
+    part.lines.push_back({empty, 0.0, 0.0});
+    if (empty) return true;
+    const Span at = span_of(line);
+    const SpanArcs arcs = arcs_of(at);
+    if (look && !interpolates_well(at, arcs)) return false;
+    part.lines.back() = {empty, arcs.first, arcs.step};
+    part.arcs.insert(part.arcs.end(), arcs.light.begin(),
+                     arcs.light.begin() + static_cast<std::ptrdiff_t>(setup_.lights_.size()));
+    return true;
   }
 
   std::vector<std::uint32_t> header_of(const Walk& walk, SetupCounts& counts) const {
@@ -432,21 +479,9 @@ class SphericalSetup::ExactTriangle {
     return span;
   }
 
-  // Whether on each line the error stays below the threshold where it is looked at.
-  bool interpolates_well(const std::vector<Walk>& walks) const {
-    SetupCounts not_drawn;
-    for (const Walk& walk : walks) {
-      bool well = true;
-      walk_lines<Exact>(header_of(walk, not_drawn), [&](const golden::TriangleWalker<Exact>& walker) {
-        well = well && (walker.line_empty() || line_interpolates_well(span_of(walker)));
-      });
-      if (!well) return false;
-    }
-    return true;
-  }
-  bool line_interpolates_well(const Span& at) const {
+  // Whether a line's error stays below the threshold where it is looked at.
+  bool interpolates_well(const Span& at, const SpanArcs& arcs) const {
     if (at.steps() == 0) return true;
-    const SpanArcs arcs = arcs_of(at);
     return std::ranges::all_of(places_to_look_at(arcs, at), [&](std::int64_t i) {
       ++counts_.shaded;
       const double t = arcs.first + static_cast<double>(i) * arcs.step;
