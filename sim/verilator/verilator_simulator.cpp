@@ -16,7 +16,7 @@
 namespace halfway {
 namespace {
 
-constexpr std::size_t kChunk = 1U << 14;  ///< fragments made room for at a time
+constexpr std::size_t kChunk = 1U << 11;  ///< fragments made room for at a time
 
 static_assert(sizeof(Fragment) == sizeof(HalfwayFragment));
 static_assert(offsetof(Fragment, triangle) == offsetof(HalfwayFragment, triangle));
