@@ -78,7 +78,7 @@ TEST(GhdlParts, BeginAtTrianglesAndHangOnTheFrameAlone) {
     // None is long beside what the others have left when it begins.
     std::uint64_t rest = s.golden.size();
     for (const std::uint64_t part : pixels) {
-      EXPECT_LE(part, std::max<std::uint64_t>(3'500, rest / 8));
+      EXPECT_LE(part, std::max<std::uint64_t>(3'500, rest / 6));
       rest -= part;
     }
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <future>
@@ -65,10 +66,21 @@ class Simulation {
     if (Status status = forget_old_results(); !status) return status.error();
     std::future<ReferenceImage> reference =
         std::async(std::launch::async, [this] { return draw_reference(); });
+    std::future<Result<GhdlRunner>> ghdl_runner;
+    if (s_.ghdl) {
+      s_.on_progress(fmt::format("building {} for GHDL", summary_.plan.key.name()), -1.0);
+      ghdl_runner =
+          std::async(std::launch::async, [this] { return GhdlRunner::open(summary_.plan.key, s_.folders); });
+    }
     if (Status status = stream(); !status) return status.error();
     // GHDL takes the longest: all else is done meanwhile.
     std::future<Result<SimulatorRun>> ghdl;
-    if (s_.ghdl) ghdl = std::async(std::launch::async, [this] { return run_ghdl(); });
+    if (s_.ghdl) {
+      const auto runner = ghdl_runner.get();
+      if (!runner) return runner.error();
+      ghdl = std::async(std::launch::async, [this, runner = *runner] { return run_ghdl(runner); });
+      wait_for_threads_of(ghdl);
+    }
     if (Status status = write_png(files_.frame("golden"), golden_.frame()); !status) return status.error();
     for (auto& [run, frame] : drawn_)
       if (Status status = draw_pictures(run, frame); !status) return status.error();
@@ -289,12 +301,17 @@ class Simulation {
     return show_difference(run, frame);
   }
 
+  // While the pictures' library loads, 0.3 s, no thread can be made: so GHDL's are made first.
+  void wait_for_threads_of(const std::future<Result<SimulatorRun>>& ghdl) const {
+    const auto threads = std::min<std::size_t>(s_.threads, first_vectors_.size());
+    while (ghdl_begun_ < threads &&
+           ghdl.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+    }
+  }
+
   // Beside the pictures of the others.
-  Result<SimulatorRun> run_ghdl() const {
+  Result<SimulatorRun> run_ghdl(const GhdlRunner& runner) {
     const std::string key = summary_.plan.key.name();
-    s_.on_progress(fmt::format("building {} for GHDL", key), -1.0);
-    auto runner = GhdlRunner::open(summary_.plan.key, s_.folders);
-    if (!runner) return runner.error();
     std::error_code ignored;
     const auto golden_bytes =
         static_cast<double>(std::filesystem::file_size(files_.trace("golden"), ignored));
@@ -306,6 +323,7 @@ class Simulation {
     options.on_progress = [&](std::uintmax_t bytes) {
       s_.on_progress("GHDL", std::min(1.0, static_cast<double>(bytes) / golden_bytes));
     };
+    options.on_begin = [&] { ++ghdl_begun_; };
     s_.on_progress("GHDL", 0.0);
     RtlStream rtl(s_.size, scene_.background);
     std::optional<TraceReader> golden;
@@ -324,7 +342,7 @@ class Simulation {
     };
     if (Status status = begin(); !status) return status.error();
     const auto ran =
-        run_in_parts(*runner, summary_.plan.key, files_.init(), first_vectors_, files_.trace("ghdl"), options,
+        run_in_parts(runner, summary_.plan.key, files_.init(), first_vectors_, files_.trace("ghdl"), options,
                      s_.threads, [&](std::span<const Fragment> fragments) -> Status {
                        if (const auto read = add_golden(fragments.size()); !read) return read.error();
                        rtl.add(fragments);
@@ -394,6 +412,7 @@ class Simulation {
   ResultFiles files_;
   FrameAssembler golden_;
   std::vector<std::uint64_t> first_vectors_;           ///< of the parts in which GHDL draws
+  std::atomic<std::size_t> ghdl_begun_ = 0;            ///< parts
   std::vector<std::pair<SimulatorRun, Frame>> drawn_;  ///< in this process
   SceneSummary summary_;
 };

@@ -122,6 +122,7 @@ Result<GhdlRunner> GhdlRunner::open(const HardwareKey& key, const SimulatorFolde
 Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
                                 const std::filesystem::path& trace_file,
                                 const GhdlRunOptions& options) const {
+  if (options.on_begin) options.on_begin();
   const auto absolute_trace = std::filesystem::absolute(trace_file);
   if (auto made = make_folders(absolute_trace.parent_path()); !made) return made.error();
   const std::string suffix = fmt::format(".part-{}", ::getpid());
