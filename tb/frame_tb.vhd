@@ -69,24 +69,85 @@ architecture sim of frame_tb is
   signal probe             : std_logic_vector(c_probe_bits - 1 downto 0);
   signal finished          : boolean := false;
 
-  -- An unsigned number of up to 32 bits in decimal: an integer has no room for the 32nd.
-  procedure write_decimal(text : inout line; value : in std_logic_vector) is
-    constant wide : unsigned(31 downto 0) := resize(unsigned(value), 32);
-    variable high : natural;
-    variable low  : natural;
-    variable rest : unsigned(31 downto 0);
+  -- What textio's write and hread take a digit for, a line of these costs in all.
+  type text_t is record
+    letters : string(1 to 80); -- of a fragment's seven fields 50 at most
+    length  : natural;
+  end record;
+
+  procedure put (text : inout text_t; letter : in character) is
   begin
-    if wide(31) = '0' then
-      write(text, to_integer(wide(30 downto 0)));
-    else
-      high := 214_748_364;  -- 2**31 = 10 * 214748364 + 8
-      low  := 8;
-      rest := '0' & wide(30 downto 0);
-      high := high + to_integer(rest(30 downto 0)) / 10;
-      low  := low + to_integer(rest(30 downto 0)) mod 10;
-      write(text, high + low / 10);
-      write(text, low mod 10);
-    end if;
+    text.length               := text.length + 1;
+    text.letters(text.length) := letter;
+  end procedure;
+
+  -- An unsigned number of up to 32 bits in decimal: an integer has no room for the 32nd.
+  procedure put_decimal (text : inout text_t; value : in std_logic_vector) is
+    alias bits      : std_logic_vector(value'length - 1 downto 0) is value;
+    variable digits : string(1 to 10);
+    variable first  : positive := digits'right;
+    variable high   : natural  := 0; -- without the lowest 16 bits
+    variable low    : natural  := 0;
+    variable tens   : natural;
+  begin
+    for i in bits'range loop
+      if i >= 16 then
+        high := high + high;
+        if bits(i) = '1' then
+          high := high + 1;
+        end if;
+      else
+        low := low + low;
+        if bits(i) = '1' then
+          low := low + 1;
+        end if;
+      end if;
+    end loop;
+    low           := low + 6 * high; -- 2**16 = 6553 * 10 + 6
+    tens          := 6553 * high + low / 10;
+    digits(first) := character'val(character'pos('0') + low mod 10);
+    while tens > 0 loop
+      first         := first - 1;
+      digits(first) := character'val(character'pos('0') + tens mod 10);
+      tens          := tens / 10;
+    end loop;
+    text.letters(text.length + 1 to text.length + digits'right - first + 1) := digits(first to digits'right);
+    text.length                                                             := text.length + digits'right - first + 1;
+  end procedure;
+
+  -- A value from as many hexadecimal digits as it asks for, and whether they are such.
+  procedure get_hexadecimal (text : inout line; value : out std_logic_vector; good : out boolean) is
+    alias bits     : std_logic_vector(value'length - 1 downto 0) is value;
+    variable digit : natural;
+    variable low   : natural := 0;
+  begin
+    good := true;
+    for i in text'reverse_range loop
+      case text(i) is
+        when '0' to '9' =>
+          digit := character'pos(text(i)) - character'pos('0');
+        when 'a' to 'f' =>
+          digit := character'pos(text(i)) - character'pos('a') + 10;
+        when 'A' to 'F' =>
+          digit := character'pos(text(i)) - character'pos('A') + 10;
+        when others =>
+          good := false;
+          return;
+      end case;
+      for place in 0 to 3 loop
+        if low < bits'length then
+          if digit mod 2 = 1 then
+            bits(low) := '1';
+          else
+            bits(low) := '0';
+          end if;
+        elsif digit mod 2 = 1 then
+          good := false; -- a bit that the value does not have
+        end if;
+        digit := digit / 2;
+        low   := low + 1;
+      end loop;
+    end loop;
   end procedure;
 
   -- xorshift32 (Marsaglia 2003, shifts 13, 17, 5)
@@ -139,6 +200,7 @@ begin
     variable status      : file_open_status;
     variable text_in     : line;
     variable text_out    : line;
+    variable fragment    : text_t;
     variable field       : string(1 to 13);
     variable number      : integer;
     variable letter      : character;
@@ -185,8 +247,8 @@ begin
           report g_init_file & ": vector " & to_string(vectors) & " has not " & to_string((c_init_bits + 3) / 4)
             & " digits" severity failure;
         end if;
-        hread(text_in, vector, good);
-        if not good or is_x(vector) then
+        get_hexadecimal(text_in, vector, good);
+        if not good then
           report g_init_file & ": vector " & to_string(vectors) & " is no hexadecimal number of "
             & to_string(c_init_bits) & " bits" severity failure;
         end if;
@@ -296,20 +358,22 @@ begin
           end if;
           moved     := true;
           fragments := fragments + 1;
-          write_decimal(text_out, fragment_triangle);
-          write(text_out, ' ');
-          write_decimal(text_out, fragment_y);
-          write(text_out, ' ');
-          write_decimal(text_out, fragment_x);
-          write(text_out, ' ');
-          write_decimal(text_out, fragment_z);
-          write(text_out, ' ');
-          write_decimal(text_out, fragment_red);
-          write(text_out, ' ');
-          write_decimal(text_out, fragment_green);
-          write(text_out, ' ');
-          write_decimal(text_out, fragment_blue);
-          writeline(trace_file, text_out);
+          fragment.length := 0;
+          put_decimal(fragment, fragment_triangle);
+          put(fragment, ' ');
+          put_decimal(fragment, fragment_y);
+          put(fragment, ' ');
+          put_decimal(fragment, fragment_x);
+          put(fragment, ' ');
+          put_decimal(fragment, fragment_z);
+          put(fragment, ' ');
+          put_decimal(fragment, fragment_red);
+          put(fragment, ' ');
+          put_decimal(fragment, fragment_green);
+          put(fragment, ' ');
+          put_decimal(fragment, fragment_blue);
+          put(fragment, LF);
+          write(trace_file, fragment.letters(1 to fragment.length));
         end if;
       elsif holding then
         report "fragment " & to_string(fragments) & " was withdrawn in cycle " & to_string(cycle) severity failure;
