@@ -13,6 +13,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.processors_pkg.all;
 use work.shading_pkg.all;
+use work.quick_numeric_pkg.sum_of_products;
 
 entity dot_product is
   generic (
@@ -35,7 +36,7 @@ begin
   begin
     if rising_edge(clk) then
       if enable = '1' then
-        sum <= std_logic_vector(sum_of_products(a, b));
+        sum <= std_logic_vector(sum_of_products(a, b, c_axes, sum'length));
       end if;
     end if;
   end process;

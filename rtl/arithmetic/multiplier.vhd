@@ -14,6 +14,7 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
+use work.quick_numeric_pkg;
 
 entity multiplier is
   generic (
@@ -50,6 +51,28 @@ architecture rtl of multiplier is
     product : whole_t;
   end record;
 
+  -- Of a quarter of a.
+  function product_of (digit, whole : unsigned) return digit_t is
+    variable result : digit_t;
+  begin
+    -- The sums' own cells choose whether b is added, and lookup tables stand in front of one term alone. With a gate in
+    -- front of a as well a cell would have an input too many.
+    -- synthesis translate_off
+    return quick_numeric_pkg.product(digit, whole);
+    -- synthesis translate_on
+    if g_gated then
+      return digit * whole;
+    end if;
+    result := (others => '0');
+    for place in digit'range loop
+      result := shift_left(result, 1);
+      if digit(place) = '1' then
+        result := result + whole;
+      end if;
+    end loop;
+    return result;
+  end function;
+
   signal r : reg_t;
 
   signal padded : std_logic_vector(4 * c_digit - 1 downto 0);
@@ -67,19 +90,7 @@ begin
       if enable = '1' then
         for i in digits_t'range loop
           digit  := unsigned(padded((i + 1) * c_digit - 1 downto i * c_digit));
-          if g_gated then
-            result := digit * unsigned(b);
-          else
-            -- The sums' own cells choose whether b is added, and lookup tables stand in front of one term alone. With a gate
-            -- in front of a as well a cell would have an input too many.
-            result := (others => '0');
-            for place in digit'range loop
-              result := shift_left(result, 1);
-              if digit(place) = '1' then
-                result := result + unsigned(b);
-              end if;
-            end loop;
-          end if;
+          result := product_of(digit, unsigned(b));
           -- Without the quarter's highest bit nothing carries so far. As that is said, a cell of the sum's own gives it.
           result(digit_t'high) := result(digit_t'high) and digit(digit'high);
           r.digits(i) <= result;
@@ -87,14 +98,16 @@ begin
       end if;
       if r.filled(1) = '1' then
         for i in halves_t'range loop
-          r.halves(i)(half_t'high downto c_digit) <= resize(r.digits(2 * i + 1), half_t'length - c_digit)
-            + r.digits(2 * i)(digit_t'high downto c_digit);
+          r.halves(i)(half_t'high downto c_digit) <= quick_numeric_pkg.sum(
+            resize(r.digits(2 * i + 1), half_t'length - c_digit),
+            resize(r.digits(2 * i)(digit_t'high downto c_digit), half_t'length - c_digit));
           r.halves(i)(c_digit - 1 downto 0) <= r.digits(2 * i)(c_digit - 1 downto 0);
         end loop;
       end if;
       if r.filled(2) = '1' then
-        r.product(whole_t'high downto 2 * c_digit) <= resize(r.halves(1), whole_t'length - 2 * c_digit)
-          + r.halves(0)(half_t'high downto 2 * c_digit);
+        r.product(whole_t'high downto 2 * c_digit) <= quick_numeric_pkg.sum(
+          resize(r.halves(1), whole_t'length - 2 * c_digit),
+          resize(r.halves(0)(half_t'high downto 2 * c_digit), whole_t'length - 2 * c_digit));
         r.product(2 * c_digit - 1 downto 0) <= r.halves(0)(2 * c_digit - 1 downto 0);
       end if;
     end if;

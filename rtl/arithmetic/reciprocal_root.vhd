@@ -16,6 +16,7 @@ use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.function_pkg.all;
 use work.shading_pkg.all;
+use work.quick_numeric_pkg.product;
 
 entity reciprocal_root is
   generic (

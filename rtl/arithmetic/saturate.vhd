@@ -13,6 +13,7 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
+use work.quick_numeric_pkg.is_zero;
 
 entity saturate is
   generic (
@@ -46,7 +47,7 @@ begin
   begin
     if value(c_sign) = '1' then
       result <= (others => '0');
-    elsif unsigned(above) /= 0 then
+    elsif not is_zero(unsigned(above)) then
       result <= (others => '1');
     else
       result <= value(c_result_high downto g_fraction_bits);

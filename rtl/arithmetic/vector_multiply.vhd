@@ -13,6 +13,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.processors_pkg.all;
 use work.shading_pkg.all;
+use work.quick_numeric_pkg.product;
 
 entity vector_multiply is
   generic (

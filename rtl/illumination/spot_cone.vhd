@@ -20,6 +20,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.shading_pkg.all;
+use work.quick_numeric_pkg.product;
 
 entity spot_cone is
   generic (

@@ -19,6 +19,7 @@ use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
 use work.shading_pkg.all;
+use work.quick_numeric_pkg.product;
 use work.terms_pkg.all;
 
 entity unrolled_shading_processor is

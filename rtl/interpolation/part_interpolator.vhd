@@ -16,6 +16,7 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
+use work.quick_numeric_pkg.sum;
 
 entity part_interpolator is
   generic (
@@ -40,27 +41,12 @@ architecture rtl of part_interpolator is
 
   -- What is carried, and the part.
   function sum_of (word, addend : part_t; carry : std_logic) return std_logic_vector is
-    variable sum     : unsigned(g_bits + 1 downto 0);
-    -- synthesis translate_off
-    variable bits    : part_t;
-    variable carried : std_logic;
-    -- synthesis translate_on
+    variable whole : unsigned(g_bits + 1 downto 0);
   begin
-    -- Simulation alone: numeric_std's sum makes copies of copies, a third of a frame's instructions.
-    -- synthesis translate_off
-    carried := carry;
-    for bit in part_t'reverse_range loop
-      bits(bit) := word(bit) xor addend(bit) xor carried;
-      if word(bit) = addend(bit) then
-        carried := word(bit);
-      end if;
-    end loop;
-    return carried & bits;
-    -- synthesis translate_on
     -- The carry comes in through a bit below, so that one sum takes it. The highest bit cancels: so a cell of the sum's
     -- own, and none behind it, gives what is carried.
-    sum := (word(g_bits - 1) & unsigned(word) & '1') + ('0' & unsigned(addend) & carry);
-    return (sum(g_bits + 1) xor word(g_bits - 1)) & std_logic_vector(sum(g_bits downto 1));
+    whole := sum(word(g_bits - 1) & unsigned(word) & '1', '0' & unsigned(addend) & carry);
+    return (whole(g_bits + 1) xor word(g_bits - 1)) & std_logic_vector(whole(g_bits downto 1));
   end function;
 
 begin

@@ -9,7 +9,7 @@
 --             words stand still in the clock of its line_load, a clock behind the part's below it
 -- Formats     plane: value, dx, de0 and, with g_carries, de1, the first lowest, g_bits each, signed; sums wrap, the value
 --             at a covered pixel fits
--- Latency     g_parts clocks from a load or step to its value, with g_ahead 2 more
+-- Latency     g_parts + g_late clocks from a load or step to its value, with g_ahead 2 more
 -- Throughput  1 line and 1 pixel a clock
 -- Error       each word half a unit off, so the value (1 + lines + steps)/2 units at most: see plane_sum and depth_sum
 --             in formats_pkg
@@ -24,7 +24,9 @@ entity plane_interpolator is
     g_bits    : positive;
     g_carries : boolean  := true; -- false: edges step by a real slope, and de1 does not exist
     g_parts   : positive := 1;    -- of a word, each a clock behind the one below it
-    g_ahead   : boolean  := false -- what is added is chosen a clock ahead of its sum
+    g_ahead   : boolean  := false; -- what is added is chosen a clock ahead of its sum
+    g_late    : natural  := 0;     -- clocks more until both values come
+    g_probe   : boolean  := true   -- give line_value; it is zero without
   );
   port (
     clk        : in  std_logic;
@@ -182,9 +184,13 @@ begin
           );
 
         -- A lower part waits for the upper ones, the edge for the span.
-      line_waits : if part < g_parts - 1 + c_behind generate
+      line_waits : if not g_probe generate
 
-        type waits_t is array (1 to g_parts - 1 + c_behind - part) of part_t;
+        line_value(c_high downto c_low) <= (others => '0');
+
+      elsif part < g_parts - 1 + c_behind + g_late generate
+
+        type waits_t is array (1 to g_parts - 1 + c_behind + g_late - part) of part_t;
 
         signal waits : waits_t;
 
@@ -205,9 +211,9 @@ begin
 
       end generate;
 
-      span_waits : if part < g_parts - 1 generate
+      span_waits : if part < g_parts - 1 + g_late generate
 
-        type waits_t is array (1 to g_parts - 1 - part) of part_t;
+        type waits_t is array (1 to g_parts - 1 + g_late - part) of part_t;
 
         signal waits : waits_t;
 

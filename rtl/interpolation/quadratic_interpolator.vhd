@@ -23,7 +23,8 @@ entity quadratic_interpolator is
   generic (
     g_exact : boolean  := true;
     g_parts : positive := 1;    -- of a word, each a clock behind the one below it
-    g_ahead : boolean  := false -- what is added is chosen a clock ahead of its sum
+    g_ahead : boolean  := false; -- what is added is chosen a clock ahead of its sum
+    g_probe : boolean  := true   -- give all but value; zeros without
   );
   port (
     clk        : in  std_logic;
@@ -324,7 +325,13 @@ begin
           );
 
         -- A lower part waits for the upper ones, and all for the last of the sums.
-      edge_differences : if part < g_parts - 1 + 2 * c_behind generate
+      edge_differences : if not g_probe generate
+
+        line_dx(c_high downto c_low)  <= (others => '0');
+        line_de0(c_high downto c_low) <= (others => '0');
+        line_de1(c_high downto c_low) <= (others => '0');
+
+      elsif part < g_parts - 1 + 2 * c_behind generate
 
         type waits_t is array (1 to g_parts - 1 + 2 * c_behind - part) of part_t;
 
@@ -353,7 +360,12 @@ begin
 
       end generate;
 
-      differences : if part < g_parts - 1 + c_behind generate
+      differences : if not g_probe generate
+
+        line_value(c_high downto c_low) <= (others => '0');
+        dx(c_high downto c_low)         <= (others => '0');
+
+      elsif part < g_parts - 1 + c_behind generate
 
         type waits_t is array (1 to g_parts - 1 + c_behind - part) of part_t;
 

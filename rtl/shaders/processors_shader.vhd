@@ -223,7 +223,8 @@ begin
 
   depth : entity work.z_interpolator
     generic map (
-      g_exact => true
+      g_exact => true,
+      g_probe => g_probe
       )
     port map (
       clk        => clk,
@@ -248,7 +249,8 @@ begin
 
       interpolator : entity work.plane_interpolator
         generic map (
-          g_bits => c_sum_bits
+          g_bits  => c_sum_bits,
+          g_probe => false
           )
         port map (
           clk        => clk,

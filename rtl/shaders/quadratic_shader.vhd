@@ -127,7 +127,7 @@ architecture rtl of quadratic_shader is
   signal line_y, y                     : std_logic_vector(fragment_y'range);
   signal line_start, line_stop, x      : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
   signal triangle                      : std_logic_vector(fragment_triangle'range);
-  signal sum_line_z, sum_z, line_z, z  : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
+  signal line_z, z                     : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
   signal whole_z                       : std_logic_vector(fragment_z'range);
   signal colours                       : std_logic_vector(3 * c_colour - 1 downto 0); -- red lowest
   signal takes                         : std_logic; -- a vector comes into the buffer
@@ -318,11 +318,14 @@ begin
 
   end generate;
 
+  -- With g_fast a plane is a clock before a quadratic.
   depth : entity work.z_interpolator
     generic map (
       g_exact => g_exact,
       g_parts => c_parts,
-      g_ahead => g_fast
+      g_ahead => g_fast,
+      g_late  => boolean'pos(g_fast),
+      g_probe => g_probe
       )
     port map (
       clk        => clk,
@@ -332,27 +335,9 @@ begin
       line_carry => r.line_carry,
       span_load  => r.span_load,
       span_step  => r.span_goes,
-      line_value => sum_line_z,
-      value      => sum_z
+      line_value => line_z,
+      value      => z
       );
-
-    -- With g_fast a plane is a clock before a quadratic.
-  beside_colour : if g_fast generate
-
-    depth_waits : process (clk)
-    begin
-      if rising_edge(clk) then
-        line_z <= sum_line_z;
-        z      <= sum_z;
-      end if;
-    end process;
-
-  else generate
-
-    line_z <= sum_line_z;
-    z      <= sum_z;
-
-  end generate;
 
   channels : for channel in 0 to g_channels - 1 generate
 
@@ -392,7 +377,8 @@ begin
         generic map (
           g_exact => g_exact,
           g_parts => c_parts,
-          g_ahead => g_fast
+          g_ahead => g_fast,
+          g_probe => g_probe
           )
         port map (
           clk        => clk,
@@ -443,7 +429,13 @@ begin
 
   whole_z     <= z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction);
   pixel_valid <= r.span_step(c_whole);
-  pixel       <= colours & whole_z & pixels(c_whole).x(fragment_x'range) & pixels(c_whole).y & pixels(c_whole).triangle;
+
+  -- Each for itself: what changes is all that a simulator copies.
+  pixel(c_red_low + 3 * c_colour - 1 downto c_red_low)                     <= colours;
+  pixel(c_z_low + fragment_z'length - 1 downto c_z_low)                    <= whole_z;
+  pixel(c_x_low + fragment_x'length - 1 downto c_x_low)                    <= pixels(c_whole).x(fragment_x'range);
+  pixel(c_y_low + fragment_y'length - 1 downto c_y_low)                    <= pixels(c_whole).y;
+  pixel(c_triangle_low + fragment_triangle'length - 1 downto c_triangle_low) <= pixels(c_whole).triangle;
 
   queue : entity work.stream_queue
     generic map (

@@ -275,7 +275,8 @@ begin
   depth : entity work.z_interpolator
     generic map (
       g_exact => g_exact,
-      g_parts => 2
+      g_parts => 2,
+      g_probe => g_probe
       )
     port map (
       clk        => clk,

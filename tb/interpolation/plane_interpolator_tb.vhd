@@ -23,7 +23,8 @@ architecture sim of plane_interpolator_run is
 
   type outputs_t is array (natural range <>) of words_t;
 
-  constant c_forms : interpolator_forms_t := ((2, false, 1), (3, false, 2), (1, true, 2), (3, true, 4));
+  constant c_forms : interpolator_forms_t := ((2, false, 0, 1), (3, false, 0, 2), (1, true, 0, 2), (3, true, 0, 4),
+    (1, false, 1, 1), (2, false, 2, 3), (3, true, 1, 5));
 
   signal clk        : std_logic := '0';
   signal plane      : std_logic_vector((3 + boolean'pos(g_carries)) * g_bits - 1 downto 0) := (others => '0');
@@ -51,7 +52,8 @@ begin
 
   forms : for i in c_forms'range generate
     form : entity work.plane_interpolator
-      generic map (g_bits => g_bits, g_carries => g_carries, g_parts => c_forms(i).parts, g_ahead => c_forms(i).ahead)
+      generic map (g_bits => g_bits, g_carries => g_carries, g_parts => c_forms(i).parts, g_ahead => c_forms(i).ahead,
+        g_late => c_forms(i).late)
       port map (
         clk        => clk,
         plane      => plane,
@@ -67,7 +69,7 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    constant c_most : positive := 4; -- clocks behind
+    constant c_most : positive := 5; -- clocks behind
 
     variable vectors : vectors_t;
     variable strobe  : std_logic_vector(1 to 5);

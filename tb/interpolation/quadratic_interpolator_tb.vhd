@@ -25,7 +25,7 @@ architecture sim of quadratic_interpolator_run is
 
   type outputs_t is array (natural range <>) of words_t;
 
-  constant c_forms : interpolator_forms_t := ((2, false, 1), (3, false, 2), (1, true, 3), (3, true, 5));
+  constant c_forms : interpolator_forms_t := ((2, false, 0, 1), (3, false, 0, 2), (1, true, 0, 3), (3, true, 0, 5));
 
   signal clk        : std_logic := '0';
   signal init       : std_logic_vector(c_init_bits - 1 downto 0) := (others => '0');

@@ -16,10 +16,10 @@ constexpr Listed c_listed[] = {
     {"arithmetic/saturate.vhd", "value(c_sign - 1 downto c_result_high + 1) & '0'",
      "value(c_sign - 2 downto c_result_high + 1) & \"00\""},
     {"arithmetic/saturate.vhd", "result <= (others => '0')", "result <= (others => '1')"},
-    // One half for the other; halves taken a clock early; digits added at one place.
+    // One half for the other; halves taken a clock early; a digit one too many.
     {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"},
     {"arithmetic/multiplier.vhd", "enable & r.filled(1)", "enable & enable"},
-    {"arithmetic/multiplier.vhd", "shift_left(result, 1)", "result"},
+    {"arithmetic/multiplier.vhd", "i * c_digit));", "i * c_digit)) + 1;"},
     // The bell is not folded; it has a second one beside it; preset published takes the lower bits.
     {"arithmetic/angle_address.vhd", "magnitude <= not angle when", "magnitude <= angle when"},
     {"arithmetic/angle_address.vhd", "magnitude(c_sign downto c_fraction) = c_inside",
@@ -35,16 +35,20 @@ constexpr Listed c_listed[] = {
      "c_table(i + 1) - c_table(i) - boolean'pos(i = 7)"},
     {"tables/function_pkg.vhd", "508, 500,", "508, 501,", "tables/function_rom.vhd"},
     {"tables/function_rom.vhd", "if enable = '1' then", "if enable = '1' or address(0) = '1' then"},
-    // A digit's carry lost; the sign forgotten; a tie rounded down; light from the horizon; a cosine above 1.
-    {"arithmetic/shading_pkg.vhd", "half := half - 1;", "half := half;"},
-    {"arithmetic/shading_pkg.vhd", "digits(place) := digits(place) - weight;",
-     "digits(place) := digits(place) + weight;"},
+    // Carries lost, a digit's too; the sign forgotten; what is unknown passed for '0'; a word's last bit
+    // forgotten.
+    {"arithmetic/quick_numeric_pkg.vhd", "carried := x;", "carried := '0';"},
+    {"arithmetic/quick_numeric_pkg.vhd", "half := half - 1;", "half := half;"},
+    {"arithmetic/quick_numeric_pkg.vhd", "digit := digit - weight;", "digit := digit + weight;"},
+    {"arithmetic/quick_numeric_pkg.vhd", "passes := x = passed;", "passes := x = '1';"},
+    {"arithmetic/quick_numeric_pkg.vhd", "x /= beside(i) or (x /= '0' and x /= '1')", "x /= beside(i)"},
+    // A tie rounded down; light from the horizon; a cosine above 1.
     {"arithmetic/shading_pkg.vhd", "+ ('0' & word(bits - 1 downto bits - 1))", "+ 0"},
     {"arithmetic/shading_pkg.vhd", "dot(dot'left) = '0' and dot /= c_zero", "dot(dot'left) = '0'"},
     {"arithmetic/shading_pkg.vhd", "one(c_fraction) := '1';", "one(c_fraction) := '0';"},
     // A component left out; one clock late where enable is '0'; the wrong axis.
-    {"arithmetic/dot_product.vhd", "sum_of_products(a, b)",
-     "sum_of_products(a, b(3 * g_bits - 1 downto g_bits) & (g_bits - 1 downto 0 => '0'))"},
+    {"arithmetic/dot_product.vhd", "sum_of_products(a, b,",
+     "sum_of_products(a, b(3 * g_bits - 1 downto g_bits) & (g_bits - 1 downto 0 => '0'),"},
     {"arithmetic/dot_product.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
     {"arithmetic/vector_multiply.vhd", "axis_of(b, axis)", "axis_of(b, 2 - axis)"},
     {"arithmetic/vector_multiply.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
@@ -93,15 +97,15 @@ constexpr Listed c_listed[] = {
     {"stream/stream_register.vhd", "in_valid and free", "in_valid"},
     {"stream/stream_register.vhd", "v.valid := '0'", "v.valid := r.valid"},
     // A word given out twice; a word too many; a claim that a reset leaves.
-    {"stream/stream_queue.vhd", "v.read   := r.read + 1", "v.read   := r.read"},
-    {"stream/stream_queue.vhd", "if v.claimed = c_most then", "if r.claimed = c_most then"},
+    {"stream/stream_queue.vhd", "next_of(r.read)", "r.read"},
+    {"stream/stream_queue.vhd", "if equal(v.claimed, c_most) then", "if equal(r.claimed, c_most) then"},
     {"stream/stream_queue.vhd", "v.claimed   := (others => '0')", "v.claimed   := r.claimed"},
     // A carry lost, and one that comes too high; the increment for the start.
-    {"interpolation/part_interpolator.vhd", "carried := carry;", "carried := '0';"},
-    {"interpolation/part_interpolator.vhd", "return carried & bits", "return bits(part_t'high) & bits"},
+    {"interpolation/part_interpolator.vhd", "'0' & unsigned(addend) & carry", "'0' & unsigned(addend) & '0'"},
+    {"interpolation/part_interpolator.vhd", "whole(g_bits + 1) xor word(g_bits - 1)", "whole(g_bits)"},
     {"interpolation/part_interpolator.vhd", "addend := start", "addend := increment"},
     // The wrong sign; step wins over load.
-    {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
+    {"interpolation/line_interpolator.vhd", "sum(r.value, signed(increment))", "r.value - signed(increment)"},
     {"interpolation/line_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '0' then"},
     // Carry turned round; the span takes the next triangle's step.
     {"interpolation/plane_interpolator.vhd", "de <= de1 when line_carries(part) = '1' else de0",
@@ -113,12 +117,12 @@ constexpr Listed c_listed[] = {
     {"interpolation/quadratic_interpolator.vhd", "de0_step   <= de0e1 when", "de0_step   <= de0e0 when"},
     {"interpolation/quadratic_interpolator.vhd", "increment => span_dxx", "increment => dxx"},
     // No carry into x; a remainder that is taken once too little; another edge's error below zero.
-    {"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '0')"},
-    {"raster/edge_walker.vhd", "(increment & not below)", "(increment & '0')"},
+    {"raster/edge_walker.vhd", "r.quotient & r.carry", "r.quotient & '0'"},
+    {"raster/edge_walker.vhd", "increment & not below", "increment & '0'"},
     {"raster/edge_walker.vhd", "v.reduced := '0' & unsigned(load_error)",
      "v.reduced := r.carry & unsigned(load_error)"},
     // A carry lost; the first step's slope of the edge before; a carry where the fraction is large.
-    {"raster/slope_walker.vhd", "(r.whole & r.carry)", "(r.whole & '0')", "raster/triangle_walker.vhd"},
+    {"raster/slope_walker.vhd", "r.whole & r.carry", "r.whole & '0'", "raster/triangle_walker.vhd"},
     {"raster/slope_walker.vhd", "part     := unsigned(load_slope(c_fraction - 1 downto 0))",
      "part     := r.part", "raster/triangle_walker.vhd"},
     {"raster/slope_walker.vhd", "next_fraction(c_fraction) xor fraction(fraction_t'high)",
@@ -152,7 +156,7 @@ constexpr Listed c_listed[] = {
     // A span's end known too late, and where none is; a span of two pixels for one of one.
     {"raster/triangle_walker.vhd", "behind(0) := not r.span.ends", "behind(0) := '1'"},
     {"raster/triangle_walker.vhd", "last := not begins", "last := '0'"},
-    {"raster/triangle_walker.vhd", "if r.line.more = 0 then", "if r.line.more = 1 then"},
+    {"raster/triangle_walker.vhd", "if is_zero(r.line.more) then", "if r.line.more = 1 then"},
     // Of equal depths the last; a polygon on the surface is before it; a pixel shaded twice; a column that
     // the
     // token before has just changed; its change that does not go on with it; columns that a clear leaves; a

@@ -11,6 +11,7 @@ use work.netlist_constructs_pkg.c_stimulus;
 use work.netlist_constructs_pkg.lane;
 use work.netlist_constructs_pkg.lanes_t;
 use work.shading_pkg.all;
+use work.quick_numeric_pkg.all;
 
 entity netlist_shading is
   port (

@@ -40,9 +40,9 @@ std::vector<Proof> all_proofs() {
        "r.stored and not r.out_valid"},
       {"stream/stream_queue.vhd", "r.stored and (out_ready or not r.out_valid)", "r.stored"},
       {"stream/stream_queue.vhd", "r.out_valid and out_ready;", "r.out_valid;"},
-      {"stream/stream_queue.vhd", "if v.claimed = c_most then", "if r.claimed = c_most then"},
+      {"stream/stream_queue.vhd", "if equal(v.claimed, c_most) then", "if equal(r.claimed, c_most) then"},
       {"stream/stream_queue.vhd", "v.claimed   := (others => '0')", "v.claimed   := r.claimed"},
-      {"stream/stream_queue.vhd", "memory(to_integer(r.read))", "memory(to_integer(r.write))"},
+      {"stream/stream_queue.vhd", "memory(index_of(r.read))", "memory(index_of(r.write))"},
       {"stream/stream_queue.vhd", "v.stored := '1'", "v.stored := r.stored"},
       {"stream/stream_queue.vhd", "v.stored := not r.single", "v.stored := '0'"},
       {"stream/stream_queue.vhd", "v.stored := not r.single", "v.stored := '1'"},
@@ -51,7 +51,7 @@ std::vector<Proof> all_proofs() {
       {"stream/stream_queue.vhd", "v.single := two", "v.single := '0'"},
       {"stream/stream_queue.vhd", "in_valid = '1' and advance = '0'", "in_valid = '1'"},
       {"stream/stream_queue.vhd", "in_valid = '0' and advance = '1'", "advance = '1'"},
-      {"stream/stream_queue.vhd", "r.second + 1", "r.second"},
+      {"stream/stream_queue.vhd", "next_of(r.second)", "r.second"},
       {"stream/stream_queue.vhd", "to_unsigned(2, g_index_bits + 1)", "to_unsigned(1, g_index_bits + 1)"},
       {"stream/stream_queue.vhd", "r.stored or (r.out_valid and not out_ready)", "r.stored or r.out_valid"},
       {"stream/stream_queue.vhd", "r.stored or (r.out_valid and not out_ready)", "r.stored"},
@@ -110,7 +110,7 @@ std::vector<Proof> all_proofs() {
        {{"arithmetic/saturate.vhd", "value(c_sign - 1 downto c_result_high + 1) & '0'",
          "value(c_sign - 2 downto c_result_high + 1) & \"00\""},
         {"arithmetic/saturate.vhd", "result <= (others => '0')", "result <= (others => '1')"},
-        {"arithmetic/saturate.vhd", "unsigned(above) /= 0", "unsigned(above) > 2"}}});
+        {"arithmetic/saturate.vhd", "not is_zero(unsigned(above))", "unsigned(above) > 2"}}});
   proofs.push_back(
       {"arithmetic/saturating_sum",
        "arithmetic/saturating_sum.psl",
@@ -139,8 +139,8 @@ std::vector<Proof> all_proofs() {
           {"arithmetic/multiplier.vhd", "enable & r.filled(1)", "enable & enable"},
           {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"},
           {"arithmetic/multiplier.vhd", "and digit(digit'high)", "and not digit(digit'high)"},
-          {"arithmetic/multiplier.vhd", gated ? "digit * unsigned(b)" : "shift_left(result, 1)",
-           gated ? "digit * unsigned(not b)" : "result"}}});
+          {"arithmetic/multiplier.vhd", gated ? "digit * whole" : "shift_left(result, 1)",
+           gated ? "digit * not whole" : "result"}}});
   proofs.push_back(
       {"arithmetic/angle_address",
        "arithmetic/angle_address.psl",
@@ -167,9 +167,8 @@ std::vector<Proof> all_proofs() {
   // Tables.
   const auto flag = [](bool value) { return std::string(value ? "true" : "false"); };
   const auto rom_faults = [](const char* file) {
-    return std::vector<Fault>{
-        {file, "to_integer(unsigned(address))", "to_integer(unsigned(address(address'high - 1 downto 0)))"},
-        {file, "if enable = '1' then", "if enable = '1' or address(0) = '1' then"}};
+    return std::vector<Fault>{{file, "(unsigned(address))", "(unsigned(address(address'high - 1 downto 0)))"},
+                              {file, "if enable = '1' then", "if enable = '1' or address(0) = '1' then"}};
   };
   for (const golden::CosineTable& table : golden::c_cosine_tables) {
     proofs.push_back(
@@ -224,26 +223,25 @@ std::vector<Proof> all_proofs() {
        3,
        true,
        {},
-       {{"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '0')"},
-        {"raster/edge_walker.vhd", "(increment & not below)", "(increment & '0')"},
+       {{"raster/edge_walker.vhd", "r.quotient & r.carry", "r.quotient & '0'"},
+        {"raster/edge_walker.vhd", "increment & not below", "increment & '0'"},
         {"raster/edge_walker.vhd", "increment := '0' & r.rise", "increment := '0' & r.remainder"},
         {"raster/edge_walker.vhd", "v.carry   := next_reduced(next_reduced'high)", "v.carry   := below"}}});
   for (const bool complement : {false, true})
-    proofs.push_back({"raster/slope_walker",
-                      "raster/slope_walker.psl",
-                      complement
-                          ? "The same as its complement"
-                          : "The whole part of what the start and all slopes that were stepped make together",
-                      Method::induction,
-                      2,
-                      true,
-                      {{"g_complement", complement ? "true" : "false"}},
-                      {{"raster/slope_walker.vhd", "(r.whole & r.carry)",
-                        complement ? "(r.whole & '1')" : "(r.whole & '0')"},
-                       {"raster/slope_walker.vhd",
-                        "part     := unsigned(load_slope(c_fraction - 1 downto 0))", "part     := r.part"},
-                       {"raster/slope_walker.vhd", "next_fraction(c_fraction) xor fraction(fraction_t'high)",
-                        "next_fraction(c_fraction)"}}});
+    proofs.push_back(
+        {"raster/slope_walker",
+         "raster/slope_walker.psl",
+         complement ? "The same as its complement"
+                    : "The whole part of what the start and all slopes that were stepped make together",
+         Method::induction,
+         2,
+         true,
+         {{"g_complement", complement ? "true" : "false"}},
+         {{"raster/slope_walker.vhd", "r.whole & r.carry", complement ? "r.whole & '1'" : "r.whole & '0'"},
+          {"raster/slope_walker.vhd", "part     := unsigned(load_slope(c_fraction - 1 downto 0))",
+           "part     := r.part"},
+          {"raster/slope_walker.vhd", "next_fraction(c_fraction) xor fraction(fraction_t'high)",
+           "next_fraction(c_fraction)"}}});
   for (const bool complement : {false, true})
     proofs.push_back(
         {"raster/split_slope_walker",
@@ -302,16 +300,16 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "if moves = '1' or r.flows = '0' then", "if r.flows = '0' then"},
       {"raster/triangle_walker.vhd", "if moves = '1' or r.flows = '0' then", "if true then"},
       {"raster/triangle_walker.vhd", "last := not begins", "last := '0'"},
-      {"raster/triangle_walker.vhd", "if r.line.more = 0 then", "if r.line.more = 1 then"},
+      {"raster/triangle_walker.vhd", "if is_zero(r.line.more) then", "if r.line.more = 1 then"},
       {"raster/triangle_walker.vhd", "behind(0) := not r.span.ends", "behind(0) := r.span.ends"},
       {"raster/triangle_walker.vhd", "v.line.draws    := not blank", "v.line.draws    := '1'"},
       {"raster/triangle_walker.vhd", "more(more_t'high) or not r.edges.valid", "more(more_t'high)"},
       {"raster/triangle_walker.vhd", "v.line.valid    := r.edges.valid", "v.line.valid    := '1'"},
-      {"raster/triangle_walker.vhd", "pixels + behind", "pixels"},
+      {"raster/triangle_walker.vhd", "sum(pixels, behind)", "pixels"},
       {"raster/triangle_walker.vhd", "v.span.x        := r.line.start", "v.span.x        := r.line.stop"},
       {"raster/triangle_walker.vhd", "span_step <= r.span.valid and fragment_ready",
        "span_step <= r.span.valid"},
-      {"raster/triangle_walker.vhd", "r.edges.y + 1", "r.edges.y"},
+      {"raster/triangle_walker.vhd", "next_of(r.edges.y)", "r.edges.y"},
       {"raster/triangle_walker.vhd", "fewer(1) := r.edges.follows", "fewer(1) := '1'"},
       {"raster/triangle_walker.vhd", "v.edges.section_last := r.edges.left(left_t'high)",
        "v.edges.section_last := '0'"},
@@ -344,10 +342,11 @@ std::vector<Proof> all_proofs() {
                           "r.edges.left(left_t'high)"});
   exact_faults.push_back(
       {"raster/triangle_walker.vhd", "r.edges.lower_none or r.edges.lower_one", "r.edges.lower_none"});
-  exact_faults.push_back({"raster/triangle_walker.vhd", "to_x + not from_x", "to_x - from_x"});
+  exact_faults.push_back({"raster/triangle_walker.vhd", "sum(to_x, not from_x)", "to_x - from_x"});
   std::vector<Fault> published_faults = walker_faults;
-  published_faults.push_back({"raster/triangle_walker.vhd", "resize(stop, more_t'length) + resize(not_start",
-                              "resize(stop, more_t'length) - resize(start"});
+  published_faults.push_back({"raster/triangle_walker.vhd",
+                              "sum(resize(stop, more_t'length), resize(not_start, more_t'length))",
+                              "resize(stop, more_t'length) - resize(start, more_t'length)"});
   published_faults.push_back(
       {"raster/triangle_walker.vhd", "start     <= not not_start", "start     <= not_start"});
   const std::vector<Width> narrow_walk = {
@@ -358,7 +357,7 @@ std::vector<Proof> all_proofs() {
       {"raster/triangle_walker.vhd", "load_carry     => section(c_section_bits - 1)",
        "load_carry     => upper(c_section_bits - 1)"},
       {"raster/triangle_walker.vhd", "v.line.draws    := not blank", "v.line.draws    := '1'"},
-      {"raster/triangle_walker.vhd", "r.edges.y + 1", "r.edges.y + 2"},
+      {"raster/triangle_walker.vhd", "next_of(r.edges.y)", "r.edges.y + 2"},
       {"raster/triangle_walker.vhd", "v.line.carry    := edge_carry", "v.line.carry    := not edge_carry"},
       {"raster/edge_walker.vhd", "increment := '0' & r.rise", "increment := '0' & r.remainder"},
   };
@@ -539,7 +538,7 @@ std::vector<Proof> all_proofs() {
        8,
        false,
        {},
-       {{"raster/edge_walker.vhd", "(r.quotient & r.carry)", "(r.quotient & '1')"},
+       {{"raster/edge_walker.vhd", "r.quotient & r.carry", "r.quotient & '1'"},
         {"raster/edge_walker.vhd", "increment := '0' & r.rise", "increment := '0' & r.remainder"}},
        narrow_box});
   proofs.push_back(
@@ -828,7 +827,7 @@ std::vector<Proof> all_proofs() {
        "if load = '1' and step = '1' then\n            value"},
   };
   const std::vector<Fault> split_faults = {
-      {"interpolation/part_interpolator.vhd", "sum(g_bits + 1) xor word(g_bits - 1)", "sum(g_bits)"},
+      {"interpolation/part_interpolator.vhd", "whole(g_bits + 1) xor word(g_bits - 1)", "whole(g_bits)"},
       {"interpolation/quadratic_interpolator.vhd", "span_steps(strobe_t'high - 1 downto 0)",
        "span_loads(strobe_t'high - 1 downto 0)"},
       {"interpolation/quadratic_interpolator.vhd", "carry_in  => carries(span_dx)(part)",
@@ -841,7 +840,7 @@ std::vector<Proof> all_proofs() {
       {"interpolation/part_interpolator.vhd", "addend <= increment;", "addend <= start;"},
       {"interpolation/part_interpolator.vhd", "if goes = '1' then", "if goes = '1' or load = '1' then"},
       {"interpolation/part_interpolator.vhd", "if loads = '1' then", "if load = '1' then"},
-      {"interpolation/part_interpolator.vhd", "sum(g_bits + 1) xor word(g_bits - 1)", "sum(g_bits)"},
+      {"interpolation/part_interpolator.vhd", "whole(g_bits + 1) xor word(g_bits - 1)", "whole(g_bits)"},
       {"interpolation/quadratic_interpolator.vhd", "step      => line_steps(part + c_behind)",
        "step      => line_steps(part)"},
       {"interpolation/quadratic_interpolator.vhd", "load      => span_loads(part + 2 * c_behind)",
@@ -871,7 +870,8 @@ std::vector<Proof> all_proofs() {
        2,
        true,
        {{"g_bits", "12"}},
-       {{"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
+       {{"interpolation/line_interpolator.vhd", "sum(r.value, signed(increment))",
+         "r.value - signed(increment)"},
         {"interpolation/line_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '0' then"}},
        {},
        false,
@@ -1035,7 +1035,8 @@ std::vector<Proof> all_proofs() {
         {"shaders/quadratic_shader.vhd", "v.span_step := (others => '0')", "v.span_step := v.span_step"},
         {"shaders/quadratic_shader.vhd", "pixels <= pixel_t'(triangle, y, x) & pixels(1 to c_whole - 1)",
          "pixels <= (others => pixel_t'(triangle, y, x))"},
-        {"shaders/quadratic_shader.vhd", "pixels(c_whole).y &", "pixels(c_whole - 1).y &"},
+        {"shaders/quadratic_shader.vhd", "pixels(c_whole).x(fragment_x'range)",
+         "pixels(c_whole - 1).x(fragment_x'range)"},
         {"shaders/quadratic_shader.vhd", "load  => r.walk_valid,", "load  => '1',"},
         {"shaders/quadratic_shader.vhd", "(r.copy_waits and not r.copy(1)) or takes", "takes"},
         {"shaders/quadratic_shader.vhd", "(r.copy_waits and not r.copy(1)) or takes",
