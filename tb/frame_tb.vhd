@@ -69,20 +69,20 @@ architecture sim of frame_tb is
   signal probe             : std_logic_vector(c_probe_bits - 1 downto 0);
   signal finished          : boolean := false;
 
-  -- What textio's write and hread take a digit for, a line of these costs in all.
+  -- A line by these costs what textio's write and hread take for one digit.
   type text_t is record
-    letters : string(1 to 80); -- of a fragment's seven fields 50 at most
+    letters : string(1 to 80); -- of a fragment's seven fields 42 at most
     length  : natural;
   end record;
 
-  procedure put (text : inout text_t; letter : in character) is
+  procedure put (word : inout text_t; letter : in character) is
   begin
-    text.length               := text.length + 1;
-    text.letters(text.length) := letter;
+    word.length               := word.length + 1;
+    word.letters(word.length) := letter;
   end procedure;
 
   -- An unsigned number of up to 32 bits in decimal: an integer has no room for the 32nd.
-  procedure put_decimal (text : inout text_t; value : in std_logic_vector) is
+  procedure put_decimal (word : inout text_t; value : in std_logic_vector) is
     alias bits      : std_logic_vector(value'length - 1 downto 0) is value;
     variable digits : string(1 to 10);
     variable first  : positive := digits'right;
@@ -111,8 +111,8 @@ architecture sim of frame_tb is
       digits(first) := character'val(character'pos('0') + tens mod 10);
       tens          := tens / 10;
     end loop;
-    text.letters(text.length + 1 to text.length + digits'right - first + 1) := digits(first to digits'right);
-    text.length                                                             := text.length + digits'right - first + 1;
+    word.letters(word.length + 1 to word.length + digits'right - first + 1) := digits(first to digits'right);
+    word.length                                                             := word.length + digits'right - first + 1;
   end procedure;
 
   -- A value from as many hexadecimal digits as it asks for, and whether they are such.

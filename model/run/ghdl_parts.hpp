@@ -25,9 +25,9 @@ class Cuts {
   /// The stream's next vectors, whole triangles.
   void add(std::span<const std::uint32_t> init_words);
   /// The first vectors of the parts to draw in, by the frame alone and not by the machine; the first one's is
-  /// 0. Parts of many clocks first, then of fewer, so that whoever takes them by turns ends together. One
-  /// part where triangles hang on those before (the shading processors: lights, shadow counters), or where
-  /// there is little to draw.
+  /// 0. Parts of many clocks first, an eighth of all, then of fewer, so that whoever takes them by turns ends
+  /// together. One part where triangles hang on those before (the shading processors: lights, shadow
+  /// counters), or where there is little to draw.
   std::vector<std::uint64_t> parts() const;
 
  private:

@@ -76,6 +76,8 @@ class Simulation {
     // GHDL takes the longest: all else is done meanwhile.
     std::future<Result<SimulatorRun>> ghdl;
     if (s_.ghdl) {
+      if (ghdl_runner.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        s_.on_progress(fmt::format("building {} for GHDL", summary_.plan.key.name()), -1.0);
       const auto runner = ghdl_runner.get();
       if (!runner) return runner.error();
       ghdl = std::async(std::launch::async, [this, runner = *runner] { return run_ghdl(runner); });
@@ -412,7 +414,7 @@ class Simulation {
   ResultFiles files_;
   FrameAssembler golden_;
   std::vector<std::uint64_t> first_vectors_;           ///< of the parts in which GHDL draws
-  std::atomic<std::size_t> ghdl_begun_ = 0;            ///< parts
+  std::atomic<std::size_t> ghdl_begun_ = 0;            ///< parts that have begun
   std::vector<std::pair<SimulatorRun, Frame>> drawn_;  ///< in this process
   SceneSummary summary_;
 };

@@ -371,7 +371,7 @@ class SphericalSetup::ExactTriangle {
     }
   }
 
-  // Whether all of it may be drawn so; `look`: only where each line's error stays below the threshold.
+  // Fills `part`; false where a line has to be cut, whose error is looked at with `look` alone.
   bool plan(const std::vector<Walk>& walks, bool look, Part& part) const {
     for (const Walk& walk : walks) {
       part.headers.push_back(header_of(walk, part.counts));

@@ -51,23 +51,23 @@ architecture rtl of multiplier is
     product : whole_t;
   end record;
 
-  -- Of a quarter of a.
-  function product_of (digit, whole : unsigned) return digit_t is
+  -- A quarter of a, times b.
+  function product_of (digit, word : unsigned) return digit_t is
     variable result : digit_t;
   begin
-    -- The sums' own cells choose whether b is added, and lookup tables stand in front of one term alone. With a gate in
-    -- front of a as well a cell would have an input too many.
     -- synthesis translate_off
-    return quick_numeric_pkg.product(digit, whole);
+    return quick_numeric_pkg.product(digit, word);
     -- synthesis translate_on
     if g_gated then
-      return digit * whole;
+      return digit * word;
     end if;
+    -- The sums' own cells choose whether b is added, and lookup tables stand in front of one term alone. With a gate in
+    -- front of a as well a cell would have an input too many.
     result := (others => '0');
     for place in digit'range loop
       result := shift_left(result, 1);
       if digit(place) = '1' then
-        result := result + whole;
+        result := result + word;
       end if;
     end loop;
     return result;

@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- What every clock asks of numeric_std, for a simulator: there numeric_std makes copies of copies. In hardware each is the
--- operator beside it; so it is in simulation, and gives all 'X', or false, where a bit is neither '0' nor '1'.
+-- operator beside it; so it is in simulation, and where a bit is neither '0' nor '1' ('H' and 'L' too) gives all 'X', false,
+-- or index 0.
 -- Golden twin none: the golden model has integers
 
 library ieee;
@@ -39,7 +40,8 @@ package quick_numeric_pkg is
 
   function product (a, b : unsigned) return unsigned;
 
-  -- Of `terms` pairs of signed words, one of a and one of b, the first lowest: `bits` bits of the sum of their products.
+  -- Of `terms` pairs of signed words, one of a and one of b, the first lowest: `bits` bits, no fewer than a product
+  -- has, of the sum of their products. `terms` divides both lengths.
   function sum_of_products (a, b : std_logic_vector; terms, bits : positive) return signed;
 
   -- to_integer(value), which is 0 where a bit is neither '0' nor '1'; of 31 bits at most.
@@ -318,6 +320,10 @@ package body quick_numeric_pkg is
     variable whole : signed(bits - 1 downto 0);
   begin
     -- synthesis translate_off
+    assert c_a_bits * terms = a'length and c_b_bits * terms = b'length and bits >= c_a_bits + c_b_bits
+      report "sum_of_products: " & integer'image(terms) & " terms of " & integer'image(a'length) & " and "
+      & integer'image(b'length) & " bits to " & integer'image(bits)
+      severity failure;
     return sum_in_integers(signed(a), signed(b), terms, bits);
     -- synthesis translate_on
     whole := (others => '0');

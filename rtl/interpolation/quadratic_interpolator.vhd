@@ -24,7 +24,7 @@ entity quadratic_interpolator is
     g_exact : boolean  := true;
     g_parts : positive := 1;    -- of a word, each a clock behind the one below it
     g_ahead : boolean  := false; -- what is added is chosen a clock ahead of its sum
-    g_probe : boolean  := true   -- give all but value; zeros without
+    g_probe : boolean  := true   -- give the outputs beside value; they are zero without
   );
   port (
     clk        : in  std_logic;

@@ -21,7 +21,7 @@ struct GhdlRunOptions {
   std::uint32_t stall_seed = 0;        ///< 0: full speed; else both streams stall at random
   std::optional<std::chrono::milliseconds> timeout{};
   std::function<void(std::uintmax_t trace_bytes)> on_progress{};  ///< with the bytes of trace written so far
-  std::function<void()> on_begin{};                               ///< by the thread that runs it
+  std::function<void()> on_begin{};                               ///< of parts once each, several at a time
   std::filesystem::path wave_file{};                              ///< .ghw, .fst or .vcd; empty: none
 };
 

@@ -160,8 +160,8 @@ Result<std::string> readme_clocks(const Pins& pins) {
   return text +
          fmt::format(
              "\nA clock is the median of {} seeds. A lone sum of 24 bits comes to {:.0f} MHz, of 40 to "
-             "{:.0f}. One folded shading processor of preset\n`published` comes to {:.0f} MHz "
-             "(diffuse) and {:.0f} (specular), {:.0f} ns a clock, where the paper has {}.\n",
+             "{:.0f}. One folded shading processor of preset\n`published` comes to {:.1f} MHz "
+             "(diffuse) and {:.1f} (specular), {:.1f} ns a clock, where the paper has {}.\n",
              seeds, sum_24->mhz, sum_40->mhz, diffuse->mhz, specular->mhz,
              1000 / std::min(diffuse->mhz, specular->mhz), published_ns(c_diffuse).value());
 }

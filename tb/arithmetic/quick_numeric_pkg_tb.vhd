@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Every function against C++'s integers, and against numeric_std's operator: all words of up to 6 bits, all bits of '0', '1', 'U' and 'X' up to 2 bits,
--- random and extreme words of up to 40 bits, and such words with a bit that is neither '0' nor '1'.
+-- Unsigned sums, products and comparisons against C++'s integers; all functions against numeric_std's operators: all words
+-- of up to 6 bits, all bits of '0', '1', 'U' and 'X' up to 2 bits, random and extreme words of up to 40 bits, and such
+-- words with a bit that is neither '0' nor '1'.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -90,12 +91,14 @@ begin
     procedure check_random (bits : in positive) is
       variable a, b    : unsigned(bits - 1 downto 0);
       variable unknown : unsigned(bits - 1 downto 0);
+      variable all_unknown : std_logic_vector(2 * bits downto 0);
     begin
       draw_word(random, a);
       draw_word(random, b);
       check_two(a, b);
       check_two(a, a);
       check_one(a);
+      check_products(a, b);
       unknown                                        := a;
       unknown(to_integer(random(12 downto 0)) mod bits) := c_values(2 + to_integer(random(13 downto 13)));
       check_two(unknown, b);
@@ -104,6 +107,9 @@ begin
       check_one(unknown);
       check_products(unknown, b);
       check_products(b, unknown);
+      all_unknown := (others => 'X');
+      check("sum of products with a bit unknown", std_logic_vector(sum_of_products(std_logic_vector(a & unknown),
+        std_logic_vector(b & b), 2, 2 * bits + 1)), all_unknown);
     end procedure;
 
     -- What is meant, from C++.

@@ -34,8 +34,9 @@ architecture sim of plane_interpolator_run is
   signal span_load  : std_logic := '0';
   signal span_step  : std_logic := '0';
 
-  signal plain   : words_t;
-  signal outputs : outputs_t(c_forms'range);
+  signal plain    : words_t;
+  signal unprobed : words_t;
+  signal outputs  : outputs_t(c_forms'range);
 begin
   dut : entity work.plane_interpolator
     generic map (g_bits => g_bits, g_carries => g_carries)
@@ -49,6 +50,19 @@ begin
       span_step  => span_step,
       line_value => plain(line_value),
       value      => plain(value));
+
+  without_probe : entity work.plane_interpolator
+    generic map (g_bits => g_bits, g_carries => g_carries, g_probe => false)
+    port map (
+      clk        => clk,
+      plane      => plane,
+      line_load  => line_load,
+      line_step  => line_step,
+      line_carry => line_carry,
+      span_load  => span_load,
+      span_step  => span_step,
+      line_value => unprobed(line_value),
+      value      => unprobed(value));
 
   forms : for i in c_forms'range generate
     form : entity work.plane_interpolator
@@ -91,6 +105,10 @@ begin
       before := plain & before(0 to c_most - 1);
       for field in field_t loop
         vectors.check_word_if(checked(0), field_t'image(field), plain(field));
+        if (field = value and checked(0) = '1' and unprobed(field) /= plain(field))
+          or (field /= value and unprobed(field) /= (unprobed(field)'range => '0')) then
+          vectors.fail(field_t'image(field) & " without a probe is " & to_hstring(unprobed(field)));
+        end if;
         for i in c_forms'range loop
           if checked(c_forms(i).behind) = '1' and outputs(i)(field) /= before(c_forms(i).behind)(field) then
             vectors.fail(field_t'image(field) & " in parts: " & to_string(c_forms(i).parts) & ", ahead: "

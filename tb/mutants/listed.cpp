@@ -35,8 +35,9 @@ constexpr Listed c_listed[] = {
      "c_table(i + 1) - c_table(i) - boolean'pos(i = 7)"},
     {"tables/function_pkg.vhd", "508, 500,", "508, 501,", "tables/function_rom.vhd"},
     {"tables/function_rom.vhd", "if enable = '1' then", "if enable = '1' or address(0) = '1' then"},
-    // Carries lost, a digit's too; the sign forgotten; what is unknown passed for '0'; a word's last bit
-    // forgotten.
+    // A carry lost, and a digit's; the sign forgotten; one less by the bits of one more; what is unknown
+    // equal
+    // to itself.
     {"arithmetic/quick_numeric_pkg.vhd", "carried := x;", "carried := '0';"},
     {"arithmetic/quick_numeric_pkg.vhd", "half := half - 1;", "half := half;"},
     {"arithmetic/quick_numeric_pkg.vhd", "digit := digit - weight;", "digit := digit + weight;"},

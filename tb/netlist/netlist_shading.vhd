@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- The shading processors' arithmetic, both presets, a result a lane: what GHDL simulates with its products taken
--- through integers must be what its netlist computes. And what the way to a simulator says in another way than the RTL.
+-- The shading processors' arithmetic, both presets, a result a lane: what GHDL simulates with products by
+-- quick_numeric_pkg must be what its netlist computes. And what the way to a simulator says in another way than the RTL.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;

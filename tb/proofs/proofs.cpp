@@ -139,8 +139,8 @@ std::vector<Proof> all_proofs() {
           {"arithmetic/multiplier.vhd", "enable & r.filled(1)", "enable & enable"},
           {"arithmetic/multiplier.vhd", "resize(r.halves(1), whole_t", "resize(r.halves(0), whole_t"},
           {"arithmetic/multiplier.vhd", "and digit(digit'high)", "and not digit(digit'high)"},
-          {"arithmetic/multiplier.vhd", gated ? "digit * whole" : "shift_left(result, 1)",
-           gated ? "digit * not whole" : "result"}}});
+          {"arithmetic/multiplier.vhd", gated ? "digit * word" : "shift_left(result, 1)",
+           gated ? "digit * not word" : "result"}}});
   proofs.push_back(
       {"arithmetic/angle_address",
        "arithmetic/angle_address.psl",
