@@ -687,7 +687,7 @@ TEST_F(WrongTable, AFlippedBitOfAnUnusedRomIsCaught) {
 // GHDL's testbench ends a run that draws on and on, and knows no cycles then.
 using RunawayRtl = WrongRtl;
 TEST_F(RunawayRtl, HasNoCyclesThatNobodyCounted) {
-  ASSERT_NO_FATAL_FAILURE(change("raster/triangle_walker.vhd", "", "pixels + behind;", "pixels;"));
+  ASSERT_NO_FATAL_FAILURE(change("raster/triangle_walker.vhd", "", "sum(pixels, behind);", "pixels;"));
   const Outcome drawn = sim("quadratic", "ghdl");
   EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
   EXPECT_THAT(drawn.output,
@@ -708,16 +708,16 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Fault{"part_interpolator_sign", "quadratic", "interpolation/part_interpolator.vhd",
                             "sum_of(value, addend", "sum_of(value, not addend", "line stage"},
                       Fault{"edge_without_carry", "quadratic", "raster/edge_walker.vhd",
-                            "(r.quotient & r.carry)", "(r.quotient & '0')", "edge_walker"},
+                            "r.quotient & r.carry", "r.quotient & '0'", "edge_walker"},
                       Fault{"saturate_off_by_a_bit", "quadratic", "arithmetic/saturate.vhd",
                             "value(c_result_high downto g_fraction_bits)",
                             "value(c_result_high + 1 downto g_fraction_bits + 1)", "fragment stage"},
                       Fault{"span_one_pixel_short", "quadratic", "raster/triangle_walker.vhd",
-                            "if r.line.more = 0 then", "if r.line.more <= 1 then", "triangle_walker"},
+                            "if is_zero(r.line.more) then", "if r.line.more <= 1 then", "triangle_walker"},
                       Fault{"angle_not_folded", "spherical", "arithmetic/angle_address.vhd",
                             "not angle when angle(c_sign) = '1' else angle", "angle", "sample stage"},
                       Fault{"product_of_the_wrong_operand", "spherical", "arithmetic/multiplier.vhd",
-                            "* unsigned(b)", "* unsigned(not b)",
+                            "unsigned(b)", "unsigned(not b)",
                             "product stage (multiplier, or diffuse_slice around it)"},
                       Fault{"factors_of_the_slice_inverted", "spherical", "illumination/specular_slice.vhd",
                             "start => part(part'high downto c_factors_low)",
