@@ -12,12 +12,13 @@ package tb_pkg is
   constant c_half_period : time := 5 ns;
 
   -- An interpolator as faster hardware has it: parts of a word, what is added chosen ahead, clocks more until it comes (of a
-  -- plane alone), clocks behind the plain one.
+  -- plane alone), words for a probe, clocks behind the plain one.
   type interpolator_form_t is record
     parts  : positive;
     ahead  : boolean;
     late   : natural;
-    behind : positive;
+    probe  : boolean;
+    behind : natural;
   end record;
 
   type interpolator_forms_t is array (natural range <>) of interpolator_form_t;
