@@ -386,13 +386,14 @@ class SphericalSetup::ExactTriangle {
     return true;
   }
   bool plan(const golden::TriangleWalker<Exact>& line, bool look, Part& part) const {
-    const bool empty = line.line_empty() || setup_.lights_.empty();
-    part.lines.push_back({empty, 0.0, 0.0});
-    if (empty) return true;
+    if (line.line_empty() || setup_.lights_.empty()) {
+      part.lines.push_back({true, 0.0, 0.0});
+      return true;
+    }
     const Span at = span_of(line);
     const SpanArcs arcs = arcs_of(at);
     if (look && !interpolates_well(at, arcs)) return false;
-    part.lines.back() = {empty, arcs.first, arcs.step};
+    part.lines.push_back({false, arcs.first, arcs.step});
     part.arcs.insert(part.arcs.end(), arcs.light.begin(),
                      arcs.light.begin() + static_cast<std::ptrdiff_t>(setup_.lights_.size()));
     return true;
