@@ -35,7 +35,7 @@ synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,-
   --page tb/synth/README.md . build/cache $${DESIGN:+"$$DESIGN"}
 
 .PHONY: help sim view compare why plan savings study slurm-test figures report check-report diagrams gallery tables \
-  check-tables test sanitize fuzz kills mutate prove stability search bounds synth bench build program generator configure \
+  check-tables test sanitize fuzz kills mutate prove stability search bounds synth bench build program generator mcode configure \
   setup doctor format check-format clean
 
 help: ## this list
@@ -135,7 +135,7 @@ tables: generator ## write ROMs and formats anew
 check-tables: generator ## fail if make tables would change anything
 	@build/halfway_generator tables --check $(table_options)
 
-test: build ## every test
+test: build mcode ## every test
 	@flock -o build/test.lock ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
 
 sanitize: setup ## every test with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitize
@@ -179,10 +179,13 @@ synth: configure ## cells on two FPGAs, and the clock on one, against what is pi
 	@build/tb/synth_frames
 	@build/tb/halfway_synth $(synth_options)
 
-bench: configure ## speed: other ways to the same picture, growth, small triangles, cores; writes its page
-	@scripts/unpack.sh build/tools/ghdl-mcode ghdl-mcode ghdl-common || true
+bench: configure mcode ## speed: other ways to the same picture, growth, small triangles, cores; writes its page
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_bench
 	@build/halfway_bench --jobs "$(jobs)" --page model/bench/README.md --readme README.md
+
+# GHDL's other back end, beside the installed one.
+mcode: setup
+	@scripts/unpack.sh build/tools/ghdl-mcode ghdl-mcode ghdl-common || echo 'without it: its way is skipped' >&2
 
 build: program ## program and tests
 	@$(lock) cmake --build build -j "$(jobs)"
@@ -200,24 +203,22 @@ configure: setup
 	elif [ -f build/configure.stamp ] && [ "$$(cat build/configure.stamp)" = "$$key" ]; then exit 0; fi; \
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
-# Installs what scripts/packages.txt lists and the machine lacks; `make bench` needs some packages more, and so
-# do `make study`, `make plan MEASURE=1`, `make synth`, `make prove`, `make bounds`, `make mutate`, `make fuzz`,
-# `make sanitize`, `make diagrams`, `make check-report` and `make view VIDEO=…`.
+# Installs what scripts/packages.txt lists and the machine lacks: for every target the groups build and sim.
+with_tools := bench bounds check-report diagrams figures format check-format fuzz gallery mutate prove report sanitize \
+  savings slurm-test study synth test
 setup:
-	@$(lock) scripts/setup.sh $(filter bench prove bounds mutate synth study,$(MAKECMDGOALS)) \
-	  $(if $(filter gallery,$(MAKECMDGOALS)),study) $(if $(filter savings,$(MAKECMDGOALS)),synth) \
-	  $(if $(filter fuzz sanitize,$(MAKECMDGOALS)),fuzz) $(if $(filter check-report diagrams,$(MAKECMDGOALS)),report) \
-	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,synth)) \
-	  $(if $(filter study,$(MAKECMDGOALS)),$(call flag,PLACE,synth)) \
-  $(if $(filter view,$(MAKECMDGOALS)),$(call flag,VIDEO,video))
+	@$(lock) scripts/setup.sh $(if $(filter $(with_tools),$(MAKECMDGOALS)),tools) \
+	  $(if $(filter test check-report sanitize slurm-test,$(MAKECMDGOALS)),test) \
+	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,tools)) \
+	  $(if $(filter view,$(MAKECMDGOALS)),$(call flag,VIDEO,tools))
 
 doctor: ## tools and libraries found, and the command that mends what is missing
 	@sh scripts/setup.sh --doctor
 
-format: ## format C++ and VHDL
+format: setup ## format C++ and VHDL
 	@scripts/format.sh
 
-check-format: ## fail if make format would change anything
+check-format: setup ## fail if make format would change anything
 	@scripts/format.sh --check
 
 clean: ## remove everything that was built

@@ -4,8 +4,7 @@
 #
 #   scripts/format.sh [--check]   --check changes nothing and names what would change
 #
-# Exit codes: 0 all is formatted, 1 something is not or cannot be, 2 bad usage, 3 a formatter is missing; with
-# --check a missing formatter is 77 instead, ctest's SKIP_RETURN_CODE.
+# Exit codes: 0 all is formatted, 1 something is not or cannot be, 2 bad usage, 3 a formatter is missing.
 set -eu
 export LC_ALL=C
 cd "$(dirname "$0")/.."
@@ -26,7 +25,7 @@ bad=0
 lacks_tool=0
 
 missing() { # tool
-  echo "format: $1 is missing; scripts/setup.sh format installs what formatting needs" >&2
+  echo "format: $1 is missing; scripts/setup.sh tools installs what formatting needs" >&2
   lacks_tool=1
 }
 
@@ -112,6 +111,4 @@ format_vhdl() {
 format_cpp
 format_vhdl
 if [ "$bad" != 0 ]; then exit 1; fi
-if [ "$lacks_tool" != 0 ]; then
-  if $check; then exit 77; else exit 3; fi
-fi
+if [ "$lacks_tool" != 0 ]; then exit 3; fi

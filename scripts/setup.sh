@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs what scripts/packages.txt lists and this machine lacks, by apt-get.
 #
-#   scripts/setup.sh [GROUP...]   the groups build, sim and test, and those named
+#   scripts/setup.sh [GROUP...]   the groups build and sim, and those named
 #   scripts/setup.sh --doctor     report on every group, install nothing
 #
 # Exit codes: 0 all is there, 2 bad usage, 3 something is missing or too old.
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.."
 
 list=scripts/packages.txt
 log=build/setup.log
-needed_groups="build sim test"
+needed_groups="build sim"
 lock_seconds=${HALFWAY_LOCK_SECONDS:-300}
 tab=$(printf '\t')
 
@@ -139,7 +139,7 @@ fail() { # packages why
   exit 3
 }
 
-# What set-up's answer hangs on: the list, the packages installed, and where commands and headers are looked for.
+# The answer depends on the list, the packages installed, and where commands and headers are searched for.
 machine_key() {
   printf '%s|%s|%s|%s' "$(cksum <"$list")" "$(stat -c %y /var/lib/dpkg/status 2>/dev/null || true)" "$PATH" "${CPATH-}"
 }

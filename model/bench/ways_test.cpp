@@ -50,8 +50,10 @@ TEST_P(WayTest, DrawsTheRightPictureAndSeesAWrongOne) {
     scene_ = *load_scene("spheres", c_source / "sim/scenes");
     size_ = {160, 120};
   }
-  if (const std::string lacks = lacking(way, input().folders); !lacks.empty())
-    GTEST_SKIP() << to_string(way) << ": not here: " << lacks;
+  const std::string lacks = lacking(way, input().folders);
+  // GHDL's other back end is downloaded, not installed: a machine without network has none.
+  if (way == Way::ghdl_mcode && !lacks.empty()) GTEST_SKIP() << to_string(way) << ": not here: " << lacks;
+  ASSERT_EQ(lacks, "") << to_string(way);
   const auto go = make_way(way, input());
   ASSERT_TRUE(go) << go.error().message;
   const auto seconds = (*go)();

@@ -54,7 +54,7 @@ class CellsTest : public ::testing::Test {
 };
 
 TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
-  if (find_program("yosys").empty()) GTEST_SKIP() << "no yosys: " << kInstallYosys;
+  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << kInstallYosys;
   const auto grey = count(grey_), coloured = count(coloured_);
   ASSERT_TRUE(grey) << grey.error().message;
   ASSERT_TRUE(coloured) << coloured.error().message;
@@ -110,7 +110,7 @@ TEST_F(CellsTest, ChangedRtlIsCountedAnew) {
 
 // The shading processors' alone, which have wide ones and many.
 TEST_F(CellsTest, MultipliersOfTheShadingProcessorsAreNoLuts) {
-  if (find_program("yosys").empty()) GTEST_SKIP() << "no yosys: " << kInstallYosys;
+  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << kInstallYosys;
   HardwareKey key{.shader = Shader::processors, .preset = Preset::published, .channels = 1};
   const auto ambient = count(key);
   ASSERT_TRUE(ambient) << ambient.error().message;

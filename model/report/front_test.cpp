@@ -40,7 +40,7 @@ dear,spherical,published,7,20,d,300,15,4,g
 class FrontTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (find_program("gnuplot").empty()) GTEST_SKIP() << "no gnuplot here: apt-get install gnuplot-nox";
+    ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
   }
   Table read(const std::string& text) const {
     EXPECT_TRUE(write_file(here() / "t.csv", text));

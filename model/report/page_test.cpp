@@ -23,11 +23,11 @@ class ReportPage : public CommandTest {
  protected:
   void SetUp() override {
     CommandTest::SetUp();
-    if (HeadlessBrowser::program().empty())
-      GTEST_SKIP() << "no Chromium here: apt-get install chromium, or make check-report";
-    if (find_program("gnuplot").empty()) GTEST_SKIP() << "no gnuplot here: apt-get install gnuplot-nox";
-    if (find_program("pdftotext").empty())
-      GTEST_SKIP() << "no pdftotext here: apt-get install poppler-utils, or make check-report";
+    ASSERT_FALSE(HeadlessBrowser::program().empty())
+        << "no Chromium here: apt-get install chromium, or make check-report";
+    ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
+    ASSERT_FALSE(find_program("pdftotext").empty())
+        << "no pdftotext here: apt-get install poppler-utils, or make check-report";
     const auto here = folder_->path();
     ASSERT_TRUE(make_folders(here / "figures"));
     ASSERT_TRUE(write_file(

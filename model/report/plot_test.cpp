@@ -37,7 +37,7 @@ std::map<std::string, std::pair<double, double>> places_in(const std::string& sv
 class PlotTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (find_program("gnuplot").empty()) GTEST_SKIP() << "no gnuplot here: apt-get install gnuplot-nox";
+    ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
   }
   Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
 };

@@ -88,7 +88,7 @@ constexpr const char* c_study =
 )";
 
 TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
-  if (find_program("gnuplot").empty()) GTEST_SKIP() << "no gnuplot here: apt-get install gnuplot-nox";
+  ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
   put("study/study.csv", c_study);
   const Outcome outcome = report();
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;

@@ -444,7 +444,7 @@ TEST_F(StudyTest, TheTableTellsTheFront) {
 }
 
 TEST_F(StudyTest, CountsTheHostsInstructions) {
-  if (find_program("valgrind").empty()) GTEST_SKIP() << "no Valgrind: " << c_install_valgrind;
+  ASSERT_FALSE(find_program("valgrind").empty()) << "no Valgrind: " << c_install_valgrind;
   if (c_sanitized) GTEST_SKIP() << "Valgrind cannot run a program built with sanitizers";
   ASSERT_TRUE(write_file(folder_->path() / "space.toml",
                          "[[sweep]]\nmethod = [\"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));

@@ -17,7 +17,7 @@ namespace halfway::synth {
 class StandInTools : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (find_program("ghdl").empty()) GTEST_SKIP() << "no ghdl: " << kInstallGhdl;
+    ASSERT_FALSE(find_program("ghdl").empty()) << "no ghdl: " << kInstallGhdl;
     auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
     ASSERT_TRUE(folder) << folder.error().message;
     folder_.emplace(std::move(*folder));

@@ -154,7 +154,7 @@ class ProofProgram : public ::testing::Test {
 };
 
 TEST_F(ProofProgram, EndsWithOneWhereAPropertyIsFalse) {
-  if (!find_tools()) GTEST_SKIP() << find_tools().error().message;
+  ASSERT_TRUE(find_tools()) << find_tools().error().message;
   EXPECT_EQ(run({}, "parameter_register").exit_code, 0);
   exchange("rtl/stream/parameter_register.vhd", "value <= start;", "value <= not start;");
   const Outcome outcome = run({"--no-faults"}, "parameter_register");
@@ -163,7 +163,7 @@ TEST_F(ProofProgram, EndsWithOneWhereAPropertyIsFalse) {
 }
 
 TEST_F(ProofProgram, EndsWithOneWhereAFaultIsNotRefuted) {
-  if (!find_tools()) GTEST_SKIP() << find_tools().error().message;
+  ASSERT_TRUE(find_tools()) << find_tools().error().message;
   exchange("tb/proofs/stream/parameter_register.psl", "value = ghost_word", "value = value");
   const Outcome outcome = run({}, "parameter_register");
   EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
@@ -171,7 +171,7 @@ TEST_F(ProofProgram, EndsWithOneWhereAFaultIsNotRefuted) {
 }
 
 TEST_F(ProofProgram, EndsWithThreeWhereAUnitDoesNotCompile) {
-  if (!find_tools()) GTEST_SKIP() << find_tools().error().message;
+  ASSERT_TRUE(find_tools()) << find_tools().error().message;
   exchange("tb/proofs/stream/parameter_register.psl", "value = ghost_word", "value = ghost_words");
   EXPECT_EQ(run({"--no-faults"}, "parameter_register").exit_code, 3);
 }

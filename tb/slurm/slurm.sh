@@ -8,7 +8,7 @@
 #
 #   tb/slurm/slurm.sh HALFWAY CHECKOUT SCRATCH
 #
-# Exit codes: 0 all held, 1 something did not, 77 Slurm is not there or cannot run here.
+# Exit codes: 0 all held, 1 something did not, 3 Slurm is not installed, 77 it cannot run here.
 set -u
 halfway=$(realpath "$1")
 checkout=$(realpath "$2")
@@ -30,8 +30,10 @@ fail() {
 note() { echo "$(($(date +%s) - begun)) s: $*"; }
 
 for tool in munged slurmctld slurmd sbatch squeue scontrol scancel; do
-  command -v $tool >/dev/null ||
-    skip "no $tool; sudo apt-get install slurmctld slurmd slurm-client munge"
+  command -v $tool >/dev/null || {
+    echo "slurm.sh: no $tool; scripts/setup.sh test installs it" >&2
+    exit 3
+  }
 done
 
 # ---- Slurm, all of it in the scratch folder
