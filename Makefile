@@ -160,9 +160,13 @@ prove: configure ## formal proofs on the RTL, each with faults that it must refu
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_proofs
 	@build/tb/halfway_proofs --page tb/proofs/README.md . build/proofs
 
+families := edges quadratic spherical processors shadows illumination arithmetic conversions
 stability: configure ## hard cases, in specification, golden model and RTL: what breaks, and what holds
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_stability
-	@build/tb/halfway_stability --page tb/stability/README.md .
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_stability halfway_page
+	@rm -rf build/stability
+	@printf '%s\n' $(families) | xargs -P "$(jobs)" -I{} build/tb/halfway_stability --gtest_brief=1 \
+	  '--gtest_filter={}/HardCases.Full/*' --gtest_output=xml:build/stability/{}.xml
+	@build/tb/halfway_page tb/stability/README.md $(families:%=build/stability/%.xml)
 
 search: configure ## random triangles in golden model and RTL; what fails is shrunk and kept (TRIANGLES, SEED)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_search

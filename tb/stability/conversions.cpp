@@ -658,35 +658,37 @@ void mesh_files(Trial& trial) {
 }
 
 constexpr HardCase c_cases[] = {
-    {"Where reals become integers", "a cast of what does not fit is undefined",
-     "one function, listed callers", "no other conversion in the sources", "conversions", Published::silent,
-     sites},
-    {"Any double to an integer", "a cast", "to_integer: held, 0 for what is no number", "against GMP", "of 1",
-     Published::silent, integers},
-    {"Words of any real", "ldexp past every integer", "held, or modulo the word", "against GMP", "of 1",
-     Published::silent, words},
-    {"Channels of a picture", "255 v + 0.5", "0 and 255 by comparisons", "half a step from 255 v", "steps",
-     Published::silent, channels},
-    {"Snapped vertices", "x/w of any scene", "what no double holds is left out and counted",
-     "in the guard band, or counted", "vertices", Published::silent, snapped},
-    {"No number in a scene", "NaN and infinity, past the loader", "the plan refuses the scene by name",
-     "refused; setup alone stays in the frame", "scenes", Published::silent, no_numbers},
-    {"Extreme numbers in a scene", "±1.8·10³⁰⁸, denormals, −0, past the loader",
+    {"sites", "Where reals become integers", "a cast of what does not fit is undefined",
+     "one function, listed callers", "no other conversion in the sources", "conversions",
+     PublishedForm::silent, sites},
+    {"integers", "Any double to an integer", "a cast", "to_integer: held, 0 for what is no number",
+     "against GMP", "of 1", PublishedForm::silent, integers},
+    {"words", "Words of any real", "ldexp past every integer", "held, or modulo the word", "against GMP",
+     "of 1", PublishedForm::silent, words},
+    {"channels", "Channels of a picture", "255 v + 0.5", "0 and 255 by comparisons", "half a step from 255 v",
+     "steps", PublishedForm::silent, channels},
+    {"snapped", "Snapped vertices", "x/w of any scene", "what no double holds is left out and counted",
+     "in the guard band, or counted", "vertices", PublishedForm::silent, snapped},
+    {"no_numbers", "No number in a scene", "NaN and infinity, past the loader",
+     "the plan refuses the scene by name", "refused; setup alone stays in the frame", "scenes",
+     PublishedForm::silent, no_numbers},
+    {"extremes", "Extreme numbers in a scene", "±1.8·10³⁰⁸, denormals, −0, past the loader",
      "refused, or left out and counted", "else the illumination model, but for threshold, fit and table",
-     "colour steps", Published::silent, extremes},
-    {"Extreme numbers, other shaders", "the same", "the same", "in the frame", "fragments", Published::silent,
-     extremes_elsewhere},
-    {"Extreme numbers, the reference picture", "NaN too: places in the tree of boxes",
-     "no box, no place in it", "each covered pixel; shadows as without the tree", "pictures and rays",
-     Published::silent, extremes_in_the_reference},
-    {"Numbers of a scene file", "nan, inf, 1e999, ±1e308 in a file", "refused with file and line",
-     "or a sound scene", "scenes", Published::silent, scene_files},
-    {"Numbers of a mesh file", "the same in OBJ, PLY and STL; polygons of 2⁶⁴ corners",
-     "refused with the file's name", "or a sound scene", "scenes", Published::silent, mesh_files},
+     "colour steps", PublishedForm::silent, extremes},
+    {"extremes_elsewhere", "Extreme numbers, other shaders", "the same", "the same", "in the frame",
+     "fragments", PublishedForm::silent, extremes_elsewhere},
+    {"extremes_in_the_reference", "Extreme numbers, the reference picture",
+     "NaN too: places in the tree of boxes", "no box, no place in it",
+     "each covered pixel; shadows as without the tree", "pictures and rays", PublishedForm::silent,
+     extremes_in_the_reference},
+    {"scene_files", "Numbers of a scene file", "nan, inf, 1e999, ±1e308 in a file",
+     "refused with file and line", "or a sound scene", "scenes", PublishedForm::silent, scene_files},
+    {"mesh_files", "Numbers of a mesh file", "the same in OBJ, PLY and STL; polygons of 2⁶⁴ corners",
+     "refused with the file's name", "or a sound scene", "scenes", PublishedForm::silent, mesh_files},
 };
 
-}  // namespace
+INSTANTIATE_TEST_SUITE_P(conversions, HardCases, testing::ValuesIn(c_cases), id_of);
 
-const Family c_conversions{"conversions", c_cases};
+}  // namespace
 
 }  // namespace halfway::stability

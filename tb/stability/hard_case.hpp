@@ -1,46 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-// The registry of hard cases: where a published formula breaks, what is done about it, and what then holds.
+// Hard cases: where a published formula breaks, what is done about it, and what then holds. Each family is a
+// file that lists its cases and instantiates the tests HardCases with them.
 #pragma once
 
-#include <span>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <ostream>
+#include <string>
 #include <string_view>
+
+#include "stability/trial.hpp"
 
 namespace halfway::stability {
 
-class Trial;
-
-/// What the published form does in the case.
-enum class Published {
-  breaks,  ///< it must be seen past the bound
-  holds,   ///< it must stay within it
-  silent   ///< no paper has such a form: there is no figure
-};
-
-/// A line of the registry. `run` sweeps the case: it hands every figure and its bound to the trial, and draws
-/// what reaches the hardware.
 struct HardCase {
+  std::string_view id;  ///< the test's name
   std::string_view name;
   std::string_view breaks;  ///< the formula, and where it stands
   std::string_view remedy;
   std::string_view holds;  ///< the property that the figures measure
   std::string_view unit;   ///< of figures and bounds
-  Published published;
-  void (*run)(Trial&);
+  PublishedForm published;
+  /// Gives every figure and its bound to the trial, and draws what reaches the hardware.
+  void (*sweep)(Trial&);
+
+  friend void PrintTo(const HardCase& c, std::ostream* out) { *out << c.name; }
 };
 
-/// One file each, which holds its cases in one array.
-struct Family {
-  std::string_view name;
-  std::span<const HardCase> cases;
+/// Two tests for each case: `Quick` takes part of a second, `Full` up to minutes. Both record the row of the
+/// page. A family's cases share simulators.
+class HardCases : public testing::TestWithParam<HardCase> {
+ protected:
+  static void SetUpTestSuite() { s_simulators = std::make_unique<Simulators>(); }
+  static void TearDownTestSuite() { s_simulators.reset(); }
+  void sweep(bool quick);
+
+ private:
+  static std::unique_ptr<Simulators> s_simulators;
 };
 
-extern const Family c_edges;
-extern const Family c_quadratic;
-extern const Family c_spherical;
-extern const Family c_processors;
-extern const Family c_illumination;
-extern const Family c_conversions;
-extern const Family c_shadows;
-extern const Family c_arithmetic;
+inline std::string id_of(const testing::TestParamInfo<HardCase>& info) {
+  return std::string(info.param.id);
+}
 
 }  // namespace halfway::stability

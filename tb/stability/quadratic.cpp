@@ -492,36 +492,40 @@ constexpr std::string_view c_colour = "the quadratic at the pixel's centre, roun
                                "quadratic, section 5: b > log2 M, as if second differences did not add up";
 
 constexpr HardCase c_cases[] = {
-    {"Y2 = 0", "quadratic, section 3: T3 = (2 C12 - T5 X2^2 - T4 X2 Y2) / Y2^2",
-     "T3 to T5 over D^2, one division", c_colour, "steps", Published::breaks, level_edge},
-    {"Slivers", "quadratic, section 3: five divisions in double, D near 0",
+    {"level_edge", "Y2 = 0", "quadratic, section 3: T3 = (2 C12 - T5 X2^2 - T4 X2 Y2) / Y2^2",
+     "T3 to T5 over D^2, one division", c_colour, "steps", PublishedForm::breaks, level_edge},
+    {"sliver_colours", "Slivers", "quadratic, section 3: five divisions in double, D near 0",
      "exact rationals, rounded once; sums wrap modulo 2^39, only the value at a covered pixel has to fit",
-     c_colour, "steps", Published::breaks, sliver_colours},
-    {"Spans of 4096 pixels", c_bits, "b = 28, about 2 log2 M", c_colour, "steps", Published::breaks,
-     long_spans},
-    {"4096 lines", c_bits, "b = 28, about 2 log2 M", c_colour, "steps", Published::breaks, tall_triangles},
-    {"4096 lines of 4096 pixels", c_bits, "b = 28, about 2 log2 M", c_colour, "steps", Published::breaks,
-     largest_triangles},
-    {"Overshoot below 0 and past 255", "quadratic, equation 4: leaves the samples' range",
-     "three bits above white, and saturation after the last sum", c_colour, "steps", Published::holds,
+     c_colour, "steps", PublishedForm::breaks, sliver_colours},
+    {"long_spans", "Spans of 4096 pixels", c_bits, "b = 28, about 2 log2 M", c_colour, "steps",
+     PublishedForm::breaks, long_spans},
+    {"tall_triangles", "4096 lines", c_bits, "b = 28, about 2 log2 M", c_colour, "steps",
+     PublishedForm::breaks, tall_triangles},
+    {"largest_triangles", "4096 lines of 4096 pixels", c_bits, "b = 28, about 2 log2 M", c_colour, "steps",
+     PublishedForm::breaks, largest_triangles},
+    {"overshoot", "Overshoot below 0 and past 255", "quadratic, equation 4: leaves the samples' range",
+     "three bits above white, and saturation after the last sum", c_colour, "steps", PublishedForm::holds,
      overshoot},
-    {"Overexposed samples", "quadratic, equation 4: samples have no end",
-     "samples are held at four times white", "white stays white", "steps", Published::holds, overexposed},
-    {"A highlight between the samples", "quadratic, section 4: the test at the centroid",
-     "a bound on N.H over the triangle", "Phong shading, within two thresholds", "steps", Published::breaks,
-     between_samples},
-    {"Pieces of one quadratic", "quadratic, section 4: midpoints become pixels, samples do not move",
-     "midpoints stay where they are sampled", c_colour, "steps", Published::breaks, split_alike},
-    {"Depth of slivers", "quadratic, section 5: stepped by the real slope, off the pixel's centre",
+    {"overexposed", "Overexposed samples", "quadratic, equation 4: samples have no end",
+     "samples are held at four times white", "white stays white", "steps", PublishedForm::holds, overexposed},
+    {"between_samples", "A highlight between the samples", "quadratic, section 4: the test at the centroid",
+     "a bound on N.H over the triangle", "Phong shading, within two thresholds", "steps",
+     PublishedForm::breaks, between_samples},
+    {"split_alike", "Pieces of one quadratic",
+     "quadratic, section 4: midpoints become pixels, samples do not move",
+     "midpoints stay where they are sampled", c_colour, "steps", PublishedForm::breaks, split_alike},
+    {"sliver_depths", "Depth of slivers",
+     "quadratic, section 5: stepped by the real slope, off the pixel's centre",
      "exact rationals, rounded once; sums wrap", "the plane at the pixel's centre, rounding and drift",
-     "depth steps", Published::breaks, sliver_depths},
-    {"Depth at near and far plane", "quadratic, section 5: pixels beside the triangle, whose depth wraps",
+     "depth steps", PublishedForm::breaks, sliver_depths},
+    {"depth_ends", "Depth at near and far plane",
+     "quadratic, section 5: pixels beside the triangle, whose depth wraps",
      "no pixel beside it; depths a step clear of the ends",
-     "the plane at the pixel's centre, rounding and drift", "depth steps", Published::breaks, depth_ends},
+     "the plane at the pixel's centre, rounding and drift", "depth steps", PublishedForm::breaks, depth_ends},
 };
 
-}  // namespace
+INSTANTIATE_TEST_SUITE_P(quadratic, HardCases, testing::ValuesIn(c_cases), id_of);
 
-const Family c_quadratic{"quadratic", c_cases};
+}  // namespace
 
 }  // namespace halfway::stability

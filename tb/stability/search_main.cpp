@@ -20,7 +20,7 @@
 #include "cli/program.hpp"
 #include "common/file.hpp"
 #include "common/seconds.hpp"
-#include "stability/page.hpp"
+#include "page/page.hpp"
 #include "stability/scene_search.hpp"
 #include "stability/search.hpp"
 #include "stability/shrink.hpp"
@@ -184,7 +184,7 @@ std::string section_body(const Search& search, const Options& options, const Tal
 }
 
 ExitCode run_search(const Search& search, const Options& options, std::uint64_t count,
-                    std::vector<Section>& sections) {
+                    std::vector<page::Section>& sections) {
   const auto began = std::chrono::steady_clock::now();
   const std::clock_t processor_began = std::clock();
   const auto seconds = [&] { return seconds_since(began); };
@@ -268,7 +268,7 @@ ExitCode replay(const std::vector<std::unique_ptr<Search>>& searches, const Opti
 }
 
 ExitCode run_all(const std::vector<std::unique_ptr<Search>>& searches, const Options& options) {
-  std::vector<Section> sections;
+  std::vector<page::Section> sections;
   ExitCode worst = ExitCode::equal;
   for (const auto& search : searches) {
     std::uint64_t count = options.quick ? search->quick_count() : search->full_count();
@@ -280,7 +280,7 @@ ExitCode run_all(const std::vector<std::unique_ptr<Search>>& searches, const Opt
     worst = std::max(worst, run_search(*search, options, count, sections));
   }
   if (options.page.empty()) return worst;
-  const auto written = write_sections(options.page, sections);
+  const auto written = page::write_sections(options.page, sections);
   if (written) return worst;
   fmt::print(stderr, "{}\n", written.error().message);
   return written.error().code;

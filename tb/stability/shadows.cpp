@@ -537,36 +537,41 @@ constexpr std::string_view c_holds =
     "off the shadows' edges light is wrong only where it grazes its triangle: up to this angle";
 
 constexpr HardCase c_cases[] = {
-    {"Volumes' shared edges", c_published_walk, "shadow polygons are walked exactly in either preset",
-     c_holds, "sine of the light's angle", Published::breaks, shared_edges},
-    {"The eye within volumes", "processors, section 3: at zero the object is lit",
-     "a count starts at the volumes around the eye", c_holds, "sine of the light's angle", Published::breaks,
-     within_volumes},
-    {"Volumes that the near plane cuts", "processors, section 3: shadow polygons open and close",
+    {"shared_edges", "Volumes' shared edges", c_published_walk,
+     "shadow polygons are walked exactly in either preset", c_holds, "sine of the light's angle",
+     PublishedForm::breaks, shared_edges},
+    {"within_volumes", "The eye within volumes", "processors, section 3: at zero the object is lit",
+     "a count starts at the volumes around the eye", c_holds, "sine of the light's angle",
+     PublishedForm::breaks, within_volumes},
+    {"near_plane_cuts", "Volumes that the near plane cuts",
+     "processors, section 3: shadow polygons open and close",
      "what is before the near plane is drawn at depth 0", c_holds, "sine of the light's angle",
-     Published::breaks, near_plane_cuts},
-    {"Open meshes", "processors, section 3: shadow polygons open and close",
+     PublishedForm::breaks, near_plane_cuts},
+    {"open_meshes", "Open meshes", "processors, section 3: shadow polygons open and close",
      "volumes of averted triangles, closed whatever the mesh is", c_holds, "sine of the light's angle",
-     Published::breaks, open_meshes},
-    {"A light in a solid", "processors, section 3: shadow polygons open and close",
+     PublishedForm::breaks, open_meshes},
+    {"light_inside", "A light in a solid", "processors, section 3: shadow polygons open and close",
      "casters are the triangles averted from the light", c_holds, "sine of the light's angle",
-     Published::breaks, light_inside},
-    {"Silhouettes at the terminator", "processors: N.L of an interpolated N, above zero on averted triangles",
+     PublishedForm::breaks, light_inside},
+    {"terminators", "Silhouettes at the terminator",
+     "processors: N.L of an interpolated N, above zero on averted triangles",
      "a triangle averted from the light lies in its own volume", c_holds, "sine of the light's angle",
-     Published::silent, terminators},
-    {"Plates that touch, in grazing light", "processors, section 3: shadow polygons in depths of 24 bits",
+     PublishedForm::silent, terminators},
+    {"plates", "Plates that touch, in grazing light",
+     "processors, section 3: shadow polygons in depths of 24 bits",
      "none: sides that meet surfaces are left to the last bits", c_holds, "sine of the light's angle",
-     Published::breaks, plates},
-    {"A counter at its ends", "processors, figure 2: a shadow counter, without a width",
+     PublishedForm::breaks, plates},
+    {"counters", "A counter at its ends", "processors, figure 2: a shadow counter, without a width",
      "10 bits; past them a fault that golden model and simulators see; less than none is none",
-     "lit up to zero, dark above it, fault past either end", "pixels", Published::silent, counters},
-    {"511 volumes over one another, and 512", "processors, figure 2: a shadow counter, without a width",
+     "lit up to zero, dark above it, fault past either end", "pixels", PublishedForm::silent, counters},
+    {"deep_shadows", "511 volumes over one another, and 512",
+     "processors, figure 2: a shadow counter, without a width",
      "setup counts the deepest, and a scene past 511 is refused", "pixels, counts and faults as by rays",
-     "pixels", Published::silent, deep_shadows},
+     "pixels", PublishedForm::silent, deep_shadows},
 };
 
-}  // namespace
+INSTANTIATE_TEST_SUITE_P(shadows, HardCases, testing::ValuesIn(c_cases), id_of);
 
-const Family c_shadows{"shadows", c_cases};
+}  // namespace
 
 }  // namespace halfway::stability

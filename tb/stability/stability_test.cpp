@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the hard cases and searches stand on: the shrinker, its files, the page, the specification's spans.
+// What the hard cases and searches stand on: the shrinker, its files, the verdict on figures, the
+// specification's spans.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <tuple>
 
 #include "setup/random_triangles.hpp"
-#include "stability/page.hpp"
 #include "stability/shrink.hpp"
 #include "stability/specification.hpp"
+#include "stability/trial.hpp"
 
 namespace halfway::stability {
 namespace {
@@ -110,14 +112,31 @@ TEST(Regression, SaysWhatIsWrongAndWhere) {
   }
 }
 
-TEST(Page, SectionsAreReplacedInPlaceOrAppended) {
-  const std::string page = "# Page\n\nIntro.\n\n## one\n\nold\n\n## two\n\nkept\n";
-  const Section sections[] = {{"one", "new\n"}, {"three", "added\n"}};
-  const std::string written = with_sections(page, sections);
-  EXPECT_EQ(written, "# Page\n\nIntro.\n\n## one\n\nnew\n\n## two\n\nkept\n\n## three\n\nadded\n");
-  EXPECT_EQ(with_sections(written, sections), written);
-  const Section last[] = {{"two", "other\n"}};
-  EXPECT_EQ(with_sections(page, last), "# Page\n\nIntro.\n\n## one\n\nold\n\n## two\n\nother\n");
+Worst worst_of(std::initializer_list<double> figures) {
+  Worst worst;
+  for (const double figure : figures) worst.add(figure, 1.0, [] { return "x"; });
+  return worst;
+}
+
+TEST(Refutation, ComesFromOurFiguresAlone) {
+  EXPECT_EQ(refutation(PublishedForm::silent, worst_of({0.5, 1.0}), {}), "");
+  EXPECT_EQ(refutation(PublishedForm::silent, {}, {}), "has no figure");
+  EXPECT_EQ(refutation(PublishedForm::silent, worst_of({0.5, 1.5, 1.0}), {}), "1.5 of 1 at x");
+  EXPECT_EQ(refutation(PublishedForm::silent, worst_of({NAN, 0.5}), {}), "nan of 1 at x");
+  EXPECT_EQ(refutation(PublishedForm::breaks, worst_of({2.0}), worst_of({2.0})), "2 of 1 at x");
+}
+
+TEST(Refutation, ComesFromPublishedFiguresThatAreNotAsExpected) {
+  const Worst ours = worst_of({1.0}), within = worst_of({1.0}), beyond = worst_of({0.0, INFINITY});
+  EXPECT_EQ(refutation(PublishedForm::breaks, ours, beyond), "");
+  EXPECT_EQ(refutation(PublishedForm::breaks, ours, within),
+            "the published form does not break: 1 of 1 at x");
+  EXPECT_EQ(refutation(PublishedForm::holds, ours, within), "");
+  EXPECT_EQ(refutation(PublishedForm::holds, ours, beyond), "the published form breaks: inf of 1 at x");
+  for (const PublishedForm expected : {PublishedForm::breaks, PublishedForm::holds})
+    EXPECT_EQ(refutation(expected, ours, {}), "has no figure of the published form");
+  EXPECT_EQ(refutation(PublishedForm::silent, ours, within),
+            "has a figure of the published form, and says that there is none");
 }
 
 // The spans are the definition, pixel by pixel.

@@ -52,6 +52,20 @@ void Worst::add(double next, double next_bound, const std::function<std::string(
   where = where_of();
 }
 
+std::string refutation(PublishedForm expected, const Worst& ours, const Worst& published) {
+  const auto beyond = [](const Worst& worst) {
+    return fmt::format("{:.4g} of {:.4g} at {}", worst.figure, worst.bound, worst.where);
+  };
+  if (ours.count == 0) return "has no figure";
+  if (!ours.within()) return beyond(ours);
+  if (expected == PublishedForm::silent)
+    return published.count == 0 ? "" : "has a figure of the published form, and says that there is none";
+  if (published.count == 0) return "has no figure of the published form";
+  if (published.within() == (expected == PublishedForm::holds)) return "";
+  return (published.within() ? "the published form does not break: " : "the published form breaks: ") +
+         beyond(published);
+}
+
 Result<Drawing> draw_golden(const Scene& scene, const DrawOptions& options) {
   const auto plan = plan_scene(scene, options.plan);
   if (!plan) return plan.error();

@@ -32,6 +32,16 @@ struct Worst {
   void add(double next, double next_bound, const std::function<std::string()>& where_of);
 };
 
+/// What the published form does in the case.
+enum class PublishedForm {
+  breaks,  ///< one of its figures must exceed the bound
+  holds,   ///< its figures must stay within the bound
+  silent   ///< no paper has such a form, so it has no figure
+};
+
+/// Why the figures refute the case; empty: they do not.
+std::string refutation(PublishedForm expected, const Worst& ours, const Worst& published);
+
 struct DrawOptions {
   PlanRequest plan{};
   FrameSize frame{64, 48};
