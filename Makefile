@@ -4,11 +4,94 @@
 .DEFAULT_GOAL := help
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 
-# What a target hands to the program. Values travel through the environment and are quoted where they are
-# used: neither make nor a shell ever reads them as code.
-variables := SCENE SHADER PRESET SIZE SIMULATOR OUT PIXEL THREADS ADDRESS_BITS DATA_BITS TESTS JOBS \
-  ALL_EFFECTS LIGHTS FORM FAST MEASURE OBJECTS RATE TRIANGLES SEED SECONDS TARGET FRAMES VIDEO TERMINAL \
-  SPACE FULL ERROR PSNR TIME CLOCK EXECUTOR PARTS TILE DESIGN SEEDS PIN
+# The variables that each target takes. A variable on the command line that no target of the call takes is an error:
+# it would be ignored.
+drawing := SCENE SHADER FORM PRESET SIZE ALL_EFFECTS LIGHTS FAST
+takes_sim := $(drawing) SIMULATOR OUT THREADS JOBS
+takes_view := $(drawing) SIMULATOR OUT THREADS FRAMES VIDEO RATE TERMINAL JOBS
+takes_compare := SCENE SHADER ALL_EFFECTS FAST OUT JOBS
+takes_why := $(drawing) PIXEL OUT JOBS
+takes_plan := $(drawing) SIMULATOR THREADS MEASURE OBJECTS RATE JOBS
+takes_savings := THREADS JOBS
+takes_study := SCENE SIZE OUT THREADS SPACE FULL TILE ERROR PSNR TIME CLOCK PLACE PIN EXECUTOR PARTS JOBS
+takes_slurm-test := JOBS
+takes_figures := JOBS
+takes_report := JOBS
+takes_check-report := JOBS
+takes_gallery := THREADS JOBS
+takes_tables := PRESET ADDRESS_BITS DATA_BITS JOBS
+takes_check-tables := $(takes_tables)
+takes_test := TESTS JOBS
+takes_sanitize := TESTS JOBS
+takes_fuzz := SECONDS TARGET JOBS
+takes_kills := JOBS
+takes_mutate := JOBS
+takes_prove := JOBS
+takes_stability := JOBS
+takes_search := TRIANGLES SEED JOBS
+takes_bounds := JOBS
+takes_synth := DESIGN SEEDS PIN JOBS
+takes_bench := JOBS
+takes_build := JOBS
+takes_program := JOBS
+takes_generator := JOBS
+
+# What `make help` says of each variable.
+about_SCENE := a built-in scene, a TOML file or a mesh file   (default: all built-in scenes)
+about_SHADER := quadratic, spherical or processors   (default: quadratic)
+about_FORM := folded or unrolled shading processors   (default: unrolled)
+about_PRESET := exact or published   (default: exact; make tables: both)
+about_SIZE := WIDTHxHEIGHT in pixels   (default: 640x480)
+about_ALL_EFFECTS := 1: hardware with every effect, whether or not the scene needs it
+about_LIGHTS := with ALL_EFFECTS: the number of lights of the hardware
+about_FAST := 1: the quadratic shader built for the clock: the same fragments
+about_SIMULATOR := ghdl, verilator or lanes; make view: auto, verilator or lanes   (default: ghdl and verilator; auto)
+about_OUT := the folder for results   (default: build/out)
+about_THREADS := threads for setup and golden model; make view: for whole frames   (default: all cores)
+about_FRAMES := steps of one turn of the camera   (default: 36)
+about_VIDEO := a file for a video
+about_RATE := frames per second: of the video; make plan: that the shading processors draw
+about_TERMINAL := 1: draw in the terminal
+about_PIXEL := x,y of the pixel that make why explains
+about_MEASURE := 1: count cells by Yosys, and cycles and seconds by simulation
+about_OBJECTS := objects per pixel that the shading processors draw
+about_SPACE := a TOML file of designs
+about_FULL := 1: the whole space of designs
+about_TILE := larger frames are drawn in tiles of WIDTHxHEIGHT   (default: 1280x960)
+about_ERROR := the cheapest hardware within so many steps of 1/255
+about_PSNR := the cheapest hardware of at least so many dB
+about_TIME := the best hardware in such a time, as in 10ms
+about_CLOCK := MHz of hardware whose clock is not known
+about_PLACE := 1: place and route hardware for its clock, minutes for each design
+about_PIN := 1: pin the figures instead of comparing them; make study PLACE=1: the clocks
+about_EXECUTOR := local, or slurm: as a job array   (default: local)
+about_PARTS := tasks of the job array   (default: 64)
+about_ADDRESS_BITS := address bits of the cosine tables   (default: 9; published 6)
+about_DATA_BITS := data bits of the cosine tables   (default: 8; published 6)
+about_TESTS := a regular expression: only the tests that match
+about_SECONDS := seconds for each fuzzer   (default: 60)
+about_TARGET := one fuzzer alone
+about_TRIANGLES := random triangles   (default: 10000000)
+about_SEED := which random triangles   (default: 1)
+about_DESIGN := only designs with this in their names   (default: all)
+about_SEEDS := seeds of placement   (default: 3)
+about_JOBS := parallel compilations, tests and fuzzers   (default: all cores)
+
+variables_in_order = $(shell sed -n 's/^about_\([A-Z_]*\) := .*/\1/p' $(firstword $(MAKEFILE_LIST)))
+variables := $(patsubst about_%,%,$(filter about_%,$(.VARIABLES)))
+targets := $(patsubst takes_%,%,$(sort $(filter takes_%,$(.VARIABLES))))
+users_of = $(strip $(foreach target,$(targets),$(if $(filter $(1),$(takes_$(target))),$(target))))
+goals := $(or $(MAKECMDGOALS),help)
+used := $(foreach goal,$(goals),$(takes_$(goal)))
+given := $(filter-out -%,$(foreach name,$(.VARIABLES),$(if $(filter command,$(origin $(name))),$(name))))
+unused := $(firstword $(filter-out $(used),$(given)))
+ifneq ($(unused),)
+$(error make $(goals) does not use $(unused): $(if $(call users_of,$(unused)),it belongs to \
+  $(call users_of,$(unused)),no target uses it); make $(goals) uses: $(or $(strip $(used)),no variables))
+endif
+
+# Values travel through the environment and are quoted where they are used: neither make nor a shell ever reads them as
+# code.
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
 
@@ -43,35 +126,9 @@ help: ## this list
 	@echo
 	@sed -n 's/^\([a-z0-9-]*\):.*## \(.*\)/  make \1	\2/p' Makefile | expand -t 22
 	@echo
-	@echo 'Variables, e.g. make sim SCENE=../shared/meshes/cow.obj SIZE=800x600'
-	@echo '  SCENE      a built-in scene, a TOML file or a mesh file   (default: all built-in scenes)'
-	@echo '  SHADER     quadratic, spherical or processors             (default: quadratic)'
-	@echo '  FORM       folded or unrolled shading processors          (default: unrolled)'
-	@echo '  PRESET     exact or published                             (default: exact)'
-	@echo '  SIZE       WIDTHxHEIGHT in pixels                         (default: 640x480)'
-	@echo '  SIMULATOR  ghdl, verilator or lanes; make view: auto, verilator or lanes (default: both; auto)'
-	@echo '  OUT        the folder for results                         (default: build/out)'
-	@echo '  THREADS    threads for setup and golden model; make view: for whole frames   (default: all cores)'
-	@echo '  ALL_EFFECTS  1: hardware with every effect, whatever the scene calls for; LIGHTS  for how many lights'
-	@echo '  FAST       1: the quadratic shader built for the clock: the same fragments'
-	@echo '  FRAMES     make view: steps of one turn of the camera         (default: 36)'
-	@echo '  VIDEO, RATE  make view: a file for a video, and its frames a second; TERMINAL  1: draw in the terminal'
-	@echo '  MEASURE    1: make plan counts cells by Yosys, and cycles and seconds by simulation'
-	@echo '  OBJECTS, RATE  make plan: how many shading processors draw so many objects a pixel, frames a second'
-	@echo '  ERROR, PSNR, TIME  make study: the cheapest hardware within so many steps of 1/255, of so many dB, in 10ms'
-	@echo '  CLOCK      make study: MHz that hardware is taken to run at whose clock is not known'
-	@echo '  PLACE      1: make study places and routes hardware for its clock, minutes for each design'
-	@echo '  FULL, SPACE  make study: 1: the whole space; or a TOML file of designs'
-	@echo '  EXECUTOR, PARTS  make study: slurm: as a job array of so many tasks   (default: local; 64)'
-	@echo '  TILE       make study: larger frames are drawn in tiles of WIDTHxHEIGHT   (default: 1280x960)'
-	@echo '  TRIANGLES, SEED  make search: how many, and which ones     (default: 10000000, 1)'
-	@echo '  PIXEL      x,y of the pixel that make why explains'
-	@echo '  ADDRESS_BITS, DATA_BITS   make tables: size of cosine tables  (default: 9, 8; published 6, 6)'
-	@echo '  TESTS      a regular expression: make test runs only the tests that match'
-	@echo '  JOBS       parallel compilations, tests and fuzzers       (default: all cores)'
-	@echo '  SECONDS, TARGET   make fuzz: for how long each (default: 60), and one target alone'
-	@echo '  DESIGN, SEEDS  make synth: only designs with this in their names; seeds of placement  (default: all, 3)'
-	@echo '  PIN        1: make synth pins the figures in place of comparing; make study PLACE=1 the clocks'
+	@echo 'Variables, e.g. make sim SCENE=../shared/meshes/cow.obj SIZE=800x600, and the targets that take each'
+	@printf '  %s\t%s   [%s]\n' $(foreach name,$(variables_in_order),'$(name)' '$(about_$(name))' \
+	  '$(if $(filter JOBS,$(name)),every target that builds,$(call users_of,$(name)))') | expand -t 16
 
 sim: program ## scenes through golden model, GHDL and Verilator: compare, write frames
 	@build/halfway sim $(sim_options) $(scene)
@@ -136,11 +193,11 @@ check-tables: generator ## fail if make tables would change anything
 	@build/halfway_generator tables --check $(table_options)
 
 test: build mcode ## every test
-	@flock -o build/test.lock ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
+	@unset MAKEFLAGS; flock -o build/test.lock ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
 
 sanitize: setup ## every test with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitize
 	@$(sanitized)
-	@LSAN_OPTIONS="suppressions=$$(pwd -P)/tb/fuzz/leaks.txt:print_suppressions=0" flock -o build/test.lock \
+	@unset MAKEFLAGS; LSAN_OPTIONS="suppressions=$$(pwd -P)/tb/fuzz/leaks.txt:print_suppressions=0" flock -o build/test.lock \
 	  ctest --test-dir build/sanitize --output-on-failure --no-tests=error -j "$(jobs)" \
 	  $${TESTS:+--tests-regex "$$TESTS"}
 

@@ -1,0 +1,82 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# Whether the Makefile refuses a variable that a target does not use, and whether its table is that of its recipes.
+#
+#   variables.sh MAKEFILE WORK_FOLDER
+set -u
+makefile=$(realpath "$1")
+work=$2
+unset MAKEFLAGS MFLAGS MAKELEVEL
+export LC_ALL=C
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work" || exit 1
+failures=0
+fail() {
+  echo "variables: $*" >&2
+  failures=$((failures + 1))
+}
+
+# The table as the Makefile itself reports it: the targets, the variables of one target, all variables.
+targets() { sed -n 's/^\([a-z0-9-]*\):[^=].*/\1/p; s/^\([a-z0-9-]*\):$/\1/p' "$1" | sort -u; }
+taken() { make -f "$1" -n "$2" NO_SUCH_VARIABLE=1 2>&1 | sed -n 's/.* uses: \(.*\)\.  Stop\.$/\1/p' | sed 's/^no variables$//' | xargs -n 1 | sort -u; }
+known() { sed -n 's/^about_\([A-Z_]*\) := .*/\1/p' "$1" | sort -u; }
+# The variables in the recipes of a target and of all that it depends on.
+used() { make -f "$1" -n "$2" 2>/dev/null | grep -oE '\$\{?[A-Z_]+' | tr -d '${' | sort -u | comm -12 - <(known "$1"); }
+
+# Whether a target's recipes use exactly what the table says.
+agrees() { [ "$(used "$1" "$2")" = "$(taken "$1" "$2")" ]; }
+
+# Without these files, make report would call make again.
+mkdir -p build/study build/figures
+touch build/study/study.csv build/figures/figures.json
+cp "$makefile" Makefile
+[ "$(targets Makefile | wc -l)" -gt 25 ] || fail "few targets are found: $(targets Makefile)"
+for target in $(targets Makefile); do
+  agrees Makefile "$target" ||
+    fail "make $target: its recipe uses $(used Makefile "$target" | xargs), its table says $(taken Makefile "$target" | xargs)"
+done
+
+# The check above finds a variable that the table lacks, and one too many.
+sed 's/^\(takes_why := .*\) PIXEL/\1/' Makefile >lacking.mk
+sed 's/^\(takes_search := .*\)/\1 PIXEL/' Makefile >surplus.mk
+! agrees lacking.mk why || fail "a variable that the table lacks is not found"
+! agrees surplus.mk search || fail "a variable too many in the table is not found"
+
+# Refused: exit code 2, a message that names all that matters, and nothing done.
+refused() { # arguments of make, words of the message
+  local arguments=$1 output word
+  shift
+  output=$(eval "make $arguments" 2>&1)
+  [ $? = 2 ] || fail "make $arguments: the exit code is not 2"
+  for word in "$@"; do
+    [[ $output == *"$word"* ]] || fail "make $arguments: '$word' is missing in: $output"
+  done
+  [ ! -e build/make.lock ] || fail "make $arguments: the check comes after set-up"
+}
+refused 'sim ADDRESS_BITS=10' 'make sim does not use ADDRESS_BITS' 'belongs to check-tables tables' 'uses: SCENE SHADER'
+refused 'sim SCNE=x' 'make sim does not use SCNE' 'no target uses it' 'uses: SCENE'
+refused "sim 'SCENE=a b' 'SCNE=c SIZE=d e'" 'does not use SCNE'
+refused 'SIZE=9x9' 'make help does not use SIZE' 'uses: no variables'
+refused 'clean SIZE=9x9' 'make clean does not use SIZE'
+refused 'sim compare TILE=9x9' 'make sim compare does not use TILE'
+
+accepted() {
+  eval "$1" >accepted.log 2>&1 || fail "$1: $(cat accepted.log)"
+}
+accepted 'make -n sim "SCENE=a b=c \$(touch touched)" SIZE=9x9 OUT='
+[ ! -e touched ] || fail 'make runs the text of a variable'
+accepted 'make -n tables ADDRESS_BITS=10 DATA_BITS=9'
+accepted 'make -n sim compare SIZE=9x9'
+# The environment is not the command line.
+accepted 'ADDRESS_BITS=10 make -n sim'
+
+# Every variable of the table is explained.
+make help >help.log || fail 'make help fails'
+for name in $(known Makefile); do
+  grep -q "^  $name  *[^ ]" help.log || fail "make help does not explain $name"
+done
+for name in $(sed -n 's/^\(takes_[a-z-]*\|drawing\) := //p' Makefile | tr ' ' '\n' | grep '^[A-Z_]*$' | sort -u); do
+  known Makefile | grep -qx "$name" || fail "make help does not explain $name"
+done
+[ $failures = 0 ] && echo 'variables: passed'
