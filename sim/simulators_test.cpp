@@ -13,11 +13,11 @@
 #include <thread>
 #include <vector>
 
-#include "common/file.hpp"
-#include "frame/init_file.hpp"
-#include "frame/trace.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
 #include "sim/lanes/lane_simulator.hpp"
+#include "sim/stream_files/init_file.hpp"
+#include "sim/stream_files/trace.hpp"
+#include "sim/system/file.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {

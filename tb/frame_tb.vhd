@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Drives a shader from an init file and writes its fragments as a trace (model/frame/init_file.hpp and trace.hpp
+-- Drives a shader from an init file and writes its fragments as a trace (sim/stream_files/init_file.hpp and trace.hpp
 -- give the formats). At most one vector and one fragment move at each rising edge; inputs change after the edge,
 -- outputs are sampled with the next one, as a register would.
 --

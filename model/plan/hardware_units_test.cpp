@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "plan/plan.hpp"
-#include "scene/load_scene.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/scene_files/load_scene.hpp"
 
 namespace halfway {
 namespace {

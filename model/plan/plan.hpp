@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "common/result.hpp"
-#include "plan/effects.hpp"
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
+#include "shading/effects.hpp"
 
 namespace halfway {
 

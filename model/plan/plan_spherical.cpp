@@ -8,7 +8,7 @@
 #include "golden/cosine_tables.hpp"
 #include "plan/hardware_units.hpp"
 #include "plan/shader_plans.hpp"
-#include "setup/bell.hpp"
+#include "shading/bell.hpp"
 
 namespace halfway {
 namespace {

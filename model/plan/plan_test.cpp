@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "golden/cosine_tables.hpp"
-#include "plan/effects.hpp"
 #include "plan/hardware_units.hpp"
+#include "shading/effects.hpp"
 
 namespace halfway {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "golden/shading_processor.hpp"
-#include "plan/effects.hpp"
 #include "plan/hardware_key.hpp"
+#include "shading/effects.hpp"
 
 namespace halfway {
 

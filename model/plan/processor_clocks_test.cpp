@@ -12,7 +12,7 @@
 
 #include "plan/plan.hpp"
 #include "plan/processor_count.hpp"
-#include "scene/load_scene.hpp"
+#include "sim/scene_files/load_scene.hpp"
 
 namespace halfway {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
-#include "setup/light_ray.hpp"
+#include "shading/light_ray.hpp"
 
 namespace halfway {
 

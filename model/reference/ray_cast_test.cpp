@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "setup/random_solids.hpp"
+#include "setup/test/random_solids.hpp"
 
 namespace halfway {
 namespace {

@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "reference/ray_cast.hpp"
-#include "reference/shade.hpp"
 #include "reference/visible_pixels.hpp"
 #include "setup/project.hpp"
+#include "shading/shade.hpp"
 
 namespace halfway {
 

@@ -12,10 +12,10 @@
 #include <random>
 #include <vector>
 
-#include "reference/shade.hpp"
-#include "setup/light_ray.hpp"
 #include "setup/project.hpp"
-#include "setup/random_solids.hpp"
+#include "setup/test/random_solids.hpp"
+#include "shading/light_ray.hpp"
+#include "shading/shade.hpp"
 
 namespace halfway {
 namespace {

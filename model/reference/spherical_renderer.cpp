@@ -9,12 +9,12 @@
 #include <numbers>
 #include <vector>
 
-#include "reference/shade.hpp"
 #include "reference/visible_pixels.hpp"
 #include "setup/arc.hpp"
-#include "setup/bell.hpp"
 #include "setup/edge.hpp"
 #include "setup/project.hpp"
+#include "shading/bell.hpp"
+#include "shading/shade.hpp"
 
 namespace halfway {
 namespace {

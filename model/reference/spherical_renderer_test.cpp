@@ -17,11 +17,11 @@
 #include <vector>
 
 #include "frame/metrics.hpp"
-#include "reference/shade.hpp"
 #include "scene/builtin_meshes.hpp"
-#include "scene/load_scene.hpp"
-#include "setup/bell.hpp"
 #include "setup/project.hpp"
+#include "shading/bell.hpp"
+#include "shading/shade.hpp"
+#include "sim/scene_files/load_scene.hpp"
 
 namespace halfway {
 namespace {

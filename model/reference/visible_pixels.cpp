@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
-#include "common/threads.hpp"
 #include "setup/edge.hpp"
 #include "setup/project.hpp"
+#include "sim/system/threads.hpp"
 
 namespace halfway {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "setup/exact_turns.hpp"
+#include "setup/test/exact_turns.hpp"
 
 namespace halfway {
 namespace {

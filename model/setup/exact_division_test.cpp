@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "setup/gmp_numbers.hpp"
+#include "setup/test/gmp_numbers.hpp"
 
 namespace halfway {
 namespace {

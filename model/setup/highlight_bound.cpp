@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include "reference/shade.hpp"
+#include "shading/shade.hpp"
 
 namespace halfway {
 namespace {

@@ -15,9 +15,9 @@
 #include <iostream>
 #include <random>
 
-#include "reference/shade.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "setup/quadratic_setup.hpp"
+#include "shading/shade.hpp"
 
 namespace halfway {
 namespace {

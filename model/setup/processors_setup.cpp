@@ -14,11 +14,11 @@
 
 #include "common/to_integer.hpp"
 #include "golden/processors_layout.hpp"
-#include "plan/effects.hpp"
 #include "setup/init_vector.hpp"
 #include "setup/quadratic_fit.hpp"
 #include "setup/shadow_volume.hpp"
 #include "setup/walk.hpp"
+#include "shading/effects.hpp"
 
 namespace halfway {
 namespace {

@@ -21,13 +21,13 @@
 #include "frame/metrics.hpp"
 #include "golden/processors_layout.hpp"
 #include "golden/word.hpp"
+#include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
 #include "reference/renderer.hpp"
-#include "run/golden_run.hpp"
 #include "scene/builtin_meshes.hpp"
-#include "scene/load_scene.hpp"
-#include "setup/random_scenes.hpp"
-#include "setup/random_solids.hpp"
+#include "setup/test/random_scenes.hpp"
+#include "setup/test/random_solids.hpp"
+#include "sim/scene_files/load_scene.hpp"
 
 namespace halfway {
 namespace {

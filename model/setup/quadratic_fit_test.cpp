@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "golden/quadratic_shader.hpp"
-#include "setup/gmp_numbers.hpp"
-#include "setup/random_triangles.hpp"
+#include "setup/test/gmp_numbers.hpp"
+#include "setup/test/random_triangles.hpp"
 
 namespace halfway {
 namespace {

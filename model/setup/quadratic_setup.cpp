@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "golden/quadratic_shader.hpp"
-#include "reference/shade.hpp"
 #include "setup/half_triangle.hpp"
 #include "setup/highlight_bound.hpp"
 #include "setup/init_vector.hpp"
 #include "setup/quadratic_fit.hpp"
 #include "setup/walk.hpp"
+#include "shading/shade.hpp"
 
 namespace halfway {
 namespace {

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "golden/quadratic_shader.hpp"
-#include "reference/shade.hpp"
 #include "scene/builtin_meshes.hpp"
+#include "shading/shade.hpp"
 
 namespace halfway {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "setup/made_formats.hpp"
 #include "setup/processors_setup.hpp"
 #include "setup/quadratic_setup.hpp"
 #include "setup/spherical_setup.hpp"
+#include "sim/formats/made_formats.hpp"
 
 namespace halfway {
 

@@ -12,8 +12,8 @@
 #include "golden/formats.hpp"
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
-#include "setup/bell.hpp"
 #include "setup/project.hpp"
+#include "shading/bell.hpp"
 
 namespace halfway {
 

@@ -26,8 +26,8 @@
 #include <span>
 #include <vector>
 
-#include "setup/light_ray.hpp"
 #include "setup/project.hpp"
+#include "shading/light_ray.hpp"
 
 namespace halfway {
 

@@ -17,9 +17,9 @@
 #include "reference/ray_cast.hpp"
 #include "reference/visible_pixels.hpp"
 #include "scene/camera.hpp"
-#include "scene/load_scene.hpp"
 #include "setup/edge.hpp"
-#include "setup/random_solids.hpp"
+#include "setup/test/random_solids.hpp"
+#include "sim/scene_files/load_scene.hpp"
 
 namespace halfway {
 namespace {

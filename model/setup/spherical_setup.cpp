@@ -11,9 +11,9 @@
 
 #include "common/to_integer.hpp"
 #include "golden/triangle_walker.hpp"
-#include "reference/shade.hpp"
 #include "setup/arc.hpp"
 #include "setup/half_triangle.hpp"
+#include "shading/shade.hpp"
 
 namespace halfway {
 namespace {

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "golden/spherical_layout.hpp"
-#include "plan/effects.hpp"
 #include "plan/plan.hpp"
 #include "setup/arc.hpp"
-#include "setup/bell.hpp"
 #include "setup/init_vector.hpp"
 #include "setup/setup.hpp"
+#include "shading/bell.hpp"
+#include "shading/effects.hpp"
 
 namespace halfway {
 

@@ -15,19 +15,19 @@
 #include <tuple>
 #include <vector>
 
-#include "common/file.hpp"
 #include "frame/assemble.hpp"
 #include "golden/diffuse_slice.hpp"
 #include "golden/multiplier.hpp"
 #include "golden/saturating_sum.hpp"
 #include "golden/specular_slice.hpp"
 #include "golden/triangle_walker.hpp"
+#include "golden_run/test/spherical_drawing.hpp"
 #include "reference/renderer.hpp"
-#include "run/simulate.hpp"
 #include "scene/builtin_meshes.hpp"
-#include "setup/random_scenes.hpp"
-#include "setup/random_triangles.hpp"
-#include "setup/spherical_drawing.hpp"
+#include "setup/test/random_scenes.hpp"
+#include "setup/test/random_triangles.hpp"
+#include "sim/run/simulate.hpp"
+#include "sim/system/file.hpp"
 #include "tables/cosine.hpp"
 
 namespace halfway {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "golden/triangle_walker.hpp"
-#include "setup/random_triangles.hpp"
+#include "setup/test/random_triangles.hpp"
 
 namespace halfway {
 namespace {

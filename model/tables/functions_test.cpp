@@ -10,9 +10,9 @@
 
 #include <cmath>
 
-#include "common/file.hpp"
 #include "golden/formats.hpp"
 #include "golden/function_rom.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway::tables {
 namespace {

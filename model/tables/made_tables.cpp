@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "common/file.hpp"
+#include "sim/system/file.hpp"
 #include "tables/compiled_sizes.hpp"
 #include "tables/formats.hpp"
 #include "tables/functions.hpp"

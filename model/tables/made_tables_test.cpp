@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "common/file.hpp"
+#include "sim/system/file.hpp"
 #include "tables/formats.hpp"
 #include "tables/functions.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The way into setup and golden model of one shader and preset, compiled with other formats:
-// model/setup/made_formats.hpp. HALFWAY_SHADER is the shader's number, HALFWAY_PRESET its formats' name.
+// sim/formats/made_formats.hpp. HALFWAY_SHADER is the shader's number, HALFWAY_PRESET its formats' name.
 #define HALFWAY_MODELS_ALONE 1
-#include "run/golden_run.cpp"
+#include "golden_run/golden_run.cpp"
 #include "setup/processors_setup.hpp"
 #include "setup/quadratic_setup.hpp"
 #include "setup/spherical_setup.hpp"

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "common/file.hpp"
-#include "common/subprocess.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
 
 namespace halfway {
 namespace {

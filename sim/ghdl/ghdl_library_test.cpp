@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/file.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway {
 namespace {

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "common/file.hpp"
-#include "common/seconds.hpp"
-#include "common/subprocess.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/seconds.hpp"
+#include "sim/system/subprocess.hpp"
 
 namespace halfway {
 namespace {

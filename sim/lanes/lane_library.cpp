@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "common/file.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway {
 namespace {

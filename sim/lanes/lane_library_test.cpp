@@ -8,7 +8,7 @@
 #include <optional>
 #include <random>
 
-#include "common/file.hpp"
+#include "sim/system/file.hpp"
 #include "sim/verilator/verilated_library.hpp"
 
 namespace halfway {

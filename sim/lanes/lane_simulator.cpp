@@ -9,11 +9,11 @@
 #include <numeric>
 #include <utility>
 
-#include "common/threads.hpp"
-#include "run/golden_run.hpp"
-#include "run/limits.hpp"
+#include "golden_run/golden_run.hpp"
+#include "sim/compare/limits.hpp"
 #include "sim/lanes/lane_api.h"
 #include "sim/lanes/lane_library.hpp"
+#include "sim/system/threads.hpp"
 #include "sim/verilator/netlist.hpp"
 #include "sim/verilator/shader_netlist.hpp"
 

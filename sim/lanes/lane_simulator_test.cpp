@@ -7,10 +7,10 @@
 
 #include <algorithm>
 
+#include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
-#include "run/golden_run.hpp"
-#include "run/scene_stream.hpp"
-#include "scene/load_scene.hpp"
+#include "sim/run/scene_stream.hpp"
+#include "sim/scene_files/load_scene.hpp"
 
 namespace halfway {
 namespace {

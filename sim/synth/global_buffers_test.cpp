@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "common/file.hpp"
-#include "common/subprocess.hpp"
 #include "sim/synth/synthesis.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
 
 namespace halfway::synth {
 namespace {

@@ -9,8 +9,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "common/file.hpp"
 #include "common/to_integer.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway::synth {
 namespace {

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <string>
 
-#include "common/file.hpp"
-#include "common/page_part.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/page_part.hpp"
 
 namespace halfway::synth {
 namespace {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "common/file.hpp"
-#include "common/subprocess.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
 
 namespace halfway::synth {
 

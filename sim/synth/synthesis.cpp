@@ -11,10 +11,10 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "common/file.hpp"
-#include "common/subprocess.hpp"
 #include "sim/synth/global_buffers.hpp"
 #include "sim/synth/ice40_cells.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
 #include "sim/verilator/netlist.hpp"
 
 namespace halfway::synth {

@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "common/file.hpp"
-#include "common/subprocess.hpp"
 #include "sim/synth/stand_ins_test.hpp"
 #include "sim/synth/synthesis.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
 
 namespace halfway::synth {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <future>
 
-#include "common/file.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/result.hpp"
-#include "sim/verilator/shared_library.hpp"
+#include "sim/system/shared_library.hpp"
 
 namespace halfway {
 

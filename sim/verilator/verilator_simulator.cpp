@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "common/file.hpp"
+#include "sim/system/file.hpp"
 #include "sim/verilator/harness_api.h"
 #include "sim/verilator/netlist.hpp"
 #include "sim/verilator/shader_netlist.hpp"

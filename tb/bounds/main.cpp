@@ -12,11 +12,11 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/program.hpp"
-#include "common/file.hpp"
-#include "common/seconds.hpp"
-#include "common/subprocess.hpp"
 #include "registry.hpp"
+#include "sim/program/program.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/seconds.hpp"
+#include "sim/system/subprocess.hpp"
 
 namespace halfway::bounds {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
 
-#include "common/file.hpp"
-#include "common/subprocess.hpp"
 #include "registry.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
 
 namespace halfway::bounds {
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "common/file.hpp"
-#include "frame/init_file.hpp"
-#include "frame/trace.hpp"
 #include "golden/quadratic_shader.hpp"
 #include "registry.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/stream_files/init_file.hpp"
+#include "sim/stream_files/trace.hpp"
+#include "sim/system/file.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {

@@ -13,8 +13,8 @@
 #include "plan/plan.hpp"
 #include "reference/renderer.hpp"
 #include "reference/spherical_renderer.hpp"
-#include "run/scene_stream.hpp"
 #include "scene/camera.hpp"
+#include "sim/run/scene_stream.hpp"
 
 namespace halfway::fuzz {
 namespace {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "common/file.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway::fuzz {
 

@@ -5,13 +5,13 @@
 #include <memory>
 #include <vector>
 
-#include "frame/init_file.hpp"
 #include "fuzz/draw.hpp"
 #include "fuzz/fuzz.hpp"
 #include "golden/processors_layout.hpp"
 #include "golden/word.hpp"
+#include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
-#include "run/golden_run.hpp"
+#include "sim/stream_files/init_file.hpp"
 
 namespace halfway::fuzz {
 namespace {

@@ -3,8 +3,8 @@
 // in its own process, takes nobody down with it. What loads is drawn.
 #include "fuzz/draw.hpp"
 #include "fuzz/fuzz.hpp"
-#include "scene/check_mesh_file.hpp"
-#include "scene/load_scene.hpp"
+#include "sim/scene_files/check_mesh_file.hpp"
+#include "sim/scene_files/load_scene.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace halfway;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line of every command that draws, an argument a line: taken or refused, and what is taken is in
 // its range.
-#include "cli/options.hpp"
+#include "sim/cli/options.hpp"
 
 #include <algorithm>
 #include <string>

@@ -9,8 +9,8 @@
 #include <system_error>
 #include <vector>
 
-#include "common/file.hpp"
 #include "fuzz/fuzz.hpp"
+#include "sim/system/file.hpp"
 
 namespace {
 

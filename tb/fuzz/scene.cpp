@@ -7,7 +7,7 @@
 
 #include "fuzz/draw.hpp"
 #include "fuzz/fuzz.hpp"
-#include "scene/load_scene.hpp"
+#include "sim/scene_files/load_scene.hpp"
 
 namespace halfway::fuzz {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traces: read whole or refused; what was read writes back to what reads the same, compares equal with
 // itself, and assembles to a frame of its size.
-#include "frame/trace.hpp"
+#include "sim/stream_files/trace.hpp"
 
 #include "frame/assemble.hpp"
 #include "fuzz/fuzz.hpp"
-#include "run/stream_comparator.hpp"
-#include "run/trace_pair.hpp"
+#include "sim/compare/stream_comparator.hpp"
+#include "sim/stream_files/trace_pair.hpp"
 
 namespace halfway::fuzz {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "common/subprocess.hpp"
+#include "sim/system/subprocess.hpp"
 #include "vhdl_text.hpp"
 
 namespace halfway::mutants {

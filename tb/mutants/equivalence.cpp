@@ -8,7 +8,7 @@
 #include <cctype>
 #include <regex>
 
-#include "common/subprocess.hpp"
+#include "sim/system/subprocess.hpp"
 #include "sim/verilator/netlist.hpp"
 
 namespace halfway::mutants {

@@ -11,16 +11,16 @@
 #include <fstream>
 #include <thread>
 
-#include "common/seconds.hpp"
-#include "common/subprocess.hpp"
-#include "frame/init_file.hpp"
-#include "frame/trace.hpp"
 #include "plan/plan.hpp"
-#include "run/limits.hpp"
-#include "run/scene_stream.hpp"
-#include "scene/load_scene.hpp"
 #include "setup/setup.hpp"
+#include "sim/compare/limits.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/run/scene_stream.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/stream_files/init_file.hpp"
+#include "sim/stream_files/trace.hpp"
+#include "sim/system/seconds.hpp"
+#include "sim/system/subprocess.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway::mutants {

@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "common/file.hpp"
 #include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway::mutants {
 

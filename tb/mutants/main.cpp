@@ -19,14 +19,14 @@
 #include <utility>
 #include <vector>
 
-#include "cli/program.hpp"
-#include "common/file.hpp"
-#include "common/subprocess.hpp"
-#include "common/threads.hpp"
 #include "coverage.hpp"
 #include "equivalence.hpp"
 #include "judge.hpp"
 #include "listed.hpp"
+#include "sim/program/program.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
+#include "sim/system/threads.hpp"
 #include "survivors.hpp"
 #include "vhdl_text.hpp"
 

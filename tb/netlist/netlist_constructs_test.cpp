@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "common/file.hpp"
-#include "common/subprocess.hpp"
-#include "frame/init_file.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/stream_files/init_file.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
 #include "sim/verilator/netlist.hpp"
 #include "sim/verilator/verilated_library.hpp"
 

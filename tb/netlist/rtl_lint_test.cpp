@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/file.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway {
 namespace {

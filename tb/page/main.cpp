@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/program.hpp"
-#include "common/file.hpp"
 #include "page/page.hpp"
+#include "sim/program/program.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway::page {
 namespace {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <pugixml.hpp>
 
-#include "common/file.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway::page {
 namespace {

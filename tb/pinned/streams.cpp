@@ -15,14 +15,14 @@
 #include <string>
 #include <vector>
 
-#include "cli/options.hpp"
-#include "common/file.hpp"
-#include "frame/init_file.hpp"
-#include "frame/trace.hpp"
 #include "plan/plan.hpp"
-#include "run/scene_stream.hpp"
-#include "scene/load_scene.hpp"
 #include "setup/setup.hpp"
+#include "sim/cli/options.hpp"
+#include "sim/run/scene_stream.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/stream_files/init_file.hpp"
+#include "sim/stream_files/trace.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway {
 namespace {

@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/program.hpp"
-#include "common/file.hpp"
-#include "common/seconds.hpp"
-#include "common/threads.hpp"
 #include "prover.hpp"
+#include "sim/program/program.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/seconds.hpp"
+#include "sim/system/threads.hpp"
 
 namespace halfway::proofs {
 namespace {

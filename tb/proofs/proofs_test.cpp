@@ -10,10 +10,10 @@
 #include <set>
 #include <string>
 
-#include "common/file.hpp"
-#include "common/subprocess.hpp"
 #include "prover.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
 
 namespace halfway::proofs {
 namespace {

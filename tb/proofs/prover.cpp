@@ -7,9 +7,9 @@
 #include <array>
 #include <cctype>
 
-#include "common/file.hpp"
-#include "common/subprocess.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
 #include "tables/formats.hpp"
 
 namespace halfway::proofs {

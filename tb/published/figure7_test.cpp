@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The quadratic paper's figure 7, register by register and clock by clock, in the golden model, in GHDL and
 // in Verilator.
-#include "figures/figure7.hpp"
+#include "sim/figures/figure7.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "common/file.hpp"
 #include "frame/fragment.hpp"
-#include "frame/init_file.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/stream_files/init_file.hpp"
+#include "sim/system/file.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {

@@ -18,18 +18,18 @@
 #include <string>
 #include <vector>
 
-#include "common/file.hpp"
-#include "common/subprocess.hpp"
 #include "common/to_integer.hpp"
 #include "frame/frame.hpp"
+#include "golden_run/golden_run.hpp"
 #include "reference/ray_cast.hpp"
 #include "reference/renderer.hpp"
-#include "run/golden_run.hpp"
 #include "scene/check_numbers.hpp"
-#include "scene/load_scene.hpp"
-#include "setup/gmp_numbers.hpp"
 #include "setup/init_vector.hpp"
-#include "setup/random_scenes.hpp"
+#include "setup/test/gmp_numbers.hpp"
+#include "setup/test/random_scenes.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
 #include "stability/hard_case.hpp"
 #include "stability/spherical_trial.hpp"
 #include "stability/trial.hpp"
@@ -77,25 +77,25 @@ struct Site {
   std::string_view where;
 };
 constexpr Site c_sites[] = {
-    {"model/bench/workload.cpp", 1, "sphere_scene: stacks of so many triangles; only `make bench` asks"},
-    {"model/cli/options.cpp", 1, "Progress::show: a percentage; any part of the work done"},
-    {"model/cli/plan.cpp", 1, "saved: a percentage of cells"},
-    {"model/cli/sim.cpp", 1, "run: a percentage"},
-    {"model/figures/quadratic_figures.cpp", 1, "draw_times: words of an interpolator; numbers of its own"},
-    {"model/figures/rings.cpp", 1, "measure_rings: half a line of a disc"},
-    {"model/figures/spherical_figures.cpp", 1, "entry_at: an entry of a table; angles within it"},
+    {"sim/bench/workload.cpp", 1, "sphere_scene: stacks of so many triangles; only `make bench` asks"},
+    {"sim/cli/options.cpp", 1, "Progress::show: a percentage; any part of the work done"},
+    {"sim/cli/plan.cpp", 1, "saved: a percentage of cells"},
+    {"sim/cli/sim.cpp", 1, "run: a percentage"},
+    {"sim/figures/quadratic_figures.cpp", 1, "draw_times: words of an interpolator; numbers of its own"},
+    {"sim/figures/rings.cpp", 1, "measure_rings: half a line of a disc"},
+    {"sim/figures/spherical_figures.cpp", 1, "entry_at: an entry of a table; angles within it"},
     {"model/frame/frame.hpp", 1, "to_byte: Channels of a picture"},
     {"model/reference/ray_cast.cpp", 1, "ShadowRays: bins of a tree; Extreme numbers, the reference picture"},
-    {"model/scene/check_mesh_file.cpp", 1, "corners of a PLY polygon; Numbers of a mesh file"},
+    {"sim/scene_files/check_mesh_file.cpp", 1, "corners of a PLY polygon; Numbers of a mesh file"},
     {"model/scene/hen_mesh.cpp", 1, "Net: cells of a lattice; numbers of its own"},
-    {"model/scene/load_scene.cpp", 1, "slices at another tessellation, in range; load_scene_test"},
+    {"sim/scene_files/load_scene.cpp", 1, "slices at another tessellation, in range; load_scene_test"},
     {"model/setup/exact_division.hpp", 1, "an estimate that exact remainders mend; exact_division_test"},
     {"model/setup/half_triangle.cpp", 2, "whole pixels of preset published; Extreme numbers"},
     {"model/setup/init_vector.hpp", 2, "fixed, wrapped_word: Words of any real"},
     {"model/setup/processors_setup.cpp", 1, "held; Extreme numbers"},
     {"model/setup/project.cpp", 2, "Projector: guard band and snap; Snapped vertices"},
     {"model/setup/spherical_setup.cpp", 4, "places to look at along a span; Extreme numbers"},
-    {"model/study/design_point.cpp", 1, "bits of tables, in range and whole; design_point_test"},
+    {"sim/study/design_point.cpp", 1, "bits of tables, in range and whole; design_point_test"},
     {"model/tables/cosine.cpp", 1, "entries, checked sizes; cosine_test"},
     {"model/tables/functions.cpp", 2,
      "entries, and the root's raise, less than 2^24 of relative errors below 1; functions_test"},

@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "reference/shade.hpp"
-#include "setup/random_scenes.hpp"
+#include "setup/test/random_scenes.hpp"
+#include "shading/shade.hpp"
 #include "stability/hard_case.hpp"
 #include "stability/specification.hpp"
 #include "stability/spherical_trial.hpp"

@@ -8,10 +8,10 @@
 
 #include "golden/processors_layout.hpp"
 #include "golden/word.hpp"
-#include "run/golden_run.hpp"
+#include "golden_run/golden_run.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "setup/project.hpp"
-#include "setup/random_scenes.hpp"
+#include "setup/test/random_scenes.hpp"
 #include "stability/hard_case.hpp"
 #include "stability/shading_bound.hpp"
 #include "stability/trial.hpp"

@@ -10,7 +10,7 @@
 #include <map>
 
 #include "setup/init_vector.hpp"
-#include "setup/random_scenes.hpp"
+#include "setup/test/random_scenes.hpp"
 #include "stability/shading_bound.hpp"
 #include "stability/spherical_trial.hpp"
 

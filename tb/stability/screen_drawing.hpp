@@ -10,7 +10,7 @@
 #include "golden/formats.hpp"
 #include "setup/init_vector.hpp"
 #include "setup/quadratic_setup.hpp"
-#include "setup/random_triangles.hpp"
+#include "setup/test/random_triangles.hpp"
 #include "stability/specification.hpp"
 #include "stability/trial.hpp"
 

@@ -17,10 +17,10 @@
 #include <thread>
 #include <vector>
 
-#include "cli/program.hpp"
-#include "common/file.hpp"
-#include "common/seconds.hpp"
 #include "page/page.hpp"
+#include "sim/program/program.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/seconds.hpp"
 #include "stability/scene_search.hpp"
 #include "stability/search.hpp"
 #include "stability/shrink.hpp"

@@ -12,10 +12,10 @@
 #include <glm/trigonometric.hpp>
 #include <vector>
 
-#include "plan/effects.hpp"
 #include "scene/camera.hpp"
 #include "scene/scene.hpp"
 #include "setup/screen_triangle.hpp"
+#include "shading/effects.hpp"
 #include "stability/specification.hpp"
 
 namespace halfway::stability {

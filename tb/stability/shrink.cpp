@@ -10,7 +10,7 @@
 #include <optional>
 #include <tuple>
 
-#include "common/seconds.hpp"
+#include "sim/system/seconds.hpp"
 
 namespace halfway::stability {
 namespace {

@@ -10,12 +10,12 @@
 #include <numbers>
 
 #include "golden/triangle_walker.hpp"
-#include "reference/shade.hpp"
+#include "golden_run/test/spherical_drawing.hpp"
 #include "setup/arc.hpp"
-#include "setup/bell.hpp"
-#include "setup/exact_turns.hpp"
-#include "setup/random_scenes.hpp"
-#include "setup/spherical_drawing.hpp"
+#include "setup/test/exact_turns.hpp"
+#include "setup/test/random_scenes.hpp"
+#include "shading/bell.hpp"
+#include "shading/shade.hpp"
 #include "stability/hard_case.hpp"
 #include "stability/specification.hpp"
 #include "stability/spherical_trial.hpp"

@@ -13,8 +13,8 @@
 
 #include "golden/spherical_layout.hpp"
 #include "golden/triangle_walker.hpp"
-#include "run/golden_run.hpp"
-#include "setup/spherical_drawing.hpp"
+#include "golden_run/golden_run.hpp"
+#include "golden_run/test/spherical_drawing.hpp"
 #include "stability/specification.hpp"
 
 namespace halfway::stability {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "golden_run/test/spherical_drawing.hpp"
 #include "scene/scene.hpp"
-#include "setup/spherical_drawing.hpp"
 #include "stability/specification.hpp"
 #include "stability/trial.hpp"
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "setup/random_triangles.hpp"
+#include "setup/test/random_triangles.hpp"
 #include "stability/shrink.hpp"
 #include "stability/specification.hpp"
 #include "stability/trial.hpp"

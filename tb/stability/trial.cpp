@@ -5,14 +5,14 @@
 
 #include <cmath>
 
-#include "common/file.hpp"
-#include "frame/init_file.hpp"
-#include "frame/trace.hpp"
-#include "run/golden_run.hpp"
-#include "run/limits.hpp"
-#include "run/stream_comparator.hpp"
+#include "golden_run/golden_run.hpp"
 #include "setup/init_vector.hpp"
+#include "sim/compare/limits.hpp"
+#include "sim/compare/stream_comparator.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/stream_files/init_file.hpp"
+#include "sim/stream_files/trace.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway::stability {
 namespace {

@@ -10,11 +10,11 @@
 #include <tuple>
 
 #include "golden/formats.hpp"
-#include "run/golden_run.hpp"
+#include "golden_run/golden_run.hpp"
 #include "setup/init_vector.hpp"
 #include "setup/project.hpp"
 #include "setup/quadratic_setup.hpp"
-#include "setup/random_triangles.hpp"
+#include "setup/test/random_triangles.hpp"
 #include "stability/specification.hpp"
 
 namespace halfway::stability {

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "common/file.hpp"
-#include "common/threads.hpp"
 #include "sim/synth/pinned.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/threads.hpp"
 
 namespace halfway::synth {
 namespace {

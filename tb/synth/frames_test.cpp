@@ -5,12 +5,12 @@
 
 #include <ostream>
 
-#include "common/subprocess.hpp"
 #include "plan/plan.hpp"
-#include "run/limits.hpp"
-#include "run/scene_stream.hpp"
-#include "scene/load_scene.hpp"
+#include "sim/compare/limits.hpp"
+#include "sim/run/scene_stream.hpp"
+#include "sim/scene_files/load_scene.hpp"
 #include "sim/synth/synthesis.hpp"
+#include "sim/system/subprocess.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway::synth {

@@ -15,17 +15,17 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/options.hpp"
-#include "cli/program.hpp"
-#include "common/file.hpp"
-#include "common/machine.hpp"
-#include "common/page_part.hpp"
-#include "common/seconds.hpp"
-#include "common/subprocess.hpp"
-#include "common/threads.hpp"
 #include "designs.hpp"
+#include "sim/cli/options.hpp"
+#include "sim/program/program.hpp"
 #include "sim/synth/pinned.hpp"
 #include "sim/synth/synthesis.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/machine.hpp"
+#include "sim/system/page_part.hpp"
+#include "sim/system/seconds.hpp"
+#include "sim/system/subprocess.hpp"
+#include "sim/system/threads.hpp"
 
 namespace halfway::synth {
 namespace {

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <string>
 
-#include "common/file.hpp"
-#include "common/subprocess.hpp"
 #include "designs.hpp"
 #include "sim/synth/pinned.hpp"
 #include "sim/synth/stand_ins_test.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
 
 namespace halfway::synth {
 namespace {

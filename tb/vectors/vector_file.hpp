@@ -9,8 +9,8 @@
 #include <span>
 #include <string>
 
-#include "common/file.hpp"
 #include "golden/word.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway::vectors {
 

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "golden_run/golden_run.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "common/for_processors.hpp"
+#include "golden/processors_shader.hpp"
+#include "golden/quadratic_shader.hpp"
+#include "golden/spherical_shader.hpp"
+#include "sim/formats/made_formats.hpp"
+
+namespace halfway {
+namespace {
+
+// Fragments one after the other; a vector would write zeros first.
+class Room {
+ public:
+  Fragment* room(std::size_t count) {
+    if (capacity_ - size_ < count + c_surplus) grow(count);
+    Fragment* begin = data_.get() + size_;
+    size_ += count;
+    return begin;
+  }
+  void clear() { size_ = 0; }
+  std::span<const Fragment> fragments() const { return {data_.get(), size_}; }
+
+ private:
+  static constexpr std::size_t c_surplus = 3;  // which a shader may write past what it asked for
+
+  [[gnu::noinline]] void grow(std::size_t count) {
+    capacity_ = 2 * (size_ + count) + 4096;
+    auto larger = std::make_unique_for_overwrite<Fragment[]>(capacity_);
+    std::copy_n(data_.get(), size_, larger.get());
+    data_ = std::move(larger);
+  }
+
+  std::unique_ptr<Fragment[]> data_;
+  std::size_t size_ = 0, capacity_ = 0;
+};
+
+// A block of fragments to stay in the processor's nearer caches.
+constexpr std::size_t c_block = 8192;
+
+// Takes the next triangle's vectors off the front; none where there is no more, or one that is cut short,
+// which draws nothing.
+template <class Shader>
+std::span<const std::uint32_t> take_triangle(const Shader& shader,
+                                             std::span<const std::uint32_t>& init_words) {
+  const auto vector_words = static_cast<std::size_t>((shader.init_bits() + 31) / 32);
+  const std::size_t words = init_words.size() < vector_words ? 0 : shader.group(init_words) * vector_words;
+  const bool whole = words <= init_words.size();
+  const auto triangle = init_words.first(whole ? words : 0);
+  init_words = whole && words != 0 ? init_words.subspan(words) : std::span<const std::uint32_t>();
+  return triangle;
+}
+
+// Draws triangles until the room holds `most` fragments or there are no more; what is left.
+template <class Shader>
+HALFWAY_FOR_PROCESSORS std::span<const std::uint32_t> draw_into(Room& room, Shader& shader,
+                                                                std::span<const std::uint32_t> init_words,
+                                                                std::size_t most) {
+  while (room.fragments().size() < most) {
+    const auto triangle = take_triangle(shader, init_words);
+    if (triangle.empty()) break;
+    shader.draw(triangle, room);
+  }
+  return init_words;
+}
+
+struct Watch {
+  std::vector<ProbeEvent>& events;
+  const std::vector<Fragment>& fragments;
+  void line(const auto& shader) { add(shader, Stage::line, shader.walker().start(), shader.line_probe()); }
+  void span(const auto& shader, golden::SpanXWord x) { add(shader, Stage::span, x, shader.span_probe(x)); }
+  void sample(const auto& shader, golden::SpanXWord x) {
+    add(shader, Stage::sample, x, shader.sample_probe());
+  }
+  void product(const auto& shader, golden::SpanXWord x) {
+    add(shader, Stage::product, x, shader.product_probe());
+  }
+  void processor(const auto& shader, golden::SpanXWord x, int number) {
+    add(shader, processor_stage(number), x, shader.processor_probe(number));
+  }
+
+ private:
+  void add(const auto& shader, Stage stage, golden::SpanXWord x, const auto& words) {
+    events.push_back({stage,
+                      shader.walker().triangle(),
+                      shader.walker().y(),
+                      static_cast<std::uint32_t>(golden::low_bits(x.bits(), golden::Exact::c_pixel_x_bits)),
+                      {words.begin(), words.end()},
+                      fragments.size()});
+  }
+};
+
+template <class Shader>
+class Model final : public GoldenModel {
+ public:
+  template <class... Config>
+  explicit Model(const Config&... config) : shader_(config...) {}
+  std::size_t group(std::span<const std::uint32_t> init_words) const override {
+    return shader_.group(init_words);
+  }
+  bool touches(std::span<const std::uint32_t> init_words, const Tile& tile) const override {
+    const std::int64_t left = tile.x, right = left + tile.size.width, top = tile.y,
+                       bottom = top + tile.size.height;
+    bool touched = false;
+    auto walker = shader_.walker_of(init_words);
+    walker.walk([&] {
+      if (touched || walker.line_empty() || walker.y() < top || walker.y() >= bottom) return;
+      const std::int64_t from = walker.start().value(),
+                         to = from + walker.pixel_step() * (length(walker) - 1);
+      touched = std::min(from, to) < right && std::max(from, to) >= left;
+    });
+    return touched;
+  }
+  std::uint64_t pixels(std::span<const std::uint32_t> init_words) const override {
+    std::uint64_t count = 0;
+    auto walker = shader_.walker_of(init_words);
+    walker.walk([&] {
+      if (!walker.line_empty()) count += walker.pixels();
+    });
+    return count;
+  }
+  void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) override {
+    while (!init_words.empty()) {
+      room_.clear();
+      init_words = draw_into(room_, shader_, init_words, c_block);
+      fragments.insert(fragments.end(), room_.fragments().begin(), room_.fragments().end());
+    }
+  }
+  std::span<const Fragment> draw(std::span<const std::uint32_t> init_words) override {
+    room_.clear();
+    draw_into(room_, shader_, init_words, SIZE_MAX);
+    return room_.fragments();
+  }
+  void draw_probed(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,
+                   std::vector<ProbeEvent>& events) override {
+    for (auto triangle = take_triangle(shader_, init_words); !triangle.empty();
+         triangle = take_triangle(shader_, init_words))
+      shader_.draw(
+          triangle, [&](const Fragment& f) { fragments.push_back(f); }, Watch{events, fragments});
+  }
+  bool fault() const override {
+    if constexpr (requires { shader_.fault(); })
+      return shader_.fault();
+    else
+      return false;
+  }
+  unsigned init_bits() const override { return static_cast<unsigned>(shader_.init_bits()); }
+  unsigned probe_bits() const override { return static_cast<unsigned>(shader_.probe_bits()); }
+
+ private:
+  static std::int64_t length(const auto& walker) { return static_cast<std::int64_t>(walker.pixels()); }
+
+  Shader shader_;
+  Room room_;
+};
+
+}  // namespace
+
+#ifndef HALFWAY_MODELS_ALONE  // sim/formats/harness.cpp makes one of them, of other formats
+namespace {
+
+template <class Preset>
+std::unique_ptr<GoldenModel> make(const HardwareKey& key) {
+  if (key.shader == Shader::spherical)
+    return std::make_unique<Model<golden::SphericalShader<Preset>>>(golden_config(key));
+  if (key.shader == Shader::processors)
+    return std::make_unique<Model<golden::ProcessorsShader<Preset>>>(processors_config(key));
+  if (key.channels == 1) return std::make_unique<Model<golden::QuadraticShader<Preset, 1>>>();
+  return std::make_unique<Model<golden::QuadraticShader<Preset, 3>>>();
+}
+
+}  // namespace
+
+std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key) {
+  if (key.made_formats != nullptr) return key.made_formats->make_golden_model(key);
+  return key.preset == Preset::exact ? make<golden::Exact>(key) : make<golden::Published>(key);
+}
+#endif
+
+}  // namespace halfway

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// For tests: a stage, what the golden model draws of a scene, and what preset exact promises of it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "golden_run/golden_run.hpp"
+#include "plan/plan.hpp"
+#include "setup/spherical_setup.hpp"
+#include "shading/effects.hpp"
+#include "tables/cosine.hpp"
+
+namespace halfway {
+
+inline constexpr int c_exact_subpixel_bits = 4;
+
+/// Odd: a pixel lies in the very middle.
+inline constexpr FrameSize c_stage_frame{65, 49};
+
+/// A triangle across the view of an eye straight above it, not lit yet.
+inline Scene stage(const std::array<glm::dvec3, 3>& normals = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}}) {
+  Scene scene;
+  scene.name = "stage";
+  scene.materials = {{.name = "m", .ambient = 0.0, .diffuse = 0.5, .specular = 0.5, .exponent = 20.0}};
+  scene.camera.eye_world = {0.0, 0.0, 4.0};
+  scene.positions_world = {{-1.6, -1.3, 0.0}, {1.7, -1.2, 0.0}, {-0.1, 1.4, 0.0}};
+  for (const glm::dvec3& n : normals) scene.normals_world.push_back(glm::normalize(n));
+  scene.triangles = {{{0, 1, 2}, {0, 1, 2}, 0}};
+  return scene;
+}
+
+/// A light of each kind, to the side.
+inline void add_side_lights(Scene& scene) {
+  scene.directional.push_back({glm::normalize(glm::dvec3(0.3, 0.2, 1.0)), glm::dvec3(0.4)});
+  scene.positional.push_back({{0.4, -0.3, 2.0}, glm::dvec3(0.4)});
+  scene.spots.push_back(
+      {{-0.5, 0.3, 2.5}, glm::normalize(glm::dvec3(0.5, -0.2, -2.5)), 0.95, 0.9, glm::dvec3(0.4)});
+}
+
+/// The eye so far away that its rays are parallel, and the stage fills the view still.
+inline void move_eye_away(Scene& scene) {
+  scene.camera.eye_world.z = 1e9;
+  scene.camera.vertical_fov_degrees = 1e-7;
+}
+
+inline HardwareKey spherical_key(const Scene& scene, Preset preset = Preset::exact) {
+  const auto plan = plan_scene(scene, {.shader = Shader::spherical, .preset = preset});
+  EXPECT_TRUE(plan) << plan.error().message;
+  return plan ? plan->key : HardwareKey{.shader = Shader::spherical, .preset = preset};
+}
+
+struct Drawn {
+  std::vector<Fragment> fragments;
+  std::vector<std::uint32_t> words;
+  std::size_t vector_words = 0;
+  SetupCounts counts;
+};
+
+inline Drawn draw(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                  const SphericalSetupOptions& options = {}) {
+  const SphericalSetup setup(scene, frame, key, options);
+  const auto model = make_golden_model(key);
+  EXPECT_EQ(setup.init_bits(), model->init_bits());
+  Drawn drawn;
+  drawn.vector_words = (setup.init_bits() + 31) / 32;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) setup.append(t, drawn.words, drawn.counts);
+  EXPECT_EQ(drawn.words.size(), (drawn.counts.vectors + drawn.counts.records) * drawn.vector_words);
+  model->draw(drawn.words, drawn.fragments);
+  return drawn;
+}
+
+/// How far, in colour steps, a fragment may be from the illumination model where the interpolation holds the
+/// threshold: what bells and tables add for each light, and roundings.
+inline double promised_steps(const Scene& scene, const HardwareKey& key, double threshold) {
+  const TableSize size = key.spherical.tables;
+  const auto error = [&](int power) {
+    // And the angle's drift, 2^-11 of a half bell at most; no table is steeper than 4 a half bell.
+    return tables::table_error(tables::cosine_table(true, power, size.address_bits, size.data_bits)) +
+           0x1p-11 * 4;
+  };
+  double largest = 0.0;
+  for (const Material& m : scene.materials) {
+    const double exponent = std::min(m.exponent, c_largest_exponent);
+    const Bell bell = fitted_bell(exponent);
+    double steps = threshold + 0.5 + 0x1p-9;
+    for (const LightRef light : shining_lights(scene)) {
+      const glm::dvec3 in = intensity(scene, light);
+      steps +=
+          255.0 * std::max({in.x, in.y, in.z}) *
+              ((has_diffuse(m) ? m.diffuse * error(1) : 0.0) +
+               (has_specular(m) ? m.specular * (fit_error(exponent, bell) + bell.gain * error(bell.power))
+                                : 0.0)) +
+          0x1p-8;
+    }
+    largest = std::max(largest, steps);
+  }
+  return largest;
+}
+
+}  // namespace halfway

@@ -1,0 +1,541 @@
+// SPDX-License-Identifier: Apache-2.0
+// The published scale against the paper's table and equation, the fitted bell against every other, the bound
+// against samples and MPFR, and the whole way from an angle word to a colour against cos^n.
+#include "shading/bell.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mpfr.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <random>
+#include <set>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "tables/cosine.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr double c_pi = std::numbers::pi;
+constexpr std::array c_powers = {1, 2, 4, 8, 16};
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : random_(seed) {}
+  double uniform(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
+  double log_uniform(double low, double high) { return low * std::pow(high / low, uniform(0.0, 1.0)); }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+/// A number of 300 bits.
+class Real {
+ public:
+  Real(double v = 0.0) {
+    mpfr_init2(v_, 300);
+    mpfr_set_d(v_, v, MPFR_RNDN);
+  }
+  Real(const Real& other) : Real() { mpfr_set(v_, other.v_, MPFR_RNDN); }
+  Real& operator=(const Real& other) {
+    mpfr_set(v_, other.v_, MPFR_RNDN);
+    return *this;
+  }
+  ~Real() { mpfr_clear(v_); }
+
+  static Real pi() {
+    return made([](mpfr_ptr out) { mpfr_const_pi(out, MPFR_RNDN); });
+  }
+  friend Real operator+(const Real& a, const Real& b) { return made(mpfr_add, a, b); }
+  friend Real operator-(const Real& a, const Real& b) { return made(mpfr_sub, a, b); }
+  friend Real operator*(const Real& a, const Real& b) { return made(mpfr_mul, a, b); }
+  friend Real operator/(const Real& a, const Real& b) { return made(mpfr_div, a, b); }
+  friend Real pow(const Real& a, const Real& b) { return made(mpfr_pow, a, b); }
+  friend Real cos(const Real& a) {
+    return made([&](mpfr_ptr out) { mpfr_cos(out, a.v_, MPFR_RNDN); });
+  }
+  friend bool operator<(const Real& a, const Real& b) { return mpfr_less_p(a.v_, b.v_) != 0; }
+  double rounded() const { return mpfr_get_d(v_, MPFR_RNDN); }
+
+ private:
+  template <class Put>
+  static Real made(Put put) {
+    Real out;
+    put(out.v_);
+    return out;
+  }
+  static Real made(int (*operation)(mpfr_ptr, mpfr_srcptr, mpfr_srcptr, mpfr_rnd_t), const Real& a,
+                   const Real& b) {
+    return made([&](mpfr_ptr out) { operation(out, a.v_, b.v_, MPFR_RNDN); });
+  }
+  mpfr_t v_;
+};
+
+// ---- preset published
+
+TEST(PublishedScale, Table1) {
+  struct Row {
+    double n, a;
+  };
+  for (const auto& [n, a] : {Row{2, 1.0000}, Row{5, 1.4502}, Row{10, 1.9845}, Row{20, 2.7582},
+                             Row{50, 4.3143}, Row{100, 6.0791}, Row{500, 13.5535}})
+    EXPECT_EQ(std::round(published_scale(n) * 1e4), std::round(a * 1e4))
+        << "n = " << n << ": a = " << published_scale(n);
+}
+
+/// The equation's right side as printed, times n + 1.
+double equation(double n, double a) {
+  const Real four_a2 = Real(4.0) * Real(a) * Real(a);
+  const Real versine = Real(1.0) - cos(Real::pi() / (Real(2.0) * Real(a)));
+  const Real right = (four_a2 / Real(2.0) * versine - Real(1.0)) / (four_a2 - Real(1.0));
+  return ((Real(n) + Real(1.0)) * right - Real(1.0)).rounded();
+}
+
+TEST(PublishedScale, SolvesTheEquation) {
+  std::vector<double> exponents = {1.0,  std::nextafter(1.0, 2.0),
+                                   1.5,  std::nextafter(2.0, 1.0),
+                                   2.0,  std::nextafter(2.0, 3.0),
+                                   1e6,  1e9,
+                                   1e12, 1e15};
+  Random random(1);
+  for (int i = 0; i < 200; ++i) {
+    exponents.push_back(random.uniform(1.0, 1e6));
+    exponents.push_back(random.log_uniform(1.0, 1e6));
+    exponents.push_back(random.log_uniform(1e6, 1e15));
+  }
+  double worst = 0.0;
+  for (const double n : exponents) {
+    const double a = published_scale(n), residual = std::abs(equation(n, a));
+    worst = std::max(worst, residual);
+    // An a that is off by half of its last bit leaves up to one of these.
+    EXPECT_LE(residual, 6 * std::numeric_limits<double>::epsilon()) << "n = " << n << ", a = " << a;
+  }
+  EXPECT_GT(worst, 0.0);
+}
+
+TEST(PublishedScale, GrowsWithTheExponent) {
+  double last = published_scale(1.0);
+  EXPECT_GT(last, 0.5);
+  for (double n = 1.0; n < 1e15;) {
+    n *= 1.001;
+    const double a = published_scale(n);
+    ASSERT_GT(a, last) << "n = " << n;
+    EXPECT_EQ(a < 1.0, n < 2.0) << "n = " << n;
+    last = a;
+  }
+}
+
+/// Simpson's rule.
+double integral(const std::function<double(double)>& f, double to) {
+  constexpr int c_steps = 2000;
+  double sum = 0.0;
+  for (int i = 0; i <= c_steps; ++i)
+    sum += (i == 0 || i == c_steps ? 1 : i % 2 == 1 ? 4 : 2) * f(to * i / c_steps);
+  return sum * to / c_steps / 3;
+}
+
+// What the equation stands for, also where the bell runs past pi/2.
+TEST(PublishedScale, BothBellsHaveOneIntegral) {
+  for (const double n : {1.0, 1.2, 1.5, 1.9, 2.0, 3.0, 10.0, 100.0, 1000.0}) {
+    const double a = published_scale(n);
+    const double lobe =
+        integral([&](double x) { return std::pow(std::max(0.0, std::cos(x)), n) * std::sin(x); }, c_pi / 2);
+    const double bell =
+        integral([&](double x) { return std::cos(a * x) * std::cos(a * x) * std::sin(x); }, c_pi / (2 * a));
+    EXPECT_NEAR(lobe, 1 / (n + 1), 1e-6 / (n + 1)) << "n = " << n;
+    EXPECT_NEAR(bell, 1 / (n + 1), 1e-6 / (n + 1)) << "n = " << n << ", a = " << a;
+  }
+}
+
+// ---- preset exact
+
+double lobe(double n, double x) {
+  if (x >= c_pi / 2) return 0.0;
+  const long double sine = std::sin(static_cast<long double>(x) / 2);
+  return static_cast<double>(std::exp(n * std::log1p(-2 * sine * sine)));
+}
+
+double value(const Bell& bell, double x) {
+  const double u = bell.scale * x;
+  return u < c_pi / 2 ? bell.gain * std::pow(std::cos(u), bell.power) : 0.0;
+}
+
+/// Places that show the lobe, the bell, and all of [0, pi]; ascending.
+std::vector<double> places(double n, double scale, int count) {
+  std::vector<double> x = {c_pi / 2, std::min(c_pi, c_pi / (2 * scale))};
+  for (const double to : {c_pi, 8 / std::sqrt(n), c_pi / (2 * scale)})
+    for (int i = 0; i <= count; ++i) x.push_back(std::min(c_pi, to * i / count));
+  std::ranges::sort(x);
+  return x;
+}
+
+struct Extreme {
+  double x = 0.0, error = 0.0;
+};
+Extreme greatest_sampled(double n, const Bell& bell, int count) {
+  Extreme greatest;
+  for (const double x : places(n, bell.scale, count)) {
+    const double error = std::abs(lobe(n, x) - value(bell, x));
+    if (error > greatest.error) greatest = {x, error};
+  }
+  return greatest;
+}
+
+TEST(FittedBell, IsExactAtTheTablesPowers) {
+  for (const int n : c_powers) {
+    const Bell bell = fitted_bell(n);
+    EXPECT_EQ(bell.power, n);
+    EXPECT_EQ(bell.scale, 1.0) << "n = " << n;
+    EXPECT_EQ(bell.gain, 1.0) << "n = " << n;
+    for (const double by : {1 - 1e-9, 1 + 1e-9}) {
+      if (n * by < 1.0) continue;
+      const Bell beside = fitted_bell(n * by);
+      EXPECT_EQ(beside.power, n);
+      EXPECT_NEAR(beside.scale, 1.0, 1e-8) << "n = " << n;
+      EXPECT_NEAR(beside.gain, 1.0, 1e-8) << "n = " << n;
+    }
+  }
+}
+
+/// Steepness in half bells and in colour steps: the greatest slope of cos^power(v pi/2).
+double steepest(int power) {
+  double slope = 0.0;
+  for (int i = 0; i <= 4000; ++i) {
+    const double u = c_pi / 2 * i / 4000;
+    slope = std::max(slope, c_pi / 2 * power * std::pow(std::cos(u), power - 1) * std::sin(u));
+  }
+  return slope;
+}
+
+/// What the header says the power is chosen by, beside the error: half a cell of 2^9 and the angle's drift,
+/// in units of 1.
+double weighed(int power) {
+  return (0x1p-10 + 0x1p-11) * steepest(power);
+}
+
+std::vector<double> exponents_between(double low, double high, int count) {
+  std::vector<double> exponents;
+  for (int i = 0; i <= count; ++i) exponents.push_back(low * std::pow(high / low, double(i) / count));
+  return exponents;
+}
+
+// Three extremes of alternating signs: a bell of the same power with a smaller error everywhere would have to
+// cross this one twice, but two of them cross once at most (beside x = 0).
+TEST(FittedBell, ErrorAlternates) {
+  std::vector<double> exponents = exponents_between(2.0, 1e6, 150);
+  for (double n = 2.01; n < 32.0; n += 0.07) exponents.push_back(n);
+  for (const double n : exponents) {
+    const Bell bell = fitted_bell(n);
+    if (bell.power == n) continue;
+    const double sign = n > bell.power ? 1.0 : -1.0;
+    const double least = fit_error(n, bell) - 1e-5;
+    int extremes = 0;
+    for (const double x : places(n, bell.scale, 4000)) {
+      const double wanted = extremes % 2 == 0 ? sign : -sign;
+      if (wanted * (lobe(n, x) - value(bell, x)) >= least) ++extremes;
+      if (extremes == 3) break;
+    }
+    EXPECT_EQ(extremes, 3) << "n = " << n << ": power " << bell.power << ", scale " << bell.scale << ", gain "
+                           << bell.gain << ", least " << least;
+  }
+}
+
+/// The best bell of a power, sought in another way: over the gain by thirds, and for each gain the scale
+/// where the bell has as much too little as too much.
+Bell best_found(double n, int power) {
+  constexpr int c_samples = 200;
+  const double natural = std::sqrt(n / power), to = std::min(c_pi / 2, 5 / std::sqrt(n));
+  std::vector<double> truth;
+  for (int i = 0; i <= c_samples; ++i) truth.push_back(lobe(n, to * i / c_samples));
+  const auto with_gain = [&](double gain) {
+    double low = 0.6 * natural, high = 1.7 * natural, error = 0.0;
+    for (int round = 0; round < 26; ++round) {
+      const double scale = (low + high) / 2;
+      double below = 0.0, above = 0.0;
+      for (int i = 0; i <= c_samples; ++i) {
+        const double difference =
+            truth[static_cast<std::size_t>(i)] - value({power, scale, gain}, to * i / c_samples);
+        below = std::max(below, difference), above = std::max(above, -difference);
+      }
+      error = std::max(below, above);
+      (below < above ? low : high) = scale;
+    }
+    return std::pair(error, Bell{power, (low + high) / 2, gain});
+  };
+  double low = 0.85, high = 1.15;
+  for (int round = 0; round < 30; ++round) {
+    const double third = (high - low) / 3;
+    if (with_gain(low + third).first < with_gain(high - third).first)
+      high -= third;
+    else
+      low += third;
+  }
+  return with_gain((low + high) / 2).second;
+}
+
+TEST(FittedBell, NoOtherBellIsBetter) {
+  std::vector<double> exponents = exponents_between(1.0, 20.0, 40);
+  for (const double n : {1.304, 1.307, 2.647, 2.649, 5.47, 5.475, 11.9, 11.91, 30.0, 100.0, 1e3, 1e4, 1e6})
+    exponents.push_back(n);
+  std::set<int> chosen;
+  for (const double n : exponents) {
+    const Bell fitted = fitted_bell(n);
+    chosen.insert(fitted.power);
+    const double total = fit_error(n, fitted) + weighed(fitted.power);
+    for (const int power : c_powers) {
+      if (power > 4 * n || (n > 4 * power && power < 8)) continue;  // far off
+      const Bell other = best_found(n, power);
+      // Below 2 the lobe's bend at pi/2 lies between the places that it is fitted at.
+      EXPECT_GE(fit_error(n, other) + weighed(power), total - (n < 2.0 ? 3e-4 : 1e-5))
+          << "n = " << n << ": power " << power << ", scale " << other.scale << ", gain " << other.gain
+          << " are better than power " << fitted.power << ", scale " << fitted.scale << ", gain "
+          << fitted.gain;
+    }
+  }
+  EXPECT_THAT(chosen, testing::ElementsAreArray(c_powers));
+}
+
+// Gaussians, in the limit.
+TEST(FittedBell, FollowsTheRootOfALargeExponent) {
+  const Bell million = fitted_bell(1e6);
+  for (const double n : {1e7, 1e9, 1e12, 1e15}) {
+    const Bell bell = fitted_bell(n);
+    EXPECT_EQ(bell.power, 16);
+    EXPECT_NEAR(bell.scale / std::sqrt(n), million.scale / 1e3, 1e-6) << "n = " << n;
+    EXPECT_NEAR(bell.gain, million.gain, 1e-6) << "n = " << n;
+    EXPECT_NEAR(fit_error(n, bell), fit_error(1e6, million), 3e-6) << "n = " << n;
+  }
+}
+
+TEST(Bell, ExponentsOutOfRangeAreHeld) {
+  constexpr double c_infinity = std::numeric_limits<double>::infinity();
+  const auto expect_same = [](double n, double held) {
+    const Bell a = fitted_bell(n), b = fitted_bell(held);
+    ASSERT_EQ(a.power, b.power) << n;
+    ASSERT_EQ(a.scale, b.scale) << n;
+    ASSERT_EQ(a.gain, b.gain) << n;
+    ASSERT_EQ(published_scale(n), published_scale(held)) << n;
+    EXPECT_EQ(fit_error(n, b), fit_error(held, b)) << n;
+  };
+  for (const double n : {0.999, 0.5, 0.0, -1.0, -7.0, -c_infinity, std::nan("")}) expect_same(n, 1.0);
+  for (const double n : {2e15, 1e300, c_infinity}) expect_same(n, 1e15);
+}
+
+// ---- the bound
+
+std::vector<Bell> bells_to_bound(double n, Random& random) {
+  const Bell fitted = fitted_bell(n);
+  std::vector<Bell> bells = {fitted, {2, published_scale(n)}};
+  bells.push_back({fitted.power, fitted.scale * random.uniform(0.5, 2.0), random.uniform(0.5, 1.5)});
+  bells.push_back({c_powers[static_cast<std::size_t>(random.uniform(0.0, 4.999))],
+                   random.log_uniform(0.3, 2 * std::sqrt(n)), random.uniform(0.2, 2.0)});
+  return bells;
+}
+
+TEST(FitError, BoundsWhatIsSampledAndNotMuchMore) {
+  Random random(2);
+  std::vector<double> exponents = {1.0, 1.0001, 1.01, 1.5, 1.99, 2.0, 2.0001, 3.0, 4.0, 16.0, 1000.0};
+  for (int i = 0; i < 60; ++i) exponents.push_back(random.log_uniform(1.0, i % 2 == 0 ? 20.0 : 1e6));
+  double most = 0.0;
+  for (const double n : exponents)
+    for (const Bell& bell : bells_to_bound(n, random)) {
+      const Extreme sampled = greatest_sampled(n, bell, 20000);
+      const double bound = fit_error(n, bell);
+      most = std::max(most, bound - sampled.error);
+      EXPECT_GE(bound, sampled.error) << "n = " << n << ": power " << bell.power << ", scale " << bell.scale
+                                      << ", gain " << bell.gain << ", at " << sampled.x;
+      EXPECT_LE(bound, sampled.error + 1e-5)
+          << "n = " << n << ": power " << bell.power << ", scale " << bell.scale << ", gain " << bell.gain;
+    }
+  std::cout << "bounds are at most " << most << " above the greatest sample\n";
+}
+
+Real exact_error(double n, const Bell& bell, double x) {
+  const Real zero, half_pi = Real::pi() / Real(2.0), u = Real(bell.scale) * Real(x);
+  const Real truth = Real(x) < half_pi ? pow(cos(Real(x)), Real(n)) : zero;
+  const Real approximation = u < half_pi ? Real(bell.gain) * pow(cos(u), Real(bell.power)) : zero;
+  const Real error = truth - approximation;
+  return error < zero ? zero - error : error;
+}
+
+TEST(FitError, BoundsExactErrors) {
+  Random random(3);
+  std::vector<double> exponents = {1.0, 1.5, 2.0, 2.5, 1000.0, 1e6, 1e9, 1e15};
+  for (int i = 0; i < 20; ++i) exponents.push_back(random.log_uniform(1.0, 1e6));
+  for (const double n : exponents)
+    for (const Bell& bell : bells_to_bound(n, random)) {
+      const double bound = fit_error(n, bell);
+      const auto expect_bounded = [&](double x) {
+        const Real error = exact_error(n, bell, x);
+        EXPECT_FALSE(Real(bound) < error)
+            << "n = " << n << ": power " << bell.power << ", scale " << bell.scale << ", gain " << bell.gain
+            << ", at " << x << ": " << error.rounded() << ", not " << bound;
+        return error.rounded();
+      };
+      EXPECT_GE(expect_bounded(greatest_sampled(n, bell, 20000).x), bound - 1e-5) << "n = " << n;
+      for (int i = 0; i < 60; ++i) expect_bounded(random.uniform(0.0, i % 2 == 0 ? c_pi : 5 / std::sqrt(n)));
+    }
+}
+
+// cos^2 alone errs by 10 of 255 at n = 5 and by 18 at n = 500.
+TEST(FitError, OfThePublishedBell) {
+  EXPECT_NEAR(fit_error(5, {2, published_scale(5)}), 0.0398, 5e-5);
+  EXPECT_NEAR(fit_error(500, {2, published_scale(500)}), 0.0719, 1e-4);
+}
+
+// ---- from an angle word to a colour
+
+constexpr double c_steps = 255.0;    // a highlight of full range
+constexpr double c_drift = 0x1p-11;  // of an angle word, in half bells: format `angle`
+const tables::CosineSize c_size = tables::CosineSizes{}.exact.front();
+
+/// What takes a highlight from steps * cos^n, in colour steps.
+struct Parts {
+  double fit, table, drift;
+  double factor = 0x1p-9, rounding = 0.5;
+  double total() const { return fit + table + drift + factor + rounding; }
+};
+
+std::ostream& operator<<(std::ostream& out, const Parts& p) {
+  return out << p.total() << " steps (fit " << p.fit << ", table " << p.table << ", drift " << p.drift
+             << ", factor " << p.factor << ", rounding " << p.rounding << ")";
+}
+
+/// Of a bell of gain 1: the parts that come with the power.
+struct PowerParts {
+  double table, drift;
+};
+const PowerParts& power_parts(int power) {
+  static std::map<int, PowerParts> known;
+  auto [it, is_new] = known.try_emplace(power);
+  if (is_new) {
+    const tables::CosineTable table =
+        tables::cosine_table(true, power, c_size.address_bits, c_size.data_bits);
+    it->second = {c_steps * tables::table_error(table), c_steps * c_drift * steepest(power)};
+  }
+  return it->second;
+}
+
+Parts parts(double n, const Bell& bell) {
+  const auto& [table, drift] = power_parts(bell.power);
+  return {c_steps * fit_error(n, bell), bell.gain * table, bell.gain * drift};
+}
+
+TEST(Bell, BelowTwoNoBellIsGood) {
+  double most = 0.0, at = 0.0;
+  for (int i = 0; i <= 400; ++i) {
+    const double n = 1.0 + i / 400.0, steps = c_steps * fit_error(n, fitted_bell(n));
+    if (steps > most) most = steps, at = n;
+  }
+  EXPECT_NEAR(most, 8.67, 0.01) << "n = " << at;
+  EXPECT_NEAR(at, 1.305, 0.01);
+}
+
+// For every n in [2, 1000], not only those that are tried.
+//
+// From n1 to n > n1 the error of one bell grows by (n - n1)/(e n1) at most, as |d/dn cos^n x| <= 1/(e n). So
+// the sum that fitted_bell makes least, of error and `weighed`, is at n at most what it is at n1 with n1's
+// own bell, plus this, plus c_not_least. What else adds to the total comes with the power that is chosen; the
+// worst power is taken for it, and a gain of 1 + 5/255, since the gain is no further from 1 than the error is
+// large.
+TEST(Bell, ExactBellIsWithinFiveSteps) {
+  constexpr double c_most = 5.0, c_not_least = 1e-5;
+  double beside = 0.0;
+  for (const int power : c_powers) {
+    const auto& [table, drift] = power_parts(power);
+    beside = std::max(beside, (1 + c_most / c_steps) * (table + drift) - c_steps * weighed(power));
+  }
+  beside += Parts{}.factor + Parts{}.rounding + c_steps * c_not_least;
+
+  double worst_exponent = 0.0, worst_integer = 0.0;
+  Parts worst{}, worst_of_integers{};
+  int tried = 0;
+  // The least sum at n; notes the total there.
+  const auto least_sum = [&](double n) {
+    const Bell bell = fitted_bell(n);
+    const Parts p = parts(n, bell);
+    ++tried;
+    EXPECT_LE(p.total(), c_most) << "n = " << n << ": " << p;
+    EXPECT_LE(std::abs(bell.gain - 1), c_most / c_steps) << "n = " << n;
+    if (p.total() > worst.total()) worst = p, worst_exponent = n;
+    if (n == std::floor(n) && p.total() > worst_of_integers.total()) worst_of_integers = p, worst_integer = n;
+    return p.fit + c_steps * weighed(bell.power);
+  };
+  double most_bound = 0.0;
+  for (int n = 2; n < 1000; ++n) {
+    double from = n, sum = least_sum(n);
+    while (from < n + 1) {
+      // As far as the bound allows.
+      const double room = c_most - beside - sum, reach = from * room * std::numbers::e / c_steps;
+      ASSERT_GT(reach, 1e-6) << "between n = " << from << " and " << n + 1 << " the bound exceeds " << c_most;
+      const double to = std::min<double>(n + 1, from + reach);
+      most_bound = std::max(most_bound, sum + beside + c_steps * (to - from) / (std::numbers::e * from));
+      from = to;
+      if (from < n + 1) sum = least_sum(from);
+    }
+  }
+  least_sum(1000);
+  EXPECT_LE(most_bound, c_most * (1 + 1e-12));
+
+  std::ostringstream text;
+  text << "worst exponent " << worst_exponent << ": " << worst << "; worst integer " << worst_integer << ": "
+       << worst_of_integers;
+  RecordProperty("worst", text.str());
+  RecordProperty("exponents_tried", tried);
+  std::cout << text.str() << "; " << tried << " exponents tried\n";
+}
+
+// The shader's arithmetic stays within the sum of the parts, drifted angles and all.
+TEST(Bell, ColoursStayWithinTheSumOfTheParts) {
+  constexpr int c_fraction = 22;
+  const int data_bits = c_size.data_bits, address_bits = c_size.address_bits;
+  const std::int64_t largest = (1 << data_bits) - 1, unit = std::int64_t{1} << c_fraction;
+  Random random(4);
+  std::vector<double> exponents = {1.0, 2.0, 2.5, 2.646, 2.649, 3.0, 5.0, 16.0, 1000.0, 1e6};
+  for (int i = 0; i < 40; ++i) exponents.push_back(random.log_uniform(1.0, 1e6));
+  double nearest = 0.0;
+  for (const double n : exponents) {
+    const Bell bell = fitted_bell(n);
+    const Parts bound = parts(n, bell);
+    const tables::CosineTable table = tables::cosine_table(true, bell.power, address_bits, data_bits);
+    const std::int64_t factor =
+        std::llround(c_steps * bell.gain * 256.0 * double(largest + 1) / double(largest));
+    double worst = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+      const double x =
+          std::min(c_pi, random.uniform(-1.2, 1.2) * std::max(c_pi / (2 * bell.scale), 2 / std::sqrt(n)));
+      const double half_bells = bell.scale * x / (c_pi / 2);
+      // Anywhere within the drift; often at its ends.
+      const double drift = c_drift * std::clamp(random.uniform(-2.0, 2.0), -1.0, 1.0);
+      const double word_real = (half_bells + drift) * double(unit);
+      const std::int64_t word =
+          static_cast<std::int64_t>(drift < 0 ? std::ceil(word_real) : std::floor(word_real));
+      const std::int64_t magnitude = word < 0 ? ~word : word;
+      const std::int64_t sample =
+          magnitude < unit ? table.entries[static_cast<std::size_t>(magnitude >> (c_fraction - address_bits))]
+                           : 0;
+      const std::int64_t half = std::int64_t{1} << (7 + data_bits);
+      const std::int64_t colour = std::min<std::int64_t>(255, (half + factor * sample) >> (8 + data_bits));
+      const double error = std::abs(double(colour) - c_steps * lobe(n, std::abs(x)));
+      worst = std::max(worst, error);
+      ASSERT_LE(error, bound.total()) << "n = " << n << ", x = " << x << ", drift " << drift << ": " << bound;
+    }
+    nearest = std::max(nearest, worst / bound.total());
+  }
+  EXPECT_GT(nearest, 0.8) << "the bound is far from what is seen";
+  std::cout << "colours come as near as " << nearest << " to the bound\n";
+}
+
+}  // namespace
+}  // namespace halfway

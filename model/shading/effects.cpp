@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shading/effects.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace halfway {
+namespace {
+
+bool is_black(glm::dvec3 colour) {
+  return colour == glm::dvec3(0.0);
+}
+
+const char* kind_name(LightKind kind) {
+  switch (kind) {
+    case LightKind::directional:
+      return "directional";
+    case LightKind::positional:
+      return "positional";
+    case LightKind::spot:
+      break;
+  }
+  return "spot";
+}
+
+std::size_t count_of(const Scene& scene, LightKind kind) {
+  switch (kind) {
+    case LightKind::directional:
+      return scene.directional.size();
+    case LightKind::positional:
+      return scene.positional.size();
+    case LightKind::spot:
+      break;
+  }
+  return scene.spots.size();
+}
+
+// Materials in use.
+using Worn = std::vector<const Material*>;
+
+Worn worn_of(const Scene& scene) {
+  const std::vector<bool> worn = worn_materials(scene);
+  Worn materials;
+  for (std::size_t i = 0; i < worn.size(); ++i)
+    if (worn[i]) materials.push_back(&scene.materials[i]);
+  return materials;
+}
+
+// The first that passes; null where none does.
+const Material* first(const Worn& materials, bool (*test)(const Material&)) {
+  const auto it = std::ranges::find_if(materials, [&](const Material* m) { return test(*m); });
+  return it == materials.end() ? nullptr : *it;
+}
+
+bool reflects(const Worn& materials) {
+  return first(materials, has_diffuse) != nullptr || first(materials, has_specular) != nullptr;
+}
+
+bool has_ambient(const Material& m) {
+  return m.ambient > 0.0 && !is_black(m.colour);
+}
+bool has_coloured_highlight(const Material& m) {
+  return has_specular(m) && !is_grey(m.specular_colour);
+}
+bool is_coloured(const Material& m) {
+  return !is_grey(m.colour) || has_coloured_highlight(m);
+}
+
+std::string first_coloured_light(const Scene& scene) {
+  for (const LightRef light : shining_lights(scene))
+    if (!is_grey(intensity(scene, light))) return name_of(light) + " is coloured";
+  return {};
+}
+
+Call call_ambient(const Scene& scene, const Worn& worn) {
+  if (is_black(scene.ambient)) return {false, "the ambient light is 0"};
+  const Material* m = first(worn, has_ambient);
+  if (m == nullptr) return {false, "every k_a is 0"};
+  return {true, fmt::format("material '{}' has k_a {:g}", m->name, m->ambient)};
+}
+
+Call call_colour(const Scene& scene, const Worn& worn) {
+  if (!is_grey(scene.ambient)) return {true, "the ambient light is coloured"};
+  if (std::string light = first_coloured_light(scene); !light.empty()) return {true, std::move(light)};
+  if (const Material* m = first(worn, is_coloured))
+    return {true, fmt::format("material '{}' is coloured", m->name)};
+  return {false, "every light and material is grey"};
+}
+
+const char* c_no_light = "no light shines";
+
+Call call_diffuse(const Worn& worn, bool lit) {
+  if (!lit) return {false, c_no_light};
+  const Material* m = first(worn, has_diffuse);
+  if (m == nullptr) return {false, "every k_d is 0"};
+  return {true, fmt::format("material '{}' has k_d {:g}", m->name, m->diffuse)};
+}
+
+Call call_specular(const Worn& worn, bool lit) {
+  if (!lit) return {false, c_no_light};
+  const Material* m = first(worn, has_specular);
+  if (m == nullptr) return {false, "every k_s is 0"};
+  return {true, fmt::format("material '{}' has k_s {:g}", m->name, m->specular)};
+}
+
+const char* c_no_highlight = "there is no highlight";
+
+Call call_highlight_colour(const Scene& scene, const Worn& worn, const Call& specular) {
+  if (!specular.called_for) return {false, c_no_highlight};
+  if (std::string light = first_coloured_light(scene); !light.empty()) return {true, std::move(light)};
+  if (const Material* m = first(worn, has_coloured_highlight))
+    return {true, fmt::format("the highlights of material '{}' are coloured", m->name)};
+  return {false, "every highlight is white"};
+}
+
+Call call_exponents(const Worn& worn, const Call& specular) {
+  if (!specular.called_for) return {false, c_no_highlight};
+  std::set<double> exponents;
+  for (const Material* m : worn)
+    if (has_specular(*m) && m->brdf != Brdf::cook_torrance) exponents.insert(m->exponent);
+  if (exponents.empty()) return {false, "no highlight has an exponent"};
+  if (exponents.size() == 1) return {false, fmt::format("every exponent is {:g}", *exponents.begin())};
+  return {true, fmt::format("{} exponents, {:g} to {:g}", exponents.size(), *exponents.begin(),
+                            *exponents.rbegin())};
+}
+
+Call call_lights(const Scene& scene, LightKind kind, const SceneCalls& calls) {
+  const std::size_t all = count_of(scene, kind), count = calls.count(kind);
+  if (all == 0) return {false, fmt::format("the scene has no {} light", kind_name(kind))};
+  if (count > 0) return {true, fmt::format("{} of {} lights", count, calls.lights.size())};
+  const bool shine = std::ranges::any_of(shining_lights(scene), [&](LightRef l) { return l.kind == kind; });
+  return {false, shine ? "no material reflects them" : "their intensity is 0"};
+}
+
+}  // namespace
+
+glm::dvec3 intensity(const Scene& scene, LightRef light) {
+  switch (light.kind) {
+    case LightKind::directional:
+      return scene.directional[light.index].intensity;
+    case LightKind::positional:
+      return scene.positional[light.index].intensity;
+    case LightKind::spot:
+      break;
+  }
+  return scene.spots[light.index].intensity;
+}
+
+std::string name_of(LightRef light) {
+  return fmt::format("{} light {}", kind_name(light.kind), light.index + 1);
+}
+
+std::vector<LightRef> shining_lights(const Scene& scene) {
+  std::vector<LightRef> lights;
+  for (const LightKind kind : {LightKind::directional, LightKind::positional, LightKind::spot})
+    for (std::size_t i = 0; i < count_of(scene, kind); ++i)
+      if (const LightRef light{kind, i}; !is_black(intensity(scene, light))) lights.push_back(light);
+  return lights;
+}
+
+std::vector<LightRef> reflected_lights(const Scene& scene) {
+  return reflects(worn_of(scene)) ? shining_lights(scene) : std::vector<LightRef>();
+}
+
+std::vector<bool> worn_materials(const Scene& scene) {
+  std::vector<bool> worn(scene.materials.size(), false);
+  for (const SceneTriangle& t : scene.triangles) worn[t.material] = true;
+  return worn;
+}
+
+bool has_diffuse(const Material& m) {
+  return m.diffuse > 0.0 && !is_black(m.colour);
+}
+bool has_specular(const Material& m) {
+  return m.specular > 0.0 && !is_black(m.specular_colour);
+}
+
+bool is_grey(glm::dvec3 v) {
+  return v.x == v.y && v.y == v.z;
+}
+
+const char* to_string(Effect effect) {
+  static constexpr std::array<const char*, c_effects> c_names = {"ambient",         "diffuse",
+                                                                 "specular",        "highlight colour",
+                                                                 "exponents",       "directional",
+                                                                 "positional",      "spot",
+                                                                 "shadow",          "normalization",
+                                                                 "colour channels", "depth",
+                                                                 "subdivision",     "perspective correction"};
+  return c_names[static_cast<std::size_t>(effect)];
+}
+
+std::size_t SceneCalls::count(LightKind kind) const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(lights, [&](LightRef light) { return light.kind == kind; }));
+}
+
+SceneCalls calls_of(const Scene& scene) {
+  const Worn worn = worn_of(scene);
+  SceneCalls calls;
+  calls.lights = reflected_lights(scene);
+  const auto at = [&](Effect effect) -> Call& { return calls.call[static_cast<std::size_t>(effect)]; };
+  const bool lit = !shining_lights(scene).empty();
+  at(Effect::ambient) = call_ambient(scene, worn);
+  at(Effect::diffuse) = call_diffuse(worn, lit);
+  at(Effect::specular) = call_specular(worn, lit);
+  at(Effect::highlight_colour) = call_highlight_colour(scene, worn, at(Effect::specular));
+  at(Effect::exponents) = call_exponents(worn, at(Effect::specular));
+  at(Effect::directional) = call_lights(scene, LightKind::directional, calls);
+  at(Effect::positional) = call_lights(scene, LightKind::positional, calls);
+  at(Effect::spot) = call_lights(scene, LightKind::spot, calls);
+  const auto where_reflected = [&](const char* why) -> Call {
+    if (calls.lights.empty()) return {false, lit ? "no material reflects a light" : c_no_light};
+    return {true, why};
+  };
+  at(Effect::shadow) = {false, "the scene does without"};
+  if (scene.shadows) at(Effect::shadow) = where_reflected("surfaces keep light from one another");
+  at(Effect::normalization) = where_reflected("lights are reflected by cosines of unit vectors");
+  at(Effect::colour) = call_colour(scene, worn);
+  at(Effect::depth) = {true, "the z test needs every fragment's depth"};
+  at(Effect::subdivision) = where_reflected("a reflection may be finer than a triangle");
+  at(Effect::perspective) = {true, "every camera sees in perspective"};
+  return calls;
+}
+
+}  // namespace halfway

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shading/light_ray.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace halfway {
+namespace {
+
+struct Sheared {
+  double x, y, z;
+};
+
+/// p.x q.y - p.y q.x, its sign exact and its value good however small it comes out.
+double cross(const Sheared& p, const Sheared& q) {
+  const double left = p.x * q.y, right = p.y * q.x;
+  const double difference = left - right;
+  constexpr double c_few_digits_lost = 1e-10;
+  if (std::abs(difference) > c_few_digits_lost * (std::abs(left) + std::abs(right))) return difference;
+  // Kahan's difference of products: wrong by two roundings of the result at most.
+  return std::fma(p.x, q.y, -right) + std::fma(-p.y, q.x, right);
+}
+
+/// An edge from p to q as the ray passes it.
+struct PassedEdge {
+  PassedEdge(const Sheared& p, const Sheared& q) : weight(cross(p, q)), side(weight) {
+    if (side == 0.0) side = p.y != q.y ? p.y - q.y : q.x - p.x;
+  }
+  double weight;
+  /// Only the sign counts. On the edge itself the ray counts as moved by (e, e^2), e infinitely small: on one
+  /// side for both triangles at the edge, and never on it.
+  double side;
+};
+
+}  // namespace
+
+LightPoint light_point(const Scene& scene, LightRef light) {
+  switch (light.kind) {
+    case LightKind::directional:
+      return {scene.directional[light.index].to_light_world, 0.0};
+    case LightKind::positional:
+      return {scene.positional[light.index].position_world, 1.0};
+    case LightKind::spot:
+      break;
+  }
+  return {scene.spots[light.index].position_world, 1.0};
+}
+
+bool is_averted(const CornersWorld& corners_world, const LightPoint& light) {
+  const auto& [a, b, c] = corners_world;
+  return glm::dot(light.way_from(a), glm::cross(b - a, c - a)) < 0.0;
+}
+
+// The ray becomes the z axis: sheared, not turned, so that each vertex is moved once, and to the same place
+// for every triangle that has it (Woop, Benthin and Wald, 2013).
+LightRay::LightRay(const glm::dvec3& from_world, const LightPoint& light)
+    : from_world_(from_world),
+      direction_world_(light.way_from(from_world)),
+      greatest_way_(light.w == 0.0 ? std::numeric_limits<double>::infinity() : 1.0) {
+  const glm::dvec3 size = glm::abs(direction_world_);
+  z_ = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+  x_ = (z_ + 1) % 3;
+  y_ = (x_ + 1) % 3;
+  if (direction_world_[z_] < 0.0) std::swap(x_, y_);  // keeps the axes right-handed
+  shear_x_ = direction_world_[x_] / direction_world_[z_];
+  shear_y_ = direction_world_[y_] / direction_world_[z_];
+  scale_z_ = 1.0 / direction_world_[z_];
+}
+
+LightRay::Hit LightRay::hit(const CornersWorld& corners_world, double least_way) const {
+  const auto sheared = [this](const glm::dvec3& corner) {
+    const glm::dvec3 v = corner - from_world_;
+    return Sheared{v[x_] - shear_x_ * v[z_], v[y_] - shear_y_ * v[z_], scale_z_ * v[z_]};
+  };
+  const Sheared a = sheared(corners_world[0]), b = sheared(corners_world[1]), c = sheared(corners_world[2]);
+  const PassedEdge bc(b, c), ca(c, a), ab(a, b);
+  const bool enters = bc.side < 0.0 && ca.side < 0.0 && ab.side < 0.0;
+  if (!enters && !(bc.side > 0.0 && ca.side > 0.0 && ab.side > 0.0)) return {};
+  // Weights of one sign: however thin the triangle, the way stays between those of its corners.
+  const double way =
+      (bc.weight * a.z + ca.weight * b.z + ab.weight * c.z) / (bc.weight + ca.weight + ab.weight);
+  if (!(way > least_way && way < greatest_way_)) return {};
+  return {enters ? Crossing::enters : Crossing::leaves, way};
+}
+
+}  // namespace halfway

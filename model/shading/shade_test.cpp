@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shading/shade.hpp"
+
+#include <gtest/gtest.h>
+#include <mpfr.h>
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+namespace halfway {
+namespace {
+
+/// 400 bits: enough that cos^4 and the quotients of the printed formula lose nothing here.
+class Real {
+ public:
+  Real(double v = 0.0) {
+    mpfr_init2(v_, 400);
+    mpfr_set_d(v_, v, MPFR_RNDN);
+  }
+  Real(const Real& other) : Real() { mpfr_set(v_, other.v_, MPFR_RNDN); }
+  Real& operator=(const Real& other) {
+    mpfr_set(v_, other.v_, MPFR_RNDN);
+    return *this;
+  }
+  ~Real() { mpfr_clear(v_); }
+  double value() const { return mpfr_get_d(v_, MPFR_RNDN); }
+  friend Real operator+(const Real& a, const Real& b) { return apply(mpfr_add, a, b); }
+  friend Real operator-(const Real& a, const Real& b) { return apply(mpfr_sub, a, b); }
+  friend Real operator*(const Real& a, const Real& b) { return apply(mpfr_mul, a, b); }
+  friend Real operator/(const Real& a, const Real& b) { return apply(mpfr_div, a, b); }
+  friend Real smaller(const Real& a, const Real& b) { return apply(mpfr_min, a, b); }
+  friend Real exponential(const Real& a) {
+    Real r;
+    mpfr_exp(r.v_, a.v_, MPFR_RNDN);
+    return r;
+  }
+  friend Real root(const Real& a) {
+    Real r;
+    mpfr_sqrt(r.v_, a.v_, MPFR_RNDN);
+    return r;
+  }
+  static Real pi() {
+    Real r;
+    mpfr_const_pi(r.v_, MPFR_RNDN);
+    return r;
+  }
+
+ private:
+  template <class Operation>
+  static Real apply(Operation operation, const Real& a, const Real& b) {
+    Real r;
+    operation(r.v_, a.v_, b.v_, MPFR_RNDN);
+    return r;
+  }
+  mpfr_t v_;
+};
+
+using RealVector = std::array<Real, 3>;
+RealVector real(glm::dvec3 v) {
+  return {v.x, v.y, v.z};
+}
+Real dot(const RealVector& a, const RealVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Equation 7 of the spherical paper as it is printed, times N.L.
+double cook_torrance_as_printed(const Material& material, const RealVector& n, const RealVector& l,
+                                const RealVector& v) {
+  RealVector h{l[0] + v[0], l[1] + v[1], l[2] + v[2]};
+  const Real length = root(dot(h, h));
+  for (Real& x : h) x = x / length;
+  const Real nh = dot(n, h), nl = dot(n, l), nv = dot(n, v), vh = dot(v, h), lh = dot(l, h);
+  const Real m2 = Real(material.roughness) * material.roughness, cos2 = nh * nh;
+  const Real density =
+      exponential(Real(0.0) - (Real(1.0) - cos2) / (cos2 * m2)) / (Real::pi() * m2 * cos2 * cos2);
+  const Real x = Real(1.0) - lh;
+  const Real fresnel = Real(material.reflectance) + (Real(1.0) - material.reflectance) * x * x * x * x * x;
+  const Real mask = smaller(smaller(Real(2.0) * nh * nv / vh, Real(2.0) * nh * nl / lh), Real(1.0));
+  return (nl * density * fresnel / (Real(4.0) * nl * nv) * mask).value();
+}
+
+glm::dvec3 at(double cosine, double angle) {
+  const double sine = std::sqrt(1.0 - cosine * cosine);
+  return {sine * std::cos(angle), sine * std::sin(angle), cosine};
+}
+
+Material cook_torrance(double roughness, double reflectance) {
+  Material material;
+  material.brdf = Brdf::cook_torrance;
+  material.roughness = roughness;
+  material.reflectance = reflectance;
+  return material;
+}
+
+constexpr glm::dvec3 c_up{0.0, 0.0, 1.0};
+
+TEST(Shade, CookTorranceEqualsThePrintedFormulaDownToTheHorizon) {
+  int compared = 0;
+  for (double nl : {1e-300, 1e-40, 1e-17, 1e-8, 1e-3, 0.1, 0.5, 0.9, 1.0})
+    for (double nv : {1e-300, 1e-40, 1e-17, 1e-8, 1e-3, 0.1, 0.5, 0.9, 1.0})
+      for (double angle : {0.0, 0.3, 1.5, 2.5, 3.0})
+        for (double roughness : {0.05, 0.3, 1.0})
+          for (double reflectance : {0.0, 0.05, 1.0}) {
+            const Material material = cook_torrance(roughness, reflectance);
+            const glm::dvec3 l = at(nl, 0.0), v = at(nv, angle);
+            const double expected = cook_torrance_as_printed(material, real(c_up), real(l), real(v));
+            const double factor = specular_factor(material, c_up, l, v);
+            // F = (1 - L.H)^5 has few digits of its own where L = V: its error there is absolute.
+            const double slack = expected * (reflectance == 0.0 ? 1e-6 : 1e-11) + 1e-60;
+            if (expected > c_largest_specular)
+              EXPECT_EQ(factor, c_largest_specular);
+            else
+              EXPECT_NEAR(factor, expected, slack) << nl << ' ' << nv << ' ' << angle << ' ' << roughness;
+            compared += expected > 1e-6;
+          }
+  EXPECT_GT(compared, 500);
+}
+
+TEST(Shade, CookTorranceKeepsItsDigitsInANarrowHighlight) {
+  const Material material = cook_torrance(1e-4, 0.05);
+  for (double sine : {0.0, 1e-5, 1e-4, 2e-4, 5e-4}) {
+    const glm::dvec3 l{sine, 0.0, std::sqrt(1.0 - sine * sine)};
+    const double expected = cook_torrance_as_printed(material, real(c_up), real(l), real(c_up));
+    EXPECT_NEAR(specular_factor(material, c_up, l, c_up), expected, 1e-11 * expected) << sine;
+  }
+}
+
+TEST(Shade, CookTorranceFromOppositeHorizonsIsBounded) {
+  const double cosine = 1e-4, m = 0.5;
+  const Material material = cook_torrance(m, 0.2);
+  const double x = 1.0 - cosine, fresnel = 0.2 + 0.8 * x * x * x * x * x;
+  EXPECT_NEAR(specular_factor(material, c_up, at(cosine, 0.0), at(cosine, std::numbers::pi)),
+              fresnel / (std::numbers::pi * m * m) / (4.0 * cosine), 1e-6);
+  EXPECT_EQ(specular_factor(material, c_up, at(1e-12, 0.0), at(1e-12, std::numbers::pi)), c_largest_specular);
+  EXPECT_EQ(specular_factor(material, c_up, {1, 0, 0}, {-1, 0, 0}), 0.0);
+}
+
+TEST(Shade, NothingShinesFromBelowTheHorizon) {
+  for (Brdf brdf : {Brdf::blinn, Brdf::phong, Brdf::cook_torrance}) {
+    Material material = cook_torrance(0.9, 0.9);
+    material.brdf = brdf;
+    material.exponent = 1.0;
+    EXPECT_EQ(specular_factor(material, c_up, at(-1e-9, 0.0), c_up), 0.0);
+    EXPECT_EQ(specular_factor(material, c_up, at(0.0, 0.0), c_up), 0.0);
+    EXPECT_GT(specular_factor(material, c_up, at(0.5, 0.0), c_up), 0.0);
+  }
+  EXPECT_EQ(specular_factor(cook_torrance(0.9, 0.9), c_up, c_up, at(-1e-9, 0.0)), 0.0);
+  EXPECT_EQ(specular_factor(cook_torrance(0.9, 0.9), c_up, c_up, at(0.0, 0.0)), 0.0);
+}
+
+TEST(Shade, PowersAtKnownAngles) {
+  Material material;
+  material.exponent = 7.0;
+  const glm::dvec3 l{std::sin(0.5), 0.0, std::cos(0.5)};
+  EXPECT_NEAR(specular_factor(material, c_up, l, c_up), std::pow(std::cos(0.25), 7.0), 1e-15);
+  material.brdf = Brdf::phong;
+  EXPECT_NEAR(specular_factor(material, c_up, l, c_up), std::pow(std::cos(0.5), 7.0), 1e-15);
+  for (Brdf brdf : {Brdf::blinn, Brdf::phong}) {  // the mirror direction, full at any exponent
+    material.brdf = brdf;
+    material.exponent = 1.0;
+    EXPECT_NEAR(specular_factor(material, c_up, l, {-l.x, 0.0, l.z}), 1.0, 1e-15);
+  }
+}
+
+TEST(Shade, BlinnWithoutAHalfwayVectorIsZero) {
+  const Material material;
+  const glm::dvec3 n = glm::normalize(glm::dvec3(1.0, 0.0, 1.0));
+  EXPECT_EQ(specular_factor(material, n, c_up, -c_up), 0.0);
+}
+
+TEST(Shade, BeckmannIsAProjectedDensity) {
+  // Its integral over the hemisphere, weighted by the cosine, is one.
+  for (double m : {0.1, 0.3, 1.0}) {
+    double sum = 0.0;
+    constexpr int c_steps = 200000;
+    for (int i = 0; i < c_steps; ++i) {
+      const double angle = (i + 0.5) / c_steps * std::numbers::pi / 2;
+      sum +=
+          beckmann(std::cos(angle), std::sin(angle) * std::sin(angle), m) * std::cos(angle) * std::sin(angle);
+    }
+    EXPECT_NEAR(sum * 2 * std::numbers::pi * (std::numbers::pi / 2) / c_steps, 1.0, 1e-6) << m;
+  }
+  EXPECT_EQ(beckmann(0.0, 1.0, 0.3), 0.0);
+  EXPECT_EQ(beckmann(1e-200, 1.0, 0.3), 0.0);
+}
+
+TEST(Shade, SpotFallsSmoothlyFromInnerToOuter) {
+  SpotLight light;
+  light.cos_inner = 0.75;
+  light.cos_outer = 0.25;
+  EXPECT_EQ(spot_factor(light, 0.75), 1.0);
+  EXPECT_EQ(spot_factor(light, 0.5), 0.5);
+  EXPECT_EQ(spot_factor(light, 0.375), 0.15625);  // 3/16 - 2/64
+  EXPECT_EQ(spot_factor(light, 0.25), 0.0);
+  EXPECT_EQ(spot_factor(light, -1.0), 0.0);
+  light.cos_outer = 0.75;
+  EXPECT_EQ(spot_factor(light, 0.75), 1.0);
+  EXPECT_EQ(spot_factor(light, std::nextafter(0.75, 0.0)), 0.0);
+}
+
+TEST(Shade, RadianceSumsTheTermsOfEachLight) {
+  Scene scene;
+  scene.camera.eye_world = {0, 0, 10};
+  scene.ambient = {0.5, 0.25, 0.125};
+  Material material;
+  material.colour = {1.0, 0.5, 0.25};
+  material.specular_colour = {0.5, 1.0, 0.0};
+  material.ambient = 0.5;
+  material.diffuse = 0.25;
+  material.specular = 2.0;
+  const glm::dvec3 ambient{0.25, 0.0625, 0.015625};
+  EXPECT_EQ(radiance(scene, material, {}, c_up), ambient);
+  // From behind the eye, straight down: N.L = N.H = 1.
+  const glm::dvec3 intensity{4.0, 2.0, 1.0};
+  const glm::dvec3 lit{4.0 * (0.25 + 1.0), 2.0 * (0.125 + 2.0), 1.0 * 0.0625};
+  scene.directional = {{c_up, intensity}};
+  EXPECT_EQ(radiance(scene, material, {}, c_up), ambient + lit);
+  scene.positional = {{{0, 0, 3}, intensity}};
+  EXPECT_EQ(radiance(scene, material, {}, c_up), ambient + 2.0 * lit);
+  scene.spots = {{{0, 0, 3}, {0, 0, -1}, 0.9, 0.8, intensity}};
+  EXPECT_EQ(radiance(scene, material, {}, c_up), ambient + 3.0 * lit);
+  scene.spots[0].axis_world = {0, 0, 1};
+  EXPECT_EQ(radiance(scene, material, {}, c_up), ambient + 2.0 * lit);
+  EXPECT_EQ(radiance(scene, material, {}, -c_up), ambient);
+}
+
+TEST(Shade, ALightThatDoesNotReachGivesNothing) {
+  Scene scene;
+  scene.ambient = {0.5, 0.25, 0.125};
+  // Each light a colour of its own; the second of each kind has the weight of the next digit.
+  scene.directional = {{c_up, {1, 0, 0}}, {c_up, {8, 0, 0}}};
+  scene.positional = {{{0, 0, 1}, {0, 1, 0}}, {{0, 0, 2}, {0, 8, 0}}};
+  scene.spots = {{{0, 0, 3}, -c_up, 0.9, 0.8, {0, 0, 1}}, {{0, 0, 4}, -c_up, 0.9, 0.8, {0, 0, 8}}};
+  Material material;
+  material.ambient = material.diffuse = 1.0;
+  material.specular = 0.0;
+  const auto seen = [&](const LightFilter& reaches) { return radiance(scene, material, {}, c_up, reaches); };
+  EXPECT_EQ(seen({}), scene.ambient + glm::dvec3(9.0));
+  EXPECT_EQ(seen([](LightRef) { return true; }), scene.ambient + glm::dvec3(9.0));
+  EXPECT_EQ(seen([](LightRef) { return false; }), scene.ambient);
+  int kind = 0;
+  for (const LightKind kept : {LightKind::directional, LightKind::positional, LightKind::spot}) {
+    for (std::size_t index : {0, 1}) {
+      glm::dvec3 expected = scene.ambient;
+      expected[kind] += index == 0 ? 1.0 : 8.0;
+      EXPECT_EQ(seen([&](LightRef light) { return light == LightRef{kept, index}; }), expected);
+    }
+    ++kind;
+  }
+}
+
+TEST(Shade, RadianceIsFiniteWhateverTheScene) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto pick = [&](const std::vector<double>& values) { return values[random() % values.size()]; };
+  const std::vector<double> scale{0.0, 1e-300, 1e-12, 1.0, 1e12, 1e300};
+  const auto vector = [&] {
+    return pick({0.0, 1e-200, 1e-9, 1.0, 1e9, 1e200}) * glm::dvec3(unit(random), unit(random), unit(random));
+  };
+  const auto direction = [&] {
+    return random() % 4 == 0 ? glm::dvec3(0, 0, random() % 2 ? 1 : -1)
+                             : glm::normalize(glm::dvec3(unit(random), unit(random), unit(random)));
+  };
+  for (int i = 0; i < 20000; ++i) {
+    Scene scene;
+    const glm::dvec3 position = vector(), colour(pick(scale), pick(scale), pick(scale));
+    scene.camera.eye_world = random() % 8 ? vector() : position;
+    scene.ambient = colour;
+    scene.directional = {{direction(), colour}};
+    scene.positional = {{random() % 8 ? vector() : position, colour}};
+    const double cosine = unit(random);
+    scene.spots = {{random() % 8 ? vector() : position, direction(), cosine,
+                    cosine - (random() % 2 ? 1.0 : 0.0), colour}};
+    Material material;
+    material.brdf = std::array{Brdf::blinn, Brdf::phong, Brdf::cook_torrance}[random() % 3];
+    material.ambient = pick(scale);
+    material.diffuse = pick(scale);
+    material.specular = pick(scale);
+    material.colour = material.specular_colour = colour;
+    material.exponent = pick({1.0, 20.0, 500.0, 1e6, 1e300});
+    material.roughness = pick({1e-300, 1e-100, 1e-9, 0.01, 0.3, 1.0});
+    material.reflectance = pick({0.0, 0.05, 1.0});
+    const glm::dvec3 result = radiance(scene, material, position, direction());
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_GE(result[k], 0.0);
+      ASSERT_LE(result[k], c_largest_radiance);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halfway

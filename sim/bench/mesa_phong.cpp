@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene by OpenGL ES: the illumination model for each pixel in a fragment shader, for `make bench` on
+// Mesa's llvmpipe, OpenGL without a graphics card.
+//
+//   halfway_mesa SCENE WIDTHxHEIGHT REPETITIONS FRAME
+//
+// Writes the frame, red, green and blue of each pixel, line by line from the top left. Prints the processor
+// seconds of the quickest drawing, vertices in place, until the picture is there, and on a second line the
+// renderer's name.
+#define EGL_EGLEXT_PROTOTYPES
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GLES3/gl3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "frame/frame.hpp"
+#include "scene/camera.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/seconds.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr const char* c_vertex_shader = R"(#version 300 es
+uniform highp vec3 eye, right, up, backward;
+uniform highp vec4 projection;  // of x, y, z, and z's constant
+layout(location = 0) in highp vec3 at;
+layout(location = 1) in highp vec3 normal_at;
+out highp vec3 position, normal;
+void main() {
+  position = at;
+  normal = normal_at;
+  vec3 view = vec3(dot(at - eye, right), dot(at - eye, up), dot(at - eye, backward));
+  gl_Position = vec4(projection.x * view.x, projection.y * view.y, projection.z * view.z + projection.w, -view.z);
+}
+)";
+
+// As radiance() of reference/shade.cpp with Blinn's highlights. LIGHTS comes before it.
+constexpr const char* c_fragment_shader = R"(
+precision highp float;
+uniform vec3 eye, ambient, diffuse, specular;
+uniform float exponent;
+uniform vec4 light[LIGHTS];  // a direction, or with w = 1 a place
+uniform vec3 intensity[LIGHTS];
+in vec3 position, normal;
+out vec4 colour;
+void main() {
+  vec3 n = normalize(normal), v = normalize(eye - position), sum = ambient;
+  for (int i = 0; i < LIGHTS; ++i) {
+    vec3 l = normalize(light[i].xyz - light[i].w * position);
+    float n_dot_l = dot(n, l);
+    if (n_dot_l > 0.0) {
+      float n_dot_h = dot(n, normalize(l + v));
+      sum += intensity[i] * (n_dot_l * diffuse + (n_dot_h > 0.0 ? pow(n_dot_h, exponent) : 0.0) * specular);
+    }
+  }
+  colour = vec4(sum, 1.0);
+}
+)";
+
+/// Without a window; current until the process ends.
+Status make_context() {
+  const EGLDisplay display =
+      eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
+    return tool_failed("EGL: no display without a surface; install it with: apt-get install libgl1-mesa-dri");
+  const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
+  eglBindAPI(EGL_OPENGL_ES_API);
+  const EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version);
+  if (context == EGL_NO_CONTEXT || !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
+    return tool_failed("EGL: no context of OpenGL ES 3");
+  return Ok{};
+}
+
+Result<GLuint> make_shader(GLenum kind, const std::string& text) {
+  const GLuint shader = glCreateShader(kind);
+  const char* source = text.c_str();
+  glShaderSource(shader, 1, &source, nullptr);
+  glCompileShader(shader);
+  GLint compiled = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+  if (compiled) return shader;
+  char log[1024];
+  glGetShaderInfoLog(shader, sizeof log, nullptr, log);
+  return tool_failed(fmt::format("OpenGL: {}", log));
+}
+
+class Picture {
+ public:
+  static Result<Picture> make(const Scene& scene, FrameSize size) {
+    if (!scene.spots.empty() || scene.shadows) return bad_input("no spots and no shadows here");
+    for (const Material& m : scene.materials)
+      if (m.brdf != Brdf::blinn) return bad_input(fmt::format("material '{}': Blinn's alone here", m.name));
+    Picture picture(scene, size);
+    const std::size_t lights = scene.directional.size() + scene.positional.size();
+    const auto vertex = make_shader(GL_VERTEX_SHADER, c_vertex_shader);
+    if (!vertex) return vertex.error();
+    const auto fragment =
+        make_shader(GL_FRAGMENT_SHADER, fmt::format("#version 300 es\n#define LIGHTS {}\n{}",
+                                                    std::max<std::size_t>(lights, 1), c_fragment_shader));
+    if (!fragment) return fragment.error();
+    picture.program_ = glCreateProgram();
+    glAttachShader(picture.program_, *vertex);
+    glAttachShader(picture.program_, *fragment);
+    glLinkProgram(picture.program_);
+    GLint linked = 0;
+    glGetProgramiv(picture.program_, GL_LINK_STATUS, &linked);
+    if (!linked) return tool_failed("OpenGL: the shaders do not link");
+    glUseProgram(picture.program_);
+    picture.set_camera();
+    picture.set_lights();
+    picture.load_triangles();
+    if (Status made = picture.make_frame(); !made) return made.error();
+    return picture;
+  }
+
+  void draw() const {
+    const glm::vec3 background(scene_->background);
+    glClearColor(background.r, background.g, background.b, 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    for (const Part& part : parts_) {
+      const Material& m = scene_->materials[part.material];
+      set("ambient", scene_->ambient * (m.ambient * m.colour));
+      set("diffuse", m.diffuse * m.colour);
+      set("specular", m.specular * m.specular_colour);
+      glUniform1f(glGetUniformLocation(program_, "exponent"), static_cast<float>(m.exponent));
+      glDrawElements(GL_TRIANGLES, part.count, GL_UNSIGNED_INT,
+                     reinterpret_cast<const void*>(part.first * sizeof(std::uint32_t)));
+    }
+    glFinish();
+  }
+
+  Frame read() const {
+    Frame frame(size_);
+    std::vector<std::uint8_t> rgba(4 * frame.pixels());
+    glReadPixels(0, 0, static_cast<GLsizei>(size_.width), static_cast<GLsizei>(size_.height), GL_RGBA,
+                 GL_UNSIGNED_BYTE, rgba.data());
+    for (std::uint32_t y = 0; y < size_.height; ++y)
+      for (std::uint32_t x = 0; x < size_.width; ++x)
+        std::copy_n(&rgba[4 * (std::size_t{size_.height - 1 - y} * size_.width + x)], 3,
+                    &frame.rgb[frame.offset(x, y)]);
+    return frame;
+  }
+
+ private:
+  struct Part {
+    std::uint32_t material;
+    GLsizei count;
+    std::size_t first;
+  };
+
+  Picture(const Scene& scene, FrameSize size) : scene_(&scene), size_(size) {}
+
+  void set(const char* name, glm::dvec3 v) const {
+    glUniform3f(glGetUniformLocation(program_, name), static_cast<float>(v.x), static_cast<float>(v.y),
+                static_cast<float>(v.z));
+  }
+
+  void set_camera() const {
+    const Camera& camera = scene_->camera;
+    const ViewBasis basis = view_basis(camera);
+    const DepthRange range = depth_range(camera, bounding_sphere(*scene_));
+    set("eye", camera.eye_world);
+    set("right", basis.right_world);
+    set("up", basis.up_world);
+    set("backward", basis.backward_world);
+    const double focal = 1.0 / std::tan(0.5 * glm::radians(camera.vertical_fov_degrees));
+    const double depth = range.far - range.near;
+    glUniform4f(glGetUniformLocation(program_, "projection"),
+                static_cast<float>(focal * size_.height / size_.width), static_cast<float>(focal),
+                static_cast<float>(-(range.far + range.near) / depth),
+                static_cast<float>(-2.0 * range.far * range.near / depth));
+  }
+
+  void set_lights() const {
+    int i = 0;
+    const auto add = [&](glm::dvec3 at, float w, glm::dvec3 intensity) {
+      const glm::vec3 l(at);
+      glUniform4f(glGetUniformLocation(program_, fmt::format("light[{}]", i).c_str()), l.x, l.y, l.z, w);
+      set(fmt::format("intensity[{}]", i++).c_str(), intensity);
+    };
+    for (const DirectionalLight& light : scene_->directional)
+      add(light.to_light_world, 0.0F, light.intensity);
+    for (const PositionalLight& light : scene_->positional) add(light.position_world, 1.0F, light.intensity);
+  }
+
+  void load_triangles() {
+    std::vector<glm::vec3> vertices;  // position, normal
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
+    std::vector<std::vector<std::uint32_t>> indices(scene_->materials.size());
+    for (const SceneTriangle& triangle : scene_->triangles)
+      for (int i = 0; i < 3; ++i) {
+        const auto [at, fresh] = known.try_emplace({triangle.position[i], triangle.normal[i]},
+                                                   static_cast<std::uint32_t>(known.size()));
+        if (fresh) {
+          vertices.emplace_back(scene_->positions_world[triangle.position[i]]);
+          vertices.emplace_back(scene_->normals_world[triangle.normal[i]]);
+        }
+        indices[triangle.material].push_back(at->second);
+      }
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t material = 0; material < indices.size(); ++material) {
+      if (indices[material].empty()) continue;
+      parts_.push_back({material, static_cast<GLsizei>(indices[material].size()), all.size()});
+      all.insert(all.end(), indices[material].begin(), indices[material].end());
+    }
+    GLuint buffers[2];
+    glGenBuffers(2, buffers);
+    glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(glm::vec3)),
+                 vertices.data(), GL_STATIC_DRAW);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all.size() * sizeof(std::uint32_t)),
+                 all.data(), GL_STATIC_DRAW);
+    constexpr GLsizei c_stride = 2 * sizeof(glm::vec3);
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, c_stride, nullptr);
+    glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, c_stride,
+                          reinterpret_cast<const void*>(sizeof(glm::vec3)));
+    glEnableVertexAttribArray(0);
+    glEnableVertexAttribArray(1);
+  }
+
+  Status make_frame() const {
+    const auto width = static_cast<GLsizei>(size_.width), height = static_cast<GLsizei>(size_.height);
+    GLuint frame, buffers[2];
+    glGenFramebuffers(1, &frame);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame);
+    glGenRenderbuffers(2, buffers);
+    glBindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
+    glBindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+      return tool_failed("OpenGL: the frame cannot be drawn into");
+    glViewport(0, 0, width, height);
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_CULL_FACE);
+    glDisable(GL_DITHER);
+    return Ok{};
+  }
+
+  const Scene* scene_;
+  FrameSize size_;
+  GLuint program_ = 0;
+  std::vector<Part> parts_;
+};
+
+Status run(const char* name, FrameSize size, int repetitions, const char* file) {
+  const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/scenes");
+  if (!scene) return scene.error();
+  if (Status made = make_context(); !made) return made;
+  const auto picture = Picture::make(*scene, size);
+  if (!picture) return picture.error();
+  picture->draw();  // compiles the shaders for the processor
+  double best = 1e300;
+  for (int i = 0; i < repetitions; ++i) {
+    const double start = process_seconds();
+    picture->draw();
+    best = std::min(best, process_seconds() - start);
+  }
+  const Frame frame = picture->read();
+  if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+    return tool_failed(fmt::format("OpenGL: error {:#x}", error));
+  fmt::print("{:.9f}\n{}\n", best, reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+  return write_file(file, {reinterpret_cast<const char*>(frame.rgb.data()), frame.rgb.size()});
+}
+
+}  // namespace
+}  // namespace halfway
+
+int main(int argc, char** argv) {
+  halfway::FrameSize size;
+  int repetitions = 0;
+  if (argc != 5 || std::sscanf(argv[2], "%ux%u", &size.width, &size.height) != 2 ||
+      std::sscanf(argv[3], "%d", &repetitions) != 1 || size.width == 0 || size.height == 0 ||
+      std::max(size.width, size.height) > halfway::c_max_frame_side || repetitions < 1) {
+    fmt::print(stderr, "usage: halfway_mesa SCENE WIDTHxHEIGHT REPETITIONS FRAME\n");
+    return 2;
+  }
+  if (const halfway::Status done = halfway::run(argv[1], size, repetitions, argv[4]); !done) {
+    fmt::print(stderr, "{}\n", done.error().message);
+    return static_cast<int>(done.error().code);
+  }
+  return 0;
+}

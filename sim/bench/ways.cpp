@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/bench/ways.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "frame/metrics.hpp"
+#include "golden_run/golden_run.hpp"
+#include "reference/renderer.hpp"
+#include "setup/project.hpp"
+#include "sim/bench/outside_model.hpp"
+#include "sim/compare/stream_comparator.hpp"
+#include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/lanes/lane_simulator.hpp"
+#include "sim/stream_files/init_file.hpp"
+#include "sim/stream_files/trace.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/seconds.hpp"
+#include "sim/system/subprocess.hpp"
+#include "sim/verilator/verilator_simulator.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr const char* c_mesa_program = "build/halfway_mesa";
+
+Error wrong(Way way, const HardwareKey& key) {
+  return {ExitCode::differs,
+          fmt::format("{}, {}: not the golden model's fragments", to_string(way), key.name())};
+}
+
+std::string ghdl_program(Way way, const SimulatorFolders& folders) {
+  return way == Way::ghdl_llvm ? "ghdl-llvm" : ghdl_mcode(folders);
+}
+
+/// RTL in this process, batch by batch; with the golden model and a comparison of every field on this thread,
+/// or alone.
+Result<Go> in_process(Way way, const WayInput& input) {
+  const bool lanes = way == Way::lanes || way == Way::lanes_compared;
+  const bool compared = way == Way::lanes_compared || way == Way::verilator_compared;
+  auto opened = RtlModel::open(input.batches->key, input.folders, lanes, input.fast);
+  if (!opened) return opened.error();
+  const auto rtl = std::make_shared<RtlModel>(std::move(*opened));
+  const std::shared_ptr<GoldenModel> golden = make_golden_model(input.batches->key);
+  return Go([=, &s = *input.batches]() -> Result<double> {
+    StreamComparator comparator;
+    std::span<const Fragment> expected;
+    std::size_t count = 0;
+    // Lanes take all at once, and hand on part by part; Verilator goes from batch to batch.
+    const auto draw = [&](const RtlModel::OnDrawn& on_drawn) -> Status {
+      auto rest = std::span<const std::uint32_t>(s.words);
+      if (lanes) return rtl->draw(rest, true, on_drawn);
+      for (std::size_t i = 0; i < s.batches.size(); ++i) {
+        const auto words = rest.first(s.batches[i] * s.words_per_vector());
+        rest = rest.subspan(words.size());
+        if (compared) expected = golden->draw(words);
+        if (Status ran = rtl->draw(words, i + 1 == s.batches.size(), on_drawn); !ran) return ran;
+      }
+      return Ok{};
+    };
+    const double start = process_seconds();
+    const Status ran = draw([&](auto words, auto drawn) {
+      count += drawn.size();
+      if (compared) comparator.add(lanes ? golden->draw(words) : expected, drawn);
+    });
+    const double seconds = process_seconds() - start;
+    if (!ran) return ran.error();
+    comparator.finish();
+    if (comparator.mismatches() != 0 || count != s.golden.size()) return wrong(way, s.key);
+    if (compared) return seconds;
+    // Once more, not timed.
+    std::size_t known = 0;
+    bool same = true;
+    if (Status again = draw([&](auto, std::span<const Fragment> drawn) {
+          same =
+              same && drawn.size() <= s.golden.size() - known &&
+              std::equal(drawn.begin(), drawn.end(), s.golden.begin() + static_cast<std::ptrdiff_t>(known));
+          known += drawn.size();
+        });
+        !again)
+      return again.error();
+    if (!same || known != s.golden.size()) return wrong(way, s.key);
+    return seconds;
+  });
+}
+
+Result<Go> outside(Way way, const WayInput& input) {
+  auto model = OutsideModel::open(way == Way::cxxrtl ? OutsideTool::cxxrtl : OutsideTool::verilator,
+                                  input.batches->key, input.folders, input.fast);
+  if (!model) return model.error();
+  return Go([way, model = std::move(*model), &s = *input.batches]() -> Result<double> {
+    const auto run = model.run(s.words);
+    if (!run) return run.error();
+    if (run->fragments != s.golden) return wrong(way, s.key);
+    return run->seconds;
+  });
+}
+
+Result<Go> in_ghdl(Way way, const WayInput& input) {
+  auto runner = GhdlRunner::open(input.batches->key, input.folders, ghdl_program(way, input.folders));
+  if (!runner) return runner.error();
+  const std::filesystem::path init = input.scratch / (short_name(way) + ".init"),
+                              trace = input.scratch / (short_name(way) + ".trace");
+  return Go([=, runner = std::move(*runner), &s = *input.batches]() -> Result<double> {
+    if (const Status wrote = write_init_file(init, s.key.name(), {s.init_bits, s.words}); !wrote)
+      return wrote.error();
+    const double before = children_seconds();
+    if (const auto run = runner.run(init, trace); !run) return run.error();
+    const double seconds = children_seconds() - before;
+    const auto drawn = read_trace(trace, s.key.name());
+    if (!drawn) return drawn.error();
+    if (drawn->fragments != s.golden) return wrong(way, s.key);
+    return seconds;
+  });
+}
+
+ReferenceImage reference_of(const WayInput& input, const std::vector<ScreenTriangle>& triangles) {
+  return render_reference(*input.scene, triangles, {.frame = input.size, .subpixel_bits = 4, .threads = 1});
+}
+
+/// The pixels that are covered with all their neighbours.
+std::vector<std::uint8_t> inside(const std::vector<std::uint8_t>& mask, FrameSize size) {
+  std::vector<std::uint8_t> inner(mask.size());
+  for (std::size_t y = 1; y + 1 < size.height; ++y)
+    for (std::size_t x = 1; x + 1 < size.width; ++x) {
+      std::uint8_t all = 1;
+      for (std::size_t v = y - 1; v <= y + 1; ++v)
+        for (std::size_t u = x - 1; u <= x + 1; ++u) all &= mask[v * size.width + u];
+      inner[y * size.width + x] = all;
+    }
+  return inner;
+}
+
+}  // namespace
+
+std::string to_string(Way way) {
+  switch (way) {
+    case Way::lanes_compared:
+      return "RTL in lanes, every field compared with the golden model drawn on the same core";
+    case Way::lanes:
+      return "RTL in lanes alone";
+    case Way::verilator_compared:
+      return "RTL in Verilator as built here, compared likewise";
+    case Way::verilator:
+      return "RTL in Verilator as built here, alone";
+    case Way::verilator_as_it_comes:
+      return "RTL in Verilator as it comes, alone";
+    case Way::cxxrtl:
+      return "RTL in CXXRTL, alone";
+    case Way::ghdl_llvm:
+      return "RTL in GHDL, llvm";
+    case Way::ghdl_mcode:
+      return "RTL in GHDL, mcode";
+    case Way::golden:
+      return "golden model alone";
+    case Way::reference:
+      return "Phong shading per pixel in double, the reference renderer";
+    case Way::mesa:
+      break;
+  }
+  return "Phong shading per pixel by OpenGL on Mesa's llvmpipe";
+}
+
+std::string short_name(Way way) {
+  constexpr std::array c_names = {"lanes_compared",
+                                  "lanes",
+                                  "verilator_compared",
+                                  "verilator",
+                                  "verilator_as_it_comes",
+                                  "cxxrtl",
+                                  "ghdl_llvm",
+                                  "ghdl_mcode",
+                                  "golden",
+                                  "reference",
+                                  "mesa"};
+  return c_names[static_cast<std::size_t>(way)];
+}
+
+std::string lacking(Way way, const SimulatorFolders& folders) {
+  const auto program = [](const char* name) { return find_program(name).empty() ? name : ""; };
+  switch (way) {
+    case Way::cxxrtl:
+      return find_program("yosys").empty() ? "yosys" : program("yosys-config");
+    case Way::ghdl_llvm:
+      return program("ghdl-llvm");
+    case Way::ghdl_mcode:
+      return std::filesystem::exists(ghdl_mcode(folders)) ? "" : "ghdl-mcode";
+    case Way::mesa:
+      return std::filesystem::exists(folders.source / c_mesa_program) ? "" : "libegl-dev, libgles-dev";
+    default:
+      return "";
+  }
+}
+
+std::string ghdl_mcode(const SimulatorFolders& folders) {
+  const std::filesystem::path installed = find_program("ghdl-mcode");
+  return installed.empty() ? (folders.source / "build/tools/ghdl-mcode/usr/bin/ghdl-mcode").string()
+                           : installed.string();
+}
+
+Result<MesaPicture> draw_by_mesa(const WayInput& input, int repetitions) {
+  const std::filesystem::path file = input.scratch / "mesa.rgb";
+  const Command command{
+      .arguments = {(input.folders.source / c_mesa_program).string(), input.scene->name,
+                    fmt::format("{}x{}", input.size.width, input.size.height), std::to_string(repetitions),
+                    file.string()},
+      // One thread, this one; and no graphics card, where there is one.
+      .environment = {
+          {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"GALLIUM_DRIVER", "llvmpipe"}, {"LP_NUM_THREADS", "0"}}};
+  const auto end = run_process(command, "make bench");
+  if (!end) return end.error();
+  MesaPicture picture;
+  std::istringstream said(end->output);
+  if (!end->succeeded() || !(said >> picture.seconds))
+    return tool_failed(fmt::format("{}: {}: {}", c_mesa_program, end->how(), end->output));
+  said.ignore();
+  std::getline(said, picture.renderer);
+  const auto rgb = read_file(file);
+  if (!rgb) return rgb.error();
+  Frame frame(input.size);
+  if (rgb->size() != frame.rgb.size()) return tool_failed("Mesa: a frame of another size");
+  std::copy(rgb->begin(), rgb->end(), frame.rgb.begin());
+  const ReferenceImage reference = reference_of(input, Projector(*input.scene, input.size, {}).project_all());
+  const auto whole = frame_distance(frame, reference.frame, reference.mask);
+  if (!whole) return whole.error();
+  const auto inner = frame_distance(frame, reference.frame, inside(reference.mask, input.size));
+  if (!inner) return inner.error();
+  picture.outline_off = static_cast<double>(whole->off - inner->off) / static_cast<double>(whole->pixels);
+  picture.psnr_db = inner->psnr_db;
+  picture.max_lsb = inner->max_lsb;
+  if (inner->pixels == 0 || !(picture.psnr_db >= c_mesa_least_psnr_db) ||
+      picture.outline_off > c_mesa_most_off)
+    return Error{
+        ExitCode::differs,
+        fmt::format("Mesa draws another picture: {:.1f} dB and {}/255 beside the reference, {:.2g} of the "
+                    "pixels off on outlines",
+                    picture.psnr_db, picture.max_lsb, picture.outline_off)};
+  return picture;
+}
+
+Result<Go> make_way(Way way, const WayInput& input) {
+  if (const std::string program = lacking(way, input.folders); !program.empty())
+    return tool_failed(fmt::format("{} is not here", program));
+  switch (way) {
+    case Way::lanes_compared:
+    case Way::lanes:
+    case Way::verilator_compared:
+    case Way::verilator:
+      return in_process(way, input);
+    case Way::verilator_as_it_comes:
+    case Way::cxxrtl:
+      return outside(way, input);
+    case Way::ghdl_llvm:
+    case Way::ghdl_mcode:
+      return in_ghdl(way, input);
+    case Way::golden: {
+      const std::shared_ptr<GoldenModel> golden = make_golden_model(input.batches->key);
+      return Go([way, golden, &s = *input.batches]() -> Result<double> {
+        std::size_t count = 0;
+        auto rest = std::span<const std::uint32_t>(s.words);
+        const double start = process_seconds();
+        for (const std::size_t vectors : s.batches) {
+          const auto words = rest.first(vectors * s.words_per_vector());
+          rest = rest.subspan(words.size());
+          count += golden->draw(words).size();
+        }
+        const double seconds = process_seconds() - start;
+        if (count != s.golden.size()) return wrong(way, s.key);
+        return seconds;
+      });
+    }
+    case Way::reference: {
+      auto triangles = Projector(*input.scene, input.size, {}).project_all();
+      return Go([triangles = std::move(triangles), input]() -> Result<double> {
+        const double start = process_seconds();
+        const ReferenceImage image = reference_of(input, triangles);
+        return process_seconds() - start;
+      });
+    }
+    case Way::mesa:
+      break;
+  }
+  return Go([input]() -> Result<double> {
+    const auto picture = draw_by_mesa(input, 3);
+    if (!picture) return picture.error();
+    return picture->seconds;
+  });
+}
+
+}  // namespace halfway

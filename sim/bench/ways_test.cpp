@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// That `make bench` measures what it says: every way to a picture draws the right one, and a wrong one is
+// seen. No times.
+#include "sim/bench/ways.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cmath>
+
+#include "sim/bench/workload.hpp"
+#include "sim/bench/yardstick.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
+constexpr FrameSize c_size{32, 24};
+
+class WayTest : public testing::TestWithParam<Way> {
+ protected:
+  WayTest() {
+    scene_ = *load_scene("matte", c_source / "sim/scenes");
+    batches_ = *make_batches(scene_, c_size, {.shader = Shader::quadratic});
+    scratch_ = std::filesystem::path(testing::TempDir()) / ("halfway-ways-" + std::to_string(::getpid()));
+    EXPECT_TRUE(make_folders(scratch_));
+  }
+  ~WayTest() override { std::filesystem::remove_all(scratch_); }
+
+  WayInput input() const {
+    return {.scene = &scene_,
+            .size = size_,
+            .batches = &batches_,
+            .folders = {c_source, c_source / "build/cache"},
+            .scratch = scratch_,
+            .fast = false};
+  }
+
+  Scene scene_;
+  FrameSize size_ = c_size;
+  InitBatches batches_;
+  std::filesystem::path scratch_;
+};
+
+TEST_P(WayTest, DrawsTheRightPictureAndSeesAWrongOne) {
+  const Way way = GetParam();
+  if (way == Way::mesa) {  // a frame with more inside than outline
+    scene_ = *load_scene("spheres", c_source / "sim/scenes");
+    size_ = {160, 120};
+  }
+  const std::string lacks = lacking(way, input().folders);
+  // GHDL's other back end is downloaded, not installed: a machine without network has none.
+  if (way == Way::ghdl_mcode && !lacks.empty()) GTEST_SKIP() << to_string(way) << ": not here: " << lacks;
+  ASSERT_EQ(lacks, "") << to_string(way);
+  const auto go = make_way(way, input());
+  ASSERT_TRUE(go) << go.error().message;
+  const auto seconds = (*go)();
+  ASSERT_TRUE(seconds) << seconds.error().message;
+  EXPECT_GT(*seconds, 0.0);
+  // The way draws as before: now that is wrong.
+  if (way == Way::mesa)
+    scene_.materials[0].colour *= 0.5;
+  else if (way == Way::lanes_compared || way == Way::verilator_compared)
+    batches_.golden.pop_back();
+  else
+    batches_.golden.back().red ^= 1;
+  if (way == Way::reference || way == Way::golden) return;  // nothing is held against these
+  const auto wrong = (*go)();
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().code, ExitCode::differs) << wrong.error().message;
+}
+
+INSTANTIATE_TEST_SUITE_P(Bench, WayTest, testing::ValuesIn(c_ways),
+                         [](const auto& test) { return short_name(test.param); });
+
+TEST(BenchWorkload, AFrameIsDrawnWholeAndComparedInEveryField) {
+  const SimulatorFolders folders{c_source, c_source / "build/cache"};
+  const Scene scene = *load_scene("matte", c_source / "sim/scenes");
+  const auto batches = make_batches(scene, c_size, {.shader = Shader::quadratic});
+  ASSERT_TRUE(batches);
+  auto rtl = RtlModel::open(batches->key, folders, false);
+  ASSERT_TRUE(rtl) << rtl.error().message;
+  const auto cost = draw_frame([&] { return scene; }, c_size, batches->key, *rtl, *batches);
+  ASSERT_TRUE(cost) << cost.error().message;
+  EXPECT_EQ(cost->mismatches, 0U);
+  EXPECT_EQ(cost->fragments, batches->golden.size());
+  EXPECT_EQ(cost->vectors, batches->vectors());
+  EXPECT_EQ(cost->triangles, scene.triangles.size());
+  EXPECT_GT(cost->setup, 0.0);
+  EXPECT_GT(cost->rtl, 0.0);
+  EXPECT_GT(cost->best_pace, 0.0);
+  EXPECT_GE(cost->pace, cost->best_pace);
+  EXPECT_GT(cost->memory_bytes, 7U * c_size.width * c_size.height);
+
+  // Hardware for three channels: other vectors.
+  const auto other = make_batches(*load_scene("spheres", c_source / "sim/scenes"), c_size, {});
+  ASSERT_TRUE(other);
+  EXPECT_FALSE(draw_frame([&] { return scene; }, c_size, other->key, *rtl, *batches));
+}
+
+TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {
+  const SimulatorFolders folders{c_source, c_source / "build/cache"};
+  for (const Shader shader : c_shaders) {
+    Scene scene = *load_scene("matte", c_source / "sim/scenes");
+    const auto batches = make_batches(scene, {96, 72}, {.shader = shader});
+    ASSERT_TRUE(batches);
+    const WalkCounts walk = count_walk(*batches);
+    EXPECT_EQ(walk.pixels, batches->golden.size());
+    EXPECT_EQ(walk.lines, walk.spans + walk.empty_lines);
+    auto rtl = RtlModel::open(batches->key, folders, false);
+    ASSERT_TRUE(rtl) << rtl.error().message;
+    std::vector<Fragment> drawn;
+    ASSERT_TRUE(rtl->draw(batches->words, true, drawn));
+    ASSERT_EQ(drawn, batches->golden);
+    const std::uint64_t expected = walk.pixels + walk.lost_to_lines + walk.lost_to_headers;
+    EXPECT_GT(walk.lost_to_lines, 0U);
+    EXPECT_GT(walk.lost_to_headers, 0U);
+    EXPECT_GE(rtl->cycles(), expected);
+    // The pipeline once, and the processors' lights.
+    EXPECT_LE(rtl->cycles(), expected + (shader == Shader::processors ? 40 : 11)) << to_string(shader);
+  }
+}
+
+TEST(BenchWorkload, SpheresHaveTheTrianglesAskedFor) {
+  for (const std::uint64_t n : {1'000, 10'000, 123'456}) {
+    EXPECT_LE(sphere_scene(n).triangles.size(), n);
+    EXPECT_GT(sphere_scene(n).triangles.size(), n - n / 50);
+    EXPECT_LE(many_spheres(n).triangles.size(), n);
+    EXPECT_GT(many_spheres(n).triangles.size(), n - n / 20);
+  }
+}
+
+// All of it is worked out, on whatever processor.
+TEST(BenchYardstick, SumsAllThatItSays) {
+  for (const std::uint32_t rounds : {0U, 1U, 1000U}) {
+    std::uint32_t sums[8];
+    for (std::uint32_t i = 0; i < 8; ++i) sums[i] = rounds + i;
+    for (std::uint32_t round = 0; round < rounds; ++round) {
+      for (const int i : {0, 2, 4, 6}) sums[i] += sums[i + 1];
+      for (const int i : {1, 3, 5, 7}) sums[i] += sums[(i + 1) % 8];
+    }
+    std::uint32_t all = 0;
+    for (const std::uint32_t sum : sums) all ^= sum;
+    EXPECT_EQ(sum_in_registers(rounds), all) << rounds;
+  }
+}
+
+TEST(BenchWorkload, LinesAreFitted) {
+  const double n[] = {1, 10, 100, 1000};
+  const double straight[] = {7, 25, 205, 2005};
+  std::vector<Terms> rows;
+  for (const double i : n) rows.push_back({1.0, i});
+  const Fit line = fit(rows, straight);
+  EXPECT_NEAR(line.factors[0], 5.0, 1e-9);
+  EXPECT_NEAR(line.factors[1], 2.0, 1e-12);
+  EXPECT_LT(line.largest_deviation, 1e-9);
+  const double bent[] = {7, 25, 205, 4010};
+  EXPECT_GT(fit(rows, bent).largest_deviation, 0.1);
+  // Bent by a third term, that is a second one where the rows have it, and nothing where they have it twice.
+  const double rooted[] = {5 + 2 + 30 * 1, 5 + 20 + 30 * 3, 5 + 200 + 30 * 10, 5 + 2000 + 30 * 32};
+  EXPECT_GT(fit(rows, rooted).largest_deviation, 0.1);
+  const double roots[] = {1, 3, 10, 32};
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].push_back(roots[i]);
+  EXPECT_NEAR(fit(rows, rooted).factors[2], 30.0, 1e-9);
+  EXPECT_LT(fit(rows, rooted).largest_deviation, 1e-9);
+  for (Terms& row : rows) row[2] = 3.0 * row[1];
+  EXPECT_TRUE(fit(rows, rooted).factors.empty());
+}
+
+}  // namespace
+}  // namespace halfway

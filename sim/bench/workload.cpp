@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/bench/workload.hpp"
+
+#include <fmt/format.h>
+#include <malloc.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "common/to_integer.hpp"
+#include "frame/assemble.hpp"
+#include "golden/processors_layout.hpp"
+#include "golden/triangle_walker.hpp"
+#include "golden/walker_clock.hpp"
+#include "golden_run/golden_run.hpp"
+#include "scene/builtin_meshes.hpp"
+#include "scene/camera.hpp"
+#include "sim/compare/stream_comparator.hpp"
+#include "sim/lanes/lane_simulator.hpp"
+#include "sim/run/scene_stream.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/seconds.hpp"
+#include "sim/verilator/verilator_simulator.hpp"
+
+namespace halfway {
+namespace {
+
+/// Bytes of this process in memory: now, or the most since the last call of forget_peak.
+std::uint64_t memory_bytes(const char* what) {
+  const auto text = read_file("/proc/self/status");
+  if (!text) return 0;
+  const std::size_t at = text->find(what);
+  return at == std::string::npos
+             ? 0
+             : 1024 * std::strtoull(text->c_str() + at + std::char_traits<char>::length(what), nullptr, 10);
+}
+std::uint64_t resident_bytes() {
+  return memory_bytes("VmRSS:");
+}
+std::uint64_t peak_bytes() {
+  return memory_bytes("VmHWM:");
+}
+void forget_peak() {
+  if (std::FILE* file = std::fopen("/proc/self/clear_refs", "w")) {
+    std::fputs("5", file);
+    std::fclose(file);
+  }
+}
+
+// Of a frame whose process has drawn for so long, or a whole frame, before: as all but the first of `make
+// view`.
+constexpr double c_warm_seconds = 0.25;
+
+/// Draws the scene into a frame of before, `between` the batches something else; no further when the
+/// processor has worked for `most_seconds`.
+Status draw_scene(const Scene& scene, FrameSize size, const HardwareKey& key, RtlModel& rtl,
+                  FrameAssembler& assembler, const std::function<void()>& between, double most_seconds,
+                  FrameCost& cost) {
+  const double setup_start = thread_seconds();
+  const std::unique_ptr<Setup> setup = make_setup(scene, size, key, {});
+  cost.setup = thread_seconds() - setup_start;
+  // Lanes tell whose fragments they are: the golden model draws the same where they are compared.
+  const std::unique_ptr<GoldenModel> model = rtl.tells_vectors() ? make_golden_model(key) : nullptr;
+  SceneStream stream(*setup, key, 1, {.golden = model == nullptr, .ahead = false});
+  StreamComparator comparator;
+  const double clear_start = thread_seconds();
+  assembler.clear();
+  cost.assemble = thread_seconds() - clear_start;
+  Batch batch;
+  for (bool more = true; more;) {
+    more = cost.drawing() + stream.setup_seconds() < most_seconds && stream.next(batch);
+    if (!more) batch = {};
+    auto golden = std::span<const Fragment>(batch.golden);
+    Status added = Ok{};
+    double golden_seconds = 0.0, compare_seconds = 0.0, assemble_seconds = 0.0;
+    Stretch drawing;
+    const Status ran = drawing.add([&] {
+      return rtl.draw(batch.init_words, !more, [&](auto words, std::span<const Fragment> drawn) {
+        const auto start = Stretch::now();
+        if (model) golden = model->draw(words);
+        const auto drew = Stretch::now();
+        const auto expected = golden.first(model ? golden.size() : std::min(golden.size(), drawn.size()));
+        golden = golden.subspan(expected.size());
+        comparator.add(expected, drawn);
+        const auto compared = Stretch::now();
+        if (Status status = assembler.add(drawn); !status) added = status;
+        cost.fragments += drawn.size();
+        golden_seconds += seconds_between(start, drew);
+        compare_seconds += seconds_between(drew, compared);
+        assemble_seconds += seconds_since(compared);
+      });
+    });
+    if (!ran) return ran;
+    if (!added) return added;
+    cost.golden += drawing.share(golden_seconds);
+    cost.compare += drawing.share(compare_seconds);
+    cost.assemble += drawing.share(assemble_seconds);
+    cost.rtl += drawing.processor() - drawing.share(golden_seconds + compare_seconds + assemble_seconds);
+    comparator.add_golden(golden);  // what Verilator draws with the next batch
+    between();
+  }
+  comparator.finish();
+  cost.mismatches = comparator.mismatches();
+  cost.setup += stream.setup_seconds();
+  cost.golden += stream.golden_seconds();
+  cost.vectors = stream.counts().vectors;
+  cost.records = stream.counts().records;
+  return Ok{};
+}
+
+Status draw_frame_here(const std::function<Scene()>& make_scene, FrameSize size, const HardwareKey& key,
+                       RtlModel& rtl, const InitBatches& pace, FrameCost& cost) {
+  const Scene scene = make_scene();
+  const std::unique_ptr<GoldenModel> pacer = make_golden_model(pace.key);
+  std::vector<Fragment> paced;
+  std::vector<double> paces;
+  const auto take_pace = [&] {
+    // Once more before: a large frame would else seem quick, as its batches leave the caches to others.
+    double start = 0.0;
+    for (int i = 0; i < 2; ++i) {
+      start = thread_seconds();
+      paced.clear();
+      pacer->draw(pace.words, paced);
+    }
+    paces.push_back(thread_seconds() - start);
+  };
+  take_pace();
+  ::malloc_trim(0);
+  forget_peak();
+  const std::uint64_t before = resident_bytes();
+  FrameAssembler assembler(size, scene.background);
+  FrameCost first;
+  if (Status status = draw_scene(
+          scene, size, key, rtl, assembler, [] {}, c_warm_seconds, first);
+      !status)
+    return status;
+  if (Status status = draw_scene(scene, size, key, rtl, assembler, take_pace,
+                                 std::numeric_limits<double>::infinity(), cost);
+      !status)
+    return status;
+  cost.triangles = scene.triangles.size();
+  cost.pace = std::accumulate(paces.begin(), paces.end(), 0.0) / static_cast<double>(paces.size());
+  cost.best_pace = *std::ranges::min_element(paces);
+  const std::uint64_t peak = peak_bytes();
+  cost.memory_bytes = peak > before ? peak - before : 0;
+  return Ok{};
+}
+
+}  // namespace
+
+Scene sphere_scene(std::uint64_t triangles) {
+  // 2 slices (stacks - 1), about square pieces at the equator; not more than asked for.
+  const auto n = static_cast<double>(triangles);
+  const auto stacks = std::max(2U, to_integer<std::uint32_t>(0.5 + std::sqrt(0.25 + 0.25 * n)));
+  const auto slices = std::max(3U, static_cast<std::uint32_t>(triangles / (2 * (stacks - 1))));
+  Mesh mesh = make_uv_sphere(slices, stacks, 1.0);
+  Scene scene;
+  scene.name = fmt::format("sphere-{}", mesh.triangles.size());
+  scene.ambient = glm::dvec3(0.5);
+  scene.directional.push_back({glm::normalize(glm::dvec3(-0.5, 0.6, 1.0)), glm::dvec3(1.0)});
+  Material material;
+  material.name = "red";
+  material.colour = {0.85, 0.2, 0.15};
+  scene.materials.push_back(material);
+  scene.positions_world = std::move(mesh.positions);
+  scene.normals_world = std::move(mesh.normals);
+  scene.triangles = std::move(mesh.triangles);
+  for (SceneTriangle& triangle : scene.triangles) triangle.material = 0;
+  scene.camera = fit_camera(bounding_sphere(scene), {0.3, 0.4, 1.0});
+  return scene;
+}
+
+Scene many_spheres(std::uint64_t triangles) {
+  constexpr std::uint64_t c_each = 1000, c_side = 12, c_places = c_side * c_side;
+  constexpr double c_spacing = 2.2;  // radii
+  const Scene one = sphere_scene(c_each);
+  Scene scene = one;
+  scene.name = fmt::format("spheres-{}", triangles);
+  scene.positions_world.clear();
+  scene.triangles.clear();
+  for (std::uint64_t i = 0; i < triangles / c_each; ++i) {
+    const std::uint64_t place = i * 61 % c_places;  // scattered
+    // Those of one place lie almost in one another, so that all are of one size.
+    const glm::dvec3 centre(c_spacing * (static_cast<double>(place % c_side) - 0.5 * (c_side - 1)),
+                            c_spacing * (static_cast<double>(place / c_side) - 0.5 * (c_side - 1)),
+                            -0.02 * static_cast<double>(i / c_places));
+    const auto first = static_cast<std::uint32_t>(scene.positions_world.size());
+    for (const glm::dvec3& position : one.positions_world) scene.positions_world.push_back(position + centre);
+    for (SceneTriangle triangle : one.triangles) {
+      for (std::uint32_t& position : triangle.position) position += first;
+      scene.triangles.push_back(triangle);
+    }
+  }
+  scene.camera = {};
+  scene.camera.vertical_fov_degrees = 10.0;
+  scene.camera.eye_world = {0.0, 0.0, 0.5 * c_side * c_spacing / std::tan(std::numbers::pi / 36.0)};
+  return scene;
+}
+
+Scene with_lights(Scene scene, unsigned lights) {
+  scene.positional.clear();
+  scene.spots.clear();
+  scene.directional.clear();
+  for (unsigned i = 0; i < lights; ++i) {
+    const double turn = 2.0 * std::numbers::pi * i / lights;
+    scene.directional.push_back(
+        {glm::normalize(glm::dvec3(std::cos(turn), std::sin(turn), 1.0)), glm::dvec3(1.0 / lights)});
+  }
+  return scene;
+}
+
+Result<InitBatches> make_batches(const Scene& scene, FrameSize size, const PlanRequest& plan, bool draw) {
+  const auto planned = plan_scene(scene, plan);
+  if (!planned) return planned.error();
+  InitBatches all;
+  all.key = planned->key;
+  const std::unique_ptr<Setup> setup = make_setup(scene, size, all.key, {});
+  all.init_bits = setup->init_bits();
+  SceneStream source(*setup, all.key, 1, {.golden = draw});
+  for (Batch batch; source.next(batch);) {
+    all.words.insert(all.words.end(), batch.init_words.begin(), batch.init_words.end());
+    all.golden.insert(all.golden.end(), batch.golden.begin(), batch.golden.end());
+  }
+  const std::unique_ptr<GoldenModel> golden = make_golden_model(all.key);
+  std::size_t vectors = 0;
+  for (auto rest = std::span<const std::uint32_t>(all.words); !rest.empty();) {
+    const std::size_t triangle = golden->group(rest);
+    rest = rest.subspan(triangle * all.words_per_vector());
+    vectors += triangle;
+    if (vectors < c_batch && !rest.empty()) continue;
+    all.batches.push_back(vectors);
+    vectors = 0;
+  }
+  return all;
+}
+
+Result<RtlModel> RtlModel::open(const HardwareKey& key, const SimulatorFolders& folders, bool lanes,
+                                bool fast) {
+  RtlModel model;
+  if (lanes) {
+    auto opened = LaneSimulator::open(key, folders, {.fast = fast});
+    if (!opened) return opened.error();
+    const auto simulator = std::make_shared<LaneSimulator>(std::move(*opened));
+    model.tells_vectors_ = true;
+    model.draw_ = [=](auto words, bool, const OnDrawn& on_drawn) {
+      return words.empty() ? Status(Ok{}) : simulator->run(words, SIZE_MAX, on_drawn);
+    };
+    model.cycles_ = [=] { return simulator->cycles(); };
+    return model;
+  }
+  auto opened = VerilatorSimulator::open(key, folders);
+  if (!opened) return opened.error();
+  const auto simulator = std::make_shared<VerilatorSimulator>(std::move(*opened));
+  const auto drawn = std::make_shared<std::vector<Fragment>>();
+  model.draw_ = [=](auto words, bool last, const OnDrawn& on_drawn) -> Status {
+    drawn->clear();
+    const std::size_t vectors = words.size() / ((simulator->init_bits() + 31) / 32);
+    if (Status ran = simulator->run(words, vectors, *drawn, SIZE_MAX); !ran) return ran;
+    if (last)
+      if (Status ended = simulator->finish(*drawn, SIZE_MAX); !ended) return ended;
+    on_drawn({}, *drawn);
+    return Ok{};
+  };
+  model.cycles_ = [=] { return simulator->cycles(); };
+  return model;
+}
+
+Result<FrameCost> draw_frame(const std::function<Scene()>& make_scene, FrameSize size, const HardwareKey& key,
+                             RtlModel& rtl, const InitBatches& pace) {
+  int ends[2];
+  if (::pipe(ends) != 0) return tool_failed("no pipe");
+  const pid_t child = ::fork();
+  if (child < 0) return tool_failed("no process");
+  if (child == 0) {
+    FrameCost cost;
+    const Status drawn = draw_frame_here(make_scene, size, key, rtl, pace, cost);
+    if (!drawn) fmt::print(stderr, "{}\n", drawn.error().message);
+    const bool told = drawn && ::write(ends[1], &cost, sizeof cost) == sizeof cost;
+    ::_exit(told ? 0 : 1);
+  }
+  ::close(ends[1]);
+  FrameCost cost;
+  const bool told = ::read(ends[0], &cost, sizeof cost) == sizeof cost;
+  ::close(ends[0]);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  if (!told || status != 0) return tool_failed(fmt::format("{}: a frame was not drawn", key.name()));
+  return cost;
+}
+
+WalkCounts count_walk(const InitBatches& batches) {
+  const std::unique_ptr<GoldenModel> golden = make_golden_model(batches.key);
+  WalkCounts n;
+  golden::TriangleWalker<golden::Exact> walker;
+  golden::WalkerClock clock(batches.key.shader == Shader::spherical);
+  // With lines alone: the line stage takes one a clock, the span stage a pixel, and whichever has more to do
+  // until the next span begins is waited for.
+  std::uint64_t span = 0, lines = 0;
+  const bool processors = batches.key.shader == Shader::processors;
+  for (auto rest = std::span<const std::uint32_t>(batches.words); !rest.empty();) {
+    const auto vector = rest;
+    rest = rest.subspan(golden->group(rest) * batches.words_per_vector());
+    if (processors && golden::get_bits(vector, golden::Exact::request_header_at::command) !=
+                          static_cast<std::uint64_t>(golden::Command::draw))
+      continue;  // a light
+    std::array<std::uint32_t, (golden::Exact::c_init_header_bits + 31) / 32> header;
+    for (std::size_t i = 0; i < header.size(); ++i)
+      header[i] = static_cast<std::uint32_t>(
+          golden::get_bits(vector, {"", 32 * static_cast<int>(i), 32, false, 0},
+                           processors ? golden::ProcessorsLayout<golden::Exact>::walk_low() : 0));
+    walker.line_load(header);
+    ++n.headers;
+    clock.take_init();
+    walker.walk([&] {
+      ++n.lines;
+      ++lines;
+      if (walker.line_empty()) {
+        ++n.empty_lines;
+        clock.take_line(0);
+        return;
+      }
+      const std::uint64_t pixels = walker.pixels();
+      ++n.spans;
+      n.pixels += pixels;
+      clock.take_line(static_cast<std::int64_t>(pixels));
+      n.lost_to_lines += std::max(span, lines) - span;
+      span = pixels;
+      lines = 0;
+    });
+  }
+  n.lost_to_headers = static_cast<std::uint64_t>(clock.last_pixel()) - n.pixels - n.lost_to_lines;
+  return n;
+}
+
+double Fit::at(const Terms& row) const {
+  return std::inner_product(factors.begin(), factors.end(), row.begin(), 0.0);
+}
+
+Fit fit(const std::vector<Terms>& rows, std::span<const double> t) {
+  // Of 1 = the sum of factors by terms / t: orthogonal columns, one after the other.
+  const std::size_t terms = rows.empty() ? 0 : rows.front().size();
+  std::vector<Terms> columns(terms + 1, Terms(rows.size(), 1.0));  // the last one is what they are to come to
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t k = 0; k < terms; ++k) columns[k][i] = rows[i][k] / t[i];
+  const auto product = [&](std::size_t a, std::size_t b) {
+    return std::inner_product(columns[a].begin(), columns[a].end(), columns[b].begin(), 0.0);
+  };
+  // How much of column k is in each behind it.
+  std::vector<Terms> parts(terms, Terms(terms + 1, 0.0));
+  for (std::size_t k = 0; k < terms; ++k) {
+    const double before = std::inner_product(
+        rows.begin(), rows.end(), t.begin(), 0.0, std::plus<>(),
+        [&](const Terms& row, double seconds) { return row[k] / seconds * (row[k] / seconds); });
+    const double length = product(k, k);
+    if (!(length > 1e-12 * before)) return {};
+    for (std::size_t behind = k + 1; behind <= terms; ++behind) {
+      parts[k][behind] = product(k, behind) / length;
+      for (std::size_t i = 0; i < rows.size(); ++i) columns[behind][i] -= parts[k][behind] * columns[k][i];
+    }
+  }
+  Fit found;
+  found.factors.resize(terms);
+  for (std::size_t k = terms; k-- > 0;) {
+    found.factors[k] = parts[k][terms];
+    for (std::size_t behind = k + 1; behind < terms; ++behind)
+      found.factors[k] -= parts[k][behind] * found.factors[behind];
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    found.largest_deviation = std::max(found.largest_deviation, std::abs(t[i] / found.at(rows[i]) - 1.0));
+  return found;
+}
+
+}  // namespace halfway

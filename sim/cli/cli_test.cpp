@@ -1,0 +1,732 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program as a user meets it: exit codes, what stands where, and every kind of bad input.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "sim/cli/command_test.hpp"
+#include "sim/stream_files/trace.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/folder_lock.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class CliTest : public CommandTest {
+ protected:
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    const std::filesystem::path path = folder_->path() / name;
+    EXPECT_TRUE(write_file(path, text));
+    return path;
+  }
+  std::filesystem::path out() const { return folder_->path() / "out"; }
+};
+
+const std::string c_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+TEST_F(CliTest, HelpGoesToStandardOutputAndExitsZero) {
+  for (const std::string command :
+       {"sim", "view", "plan", "render", "init", "compare", "why", "tables", "study"}) {
+    const Outcome help = run({command, "--help"});
+    EXPECT_EQ(help.exit_code, 0) << help.output;
+    EXPECT_THAT(help.output, HasSubstr("Usage: "));
+  }
+  EXPECT_EQ(run({"--help"}).exit_code, 0);
+  EXPECT_THAT(run({"view", "--help"}).output, HasSubstr("threads, each of which draws whole frames"));
+  // With standard output closed to us, nothing of the help may be left on standard error.
+  const Outcome quiet = run_as({"sh", "-c", std::string("exec '") + HALFWAY_PROGRAM + "' --help >/dev/null"});
+  EXPECT_EQ(quiet.output, "");
+}
+
+TEST_F(CliTest, BadUsageExitsTwoAndSaysWhatToDo) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{}, "halfway --help"},
+      {{"simulate"}, "halfway --help"},
+      {{"sim", "--nonsense"}, "--nonsense"},
+      {{"sim", "spheres", "--shader", "toon"}, "--shader: 'toon' is not a shader"},
+      {{"sim", "spheres", "--preset", "best"}, "--preset: 'best' is not a preset"},
+      {{"sim", "spheres", "--size", "0x10"}, "--size: 0x10 is out of range"},
+      {{"sim", "spheres", "--size", "10x0"}, "--size: 10x0 is out of range"},
+      {{"sim", "spheres", "--size", "4097x10"}, "1 to 4096"},
+      {{"sim", "spheres", "--size", "99999999999x10"}, "is not WIDTHxHEIGHT"},
+      {{"sim", "spheres", "--size", "-4x10"}, "is not WIDTHxHEIGHT"},
+      {{"sim", "spheres", "--size", "640"}, "is not WIDTHxHEIGHT"},
+      {{"sim", "spheres", "--simulator", "modelsim"}, "is not a simulator"},
+      {{"sim", "spheres", "--threshold", "nan"}, "--threshold"},
+      {{"sim", "spheres", "--threshold", "-1"}, "--threshold: -1 is not above 0"},
+      {{"sim", "spheres", "--max-level", "6"}, "--max-level: 6 is not 0 to 5"},
+      {{"sim", "spheres", "--highlight-test", "x"}, "is not a test"},
+      {{"why", "spheres"}, "--pixel"},
+      {{"why", "spheres", "--pixel", "12"}, "is not x,y"},
+      {{"why", "spheres", "--pixel", "640,0"}, "outside the frame"},
+      {{"render", "spheres", "--method", "oil"}, "--method: 'oil' is not a method"},
+      {{"compare", "spheres", "--shader", "toon"}, "--shader: 'toon' is not a shader"},
+      {{"compare", "spheres"}, "run `make sim SCENE=spheres` first"},
+      {{"compare", "spheres", "--shader", "spherical"},
+       "run `make sim SCENE=spheres SHADER=spherical` first"},
+      {{"compare", "spheres", "--all-effects", "--out", "o"},
+       "run `make sim SCENE=spheres ALL_EFFECTS=1 OUT=o` first"},
+      {{"compare", "spheres", "--fast"}, "run `make sim SCENE=spheres FAST=1` first"},
+      {{"compare", "spheres", "--shader", "spherical", "--fast"},
+       "--fast belongs to the quadratic shader, and says nothing for the spherical shader"},
+      {{"sim", "spheres", "--shader", "spherical", "--fast"},
+       "--fast belongs to the quadratic shader, and says nothing for the spherical shader"},
+      {{"view", "spheres", "--shader", "processors", "--fast"}, "--fast belongs to the quadratic shader"},
+      {{"why", "spheres", "--shader", "spherical", "--pixel", "0,0", "--fast"},
+       "--fast belongs to the quadratic shader"},
+  };
+  for (const auto& [arguments, expected] : cases) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(expected));
+  }
+}
+
+// Zero is a number that was given, and what no `make tables` can make is not advised.
+TEST_F(CliTest, TableSizesOutOfRangeExitTwo) {
+  const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
+      {"0", "0", "--address-bits: 0 is not 3 to 12"},
+      {"-1", "8", "--address-bits: -1 is not 3 to 12"},
+      {"13", "8", "--address-bits: 13 is not 3 to 12"},
+      {"9", "0", "--data-bits: 0 is not 2 to 12"},
+      {"9", "13", "--data-bits: 13 is not 2 to 12"},
+      {"11", "3", "make tables PRESET=exact ADDRESS_BITS=11 DATA_BITS=3"}};
+  for (const auto& [address, data, expected] : cases) {
+    const Outcome outcome =
+        run({"sim", "spheres", "--shader", "spherical", "--address-bits", address, "--data-bits", data});
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(expected));
+    EXPECT_EQ(outcome.output.find("make tables") != std::string::npos, address == "11") << outcome.output;
+  }
+  for (const char* one : {"--address-bits", "--data-bits"})
+    EXPECT_THAT(run({"sim", "spheres", "--shader", "spherical", one, "4"}).output,
+                HasSubstr("--address-bits and --data-bits go together"));
+}
+
+TEST_F(CliTest, OptionsOfOtherHardwareExitTwo) {
+  const auto mesh = write("one.obj", c_triangle);
+  struct Case {
+    std::string shader, preset, option, value;
+    bool taken;
+  };
+  const std::string q = "quadratic", s = "spherical", exact = "exact", published = "published";
+  for (const Case& c : {Case{q, exact, "--span-ends", "surface", false},
+                        {q, published, "--span-ends", "slerp", false},
+                        {s, exact, "--span-ends", "slerp", true},
+                        {s, published, "--span-ends", "slerp", false},
+                        {q, exact, "--threshold", "1", true},
+                        {q, published, "--threshold", "1", true},
+                        {s, exact, "--threshold", "1", true},
+                        {s, published, "--threshold", "2", false},
+                        {q, exact, "--highlight-test", "none", true},
+                        {q, published, "--highlight-test", "none", true},
+                        {s, exact, "--highlight-test", "none", false},
+                        {s, published, "--highlight-test", "centroid", false},
+                        {q, exact, "--max-level", "0", true},
+                        {q, published, "--max-level", "5", true},
+                        {s, exact, "--max-level", "5", false},
+                        {s, published, "--max-level", "0", false},
+                        {q, exact, "--address-bits", "9", false},
+                        {q, exact, "--data-bits", "8", false},
+                        {q, exact, "--lights", "2", false}}) {
+    const Outcome outcome = run({"init", mesh, "--shader", c.shader, "--preset", c.preset, c.option, c.value,
+                                 "--size", "20x15", "--file", "init.txt"});
+    const std::string what = fmt::format("{} {} {}: {}", c.shader, c.preset, c.option, outcome.output);
+    EXPECT_EQ(outcome.exit_code, c.taken ? 0 : 2) << what;
+    EXPECT_EQ(outcome.output.find(c.option + " belongs to the ") == std::string::npos, c.taken) << what;
+    EXPECT_EQ(outcome.output.find(fmt::format("says nothing for the {} shader in preset {}\n", c.shader,
+                                              c.preset)) == std::string::npos,
+              c.taken)
+        << what;
+  }
+  const Outcome both = run({"init", mesh, "--shader", s, "--preset", published, "--threshold", "1"});
+  EXPECT_THAT(both.output,
+              HasSubstr("--threshold belongs to the quadratic shader and the spherical shader in "
+                        "preset exact, and says"));
+  const Outcome uncut = run({"init", mesh, "--shader", s, "--threshold", "1", "--span-ends", "slerp"});
+  EXPECT_EQ(uncut.exit_code, 2) << uncut.output;
+  EXPECT_THAT(uncut.output, HasSubstr("--threshold goes with --span-ends surface"));
+  // A method in double that is spherical whatever hardware --shader names.
+  EXPECT_EQ(run({"render", mesh, "--method", "spherical-fixed", "--span-ends", "slerp", "--size", "20x15"})
+                .exit_code,
+            0);
+}
+
+TEST_F(CliTest, BadScenesAndMeshesExitTwoAndLeaveNothing) {
+  const std::string scene =
+      "[[directional]]\nto_light = [0, 0, 1]\n[[material]]\nname = \"m\"\nexponent = 20\n";
+  const std::string mesh = "[[mesh]]\nkind = \"sphere\"\nslices = 8\nstacks = 6\nmaterial = \"m\"\n";
+  const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
+      {"empty.obj", "", "empty.obj"},
+      {"faceless.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "faceless.obj"},
+      {"range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "range.obj:4:"},
+      {"nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "nan.obj:2:"},
+      {"inf.obj", "v 0 0 0\nv 1 inf 0\nv 0 1 0\nf 1 2 3\n", "inf.obj:2:"},
+      {"flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "flat.obj"},
+      {"noise.ply", std::string("ply\0\1\2\3garbage", 14), "noise.ply"},
+      {"noise.stl", "solid nothing", "noise.stl"},
+      {"noise.glb", "glTFxxxx", "noise.glb"},
+      {"broken.toml", "[camera\nfov = 3\n", "broken.toml:1:"},
+      {"key.toml", scene + mesh + "colour = 3\n", "key.toml:11:"},
+      {"n.toml", "[[material]]\nname = \"m\"\nexponent = 0.5\n" + mesh, "n.toml:3:"},
+      {"k.toml", "[[material]]\nname = \"m\"\nk_d = -1\n" + mesh, "k.toml:3:"},
+      {"none.toml", scene, "none.toml"},
+      {"many.toml",
+       scene + "[[mesh]]\nkind = \"sphere\"\nslices = 100000\nstacks = 100000\nmaterial = \"m\"\n",
+       "many.toml"},
+      {"missing.toml", scene + "[[mesh]]\nfile = \"gone.obj\"\nmaterial = \"m\"\n", "gone.obj"},
+  };
+  for (const auto& [name, text, expected] : cases) {
+    const std::filesystem::path path = write(name, text);
+    const Outcome outcome = run({"sim", path, "--out", out()});
+    EXPECT_EQ(outcome.exit_code, 2) << name << ": " << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(expected)) << name;
+    EXPECT_FALSE(std::filesystem::exists(out())) << name;
+  }
+  EXPECT_EQ(run({"sim", "no-such-scene", "--out", out()}).exit_code, 2);
+  EXPECT_EQ(run({"sim", folder_->path(), "--out", out()}).exit_code, 2);
+}
+
+TEST_F(CliTest, RenderingTheGoldenModelSaysWhatWasHeld) {
+  const auto scene = write("bright.toml",
+                           "[[directional]]\nto_light = [0, 0, 1]\nintensity = [100, 1, 1]\n[[material]]\n"
+                           "name = \"m\"\n[[mesh]]\nkind = \"box\"\nmaterial = \"m\"\n");
+  const auto image = (folder_->path() / "bright.png").string();
+  const Outcome golden = run(
+      {"render", scene, "--method", "golden", "--shader", "processors", "--size", "20x15", "--file", image});
+  EXPECT_EQ(golden.exit_code, 0) << golden.output;
+  EXPECT_THAT(golden.output, HasSubstr("directional light 1 is 100 times white and was held"));
+}
+
+TEST_F(CliTest, CameraInsideTheMeshOrBehindItStillDraws) {
+  const std::string common =
+      "[[directional]]\nto_light = [0, 0, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nkind = "
+      "\"sphere\"\nslices = 8\n"
+      "stacks = 6\nradius = 1\nmaterial = \"m\"\n";
+  const auto inside =
+      write("inside.toml", "[camera]\neye = [0, 0, 0]\ntarget = [0, 0, -1]\nup = [0, 1, 0]\n" + common);
+  const auto behind =
+      write("behind.toml", "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 9]\nup = [0, 1, 0]\n" + common);
+  const auto through =
+      write("through.toml", "[camera]\neye = [0, 0, 0.99]\ntarget = [0, 0.3, 5]\nup = [0, 1, 0]\n" + common);
+  for (const auto& scene : {inside, behind, through}) {
+    const Outcome outcome =
+        run({"sim", scene, "--out", out(), "--size", "64x48", "--simulator", "verilator"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(" 0 mismatches"));
+  }
+}
+
+TEST_F(CliTest, SummaryHoldsWhatTheRunWas) {
+  const auto mesh = write("one.obj", c_triangle);
+  const Outcome outcome = run({"sim", mesh, "--out", out(), "--size", "40x30"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const auto text = read_file(out() / "one" / "quadratic" / "summary.json");
+  ASSERT_TRUE(text) << text.error().message;
+  const auto json = nlohmann::json::parse(*text);
+  EXPECT_EQ(json["scene"], "one");
+  EXPECT_EQ(json["shader"], "quadratic");
+  EXPECT_EQ(json["preset"], "exact");
+  EXPECT_EQ(json["width"], 40);
+  EXPECT_EQ(json["height"], 30);
+  EXPECT_EQ(json["triangles"], 1);
+  EXPECT_GT(json["fragments"], 100);
+  ASSERT_EQ(json["runs"].size(), 2U);
+  EXPECT_EQ(json["runs"][0]["simulator"], "ghdl");
+  EXPECT_EQ(json["runs"][1]["simulator"], "verilator");
+  for (const auto& entry : json["runs"]) {
+    EXPECT_EQ(entry["mismatches"], 0);
+    EXPECT_EQ(entry["fragments"], json["fragments"]);
+  }
+  EXPECT_EQ(json["runs"][0]["cycles"], json["runs"][1]["cycles"]);
+  EXPECT_GT(json["runs"][0]["cycles"], 100);
+  EXPECT_GT(json["runs"][0]["seconds"], 0.0);
+  for (const char* file : {"reference.png", "golden.png", "ghdl.png", "verilator.png", "diff.png", "init.txt",
+                           "golden.trace", "ghdl.trace", "verilator.trace"})
+    EXPECT_TRUE(std::filesystem::exists(out() / "one" / "quadratic" / file)) << file;
+  EXPECT_EQ(run({"compare", mesh, "--out", out()}).exit_code, 0);
+}
+
+// Both kinds of hardware leave their results side by side, with the same fragments and frames.
+TEST_F(CliTest, AllEffectsHaveAFolderOfTheirOwn) {
+  const auto mesh = write("one.obj", c_triangle);
+  for (const std::string shader : {"quadratic", "spherical"}) {
+    const auto sim = [&](std::vector<std::string> more) {
+      std::vector<std::string> arguments = {"sim",    mesh,    "--out",    out(),
+                                            "--size", "40x30", "--shader", shader};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      const Outcome outcome = run(arguments);
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    };
+    sim({});
+    sim({"--all-effects"});
+    const auto lean = out() / "one" / shader, all = out() / "one" / (shader + "-all-effects");
+    for (const char* file : {"golden.png", "ghdl.png", "verilator.png", "reference.png", "diff.png"}) {
+      const auto a = read_file(lean / file), b = read_file(all / file);
+      ASSERT_TRUE(a && b) << file;
+      EXPECT_EQ(*a, *b) << shader << " " << file;
+    }
+    const auto lean_text = read_file(lean / "summary.json"), all_text = read_file(all / "summary.json");
+    ASSERT_TRUE(lean_text && all_text);
+    const auto lean_json = nlohmann::json::parse(*lean_text), all_json = nlohmann::json::parse(*all_text);
+    EXPECT_EQ(lean_json["hardware"]["all_effects"], false);
+    EXPECT_EQ(all_json["hardware"]["all_effects"], true);
+    EXPECT_NE(lean_json["hardware"]["key"], all_json["hardware"]["key"]);
+    EXPECT_EQ(lean_json["fragments"], all_json["fragments"]);
+    EXPECT_EQ(run({"compare", mesh, "--out", out(), "--shader", shader, "--all-effects"}).exit_code, 0);
+    std::filesystem::remove_all(all);
+    EXPECT_EQ(run({"compare", mesh, "--out", out(), "--shader", shader, "--all-effects"}).exit_code, 2);
+    EXPECT_EQ(run({"compare", mesh, "--out", out(), "--shader", shader}).exit_code, 0);
+  }
+}
+
+// As with all effects: the same fragments and frames, side by side.
+TEST_F(CliTest, FastHardwareHasAFolderOfItsOwn) {
+  const auto mesh = write("one.obj", c_triangle);
+  const auto sim = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"sim", mesh, "--out", out(), "--size", "40x30"});
+    const Outcome outcome = run(more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return outcome.output;
+  };
+  EXPECT_THAT(sim({}), Not(HasSubstr(", fast")));
+  EXPECT_THAT(sim({"--fast"}), HasSubstr(" fragments, fast | ghdl: "));
+  EXPECT_THAT(sim({"--fast", "--all-effects"}), HasSubstr(" fragments, all effects, fast | ghdl: "));
+  const auto one = out() / "one";
+  const auto usual = read_file(one / "quadratic" / "summary.json");
+  ASSERT_TRUE(usual);
+  EXPECT_EQ(nlohmann::json::parse(*usual)["hardware"]["fast"], false);
+  for (const auto& [folder, key] :
+       {std::pair{"quadratic-fast", "quadratic_shader-exact-c1-fast"},
+        std::pair{"quadratic-all-effects-fast", "quadratic_shader-exact-c3-fast"}}) {
+    for (const char* file : {"golden.png", "ghdl.png", "verilator.png"}) {
+      const auto a = read_file(one / "quadratic" / file), b = read_file(one / folder / file);
+      ASSERT_TRUE(a && b) << file;
+      EXPECT_EQ(*a, *b) << folder << " " << file;
+    }
+    const auto text = read_file(one / folder / "summary.json");
+    ASSERT_TRUE(text);
+    const auto json = nlohmann::json::parse(*text);
+    EXPECT_EQ(json["hardware"]["fast"], true);
+    EXPECT_EQ(json["hardware"]["key"], key);
+  }
+  EXPECT_EQ(run({"compare", mesh, "--out", out(), "--fast"}).exit_code, 0);
+  std::filesystem::remove_all(one / "quadratic-fast");
+  EXPECT_EQ(run({"compare", mesh, "--out", out(), "--fast"}).exit_code, 2);
+  EXPECT_EQ(run({"compare", mesh, "--out", out(), "--fast", "--all-effects"}).exit_code, 0);
+}
+
+TEST_F(CliTest, TheLineNamesTablesOfAnUnusualSize) {
+  const auto line = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"sim",   "highlights", "--out",     out(),         "--size",
+                                          "40x30", "--shader",   "spherical", "--simulator", "verilator"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return outcome.output;
+  };
+  EXPECT_THAT(line({"--preset", "published", "--address-bits", "4", "--data-bits", "4"}),
+              HasSubstr(" fragments, tables 4/4 | verilator: "));
+  EXPECT_THAT(line({"--preset", "published", "--address-bits", "6", "--data-bits", "6"}),
+              HasSubstr(" fragments | verilator: "));
+  EXPECT_THAT(line({}), HasSubstr(" fragments | verilator: "));
+}
+
+TEST_F(CliTest, CompareSeesAChangedTraceAndRefusesADamagedOne) {
+  const auto mesh = write("one.obj", c_triangle);
+  ASSERT_EQ(run({"sim", mesh, "--out", out(), "--size", "20x15", "--simulator", "verilator"}).exit_code, 0);
+  const std::filesystem::path path = out() / "one" / "quadratic" / "verilator.trace";
+  const auto whole = read_file(path);
+  ASSERT_TRUE(whole);
+
+  // The first fragment's blue, one step off.
+  const std::size_t line_end = whole->find('\n', whole->find('\n') + 1);
+  const std::size_t blue = whole->rfind(' ', line_end) + 1;
+  const int value = std::stoi(whole->substr(blue, line_end - blue));
+  std::string changed = *whole;
+  changed.replace(blue, line_end - blue, std::to_string(value == 255 ? 254 : value + 1));
+  ASSERT_TRUE(write_file(path, changed));
+  const Outcome differs = run({"compare", "one", "--out", out()});
+  EXPECT_EQ(differs.exit_code, 1) << differs.output;
+  EXPECT_THAT(differs.output,
+              ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, blue: golden [0-9]+, verilator"));
+  EXPECT_EQ(
+      run_as({"sh", "-c", fmt::format("'{}' compare one --out out >/dev/full", HALFWAY_PROGRAM)}).exit_code,
+      1);
+
+  for (const std::string& damaged :
+       {whole->substr(0, whole->size() / 2), std::string("P6\n20 15\n"), std::string(),
+        *whole + "1 2 3 4 5 6 7\n", std::string("halfway-trace 1 other-key\nend 0\n")}) {
+    ASSERT_TRUE(write_file(path, damaged));
+    const Outcome refused = run({"compare", "one", "--out", out()});
+    EXPECT_EQ(refused.exit_code, 2) << refused.output;
+    EXPECT_THAT(refused.output, HasSubstr("verilator.trace"));
+  }
+}
+
+// Part of the results is no reason to say that all are equal.
+TEST_F(CliTest, CompareSaysWhatIsNotThere) {
+  const auto mesh = write("one.obj", c_triangle);
+  const std::vector<std::string> sim = {"sim", mesh, "--out", out(), "--size", "20x15"},
+                                 compare = {"compare", "one", "--out", out()};
+  const auto folder = out() / "one" / "quadratic";
+  auto verilator_alone = sim;
+  verilator_alone.insert(verilator_alone.end(), {"--simulator", "verilator"});
+  ASSERT_EQ(run(verilator_alone).exit_code, 0);
+  const Outcome one = run(compare);
+  EXPECT_EQ(one.exit_code, 0) << one.output;
+  EXPECT_THAT(one.output, AllOf(ContainsRegex("one +ghdl +not compared: it was not asked to draw\n"),
+                                ContainsRegex("one +verilator +quadratic_shader.* 0 mismatches")));
+
+  ASSERT_EQ(run(sim).exit_code, 0);
+  const auto summary = read_file(folder / "summary.json");
+  ASSERT_TRUE(summary);
+  EXPECT_THAT(run(compare).output, Not(HasSubstr("not compared")));
+  std::filesystem::remove(folder / "ghdl.trace");
+  const Outcome gone = run(compare);
+  EXPECT_EQ(gone.exit_code, 2) << gone.output;
+  EXPECT_THAT(gone.output, HasSubstr("ghdl.trace is gone; run `make sim SCENE=one OUT="));
+
+  // As sim leaves it where it was broken off, and where GHDL ended with a fault.
+  std::filesystem::remove(folder / "summary.json");
+  const Outcome broken_off = run(compare);
+  EXPECT_EQ(broken_off.exit_code, 2) << broken_off.output;
+  EXPECT_THAT(
+      broken_off.output,
+      HasSubstr("a run here was broken off, or has not come to it yet; run `make sim SCENE=one OUT="));
+  auto json = nlohmann::json::parse(*summary);
+  json["runs"][0]["fault"] = "it hangs";
+  ASSERT_TRUE(write_file(folder / "summary.json", json.dump()));
+  const Outcome faulty = run(compare);
+  EXPECT_EQ(faulty.exit_code, 1) << faulty.output;
+  EXPECT_THAT(faulty.output, AllOf(ContainsRegex("one +ghdl +differs, as sim found: it hangs\n"),
+                                   ContainsRegex("one +verilator .* 0 mismatches")));
+  ASSERT_TRUE(write_file(folder / "summary.json", "{}"));
+  const Outcome damaged = run(compare);
+  EXPECT_EQ(damaged.exit_code, 2) << damaged.output;
+  EXPECT_THAT(damaged.output, HasSubstr("summary.json: not a summary"));
+}
+
+// Without a terminal too, whoever waits says so, once; and neither looks at what the other is writing.
+/// Whether some process stands before the lock on the file, as the system tells.
+bool is_waited_for(const std::filesystem::path& file) {
+  struct stat status;
+  if (::stat(file.c_str(), &status) != 0) return false;
+  const std::string inode = fmt::format(":{} ", status.st_ino);
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);)
+    if (line.find("->") != std::string::npos && line.find(inode) != std::string::npos) return true;
+  return false;
+}
+
+TEST_F(CliTest, SimAndCompareWaitForAnotherRunInTheirFolder) {
+  const auto mesh = write("one.obj", c_triangle);
+  const std::vector<std::string> sim = {"sim",    mesh,    "--out",       out(),
+                                        "--size", "20x15", "--simulator", "verilator"};
+  ASSERT_EQ(run(sim).exit_code, 0);
+  const auto folder = out() / "one" / "quadratic";
+  const auto summary = read_file(folder / "summary.json");
+  ASSERT_TRUE(summary);
+  for (const auto& arguments : {sim, {"compare", "one", "--out", out()}}) {
+    auto lock = FolderLock::take(folder, [] { FAIL() << "nobody holds it"; });
+    ASSERT_TRUE(lock) << lock.error().message;
+    std::optional<FolderLock> held(std::move(*lock));
+    std::filesystem::remove(folder / "summary.json");
+    std::atomic<bool> ended = false;
+    Outcome outcome;
+    std::jthread other([&] {
+      outcome = run(arguments);
+      ended = true;
+    });
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (!ended && !is_waited_for(folder / ".lock") && std::chrono::steady_clock::now() < deadline)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_FALSE(ended) << arguments[0] << " did not wait";
+    ASSERT_TRUE(write_file(folder / "summary.json", *summary));
+    held.reset();
+    other.join();
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    const std::string line =
+        fmt::format("waiting for {} (another halfway sim draws into it", folder.string());
+    const std::size_t first = outcome.output.find(line);
+    EXPECT_NE(first, std::string::npos) << outcome.output;
+    EXPECT_EQ(outcome.output.find("waiting for", first + 1), std::string::npos) << outcome.output;
+  }
+}
+
+TEST_F(CliTest, InitSaysWhatSetupMade) {
+  EXPECT_THAT(
+      run({"init", "spheres", "--size", "64x48"}).output,
+      ContainsRegex("^init.txt: ([0-9]+) init vectors and 0 line records, of [0-9]+ bits, for quadratic"
+                    "[^\n]*\n.* [1-9][0-9]* of them split in four: [0-9]+ pieces in all, in [0-9]+ init "
+                    "vectors and 0 line records; [0-9]+ points shaded\n"));
+  EXPECT_THAT(run({"init", "spheres", "--size", "64x48", "--shader", "spherical"}).output,
+              ContainsRegex(" 0 of them cut into columns: [0-9]+ pieces in all, in [0-9]+ init vectors and "
+                            "[1-9][0-9]* line records; [0-9]+ points where vectors were computed\n"));
+}
+
+TEST_F(CliTest, AMissingOrDyingToolExitsThree) {
+  const auto mesh = write("one.obj", c_triangle);
+  const auto fake = folder_->path() / "bin";
+  ASSERT_TRUE(make_folders(fake));
+  const Outcome missing =
+      run({"sim", mesh, "--out", out(), "--size", "8x6", "--simulator", "ghdl"}, {{"PATH", fake}});
+  EXPECT_EQ(missing.exit_code, 3) << missing.output;
+  EXPECT_THAT(missing.output, HasSubstr("apt-get install ghdl"));
+
+  ASSERT_TRUE(write_file(fake / "ghdl", "#!/bin/sh\nkill -SEGV $$\n"));
+  std::filesystem::permissions(fake / "ghdl", std::filesystem::perms::all);
+  const Outcome dying = run({"sim", mesh, "--out", out(), "--size", "8x6", "--simulator", "ghdl"},
+                            {{"PATH", fake.string() + ":/usr/bin:/bin"}});
+  EXPECT_EQ(dying.exit_code, 3) << dying.output;
+  EXPECT_THAT(dying.output, HasSubstr("ghdl"));
+}
+
+TEST_F(CliTest, AFullDiskExitsThreeAndLeavesNothingHalfWritten) {
+  // A limit on file sizes stands for the full disk: writes fail in the same place.
+  const Outcome outcome = run_as({"bash", "-c",
+                                  std::string("trap '' XFSZ; ulimit -f 16; exec '") + HALFWAY_PROGRAM +
+                                      "' sim spheres --size 320x240 --simulator verilator --out out"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
+  for (const char* file : {"summary.json", "init.txt", "golden.trace", "verilator.trace"})
+    EXPECT_FALSE(std::filesystem::exists(out() / "spheres" / "quadratic" / file)) << file;
+}
+
+// What is printed is a result as well.
+TEST_F(CliTest, AFullStandardOutputExitsThreeAndIsTold) {
+  const auto full = [&](const std::string& arguments) {
+    return run_as({"sh", "-c", fmt::format("exec '{}' {} >/dev/full", HALFWAY_PROGRAM, arguments)});
+  };
+  const std::string small = " matte --size 40x30 --out out --simulator verilator";
+  for (const std::string& arguments :
+       {std::string("--help"), std::string("plan matte"), "sim" + small, "view --frames 1" + small}) {
+    const Outcome outcome = full(arguments);
+    EXPECT_EQ(outcome.exit_code, 3) << arguments << outcome.output;
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("standard output: not all could be written"),
+                                      Not(HasSubstr("please report it"))))
+        << arguments;
+  }
+  EXPECT_THAT(full("view --frames 1" + small).output, HasSubstr("(No space left on device)"));
+}
+
+// A scene's name is a file's: any bytes. It goes into summary.json, whose texts are UTF-8.
+TEST_F(CliTest, AScenesNameMayBeAnyBytes) {
+  const auto scene = write("caf\xe9.toml", "[[mesh]]\nkind = \"box\"\n");
+  const Outcome outcome = run({"sim", scene, "--size", "20x15", "--simulator", "verilator", "--out", out()});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  const auto summary = read_file(out() / "caf\xe9" / "quadratic" / "summary.json");
+  ASSERT_TRUE(summary);
+  EXPECT_EQ(nlohmann::json::parse(*summary).at("scene"), "caf\xef\xbf\xbd");
+}
+
+TEST_F(CliTest, WhatAFileSaysDoesNotReachTheTerminalRaw) {
+  const auto scene = write("red.toml", "\"\\u001b[31mred\" = 1\n");
+  const Outcome outcome = run({"sim", scene, "--out", out()});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("unknown key '?[31mred'"), Not(HasSubstr("\x1b"))));
+}
+
+TEST_F(CliTest, TooLittleMemoryExitsThree) {
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+  GTEST_SKIP() << "AddressSanitizer reserves terabytes of addresses";
+#endif
+#endif
+  // What loading the libraries takes, and some.
+  const Outcome outcome = run_as({"bash", "-c",
+                                  std::string("ulimit -c 0; ulimit -v 700000; exec '") + HALFWAY_PROGRAM +
+                                      "' sim spheres --size 4096x4096 --simulator verilator --out out"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("out of memory"));
+}
+
+TEST_F(CliTest, AnUnwritableFolderIsBadInput) {
+  write("file", "not a folder");
+  const Outcome outcome = run({"sim", "spheres", "--size", "8x6", "--out", folder_->path() / "file" / "out"});
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("file"));
+}
+
+TEST_F(CliTest, WhyAgreesOnRightHardware) {
+  const auto mesh = write("one.obj", c_triangle);
+  const Outcome outcome = run({"why", mesh, "--pixel", "16,18", "--size", "40x30"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("line stage, cycle "), HasSubstr("span stage, cycle "),
+                                    HasSubstr("fragment stage, cycle "), HasSubstr("agree at every stage"),
+                                    Not(HasSubstr("differs"))));
+  const Outcome nothing = run({"why", mesh, "--pixel", "0,0", "--size", "40x30"});
+  EXPECT_EQ(nothing.exit_code, 0);
+  EXPECT_THAT(nothing.output, HasSubstr("0 triangles cover it"));
+}
+
+// The last fragment leaves in the last of the clocks that sim counts, whatever the way to it takes.
+TEST_F(CliTest, WhyTellsTheFragmentsClock) {
+  const auto mesh = write("one.obj", c_triangle);
+  for (const bool fast : {false, true}) {
+    const std::string results = fast ? "quadratic-fast" : "quadratic";
+    const auto given = [&](std::vector<std::string> arguments) {
+      arguments.insert(arguments.end(), {"--size", "40x30", "--out", out()});
+      if (fast) arguments.emplace_back("--fast");
+      return run(arguments);
+    };
+    ASSERT_EQ(given({"sim", mesh, "--simulator", "verilator"}).exit_code, 0);
+    const auto trace = read_trace(out() / "one" / results / "verilator.trace", "");
+    ASSERT_TRUE(trace) << trace.error().message;
+    ASSERT_TRUE(trace->cycles);
+    const Fragment& last = trace->fragments.back();
+    const Outcome why = given({"why", mesh, "--pixel", fmt::format("{},{}", last.x, last.y)});
+    ASSERT_EQ(why.exit_code, 0) << why.output;
+    EXPECT_THAT(why.output, HasSubstr(fmt::format("fragment stage, cycle {}\n", *trace->cycles - 1)));
+  }
+}
+
+// Names of any length, in one column; and words.
+TEST_F(CliTest, WhyAlignsItsColumns) {
+  for (const std::string shader : {"quadratic", "spherical"}) {
+    const Outcome outcome =
+        run({"why", "lights", "--shader", shader, "--pixel", "24,36", "--size", "96x72", "--threads", "2"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    std::set<std::size_t> golden, rtl, given;
+    std::istringstream lines(outcome.output);
+    for (std::string line; std::getline(lines, line);)
+      if (line.find(" RTL ") != std::string::npos && line.starts_with("    ")) {
+        golden.insert(line.find(" golden "));
+        rtl.insert(line.find(" RTL "));
+      } else if (line.starts_with("    ")) {
+        given.insert(line.rfind(' ', line.find(" = ") - 1));
+      }
+    EXPECT_EQ(golden.size(), 1U) << outcome.output;
+    EXPECT_EQ(rtl.size(), 1U) << outcome.output;
+    EXPECT_EQ(given, golden) << outcome.output;
+  }
+}
+
+// Wrong hardware: a copy of the sources with one thing changed.
+struct Fault {
+  const char *name, *shader, *file, *from, *to, *stage;
+};
+
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << fault.name;
+}
+
+class WrongRtl : public CliTest, public ::testing::WithParamInterface<Fault> {
+ protected:
+  std::filesystem::path copy() const { return folder_->path() / "source"; }
+  /// The sources with the first `from` after `after` changed in a file of rtl/.
+  void change(const std::string& file, const std::string& after, const std::string& from,
+              const std::string& to) const {
+    ASSERT_EQ(copy_checkout(), copy());
+    const auto text = read_file(copy() / "rtl" / file);
+    ASSERT_TRUE(text);
+    const std::size_t at = text->find(from, text->find(after));
+    ASSERT_NE(at, std::string::npos) << "mend this test's list: '" << from << "' is not in " << file;
+    std::string changed = *text;
+    changed.replace(at, from.size(), to);
+    ASSERT_TRUE(write_file(copy() / "rtl" / file, changed));
+  }
+  Outcome sim(const std::string& shader, const std::string& simulator) const {
+    return run({"--source", copy(), "sim", "spheres", "--shader", shader, "--size", "96x72", "--simulator",
+                simulator, "--out", out()});
+  }
+};
+
+TEST_P(WrongRtl, IsCaughtAndLocated) {
+  const Fault& fault = GetParam();
+  ASSERT_NO_FATAL_FAILURE(change(fault.file, "", fault.from, fault.to));
+  const Outcome drawn = sim(fault.shader, "ghdl");
+  EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
+  EXPECT_THAT(drawn.output, HasSubstr("ghdl differs from the golden model"));
+  const Outcome why = run({"--source", copy(), "why", "spheres", "--shader", fault.shader, "--pixel", "20,20",
+                           "--size", "96x72"});
+  EXPECT_EQ(why.exit_code, 1) << why.output;
+  EXPECT_THAT(why.output, AllOf(HasSubstr("first difference in the frame: "), HasSubstr(fault.stage)));
+}
+
+using WrongTable = WrongRtl;
+
+// A bit of a table that the scene's hardware has, and one of a table that it has not.
+TEST_F(WrongTable, AFlippedBitOfARomIsCaught) {
+  ASSERT_NO_FATAL_FAILURE(change("tables/cosine_pkg.vhd", "c_exact_cosine_16_9_8", "245, 244,", "245, 116,"));
+  const Outcome used = sim("spherical", "verilator");
+  EXPECT_EQ(used.exit_code, 1) << used.output;
+  EXPECT_THAT(used.output, AllOf(HasSubstr("verilator differs from the golden model"),
+                                 ContainsRegex("rtl/tables/cosine_pkg.vhd:[0-9]+: not what the generator")));
+  const Outcome why = run(
+      {"--source", copy(), "why", "spheres", "--shader", "spherical", "--pixel", "20,20", "--size", "96x72"});
+  EXPECT_THAT(why.output,
+              HasSubstr("first difference in the frame: sample stage (cosine_rom, or specular_slice "
+                        "around it)"))
+      << why.output;
+}
+TEST_F(WrongTable, AFlippedBitOfAnUnusedRomIsCaught) {
+  ASSERT_NO_FATAL_FAILURE(change("tables/cosine_pkg.vhd", "c_exact_cosine_2_9_8", "250, ", "251, "));
+  const Outcome unused = sim("spherical", "verilator");
+  EXPECT_EQ(unused.exit_code, 1) << unused.output;
+  EXPECT_THAT(unused.output,
+              AllOf(HasSubstr(" 0 mismatches"),
+                    ContainsRegex("rtl/tables/cosine_pkg.vhd:[0-9]+: not what the generator")));
+}
+
+// GHDL's testbench ends a run that draws on and on, and knows no cycles then.
+using RunawayRtl = WrongRtl;
+TEST_F(RunawayRtl, HasNoCyclesThatNobodyCounted) {
+  ASSERT_NO_FATAL_FAILURE(change("raster/triangle_walker.vhd", "", "sum(pixels, behind);", "pixels;"));
+  const Outcome drawn = sim("quadratic", "ghdl");
+  EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
+  EXPECT_THAT(drawn.output,
+              AllOf(ContainsRegex("\\| ghdl: [0-9]+ mismatches \\| "), Not(HasSubstr("cycles,"))));
+  const auto text = read_file(out() / "spheres" / "quadratic" / "summary.json");
+  ASSERT_TRUE(text);
+  const auto json = nlohmann::json::parse(*text);
+  EXPECT_TRUE(json["runs"][0]["cycles"].is_null()) << *text;
+  EXPECT_TRUE(json["runs"][0]["seconds"].is_null()) << *text;
+  EXPECT_NE(json["runs"][0]["fault"], "");
+  const Outcome compared = run({"compare", "spheres", "--out", out()});
+  EXPECT_EQ(compared.exit_code, 1) << compared.output;
+  EXPECT_THAT(compared.output, HasSubstr("differs, as sim found: "));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Mutants, WrongRtl,
+    ::testing::Values(Fault{"part_interpolator_sign", "quadratic", "interpolation/part_interpolator.vhd",
+                            "sum_of(value, addend", "sum_of(value, not addend", "line stage"},
+                      Fault{"edge_without_carry", "quadratic", "raster/edge_walker.vhd",
+                            "r.quotient & r.carry", "r.quotient & '0'", "edge_walker"},
+                      Fault{"saturate_off_by_a_bit", "quadratic", "arithmetic/saturate.vhd",
+                            "value(c_result_high downto g_fraction_bits)",
+                            "value(c_result_high + 1 downto g_fraction_bits + 1)", "fragment stage"},
+                      Fault{"span_one_pixel_short", "quadratic", "raster/triangle_walker.vhd",
+                            "if is_zero(r.line.more) then", "if r.line.more <= 1 then", "triangle_walker"},
+                      Fault{"angle_not_folded", "spherical", "arithmetic/angle_address.vhd",
+                            "not angle when angle(c_sign) = '1' else angle", "angle", "sample stage"},
+                      Fault{"product_of_the_wrong_operand", "spherical", "arithmetic/multiplier.vhd",
+                            "unsigned(b)", "unsigned(not b)",
+                            "product stage (multiplier, or diffuse_slice around it)"},
+                      Fault{"factors_of_the_slice_inverted", "spherical", "illumination/specular_slice.vhd",
+                            "start => part(part'high downto c_factors_low)",
+                            "start => not part(part'high downto c_factors_low)",
+                            "product stage (multiplier, or specular_slice around it)"},
+                      Fault{"sum_without_its_first_term", "spherical", "arithmetic/saturating_sum.vhd",
+                            "for i in 1 to g_terms - 1 loop", "for i in 2 to g_terms - 1 loop",
+                            "fragment stage (saturating_sum"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program, run by tests as a user runs it, in a folder of the test's own.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway {
+
+class CommandTest : public ::testing::Test {
+ protected:
+  using Environment = std::vector<std::pair<std::string, std::string>>;
+
+  struct Outcome {
+    int exit_code;       ///< -1: was not started; -2: ended by a signal, or too slow
+    std::string output;  ///< both streams
+  };
+
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+  }
+
+  /// A checkout that a test may spoil. Its caches are this one's: what they hold goes by its content.
+  std::filesystem::path copy_checkout() const {
+    namespace fs = std::filesystem;
+    const fs::path source = HALFWAY_SOURCE_DIR, copy = folder_->path() / "source";
+    for (const char* part : {"rtl", "tb", "sim", "model/golden"}) {
+      fs::create_directories((copy / part).parent_path());
+      fs::copy(source / part, copy / part, fs::copy_options::recursive);
+    }
+    fs::create_directories(source / "build" / "cache");
+    fs::create_directories(copy / "build");
+    fs::create_directory_symlink(source / "build" / "cache", copy / "build" / "cache");
+    return copy;
+  }
+
+  Outcome run_as(std::vector<std::string> arguments, Environment environment = {},
+                 std::chrono::milliseconds timeout = std::chrono::minutes(5)) const {
+    Command command;
+    command.arguments = std::move(arguments);
+    command.working_folder = folder_->path();
+    command.environment = std::move(environment);
+    command.timeout = timeout;
+    const auto end = run_process(command, "");
+    if (!end) return {-1, end.error().message};
+    if (end->signal != 0 || end->timed_out) return {-2, end->how() + "\n" + end->output};
+    return {end->exit_status, end->output};
+  }
+  Outcome run(std::vector<std::string> arguments, Environment environment = {}) const {
+    arguments.insert(arguments.begin(), HALFWAY_PROGRAM);
+    return run_as(std::move(arguments), std::move(environment));
+  }
+
+  std::optional<TemporaryFolder> folder_;
+};
+
+}  // namespace halfway

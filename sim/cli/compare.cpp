@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway compare`: the traces and frames that `halfway sim` left, compared once more.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "frame/metrics.hpp"
+#include "sim/cli/options.hpp"
+#include "sim/compare/stream_comparator.hpp"
+#include "sim/pictures/image.hpp"
+#include "sim/run/result_files.hpp"
+#include "sim/stream_files/trace.hpp"
+#include "sim/stream_files/trace_pair.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/folder_lock.hpp"
+
+namespace halfway::cli {
+namespace {
+
+struct CompareCommand {
+  std::string shader = "quadratic";
+  bool all_effects = false, fast = false;
+  std::string out = "build/out";
+  std::vector<std::string> scenes;
+};
+
+// Feeds a comparator from two traces; gives the hardware key's name.
+Result<std::string> compare_traces(const std::filesystem::path& golden_path,
+                                   const std::filesystem::path& rtl_path, StreamComparator& comparator) {
+  auto golden = TraceReader::open(golden_path, {});
+  if (!golden) return golden.error();
+  auto rtl = TraceReader::open(rtl_path, golden->key_name());
+  if (!rtl) return rtl.error();
+  if (const Status status = read_side_by_side(
+          *golden, &*rtl, [&](auto fragments) { comparator.add_golden(fragments); },
+          [&](auto fragments) { comparator.add_rtl(fragments); });
+      !status)
+    return status.error();
+  comparator.finish();
+  return golden->key_name();
+}
+
+// The simulators that a run had, each with its fault, or "": from its summary, which is written last.
+Result<std::map<std::string, std::string>> faults_of(const std::filesystem::path& summary) {
+  const auto text = read_file(summary);
+  if (!text) return text.error();
+  std::map<std::string, std::string> faults;
+  try {
+    const auto json = nlohmann::json::parse(*text);
+    for (const auto& run : json.at("runs"))
+      faults[run.at("simulator").get<std::string>()] = run.value("fault", "");
+  } catch (const nlohmann::json::exception& error) {
+    return bad_input(fmt::format("{}: not a summary: {}", summary.string(), error.what()));
+  }
+  return faults;
+}
+
+// What makes the results again.
+std::string make_sim(const std::string& scene, const CompareCommand& command) {
+  std::string text = "make sim SCENE=" + scene;
+  if (command.shader != CompareCommand{}.shader) text += " SHADER=" + command.shader;
+  if (command.all_effects) text += " ALL_EFFECTS=1";
+  if (command.fast) text += " FAST=1";
+  if (command.out != CompareCommand{}.out) text += " OUT=" + command.out;
+  return text;
+}
+
+// Whether all that a run left of a scene is equal.
+Result<bool> compare_scene(const std::string& scene, const CompareCommand& command, Shader shader) {
+  if (const std::string name = result_name(scene); name.empty() || name == "." || name == "..")
+    return bad_input(fmt::format("'{}' is no scene's name", scene));
+  const ResultFiles files =
+      ResultFiles::of(command.out, result_name(scene),
+                      {.shader = shader, .all_effects = command.all_effects, .fast = command.fast});
+  const auto none = [&](const char* what) {
+    return bad_input(
+        fmt::format("{}: {}; run `{}` first", files.folder.string(), what, make_sim(scene, command)));
+  };
+  std::error_code error;
+  if (!std::filesystem::is_directory(files.folder, error)) return none("no results here");
+  const auto lock = FolderLock::take(files.folder, [&] { say_waiting(files.folder); });
+  if (!lock) return lock.error();
+  if (!std::filesystem::exists(files.summary(), error))
+    return none("a run here was broken off, or has not come to it yet");
+  const auto faults = faults_of(files.summary());
+  if (!faults) return faults.error();
+
+  bool equal = true;
+  for (const std::string simulator : {"ghdl", "verilator", "lanes"}) {
+    const auto fault = faults->find(simulator);
+    if (fault == faults->end()) {
+      if (simulator == "lanes") continue;
+      fmt::print("{:<12} {:<10} not compared: it was not asked to draw\n", result_name(scene), simulator);
+      continue;
+    }
+    if (!fault->second.empty()) {
+      fmt::print("{:<12} {:<10} differs, as sim found: {}\n", result_name(scene), simulator, fault->second);
+      equal = false;
+      continue;
+    }
+    if (!std::filesystem::exists(files.trace(simulator), error))
+      return none(fmt::format("{}.trace is gone", simulator).c_str());
+    StreamComparator comparator;
+    const auto key = compare_traces(files.trace("golden"), files.trace(simulator), comparator);
+    if (!key) return key.error();
+    const auto golden = read_png(files.frame("golden")), rtl = read_png(files.frame(simulator));
+    if (!golden) return golden.error();
+    if (!rtl) return rtl.error();
+    const auto distance = frame_distance(*golden, *rtl);
+    if (!distance) return distance.error();
+    equal = equal && comparator.mismatches() == 0 && distance->differing == 0;
+    fmt::print("{:<12} {:<10} {} {}x{} {:>9} fragments, {} mismatches; frame: {} of {} pixels differ\n",
+               result_name(scene), simulator, *key, golden->size.width, golden->size.height,
+               comparator.golden_count(), comparator.mismatches(), distance->differing, distance->pixels);
+    if (comparator.mismatches() != 0) fmt::print(stderr, "{}", comparator.describe(simulator));
+  }
+  return equal;
+}
+
+int run(const Folders& folders, const CompareCommand& command) {
+  const auto shader = checked_shader(command.shader);
+  if (!shader) return report(shader.error());
+  if (command.fast && *shader != Shader::quadratic)
+    return report(bad_input(of_other_hardware("--fast", "the quadratic shader", *shader)));
+  std::vector<std::string> scenes = command.scenes;
+  if (scenes.empty()) {
+    auto builtin = builtin_scenes(folders);
+    if (!builtin) return report(builtin.error());
+    scenes = std::move(*builtin);
+  }
+  bool equal = true;
+  for (const std::string& scene : scenes) {
+    const auto same = compare_scene(scene, command, *shader);
+    if (!same) return report(same.error());
+    equal = *same && equal;
+  }
+  return static_cast<int>(equal ? ExitCode::equal : ExitCode::differs);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, const Folders& folders, int& exit_code) {
+  CLI::App* sub =
+      app.add_subcommand("compare", "compare what sim left: traces field by field, frames pixel by pixel");
+  auto command = std::make_shared<CompareCommand>();
+  sub->add_option("scene", command->scenes, "as for sim; none: all built-in scenes");
+  sub->add_option("--shader", command->shader, c_shader_names)->capture_default_str();
+  sub->add_flag("--all-effects", command->all_effects, "what sim --all-effects left");
+  sub->add_flag("--fast", command->fast, "what sim --fast left");
+  sub->add_option("--out", command->out, "folder of results")->capture_default_str();
+  sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
+}
+
+}  // namespace halfway::cli

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway figures` as a user meets it. Its figures are the test `figures`.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "sim/cli/command_test.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+using FiguresCommand = CommandTest;
+
+TEST_F(FiguresCommand, WritesThePageAndItsDataOfWhatIsAskedFor) {
+  const Outcome outcome = run({"figures", "spherical-table", "--out", "drawn"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              HasSubstr("a for n = 20: published 2.7582, measured 2.7582: agrees (± 0.00005)"));
+  EXPECT_THAT(outcome.output, HasSubstr("drawn: 1 figures, 8 rows, 8 agree, 0 differ"));
+  for (const char* name : {"README.md", "figures.json"}) {
+    const auto text = read_file(folder_->path() / "drawn" / name);
+    ASSERT_TRUE(text) << text.error().message;
+    EXPECT_THAT(*text, HasSubstr("2.7582"));
+  }
+}
+
+TEST_F(FiguresCommand, RefusesWhatItDoesNotKnow) {
+  const Outcome unknown = run({"figures", "spherical-8"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.output, AllOf(HasSubstr("'spherical-8' is no figure"), HasSubstr("spherical-16")));
+  EXPECT_EQ(run({"figures", "--check", "--page", "there"}).exit_code, 2);
+  EXPECT_EQ(run({"figures", "--check", "spherical"}).exit_code, 2);
+}
+
+TEST_F(FiguresCommand, SaysWhatBringsGnuplot) {
+  const Outcome outcome = run({"figures", "spherical-09"}, {{"PATH", folder_->path().string()}});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.output, HasSubstr("gnuplot: not found; install it with: apt-get install gnuplot-nox"));
+}
+
+// A checkout whose committed table says something else.
+TEST_F(FiguresCommand, ACheckFindsANumberThatIsNotMeasured) {
+  namespace fs = std::filesystem;
+  const fs::path real = HALFWAY_SOURCE_DIR, source = folder_->path() / "source";
+  fs::create_directories(source / "sim");
+  fs::create_directories(source / "build");
+  for (const char* name : {"rtl", "tb", "sim/scenes", "build/cache"})
+    fs::create_directory_symlink(real / name, source / name);
+  fs::copy(real / "sim" / "figures", source / "sim" / "figures");
+  const fs::path json = source / "sim" / "figures" / "figures.json";
+  auto text = read_file(json);
+  ASSERT_TRUE(text) << text.error().message;
+  const std::string measured = "\"measured\": \"2.7582\"";
+  const std::size_t at = text->find(measured);
+  ASSERT_NE(at, std::string::npos);
+  text->replace(at, measured.size(), "\"measured\": \"2.7583\"");
+  ASSERT_TRUE(write_file(json, *text));
+  const Outcome outcome = run({"--source", source.string(), "figures", "--check", "--threads", "2"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("is 2.7583 there, measured 2.7582"),
+                    HasSubstr("README.md is not the page of figures.json"), HasSubstr("run make figures")));
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway sim` and `compare` in lanes.
+#include <gmock/gmock.h>
+
+#include "sim/cli/command_test.hpp"
+#include "sim/pictures/image.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class LanesCommand : public CommandTest {};
+
+TEST_F(LanesCommand, SimDrawsTheSameAndTellsNoCycles) {
+  for (const std::string threads : {"1", "3"}) {
+    const Outcome drawn = run(
+        {"sim", "matte", "--size", "64x48", "--simulator", "lanes", "--threads", threads, "--out", "out"});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+    EXPECT_THAT(drawn.output, AllOf(ContainsRegex("[1-9][0-9]* fragments \\| lanes: 0 mismatches, "),
+                                    Not(HasSubstr("cycles")), Not(HasSubstr("verilator"))));
+    const std::filesystem::path folder = folder_->path() / "out" / "matte" / "quadratic";
+    const auto golden = read_png(folder / "golden.png"), lanes = read_png(folder / "lanes.png");
+    ASSERT_TRUE(golden && lanes);
+    EXPECT_EQ(golden->rgb, lanes->rgb);
+    const auto summary = read_file(folder / "summary.json");
+    ASSERT_TRUE(summary);
+    EXPECT_THAT(*summary, ContainsRegex("\"simulator\": \"lanes\",\n *\"cycles\": null"));
+    const Outcome compared = run({"compare", "matte", "--out", "out"});
+    EXPECT_EQ(compared.exit_code, 0) << compared.output;
+    EXPECT_THAT(compared.output,
+                ContainsRegex("lanes +[a-z0-9_-]+ 64x48 +[1-9][0-9]* fragments, 0 mismatch"));
+  }
+}
+
+TEST_F(LanesCommand, WhatTheyDoNotKnowIsBadInput) {
+  const Outcome stalls = run({"sim", "matte", "--simulator", "lanes", "--stalls", "3", "--out", "out"});
+  EXPECT_EQ(stalls.exit_code, 2) << stalls.output;
+  EXPECT_THAT(stalls.output, HasSubstr("they know no stalls"));
+  const Outcome processors = run(
+      {"sim", "matte", "--simulator", "lanes", "--shader", "processors", "--size", "64x48", "--out", "out"});
+  EXPECT_EQ(processors.exit_code, 2) << processors.output;
+  EXPECT_THAT(processors.output, HasSubstr("no lanes for this hardware"));
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/cli/options.hpp"
+
+int main(int argc, char** argv) {
+  using namespace halfway;
+  cli::Folders folders{HALFWAY_SOURCE_DIR};
+  CLI::App app{"Halfway: shading hardware between Gouraud and Phong, simulated and checked bit for bit.",
+               "halfway"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", HALFWAY_VERSION);
+  app.footer(
+      "Exit codes: 0 all equal, 1 a comparison or check failed, 2 bad usage or input, 3 a tool is missing or "
+      "broke.");
+  app.add_option("--source", folders.source, "the checkout whose rtl, tb and sim are used")
+      ->capture_default_str();
+  int exit_code = 0;
+  cli::add_sim(app, folders, exit_code);
+  cli::add_view(app, folders, exit_code);
+  cli::add_compare(app, folders, exit_code);
+  cli::add_why(app, folders, exit_code);
+  cli::add_plan(app, folders, exit_code);
+  cli::add_savings(app, folders, exit_code);
+  cli::add_study(app, folders, exit_code);
+  cli::add_report(app, folders, exit_code);
+  cli::add_render(app, folders, exit_code);
+  cli::add_init(app, folders, exit_code);
+  cli::add_tables(app, folders, exit_code);
+  cli::add_figures(app, folders, exit_code);
+  return cli::run_program(app, argc, argv, exit_code);
+}

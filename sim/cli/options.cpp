@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/cli/options.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <optional>
+#include <thread>
+#include <tuple>
+
+#include "common/to_integer.hpp"
+#include "frame/frame.hpp"
+#include "tables/cosine.hpp"
+
+namespace halfway::cli {
+namespace {
+
+constexpr int c_most_levels = 5;  // of subdivision
+
+// Hardware for which an option says something: a shader, in one preset or in both.
+struct Hardware {
+  Shader shader;
+  std::optional<Preset> preset = std::nullopt;
+};
+
+std::string name_of(const Hardware& hardware) {
+  std::string name = fmt::format("the {} shader", to_string(hardware.shader));
+  if (hardware.preset) name += fmt::format(" in preset {}", to_string(*hardware.preset));
+  return name;
+}
+
+// What is given for other hardware would be passed over: refused instead.
+Status check_hardware(const DrawOptions& o, Shader shader, Preset preset) {
+  struct Option {
+    const char* name;
+    bool given;
+    std::vector<Hardware> belongs_to;
+  };
+  const Option options[] = {
+      {"--highlight-test", o.highlight_test.has_value(), {{Shader::quadratic}}},
+      {"--max-level", o.max_level.has_value(), {{Shader::quadratic}}},
+      {"--threshold", o.threshold.has_value(), {{Shader::quadratic}, {Shader::spherical, Preset::exact}}},
+      {"--span-ends", o.span_ends.has_value(), {{Shader::spherical, Preset::exact}}},
+      {"--address-bits", o.address_bits.has_value(), {{Shader::spherical}}},
+      {"--data-bits", o.data_bits.has_value(), {{Shader::spherical}}},
+      {"--lights", o.lights.has_value(), {{Shader::spherical}, {Shader::processors}}},
+      {"--form", o.form.has_value(), {{Shader::processors}}},
+      {"--fast", o.fast, {{Shader::quadratic}}}};
+  for (const Option& option : options) {
+    if (!option.given || std::ranges::any_of(option.belongs_to, [&](const Hardware& hardware) {
+          return hardware.shader == shader && hardware.preset.value_or(preset) == preset;
+        }))
+      continue;
+    std::vector<std::string> names;
+    std::ranges::transform(option.belongs_to, std::back_inserter(names), name_of);
+    const std::string owners = fmt::format("{}", fmt::join(names, " and "));
+    return bad_input(
+        fmt::format("{} in preset {}", of_other_hardware(option.name, owners, shader), to_string(preset)));
+  }
+  return Ok{};
+}
+
+Status check_table_size(const DrawOptions& o) {
+  for (const auto& [name, given, bits] :
+       {std::tuple{"--address-bits", o.address_bits, &tables::CosineSize::address_bits},
+        std::tuple{"--data-bits", o.data_bits, &tables::CosineSize::data_bits}}) {
+    const int smallest = tables::c_smallest_cosine_size.*bits, largest = tables::c_largest_cosine_size.*bits;
+    if (given && (*given < smallest || *given > largest))
+      return bad_input(fmt::format("{}: {} is not {} to {}", name, *given, smallest, largest));
+  }
+  if (o.address_bits.has_value() != o.data_bits.has_value())
+    return bad_input("--address-bits and --data-bits go together; give both");
+  return Ok{};
+}
+
+}  // namespace
+
+std::string of_other_hardware(std::string_view option, std::string_view owners, Shader shader) {
+  return fmt::format("{} belongs to {}, and says nothing for the {} shader", option, owners,
+                     to_string(shader));
+}
+
+void DrawOptions::add_to(CLI::App& command) {
+  command.add_option("--shader", shader, c_shader_names)->capture_default_str();
+  command.add_option("--preset", preset, "exact, or published: the paper's word lengths and edges")
+      ->capture_default_str();
+  command.add_option("--size", size, "WIDTHxHEIGHT in pixels, each 1 to 4096")->capture_default_str();
+  command.add_option("--out", out, "folder for results")->capture_default_str();
+  command.add_option("--highlight-test", highlight_test,
+                     "quadratic: when a triangle is split in four: none, centroid (as published), or\n"
+                     "conservative (default: conservative in preset exact, centroid in published)");
+  command.add_option(
+      "--threshold", threshold,
+      fmt::format("error past which a triangle is split (quadratic) or cut into columns (spherical, preset\n"
+                  "exact), in colour steps of 1/255 (default: {})",
+                  QuadraticSetupOptions{}.threshold));
+  command.add_option("--max-level", max_level,
+                     fmt::format("quadratic: levels of splitting, 0 to {0} (default: {0})", c_most_levels));
+  command.add_option(
+      "--address-bits", address_bits,
+      "spherical: address bits of the cosine tables; with --data-bits, a size that `make tables`\n"
+      "has made (default: the preset's)");
+  command.add_option("--data-bits", data_bits, "spherical: data bits of the cosine tables");
+  command.add_flag(
+      "--all-effects", all_effects,
+      "elaborate every effect that the shader has, not only those that the scene calls for, with\n"
+      "coefficients of zero; the frame stays the same");
+  command.add_option(
+      "--lights", lights,
+      "spherical and processors, with --all-effects: for how many lights, up to 16 (default: the\n"
+      "scene's, and at least one)");
+  command.add_option("--form", form,
+                     "processors: unrolled, an object a clock, or folded, as published: one datapath a\n"
+                     "processor, several clocks an object (default: unrolled)");
+  command.add_flag(
+      "--fast", fast,
+      "quadratic: hardware built for the clock: the same fragments at more MHz, for a third more\n"
+      "flip-flops; a triangle takes 3 clocks at least in place of 2");
+  command.add_option(
+      "--span-ends", span_ends,
+      "spherical, preset exact: vectors at a span's ends from the surface, or by slerp along the\n"
+      "edges, as published: never cut into columns, however large the error, so bad where a light is\n"
+      "close (default: surface)");
+  command.add_option("--threads", threads, "threads for setup and golden model (0: all cores)")
+      ->capture_default_str();
+}
+
+Result<Shader> checked_shader(const std::string& name) {
+  for (const Shader shader : c_shaders)
+    if (name == to_string(shader)) return shader;
+  return bad_input(
+      fmt::format("--shader: '{}' is not a shader of this program; take {}", name, c_shader_names));
+}
+
+Result<FrameSize> checked_size(const std::string& text, const char* option) {
+  const std::optional<FrameSize> size = parse_frame_size(text);
+  if (!size)
+    return bad_input(fmt::format("{}: '{}' is not WIDTHxHEIGHT in pixels, such as 640x480", option, text));
+  if (size->width < 1 || size->height < 1 || size->width > c_max_frame_side ||
+      size->height > c_max_frame_side)
+    return bad_input(fmt::format("{}: {} is out of range; width and height are 1 to {} pixels", option, text,
+                                 c_max_frame_side));
+  return *size;
+}
+
+Result<DrawSettings> checked(const DrawOptions& o) {
+  DrawSettings s;
+  const auto shader = checked_shader(o.shader);
+  if (!shader) return shader.error();
+  s.plan.shader = *shader;
+  if (o.preset != "exact" && o.preset != "published")
+    return bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset));
+  s.plan.preset = o.preset == "exact" ? Preset::exact : Preset::published;
+  if (const Status status = check_hardware(o, s.plan.shader, s.plan.preset); !status) return status.error();
+  if (const Status status = check_table_size(o); !status) return status.error();
+  if (o.address_bits) s.plan.tables = TableSize{*o.address_bits, *o.data_bits};
+  s.plan.all_effects = o.all_effects;
+  if (o.form == "folded")
+    s.plan.form = ProcessorForm::folded;
+  else if (o.form && o.form != "unrolled")
+    return bad_input(fmt::format("--form: '{}' is not a form; take folded or unrolled", *o.form));
+  s.plan.fast = o.fast;
+  if (o.lights && !o.all_effects) return bad_input("--lights goes with --all-effects; give both");
+  s.plan.lights = o.lights;
+  if (o.span_ends == "slerp")
+    s.setup.spherical.ends = SpanEnds::slerped_along_edges;
+  else if (o.span_ends && o.span_ends != "surface")
+    return bad_input(fmt::format("--span-ends: '{}' is not a way; take surface or slerp", *o.span_ends));
+  const auto size = checked_size(o.size);
+  if (!size) return size.error();
+  s.size = *size;
+  s.setup.quadratic.test =
+      s.plan.preset == Preset::exact ? HighlightTest::conservative : HighlightTest::centroid;
+  if (o.highlight_test == "none")
+    s.setup.quadratic.test = HighlightTest::none;
+  else if (o.highlight_test == "centroid")
+    s.setup.quadratic.test = HighlightTest::centroid;
+  else if (o.highlight_test == "conservative")
+    s.setup.quadratic.test = HighlightTest::conservative;
+  else if (o.highlight_test)
+    return bad_input(fmt::format("--highlight-test: '{}' is not a test; take none, centroid or conservative",
+                                 *o.highlight_test));
+  if (o.threshold) {
+    if (!(*o.threshold > 0.0) || !std::isfinite(*o.threshold))
+      return bad_input(fmt::format("--threshold: {} is not above 0", *o.threshold));
+    if (s.plan.shader == Shader::spherical && s.setup.spherical.ends == SpanEnds::slerped_along_edges)
+      return bad_input("--threshold goes with --span-ends surface: with slerp no triangle is cut");
+    s.setup.quadratic.threshold = s.setup.spherical.threshold = *o.threshold;
+  }
+  if (o.max_level) {
+    if (*o.max_level < 0 || *o.max_level > c_most_levels)
+      return bad_input(fmt::format("--max-level: {} is not 0 to {}", *o.max_level, c_most_levels));
+    s.setup.quadratic.max_level = *o.max_level;
+  }
+  if (o.threads > 1024) return bad_input(fmt::format("--threads: {} is more than 1024", o.threads));
+  s.threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
+  if (o.out.empty()) return bad_input("--out: the folder has no name");
+  if (std::ranges::any_of(o.out, [](unsigned char c) { return std::iscntrl(c); }))
+    return bad_input("--out: the folder's name holds a control character");
+  s.out = o.out;
+  return s;
+}
+
+Result<Simulators> checked_simulators(const std::vector<std::string>& names, bool with_lanes) {
+  Simulators chosen;
+  if (names.empty()) return chosen;
+  chosen.ghdl = chosen.verilator = false;
+  for (const std::string& name : names) {
+    if (name == "ghdl")
+      chosen.ghdl = true;
+    else if (name == "verilator")
+      chosen.verilator = true;
+    else if (with_lanes && name == "lanes")
+      chosen.lanes = true;
+    else
+      return bad_input(fmt::format("--simulator: '{}' is not a simulator; take ghdl{} verilator{}", name,
+                                   with_lanes ? "," : " or", with_lanes ? " or lanes" : ""));
+  }
+  return chosen;
+}
+
+Result<std::vector<std::string>> builtin_scenes(const Folders& folders) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folders.scenes(), error))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  if (error || names.empty())
+    return bad_input(
+        fmt::format("{}: no built-in scenes here; is the checkout whole?", folders.scenes().string()));
+  std::ranges::sort(names);
+  return names;
+}
+
+std::string result_name(const std::string& scene) {
+  const std::filesystem::path path(scene);
+  return path.has_extension() ? path.stem().string() : path.filename().string();
+}
+
+void say_waiting(const std::filesystem::path& folder) {
+  fmt::print(stderr, "waiting for {} (another halfway sim draws into it, or compares)\n", folder.string());
+  std::fflush(stderr);
+}
+
+Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() {
+  clear();
+}
+
+void Progress::show(double done) {
+  const int percent = to_integer<int>(100.0 * done);
+  if (percent == last_percent_) return;
+  last_percent_ = percent;
+  show(fmt::format("{} %", percent));
+}
+
+void Progress::show(const std::string& text) {
+  if (!terminal_) return;
+  fmt::print(stderr, "\r\033[K{}: {}", what_, text);
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+void Progress::clear() {
+  if (!shown_) return;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+  shown_ = false;
+}
+
+}  // namespace halfway::cli

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway plan`: which hardware a scene calls for, why, and what leaving the rest out saves.
+#include "plan/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "common/printable.hpp"
+#include "common/to_integer.hpp"
+#include "plan/hardware_units.hpp"
+#include "plan/processor_clocks.hpp"
+#include "plan/processor_count.hpp"
+#include "sim/cli/options.hpp"
+#include "sim/costs/cells.hpp"
+#include "sim/costs/simulation_cost.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/system/threads.hpp"
+
+namespace halfway::cli {
+namespace {
+
+struct PlanCommand {
+  DrawOptions draw;
+  std::string scene;
+  bool measure = false;
+  std::vector<std::string> simulators;
+  std::optional<std::uint64_t> objects, rate;
+};
+
+constexpr std::uint64_t c_most_objects = 1000, c_most_rate = 1000;
+
+using CellsByKey = std::map<std::string, Cells>;
+
+std::string units_text(const std::map<std::string, int>& units) {
+  std::string text;
+  for (const auto& [unit, count] : units)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, unit);
+  return text;
+}
+
+// What an effect costs, or would: the two keys' difference.
+std::string cells_text(const PlannedEffect& effect, const HardwareKey& key, const CellsByKey& cells) {
+  const auto other = effect.other ? cells.find(effect.other->name()) : cells.end();
+  if (other == cells.end()) return {};
+  const Cells here = cells.at(key.name()), there = other->second;
+  const auto difference = [&](std::uint64_t a, std::uint64_t b) {
+    return (effect.elaborated ? 1 : -1) * (static_cast<std::int64_t>(a) - static_cast<std::int64_t>(b));
+  };
+  std::string text = fmt::format(": {} LUTs, {} flip-flops", difference(here.luts, there.luts),
+                                 difference(here.flip_flops, there.flip_flops));
+  if (const auto n = difference(here.multipliers, there.multipliers); n != 0)
+    text += fmt::format(", {} multipliers", n);
+  if (const auto bits = difference(here.memory_bits, there.memory_bits); bits != 0)
+    text += fmt::format(", {} bits of memory", bits);
+  return text;
+}
+
+void print_effects(const Plan& plan, const CellsByKey& cells) {
+  fmt::print("{:<23} {:<4} {:<9} {}\n", "effect", "", "done by", "why, and how");
+  for (const PlannedEffect& e : plan.effects) {
+    const char* by = e.by == DoneBy::hardware ? "hardware" : e.by == DoneBy::host ? "host" : "-";
+    const bool done = e.called_for || e.elaborated || e.by == DoneBy::nobody;
+    fmt::print("{:<23} {:<4} {:<9} {}{}{}\n", to_string(e.effect), e.called_for ? "yes" : "no", by,
+               printable(e.why), done && !e.how.empty() ? "; " : "", done ? e.how : "");
+    if (e.units.empty()) continue;
+    const char* there = !e.elaborated ? "left out: " : e.called_for ? "" : "there all the same: ";
+    fmt::print("{:<38} {}{}{}\n", "", there, units_text(e.units), cells_text(e, plan.key, cells));
+  }
+}
+
+std::string saved(double called_for, double everything) {
+  if (everything <= 0.0) return {};
+  return fmt::format("{} %", to_integer<int>(std::round(100.0 * (1.0 - called_for / everything))));
+}
+
+void print_row(const std::string& name, const std::string& called_for, const std::string& everything,
+               const std::string& saving) {
+  fmt::print("{:<38} {:>14} {:>14} {:>8}\n", name, called_for, everything, saving);
+}
+void print_counts(const std::string& name, std::uint64_t called_for, std::uint64_t everything) {
+  print_row(name, std::to_string(called_for), std::to_string(everything),
+            saved(static_cast<double>(called_for), static_cast<double>(everything)));
+}
+
+void print_units(const Plan& plan) {
+  const auto called_for = hardware_units(plan.called_for), everything = hardware_units(plan.everything);
+  print_row("units", "as called for", "all effects", "saved");
+  for (const auto& [unit, count] : everything) {
+    const auto it = called_for.find(unit);
+    print_counts("  " + unit, it == called_for.end() ? 0 : static_cast<std::uint64_t>(it->second),
+                 static_cast<std::uint64_t>(count));
+  }
+}
+
+// The cells of all keys, side by side: each takes seconds, or minutes for many lights.
+Result<CellsByKey> count_all(const Plan& plan, const SimulatorFolders& folders, unsigned threads,
+                             Progress& progress) {
+  std::vector<HardwareKey> keys;
+  std::set<std::string> names;
+  const auto add = [&](const HardwareKey& key) {
+    if (names.insert(key.name()).second) keys.push_back(key);
+  };
+  add(plan.called_for);
+  add(plan.everything);
+  for (const PlannedEffect& e : plan.effects)
+    if (e.other) add(*e.other);
+
+  const auto counter = CellCounter::open(folders);
+  if (!counter) return counter.error();
+  progress.show(fmt::format("Yosys synthesizes {} netlists", keys.size()));
+  std::mutex mutex;
+  CellsByKey cells;
+  Status all = for_each_on_threads(threads, keys.size(), [&](std::size_t i) -> Status {
+    const auto counted = counter->count(keys[i]);
+    if (!counted) return counted.error();
+    const std::scoped_lock lock(mutex);
+    cells[keys[i].name()] = *counted;
+    return Ok{};
+  });
+  if (!all) return all.error();
+  return cells;
+}
+
+void print_seconds(const std::string& simulator, std::optional<double> called_for,
+                   std::optional<double> everything) {
+  if (!called_for || !everything) return;
+  print_row("processor seconds in " + simulator, fmt::format("{:.4g}", *called_for),
+            fmt::format("{:.4g}", *everything), saved(*called_for, *everything));
+}
+
+// The object stage, which comes with shadows, lets no object out that another one hides.
+bool hides_more(const Plan& plan) {
+  return plan.called_for.processors.shadows != plan.everything.processors.shadows;
+}
+
+void print_measured(const Plan& plan, const CellsByKey& cells, const SimulationCost& called_for,
+                    const SimulationCost& everything, bool same) {
+  fmt::print("\n");
+  print_row("measured", "as called for", "all effects", "saved");
+  const Cells few = cells.at(plan.called_for.name()), all = cells.at(plan.everything.name());
+  print_counts("LUTs of 4 inputs (Yosys, flattened)", few.luts, all.luts);
+  if (all.multipliers != 0) {
+    print_counts("multipliers, none of them in LUTs", few.multipliers, all.multipliers);
+    print_counts("  bits of their products", few.product_bits, all.product_bits);
+  }
+  print_counts("flip-flops", few.flip_flops, all.flip_flops);
+  if (all.memory_bits != 0) print_counts("bits of memory", few.memory_bits, all.memory_bits);
+  print_counts("cycles", called_for.cycles, everything.cycles);
+  print_seconds("GHDL", called_for.ghdl_seconds, everything.ghdl_seconds);
+  print_seconds("Verilator", called_for.verilator_seconds, everything.verilator_seconds);
+  fmt::print("the two frames {}, {} and {} fragments{}\n", same ? "are equal bit for bit" : "DIFFER",
+             called_for.fragments, everything.fragments,
+             hides_more(plan) ? ", of which the object stage leaves out the hidden ones" : "");
+}
+
+// The same of the pipelines that the scene calls for, at the clocks that theirs take.
+void print_own_processors(const Scene& scene, const ShadingLoad& load) {
+  fmt::print(
+      "as measured (table 4), of the pipeline that the scene calls for\n  {:<10} {:<9} {:<36} {:>6}  {:<20} "
+      "{}\n",
+      "preset", "form", "slowest processor", "clocks", "pipelines", "processors");
+  for (const Preset preset : {Preset::published, Preset::exact}) {
+    const auto plan = plan_scene(scene, {.shader = Shader::processors, .preset = preset});
+    if (!plan) {
+      fmt::print("  none: {}\n", plan.error().message);
+      return;
+    }
+    const HardwareKey& key = plan->called_for;
+    const ProcessorClocks& slowest = slowest_processor(key);
+    const auto row = [&](ProcessorForm form, const char* what, unsigned clocks) {
+      const auto per_pipeline = static_cast<std::uint64_t>(processors_config(key).processors());
+      const PipelineCount n = count_pipelines(clocks, per_pipeline, load);
+      fmt::print("  {:<10} {:<9} {:<36} {:>6}  {:<20} {} ({} a pipeline)\n", to_string(preset),
+                 to_string(form), what, clocks, fmt::format("{} ({:.2f})", n.pipelines, n.pipelines_needed),
+                 n.processors(), n.per_pipeline);
+    };
+    row(ProcessorForm::folded, slowest.what, *slowest.clocks(preset));
+    row(ProcessorForm::unrolled, "all alike", 1);
+  }
+}
+
+// Table 5 of the processors paper.
+void print_processors(const Scene& scene, const PlanCommand& command, FrameSize size) {
+  const SceneCalls calls = calls_of(scene);
+  ShadingLoad load;
+  load.pixels = std::uint64_t{size.width} * size.height;
+  load.frames = command.rate.value_or(30);
+  load.objects = command.objects.value_or(1);
+  load.directional = calls.count(LightKind::directional);
+  load.positional = calls.count(LightKind::positional) + calls.count(LightKind::spot);
+  fmt::print(
+      "\nshading processors (processors paper, table 5): M = {} pixels, {} frames a second, O = {} objects a "
+      "pixel,\nR = {} directional lights, P = {} positional ones (spots among them), a cycle of dt = {} ns\n",
+      load.pixels, load.frames, load.objects, load.directional, load.positional, c_processor_cycle_ns);
+  for (const ProcessorVersion version : {ProcessorVersion::one, ProcessorVersion::two}) {
+    const bool one = version == ProcessorVersion::one;
+    const ProcessorCount n = count_processors(version, load);
+    fmt::print("version {}{}\n", one ? "I, without normalization" : "II, with it and positional lights",
+               one && load.positional != 0 ? " and without the positional lights" : "");
+    const auto row = [](const std::string& what, const std::string& formula, const std::string& value) {
+      fmt::print("  {:<28} {:<24} {}\n", what, formula, value);
+    };
+    row("a pixel in a pipeline", one ? "7 O dt" : "13 O dt", fmt::format("{} ns", n.pipeline_ns));
+    row("in one processor for all", one ? "(14 R + 4) O dt" : "(14 R + 26 P + 6) O dt",
+        fmt::format("{} ns", n.single_ns));
+    const std::string p = fmt::format("{} M {} O dt", load.frames, pipeline_clocks(version));
+    row("pipelines side by side, p", p, fmt::format("{} ({:.2f})", n.pipelines, n.pipelines_needed));
+    row("processors", one ? "p (2 R + 1)" : "p (2 R + 2 P + 1)",
+        fmt::format("{} ({} a pipeline)", n.processors(), n.per_pipeline));
+    if (n.published_pipelines && *n.published_pipelines != n.pipelines)
+      row("as the paper rounds", fmt::format("a pixel due in {} ns", *n.published_due_ns),
+          fmt::format("{} pipelines, {} processors", *n.published_pipelines,
+                      *n.published_pipelines * n.per_pipeline));
+  }
+  print_own_processors(scene, load);
+}
+
+int run(const Folders& folders, const PlanCommand& command) {
+  const auto draw = checked(command.draw);
+  if (!draw) return report(draw.error());
+  const auto simulators = checked_simulators(command.simulators);
+  if (!simulators) return report(simulators.error());
+  for (const auto& [name, given, most] : {std::tuple{"--objects", command.objects, c_most_objects},
+                                          std::tuple{"--rate", command.rate, c_most_rate}})
+    if (given && (*given < 1 || *given > most))
+      return report(bad_input(fmt::format("{}: {} is not 1 to {}", name, *given, most)));
+  const auto scene = load_scene(command.scene, folders.scenes());
+  if (!scene) return report(scene.error());
+  const auto planned = plan_scene(*scene, draw->plan);
+  if (!planned) return report(planned.error());
+  const Plan& plan = *planned;
+
+  CellsByKey cells;
+  SimulationCost called_for, everything;
+  if (command.measure) {
+    const SimulatorFolders simulator_folders{folders.source, folders.cache()};
+    Progress progress(scene->name);
+    auto counted = count_all(plan, simulator_folders, draw->threads, progress);
+    if (!counted) return report(counted.error());
+    cells = std::move(*counted);
+    const CostSettings settings{.size = draw->size,
+                                .setup = draw->setup,
+                                .threads = draw->threads,
+                                .ghdl = simulators->ghdl,
+                                .verilator = simulators->verilator,
+                                .folders = simulator_folders,
+                                .on_progress = [&](const std::string& what) { progress.show(what); }};
+    for (const auto& [key, cost] :
+         {std::pair{&plan.called_for, &called_for}, {&plan.everything, &everything}}) {
+      auto measured = simulation_cost(*scene, *key, settings);
+      if (!measured) return report(measured.error());
+      *cost = std::move(*measured);
+    }
+  }
+
+  fmt::print("scene {}, shader {}, preset {}\n  as called for  {}\n  all effects    {}\n\n",
+             printable(scene->name), to_string(plan.key.shader), to_string(plan.key.preset),
+             plan.called_for.name(), plan.everything.name());
+  print_effects(plan, cells);
+  fmt::print("\n");
+  print_units(plan);
+  const bool same = called_for.frame.rgb == everything.frame.rgb &&
+                    (hides_more(plan) || called_for.fragments == everything.fragments);
+  if (command.measure) print_measured(plan, cells, called_for, everything, same);
+  if (command.objects || command.rate) print_processors(*scene, command, draw->size);
+  return static_cast<int>(same ? ExitCode::equal : ExitCode::differs);
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app, const Folders& folders, int& exit_code) {
+  CLI::App* sub = app.add_subcommand("plan", "the hardware that a scene calls for, and why");
+  auto command = std::make_shared<PlanCommand>();
+  sub->add_option("scene", command->scene, "as for sim")->required();
+  command->draw.add_to(*sub);
+  sub->add_flag(
+      "--measure", command->measure,
+      "count cells by Yosys, and cycles and seconds by simulation, as called for and with all effects;\n"
+      "also each effect's own cells; of the shading processors this takes some minutes, for ten lights many");
+  sub->add_option("--simulator", command->simulators, "to measure in: ghdl or verilator (default: both)");
+  sub->add_option("--objects", command->objects,
+                  "objects a pixel: how many shading processors keep up (processors paper, table 5)");
+  sub->add_option("--rate", command->rate, "frames a second, for the same (default: 30)");
+  sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
+}
+
+}  // namespace halfway::cli

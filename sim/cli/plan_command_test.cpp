@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway plan`, and --all-effects of the commands that draw, as a user meets them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "sim/cli/command_test.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class PlanCommand : public CommandTest {
+ protected:
+  /// PATH with a stand-in for Yosys: as many LUTs as the netlist has kilobytes.
+  Environment path_with_yosys() const {
+    const auto bin = folder_->path() / "bin";
+    EXPECT_TRUE(make_folders(bin));
+    EXPECT_TRUE(write_file(bin / "yosys",
+                           "#!/bin/sh\n[ $# = 1 ] && { echo stand-in; exit; }\n"
+                           "echo \"{\\\"design\\\": {\\\"num_cells_by_type\\\": {\\\"\\$lut\\\": "
+                           "$(($(wc -c <netlist.v) / 1024)), \\\"\\$_DFF_P_\\\": 5}}}\" >cells.json\n"));
+    std::filesystem::permissions(bin / "yosys", std::filesystem::perms::all);
+    return {{"PATH", bin.string() + ":" + std::getenv("PATH")}};
+  }
+};
+
+TEST_F(PlanCommand, ListsEveryEffectAndWhatIsLeftOut) {
+  const Outcome matte = run({"plan", "matte", "--shader", "spherical"});
+  EXPECT_EQ(matte.exit_code, 0) << matte.output;
+  EXPECT_THAT(matte.output,
+              AllOf(HasSubstr("as called for  spherical_shader-exact-c1-l1-d-rom9x8\n"),
+                    HasSubstr("all effects    spherical_shader-exact-c3-l1-d-s3-cos1.2.4.8.16-rom9x8\n"),
+                    ContainsRegex("\nspecular +no +hardware +every k_s is 0\n +left out: .*1 specular_slice"),
+                    ContainsRegex("\nhighlight colour +no +hardware +there is no highlight\n"),
+                    ContainsRegex("\npositional +no +hardware +the scene has no positional light\n"),
+                    ContainsRegex("\nshadow +no +- +the scene does without; not by this shader\n"),
+                    ContainsRegex("\nperspective correction +yes +host .*; at both ends of a span\n"),
+                    ContainsRegex("\n  specular_slice +0 +1 +100 %\n"), Not(HasSubstr("measured"))));
+  EXPECT_THAT(run({"plan", "lights"}).output,
+              AllOf(ContainsRegex("\ncolour channels +yes +hardware +directional light 1 is coloured"),
+                    ContainsRegex("\nperspective correction +yes +host .*; at each sample\n")));
+  // Elaborated all the same.
+  const Outcome all = run({"plan", "matte", "--shader", "spherical", "--all-effects", "--lights", "4"});
+  EXPECT_THAT(all.output,
+              AllOf(HasSubstr("all effects    spherical_shader-exact-c3-l4-d-s3-cos1.2.4.8.16-rom9x8\n"),
+                    ContainsRegex("\nspecular +no +hardware +every k_s is 0; a slice a light\n"
+                                  " +there all the same: .*4 specular_slice")));
+}
+
+TEST_F(PlanCommand, Table5OfTheLights) {
+  const Outcome asked = run({"plan", "lights", "--objects", "3", "--rate", "30", "--size", "1000x1000"});
+  EXPECT_EQ(asked.exit_code, 0) << asked.output;
+  EXPECT_THAT(asked.output,
+              AllOf(HasSubstr("R = 5 directional lights, P = 5 positional ones"),
+                    ContainsRegex("13 O dt +1950 ns\n"), ContainsRegex("30 M 13 O dt +59 \\(58.50\\)\n"),
+                    ContainsRegex("p \\(2 R \\+ 2 P \\+ 1\\) +1239 \\(21 a pipeline\\)\n"),
+                    ContainsRegex("a pixel due in 33 ns +60 pipelines, 1260 processors\n"),
+                    ContainsRegex("\\(14 R \\+ 4\\) O dt +11100 ns\n"),
+                    ContainsRegex("\\(14 R \\+ 26 P \\+ 6\\) O dt +30900 ns\n")));
+  // Beside them those of this scene's own pipeline, at the clocks of table 4.
+  EXPECT_THAT(
+      asked.output,
+      AllOf(ContainsRegex(
+                "published +folded +positional specular +13 +59 \\(58.50\\) +1239 \\(21 a pipeline\\)\n"),
+            ContainsRegex("published +unrolled +all alike +1 +5 \\(4.50\\) +105 \\(21 a pipeline\\)\n"),
+            ContainsRegex(
+                "exact +folded +positional specular +30 +135 \\(135.00\\) +2835 \\(21 a pipeline\\)\n"),
+            ContainsRegex("exact +unrolled +all alike +1 +5 \\(4.50\\) +105 \\(21 a pipeline\\)\n")));
+  // One of the two is enough.
+  EXPECT_THAT(run({"plan", "lights", "--rate", "60"}).output, HasSubstr("60 frames a second, O = 1"));
+  EXPECT_THAT(run({"plan", "lights"}).output, Not(HasSubstr("table 5")));
+}
+
+TEST_F(PlanCommand, Table5OfTheProcessorsThatAreThere) {
+  const Outcome matte = run({"plan", "matte", "--rate", "30", "--size", "1000x1000"});
+  EXPECT_EQ(matte.exit_code, 0) << matte.output;
+  EXPECT_THAT(
+      matte.output,
+      AllOf(
+          ContainsRegex("published +folded +directional diffuse +6 +9 \\(9.00\\) +18 \\(2 a pipeline\\)\n"),
+          ContainsRegex("published +unrolled +all alike +1 +2 \\(1.50\\) +4 \\(2 a pipeline\\)\n"),
+          ContainsRegex("exact +folded +ambient, N normalized +9 +14 \\(13.50\\) +28 \\(2 a pipeline\\)\n")));
+  // Whatever shader the scene is planned for.
+  EXPECT_THAT(
+      run({"plan", "matte", "--rate", "30", "--size", "1000x1000", "--shader", "processors", "--all-effects"})
+          .output,
+      ContainsRegex("exact +folded +ambient, N normalized +9 "));
+  // A scene that is not for the shading processors says so.
+  const auto spheres =
+      read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes" / "spheres.toml");
+  ASSERT_TRUE(spheres);
+  const std::size_t at = spheres->find("\nk_s = ");
+  ASSERT_NE(at, std::string::npos) << "mend this test";
+  std::string changed = *spheres;
+  ASSERT_TRUE(write_file(folder_->path() / "phong.toml", changed.insert(at, "\nbrdf = \"phong\"")));
+  const Outcome phong = run({"plan", "phong.toml", "--rate", "30"});
+  EXPECT_EQ(phong.exit_code, 0) << phong.output;
+  EXPECT_THAT(phong.output,
+              AllOf(HasSubstr("P = 0 positional ones"), HasSubstr("is phong"), Not(HasSubstr("all alike"))));
+}
+
+TEST_F(PlanCommand, BadUsageExitsTwo) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"plan", "matte", "--shader", "spherical", "--lights", "3"}, "--lights goes with --all-effects"},
+      {{"plan", "matte", "--all-effects", "--lights", "3"},
+       "--lights belongs to the spherical shader and the processors shader, and says nothing for the "
+       "quadratic "
+       "shader"},
+      {{"plan", "matte", "--shader", "spherical", "--all-effects", "--lights", "0"}, "0 is not 1 to 16"},
+      {{"plan", "lights", "--shader", "spherical", "--all-effects", "--lights", "9"}, "9 is not 10 to 16"},
+      {{"sim", "lights", "--shader", "spherical", "--all-effects", "--lights", "17"}, "17 is not 10 to 16"},
+      {{"plan", "matte", "--rate", "1001"}, "--rate: 1001 is not 1 to 1000"},
+      {{"plan", "matte", "--rate", "0"}, "--rate: 0 is not 1 to 1000"},
+      {{"plan", "matte", "--objects", "0"}, "--objects: 0 is not 1 to 1000"},
+      {{"plan", "lights", "--shader", "processors", "--all-effects", "--lights", "9"}, "9 is not 10 to 16"},
+      {{"plan", "matte", "--form", "folded"},
+       "--form belongs to the processors shader, and says nothing for the quadratic shader"},
+      {{"plan", "matte", "--shader", "processors", "--form", "flat"}, "take folded or unrolled"},
+      {{"plan", "matte", "--shader", "processors", "--fast"},
+       "--fast belongs to the quadratic shader, and says nothing for the processors shader"},
+      {{"plan", "matte", "--objects", "-1"}, "--objects"},
+      {{"plan", "matte", "--measure", "--simulator", "modelsim"}, "is not a simulator"},
+      {{"sim", "matte", "--simulator", "modelsim"}, "is not a simulator"},
+  };
+  for (const auto& [arguments, expected] : cases) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(expected));
+  }
+}
+
+TEST_F(PlanCommand, AMissingToolExitsThree) {
+  const Environment nowhere = {{"PATH", (folder_->path() / "empty").string()}};
+  EXPECT_EQ(run({"plan", "matte"}, nowhere).exit_code, 0) << "without --measure no tool is needed";
+  const Outcome outcome = run({"plan", "matte", "--measure"}, nowhere);
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("apt-get install yosys"));
+}
+
+TEST_F(PlanCommand, MeasuresCellsCyclesAndSeconds) {
+  const Outcome outcome =
+      run({"plan", "matte", "--shader", "spherical", "--measure", "--size", "64x48"}, path_with_yosys());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(
+      outcome.output,
+      AllOf(ContainsRegex("1 specular_slice: [1-9][0-9]* LUTs, 0 flip-flops\n"),
+            ContainsRegex("LUTs of 4 inputs[^\n]* [1-9][0-9]* +[1-9][0-9]* +[1-9][0-9]? %\n"),
+            ContainsRegex("\nflip-flops +5 +5 +0 %\n"), ContainsRegex("\ncycles +[1-9][0-9]* +[1-9]"),
+            ContainsRegex("\nprocessor seconds in GHDL +[0-9]"),
+            ContainsRegex("\nprocessor seconds in Verilator +[0-9]"), HasSubstr("are equal bit for bit")));
+  // Each simulator counts the cycles alone as well.
+  for (const std::string simulator : {"ghdl", "verilator"}) {
+    const Outcome one = run(
+        {"plan", "matte", "--shader", "spherical", "--measure", "--size", "64x48", "--simulator", simulator},
+        path_with_yosys());
+    EXPECT_EQ(one.exit_code, 0) << one.output;
+    const auto row = [](const std::string& text, const std::string& name) {
+      const std::size_t at = text.find("\n" + name + " ");
+      return at == std::string::npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+    };
+    EXPECT_EQ(row(one.output, "cycles"), row(outcome.output, "cycles")) << simulator;
+    EXPECT_EQ(row(one.output, "the two frames"), row(outcome.output, "the two frames")) << simulator;
+    EXPECT_EQ(row(one.output, "processor seconds in GHDL").empty(), simulator != "ghdl");
+    EXPECT_EQ(row(one.output, "processor seconds in Verilator").empty(), simulator != "verilator");
+  }
+}
+
+// With all effects there are shadows, and so the object stage: fewer fragments, the same frame.
+TEST_F(PlanCommand, MeasuresShadingProcessors) {
+  const std::vector<std::string> arguments = {"plan",   "matte", "--shader",    "processors", "--measure",
+                                              "--size", "64x48", "--simulator", "verilator"};
+  const Outcome outcome = run(arguments, path_with_yosys());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("the two frames are equal bit for bit, 791 and 768 fragments, of which the "
+                              "object stage leaves out the hidden ones\n"),
+                    ContainsRegex("\nspecular +no +hardware +every k_s is 0\n +left out: .*1 power"),
+                    ContainsRegex("\n  power +0 +1 +100 %\n")));
+}
+
+// RTL whose fault only hardware with all effects has: factors of zero that are not.
+TEST_F(PlanCommand, MeasuringTellsFramesThatDiffer) {
+  const std::filesystem::path copy = copy_checkout();
+  const auto slice = copy / "rtl" / "illumination" / "specular_slice.vhd";
+  const auto text = read_file(slice);
+  ASSERT_TRUE(text);
+  const std::string from = "start => part(part'high downto c_factors_low)";
+  const std::size_t at = text->find(from);
+  ASSERT_NE(at, std::string::npos) << "mend this test";
+  std::string changed = *text;
+  changed.replace(at, from.size(), "start => not part(part'high downto c_factors_low)");
+  ASSERT_TRUE(write_file(slice, changed));
+  const Outcome outcome = run({"--source", copy, "plan", "matte", "--shader", "spherical", "--measure",
+                               "--size", "64x48", "--simulator", "verilator"},
+                              path_with_yosys());
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("the two frames DIFFER"), Not(HasSubstr("seconds in GHDL"))));
+}
+
+TEST_F(PlanCommand, TellsFastHardware) {
+  const Outcome fast = run({"plan", "matte", "--fast"});
+  EXPECT_EQ(fast.exit_code, 0) << fast.output;
+  EXPECT_THAT(fast.output,
+              AllOf(HasSubstr("as called for  quadratic_shader-exact-c1-fast\n"),
+                    HasSubstr("all effects    quadratic_shader-exact-c3-fast\n"),
+                    ContainsRegex("\n  queued_walker +1 +1 +0 %\n"), Not(HasSubstr("triangle_walker"))));
+  EXPECT_THAT(run({"init", "matte", "--fast", "--size", "40x30"}).output,
+              HasSubstr("quadratic_shader-exact-c1-fast"));
+}
+
+TEST_F(PlanCommand, AllEffectsDrawTheSamePicture) {
+  for (const std::string shader : {"quadratic", "spherical"}) {
+    std::vector<std::string> pictures;
+    for (const bool all : {false, true}) {
+      std::vector<std::string> arguments = {"render", "matte",  "--method", "golden", "--shader",
+                                            shader,   "--size", "100x75",   "--file", "frame.png"};
+      if (all) arguments.emplace_back("--all-effects");
+      const Outcome outcome = run(arguments);
+      ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+      const auto picture = read_file(folder_->path() / "frame.png");
+      ASSERT_TRUE(picture);
+      pictures.push_back(*picture);
+    }
+    EXPECT_EQ(pictures[0], pictures[1]) << shader;
+  }
+  const Outcome init = run({"init", "matte", "--shader", "spherical", "--all-effects", "--size", "40x30"});
+  EXPECT_THAT(init.output, HasSubstr("spherical_shader-exact-c3-l1-d-s3-cos1.2.4.8.16-rom9x8"));
+}
+
+}  // namespace
+}  // namespace halfway

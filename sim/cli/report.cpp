@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway report`: one HTML page of all that the other commands left.
+#include "sim/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include "sim/cli/options.hpp"
+#include "sim/report/front.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/page_part.hpp"
+
+namespace halfway::cli {
+namespace {
+
+struct ReportCommand {
+  std::string out = "build/report/index.html";
+  std::string results = "build/out", study = "build/study";
+  std::optional<std::string> figures;  ///< none: those of the last make figures, or the checkout's
+  bool no_timing = false;
+  std::string front;   ///< a folder for the front, and no page
+  std::string readme;  ///< with it: the page whose part "front" it writes
+};
+
+Status tell_front(const report::Table& front, const std::string& readme) {
+  const auto words = report::readme_front(front);
+  if (!words) return words.error();
+  return rewrite_page(readme, [&](const std::string& page) { return with_page_part(page, "front", *words); });
+}
+
+int write_front(const ReportCommand& command) {
+  const auto study = report::read_csv(std::filesystem::path(command.study) / "study.csv");
+  if (!study) return report(study.error());
+  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  if (!scratch) return report(scratch.error());
+  const auto designs = report::write_front(*study, command.front, scratch->path());
+  if (!designs) return report(designs.error());
+  if (*designs == 0)
+    return report(bad_input(command.study + ": no design in it has both a cost and an error; make study"));
+  if (!command.readme.empty())
+    if (Status told = tell_front(report::front_of(*study), command.readme); !told)
+      return report(told.error());
+  fmt::print("{}: the front of {} designs\n", (std::filesystem::path(command.front) / "front.svg").string(),
+             *designs);
+  return 0;
+}
+
+int run(const Folders& folders, const ReportCommand& command) {
+  if (!command.front.empty()) return write_front(command);
+  std::filesystem::path figures = command.figures.value_or("build/figures");
+  if (!command.figures && !std::filesystem::exists(figures / "figures.json"))
+    figures = folders.source / "sim" / "figures";
+  auto scenes = builtin_scenes(folders);
+  if (!scenes) return report(scenes.error());
+  Progress progress("report");
+  const auto made =
+      report::write_report({.page = command.out,
+                            .results = command.results,
+                            .study = command.study,
+                            .figures = figures,
+                            .folders = {folders.source, folders.cache()},
+                            .scenes = std::move(*scenes),
+                            .timing = !command.no_timing,
+                            .on_progress = [&](const std::string& what) { progress.show(what); }});
+  progress.clear();
+  if (!made) return report(made.error());
+  for (const std::string& note : made->notes) say(note);
+  fmt::print("{}: {} frames, {} points, {} figures, {:.1f} MB\n", command.out, made->frames, made->points,
+             made->figures, static_cast<double>(made->bytes) / 1e6);
+  return 0;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, const Folders& folders, int& exit_code) {
+  const auto command = std::make_shared<ReportCommand>();
+  CLI::App* sub = app.add_subcommand("report", "write one HTML page of what the other commands left");
+  sub->add_option("--out", command->out, "file to write")->capture_default_str();
+  sub->add_option("--results", command->results, "what sim left")->capture_default_str();
+  sub->add_option("--study", command->study, "what study left")->capture_default_str();
+  sub->add_option("--figures", command->figures, "what figures left (build/figures, else sim/figures)");
+  sub->add_flag("--no-timing", command->no_timing, "no timing diagrams, and so no GHDL");
+  sub->add_option(
+      "--front", command->front,
+      "folder for front.svg and front.csv, the plot of a study's error against cells, and no page");
+  sub->add_option("--readme", command->readme, "with --front: a page whose part \"front\" is written anew");
+  sub->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });
+}
+
+}  // namespace halfway::cli

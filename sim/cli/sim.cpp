@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway sim`: scenes through golden model, GHDL and Verilator.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <future>
+#include <mutex>
+#include <new>
+#include <thread>
+
+#include "common/printable.hpp"
+#include "common/to_integer.hpp"
+#include "sim/cli/options.hpp"
+#include "sim/run/simulate.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/tables/generated_files.hpp"
+#include "tables/compiled_sizes.hpp"
+
+namespace halfway::cli {
+namespace {
+
+struct SimOptions {
+  DrawOptions draw;
+  std::vector<std::string> scenes;
+  std::vector<std::string> simulators;
+  std::uint32_t stall_seed = 0;
+};
+
+// What each scene is busy with, on one line of a terminal.
+class Board {
+ public:
+  explicit Board(const std::vector<std::string>& scenes)
+      : scenes_(scenes), states_(scenes.size()), progress_("sim") {}
+
+  void show(std::size_t scene, std::string state) {
+    const std::scoped_lock lock(mutex_);
+    if (states_[scene] == state) return;
+    states_[scene] = std::move(state);
+    std::string text;
+    for (std::size_t i = 0; i < scenes_.size(); ++i)
+      if (!states_[i].empty())
+        text += fmt::format("{}{} {}", text.empty() ? "" : " | ", scenes_[i], states_[i]);
+    progress_.show(text);
+  }
+  void clear() {
+    const std::scoped_lock lock(mutex_);
+    progress_.clear();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::string> scenes_, states_;
+  Progress progress_;
+};
+
+struct Drawn {
+  SceneSummary summary;
+  std::vector<std::string> notes;
+};
+using Outcome = Result<Drawn>;
+
+Outcome draw_scene(const std::string& name, std::size_t number, const Folders& folders,
+                   SimulateSettings settings, Board& board) {
+  board.show(number, "loading");
+  const auto scene = load_scene(name, folders.scenes());
+  if (!scene) return scene.error();
+  settings.on_progress = [&](const std::string& what, double done) {
+    board.show(number, done < 0.0 ? what : fmt::format("{} {} %", what, to_integer<int>(100.0 * done)));
+  };
+  settings.on_wait = [&](const std::filesystem::path& folder) {
+    board.clear();
+    say_waiting(folder);
+  };
+  auto summary = simulate(*scene, settings);
+  board.show(number, "");
+  if (!summary) return summary.error();
+  return Drawn{std::move(*summary), scene->notes};
+}
+
+Outcome outcome_of(std::promise<Outcome>& promise) {
+  try {
+    return promise.get_future().get();
+  } catch (const std::bad_alloc&) {
+    return tool_failed(
+        "halfway: out of memory; a smaller frame or mesh, fewer scenes at once, or fewer threads, may fit");
+  } catch (const std::exception& error) {
+    return tool_failed(fmt::format("halfway: {}; this should not happen, please report it", error.what()));
+  }
+}
+
+// Whether all was equal.
+bool print(const Drawn& drawn) {
+  for (const auto* notes : {&drawn.notes, &drawn.summary.notes})
+    for (const std::string& note : *notes) say(note);
+  fmt::print("{}\n", printable(to_line(drawn.summary)));
+  std::fflush(stdout);
+  for (const SimulatorRun& run : drawn.summary.runs) {
+    if (run.equal()) continue;
+    say(fmt::format("{}: {} differs from the golden model", drawn.summary.scene, run.simulator));
+    if (!run.fault.empty()) say("  " + run.fault);
+    fmt::print(stderr, "{}", run.description);
+    for (const auto& path : run.evidence) say("  see " + path.string());
+  }
+  return drawn.summary.equal();
+}
+
+int run(const Folders& folders, const SimOptions& options) {
+  const auto draw = checked(options.draw);
+  if (!draw) return report(draw.error());
+  SimulateSettings settings;
+  settings.plan = draw->plan;
+  settings.size = draw->size;
+  settings.setup = draw->setup;
+  settings.threads = draw->threads;
+  settings.out = draw->out;
+  settings.stall_seed = options.stall_seed;
+  settings.folders = {folders.source, folders.cache()};
+  const auto simulators = checked_simulators(options.simulators, true);
+  if (!simulators) return report(simulators.error());
+  settings.ghdl = simulators->ghdl;
+  settings.verilator = simulators->verilator;
+  settings.lanes = simulators->lanes;
+  if (settings.lanes && settings.stall_seed != 0)
+    return report(bad_input("--simulator lanes: they know no stalls; leave --stalls out"));
+  std::vector<std::string> scenes = options.scenes;
+  if (scenes.empty()) {
+    auto builtin = builtin_scenes(folders);
+    if (!builtin) return report(builtin.error());
+    scenes = std::move(*builtin);
+  }
+
+  // Results lie under a scene's name.
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (result_name(scenes[i]) == result_name(scenes[j]))
+        return report(
+            bad_input(fmt::format("{}: its results would overwrite those of {}; draw them one at a time, or "
+                                  "into another --out",
+                                  scenes[i], scenes[j])));
+
+  for (const std::string& scene : scenes) {
+    const auto files = ResultFiles::of(settings.out, result_name(scene), settings.plan);
+    if (const Status status = forget_summary(files, [&] { say_waiting(files.folder); }); !status)
+      return report(status.error());
+  }
+
+  // Scenes side by side: GHDL runs on one core, and it is what takes the time.
+  const unsigned workers = std::clamp<unsigned>(static_cast<unsigned>(scenes.size()), 1, draw->threads);
+  settings.threads = std::max(1U, draw->threads / workers);
+  Board board(scenes);
+  std::vector<std::promise<Outcome>> outcomes(scenes.size());
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> stop = false;
+  std::vector<std::jthread> pool;
+  for (unsigned i = 0; i < workers; ++i)
+    pool.emplace_back([&] {
+      for (std::size_t n = next++; n < scenes.size(); n = next++) try {
+          outcomes[n].set_value(stop ? Outcome(tool_failed("not run"))
+                                     : draw_scene(scenes[n], n, folders, settings, board));
+        } catch (...) {
+          outcomes[n].set_exception(std::current_exception());  // such as out of memory
+        }
+    });
+
+  // Frames are equal wherever no fragment needs what was changed: a wrong entry of a table, say, at an angle
+  // that no scene has.
+  bool equal = true;
+  for (const std::string& message : tables::stale_files(folders.source, tables::compiled_sizes())) {
+    board.clear();
+    fmt::print(stderr, "{}\n", message);
+    equal = false;
+  }
+  for (std::size_t n = 0; n < scenes.size(); ++n) {
+    const Outcome outcome = outcome_of(outcomes[n]);
+    board.clear();
+    if (!outcome) {
+      stop = true;
+      return report(outcome.error());
+    }
+    equal = print(*outcome) && equal;
+  }
+  return static_cast<int>(equal ? ExitCode::equal : ExitCode::differs);
+}
+
+}  // namespace
+
+void add_sim(CLI::App& app, const Folders& folders, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("sim", "draw scenes by golden model, GHDL and Verilator and compare");
+  auto options = std::make_shared<SimOptions>();
+  command->add_option("scene", options->scenes,
+                      "a built-in scene's name, a scene file (.toml) or a mesh (.obj .ply .stl .gltf .glb);\n"
+                      "none: all built-in scenes");
+  options->draw.add_to(*command);
+  command->add_option("--simulator", options->simulators,
+                      "ghdl or verilator (default: both), or lanes: many copies of the RTL at once (see\n"
+                      "sim/lanes), which tell no cycles");
+  command
+      ->add_option("--stalls", options->stall_seed,
+                   "stall both streams at random, by this seed (0: full speed)")
+      ->capture_default_str();
+  command->callback([=, &folders, &exit_code] { exit_code = run(folders, *options); });
+}
+
+}  // namespace halfway::cli

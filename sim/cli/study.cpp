@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway study`: accuracy against time over a space of designs.
+#include "sim/study/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <shared_mutex>
+#include <thread>
+
+#include "sim/cli/options.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/study/hardware.hpp"
+#include "sim/study/host_setup.hpp"
+#include "sim/study/pictures.hpp"
+#include "sim/study/query.hpp"
+#include "sim/study/slurm.hpp"
+#include "sim/study/table.hpp"
+#include "sim/synth/synthesis.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/interruption.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway::cli {
+namespace {
+
+constexpr std::size_t c_parts = 64;
+
+// In the folder for results. A question leaves the study's table as it is: `halfway report` shows that.
+constexpr const char* c_study_table = "study.csv";
+constexpr const char* c_question_table = "question.csv";
+
+struct StudyCommand {
+  std::string scene, space;
+  std::string size, tile;  ///< empty: the space's
+  std::string error, psnr, time;
+  std::optional<double> clock_mhz;
+  bool place = false, pin = false;
+  std::string out = "build/study";
+  unsigned threads = 0;
+  std::string executor = "local";
+  std::string part;             ///< I/N
+  std::string set_up;           ///< a file of points' names
+  std::size_t parts = c_parts;  ///< of a job array
+  std::vector<std::string> slurm_options;
+};
+
+// What a command asks for, checked.
+struct StudyPlan {
+  study::StudySettings settings;
+  study::Demand demand;
+  std::string space;
+};
+
+Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
+  const std::filesystem::path studies = folders.source / "sim" / "studies";
+  StudyPlan plan;
+  auto demand = study::read_demand(command.error, command.psnr, command.time);
+  if (!demand) return demand.error();
+  plan.demand = *demand;
+  if (command.clock_mhz && !(*command.clock_mhz > 0)) return bad_input("--clock: takes MHz above 0");
+  if (command.pin && !command.place) return bad_input("--pin: needs --place: what is placed is pinned");
+  if (command.place && (find_program("yosys").empty() || find_program("nextpnr-ice40").empty()))
+    return tool_failed(
+        fmt::format("--place: yosys or nextpnr-ice40 is not found; install both: {}", synth::kInstallTools));
+  if (command.executor != "local" && command.executor != "slurm")
+    return bad_input("--executor: '" + command.executor + "' is no executor; take local or slurm");
+  study::StudySettings& settings = plan.settings;
+  if (!command.part.empty() &&
+      (std::sscanf(command.part.c_str(), "%zu/%zu", &settings.part, &settings.parts) != 2 ||
+       settings.part >= settings.parts))
+    return bad_input("--part: '" + command.part + "' is no part; take I/N, I from 0 to N - 1");
+  if (command.parts == 0) return bad_input("--parts: takes 1 or more");
+  settings.scene = command.scene.empty() ? (studies / "sphere.toml").string() : command.scene;
+  settings.out = command.out;
+  settings.threads =
+      command.threads != 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency());
+  settings.folders = {folders.source, folders.cache()};
+  // A question is about the scene as it is.
+  plan.space = !command.space.empty()
+                   ? command.space
+                   : (studies / (plan.demand.any() ? "designs.toml" : "small.toml")).string();
+  auto points = study::read_space(plan.space);
+  if (!points) return points.error();
+  if (!command.size.empty()) {
+    const auto size = checked_size(command.size);
+    if (!size) return size.error();
+    for (study::DesignPoint& point : *points) point.size = *size;
+  }
+  if (!command.tile.empty()) {
+    const auto tile = checked_size(command.tile, "--tile");
+    if (!tile) return tile.error();
+    if (std::min(tile->width, tile->height) < study::c_least_tile)
+      return bad_input(fmt::format("--tile: {} is too small; width and height are {} pixels at least",
+                                   command.tile, study::c_least_tile));
+    for (study::DesignPoint& point : *points) point.tile = *tile;
+  }
+  settings.points = study::ordered(std::move(*points));
+  return plan;
+}
+
+// Without what cannot draw the scene; `place`: with placements as pieces.
+Status leave_out(study::StudySettings& settings, const std::string& space, bool place) {
+  if (const auto scene = load_scene(settings.scene, settings.folders.source / "sim" / "scenes"); !scene)
+    return scene.error();
+  study::Drawable drawable = study::drawable(std::move(settings.points), settings.scene, settings.folders);
+  settings.points = std::move(drawable.points);
+  if (place) settings.placed = std::move(drawable.hardware);
+  if (settings.points.empty())
+    return bad_input(fmt::format("{}: no point of it can be drawn: {}", space, drawable.reasons.front()));
+  if (drawable.left_out > 0 && settings.parts == 1) {
+    say(fmt::format("{} points are left out:", drawable.left_out));
+    for (const std::string& reason : drawable.reasons) say("  " + reason);
+  }
+  return Ok{};
+}
+
+std::string absolute_path(const std::filesystem::path& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
+// The program with what every worker is told; the same words wherever it runs.
+std::vector<std::string> worker_of(const Folders& folders, const StudyCommand& command,
+                                   const std::string& space) {
+  std::vector<std::string> words = {absolute_path(std::filesystem::read_symlink("/proc/self/exe")),
+                                    "--source",
+                                    absolute_path(folders.source),
+                                    "study",
+                                    "--space",
+                                    absolute_path(space)};
+  if (!command.size.empty()) words.push_back("--size=" + command.size);
+  if (!command.tile.empty()) words.push_back("--tile=" + command.tile);
+  if (!command.scene.empty())
+    words.push_back(std::filesystem::exists(command.scene) ? absolute_path(command.scene) : command.scene);
+  return words;
+}
+
+// Makes the init vectors of points, for Callgrind to count.
+int set_up(const study::StudySettings& settings, const std::string& names) {
+  const std::filesystem::path scenes = settings.folders.source / "sim" / "scenes";
+  // Once before all, so that what each finds is the same, whichever they are.
+  if (const auto scene = load_scene(settings.scene, scenes); !scene) return report(scene.error());
+  const Status done = study::in_processes(names, [&](const std::string& name) -> Status {
+    const auto point = std::ranges::find(settings.points, name, &study::DesignPoint::name);
+    if (point == settings.points.end()) return bad_input("--set-up: '" + name + "' is no point of the space");
+    const auto scene = study::drawn_scene(settings.scene, scenes, *point);
+    if (!scene) return scene.error();
+    const auto hardware = study::drawing_hardware_of(*point, *scene, settings.folders);
+    if (!hardware) return hardware.error();
+    study::set_up_frame(*scene, point->size, hardware->key, point->setup());
+    return Ok{};
+  });
+  return done ? 0 : report(done.error());
+}
+
+// Measures what is open in job arrays; what is left to do then is to gather. In the first, a task may be done
+// before the tiles are there, of other tasks, that it would have put together; a second one does that.
+Status run_on_slurm(study::StudySettings settings, const Folders& folders, const StudyCommand& command,
+                    const std::string& space) {
+  settings.parts = std::clamp<std::size_t>(command.parts, 1, study::most_parts(settings));
+  study::JobArray array{.worker = worker_of(folders, command, space),
+                        .parts = settings.parts,
+                        .options = command.slurm_options};
+  for (const std::string& word :
+       {std::string("--out"), absolute_path(settings.out), std::string("--threads=1")})
+    array.worker.push_back(word);
+  if (command.place) array.worker.push_back("--place");
+  const bool any_tiles = std::ranges::any_of(settings.points, &study::DesignPoint::in_tiles);
+  const std::filesystem::path logs = settings.out / "slurm";
+  std::vector<std::filesystem::path> rounds = {logs};
+  if (any_tiles) rounds.push_back(logs / "gathering");
+  for (const std::filesystem::path& folder : rounds) {
+    auto open = study::open_parts(settings);
+    if (!open) return open.error();
+    array.open = std::move(*open);
+    array.folder = absolute_path(folder);
+    const Status ran = study::run_job_array(array);
+    for (const std::string& note : study::notes_of(array)) say(note);
+    if (!ran) return ran;
+  }
+  return Ok{};
+}
+
+// The table, and the answer to what was asked of each picture, or the front of the main one.
+int conclude(const StudyPlan& plan, const study::Study& made, const study::HardwareTable& hardware,
+             study::Clock clock) {
+  const std::vector<study::Market> markets = study::markets_of(made.records, hardware, clock);
+  const auto csv = study::to_csv(made.provenance, made.records, hardware, markets);
+  if (!csv) return report(csv.error());
+  const std::filesystem::path table =
+      plan.settings.out / (plan.demand.any() ? c_question_table : c_study_table);
+  if (Status written = write_file(table, *csv); !written) return report(written.error());
+  fmt::print("{}: {} points, {} measured anew\n", table.string(), made.records.size(), made.measured);
+  if (plan.demand.any() && markets.empty()) {
+    fmt::print("nothing meets it: none of the points is hardware\n");
+    return static_cast<int>(ExitCode::differs);
+  }
+  // Of a study's fronts the one that most of its hardware is held against.
+  const auto main = std::ranges::max_element(markets, {}, [](const auto& m) { return m.offers.size(); });
+  bool met = true;
+  for (auto market = markets.begin(); market != markets.end(); ++market) {
+    const auto answer = study::answer(market->offers, plan.demand);
+    if (!answer) return report(answer.error());
+    if (plan.demand.any() || market == main)
+      fmt::print("{}", study::to_text(*market, *answer, plan.demand, made.records));
+    met = met && (!plan.demand.any() || answer->cheapest);
+  }
+  if (!plan.demand.any()) fmt::print("make report draws it\n");
+  return static_cast<int>(met ? ExitCode::equal : ExitCode::differs);
+}
+
+int run(const Folders& folders, const StudyCommand& command) {
+  auto plan = checked(command, folders);
+  if (!plan) return report(plan.error());
+  study::StudySettings& settings = plan->settings;
+  if (!command.set_up.empty()) return set_up(settings, command.set_up);
+  settings.set_up = worker_of(folders, command, plan->space);
+  const bool on_slurm = command.executor == "slurm";
+  // A run by itself places when it knows what has room: with no more synthesis than that takes.
+  const bool place = command.place && (on_slurm || !command.part.empty());
+  if (const Status left = leave_out(settings, plan->space, place); !left) return report(left.error());
+  if (on_slurm)
+    if (const Status ran = run_on_slurm(settings, folders, command, plan->space); !ran)
+      return report(ran.error());
+  Progress progress("study");
+  settings.on_progress = [&](const std::string& text) { progress.show(text); };
+  settings.on_note = [&](const std::string& note) {
+    progress.clear();
+    say(fmt::format("{}{}", study::c_note, note));
+  };
+  std::optional<Interruption> interruption;
+  if (command.part.empty())
+    interruption.emplace([&] {
+      say(fmt::format("\nbroken off; what was measured is kept in {}, and the same command goes on there",
+                      (settings.out / "points").string()));
+    });
+  const auto study = study::run_study(settings);
+  // Never had again once a signal has come: what it broke off is no error.
+  std::shared_lock<std::shared_timed_mutex> writing;
+  if (interruption) writing = interruption->writing();
+  progress.clear();
+  if (!study) return report(study.error());
+  if (writing) writing.unlock();
+  if (!command.part.empty()) {
+    fmt::print("part {}: {} points, {} measured anew, {} tiles drawn, {} placements\n", command.part,
+               study->records.size(), study->measured, study->drawn_tiles, study->placements);
+    return 0;
+  }
+  const auto hardware = study::hardware_figures(
+      settings.scene, study->records, settings.folders,
+      {.threads = settings.threads, .place = command.place, .on_progress = [&](const std::string& text) {
+         progress.show(text);
+       }});
+  if (interruption) writing.lock();
+  progress.clear();
+  if (!hardware) return report(hardware.error());
+  if (command.pin) {
+    const auto pinned = study::pin_clocks(*hardware, settings.folders);
+    if (!pinned) return report(pinned.error());
+    fmt::print("{}: {} pinned\n", (settings.folders.source / synth::kStudyPins).string(), *pinned);
+  }
+  return conclude(*plan, *study, *hardware, {command.clock_mhz});
+}
+
+}  // namespace
+
+void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
+  const auto command = std::make_shared<StudyCommand>();
+  CLI::App* study = app.add_subcommand("study", "measure accuracy against time over a space of designs");
+  study->add_option("SCENE", command->scene, "a built-in scene, a TOML file or a mesh file (a grey sphere)");
+  study->add_option("--space", command->space,
+                    "TOML file of the designs (sim/studies/small.toml; for a question designs.toml)");
+  study->add_option("--size", command->size, "WIDTHxHEIGHT, of every point (the space's)");
+  study->add_option("--tile", command->tile,
+                    "WIDTHxHEIGHT: larger frames are drawn in tiles of this size (the space's, or 1280x960)");
+  study->add_option("--error", command->error,
+                    "asks for the cheapest hardware with at most this largest error, in steps of 1/255");
+  study->add_option("--psnr", command->psnr, "asks for at least this PSNR, in dB");
+  study->add_option("--time", command->time, "asks for a frame in at most this time, such as 10ms");
+  study->add_option("--clock", command->clock_mhz,
+                    "MHz that hardware is taken to run at whose clock is not known");
+  study->add_flag("--place", command->place,
+                  "place and route the hardware whose clock is not known: minutes for each design");
+  study->add_flag("--pin", command->pin,
+                  fmt::format("write what is placed, or has no room, into {}", synth::kStudyPins));
+  study
+      ->add_option("--out", command->out,
+                   fmt::format("folder for results: the table {}, of a question {}, and points/",
+                               c_study_table, c_question_table))
+      ->capture_default_str();
+  study->add_option("--threads", command->threads, "points at a time (0: all cores)")->capture_default_str();
+  study->add_option("--executor", command->executor, "local, or slurm: as a job array (sbatch)")
+      ->capture_default_str();
+  study->add_option("--parts", command->parts, "slurm: tasks of the array")->capture_default_str();
+  study->add_option("--slurm-option", command->slurm_options,
+                    "slurm: one more of sbatch's, such as --partition=short");
+  study->add_option(
+      "--part", command->part,
+      "I/N: measures this part of the points, with --place of placements too, and writes no table");
+  study->add_option("--set-up", command->set_up,
+                    "a file of points' names: makes their init vectors and no more, to be counted");
+  study->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });
+}
+
+}  // namespace halfway::cli

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway study` as a user meets it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/cli/command_test.hpp"
+#include "sim/study/stand_in_slurm_test.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class StudyCommandTest : public CommandTest {
+ protected:
+  Outcome study(std::vector<std::string> arguments, Environment environment = {}) const {
+    EXPECT_TRUE(
+        write_file(folder_->path() / "space.toml",
+                   "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
+    std::vector<std::string> words = {"study", "--space", "space.toml", "--out", "out"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return run(words, std::move(environment));
+  }
+};
+
+TEST_F(StudyCommandTest, RefusesWhatIsNoQuestion) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"--error", "2%"}, "--error: '2%' is none"},
+      {{"--psnr", "loud"}, "--psnr: 'loud' is none"},
+      {{"--time", "10"}, "--time: '10' is none; take a time with its unit"},
+      {{"--clock", "0"}, "--clock: takes MHz above 0"},
+      {{"--size", "huge"}, "--size: 'huge'"},
+      {{"--executor", "cloud"}, "--executor: 'cloud'"},
+      {{"--part", "3/3"}, "--part: '3/3'"},
+      {{"--executor", "slurm", "--parts", "0"}, "--parts: takes 1 or more"},
+      {{"no-such-scene"}, "no-such-scene"}};
+  for (const auto& [arguments, message] : cases) {
+    const Outcome outcome = study(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(message));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_->path() / "out/study.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder_->path() / "out/question.csv"));
+}
+
+TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
+  const Outcome met = study({"--error", "3"});
+  EXPECT_EQ(met.exit_code, 0) << met.output;
+  EXPECT_THAT(met.output,
+              AllOf(HasSubstr("3 points, 3 measured anew"), HasSubstr("160x120: largest error at most 3/255"),
+                    HasSubstr("cheapest       adaptive exact, threshold 2: largest error"),
+                    HasSubstr("cheaper        quadratic exact: largest error"),
+                    HasSubstr("more accurate  nothing is")));
+  const Outcome missed = study({"--error", "3", "--psnr", "99"});
+  EXPECT_EQ(missed.exit_code, 1) << missed.output;
+  EXPECT_THAT(missed.output, AllOf(HasSubstr("3 points, 0 measured anew"),
+                                   HasSubstr("none of 2 points of hardware meets it"),
+                                   HasSubstr("most accurate  adaptive exact")));
+  // In three channels, which are pinned to have no room.
+  const Outcome timed = study({"spheres", "--time", "1s"});
+  EXPECT_EQ(timed.exit_code, 1) << timed.output;
+  EXPECT_THAT(timed.output, HasSubstr("2 points have no clock: the device has no room for them"));
+  const Outcome fast = study({"--time", "1s", "--clock", "50"});
+  EXPECT_EQ(fast.exit_code, 0) << fast.output;
+  EXPECT_THAT(fast.output, AllOf(HasSubstr("cheapest       quadratic exact"), HasSubstr("us)"),
+                                 Not(HasSubstr("no clock"))));
+}
+
+TEST_F(StudyCommandTest, SoftwareAloneMeetsNoDemand) {
+  ASSERT_TRUE(write_file(folder_->path() / "software.toml",
+                         "[[sweep]]\nmethod = [\"phong\", \"gouraud\"]\nsize = \"80x60\"\n"));
+  const Outcome asked = run({"study", "--space", "software.toml", "--out", "out", "--error", "200"});
+  EXPECT_EQ(asked.exit_code, 1) << asked.output;
+  EXPECT_THAT(asked.output, HasSubstr("nothing meets it: none of the points is hardware"));
+  const Outcome made = run({"study", "--space", "software.toml", "--out", "out"});
+  EXPECT_EQ(made.exit_code, 0) << made.output;
+}
+
+// Of several pictures the one with most hardware.
+TEST_F(StudyCommandTest, EndsWithTheFrontOfItsMainPicture) {
+  ASSERT_TRUE(write_file(folder_->path() / "two.toml",
+                         "[[sweep]]\nmethod = \"quadratic\"\nsize = \"80x60\"\n"
+                         "[[sweep]]\nmethod = [\"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
+  const Outcome made = run({"study", "--space", "two.toml", "--out", "out"});
+  EXPECT_EQ(made.exit_code, 0) << made.output;
+  EXPECT_THAT(made.output,
+              AllOf(HasSubstr("160x120\n  front          2 of 2 points"), HasSubstr("  quadratic exact\n"),
+                    HasSubstr("  adaptive exact, threshold 2\n"), HasSubstr("make report draws it"),
+                    Not(HasSubstr("80x60\n"))));
+}
+
+// The table that the report shows is the study's; the question's has its points, from the same records.
+TEST_F(StudyCommandTest, AQuestionLeavesTheStudysTable) {
+  const std::filesystem::path out = folder_->path() / "out";
+  const Outcome asked_first = study({"--error", "3"});
+  EXPECT_EQ(asked_first.exit_code, 0) << asked_first.output;
+  EXPECT_THAT(asked_first.output, HasSubstr("out/question.csv: 3 points, 3 measured anew"));
+  EXPECT_FALSE(std::filesystem::exists(out / "study.csv"));
+  const Outcome made = study({});
+  EXPECT_EQ(made.exit_code, 0) << made.output;
+  EXPECT_THAT(made.output, HasSubstr("out/study.csv: 3 points, 0 measured anew"));
+  const auto table = read_file(out / "study.csv"), same = read_file(out / "question.csv");
+  ASSERT_TRUE(table && same);
+  EXPECT_EQ(*table, *same);
+  const Outcome asked = study({"--size", "80x60", "--psnr", "99"});
+  EXPECT_EQ(asked.exit_code, 1) << asked.output;
+  const auto kept = read_file(out / "study.csv"), question = read_file(out / "question.csv");
+  ASSERT_TRUE(kept && question);
+  EXPECT_EQ(*kept, *table);
+  EXPECT_THAT(*question, AllOf(HasSubstr(",80,60,"), Not(HasSubstr(",160,120,"))));
+}
+
+// What a task finds damaged is told where the study was started, not in the task's log alone.
+TEST_F(StudyCommandTest, WhatTasksFindDamagedIsTold) {
+  ASSERT_EQ(study({}).exit_code, 0);
+  const std::filesystem::path points = folder_->path() / "out/points";
+  std::filesystem::path frame;
+  for (const auto& entry : std::filesystem::directory_iterator(points))
+    if (entry.path().extension() == ".png") frame = entry.path();
+  auto bytes = read_file(frame);
+  ASSERT_TRUE(bytes);
+  (*bytes)[bytes->size() / 2] ^= 1;
+  ASSERT_TRUE(write_file(frame, *bytes));
+  study::put_slurm(folder_->path());
+  const std::string path = folder_->path().string() + ":" + std::getenv("PATH");
+  const Outcome outcome = study({"--executor", "slurm"}, {{"PATH", path}});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr(frame.filename().string() + ": damaged; the point is measured anew\n"),
+                    HasSubstr("3 points, 0 measured anew")));
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway view` as a user meets it: the frames that `halfway sim` draws from there, and what is left where
+// something is missing, wrong or broken off.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "scene/turntable.hpp"
+#include "sim/cli/command_test.hpp"
+#include "sim/pictures/image.hpp"
+#include "sim/pictures/terminal_picture.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class ViewCommand : public CommandTest {
+ protected:
+  /// At 64x48.
+  Outcome view(std::vector<std::string> arguments, Environment environment = {}) const {
+    arguments.insert(arguments.begin(), {"view", "--size", "64x48"});
+    return run(std::move(arguments), std::move(environment));
+  }
+
+  /// PATH with a stand-in for ffmpeg.
+  Environment path_with_ffmpeg(const std::string& script) const {
+    const auto bin = folder_->path() / "bin";
+    EXPECT_TRUE(write_file(bin / "ffmpeg", "#!/bin/sh\n" + script));
+    std::filesystem::permissions(bin / "ffmpeg", std::filesystem::perms::all);
+    return {{"PATH", bin.string() + ":" + std::getenv("PATH")}};
+  }
+
+  std::filesystem::path at(const std::string& name) const { return folder_->path() / name; }
+  std::string bytes(const std::string& name) const {
+    const auto text = read_file(at(name));
+    EXPECT_TRUE(text) << text.error().message;
+    return text ? *text : "";
+  }
+  std::set<std::string> names(const std::string& folder) const {
+    std::set<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(at(folder)))
+      if (entry.path().filename() != ".lock") found.insert(entry.path().filename().string());
+    return found;
+  }
+  /// A triangle that is seen from behind, in frame 2 of 4 from before.
+  void write_averted() const {
+    ASSERT_TRUE(write_file(at("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    ASSERT_TRUE(
+        write_file(at("averted.toml"),
+                   "ambient = 0.5\n[camera]\neye = [0.3, 0.3, -3]\ntarget = [0.3, 0.3, 0]\n[[directional]]\n"
+                   "to_light = [0.4, 0.3, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nfile = \"one.obj\"\n"
+                   "material = \"m\"\n"));
+  }
+  static void spoil(const std::filesystem::path& file, const std::string& from, const std::string& to) {
+    auto text = read_file(file);
+    ASSERT_TRUE(text);
+    const std::size_t place = text->find(from);
+    ASSERT_NE(place, std::string::npos) << "mend this test";
+    ASSERT_TRUE(write_file(file, text->replace(place, from.size(), to)));
+  }
+
+  Frame frame(const std::string& name) const {
+    auto read = read_png(at(name));
+    EXPECT_TRUE(read) << read.error().message;
+    return read ? *read : Frame{};
+  }
+};
+
+const std::string c_copy = "for last; do :; done; echo \"$@\" >arguments; cat >\"$last\"\n";
+
+// To the last bit, by each shader, and whichever thread drew what: the hardware goes from place to place
+// without a reset.
+TEST_F(ViewCommand, DrawsWhatSimDrawsFromEachPlace) {
+  const std::filesystem::path scenes = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes";
+  const auto text = read_file(scenes / "matte.toml");
+  ASSERT_TRUE(text);
+  const auto scene = load_scene("matte", scenes);
+  ASSERT_TRUE(scene);
+  for (const std::string shader : {"quadratic", "spherical", "processors"}) {
+    const bool first = shader == "quadratic";
+    const std::vector<std::string> thread_counts =
+        first ? std::vector<std::string>{"1", "2"} : std::vector<std::string>{"2"};
+    for (const std::string& threads : thread_counts) {
+      const Outcome drawn =
+          view({"matte", "--frames", "3", "--shader", shader, "--threads", threads, "--out", threads});
+      ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+      EXPECT_THAT(drawn.output,
+                  AllOf(ContainsRegex("matte +" + shader +
+                                      " +exact +64x48 +3 frames of [0-9]+ triangles, "
+                                      "[1-9][0-9]* fragments \\| verilator: 0 mismatches \\| "
+                                      "[0-9.]+ frames a second, [0-9.]+ s on " +
+                                      threads + " threads?\n"),
+                        ContainsRegex("a frame: setup [0-9.]+ ms, golden model [0-9.]+, Verilator [0-9.]+, "
+                                      "comparison [0-9.]+, assembly [0-9.]+, images [0-9.]+\n"),
+                        HasSubstr(threads + "/frame_0000.png to frame_0002.png\n")));
+      EXPECT_THAT(names(threads), ElementsAre("frame_0000.png", "frame_0001.png", "frame_0002.png"));
+    }
+    for (const std::uint32_t n :
+         first ? std::vector<std::uint32_t>{0, 1, 2} : std::vector<std::uint32_t>{2}) {
+      const glm::dvec3 eye = turned(scene->camera, n, 3).eye_world;
+      std::string moved = *text;
+      const std::size_t line = moved.find("eye = ");
+      moved.replace(line, moved.find('\n', line) - line,
+                    fmt::format("eye = [{:.17g}, {:.17g}, {:.17g}]", eye.x, eye.y, eye.z));
+      ASSERT_TRUE(write_file(at("moved.toml"), moved));
+      const Outcome sim = run({"sim", "moved.toml", "--size", "64x48", "--shader", shader, "--simulator",
+                               "verilator", "--out", "out"});
+      ASSERT_EQ(sim.exit_code, 0) << sim.output;
+      const Frame expected = frame("out/moved/" + shader + "/verilator.png");
+      for (const std::string& threads : thread_counts)
+        EXPECT_EQ(frame(fmt::format("{}/frame_{:04}.png", threads, n)).rgb, expected.rgb) << shader << n;
+    }
+    EXPECT_NE(frame("2/frame_0000.png").rgb, frame("2/frame_0001.png").rgb);
+    EXPECT_NE(frame("2/frame_0000.png").rgb, frame("2/frame_0002.png").rgb);
+
+    for (const std::string threads : {"1", "3"}) {
+      if (shader == "processors") break;
+      const Outcome drawn = view({"matte", "--frames", "3", "--shader", shader, "--threads", threads,
+                                  "--simulator", "lanes", "--out", "lanes"});
+      ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+      EXPECT_THAT(drawn.output, AllOf(ContainsRegex("[1-9][0-9]* fragments \\| lanes: 0 mismatches"),
+                                      ContainsRegex("golden model [0-9.]+, lanes [0-9.]+, comparison")));
+      for (const std::string name : {"/frame_0000.png", "/frame_0001.png", "/frame_0002.png"})
+        EXPECT_EQ(frame("lanes" + name).rgb, frame("2" + name).rgb) << shader << name;
+    }
+  }
+}
+
+// What is loaded once does not count as frames' time: OpenImageIO comes before the hardware, and so before
+// the clock starts; for images that do not need it, not at all.
+TEST_F(ViewCommand, LoadsTheImageLibraryBeforeItDraws) {
+  ASSERT_EQ(view({"matte", "--frames", "1"}).exit_code, 0);  // builds the hardware
+  for (const std::string format : {"png", "ppm"}) {
+    const Environment trace = {{"LD_DEBUG", "files"}, {"LD_DEBUG_OUTPUT", at(format).string()}};
+    const Outcome drawn = view({"matte", "--frames", "1", "--format", format, "--out", "out"}, trace);
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+    int programs = 0;
+    for (const auto& file : std::filesystem::directory_iterator(folder_->path())) {
+      if (!file.path().filename().string().starts_with(format + ".")) continue;
+      const auto text = read_file(file.path());
+      ASSERT_TRUE(text);
+      const std::size_t images = text->find("libhalfway_images"), hardware = text->find("/cache/verilator/");
+      if (hardware == std::string::npos) continue;
+      ++programs;
+      if (format == "png")
+        EXPECT_LT(images, hardware);
+      else
+        EXPECT_EQ(images, std::string::npos);
+    }
+    EXPECT_EQ(programs, 1);
+  }
+}
+
+TEST_F(ViewCommand, LanesThatCannotBeHadAreBadInput) {
+  const Outcome other = view({"matte", "--simulator", "ghdl"});
+  EXPECT_EQ(other.exit_code, 2) << other.output;
+  EXPECT_THAT(other.output, HasSubstr("--simulator: 'ghdl' is none of auto, verilator and lanes"));
+  const Outcome processors = view({"matte", "--shader", "processors", "--simulator", "lanes"});
+  EXPECT_EQ(processors.exit_code, 2) << processors.output;
+  EXPECT_THAT(processors.output, HasSubstr("no lanes for this hardware"));
+}
+
+TEST_F(ViewCommand, ReplacesOlderFramesAndNothingElse) {
+  ASSERT_TRUE(write_file(at("turn/frame_0002.png"), "old"));
+  ASSERT_TRUE(write_file(at("turn/frame_0009.ppm.part-1-0"), "broken off"));
+  ASSERT_TRUE(write_file(at("turn/frame_x.png"), "mine"));
+  const Outcome drawn = view({"matte", "--frames", "2", "--format", "ppm", "--out", "turn"});
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
+  EXPECT_THAT(names("turn"), ElementsAre("frame_0000.ppm", "frame_0001.ppm", "frame_x.png"));
+  // By default beside sim's results, under the scene and the shader.
+  EXPECT_EQ(view({"matte", "--frames", "1"}).exit_code, 0);
+  EXPECT_THAT(names("build/out/matte/quadratic/view"), ElementsAre("frame_0000.png"));
+}
+
+TEST_F(ViewCommand, BadUsageExitsTwoAndSaysWhatToDo) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{}, "scene"},
+      {{"matte", "--frames", "0"}, "--frames: 0 is not 1 to 10000"},
+      {{"matte", "--format", "gif"}, "--format: 'gif' is not a format"},
+      {{"matte", "--format", "ppm", "--terminal", "--columns", "9"}, "give --out as well"},
+      {{"matte", "--rate", "16"}, "--rate goes with --video"},
+      {{"matte", "--rate", "0", "--video", "a.mp4"}, "--rate: 0 is not 1 to 1000"},
+      {{"matte", "--video", "turn"}, "--video: 'turn' names no video"},
+      {{"matte", "--video", "turn.xyz"}, "--video: 'turn.xyz' does not end as a video; take one of .mp4"},
+      // Images: ffmpeg would write one over the other, or many, and none where the video is looked for.
+      {{"matte", "--video", "turn%d.png"}, "--video: 'turn%d.png' does not end as a video"},
+      {{"matte", "--video", "out/frame_0000.png", "--out", "out"}, "does not end as a video"},
+      {{"matte", "--video", "turn.h.jpg"}, "does not end as a video"},
+      {{"matte", "--columns", "20"}, "--columns goes with --terminal"},
+      {{"matte", "--colours", "256"}, "--colours goes with --terminal"},
+      {{"matte", "--terminal", "--columns", "9", "--colours", "16"}, "--colours: '16' is not a kind"},
+      {{"matte", "--terminal"}, "standard output is no terminal"},
+      // Nobody may write there, root included.
+      {{"matte", "--out", "/proc/sys"}, "/proc/sys"},
+      {{"matte", "--out", "file/out"}, "file/out"}};
+  ASSERT_TRUE(write_file(at("file"), "not a folder"));
+  for (const auto& [arguments, expected] : cases) {
+    const Outcome outcome = view(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(expected));
+  }
+  EXPECT_THAT(names("."), ElementsAre("file"));
+  const Outcome unwritable = view({"matte", "--video", "/proc/sys/turn.mp4"}, path_with_ffmpeg(c_copy));
+  EXPECT_EQ(unwritable.exit_code, 2) << unwritable.output;
+}
+
+TEST_F(ViewCommand, AVideoIsEachFrameInItsOrder) {
+  const Outcome drawn = view({"matte", "--frames", "5", "--threads", "3", "--video", "films/turn.mp4",
+                              "--rate", "24", "--out", "turn", "--format", "ppm"},
+                             path_with_ffmpeg(c_copy));
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+  EXPECT_THAT(drawn.output, HasSubstr("films/turn.mp4: 24 frames a second\n"));
+  EXPECT_THAT(bytes("arguments"), HasSubstr("-f rawvideo -pix_fmt rgb24 -s 64x48 -r 24 -i pipe:0 "));
+  std::string frames;
+  for (int n = 0; n < 5; ++n) frames += bytes(fmt::format("turn/frame_{:04}.ppm", n)).substr(13);
+  EXPECT_EQ(frames.size(), 5U * 3 * 64 * 48);
+  EXPECT_TRUE(bytes("films/turn.mp4") == frames);
+  EXPECT_THAT(names("films"), ElementsAre("turn.mp4"));
+}
+
+TEST_F(ViewCommand, NoFfmpegExitsThreeBeforeAnythingIsDrawn) {
+  ASSERT_TRUE(make_folders(at("empty")));
+  const Outcome drawn =
+      view({"matte", "--video", "turn.mp4", "--out", "turn"}, {{"PATH", at("empty").string()}});
+  EXPECT_EQ(drawn.exit_code, 3) << drawn.output;
+  EXPECT_THAT(drawn.output, HasSubstr("apt-get install ffmpeg"));
+  EXPECT_THAT(names("."), ElementsAre("empty"));
+}
+
+// It ends early, or only in the end: its words are told, and an older video stays.
+TEST_F(ViewCommand, AVideoThatFailsLeavesNoHalf) {
+  ASSERT_TRUE(write_file(at("films/turn.mp4"), "old"));
+  for (const std::string& script :
+       {std::string("echo no such encoder; exit 1\n"), c_copy + "echo no such encoder; exit 1\n"}) {
+    const Outcome drawn =
+        view({"matte", "--frames", "3", "--video", "films/turn.mp4"}, path_with_ffmpeg(script));
+    EXPECT_EQ(drawn.exit_code, 3) << drawn.output;
+    EXPECT_THAT(drawn.output, AllOf(HasSubstr("films/turn.mp4: ffmpeg could not make it (exit status 1)"),
+                                    HasSubstr("no such encoder")));
+    EXPECT_EQ(bytes("films/turn.mp4"), "old");
+    EXPECT_THAT(names("films"), ElementsAre("turn.mp4"));
+  }
+}
+
+// With every ending that the refusal of others offers.
+TEST_F(ViewCommand, AVideoByFfmpegItselfPlays) {
+  ASSERT_FALSE(find_program("ffmpeg").empty()) << "no ffmpeg: apt-get install ffmpeg";
+  const std::string refused = view({"matte", "--video", "turn.xyz"}).output, offer = "take one of ";
+  ASSERT_THAT(refused, HasSubstr(offer));
+  std::istringstream endings(refused.substr(refused.find(offer) + offer.size()));
+  int played = 0;
+  for (std::string ending; endings >> ending; ++played) {
+    const std::string video = "turn 100%d" + ending;
+    const Outcome drawn =
+        view({"spheres", "--frames", "3", "--video", video, "--out", "turn", "--format", "ppm"});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+    const Outcome decoded =
+        run_as({"ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-i", at(video).string(), "-f", "rawvideo",
+                "-pix_fmt", "rgb24", "-vsync", "passthrough", at("decoded").string()});
+    ASSERT_EQ(decoded.exit_code, 0) << decoded.output;
+    std::string frames;
+    for (int n = 0; n < 3; ++n) frames += bytes(fmt::format("turn/frame_{:04}.ppm", n)).substr(13);
+    const std::string shown = bytes("decoded");
+    ASSERT_EQ(shown.size(), frames.size()) << ending;
+    double off = 0;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      off += std::abs(static_cast<unsigned char>(shown[i]) - static_cast<unsigned char>(frames[i]));
+    EXPECT_LT(off / static_cast<double>(shown.size()), 6.0) << ending << ": lossy, and near all the same";
+  }
+  EXPECT_GT(played, 5);
+}
+
+TEST_F(ViewCommand, DoctorTellsWhetherFfmpegIsThere) {
+  const std::string setup = std::string(HALFWAY_SOURCE_DIR) + "/scripts/setup.sh";
+  const bool there = !find_program("ffmpeg").empty();
+  EXPECT_THAT(run_as({"sh", setup, "--doctor"}).output,
+              AllOf(ContainsRegex(std::string("tools +ffmpeg +[0-9.-]+ +[0-9.]+ +[0-9.]+ +") +
+                                  (there ? "(ok|older)" : "missing")),
+                    there ? HasSubstr("") : HasSubstr("optional group tools: ")));
+}
+
+TEST_F(ViewCommand, DrawsInTheTerminal) {
+  const Outcome drawn = view(
+      {"matte", "--frames", "2", "--terminal", "--columns", "20", "--colours", "24bit", "--out", "turn"});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+  std::size_t from = 0;
+  for (int n = 0; n < 2; ++n) {
+    const std::string picture =
+        terminal_picture(frame(fmt::format("turn/frame_{:04}.png", n)), {20, 15}, TerminalColours::full) +
+        fmt::format("frame {} of 2, ", n + 1);
+    from = drawn.output.find(picture, from);
+    EXPECT_NE(from, std::string::npos) << n;
+  }
+  // No cursor is moved where there is none.
+  EXPECT_THAT(drawn.output, Not(HasSubstr("\033[H")));
+  EXPECT_THAT(view({"matte", "--frames", "1", "--terminal", "--columns", "20", "--colours", "256"}).output,
+              AllOf(HasSubstr("\033[38;5;"), Not(HasSubstr("\033[38;2;"))));
+}
+
+// A signal between two frames, or in one: each file that is there is whole, and the shell sees the signal.
+TEST_F(ViewCommand, BrokenOffLeavesNoHalfFile) {
+  for (const std::string signal : {"INT", "TERM"}) {
+    // Job control, for a shell without it keeps INT from what it starts in the background.
+    const Outcome outcome = run_as(
+        {"bash", "-c",
+         fmt::format(
+             "set -m; '{}' view matte --size 320x240 --frames 10000 --out turn --video films/turn.mp4 & "
+             "until [ -e turn/frame_0009.png ]; do sleep 0.05; kill -0 $! || exit 9; done; "
+             "kill -{} $!; wait $!; exit $?",
+             HALFWAY_PROGRAM, signal)},
+        path_with_ffmpeg(c_copy));
+    EXPECT_EQ(outcome.exit_code, signal == "INT" ? 130 : 143) << outcome.output;
+    EXPECT_THAT(outcome.output, Not(HasSubstr("frames a second")));
+    const auto left = names("turn");
+    EXPECT_GE(left.size(), 10U);
+    EXPECT_LT(left.size(), 10'000U);
+    for (const std::string& name : left) {
+      EXPECT_TRUE(name.ends_with(".png")) << name;
+      EXPECT_EQ(frame("turn/" + name).size.height, 240U) << name;
+    }
+    EXPECT_THAT(names("films"), IsEmpty());
+  }
+}
+
+// Hardware whose fault shows from the third place alone: the only triangle is averted before.
+TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
+  const std::filesystem::path copy = copy_checkout();
+  spoil(copy / "rtl/interpolation/part_interpolator.vhd", "sum_of(value, addend", "sum_of(value, not addend");
+  write_averted();
+  // Lanes leave it to Verilator to tell.
+  for (const std::string simulator : {"verilator", "lanes"}) {
+    const Outcome drawn =
+        run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30", "--threads", "3",
+             "--simulator", simulator, "--out", "turn", "--video", "turn.mp4"},
+            path_with_ffmpeg(c_copy));
+    EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
+    EXPECT_THAT(
+        drawn.output,
+        AllOf(HasSubstr("averted: frame 2: verilator differs from the golden model\n"),
+              ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, [a-z]+: golden [0-9]+, Verilator"),
+              HasSubstr("of the scene with eye = [0.3, 0.3, 3] in [camera]"),
+              ContainsRegex("3 frames of 1 triangles.*" + simulator +
+                            (simulator == "lanes" ? ", verilator in frame 2" : "") +
+                            ": [1-9][0-9]* mismatches in frame 2 "),
+              HasSubstr("2 of 3 frames show no triangle")));
+    EXPECT_FALSE(std::filesystem::exists(at("turn.mp4")));
+  }
+
+  // Nothing is asked of the golden model, and nothing said of it.
+  const Outcome blind = run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30",
+                             "--no-compare", "--out", "turn"});
+  EXPECT_EQ(blind.exit_code, 0) << blind.output;
+  EXPECT_THAT(blind.output, AllOf(HasSubstr("verilator: not compared with the golden model"),
+                                  Not(HasSubstr("mismatches")), Not(HasSubstr("golden model 0"))));
+}
+
+// Lanes that stop in the middle of frame 0's triangles: Verilator draws it, which is told, and what they
+// still hold comes in no later frame.
+TEST_F(ViewCommand, WhatLanesBreakOffIsDrawnInVerilatorAndTold) {
+  const std::filesystem::path copy = copy_checkout();
+  spoil(copy / "sim/lanes/lane_harness.cpp", "      const M moved = block();\n",
+        "      const M moved = block();\n      static bool broken = false;\n"
+        "      if (!broken) {\n        broken = true;\n        return HALFWAY_HANG;\n      }\n");
+  const Outcome expected = run({"view", "matte", "--size", "320x240", "--frames", "3", "--simulator",
+                                "verilator", "--threads", "1", "--out", "expected"});
+  ASSERT_EQ(expected.exit_code, 0) << expected.output;
+  for (const bool compare : {true, false}) {
+    std::vector<std::string> arguments = {"--source",  copy,       "view",  "matte",       "--size",
+                                          "320x240",   "--frames", "3",     "--simulator", "lanes",
+                                          "--threads", "1",        "--out", "turn"};
+    if (!compare) arguments.push_back("--no-compare");
+    const Outcome drawn = run(arguments);
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
+    EXPECT_THAT(drawn.output,
+                AllOf(ContainsRegex("matte: frame 0: [^\n]* in lanes: hang: [^\n]*; Verilator drew it, "
+                                    "without a fault; please report it\n"),
+                      ContainsRegex("lanes, verilator in frame 0: (0 mismatches|not compared)")));
+    for (const std::string name : {"/frame_0000.png", "/frame_0001.png", "/frame_0002.png"})
+      EXPECT_EQ(frame("turn" + name).rgb, frame("expected" + name).rgb) << name << compare;
+  }
+}
+
+// By `auto` too, which takes lanes for as much as this.
+TEST_F(ViewCommand, WhereLanesCannotBeHadVerilatorDraws) {
+  const std::filesystem::path copy = copy_checkout();
+  ASSERT_TRUE(write_file(copy / "sim/lanes/lane_harness.cpp", "#error spoilt\n"));
+  const Outcome asked = run({"--source", copy, "view", "matte", "--size", "64x48", "--simulator", "lanes"});
+  EXPECT_EQ(asked.exit_code, 3) << asked.output;
+  EXPECT_THAT(asked.output, HasSubstr("spoilt"));
+#ifdef __x86_64__
+  write_averted();
+  const Outcome drawn = run({"--source", copy, "view", "averted.toml", "--size", "2048x2048", "--frames",
+                             "64", "--video", "turn.mp4", "--no-compare"},
+                            path_with_ffmpeg(c_copy));
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
+  // Without AVX-512 `auto` takes Verilator from the start.
+  const bool tries_lanes = __builtin_cpu_supports("avx512f");
+  EXPECT_THAT(drawn.output,
+              AllOf(HasSubstr(tries_lanes ? "averted: Verilator draws, for lanes cannot be had: " : ""),
+                    ContainsRegex("fragments \\| verilator: not compared")));
+#endif
+}
+
+// Small triangles lead batches to hold many; then come layers that fill the frame. Of a thread, what is drawn
+// at a time takes some 50 MB; all layers' fragments take 800.
+TEST_F(ViewCommand, MemoryDoesNotGrowWithTheMesh) {
+  std::string text;
+  int vertices = 0;
+  const auto add = [&](double x, double y, double z, double side) {
+    text += fmt::format("v {} {} {}\nv {} {} {}\nv {} {} {}\nf {} {} {}\n", x, y, z, x + side, y, z, x,
+                        y + side, z, vertices + 1, vertices + 2, vertices + 3);
+    vertices += 3;
+  };
+  for (int i = 0; i < 10'000; ++i) add(-0.9 + 0.018 * (i % 100), -0.9 + 0.018 * (i / 100), 1.0, 0.004);
+  for (int i = 0; i < 50; ++i) add(-3.0, -3.0, -0.001 * i, 12.0);
+  ASSERT_TRUE(write_file(at("layers.obj"), text));
+  ASSERT_TRUE(write_file(at("layers.toml"),
+                         "ambient = 0.5\n[camera]\neye = [0, 0, 8]\ntarget = [0, 0, 0]\nfov = 24\n"
+                         "[[directional]]\nto_light = [0, 0, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\n"
+                         "file = \"layers.obj\"\nmaterial = \"m\"\n"));
+  std::vector<std::vector<std::uint8_t>> frames;
+  for (const std::string simulator : {"verilator", "lanes"})
+    for (const bool compare : {true, false}) {
+      std::vector<std::string> arguments = {"view",      "layers.toml", "--frames",    "1",
+                                            "--size",    "1000x1000",   "--simulator", simulator,
+                                            "--threads", "1",           "--out",       "turn"};
+      if (!compare) arguments.push_back("--no-compare");
+      const Outcome drawn = run(arguments);
+      EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
+      EXPECT_THAT(drawn.output, ContainsRegex(" 5[0-9]{7} fragments"));
+      frames.push_back(frame("turn/frame_0000.png").rgb);
+      EXPECT_EQ(frames.back(), frames.front()) << simulator << compare;
+      // The most of any program so far, in KiB.
+      rusage used{};
+      ASSERT_EQ(::getrusage(RUSAGE_CHILDREN, &used), 0);
+      EXPECT_LT(used.ru_maxrss, 600'000) << simulator << compare;
+    }
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway why`: a pixel stage by stage, golden model beside RTL.
+#include "sim/run/why.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+
+#include "sim/cli/options.hpp"
+#include "sim/scene_files/load_scene.hpp"
+
+namespace halfway::cli {
+namespace {
+
+struct WhyCommand {
+  DrawOptions draw;
+  std::string scene;
+  std::string pixel;
+};
+
+std::optional<std::pair<std::uint32_t, std::uint32_t>> parse_pixel(std::string_view text) {
+  std::uint32_t x = 0, y = 0;
+  const char* const end = text.data() + text.size();
+  const auto [comma, x_error] = std::from_chars(text.data(), end, x);
+  if (x_error != std::errc{} || comma == end || *comma != ',') return std::nullopt;
+  const auto [rest, y_error] = std::from_chars(comma + 1, end, y);
+  if (y_error != std::errc{} || rest != end) return std::nullopt;
+  return std::pair{x, y};
+}
+
+std::string word(std::uint64_t bits, const StageValue& v) {
+  const std::int64_t value = v.is_signed ? static_cast<std::int64_t>(bits << (64 - v.bits)) >> (64 - v.bits)
+                                         : static_cast<std::int64_t>(bits);
+  const std::string hex = fmt::format("{:0{}x}", bits, (v.bits + 3) / 4);
+  if (v.fraction_bits == 0) return fmt::format("{} = {}", hex, value);
+  return fmt::format("{} = {:.6f}", hex,
+                     static_cast<double>(value) / static_cast<double>(std::uint64_t{1} << v.fraction_bits));
+}
+
+// As wide as the widest name and golden word of the page.
+struct Widths {
+  std::size_t name = 0, golden = 0;
+
+  void take(const std::vector<StageValue>& values) {
+    for (const StageValue& v : values) {
+      name = std::max(name, v.name.size());
+      golden = std::max(golden, word(v.golden, v).size());
+    }
+  }
+};
+
+Widths widths_of(const WhyReport& why) {
+  Widths widths;
+  for (const PixelStory& story : why.stories) {
+    widths.take(story.init);
+    widths.take(story.record);
+    for (const StageState& stage : story.stages) widths.take(stage.values);
+  }
+  return widths;
+}
+
+void print_given(const std::string& what, const std::vector<StageValue>& values, const Widths& widths) {
+  if (values.empty()) return;
+  fmt::print("  {} (given to both)\n", what);
+  for (const StageValue& v : values) fmt::print("    {:<{}} {}\n", v.name, widths.name, word(v.golden, v));
+}
+
+void print_stage(const StageState& stage, const Widths& widths) {
+  if (stage.cycle)
+    fmt::print("  {} stage, cycle {}\n", stage.stage, *stage.cycle);
+  else
+    fmt::print("  {} stage: the RTL never came here\n", stage.stage);
+  for (const StageValue& v : stage.values) {
+    const bool same = stage.cycle && v.golden == v.rtl;
+    fmt::print("    {:<{}} golden {:<{}} RTL {}{}\n", v.name, widths.name, word(v.golden, v), widths.golden,
+               stage.cycle ? word(v.rtl, v) : "-", same ? "" : "   <-- differs");
+  }
+}
+
+int run(const Folders& folders, const WhyCommand& command) {
+  const auto draw = checked(command.draw);
+  if (!draw) return report(draw.error());
+  const auto pixel = parse_pixel(command.pixel);
+  if (!pixel)
+    return report(bad_input(fmt::format("--pixel: '{}' is not x,y, such as 120,45", command.pixel)));
+  if (pixel->first >= draw->size.width || pixel->second >= draw->size.height)
+    return report(bad_input(fmt::format("--pixel: {} lies outside the frame of {}x{}", command.pixel,
+                                        draw->size.width, draw->size.height)));
+  const auto scene = load_scene(command.scene, folders.scenes());
+  if (!scene) return report(scene.error());
+  Progress progress(scene->name);
+  WhySettings settings;
+  settings.plan = draw->plan;
+  settings.size = draw->size;
+  settings.setup = draw->setup;
+  settings.threads = draw->threads;
+  settings.x = pixel->first;
+  settings.y = pixel->second;
+  settings.folders = {folders.source, folders.cache()};
+  settings.on_progress = [&](double done) { progress.show(done); };
+  const auto why = explain_pixel(*scene, settings);
+  progress.clear();
+  if (!why) return report(why.error());
+
+  fmt::print("{}: pixel {},{} of {}x{}, hardware {}: {} triangles cover it\n", scene->name, settings.x,
+             settings.y, settings.size.width, settings.size.height, why->key.name(), why->stories.size());
+  const Widths widths = widths_of(*why);
+  for (const PixelStory& story : why->stories) {
+    fmt::print("\ntriangle {}, init vector {}\n", story.triangle, story.vector);
+    print_given("init vector", story.init, widths);
+    print_given("its line's record", story.record, widths);
+    for (const StageState& stage : story.stages) print_stage(stage, widths);
+  }
+  if (!why->fault.empty()) fmt::print("\n{}\n", why->fault);
+  if (why->first) {
+    const FirstDifference& d = *why->first;
+    fmt::print(
+        "\nfirst difference in the frame: {} stage ({}), cycle {}: triangle {}, line {}, pixel {}: {}: "
+        "golden {}, "
+        "RTL {}\n",
+        d.stage, d.entity, d.cycle, d.triangle, d.y, d.x, d.value, d.golden, d.rtl);
+    return static_cast<int>(ExitCode::differs);
+  }
+  fmt::print(
+      "\ngolden model and RTL agree at every stage of the whole frame, as Verilator simulates it\n"
+      "(what GHDL alone finds wrong is a register used before it is set: see its waveform)\n");
+  return static_cast<int>(why->fault.empty() ? ExitCode::equal : ExitCode::differs);
+}
+
+}  // namespace
+
+void add_why(CLI::App& app, const Folders& folders, int& exit_code) {
+  CLI::App* sub = app.add_subcommand("why", "a pixel's way stage by stage, golden model beside RTL");
+  auto command = std::make_shared<WhyCommand>();
+  sub->add_option("scene", command->scene, "as for sim")->required();
+  sub->add_option("--pixel", command->pixel, "x,y from the frame's top left")->required();
+  command->draw.add_to(*sub);
+  sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
+}
+
+}  // namespace halfway::cli

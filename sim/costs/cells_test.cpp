@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/costs/cells.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CellsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    folders_ = {HALFWAY_SOURCE_DIR, folder_->path() / "cache"};
+  }
+  void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
+
+  /// A program that stands for Yosys, before the others in PATH.
+  void put_yosys(const std::string& script) {
+    ASSERT_TRUE(make_folders(folder_->path() / "bin"));
+    ASSERT_TRUE(write_file(folder_->path() / "bin" / "yosys", "#!/bin/sh\n" + script));
+    std::filesystem::permissions(folder_->path() / "bin" / "yosys", std::filesystem::perms::all);
+    ::setenv("PATH", ((folder_->path() / "bin").string() + ":" + path_).c_str(), 1);
+  }
+  Result<Cells> count(const HardwareKey& key) const {
+    const auto counter = CellCounter::open(folders_);
+    if (!counter) return counter.error();
+    return counter->count(key);
+  }
+  std::size_t cached() const {
+    std::error_code error;
+    std::size_t count = 0;
+    for ([[maybe_unused]] const auto& entry :
+         std::filesystem::directory_iterator(folders_.cache / "yosys", error))
+      ++count;
+    return count;
+  }
+
+  const std::string path_ = std::getenv("PATH");
+  const HardwareKey grey_{.channels = 1}, coloured_{.channels = 3};
+  std::optional<TemporaryFolder> folder_;
+  SimulatorFolders folders_;
+};
+
+TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
+  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << kInstallYosys;
+  const auto grey = count(grey_), coloured = count(coloured_);
+  ASSERT_TRUE(grey) << grey.error().message;
+  ASSERT_TRUE(coloured) << coloured.error().message;
+  // Six line interpolators of 40 bits and six words that stand still make a channel, and ten words each of
+  // the triangles that wait.
+  const std::uint64_t flip_flops = coloured->flip_flops - grey->flip_flops;
+  EXPECT_GT(flip_flops, 2 * 6 * 40U);
+  EXPECT_LT(flip_flops, 2 * 40 * 40U);
+  EXPECT_GT(coloured->luts, grey->luts + 2 * 6 * 40U);  // an adder takes one a bit or more
+  EXPECT_EQ(cached(), 2U);
+
+  // The second time from the cache: Yosys itself is asked for its version only.
+  const auto version = run_process({.arguments = {"yosys", "-V"}}, kInstallYosys);
+  ASSERT_TRUE(version);
+  put_yosys("[ $# = 1 ] && printf '" + version->output + "' || exit 9\n");
+  const auto again = count(grey_);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(*again, *grey);
+  EXPECT_FALSE(count({.preset = Preset::published}));
+}
+
+TEST_F(CellsTest, AMissingYosysIsToldWithTheCommandThatBringsIt) {
+  ::setenv("PATH", (folder_->path() / "empty").c_str(), 1);
+  const auto none = count(grey_);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ExitCode::tool_failed);
+  EXPECT_THAT(none.error().message, HasSubstr("apt-get install yosys"));
+}
+
+// Another netlist is another count, though the key is the same.
+TEST_F(CellsTest, ChangedRtlIsCountedAnew) {
+  put_yosys("[ $# = 1 ] || echo '{\"design\": {\"num_cells_by_type\": {\"$lut\": 1}}}' >cells.json\n");
+  ASSERT_TRUE(count(grey_));
+  ASSERT_TRUE(count(grey_));
+  EXPECT_EQ(cached(), 1U);
+  const std::filesystem::path copy = folder_->path() / "source";
+  ASSERT_TRUE(make_folders(copy));
+  std::filesystem::copy(folders_.source / "rtl", copy / "rtl", std::filesystem::copy_options::recursive);
+  folders_.source = copy;
+  ASSERT_TRUE(count(grey_));
+  EXPECT_EQ(cached(), 1U);
+  const auto adder = copy / "rtl" / "interpolation" / "part_interpolator.vhd";
+  const auto text = read_file(adder);
+  ASSERT_TRUE(text);
+  const std::string from = "sum_of(value, addend";
+  const std::size_t at = text->find(from);
+  ASSERT_NE(at, std::string::npos) << "mend this test";
+  std::string changed = *text;
+  ASSERT_TRUE(write_file(adder, changed.replace(at, from.size(), "sum_of(value, not addend")));
+  ASSERT_TRUE(count(grey_));
+  EXPECT_EQ(cached(), 2U);
+}
+
+// The shading processors' alone, which have wide ones and many.
+TEST_F(CellsTest, MultipliersOfTheShadingProcessorsAreNoLuts) {
+  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << kInstallYosys;
+  HardwareKey key{.shader = Shader::processors, .preset = Preset::published, .channels = 1};
+  const auto ambient = count(key);
+  ASSERT_TRUE(ambient) << ambient.error().message;
+  // k I alone.
+  EXPECT_EQ(ambient->multipliers, 1U);
+  const int k_bits = golden::Published::c_coefficient_bits,
+            i_bits = golden::Published::c_light_intensity_bits;
+  EXPECT_GE(ambient->product_bits, static_cast<std::uint64_t>(k_bits + i_bits));
+  EXPECT_LE(ambient->product_bits, static_cast<std::uint64_t>(k_bits + i_bits + 2));  // signs
+  key.processors = {.directional = 1, .diffuse = true};
+  const auto lit = count(key);
+  ASSERT_TRUE(lit) << lit.error().message;
+  // N.L has three, k I and the weighted term one each.
+  EXPECT_EQ(lit->multipliers, 1 + 3 + 2U);
+  EXPECT_GT(lit->luts, ambient->luts);
+  EXPECT_GT(lit->flip_flops, ambient->flip_flops);
+  // A bit of a product takes a LUT or two for each of the multiplier's.
+  EXPECT_GT(ambient->multiplier_luts, static_cast<std::uint64_t>(k_bits * i_bits / 2));
+  EXPECT_LT(ambient->multiplier_luts, static_cast<std::uint64_t>(3 * k_bits * i_bits));
+  EXPECT_GT(lit->multiplier_luts, 5 * ambient->multiplier_luts);
+  // Table and adders are LUTs; so many multipliers would be as many again.
+  EXPECT_LT(lit->luts, 4000U);
+}
+
+// As Yosys's `dump` writes them: words with copies of their signs, with zeros before them, as they are.
+TEST(MultiplierShapes, AreWithoutCopiesOfSigns) {
+  const auto cell = [](const std::string& a, const std::string& b, int a_bits, int b_bits) {
+    return fmt::format(
+        "  attribute \\src \"netlist.v:1.2-3.4\"\n  cell \\mul $name$1\n    parameter \\A_SIGNED 0\n    "
+        "parameter "
+        "\\A_WIDTH {}\n    parameter \\B_SIGNED 0\n    parameter \\B_WIDTH {}\n    parameter \\Y_WIDTH 12\n  "
+        "  "
+        "connect \\A {}\n    connect \\B {}\n    connect \\Y \\y\n  end\n",
+        a_bits, b_bits, a, b);
+  };
+  const auto shape = [&](const std::string& a, const std::string& b, int a_bits, int b_bits) {
+    const auto shapes = read_multiplier_shapes(cell(a, b, a_bits, b_bits), "mul");
+    EXPECT_TRUE(shapes) << shapes.error().message;
+    return shapes && shapes->size() == 1 ? shapes->front() : MultiplierShape{};
+  };
+  EXPECT_EQ(shape("\\u [7:0]", "\\v", 8, 4), (MultiplierShape{false, false, 8, 4, 12}));
+  EXPECT_EQ(shape("\\u [7:0]", "\\u [7:0]", 8, 8), (MultiplierShape{false, true, 8, 8, 12}));
+  EXPECT_EQ(shape("{ \\u [5] \\u [5] \\u [5:2] }", "{ \\v [3] \\v [3] \\v [3] \\v [3:0] }", 6, 7),
+            (MultiplierShape{true, false, 4, 4, 12}));
+  EXPECT_EQ(shape("{ \\u [5] \\u [5] \\w }", "\\v", 6, 7), (MultiplierShape{true, false, 5, 7, 12}));
+  EXPECT_EQ(shape("{ 3'000 \\u [4:0] }", "\\v", 8, 7), (MultiplierShape{false, false, 5, 7, 12}));
+  // Beside a signed word one of the zeros is its sign.
+  EXPECT_EQ(shape("{ 3'000 \\u [4:0] }", "{ \\v [3] \\v [3:0] }", 8, 5),
+            (MultiplierShape{true, false, 6, 4, 12}));
+  EXPECT_EQ(read_multiplier_shapes(cell("\\u", "\\v", 3, 3) + cell("\\u", "\\v", 3, 3), "mul")->size(), 2U);
+  EXPECT_TRUE(read_multiplier_shapes(cell("\\u", "\\v", 3, 3), "other")->empty());
+  EXPECT_FALSE(read_multiplier_shapes(cell("", "\\v", 3, 3), "mul"));
+  EXPECT_FALSE(read_multiplier_shapes(cell("8'00000000", "\\v", 8, 3), "mul"));
+}
+
+// What Yosys might leave, and what then is said; nothing of it stays in the cache.
+TEST_F(CellsTest, WhatIsNoCountOfLutsAndFlipFlopsIsRefused) {
+  const auto stat = [](const std::string& cells) {
+    return "[ $# = 1 ] || cat >cells.json <<'EOF'\n{\"design\": {\"num_cells_by_type\": {" + cells +
+           "}}}\nEOF\n";
+  };
+  put_yosys(stat("\"$lut\": 12, \"$_DFF_P_\": 3, \"$_SDFFCE_PP0P_\": 4"));
+  const auto whole = count(coloured_);
+  ASSERT_TRUE(whole) << whole.error().message;
+  EXPECT_EQ(*whole, (Cells{12, 7}));
+  const std::size_t before = cached();
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {stat("\"$lut\": 12, \"$_DLATCH_P_\": 1"), "$_DLATCH_P_"},
+      {stat("\"$lut\": 12, \"multiplier_cell\": 1"), "multipliers.json"},
+      {stat("\"multiplier_cell\": 2") + "[ $# = 1 ] || echo '{\"design\": {\"num_cells_by_type\": "
+                                        "{\"$mul_48\": 1}}}' >multipliers.json",
+       "2 multipliers, 1 with a width"},
+      {"[ $# = 1 ] || echo nonsense >cells.json", "not what Yosys's stat writes"},
+      {"[ $# = 1 ] || echo '{}' >cells.json", "not what Yosys's stat writes"},
+      {"exit 0", "cells.json"},
+      {"[ $# = 1 ] || { echo 'ERROR: no such cell'; exit 1; }", "ERROR: no such cell"},
+      {"exit 1", "looking for yosys"},
+  };
+  for (const auto& [script, message] : cases) {
+    put_yosys(script + "\n");
+    const auto refused = count(grey_);
+    ASSERT_FALSE(refused) << script;
+    EXPECT_EQ(refused.error().code, ExitCode::tool_failed);
+    EXPECT_THAT(refused.error().message, HasSubstr(message));
+    EXPECT_EQ(cached(), before) << script;
+  }
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// What leaving hardware out saves: the scenes of README's two tables, their figures as a file, and the
+// tables.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/result.hpp"
+#include "frame/frame.hpp"
+#include "plan/plan.hpp"
+#include "sim/costs/cells.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+
+namespace halfway {
+
+inline constexpr const char* kSavings = "sim/gallery/savings.csv";  ///< from the project's root
+
+struct SavingsCase {
+  const char* scene;  ///< a built-in one
+  const char* what;   ///< of it, as README says it
+  Shader shader;
+  Preset preset;
+
+  PlanRequest request() const { return {.shader = shader, .preset = preset}; }
+  FrameSize size() const;
+};
+std::span<const SavingsCase> savings_cases();
+
+/// Of one hardware.
+struct HardwareCost {
+  std::string key;
+  std::uint64_t luts = 0, flip_flops = 0, memory_bits = 0, multipliers = 0;  ///< as CellCounter has them
+  std::uint64_t cycles = 0;                                                  ///< of the frame
+};
+struct Savings {
+  HardwareCost called_for, everything;
+};
+
+/// Of every case, in minutes of all cores. `on_line` is told each line of the file as it comes.
+Result<std::vector<Savings>> measure_savings(const SimulatorFolders& folders, unsigned threads,
+                                             const std::function<void(const std::string&)>& on_line);
+
+/// One line a hardware, in the order of the cases.
+std::string to_csv(std::span<const Savings> savings);
+/// An error where it is not of these cases.
+Result<std::vector<Savings>> read_savings(const std::filesystem::path& csv);
+
+/// README with its parts "savings" and "savings of processors" drawn from these.
+Result<std::string> with_savings(const std::string& readme, std::span<const Savings> savings);
+
+}  // namespace halfway

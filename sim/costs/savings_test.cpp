@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// README's tables of what is left out against their file, and the file against the plans as they are.
+#include "sim/costs/savings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
+
+TEST(Savings, AreWhatReadmeSays) {
+  const auto savings = read_savings(c_root / kSavings);
+  ASSERT_TRUE(savings) << savings.error().message;
+  const auto readme = read_file(c_root / "README.md");
+  ASSERT_TRUE(readme);
+  const auto drawn = with_savings(*readme, *savings);
+  ASSERT_TRUE(drawn) << drawn.error().message;
+  EXPECT_EQ(*readme, *drawn) << "make savings writes it";
+}
+
+TEST(Savings, AreOfTheHardwareThatIsPlanned) {
+  const auto savings = read_savings(c_root / kSavings);
+  ASSERT_TRUE(savings) << savings.error().message;
+  for (std::size_t i = 0; i < savings->size(); ++i) {
+    const SavingsCase& which = savings_cases()[i];
+    const auto scene = load_scene(which.scene, c_root / "sim/scenes");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto plan = plan_scene(*scene, which.request());
+    ASSERT_TRUE(plan) << plan.error().message;
+    EXPECT_EQ((*savings)[i].called_for.key, plan->called_for.name()) << "make savings measures it";
+    EXPECT_EQ((*savings)[i].everything.key, plan->everything.name()) << "make savings measures it";
+  }
+}
+
+TEST(Savings, ComeBackFromTheirFile) {
+  std::vector<Savings> savings(savings_cases().size());
+  std::uint64_t number = 0;
+  for (Savings& s : savings)
+    for (HardwareCost* cost : {&s.called_for, &s.everything}) {
+      cost->key = "key" + std::to_string(++number);
+      for (auto* figure :
+           {&cost->luts, &cost->flip_flops, &cost->memory_bits, &cost->multipliers, &cost->cycles})
+        *figure = ++number;
+    }
+  auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const auto path = folder->path() / "savings.csv";
+  const std::string csv = to_csv(savings);
+  ASSERT_TRUE(write_file(path, csv));
+  const auto read = read_savings(path);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(to_csv(*read), csv);
+  const auto refused = [&](const std::string& text) {
+    EXPECT_TRUE(write_file(path, text));
+    const auto wrong = read_savings(path);
+    return wrong ? "" : wrong.error().message;
+  };
+  EXPECT_THAT(refused(""), HasSubstr("savings.csv:"));
+  EXPECT_THAT(refused(csv.substr(0, csv.rfind(','))),
+              HasSubstr("wants a line 'spheres,processors,published,all"));
+  EXPECT_THAT(refused(csv.substr(0, csv.size() - 1) + ",7\n"), HasSubstr("make savings"));
+  EXPECT_THAT(refused(csv.substr(0, csv.find("spheres"))), HasSubstr("wants a line 'spheres,"));
+}
+
+TEST(Savings, AreDrawnAsSharesAndPairs) {
+  std::vector<Savings> savings(savings_cases().size());
+  savings[1] = {{.luts = 1326, .flip_flops = 90}, {.luts = 53376, .flip_flops = 100}};
+  savings[4] = {{.luts = 4682, .multipliers = 15, .cycles = 19739},
+                {.luts = 19557, .multipliers = 92, .cycles = 44464}};
+  const auto text = with_savings(
+      "\n<!-- savings: x -->\n\n<!-- end of savings -->\n\n<!-- savings of processors: x -->\n\n<!-- end of "
+      "savings of "
+      "processors -->\n",
+      savings);
+  ASSERT_TRUE(text) << text.error().message;
+  EXPECT_THAT(*text, HasSubstr("\n| `matte` | spherical, `published` | 1326 | 53 376 | 98 % | 10 % |\n"));
+  EXPECT_THAT(
+      *text,
+      HasSubstr("\n| `matte`, `exact` | 4682 / 19 557 | 15 / 92 | 0 / 0 | 0 / 0 | 19 739 / 44 464 |\n"));
+  EXPECT_FALSE(with_savings("a page without parts", savings));
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/figures/plot.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway::figures {
+namespace {
+
+constexpr std::string_view c_style = R"(set encoding utf8
+set linetype 1 linecolor rgb '#0969da' linewidth 1.6
+set linetype 2 linecolor rgb '#d1242f' linewidth 1.6
+set linetype 3 linecolor rgb '#1a7f37' linewidth 1.6
+set linetype 4 linecolor rgb '#8250df' linewidth 1.6
+set linetype 5 linecolor rgb '#bf8700' linewidth 1.6
+set linetype 6 linecolor rgb '#57606a' linewidth 1.2
+set border 3 linecolor rgb '#1f2328'
+set tics nomirror out scale 0.6 textcolor rgb '#1f2328'
+set key noautotitle textcolor rgb '#1f2328'
+)";
+
+constexpr std::string_view c_produced = "Produced by ";
+
+// Groups that hold nothing, of which gnuplot writes many; and the titles that it gives curves.
+void prune(pugi::xml_node node) {
+  for (pugi::xml_node child = node.first_child(), next; child; child = next) {
+    next = child.next_sibling();
+    prune(child);
+    const bool is_group = std::string_view(child.name()) == "g";
+    if (is_group && std::string_view(child.attribute("id").value()).starts_with("gnuplot_plot_"))
+      child.remove_child("title");
+    if (is_group && !child.first_child()) node.remove_child(child);
+  }
+}
+
+// gnuplot 5.4 cannot be told what a picture's title and description are.
+Result<std::string> described(const std::string& svg, const Plot& plot) {
+  pugi::xml_document document;
+  const auto parsed = document.load_string(svg.c_str(), pugi::parse_default | pugi::parse_declaration);
+  pugi::xml_node root = document.child("svg"), desc = root.child("desc");
+  if (!parsed || !desc)
+    return tool_failed(fmt::format("gnuplot's SVG cannot be read: {}", parsed.description()));
+  std::string produced = desc.text().get();
+  produced.erase(produced.find_last_not_of(' ') + 1);
+  root.prepend_attribute("role") = "img";
+  root.child("title").text() = plot.title.c_str();
+  desc.text() = (plot.words.empty() ? plot.title : plot.words).c_str();
+  root.insert_child_after(pugi::node_comment, desc).set_value((" " + produced + " ").c_str());
+  prune(root);
+  std::ostringstream out;
+  document.save(out, "", pugi::format_raw);
+  // A line an element, but none within texts.
+  std::string text = out.str();
+  for (const std::string_view next : {"><g", "><path", "><use", "><rect", "><title", "><desc", "><!--"})
+    for (std::size_t at = 0; (at = text.find(next, at)) != std::string::npos; at += next.size())
+      text.insert(at + 1, "\n");
+  return text + '\n';
+}
+
+}  // namespace
+
+std::string data_block(const std::string& name, std::span<const std::vector<double>> rows) {
+  std::string text = fmt::format("${} << EOD\n", name);
+  for (const std::vector<double>& row : rows) text += fmt::format("{:.6g}\n", fmt::join(row, " "));
+  return text + "EOD\n";
+}
+
+Status draw_plot(const Context& context, const std::string& name, const Plot& plot, Drawing& drawing) {
+  const std::filesystem::path script = context.out / (name + ".gnuplot"),
+                              raw = context.out / (name + ".raw.svg"), file = context.out / (name + ".svg");
+  const std::string text = fmt::format(
+      "set terminal svg size {},{} dynamic enhanced font 'sans-serif,13' background '#ffffff'\nset output "
+      "'{}'\n{}{}",
+      plot.size.width, plot.size.height, raw.filename().string(), c_style, plot.script);
+  if (Status written = write_file(script, text); !written) return written;
+  const auto end = run_process({.arguments = {"gnuplot", script.filename().string()},
+                                .working_folder = context.out,
+                                .environment = {{"LC_ALL", "C.UTF-8"}}},
+                               c_install_gnuplot);
+  if (!end) return end.error();
+  if (!end->succeeded() || !end->output.empty())
+    return tool_failed(fmt::format("{}: gnuplot: {}: {}", script.string(), end->how(), end->output));
+  const auto svg = read_file(raw);
+  if (!svg) return svg.error();
+  std::error_code ignored;
+  std::filesystem::remove(raw, ignored);
+  drawing.pictures.push_back({name + ".svg", plot.title});
+  const auto finished = described(*svg, plot);
+  if (!finished) return finished.error();
+  return write_file(file, *finished);
+}
+
+std::string drawn_by(std::string_view svg) {
+  const std::size_t at = svg.find(c_produced);
+  if (at == std::string_view::npos) return {};
+  return std::string(svg.substr(at, svg.find(" -->", at) - at));
+}
+
+}  // namespace halfway::figures

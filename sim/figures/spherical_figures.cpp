@@ -1,0 +1,757 @@
+// SPDX-License-Identifier: Apache-2.0
+// The spherical paper's figures 5, 9, 10, 11, 14, 15, 16 and 17, its table 1, and what its text says of both.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "common/to_integer.hpp"
+#include "reference/spherical_renderer.hpp"
+#include "scene/builtin_meshes.hpp"
+#include "setup/arc.hpp"
+#include "shading/bell.hpp"
+#include "shading/shade.hpp"
+#include "sim/figures/figure.hpp"
+#include "sim/figures/pictures.hpp"
+#include "sim/figures/plot.hpp"
+#include "sim/figures/rings.hpp"
+#include "sim/figures/timing_diagram.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "tables/cosine.hpp"
+
+namespace halfway::figures {
+namespace {
+
+constexpr double c_half_pi = std::numbers::pi / 2;
+constexpr const char* c_paper = "spherical";
+
+double squared_cosine(double scale, double x) {
+  const double ax = scale * std::abs(x);
+  return ax < c_half_pi ? std::cos(ax) * std::cos(ax) : 0.0;
+}
+
+double power_of_cosine(double exponent, double x) {
+  return highlight_power(std::cos(x), exponent);
+}
+
+// Greatest of a function of the angle over [0, pi/2].
+template <class Function>
+double largest_over_angles(const Function& function) {
+  constexpr int c_samples = 20'000;
+  double largest = 0.0;
+  for (int i = 0; i <= c_samples; ++i) largest = std::max(largest, function(c_half_pi * i / c_samples));
+  return largest;
+}
+
+// Close together where sharp bells bend, in degrees.
+double curve_step(double degrees) {
+  return degrees >= -12.0 && degrees < 12.0 ? 0.75 : 3.0;
+}
+
+// Rows of x in degrees, and each curve there; symmetric.
+template <class Curve>
+std::vector<std::vector<double>> curves(std::span<const double> of, const Curve& curve) {
+  std::vector<std::vector<double>> rows;
+  for (double degrees = -90.0; degrees <= 90.0; degrees += curve_step(degrees)) {
+    rows.push_back({degrees});
+    for (const double n : of) rows.back().push_back(curve(n, degrees / 180.0 * std::numbers::pi));
+  }
+  return rows;
+}
+
+std::string curve_list(const std::string& block, const std::string& title, std::span<const double> of) {
+  std::string text;
+  for (std::size_t i = 0; i < of.size(); ++i)
+    text += fmt::format("{}${} using 1:{} with lines linetype {} title '{} = {:.4g}'", i == 0 ? "" : ", ",
+                        block, i + 2, i + 1, title, of[i]);
+  return text;
+}
+
+// ---- Figure 5 ----
+
+struct AgainstSmooth {
+  FrameDistance gouraud, phong;  // of the coarse sphere against the smooth one
+};
+
+Status draw_figure_5(const Context& context, Drawing& out) {
+  constexpr FrameSize c_size{240, 180};
+  const Scene coarse = sphere_scene(12, 8, 20.0);
+  Scene smooth = sphere_scene(256, 128, 20.0);
+  smooth.camera = coarse.camera;
+  const Software drawn = draw_in_software(coarse, c_size, context.threads);
+  const Frame truth = draw_in_software(smooth, c_size, context.threads).phong.frame;
+  const AgainstSmooth against{distance(drawn.gouraud.frame, truth, drawn.phong.mask),
+                              distance(drawn.phong.frame, truth, drawn.phong.mask)};
+  out.measured["Gouraud shading: how far from the smooth sphere"] = {
+      fmt::format("{}, rms {:.1f}", shown(against.gouraud), against.gouraud.rms),
+      static_cast<double>(against.gouraud.max_lsb)};
+  out.measured["Phong shading: its rms error as a part of Gouraud's"] = {
+      fmt::format("{:.2f} ({}, rms {:.1f})", against.phong.rms / against.gouraud.rms, shown(against.phong),
+                  against.phong.rms),
+      against.phong.rms / against.gouraud.rms};
+  return save_picture(context, "spherical-05", sheet(std::array{drawn.gouraud.frame, drawn.phong.frame}, 2),
+                      "A coarse sphere by Gouraud shading, with a broken highlight, and by Phong shading",
+                      out);
+}
+
+Figure figure_5() {
+  return {
+      "spherical-05",
+      c_paper,
+      "figure 5",
+      "linear interpolation, Gouraud shading (left), beside non-linear interpolation, Phong shading (right). "
+      "Figure 3 of the quadratic paper is the same.",
+      "a sphere of 168 triangles, exponent 20, by the reference renderer; the smooth sphere has 65 024.",
+      {{"Gouraud shading: how far from the smooth sphere", "severe artifacts at highlights",
+        at_least(c_visible, "/255")},
+       {"Phong shading: its rms error as a part of Gouraud's", "the artifacts are gone", at_most(0.5)}},
+      draw_figure_5};
+}
+
+// ---- Figures 9 and 10, table 1 ----
+
+constexpr std::array c_figure_9_exponents{5.0, 10.0, 20.0, 50.0, 500.0};
+constexpr std::array c_figure_9_scales{1.45, 1.98, 2.76};
+
+// Where a bell is down at a half.
+double half_width(double exponent) {
+  return std::acos(std::pow(0.5, 1.0 / exponent));
+}
+
+Status draw_figure_9(const Context& context, Drawing& out) {
+  for (std::size_t i = 0; i < c_figure_9_scales.size(); ++i) {
+    const double scale = published_scale(c_figure_9_exponents[i]);
+    out.measured[fmt::format("the caption's a for n = {}", c_figure_9_exponents[i])] = {
+        fmt::format("{:.4f}", scale), scale};
+  }
+  double largest = 0.0;
+  for (const double n : c_figure_9_exponents)
+    largest = std::max(largest, largest_over_angles([&](double x) {
+                         const double to = half_width(500.0) / half_width(n);
+                         return std::abs(power_of_cosine(n, x) - power_of_cosine(500.0, x * to));
+                       }));
+  out.measured["bells brought to one width: how far apart"] = {fmt::format("{:.3f}", largest), largest};
+  const std::string script =
+      data_block("left", curves(c_figure_9_exponents, power_of_cosine)) +
+      data_block("right", curves(c_figure_9_scales, squared_cosine)) +
+      "set multiplot layout 1,2\nset xrange [-90:90]\nset yrange [0:1.05]\nset xtics 30\n"
+      "set xlabel 'angle x in degrees'\nset key top right\nset title 'cosⁿ x'\nplot " +
+      curve_list("left", "n", c_figure_9_exponents) + "\nset title 'cos² ax'\nplot " +
+      curve_list("right", "a", c_figure_9_scales) + "\nunset multiplot\n";
+  return draw_plot(context, "spherical-09",
+                   {.size = {860, 330},
+                    .title = "The bells of cosⁿ x for five exponents, and of cos² ax for three scales",
+                    .script = script},
+                   out);
+}
+
+Figure figure_9() {
+  Figure figure{
+      "spherical-09",
+      c_paper,
+      "figure 9",
+      "the bells of cosⁿ x, n = 5, 10, 20, 50, 500 (left), and of cos² ax, a = 1.45, 1.98, 2.76 (right).",
+      "the illumination model's power, and cos² ax.",
+      {},
+      draw_figure_9};
+  for (std::size_t i = 0; i < c_figure_9_scales.size(); ++i)
+    figure.claims.push_back({fmt::format("the caption's a for n = {}", c_figure_9_exponents[i]),
+                             fmt::format("{}", c_figure_9_scales[i]), within(c_figure_9_scales[i], 0.005)});
+  figure.claims.push_back({"bells brought to one width: how far apart",
+                           "about the same shape, but for the abscissa's scale", at_most(0.05)});
+  return figure;
+}
+
+struct TableRow {
+  double exponent, scale;
+};
+constexpr std::array<TableRow, 7> c_table_1 = {
+    {{2, 1.0}, {5, 1.4502}, {10, 1.9845}, {20, 2.7582}, {50, 4.3143}, {100, 6.0791}, {500, 13.5535}}};
+
+// The integral of cos² ax sin x over the bell, by Simpson's rule.
+double weighted_integral(double scale) {
+  constexpr int c_steps = 4000;
+  const double end = c_half_pi / scale, step = end / c_steps;
+  double sum = 0.0;
+  for (int i = 0; i <= c_steps; ++i) {
+    const double weight = i == 0 || i == c_steps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
+    sum += weight * squared_cosine(scale, i * step) * std::sin(i * step);
+  }
+  return sum * step / 3.0;
+}
+
+Status draw_table_1(const Context&, Drawing& out) {
+  double largest = 0.0;
+  for (const auto& [exponent, scale] : c_table_1) {
+    out.measured[fmt::format("a for n = {}", exponent)] = {fmt::format("{:.4f}", published_scale(exponent)),
+                                                           published_scale(exponent)};
+    largest = std::max(largest, std::abs(weighted_integral(scale) * (exponent + 1.0) - 1.0));
+  }
+  out.measured["both sides of equation 20, by the printed a"] = {
+      fmt::format("equal within {:.1g} of themselves", largest), largest};
+  return Ok{};
+}
+
+Figure table_1() {
+  Figure figure{"spherical-table-1",
+                c_paper,
+                "table 1",
+                "a for n = 2, 5, 10, 20, 50, 100, 500.",
+                "the root of 1/(n+1) = (2a²(1 − cos(π/2a)) − 1)/(4a² − 1), as setup finds it; the integrals "
+                "numerically.",
+                {},
+                draw_table_1};
+  for (const auto& [exponent, scale] : c_table_1)
+    figure.claims.push_back(
+        {fmt::format("a for n = {}", exponent), fmt::format("{:.4f}", scale), within(scale, 0.00005)});
+  figure.claims.push_back({"both sides of equation 20, by the printed a", "equal", at_most(1e-4)});
+  return figure;
+}
+
+Status draw_figure_10(const Context& context, Drawing& out) {
+  constexpr std::array c_exponents{5.0, 10.0, 20.0, 50.0};
+  double narrowest = 1.0, widest = 10.0, farthest = 0.0, far_exponent = 0.0, fitted = 0.0;
+  for (const auto& [n, printed] : c_table_1) {
+    if (n < 5) continue;  // at 2 the two are one
+    const double a = published_scale(n);
+    // At the centre cosⁿ x is 1 − n x²/2, cos² ax is 1 − a² x².
+    narrowest = std::min(narrowest, 2.0 * a * a / n);
+    const auto reach = [&](const auto& bell) {
+      double x = c_half_pi;
+      while (x > 0.0 && bell(x) < 1.0 / 255.0) x -= 1e-4;
+      return x;
+    };
+    widest = std::min(widest, reach([&, n = n](double x) { return power_of_cosine(n, x); }) /
+                                  reach([&](double x) { return squared_cosine(a, x); }));
+    const double far = largest_over_angles(
+        [&, n = n](double x) { return std::abs(power_of_cosine(n, x) - squared_cosine(a, x)); });
+    if (far > farthest) farthest = far, far_exponent = n;
+    fitted = std::max(fitted, fit_error(n, fitted_bell(n)));
+  }
+  out.measured["curvature at the centre, cos² ax as a part of cosⁿ x's, n = 5 to 500"] = {
+      fmt::format("{:.2f}", narrowest), narrowest};
+  out.measured["reach above 1/255, cosⁿ x as a multiple of cos² ax's"] = {fmt::format("{:.2f}", widest),
+                                                                          widest};
+  out.measured["largest difference of the two, n = 5 to 500"] = {
+      fmt::format("{:.1f}/255 (n = {}); by the bells of preset exact {:.1f}/255", 255.0 * farthest,
+                  far_exponent, 255.0 * fitted),
+      255.0 * farthest};
+  std::string plots;
+  for (std::size_t i = 0; i < c_exponents.size(); ++i) {
+    const double n = c_exponents[i], a = published_scale(n);
+    std::vector<std::vector<double>> rows;
+    for (double degrees = -90.0; degrees <= 90.0; degrees += curve_step(degrees)) {
+      const double x = degrees / 180.0 * std::numbers::pi;
+      rows.push_back({degrees, power_of_cosine(n, x), squared_cosine(a, x)});
+    }
+    plots += data_block(fmt::format("bells{}", i), rows);
+  }
+  plots +=
+      "set multiplot layout 2,2\nset xrange [-90:90]\nset yrange [0:1.05]\nset xtics 30\nset ytics 0.5\n"
+      "set key samplen 2\n";
+  for (std::size_t i = 0; i < c_exponents.size(); ++i)
+    plots += fmt::format(
+        "set title 'n = {1}, a = {2:.4g}'\n"
+        "plot $bells{0} using 1:2 with lines linetype 1 title 'cosⁿ x', "
+        "$bells{0} using 1:3 with lines linetype 2 dashtype 2 title 'cos² ax'\n",
+        i, c_exponents[i], published_scale(c_exponents[i]));
+  plots += "unset multiplot\n";
+  return draw_plot(
+      context, "spherical-10",
+      {.size = {860, 520}, .title = "cosⁿ x and the cos² ax that stands for it", .script = plots}, out);
+}
+
+Figure figure_10() {
+  return {"spherical-10",
+          c_paper,
+          "figure 10",
+          "cosⁿ x approximated by cos² ax.",
+          "both curves, exponents 5, 10, 20, 50, over the angle in degrees.",
+          {{"curvature at the centre, cos² ax as a part of cosⁿ x's, n = 5 to 500",
+            "the centres of cosⁿ are smaller (section 6)", at_most(1.0)},
+           {"reach above 1/255, cosⁿ x as a multiple of cos² ax's",
+            "the halos of cosⁿ are bigger (section 6)", at_least(1.0)},
+           {"largest difference of the two, n = 5 to 500", "the quality is quite good",
+            at_most(c_visible, "/255"),
+            "with equal integrals the flanks are up to so far apart; a least largest error takes other "
+            "powers of the "
+            "cosine, and a gain. In pictures little of it is seen (figures 14 and 16)"}},
+          draw_figure_10};
+}
+
+// ---- Figure 11 ----
+
+constexpr std::array c_figure_11_bits{4, 6};
+
+double entry_at(const tables::CosineTable& table, double x) {
+  const double cells = std::ldexp(1.0, table.address_bits - 1);
+  const auto cell = to_integer<std::size_t>(std::min(x / c_half_pi * cells, cells - 1.0));
+  return table.entries[cell] / (std::ldexp(1.0, table.data_bits) - 1.0);
+}
+
+Status draw_figure_11(const Context& context, Drawing& out) {
+  std::array<double, c_figure_11_bits.size()> error{};
+  std::string blocks;
+  for (std::size_t i = 0; i < c_figure_11_bits.size(); ++i) {
+    const int bits = c_figure_11_bits[i];
+    const tables::CosineTable table = tables::cosine_table(false, 2, bits, bits);
+    error[i] = tables::table_error(table);
+    constexpr int c_samples = 192;  // six an entry of 6 address bits
+    std::vector<std::vector<double>> rows;
+    for (int k = 0; k < c_samples; ++k) {
+      const double x = c_half_pi * (k + 0.5) / c_samples, value = entry_at(table, x);
+      rows.push_back({x / c_half_pi * 90.0, value, value - squared_cosine(1.0, x)});
+    }
+    blocks += data_block(fmt::format("table{}", i), rows);
+    if (bits == 6)
+      out.measured["bits of the ROM, 6 address and 6 data bits"] = {fmt::format("{}", table.bits()),
+                                                                    static_cast<double>(table.bits())};
+  }
+  out.measured["largest error by 6 and 6 bits as a part of that by 4 and 4"] = {
+      fmt::format("{:.2f} ({:.1f}/255 of {:.1f}/255)", error[1] / error[0], 255 * error[1], 255 * error[0]),
+      error[1] / error[0]};
+  const double ours = tables::table_error(tables::cosine_table(true, 2, 9, 8));
+  out.measured["largest error by 6 and 6 bits"] = {
+      fmt::format("{:.1f}/255; by the 9 and 8 of preset exact {:.1f}/255", 255 * error[1], 255 * ours),
+      255 * error[1]};
+  const std::string script =
+      blocks +
+      "set multiplot layout 1,2\nset xrange [0:90]\nset xtics 15\nset xlabel 'angle in degrees'\n"
+      "set yrange [0:1.05]\nset title 'cos² and its tables'\nset key top right\n"
+      "plot cos(x / 90 * pi / 2) ** 2 with lines linetype 6 title 'cos²', $table0 using 1:2 with lines "
+      "linetype 2 "
+      "title '4 address, 4 data bits', $table1 using 1:2 with lines linetype 1 title '6 and 6'\n"
+      "set yrange [-0.15:0.15]\nset title 'error'\n"
+      "plot $table0 using 1:3 with lines linetype 2 title '4 and 4', $table1 using 1:3 with lines linetype 1 "
+      "title "
+      "'6 and 6'\nunset multiplot\n";
+  return draw_plot(context, "spherical-11",
+                   {.size = {860, 330},
+                    .title = "cos² and its tables of 4 and of 6 address and data bits, and their errors",
+                    .script = script},
+                   out);
+}
+
+Figure figure_11() {
+  return {
+      "spherical-11",
+      c_paper,
+      "figure 11",
+      "cos² beside tables of several address and data bits, and the errors of these; the scan does not show "
+      "which sizes beside 4 and 6.",
+      "the tables that `make tables` writes for preset published, 4/4 and 6/6; half of the period.",
+      {{"bits of the ROM, 6 address and 6 data bits", "384", within(384, 0)},
+       {"largest error by 6 and 6 bits as a part of that by 4 and 4", "much smaller", at_most(0.5)},
+       {"largest error by 6 and 6 bits", "six bits are accurate enough", at_most(c_close, "/255"),
+        "the 64 entries hold the whole period, so that 32 are left for either flank: half a cell where cos² "
+        "is "
+        "steepest and half a step of the data are seen in smooth shading"}},
+      draw_figure_11};
+}
+
+// ---- Figures 14 and 15 ----
+
+Result<Scene> smooth_highlights(const Context& context) {
+  auto scene = load_scene("highlights", context.scenes());
+  if (!scene) return scene;
+  const Mesh sphere = make_uv_sphere(96, 64, 1.2);
+  scene->positions_world.clear();
+  scene->normals_world.clear();
+  scene->triangles.clear();
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const auto first = static_cast<std::uint32_t>(scene->positions_world.size());
+    for (const glm::dvec3& p : sphere.positions)
+      scene->positions_world.push_back(p + glm::dvec3(2.5 * (i - 1.0), 0.0, 0.0));
+    scene->normals_world.insert(scene->normals_world.end(), sphere.normals.begin(), sphere.normals.end());
+    for (SceneTriangle t : sphere.triangles) {
+      for (int corner = 0; corner < 3; ++corner) t.position[corner] += first, t.normal[corner] += first;
+      t.material = i;
+      scene->triangles.push_back(t);
+    }
+  }
+  return scene;
+}
+
+Frame by_curve(const Scene& scene, FrameSize size, HighlightCurve curve, unsigned threads) {
+  const auto triangles = Projector(scene, size, {.subpixel_bits = 4}).project_all();
+  return render_spherical(scene, triangles, {.frame = size, .subpixel_bits = 4, .threads = threads},
+                          {.ends = SpanEnds::on_surface, .curve = curve})
+      .frame;
+}
+
+Status draw_figure_14(const Context& context, Drawing& out) {
+  constexpr FrameSize c_size{378, 126};
+  auto scene = smooth_highlights(context);
+  if (!scene) return scene.error();
+  scene->camera.vertical_fov_degrees = 17.5;
+  const Frame power = by_curve(*scene, c_size, HighlightCurve::power, context.threads);
+  const Frame squared = by_curve(*scene, c_size, HighlightCurve::squared_cosine, context.threads);
+  // The highlights alone, each as bright as can be.
+  for (Material& m : scene->materials) m.ambient = m.diffuse = 0.0, m.specular = 1.0;
+  const std::array bells{by_curve(*scene, c_size, HighlightCurve::power, context.threads),
+                         by_curve(*scene, c_size, HighlightCurve::squared_cosine, context.threads)};
+  const auto count = [&](const Frame& frame, std::uint32_t third, int least) {
+    int pixels = 0;
+    for (std::uint32_t y = 0; y < c_size.height; ++y)
+      for (std::uint32_t x = third * c_size.width / 3; x < (third + 1) * c_size.width / 3; ++x)
+        pixels += frame.rgb[frame.offset(x, y)] >= least ? 1 : 0;
+    return pixels;
+  };
+  constexpr int c_halo = 1, c_centre = 230;  // of 255
+  std::string halos, centres;
+  double least_halo = 1e9, largest_centre = 0.0;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const auto ratio = [&](int least) {
+      return static_cast<double>(count(bells[0], i, least)) / count(bells[1], i, least);
+    };
+    const double halo = ratio(c_halo), centre = ratio(c_centre);
+    halos += fmt::format("{}{:.2f}", i == 0 ? "" : ", ", halo);
+    centres += fmt::format("{}{:.2f}", i == 0 ? "" : ", ", centre);
+    least_halo = std::min(least_halo, halo);
+    largest_centre = std::max(largest_centre, centre);
+  }
+  out.measured["halos (pixels of 1/255 and more), cosⁿ as a multiple of cos² ax"] = {halos, least_halo};
+  out.measured["centres (pixels of 230/255 and more), likewise"] = {centres, largest_centre};
+  const FrameDistance apart = distance(power, squared, {});
+  out.measured["the two pictures"] = {shown(apart), static_cast<double>(apart.max_lsb)};
+  return save_picture(context, "spherical-14", sheet(std::array{power, squared}, 1),
+                      "Spheres of exponents 5, 10 and 20: highlights by cosⁿ above, by cos² ax below", out);
+}
+
+Figure figure_14() {
+  return {
+      "spherical-14",
+      c_paper,
+      "figure 14",
+      "spheres of exponents 5, 10 and 20, highlights by cosⁿ x (left) and by cos² ax (right).",
+      "the same, above and below, by spherical interpolation in double on fine spheres.",
+      {{"halos (pixels of 1/255 and more), cosⁿ as a multiple of cos² ax", "slightly bigger", at_least(1.0)},
+       {"centres (pixels of 230/255 and more), likewise", "smaller", at_most(1.0)},
+       {"the two pictures", "differ a little", at_least(c_close, "/255")}},
+      draw_figure_14};
+}
+
+Frame cut(const Frame& frame, std::uint32_t left, std::uint32_t top, FrameSize size) {
+  Frame part(size);
+  for (std::uint32_t y = 0; y < size.height; ++y)
+    std::copy_n(frame.rgb.begin() + static_cast<std::ptrdiff_t>(frame.offset(left, top + y)), 3 * size.width,
+                part.rgb.begin() + static_cast<std::ptrdiff_t>(part.offset(0, y)));
+  return part;
+}
+
+Status draw_figure_15(const Context& context, Drawing& out) {
+  const auto scene = load_scene("highlights", context.scenes());
+  if (!scene) return scene.error();
+  const auto triangles = Projector(*scene, c_rings_frame, {.subpixel_bits = 4}).project_all();
+  const Frame without =
+      render_spherical(*scene, triangles,
+                       {.frame = c_rings_frame, .subpixel_bits = 4, .threads = context.threads},
+                       {.ends = SpanEnds::slerped_along_edges, .curve = HighlightCurve::squared_cosine})
+          .frame;
+  const Rings none = measure_rings(without, without);
+  std::vector<Frame> parts;
+  std::array<Rings, 2> rings;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int bits = c_figure_11_bits[i];
+    const auto drawn = draw_in_hardware(
+        context, *scene, c_rings_frame,
+        {.shader = Shader::spherical, .preset = Preset::published, .tables = TableSize{bits, bits}});
+    if (!drawn) return drawn.error();
+    rings[i] = measure_rings(drawn->frame, without);
+    parts.push_back(cut(drawn->frame, 252, 157, {136, 136}));
+    out.measured[fmt::format("{} bits: largest step between neighbouring pixels at highlights", bits)] = {
+        fmt::format("{}/255; without tables {}/255", rings[i].largest_step, none.largest_step),
+        static_cast<double>(rings[i].largest_step - none.largest_step)};
+  }
+  out.measured["rms error of 6 bits as a part of that of 4"] = {
+      fmt::format("{:.2f} ({:.1f}/255 of {:.1f}/255)", rings[1].rms_error / rings[0].rms_error,
+                  rings[1].rms_error, rings[0].rms_error),
+      rings[1].rms_error / rings[0].rms_error};
+  const auto exact = draw_in_hardware(context, *scene, c_rings_frame, {.shader = Shader::spherical});
+  if (!exact) return exact.error();
+  parts.push_back(cut(exact->frame, 252, 157, {136, 136}));
+  return save_picture(
+      context, "spherical-15", sheet(parts, 3),
+      "A coarse sphere by tables of 4 bits, with rings around its highlight, by tables of 6 bits, "
+      "with faint ones, and by preset exact, without",
+      out);
+}
+
+Figure figure_15() {
+  return {"spherical-15",
+          c_paper,
+          "figure 15",
+          "coarse spheres by this method, 4 bits (left) and 6 bits (right).",
+          "the middle sphere of `highlights`, 168 triangles, exponent 10, by the RTL: tables of 4 address "
+          "and 4 data "
+          "bits, of 6 and 6, and preset exact, 9 and 8.",
+          {{"4 bits: largest step between neighbouring pixels at highlights", "rings are seen",
+            at_least(c_visible, "/255 above that without tables")},
+           {"6 bits: largest step between neighbouring pixels at highlights", "the rings have gone",
+            at_most(c_close, "/255 above that without tables"),
+            "63 levels of the data and 32 addresses a flank are fainter rings, not none: it takes 9 address "
+            "and 8 "
+            "data bits"},
+           {"rms error of 6 bits as a part of that of 4", "much smaller", at_most(0.5)}},
+          draw_figure_15};
+}
+
+// ---- Figure 16 ----
+
+constexpr FrameSize c_mesh_size{144, 108};
+
+constexpr std::array c_figure_16_ways{"the method in double against Phong shading",
+                                      "the published hardware against Phong shading",
+                                      "preset exact against Phong shading"};
+
+Status draw_figure_16(const Context& context, Drawing& out) {
+  auto teapot = teapot_scene(context);
+  if (!teapot) return teapot.error();
+  std::vector<Frame> pictures;
+  for (const auto& [name, scene] : {std::pair{"hen", hen_scene()}, std::pair{"teapot", std::move(*teapot)}}) {
+    for (const FrameSize size : {c_compared_size, c_mesh_size}) {
+      if (context.quick && size.width == c_compared_size.width) continue;
+      const Software software = draw_in_software(scene, size, context.threads);
+      std::vector<Frame> drawn{draw_mesh(scene, size, context.threads), software.phong.frame};
+      const auto by = [&, &scene = scene](HighlightCurve curve) {
+        return render_spherical(scene, software.triangles,
+                                {.frame = size, .subpixel_bits = 4, .threads = context.threads},
+                                {.ends = SpanEnds::slerped_along_edges, .curve = curve})
+            .frame;
+      };
+      drawn.push_back(by(HighlightCurve::squared_cosine));
+      for (const Preset preset : {Preset::published, Preset::exact}) {
+        const auto hardware =
+            draw_in_hardware(context, scene, size, {.shader = Shader::spherical, .preset = preset});
+        if (!hardware) return hardware.error();
+        drawn.push_back(hardware->frame);
+      }
+      if (size.width == c_mesh_size.width) {
+        pictures.insert(pictures.end(), drawn.begin(), drawn.end());
+        continue;
+      }
+      for (std::size_t i = 0; i < c_figure_16_ways.size(); ++i) {
+        const auto alike = likeness(drawn[2 + i], software.phong.frame, software.phong.mask);
+        if (!alike) return alike.error();
+        Measured measured = alike->measured();
+        if (i == 0) {
+          const auto power = likeness(by(HighlightCurve::power), software.phong.frame, software.phong.mask);
+          if (!power) return power.error();
+          measured.text += fmt::format("; with cosⁿ itself {:.2f} % and {}/255", power->seen_percent,
+                                       power->distance.max_lsb);
+        }
+        out.measured[fmt::format("{}: {}", name, c_figure_16_ways[i])] = measured;
+      }
+    }
+  }
+  return save_picture(
+      context, "spherical-16", sheet(pictures, 5),
+      "A hen and the teapot: mesh, Phong shading, the published method in double, the published "
+      "hardware with ghost highlights, and preset exact",
+      out);
+}
+
+Figure figure_16() {
+  Figure figure{
+      "spherical-16",
+      c_paper,
+      "figure 16",
+      "the mesh of a chicken (left), its image by classical Phong shading (middle) and by this method "
+      "(right). The mesh was not published.",
+      "a hen of our own and the teapot: mesh, per-pixel Phong shading, the published method in double "
+      "(slerp along the edges, cos² ax), then the RTL in presets published and exact.",
+      {},
+      draw_figure_16};
+  for (const char* name : {"hen", "teapot"}) {
+    const std::array why_not{name == std::string_view("hen")
+                                 ? "not the curve: vectors turned along a triangle's edges and then "
+                                   "along its lines are not the surface's where it bends sharply"
+                                 : "",
+                             "the 12-bit angle wraps: past the bell's end the table begins anew, a ghost "
+                             "highlight; the images of the paper are its software's",
+                             ""};
+    for (std::size_t i = 0; i < c_figure_16_ways.size(); ++i)
+      figure.claims.push_back(looks_alike(fmt::format("{}: {}", name, c_figure_16_ways[i]),
+                                          "looks like Phong shading", why_not[i]));
+  }
+  return figure;
+}
+
+// ---- Sections 3.2 and 6: one vector fixed, or both interpolated ----
+
+struct Turn {
+  glm::dvec3 begin, end;
+};
+
+// The largest angle between the two schemes' angles on the way, in degrees.
+double scheme_angle(const Turn& u, const Turn& v) {
+  constexpr int c_steps = 16;
+  const CosineArc arc = cosine_arc(u.begin, u.end, v.begin, v.end);
+  double largest = 0.0;
+  for (int i = 1; i < c_steps; ++i) {
+    const double t = static_cast<double>(i) / c_steps;
+    const double both = glm::dot(slerp(u.begin, u.end, t), slerp(v.begin, v.end, t));
+    const double angle = [](double c) { return std::acos(std::clamp(c, -1.0, 1.0)); }(arc.at(t)) -
+                         std::acos(std::clamp(both, -1.0, 1.0));
+    largest = std::max(largest, std::abs(angle));
+  }
+  return largest * 180.0 / std::numbers::pi;
+}
+
+// Over the edges of what is seen, each light's N.L and N.H.
+double largest_scheme_angle(const Scene& scene, FrameSize size) {
+  double largest = 0.0;
+  for (const ScreenTriangle& t : Projector(scene, size, {}).project_all())
+    for (int i = 0; i < 3; ++i) {
+      const std::array ends{&t.vertex[i], &t.vertex[(i + 1) % 3]};
+      std::array<glm::dvec3, 2> n, to_eye;
+      for (int k = 0; k < 2; ++k) {
+        n[k] = glm::normalize(ends[k]->normal_world);
+        to_eye[k] = direction(ends[k]->position_world, scene.camera.eye_world);
+      }
+      const auto add = [&](glm::dvec3 l0, glm::dvec3 l1) {
+        if (glm::dot(n[0], l0) <= 0.0 || glm::dot(n[1], l1) <= 0.0) return;
+        largest = std::max(
+            {largest, scheme_angle({n[0], n[1]}, {l0, l1}),
+             scheme_angle({n[0], n[1]}, {glm::normalize(l0 + to_eye[0]), glm::normalize(l1 + to_eye[1])})});
+      };
+      for (const DirectionalLight& light : scene.directional) add(light.to_light_world, light.to_light_world);
+      for (const PositionalLight& light : scene.positional)
+        add(direction(ends[0]->position_world, light.position_world),
+            direction(ends[1]->position_world, light.position_world));
+    }
+  return largest;
+}
+
+FrameDistance between_schemes(const Scene& scene, FrameSize size, unsigned threads) {
+  const auto triangles = Projector(scene, size, {.subpixel_bits = 4}).project_all();
+  const RenderOptions options{.frame = size, .subpixel_bits = 4, .threads = threads};
+  const auto by = [&](VectorScheme scheme) {
+    return render_spherical(scene, triangles, options, {scheme, SpanEnds::slerped_along_edges});
+  };
+  const ReferenceImage fixed = by(VectorScheme::one_fixed);
+  return distance(fixed.frame, by(VectorScheme::both_interpolated).frame, fixed.mask);
+}
+
+// 36 triangles close to a light: vectors turn far on each.
+Scene close_light_scene() {
+  Scene scene =
+      scene_of(make_uv_sphere(6, 4, 1.0), {.colour = glm::dvec3(0.6), .exponent = 50.0}, {0.0, 0.0, 1.0});
+  scene.directional.clear();
+  scene.ambient = glm::dvec3(0.2);
+  scene.positional = {{{0.45, 0.6, 1.0}, glm::dvec3(1.0)}};
+  scene.camera = {.eye_world = {0.0, 0.0, 3.2}};
+  return scene;
+}
+
+// Equation 15's last line as printed, and equations 16 and 17, against the vectors themselves: the largest
+// deviation of the cosine.
+struct EquationErrors {
+  double printed_15 = 0.0, from_16 = 0.0;
+};
+EquationErrors equation_errors() {
+  std::mt19937 random(15);
+  std::normal_distribution<double> normal;
+  EquationErrors errors;
+  for (int i = 0; i < 1000; ++i) {
+    const auto unit = [&] {
+      return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+    };
+    const glm::dvec3 u1 = unit(), u2 = unit(), v = unit();
+    const double cos_gamma = glm::dot(u1, u2), gamma = std::acos(cos_gamma), sin_gamma = std::sin(gamma);
+    if (sin_gamma < 0.1) continue;
+    const double cos_1 = glm::dot(u1, v), cos_2 = glm::dot(u2, v);
+    for (const double t : {0.25, 0.5, 0.75}) {
+      const double right = glm::dot(slerp(u1, u2, t), v);
+      const double printed =
+          std::cos(t * gamma) * cos_1 + std::sin(t * gamma) * (cos_1 * cos_gamma - cos_2) / sin_gamma;
+      const double b = (cos_2 - cos_1 * cos_gamma) / sin_gamma;
+      const double by_16 = std::hypot(cos_1, b) * std::cos(t * gamma - std::atan2(b, cos_1));
+      errors.printed_15 = std::max(errors.printed_15, std::abs(printed - right));
+      errors.from_16 = std::max(errors.from_16, std::abs(by_16 - right));
+    }
+  }
+  return errors;
+}
+
+Status draw_schemes(const Context& context, Drawing& out) {
+  constexpr FrameSize c_size{320, 240};
+  double angle = 0.0;
+  unsigned largest = 0;
+  for (const char* name : {"spheres", "highlights", "teapot", "lights"}) {
+    const auto scene = load_scene(name, context.scenes());
+    if (!scene) return scene.error();
+    angle = std::max(angle, largest_scheme_angle(*scene, c_size));
+    largest = std::max(largest, between_schemes(*scene, c_size, context.threads).max_lsb);
+  }
+  out.measured["built-in scenes: largest difference of the pictures"] = {
+      fmt::format("{}/255; the angles differ by up to {:.2f}°", largest, angle),
+      static_cast<double>(largest)};
+  const Scene close = close_light_scene();
+  const FrameDistance apart = between_schemes(close, c_size, context.threads);
+  out.measured["a sphere of 36 triangles close to a light: the pictures"] = {
+      fmt::format("{}; the angles differ by up to {:.1f}°", shown(apart),
+                  largest_scheme_angle(close, c_size)),
+      static_cast<double>(apart.max_lsb)};
+  const EquationErrors errors = equation_errors();
+  out.measured["equation 15, last line, as printed"] = {
+      fmt::format("off the vectors' cosine by up to {:.2f}", errors.printed_15), errors.printed_15};
+  // Rounding alone, which a compiler may do otherwise: the page says a bound.
+  constexpr double c_rounding = 1e-13;
+  const double from_16 = std::max(errors.from_16, c_rounding);
+  out.measured["equations 16 and 17"] = {fmt::format("equal within {:.0e}", from_16), from_16};
+
+  // Both turn by the same angle, in planes that stand on one another.
+  std::vector<std::vector<double>> rows;
+  for (int degrees = 0; degrees <= 90; degrees += 2) {
+    const double a = degrees / 180.0 * std::numbers::pi, c = std::cos(a), s = std::sin(a);
+    rows.push_back({static_cast<double>(degrees),
+                    scheme_angle({{0, 0, 1}, {s, 0, c}}, {{0, 0, 1}, {0, s, c}}),
+                    scheme_angle({{0, 0, 1}, {s, 0, c}}, {{0, 0, 1}, {-s, 0, c}}),
+                    scheme_angle({{0.6, 0, 0.8}, {0.6 * c, 0.6 * s, 0.8}}, {{0, 0, 1}, {0, s, c}})});
+  }
+  return draw_plot(
+      context, "spherical-schemes",
+      {.size = {640, 330},
+       .title = "How far the angle between two turning vectors differs where one is held fixed",
+       .script =
+           data_block("angles", rows) +
+           "set xlabel 'each vector turns by, degrees'\nset ylabel 'largest difference, degrees'\nset xrange "
+           "[0:90]\nset xtics 15\nset key top left\n"
+           "plot $angles using 1:2 with lines linetype 1 title 'from one direction, at right angles', "
+           "$angles using 1:3 with lines linetype 3 title 'from one direction, opposed', "
+           "$angles using 1:4 with lines linetype 2 title 'from 37° apart, at right angles'\n"},
+      out);
+}
+
+Figure schemes() {
+  return {
+      "spherical-schemes",
+      c_paper,
+      "section 6",
+      "text: interpolating two vectors at once, and one with the other held fixed, are visually "
+      "indistinguishable; equations 15 to 17 give the angle.",
+      "both in double; the plot has the angle's difference over how far the vectors turn between two ends.",
+      {{"built-in scenes: largest difference of the pictures", "indistinguishable", at_most(c_close, "/255")},
+       {"a sphere of 36 triangles close to a light: the pictures", "indistinguishable",
+        at_most(c_close, "/255"),
+        "vectors that turn far along a line: the one held fixed costs more there than it saves"},
+       {"equation 15, last line, as printed", "the cosine of the angle", at_most(1e-9),
+        "an error of the paper: the second term's sign is turned round"},
+       {"equations 16 and 17", "the cosine of the angle", at_most(1e-9)}},
+      draw_schemes};
+}
+
+}  // namespace
+
+std::vector<Figure> spherical_figures() {
+  return {figure_5(),  figure_9(),  figure_10(), table_1(),   figure_11(),
+          figure_14(), figure_15(), figure_16(), figure_17(), schemes()};
+}
+
+}  // namespace halfway::figures

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/figures/timing_diagram.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "sim/figures/plot.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway::figures {
+namespace {
+
+constexpr const char* c_top = "interpolator_timing_tb";
+
+/// A signal's lane in the picture, and what it waits for, as the hardware is wired.
+struct Lane {
+  std::string_view signal;
+  double y;
+  std::string_view title;
+  std::array<std::string_view, 2> inputs{};
+};
+constexpr std::array<Lane, 8> c_lanes = {{{"step", 9.7, "step"},
+                                          {"init", 8.8, "init"},
+                                          {"sum", 7.0, "adder, + ", {"angle"}},
+                                          {"next_angle", 6.0, "multiplexer", {"sum", "init"}},
+                                          {"angle", 5.0, "register", {"step"}},
+                                          {"ra", 3.2, "ra, its bits 11 to 6"},
+                                          {"sample", 2.2, "ROM", {"ra"}},
+                                          {"product", 1.2, "multiplier, × ", {"sample"}}}};
+
+const Lane& lane_of(std::string_view signal) {
+  return *std::ranges::find(c_lanes, signal, &Lane::signal);
+}
+
+std::string hexadecimal(std::string_view bits) {
+  if (bits.empty() || bits.find_first_not_of("01") != std::string_view::npos) return "X";
+  std::string padded((4 - bits.size() % 4) % 4, '0');
+  padded += bits;
+  std::string text;
+  for (std::size_t at = 0; at < padded.size(); at += 4)
+    text += "0123456789ABCDEF"[std::stoi(padded.substr(at, 4), nullptr, 2)];
+  return text;
+}
+
+class TraceBuilder {
+ public:
+  void name(const std::string& code, const std::string& signal, bool is_wire) {
+    const bool shown = std::ranges::find(c_lanes, signal, &Lane::signal) != c_lanes.end();
+    if (shown || signal == "slope" || signal == "factor") name_[code] = signal;
+    if (is_wire) wires_.insert(signal);
+  }
+  void at(double ns) { now_ = ns; }
+  void change(const std::string& code, const std::string& value) {
+    if (const auto found = name_.find(code); found != name_.end()) move(found->second, value);
+  }
+
+  TimingTrace finish() {
+    trace_.pixels.push_back({step_at_, now_});
+    trace_.end = now_;
+    for (const Lane& lane : c_lanes) close(std::string(lane.signal), now_);
+    for (int i = 0; i < pixels_; ++i)
+      trace_.words += fmt::format(
+          "{}Pixel {}: angle {}, ra {}, sample {}, product {}; beside it the sum for pixel {}, {}.",
+          i == 0 ? "" : " ", i, told_[{i, "angle"}], told_[{i, "ra"}], told_[{i, "sample"}],
+          told_[{i, "product"}], i + 1, told_[{i + 1, "sum"}]);
+    return std::move(trace_);
+  }
+
+ private:
+  // The signal's value ends now; it began to change when its input did.
+  void close(const std::string& signal, double began) {
+    if (!value_.contains(signal)) return;
+    const double since = since_[signal];
+    if (wires_.contains(signal))
+      trace_.wires.push_back({signal, since, now_, value_[signal] == "1" ? 1 : 0});
+    else if (now_ > since)
+      trace_.values.push_back({signal, since, now_, pixel_[signal], (since + began) / 2, value_[signal]});
+  }
+
+  int pixel_of(const std::string& signal) {
+    if (signal == "sum") return pixel_["angle"] + 1;
+    if (signal == "next_angle") return value_["init"] == "1" ? 0 : pixel_["sum"];
+    if (signal == "sample" || signal == "product") return pixel_[std::string(lane_of(signal).inputs[0])];
+    return pixels_ - 1;
+  }
+
+  void move(const std::string& signal, const std::string& to) {
+    if (const auto held = value_.find(signal); held != value_.end() && held->second == to) return;
+    if (signal == "slope" || signal == "factor") {
+      value_[signal] = to;
+      (signal == "slope" ? trace_.slope : trace_.factor) = to;
+      return;
+    }
+    double began = now_;
+    if (to != "X" && !lane_of(signal).inputs[0].empty()) {
+      began = 0.0;
+      for (const std::string_view input : lane_of(signal).inputs)
+        if (!input.empty()) began = std::max(began, since_[std::string(input)]);
+    }
+    close(signal, began);
+    value_[signal] = to;
+    since_[signal] = now_;
+    pixel_[signal] = to == "X" ? -1 : pixel_of(signal);
+    if (signal == "step" && to == "1") {
+      if (pixels_ > 0) {
+        trace_.pixels.push_back({step_at_, now_});
+        trace_.steps.push_back({step_at_, now_});
+      }
+      ++pixels_;
+      step_at_ = now_;
+      stage_1_.clear();
+    }
+    if (to == "X") return;
+    told_[{pixel_[signal], signal}] = fmt::format("{} at {:g} ns", to, now_);
+    if (began < now_) trace_.work.push_back({signal, began, now_, pixel_[signal]});
+    if (signal == "sum" || signal == "next_angle") stage_1_.push_back({began, now_});
+    if (signal != "product") return;
+    for (const TimingTrace::Span& s : stage_1_)
+      if (s.from < now_ && s.until > since_["ra"])
+        trace_.both.push_back({std::max(s.from, since_["ra"]), std::min(s.until, now_)});
+  }
+
+  TimingTrace trace_;
+  std::map<std::string, std::string> name_;  // by the VCD's code
+  std::set<std::string> wires_;
+  std::map<std::string, std::string> value_;
+  std::map<std::string, double> since_;
+  std::map<std::string, int> pixel_;
+  std::map<std::pair<int, std::string>, std::string> told_;
+  std::vector<TimingTrace::Span> stage_1_;  // at work since the last step
+  double now_ = 0.0, step_at_ = 0.0;
+  int pixels_ = 0;
+};
+
+std::vector<std::string> words_of(std::string_view line) {
+  std::vector<std::string> words;
+  for (std::size_t begin; (begin = line.find_first_not_of(" \t\r")) != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(" \t\r", begin), line.size());
+    words.emplace_back(line.substr(begin, end - begin));
+    line.remove_prefix(end);
+  }
+  return words;
+}
+
+}  // namespace
+
+Result<TimingTrace> timing_trace(std::string_view vcd) {
+  constexpr double c_femtoseconds = 1e6;  // in a nanosecond
+  TraceBuilder builder;
+  std::string scope;
+  while (!vcd.empty()) {
+    const std::size_t end = std::min(vcd.find('\n'), vcd.size());
+    const std::vector<std::string> word = words_of(vcd.substr(0, end));
+    vcd.remove_prefix(std::min(end + 1, vcd.size()));
+    if (word.empty()) continue;
+    const std::string& first = word[0];
+    if (first == "$scope" && word.size() > 2) {
+      scope += '/' + word[2];
+    } else if (first == "$upscope") {
+      scope.resize(std::min(scope.rfind('/'), scope.size()));
+    } else if (first == "$var" && word.size() > 4 && scope == '/' + std::string(c_top)) {
+      builder.name(word[3], word[4].substr(0, word[4].find('[')), word[2] == "1");
+    } else if (first[0] == '#') {
+      builder.at(std::strtod(first.c_str() + 1, nullptr) / c_femtoseconds);
+    } else if (first[0] == 'b' && word.size() > 1) {
+      builder.change(word[1], hexadecimal(std::string_view(first).substr(1)));
+    } else if (first[0] == '0' || first[0] == '1') {
+      builder.change(first.substr(1), first.substr(0, 1));
+    }
+  }
+  TimingTrace trace = builder.finish();
+  if (trace.steps.empty() || trace.values.empty())
+    return tool_failed("the timing model's trace has no steps");
+  return trace;
+}
+
+namespace {
+
+Result<TimingTrace> simulated(const Context& context) {
+  const auto tool = GhdlTool::find();
+  if (!tool) return tool.error();
+  auto rtl = read_rtl_sources(context.folders.source);
+  if (!rtl) return rtl.error();
+  std::vector<VhdlSource> sources;
+  for (VhdlSource& source : *rtl)
+    if (source.name.find("tables/") != std::string::npos && source.name.ends_with("_pkg.vhd"))
+      sources.push_back(std::move(source));
+  for (const char* name :
+       {"tb/tb_pkg.vhd", "tb/timing/interpolator_timing.vhd", "tb/timing/interpolator_timing_tb.vhd"}) {
+    auto source = read_vhdl_source(context.folders.source, name);
+    if (!source) return source.error();
+    sources.push_back(std::move(*source));
+  }
+  const auto library = GhdlLibrary::open(*tool, sources, c_top, context.folders.cache);
+  if (!library) return library.error();
+  auto scratch = TemporaryFolder::make(context.folders.cache);
+  if (!scratch) return scratch.error();
+  const std::filesystem::path vcd = std::filesystem::absolute(scratch->path()) / "trace.vcd";
+  Command command{.arguments = library->run_arguments(c_top), .working_folder = library->folder()};
+  for (const std::string& option :
+       {std::string("-gg_lines=1"), "--vcd=" + vcd.string(), std::string("--ieee-asserts=disable"),
+        std::string("--assert-level=error")})
+    command.arguments.push_back(option);
+  const auto end = run_process(command, kInstallGhdl);
+  if (!end) return end.error();
+  if (!end->succeeded())
+    return Error{ExitCode::differs, fmt::format("{}: {}\n{}", c_top, end->how(), end->output)};
+  const auto text = read_file(vcd);
+  if (!text) return text.error();
+  return timing_trace(*text);
+}
+
+template <class Rows, class Line>
+std::string block(const char* name, const Rows& rows, const Line& line) {
+  std::string text = fmt::format("${} << EOD\n", name);
+  for (std::size_t i = 0; i < rows.size(); ++i) text += line(rows[i], i) + '\n';
+  return text + "EOD\n";
+}
+
+// A pixel keeps its colour from lane to lane, pale at rest and full at work; what belongs to none is grey.
+constexpr std::string_view c_drawing = R"(half = 0.31
+pales = "0xcfe4f7 0xd2eecb 0xfde1c2 0xe6d9f5 0xededed"
+fulls = "0x7ab4e6 0x86cf76 0xf6ae5f 0xb897e0 0xc4c4c4"
+number(pixel) = pixel < 0 || pixel > 3 ? 5 : int(pixel) + 1
+pale(pixel) = int(word(pales, number(pixel)))
+full(pixel) = int(word(fulls, number(pixel)))
+ink = "#1f2328"
+faint = "#8b949e"
+bright = 0xfff1a3
+set lmargin at screen 0.15
+set rmargin at screen 0.985
+set tmargin at screen 0.985
+set bmargin at screen 0.165
+set yrange [0.6:11.7]
+unset key
+unset ytics
+set border 1 linecolor rgb ink
+set xtics 0, 30 out nomirror scale 0.7, 0.35 textcolor rgb ink offset 0, 0.3
+set mxtics 6
+set xlabel "time in ns" textcolor rgb ink offset 0, 0.7
+set label 9 "{/:Bold Stage 1}: line interpolator" at graph -0.138, first 7.85 left textcolor rgb ink
+set label 10 "{/:Bold Stage 2}: ROM and multiplier" at graph -0.138, first 4.05 left textcolor rgb ink
+array swatches[4] = [pale(0), pale(-1), full(0), bright]
+array meanings[4] = ["hexadecimal value, in its pixel's colour", "no pixel's", "new value forms, for 10 ns", \
+  "both stages at work"]
+array places[4] = [0.15, 0.472, 0.597, 0.829]
+set for [i = 1:4] object i rectangle from screen places[i], 0.03 to screen places[i] + 0.026, 0.06 \
+  fillcolor rgb swatches[i] fillstyle solid border linecolor rgb ink
+set for [i = 1:4] label 10 + i meanings[i] at screen places[i] + 0.031, 0.045 left textcolor rgb ink
+set label 15 "10" at screen places[3] + 0.013, 0.045 center font ",10" textcolor rgb ink front
+set style fill solid noborder
+plot \
+  $both using 1:(4):1:2:(0.75):(7.5) with boxxyerror linecolor rgb bright, \
+  $pixels using 2:(0.6):(0):(10.1) with vectors nohead linecolor rgb faint dashtype (3, 3), \
+  $pixels using 2:(11.2):2:3:(10.95):(11.55):(pale($1)) with boxxyerror linecolor rgb variable, \
+  $pixels using (($2 + $3) / 2):(11.25):(sprintf("pixel %d", $1)) with labels textcolor rgb ink, \
+  $steps using 1:(10.5):($2 - $1):(0) with vectors heads filled size 3, 15 linecolor rgb ink, \
+  $steps using (($1 + $2) / 2):(10.68):(sprintf("%g ns", $2 - $1)) with labels textcolor rgb ink, \
+  $values using 2:1:2:3:($1 - half):($1 + half):(pale($4)) with boxxyerror linecolor rgb variable, \
+  $work using 2:1:2:3:($1 - half):($1 + half):(full($4)) with boxxyerror linecolor rgb variable, \
+  $values using 2:1:2:3:($1 - half):($1 + half) with boxxyerror fillstyle empty linecolor rgb ink, \
+  $wires using 2:($1 + half * (2 * $4 - 1)):($3 - $2):(0) with vectors nohead linecolor rgb ink linewidth 1.5, \
+  $wires using ($2 > 0 ? $2 : NaN):($1 - half):(0):(2 * half) with vectors nohead linecolor rgb ink linewidth 1.5, \
+  $values using ($3 - $2 > 10 ? $5 : NaN):1:6 with labels textcolor rgb ink, \
+  $work using (($2 + $3) / 2):1:(sprintf("%g", $3 - $2)) with labels font ",10" textcolor rgb ink
+)";
+
+std::string script_of(const TimingTrace& trace) {
+  const auto span = [](const TimingTrace::Span& s, std::size_t) {
+    return fmt::format("{} {}", s.from, s.until);
+  };
+  std::string text;
+  text += block("both", trace.both, span);
+  text += block("steps", trace.steps, span);
+  text += block("pixels", trace.pixels, [](const TimingTrace::Span& s, std::size_t i) {
+    return fmt::format("{} {} {}", i, s.from, s.until);
+  });
+  text += block("wires", trace.wires, [](const TimingTrace::Wire& w, std::size_t) {
+    return fmt::format("{} {} {} {}", lane_of(w.signal).y, w.from, w.until, w.level);
+  });
+  text += block("values", trace.values, [](const TimingTrace::Value& v, std::size_t) {
+    return fmt::format("{} {} {} {} {} {}", lane_of(v.signal).y, v.from, v.until, v.pixel, v.middle, v.text);
+  });
+  text += block("work", trace.work, [](const TimingTrace::Work& w, std::size_t) {
+    return fmt::format("{} {} {} {}", lane_of(w.signal).y, w.from, w.until, w.pixel);
+  });
+  text += fmt::format("set xrange [0:{}]\n", trace.end);
+  for (std::size_t i = 0; i < c_lanes.size(); ++i)
+    text += fmt::format("set label {} \"{}{}\" at graph -0.012, first {} right textcolor rgb '#1f2328'\n",
+                        i + 1, c_lanes[i].title,
+                        c_lanes[i].signal == "sum"       ? trace.slope
+                        : c_lanes[i].signal == "product" ? trace.factor
+                                                         : "",
+                        c_lanes[i].y);
+  return text + std::string(c_drawing);
+}
+
+// "5 ns" where it is always the same.
+Measured always(const std::vector<double>& times) {
+  const auto [least, most] = std::ranges::minmax(times);
+  if (least != most) return {fmt::format("{} to {} ns", least, most)};
+  return {fmt::format("{} ns", least), least};
+}
+
+Status draw_figure_17(const Context& context, Drawing& out) {
+  const auto trace = simulated(context);
+  if (!trace) return trace.error();
+  const auto work = [&](const char* signal) {
+    std::vector<double> times;
+    for (const TimingTrace::Work& w : trace->work)
+      if (w.signal == signal) times.push_back(w.until - w.from);
+    return times;
+  };
+  std::vector<double> steps;
+  for (const TimingTrace::Span& s : trace->steps) steps.push_back(s.until - s.from);
+  out.measured["cycle of `step`"] = always(steps);
+  const double frames = std::floor(1e9 / (steps.front() * 1e6));
+  out.measured["frames a second at 1000×1000"] = {
+      fmt::format("{} ({:.2f})", frames, 1e9 / (steps.front() * 1e6)), frames};
+  for (const auto& [what, signal] :
+       {std::pair{"multiplexer", "next_angle"}, {"adder", "sum"}, {"register", "angle"}}) {
+    const std::vector<double> times = work(signal);
+    if (times.empty()) return tool_failed(fmt::format("the timing model's trace has no work of {}", signal));
+    out.measured[what] = always(times);
+  }
+  double together = 0.0;
+  for (const TimingTrace::Span& s : trace->both) together += s.until - s.from;
+  out.measured["both stages at work at once"] = {
+      fmt::format("{} ns in {} pixels", together, trace->pixels.size()), together};
+  return draw_plot(context, "spherical-17",
+                   {.size = {1080, 590},
+                    .title = "Timing of the line interpolator, ROM and multiplier: two stages that overlap",
+                    .words = trace->words,
+                    .script = script_of(*trace)},
+                   out);
+}
+
+}  // namespace
+
+Figure figure_17() {
+  return {"spherical-17",
+          "spherical",
+          "figure 17",
+          "timing diagram of the hardware; delays of an XCV300-6.",
+          "the timing model of the published line interpolator with ROM and multiplier (tb/timing), from its "
+          "trace in "
+          "GHDL: while ROM and multiplier work on a pixel, the adder forms the next one's angle.",
+          {{"cycle of `step`", "60 ns", within(60, 0, " ns")},
+           {"multiplexer", "5 ns", within(5, 0, " ns")},
+           {"adder", "10 ns", within(10, 0, " ns")},
+           {"register", "5 ns", within(5, 0, " ns")},
+           {"both stages at work at once", "the two stages overlap", at_least(1, " ns")},
+           {"frames a second at 1000×1000", "16", within(16, 0)}},
+          draw_figure_17};
+}
+
+}  // namespace halfway::figures

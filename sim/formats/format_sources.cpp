@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/formats/format_sources.hpp"
+
+#include <fmt/format.h>
+
+#include "sim/system/file.hpp"
+
+namespace halfway {
+
+std::vector<std::string> format_sources(Shader shader) {
+  return {"sim/formats/harness.cpp", "model/setup/half_triangle.cpp", "model/setup/init_vector.cpp",
+          fmt::format("model/setup/{}_setup.cpp", to_string(shader))};
+}
+
+Result<std::string> format_sources_hash(const std::filesystem::path& source) {
+  std::vector<std::filesystem::path> files = {
+      "model/golden_run/golden_run.cpp"};  // which the harness includes
+  for (const Shader shader : c_shaders)
+    for (const std::string& file : format_sources(shader)) files.emplace_back(file);
+  const auto headers = files_below(source / "model", ".hpp");
+  if (!headers) return headers.error();
+  for (const std::filesystem::path& header : *headers) files.push_back("model" / header);
+  ContentHash hash;
+  for (const std::filesystem::path& file : files) {
+    const auto text = read_file(source / file);
+    if (!text) return text.error();
+    hash.add(file.string()).add(*text);
+  }
+  return hash.hex();
+}
+
+}  // namespace halfway

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/formats/made_formats.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "sim/formats/format_sources.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/folder_lock.hpp"
+#include "tables/formats.hpp"
+#include "tables/functions.hpp"
+
+namespace halfway {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* c_library = "formats.so";
+
+// As CMakeLists.txt compiles these, but for a library's place in memory: the host's instructions are
+// compared. Nothing that both have may be taken for the other's: not an inline constant either.
+constexpr std::array c_flags = {
+    "-std=gnu++20", "-O2",           "-DFMT_SHARED",        "-fPIC",
+    "-shared",      "-pthread",      "-fvisibility=hidden", "-fvisibility-inlines-hidden",
+    "-w",           "-Wl,-Bsymbolic"};
+
+}  // namespace
+
+Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& key,
+                                                             const SimulatorFolders& folders) {
+  const fs::path source = fs::absolute(folders.source);
+  const auto sources = format_sources_hash(source);
+  if (!sources) return sources.error();
+  if (*sources != built_from())
+    return bad_input(
+        fmt::format("{}: not what this program was built from, and word lengths other than the preset's take "
+                    "parts of both: build it anew with make program",
+                    (source / "model").lexically_normal().string()));
+  const bool exact = key.preset == Preset::exact;
+  const tables::WordLengths& words = key.words;
+  const std::string formats = tables::cpp_header(tables::preset_formats(exact, words));
+  const std::string functions = tables::function_cpp_header(tables::function_tables(exact, words));
+  const auto compiler = Compiler::find(HALFWAY_CXX);
+  if (!compiler) return compiler.error();
+  std::vector<std::string> flags(c_flags.begin(), c_flags.end());
+  // g++ would let the program and the library share inline variables.
+  if (compiler->program.find("clang") == std::string::npos) flags.emplace_back("-fno-gnu-unique");
+  flags.push_back(fmt::format("-DHALFWAY_SHADER={}", static_cast<int>(key.shader)));
+  flags.emplace_back(exact ? "-DHALFWAY_PRESET=Exact" : "-DHALFWAY_PRESET=Published");
+  ContentHash hash;
+  hash.add("formats 3").add(*sources).add(formats).add(functions).add(compiler->identity);
+  for (const std::string& flag : flags) hash.add(flag);
+
+  const fs::path parent = fs::absolute(folders.cache) / "formats";
+  const std::string name =
+      fmt::format("{}-{}-{}-{}", to_string(key.shader), to_string(key.preset), words.name(), hash.hex());
+  const fs::path folder = parent / name;
+  if (!fs::exists(folder / c_library)) {
+    // Half a minute's work: points of the same formats wait for the one that does it.
+    const fs::path locked = parent / (name + ".lock");
+    if (Status made = make_folders(locked); !made) return made.error();
+    const auto lock = FolderLock::take(locked, [] {});
+    if (!lock) return lock.error();
+    if (!fs::exists(folder / c_library)) {
+      auto fresh = TemporaryFolder::make(parent);
+      if (!fresh) return fresh.error();
+      if (Status made = make_folders(fresh->path() / "golden"); !made) return made.error();
+      for (const auto& [file, text] :
+           {std::pair{"formats.hpp", &formats}, std::pair{"function_tables.hpp", &functions}})
+        if (Status written = write_file(fresh->path() / "golden" / file, *text); !written)
+          return written.error();
+      Command compile{.arguments = {compiler->program}, .working_folder = fresh->path()};
+      compile.arguments.insert(compile.arguments.end(), flags.begin(), flags.end());
+      compile.arguments.insert(compile.arguments.end(),
+                               {"-I.", "-I" + (source / "model").string(), "-I" + source.string()});
+      for (const std::string& file : format_sources(key.shader))
+        compile.arguments.push_back((source / file).string());
+      compile.arguments.insert(compile.arguments.end(), {"-o", c_library});
+      if (auto done = run_tool(compile, kInstallCompiler, words.name()); !done) return done.error();
+      if (Status moved = fresh->move_to(folder); !moved) return moved.error();
+    }
+  }
+  auto library = SharedLibrary::load(folder / c_library);
+  if (!library) return library.error();
+  std::shared_ptr<MadeFormats> made(new MadeFormats(std::move(*library)));
+  if (Status bound = made->library_.bind(made->setup_, "halfway_make_setup", made->golden_model_,
+                                         "halfway_make_golden_model");
+      !bound)
+    return bound.error();
+  return std::shared_ptr<const MadeFormats>(std::move(made));
+}
+
+std::unique_ptr<Setup> MadeFormats::make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                                               const SetupOptions& options) const {
+  return std::unique_ptr<Setup>(setup_(scene, frame, key, options));
+}
+
+std::unique_ptr<GoldenModel> MadeFormats::make_golden_model(const HardwareKey& key) const {
+  return std::unique_ptr<GoldenModel>(golden_model_(key));
+}
+
+}  // namespace halfway

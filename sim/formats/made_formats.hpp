@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Setups and golden models with word lengths that the program was not built with: the same sources, compiled
+// with other formats into a shared library, cached.
+#pragma once
+
+#include <memory>
+
+#include "golden_run/golden_run.hpp"
+#include "plan/hardware_key.hpp"
+#include "setup/setup.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/system/shared_library.hpp"
+#include "tables/word_lengths.hpp"
+
+namespace halfway {
+
+class MadeFormats {
+ public:
+  /// For the key's shader, preset and word lengths. Compiles them by the compiler that compiled the program,
+  /// unless the cache has them. Bad input where what runs was built from other sources than the checkout's.
+  static Result<std::shared_ptr<const MadeFormats>> open(const HardwareKey& key,
+                                                         const SimulatorFolders& folders);
+
+  std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                                    const SetupOptions& options) const;
+  std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key) const;
+
+ private:
+  using MakeSetup = Setup*(const Scene&, const FrameSize&, const HardwareKey&, const SetupOptions&);
+  using MakeGoldenModel = GoldenModel*(const HardwareKey&);
+  explicit MadeFormats(SharedLibrary library) : library_(std::move(library)) {}
+  SharedLibrary library_;
+  MakeSetup* setup_ = nullptr;
+  MakeGoldenModel* golden_model_ = nullptr;
+};
+
+}  // namespace halfway

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The block diagrams in rtl/diagrams against the VHDL that they show.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <regex>
+#include <set>
+
+#include "plan/hardware_key.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway::report {
+namespace {
+
+using ::testing::ElementsAreArray;
+
+const std::filesystem::path c_rtl = std::filesystem::path(HALFWAY_SOURCE_DIR) / "rtl";
+
+std::string text_of(const std::filesystem::path& file) {
+  const auto text = read_file(file);
+  EXPECT_TRUE(text) << file;
+  return text ? *text : "";
+}
+
+std::set<std::string> found(const std::string& text, const char* pattern) {
+  std::set<std::string> all;
+  const std::regex expression(pattern);
+  for (std::sregex_iterator it(text.begin(), text.end(), expression), end; it != end; ++it)
+    all.insert((*it)[1]);
+  return all;
+}
+
+// Every entity that is instantiated in a top's tree, the top too.
+std::set<std::string> tree_of(const std::string& top) {
+  static const std::map<std::string, std::filesystem::path> c_files = [] {
+    std::map<std::string, std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(c_rtl))
+      if (entry.path().extension() == ".vhd") files[entry.path().stem()] = entry.path();
+    return files;
+  }();
+  std::set<std::string> tree;
+  std::vector<std::string> open = {top};
+  while (!open.empty()) {
+    const std::string entity = open.back();
+    open.pop_back();
+    if (!tree.insert(entity).second) continue;
+    for (const std::string& part : found(text_of(c_files.at(entity)), R"(entity work\.(\w+))"))
+      open.push_back(part);
+  }
+  return tree;
+}
+
+class Diagram : public ::testing::TestWithParam<Shader> {
+ protected:
+  std::string name_ = to_string(GetParam());
+  std::string dot_ = text_of(c_rtl / "diagrams" / (name_ + ".dot"));
+};
+INSTANTIATE_TEST_SUITE_P(Of, Diagram, ::testing::ValuesIn(c_shaders),
+                         [](const auto& shader) { return to_string(shader.param); });
+
+TEST_P(Diagram, NamesTheEntitiesOfTheShader) {
+  // Nodes and clusters; what stands behind __ is a role.
+  std::set<std::string> shown = found(dot_, R"(\n\s*subgraph cluster_(\w+) \{)");
+  for (const std::string& node : found(dot_, R"(\n\s*(\w+) \[[^\]]*label=)"))
+    if (!node.starts_with("port_")) shown.insert(node.substr(0, node.find("__")));
+  EXPECT_THAT(shown, ElementsAreArray(tree_of(name_ + "_shader")));
+}
+
+TEST_P(Diagram, LinksGoBetweenItsNodes) {
+  const std::set<std::string> nodes = found(dot_, R"(\n\s*(\w+) \[[^\]]*label=)");
+  for (const std::string& end : found(dot_, R"(-> (\w+))")) EXPECT_TRUE(nodes.contains(end)) << end;
+  for (const std::string& end : found(dot_, R"((\w+) ->)")) EXPECT_TRUE(nodes.contains(end)) << end;
+}
+
+TEST_P(Diagram, IsDrawnFromItsText) {
+  const std::string svg = text_of(c_rtl / "diagrams" / (name_ + ".svg"));
+  // Each line of a label, whichever Graphviz drew it.
+  for (std::string label : found(dot_, R"re(label="([^"]*)")re"))
+    for (std::size_t at = 0; at != std::string::npos;) {
+      const std::size_t end = label.find("\\n", at);
+      std::string line = label.substr(at, end == std::string::npos ? end : end - at);
+      line = std::regex_replace(line, std::regex("'"), "&#39;");
+      line = std::regex_replace(line, std::regex("^  "), " &#160;");
+      EXPECT_NE(svg.find('>' + line + '<'), std::string::npos) << line << ": run make diagrams";
+      at = end == std::string::npos ? end : end + 2;
+    }
+  for (const std::string& node : found(dot_, R"(\n\s*(\w+) \[[^\]]*label=)"))
+    EXPECT_NE(svg.find("<title>" + node + "</title>"), std::string::npos) << node << ": run make diagrams";
+  const auto count = [](const std::string& text, const std::string& word) {
+    std::size_t n = 0;
+    for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += word.size()) ++n;
+    return n;
+  };
+  EXPECT_EQ(count(svg, "class=\"edge\""), count(dot_, " -> "));
+}
+
+}  // namespace
+}  // namespace halfway::report

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/report/front.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <span>
+
+#include "sim/system/file.hpp"
+
+namespace halfway::report {
+namespace {
+
+constexpr const char* c_cells = "cells";
+constexpr const char* c_cycles = "cycles";
+
+// Those of a study's table that the front keeps.
+constexpr std::array c_columns = {
+    "scene",  "scene_hash",   "tools",    "point", "method", "preset",     "address_bits",  "data_bits",
+    "form",   "threshold",    "exponent", "width", "height", "angle_bits", "fraction_bits", "seed_bits",
+    "newton", "tessellation", "hardware", c_cells, c_cycles, "rms",        "largest_error", "psnr_db"};
+
+bool is_hardware(const Table& table, std::size_t row) {
+  return !table.text(row, "hardware").empty();
+}
+
+// Error against cells, or where they were not counted against clocks.
+Plot plot_of(const Table& front) {
+  bool counted = true;
+  for (std::size_t row = 0; row < front.rows.size(); ++row)
+    counted = counted && (!is_hardware(front, row) || front.number(row, c_cells));
+  Plot plot{
+      .x_label = counted ? "cells: LUTs (multipliers among them), flip-flops, memory" : "clocks of the frame",
+      .y_label = "rms error, steps of 1/255"};
+  for (std::size_t row = 0; row < front.rows.size(); ++row) {
+    const std::string series = series_of(front, row);
+    const auto found = std::ranges::find(plot.legend, series);
+    const auto number = static_cast<std::size_t>(found - plot.legend.begin());
+    if (found == plot.legend.end()) plot.legend.push_back(series);
+    const auto x = front.number(row, counted ? c_cells : c_cycles), y = front.number(row, "rms");
+    if (!is_hardware(front, row) || !x || !y || *x <= 0 || *y <= 0) continue;
+    plot.points.push_back({*x, *y, number, row, front.text(row, "point")});
+  }
+  plot.front = lower_left(plot.points);
+  return plot;
+}
+
+}  // namespace
+
+std::string series_of(const Table& table, std::size_t row) {
+  const std::string& method = table.text(row, "method");
+  const std::string& preset = table.text(row, "preset");
+  if (preset.empty()) return method + " (software)";
+  const std::string& form = table.text(row, "form");
+  return method + (preset == "exact" ? "" : ", " + preset) + (form == "folded" ? ", folded" : "");
+}
+
+std::string picture_of(const Table& table, std::size_t row) {
+  std::string text;
+  for (const char* column : {"scene_hash", "tessellation", "exponent", "width", "height"})
+    text += table.text(row, column) + " ";
+  return text;
+}
+
+std::vector<std::pair<double, double>> lower_left(const std::vector<PlotPoint>& points) {
+  std::vector<std::pair<double, double>> sorted, front;
+  for (const PlotPoint& point : points)
+    if (!point.aside) sorted.emplace_back(point.x, point.y);
+  std::ranges::sort(sorted);
+  for (const auto& point : sorted)
+    if (front.empty() || point.second < front.back().second) front.push_back(point);
+  return front;
+}
+
+std::string commonest_picture(const Table& study) {
+  std::map<std::string, std::size_t> designs;
+  for (std::size_t row = 0; row < study.rows.size(); ++row)
+    if (is_hardware(study, row)) ++designs[picture_of(study, row)];
+  const auto most = std::ranges::max_element(designs, {}, [](const auto& of) { return of.second; });
+  return most == designs.end() ? std::string() : most->first;
+}
+
+Table front_of(const Table& study) {
+  const std::string picture = commonest_picture(study);
+  Table front{{c_columns.begin(), c_columns.end()}, {}};
+  for (std::size_t row = 0; row < study.rows.size(); ++row) {
+    if (picture_of(study, row) != picture) continue;
+    std::vector<std::string>& values = front.rows.emplace_back();
+    for (const char* column : c_columns) values.push_back(study.text(row, column));
+  }
+  return front;
+}
+
+Result<std::string> draw_front(const Table& front, const std::filesystem::path& scratch) {
+  const Plot plot = plot_of(front);
+  if (plot.points.empty()) return bad_input("front: no design has both a cost and an error to plot");
+  return draw_plot(plot, scratch);
+}
+
+Result<std::string> readme_front(const Table& front) {
+  const Plot plot = plot_of(front);
+  for (const PlotPoint& point : plot.points)
+    if (!front.number(point.number, c_cells))
+      return bad_input("front: not all cells are counted; install Yosys");
+  if (plot.front.size() < 2) return bad_input("front: no two designs to join");
+  const auto name = [&](const PlotPoint& point) {
+    const std::string& text = front.text(point.number, "point");
+    return text.substr(0, text.find(fmt::format(", {}x{}", front.text(point.number, "width"),
+                                                front.text(point.number, "height"))));
+  };
+  const auto all = [&](const auto& which) {
+    std::vector<std::string> names;
+    for (const PlotPoint& point : plot.points)
+      if (which(point)) names.push_back(name(point));
+    return fmt::format("{}", fmt::join(names, " and "));
+  };
+  std::vector<std::string> joined, hidden;
+  for (const std::pair<double, double>& corner : plot.front)
+    joined.push_back(fmt::format("{} ({} cells, {:.3g})",
+                                 all([&](const PlotPoint& p) { return std::pair(p.x, p.y) == corner; }),
+                                 corner.first, corner.second));
+  for (std::size_t at = 0; at < plot.points.size(); ++at) {
+    const PlotPoint& here = plot.points[at];
+    const auto same = [&](const PlotPoint& p) { return p.x == here.x && p.y == here.y; };
+    const auto others = std::span(plot.points).first(at);
+    if (std::ranges::find_if(others, same) == others.end() &&
+        std::ranges::count_if(plot.points,
+                              [&](const PlotPoint& p) { return same(p) && p.series != here.series; }) > 0)
+      hidden.push_back(all(same));
+  }
+  return fmt::format(
+      "![Rms error against cells, a point for each of {} designs](sim/gallery/front.svg)\n\n"
+      "*What accuracy costs: {} designs that draw one picture. The dashed line joins those that no other "
+      "beats in both, cells and\nrms error in steps of 1/255:\n{}.{}\nDrawn from [its "
+      "table](sim/gallery/front.csv), which `make gallery` measures anew; `make report` has this plot and "
+      "others, with\npoints that open.*\n",
+      plot.points.size(), plot.points.size(), fmt::join(joined, ";\n"),
+      hidden.empty() ? "" : fmt::format("\nOne mark for equal figures: {}.", fmt::join(hidden, "; ")));
+}
+
+Result<std::size_t> write_front(const Table& study, const std::filesystem::path& folder,
+                                const std::filesystem::path& scratch) {
+  const Table front = front_of(study);
+  const std::size_t designs = plot_of(front).points.size();
+  if (designs == 0) return designs;
+  const auto svg = draw_front(front, scratch);
+  if (!svg) return svg.error();
+  if (!folder.empty())
+    if (Status made = make_folders(folder); !made) return made.error();
+  if (Status written = write_file(folder / "front.csv", to_csv(front)); !written) return written.error();
+  if (Status written = write_file(folder / "front.svg", *svg); !written) return written.error();
+  return designs;
+}
+
+}  // namespace halfway::report

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hardware: block diagrams, how a fragment comes about, and timing diagrams of a few clocks.
+#include <fmt/format.h>
+
+#include "sim/report/html.hpp"
+#include "sim/report/section.hpp"
+#include "sim/report/timing.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway::report {
+namespace {
+
+struct ShaderPart {
+  Shader shader;
+  const char* title;
+  const char* heading;  // of rtl/README.md
+};
+constexpr std::array c_parts = {
+    ShaderPart{Shader::quadratic, "The quadratic shader", "How a fragment comes about"},
+    ShaderPart{Shader::spherical, "The spherical shader",
+               "How a fragment comes about in the spherical shader"},
+    ShaderPart{Shader::processors, "The shading processors",
+               "How a fragment comes about in the shading processors"},
+};
+
+// What stands under a heading of the second level, to the next.
+Result<std::string> under(const std::string& markdown, const std::string& heading,
+                          const std::filesystem::path& file) {
+  const std::string mark = "\n## " + heading + "\n";
+  const std::size_t at = markdown.find(mark);
+  if (at == std::string::npos)
+    return bad_input(fmt::format("{}: has no heading '## {}'", file.string(), heading));
+  const std::size_t begin = at + mark.size();
+  return markdown.substr(begin, markdown.find("\n## ", begin) - begin);
+}
+
+}  // namespace
+
+Status add_hardware(Page& page) {
+  const std::filesystem::path rtl = page.settings.folders.source / "rtl";
+  const auto text = read_file(rtl / "README.md");
+  if (!text) return text.error();
+  std::string& html = page.parts["hardware"];
+  for (const ShaderPart& part : c_parts) {
+    const std::string name = to_string(part.shader);
+    const auto diagram = read_file(rtl / "diagrams" / (name + ".svg"));
+    if (!diagram) return diagram.error();
+    const auto svg = inline_svg(*diagram, name + "-",
+                                fmt::format("{}: its entities, and what goes between them", part.title));
+    if (!svg) return svg.error();
+    const auto words = under(*text, part.heading, rtl / "README.md");
+    if (!words) return words.error();
+    html += fmt::format(
+        "<h3 id=\"hardware/{}\">{}</h3>\n<div class=\"scroll diagram\" role=\"region\" tabindex=\"0\" "
+        "aria-label=\"{} as blocks\">{}</div>\n{}",
+        name, part.title, part.title, *svg, from_markdown(*words, part.title));
+    if (!page.settings.timing) continue;
+    page.settings.on_progress("timing: " + name);
+    const auto timing = draw_shader_timing(part.shader, page.settings.folders);
+    if (!timing) {
+      if (timing.error().code != ExitCode::tool_failed) return timing.error();
+      page.report.notes.push_back(fmt::format("no timing diagram of {}: {}", name, timing.error().message));
+      continue;
+    }
+    std::string drawn;
+    for (std::size_t n = 0; n < timing->svgs.size(); ++n) {
+      const std::string label = n == 0 ? fmt::format("The first clocks of two small triangles in {}: {}",
+                                                     timing->key, timing->words)
+                                       : "The clocks that follow";
+      const auto row = inline_svg(timing->svgs[n], fmt::format("{}-timing-{}-", name, n), label);
+      if (!row) return row.error();
+      drawn += *row;
+    }
+    html += fmt::format(
+        "<figure class=\"timing\" id=\"timing/{}\"><div class=\"scroll\" role=\"region\" tabindex=\"0\" "
+        "aria-label=\"{}: timing diagram\">{}</div><figcaption>Two small triangles in <code>{}</code>, "
+        "traced in "
+        "GHDL: clock 0 takes the first init vector. What a signal holds before each edge; "
+        "{}.</figcaption></figure>\n",
+        name, part.title, drawn, escaped(timing->key), escaped(timing->words));
+  }
+  return Ok{};
+}
+
+}  // namespace halfway::report

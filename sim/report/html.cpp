@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/report/html.hpp"
+
+#include <OpenImageIO/strutil.h>
+#include <cmark-gfm-core-extensions.h>
+#include <cmark-gfm.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <pugixml.hpp>
+#include <sstream>
+#include <vector>
+
+#include "sim/system/file.hpp"
+
+namespace halfway::report {
+namespace {
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+using Parser = std::unique_ptr<cmark_parser, decltype(&cmark_parser_free)>;
+using Node = std::unique_ptr<cmark_node, decltype(&cmark_node_free)>;
+
+bool is_outside(const char* url) {
+  return std::string_view(url).starts_with("https://") || std::string_view(url).starts_with("http://");
+}
+
+// What a page of its own has, and a part of another page has not.
+void adapt(cmark_node* document) {
+  std::vector<cmark_node*> all;
+  cmark_iter* walk = cmark_iter_new(document);
+  for (cmark_event_type event; (event = cmark_iter_next(walk)) != CMARK_EVENT_DONE;)
+    if (event == CMARK_EVENT_ENTER) all.push_back(cmark_iter_get_node(walk));
+  cmark_iter_free(walk);
+  for (cmark_node* node : all) {
+    const cmark_node_type type = cmark_node_get_type(node);
+    if (type == CMARK_NODE_HEADING) {
+      cmark_node_set_heading_level(node, std::min(6, cmark_node_get_heading_level(node) + 2));
+    } else if (type == CMARK_NODE_HTML_BLOCK) {
+      cmark_node_free(node);
+    } else if (type == CMARK_NODE_IMAGE ||
+               (type == CMARK_NODE_LINK && !is_outside(cmark_node_get_url(node)))) {
+      while (cmark_node* child = cmark_node_first_child(node)) cmark_node_insert_before(node, child);
+      cmark_node_free(node);
+    }
+  }
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '&')
+      safe += "&amp;";
+    else if (c == '<')
+      safe += "&lt;";
+    else if (c == '>')
+      safe += "&gt;";
+    else if (c == '"')
+      safe += "&quot;";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+std::string base64(std::string_view bytes) {
+  return OIIO::Strutil::base64_encode({bytes.data(), bytes.size()});
+}
+
+Result<std::string> data_uri(const std::filesystem::path& file, std::string_view media_type) {
+  const auto bytes = read_file(file);
+  if (!bytes) return bytes.error();
+  return fmt::format("data:{};base64,{}", media_type, base64(*bytes));
+}
+
+std::string script_safe(std::string json) {
+  replace_all(json, "<", "\\u003c");
+  return json;
+}
+
+std::string from_markdown(std::string_view markdown, std::string_view name) {
+  cmark_gfm_core_extensions_ensure_registered();
+  const Parser parser(cmark_parser_new(CMARK_OPT_DEFAULT), cmark_parser_free);
+  cmark_parser_attach_syntax_extension(parser.get(), cmark_find_syntax_extension("table"));
+  cmark_parser_feed(parser.get(), markdown.data(), markdown.size());
+  const Node document(cmark_parser_finish(parser.get()), cmark_node_free);
+  adapt(document.get());
+  const std::unique_ptr<char, decltype(&std::free)> html(
+      cmark_render_html(document.get(), CMARK_OPT_DEFAULT, cmark_parser_get_syntax_extensions(parser.get())),
+      std::free);
+  std::string text = html.get();
+  replace_all(text, "<table>",
+              fmt::format(R"(<div class="scroll" role="region" aria-label="{}: table" tabindex="0"><table>)",
+                          escaped(name)));
+  replace_all(text, "</table>", "</table></div>");
+  return text;
+}
+
+Result<std::string> inline_svg(const std::string& svg, const std::string& prefix, const std::string& label,
+                               const char* role) {
+  pugi::xml_document document;
+  const auto parsed = document.load_string(svg.c_str(), pugi::parse_default | pugi::parse_ws_pcdata);
+  pugi::xml_node root = document.child("svg");
+  if (!parsed || !root) return bad_input(prefix + ": is no SVG: " + parsed.description());
+  struct Renamer : pugi::xml_tree_walker {
+    const std::string& prefix;
+    explicit Renamer(const std::string& p) : prefix(p) {}
+    bool for_each(pugi::xml_node& node) override {
+      for (pugi::xml_attribute attribute : node.attributes()) {
+        const std::string_view key = attribute.name();
+        std::string value = attribute.value();
+        if (key == "id")
+          value = prefix + value;
+        else if (key.ends_with("href") && value.starts_with('#') && !value.starts_with("#point-"))
+          value = "#" + prefix + value.substr(1);
+        else
+          replace_all(value, "url(#", "url(#" + prefix);
+        // Black and white are the page's ink and paper.
+        if (value == "black" || value == "#000000" || value == "rgb(  0,   0,   0)")
+          value = "currentColor";
+        else if (value == "white" || value == "#ffffff" || value == "rgb(255, 255, 255)")
+          value = "none";
+        if (value != attribute.value()) attribute.set_value(value.c_str());
+      }
+      return true;
+    }
+  } renamer(prefix);
+  root.traverse(renamer);
+  // A viewBox keeps the proportions; the page says how wide, and knows how wide it was drawn.
+  if (!root.attribute("viewBox"))
+    root.append_attribute("viewBox") =
+        fmt::format("0 0 {} {}", root.attribute("width").as_int(), root.attribute("height").as_int()).c_str();
+  double width = 0.0;
+  if (std::sscanf(root.attribute("viewBox").value(), "%*f %*f %lf", &width) == 1)
+    root.append_attribute("style") = fmt::format("--width: {}px", width).c_str();
+  root.remove_attribute("width");
+  root.remove_attribute("height");
+  root.remove_attribute("role");
+  root.remove_attribute("aria-label");
+  root.append_attribute("role") = role;
+  root.append_attribute("aria-label") = label.c_str();
+  // Titles are tooltips, of what the label says already.
+  for (const char* name : {"title", "desc"}) root.remove_child(name);
+  std::ostringstream out;
+  root.print(out, "", pugi::format_raw | pugi::format_no_declaration);
+  return out.str();
+}
+
+}  // namespace halfway::report

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/report/html.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace halfway::report {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Html, TextIsSafe) {
+  EXPECT_EQ(escaped("a < b & \"c\" > d"), "a &lt; b &amp; &quot;c&quot; &gt; d");
+  EXPECT_EQ(script_safe("{\"a\": \"</script><!--\"}"), "{\"a\": \"\\u003c/script>\\u003c!--\"}");
+}
+
+TEST(Html, Base64IsThatOfRfc4648) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+TEST(Html, MarkdownBecomesAPartOfThePage) {
+  const std::string html = from_markdown(
+      "<!-- SPDX -->\n# Title\n\nSee [`here`](../there/README.md) and [there](https://example.org/).\n\n"
+      "![a picture](x.png)\n\n| a | b |\n| --- | --- |\n| 1 | < 2 |\n",
+      "A \"name\"");
+  EXPECT_THAT(html, AllOf(HasSubstr("<h3>Title</h3>"), HasSubstr("See <code>here</code> and"),
+                          HasSubstr("<a href=\"https://example.org/\">there</a>"), HasSubstr("a picture"),
+                          HasSubstr("aria-label=\"A &quot;name&quot;: table\" tabindex=\"0\"><table>"),
+                          HasSubstr("<td>&lt; 2</td>"), HasSubstr("</table></div>")));
+  EXPECT_THAT(html, AllOf(Not(HasSubstr("SPDX")), Not(HasSubstr("README")), Not(HasSubstr("<img"))));
+}
+
+TEST(Html, SvgsLieBesideEachOther) {
+  const auto svg = inline_svg(
+      "<?xml version=\"1.0\"?><!DOCTYPE svg><svg xmlns=\"http://www.w3.org/2000/svg\" width=\"20\" "
+      "height=\"10\">"
+      "<title>T</title><defs><g id=\"mark\"/></defs><use href=\"#mark\" stroke=\"black\"/>"
+      "<rect fill=\"url(#mark)\"/><rect fill=\"white\"/><a href=\"#point-3\"/></svg>",
+      "p-", "a < b");
+  ASSERT_TRUE(svg) << svg.error().message;
+  EXPECT_THAT(*svg, AllOf(HasSubstr("viewBox=\"0 0 20 10\""), HasSubstr("style=\"--width: 20px\""),
+                          HasSubstr("role=\"img\" aria-label=\"a &lt; b\""), HasSubstr("id=\"p-mark\""),
+                          HasSubstr("href=\"#p-mark\" stroke=\"currentColor\""), HasSubstr("url(#p-mark)"),
+                          HasSubstr("fill=\"none\""), HasSubstr("href=\"#point-3\"")));
+  EXPECT_THAT(*svg, AllOf(Not(HasSubstr("<?xml")), Not(HasSubstr("DOCTYPE")), Not(HasSubstr("width=")),
+                          Not(HasSubstr("<title>"))));
+  EXPECT_FALSE(inline_svg("<p>none</p>", "p-", ""));
+}
+
+}  // namespace
+}  // namespace halfway::report

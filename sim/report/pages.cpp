@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pages that other commands write, as parts of this one.
+#include <fmt/format.h>
+
+#include "sim/report/html.hpp"
+#include "sim/report/section.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway::report {
+namespace {
+
+struct OtherPage {
+  const char* id;
+  const char* title;
+  const char* file;     // in the checkout
+  const char* command;  // that writes it
+};
+constexpr std::array c_pages = {
+    OtherPage{"stability", "Hard cases", "tb/stability/README.md", "make stability"},
+    OtherPage{"proofs", "Proofs", "tb/proofs/README.md", "make prove"},
+    OtherPage{"mutants", "Mutants and coverage", "tb/mutants/README.md", "make mutate"},
+    OtherPage{"bounds", "Bounds", "tb/bounds/README.md", "make bounds"},
+    OtherPage{"synthesis", "Synthesis", "tb/synth/README.md", "make synth"},
+    OtherPage{"bench", "Speed of simulation", "sim/bench/README.md", "make bench"},
+};
+
+}  // namespace
+
+Status add_pages(Page& page) {
+  std::string& html = page.parts["pages"];
+  for (const OtherPage& other : c_pages) {
+    const std::filesystem::path file = page.settings.folders.source / other.file;
+    if (!std::filesystem::exists(file)) continue;
+    page.settings.on_progress(other.file);
+    const auto text = read_file(file);
+    if (!text) return text.error();
+    html += fmt::format(
+        "<details id=\"{0}\"><summary>{1}</summary>\n<p><code>{2}</code> writes this page, "
+        "<code>{3}</code>.</p>\n{4}</details>\n",
+        other.id, other.title, other.command, other.file, from_markdown(*text, other.title));
+  }
+  return Ok{};
+}
+
+}  // namespace halfway::report

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/report/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway::report {
+namespace {
+
+// Of middling lightness, for white and for dark paper; shapes tell series apart without colours.
+constexpr std::array c_colours = {"#767676", "#b8860b", "#0072b2", "#2a9df4", "#009e73", "#d55e00",
+                                  "#cc5fa0", "#8a63d2", "#7a9a01", "#c0392b", "#17a2b8", "#a0522d"};
+constexpr std::array c_shapes = {2, 1, 6, 7, 5, 9, 13, 11, 4, 8, 12, 10};
+static_assert(c_colours.size() == c_shapes.size());
+
+// Between double quotes in a gnuplot script.
+std::string quoted(const std::string& text) {
+  std::string safe = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') safe += '\\';
+    safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return safe + '"';
+}
+
+Result<std::string> run_gnuplot(const std::string& script, const std::filesystem::path& scratch) {
+  const std::filesystem::path file = scratch / "plot.gnuplot", picture = scratch / "plot.svg";
+  if (Status written = write_file(file, script); !written) return written.error();
+  const auto end = run_process({.arguments = {"gnuplot", file.filename().string()},
+                                .working_folder = scratch,
+                                .environment = {{"LC_ALL", "C.UTF-8"}}},
+                               "apt-get install gnuplot-nox");
+  if (!end) return end.error();
+  if (!end->succeeded()) return tool_failed("gnuplot: " + end->how() + "\n" + end->output);
+  return read_file(picture);
+}
+
+std::string tick_label(double tick) {
+  return tick < 1e6 ? fmt::format("{:g}", tick) : fmt::format("{:g} M", tick / 1e6);
+}
+
+// Round numbers between two that are less than two decades apart, as gnuplot takes them: the fewer the
+// farther these are apart.
+std::string ticks_within(double least, double most) {
+  std::vector<double> digits = {1.0, 2.0, 5.0};
+  if (most / least < 20) digits = {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};
+  std::string ticks;
+  for (double decade = std::pow(10.0, std::floor(std::log10(least))); decade <= most; decade *= 10.0)
+    for (const double digit : digits)
+      if (const double tick = digit * decade; tick > least / 1.1 && tick < most * 1.1)
+        ticks += fmt::format("{}\"{}\" {}", ticks.empty() ? "" : ", ", tick_label(tick), tick);
+  return ticks;
+}
+
+// A logarithmic axis, on which 0 has a place of its own.
+struct Axis {
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;  // of what is above 0
+  bool has_zero = false;
+
+  void add(double value) {
+    if (value <= 0) {
+      has_zero = true;
+      return;
+    }
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  // Of nothing but 0: any.
+  void close() {
+    if (most == 0.0) least = most = 1.0;
+  }
+  // As far below the least as an eighth of the axis is long.
+  double zero() const { return least * std::pow(std::max(10.0, most / least), -0.125); }
+  double place(double value) const { return value > 0 ? value : zero(); }
+  double begin() const { return has_zero ? zero() : least; }
+  // Between 0 and the rest.
+  double gap() const { return std::pow(zero(), 0.3) * std::pow(least, 0.7); }
+  std::string ticks(const char* name) const {
+    // gnuplot's own, which stand beside ours: millions in words, too.
+    const std::string own = most < 1e6 ? "" : fmt::format("set format {} \"%.0s %c\"\n", name);
+    if (!has_zero && most / least >= 100) return own;
+    std::string text = most / least < 100 ? ticks_within(least, most) : std::string();
+    if (text.empty())
+      for (double tick = std::pow(10.0, std::ceil(std::log10(least))); tick <= most * 1.1; tick *= 10.0)
+        text += fmt::format("{}\"{}\" {}", text.empty() ? "" : ", ", tick_label(tick), tick);
+    // Ticks of a decade's tens alone are too few where there is no more than one of them; and none of them
+    // means anything beside 0.
+    if (!has_zero) return own + fmt::format("set {}tics add ({})\n", name, text);
+    return fmt::format("set {}tics (\"0\" {}{}{})\n", name, zero(), text.empty() ? "" : ", ", text);
+  }
+};
+
+std::string to_text(const pugi::xml_document& document) {
+  std::ostringstream out;
+  document.print(out, "", pugi::format_raw);
+  return out.str();
+}
+
+}  // namespace
+
+PointLook look_of(std::size_t series) {
+  return {c_colours[series % c_colours.size()], c_shapes[series % c_shapes.size()]};
+}
+
+Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scratch) {
+  Axis x, y;
+  std::size_t count = 0;  // of series
+  for (const PlotPoint& point : plot.points) {
+    x.add(point.x);
+    y.add(point.y);
+    count = std::max(count, point.series + 1);
+  }
+  for (const PlotLevel& level : plot.levels) y.add(level.y);
+  x.close();
+  y.close();
+  std::string script = fmt::format(
+      "set encoding utf8\n"
+      "set terminal svg size {} dynamic noenhanced font \"sans-serif,14\" background \"#ffffff\"\n"
+      "set output \"plot.svg\"\n"
+      "set xlabel {}\nset ylabel {}\n"
+      "set logscale xy\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
+      "set grid linecolor rgb \"#8a8a8a\" linewidth 0.3\nset border 3\nset tics nomirror\n{}\n",
+      plot.legend.empty() ? "520,390" : "800,420", quoted(plot.x_label), quoted(plot.y_label),
+      x.begin() / 1.15, x.most * 1.15, y.begin() / 1.5, y.most * 1.5,
+      plot.legend.empty() ? "unset key" : "set key outside right center Left reverse spacing 1.4");
+  script += x.ticks("x") + y.ticks("y");
+  constexpr const char* c_gap = "nohead linecolor rgb \"#8a8a8a\" linewidth 1";
+  if (x.has_zero) script += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 {1}\n", x.gap(), c_gap);
+  if (y.has_zero)
+    script += fmt::format("set arrow from graph 0, first {0} to graph 1, first {0} {1}\n", y.gap(), c_gap);
+  for (const PlotLevel& level : plot.levels)
+    script += fmt::format(
+        "set arrow from graph 0, first {0} to graph 1, first {0} nohead dashtype 3 linecolor rgb \"{1}\"\n"
+        "set label {2} at graph 1, first {0} right offset 0, 0.5 textcolor rgb \"{1}\"\n",
+        y.place(level.y), "#767676", quoted(level.name));
+  // The front first: what lies above takes the pointer.
+  std::string blocks = "$front << END\n",
+              curves = "plot $front using 1:2 with steps linecolor rgb \"black\" dashtype 2 notitle";
+  for (const auto& [at_x, at_y] : plot.front) blocks += fmt::format("{} {}\n", x.place(at_x), y.place(at_y));
+  blocks += plot.front.empty() ? "NaN NaN\nEND\n" : "END\n";
+  std::string legend;
+  for (std::size_t s = 0; s < count; ++s) {
+    blocks += fmt::format("$series{} << END\n", s);
+    const std::size_t before = blocks.size();
+    for (const PlotPoint& point : plot.points)
+      if (point.series == s) blocks += fmt::format("{} {}\n", x.place(point.x), y.place(point.y));
+    if (blocks.size() == before) blocks += "NaN NaN\n";
+    blocks += "END\n";
+    const PointLook look = look_of(s);
+    const std::string drawn =
+        fmt::format("with points pointtype {} pointsize 0.8 linecolor rgb \"{}\"", look.shape, look.colour);
+    curves += fmt::format(", $series{} using 1:2 {} notitle", s, drawn);
+    // The legend's mark is a curve of its own: a curve has as many marks as it has points.
+    if (s < plot.legend.size() && blocks.find("NaN", before) == std::string::npos)
+      legend += fmt::format(", NaN {} title {}", drawn, quoted(plot.legend[s]));
+  }
+  const auto svg = run_gnuplot(script + blocks + curves + legend + "\n", scratch);
+  if (!svg) return svg.error();
+
+  pugi::xml_document document;
+  if (const auto parsed = document.load_string(svg->c_str(), pugi::parse_default | pugi::parse_ws_pcdata);
+      !parsed)
+    return tool_failed(std::string("gnuplot: wrote SVG that cannot be read: ") + parsed.description());
+  for (std::size_t s = 0; s < count; ++s) {
+    const std::string id = fmt::format("gnuplot_plot_{}", s + 2);  // behind the front
+    const pugi::xml_node curve =
+        document.find_node([&](const pugi::xml_node& node) { return id == node.attribute("id").value(); });
+    std::vector<pugi::xml_node> marks;
+    struct Finder : pugi::xml_tree_walker {
+      std::vector<pugi::xml_node>& found;
+      explicit Finder(std::vector<pugi::xml_node>& f) : found(f) {}
+      bool for_each(pugi::xml_node& node) override {
+        if (std::string_view(node.name()) == "use") found.push_back(node);
+        return true;
+      }
+    } finder(marks);
+    pugi::xml_node(curve).traverse(finder);
+    curve&& pugi::xml_node(curve).remove_child("title");
+    std::size_t at = 0;
+    for (const PlotPoint& point : plot.points) {
+      if (point.series != s) continue;
+      if (at == marks.size())
+        return tool_failed(fmt::format("gnuplot: drew {} points of series {}, not all", at, s));
+      const pugi::xml_node mark = marks[at++];
+      pugi::xml_node link = mark.parent().insert_child_before("a", mark);
+      link.append_attribute("href") = fmt::format("#point-{}", point.number).c_str();
+      link.append_attribute("aria-label") = point.name.c_str();
+      if (point.aside) link.append_attribute("class") = "aside";
+      link.append_child("title").text() = point.name.c_str();
+      // A finger needs more than a dot; gnuplot's transform is a translation and the mark's scale.
+      const std::string transform = mark.attribute("transform").value();
+      pugi::xml_node around = link.append_child("circle");
+      around.append_attribute("r") = "8";
+      around.append_attribute("fill") = "none";
+      around.append_attribute("stroke") = "none";
+      around.append_attribute("transform") = transform.substr(0, transform.find(')') + 1).c_str();
+      link.append_copy(mark);
+      mark.parent().remove_child(mark);
+    }
+    if (at != marks.size())
+      return tool_failed(
+          fmt::format("gnuplot: drew {} marks for {} points of series {}", marks.size(), at, s));
+  }
+  return to_text(document);
+}
+
+Result<std::string> draw_timing(const std::vector<Lane>& lanes, std::uint64_t first_cycle,
+                                const std::filesystem::path& scratch) {
+  const std::size_t cycles = lanes.empty() ? 0 : lanes.front().values.size();
+  constexpr double c_names = 150, c_clock = 23;  // as wide as that
+  const double width = c_names + c_clock * static_cast<double>(cycles);
+  std::string wires = "$wires << END\n", boxes = "$boxes << END\n", texts = "$texts << END\n", labels;
+  for (std::size_t n = 0; n < lanes.size(); ++n) {
+    const Lane& lane = lanes[n];
+    const double y = static_cast<double>(lanes.size() - n);
+    labels += fmt::format("set label {} {} at graph -0.01, first {} right\n", n + 1, quoted(lane.name), y);
+    for (std::size_t begin = 0; begin < cycles;) {
+      std::size_t end = begin + 1;
+      while (end < cycles && lane.values[end] == lane.values[begin]) ++end;
+      const std::string& value = lane.values[begin];
+      if (lane.wire) {
+        const double level = y + (value == "1" ? 0.3 : -0.3);
+        wires += fmt::format("{} {}\n{} {}\n", begin, level, end, level);
+      } else if (!value.empty()) {
+        boxes += fmt::format("{} {} {} {} {} {}\n", static_cast<double>(begin + end) / 2, y, begin, end,
+                             y - 0.33, y + 0.33);
+        // As much as fits between its two sides.
+        if (const std::size_t room = 3 * (end - begin); value.size() <= room)
+          texts += fmt::format("{} {} {}\n", static_cast<double>(begin + end) / 2, y, value);
+      }
+      begin = end;
+    }
+    if (lane.wire) wires += "\n";
+  }
+  const std::string script = fmt::format(
+      "set encoding utf8\n"
+      "set terminal svg size {},{} dynamic noenhanced font \"sans-serif,13\" background \"#ffffff\"\n"
+      "set output \"plot.svg\"\n"
+      "set lmargin at screen {}\nset rmargin at screen 0.995\nset tmargin at screen 0.99\n"
+      "set bmargin at screen {}\n"
+      "set xrange [0:{}]\nset yrange [0.4:{}]\nunset key\nunset ytics\nset border 1\n"
+      "set xtics ({}) nomirror scale 0.5\nset xlabel \"clock\" offset 0, 0.5\n"
+      "set for [i = 1:{}] arrow from i, 0.4 to i, {} nohead linecolor rgb \"#8a8a8a\" linewidth 0.3 back\n",
+      width, 60 + 26 * lanes.size(), c_names / width, 50.0 / static_cast<double>(60 + 26 * lanes.size()),
+      cycles, static_cast<double>(lanes.size()) + 0.6,
+      [&] {
+        std::string tics;
+        for (std::size_t i = 0; i < cycles; i += 2)
+          tics +=
+              fmt::format("{}\"{}\" {}", i == 0 ? "" : ", ", first_cycle + i, static_cast<double>(i) + 0.5);
+        return tics;
+      }(),
+      cycles, static_cast<double>(lanes.size()) + 0.6);
+  const auto svg =
+      run_gnuplot(script + labels + wires + "END\n" + boxes + "END\n" + texts + "END\n" +
+                      "plot $boxes using 1:2:3:4:5:6 with boxxyerror fillstyle transparent solid 0.18 border "
+                      "linecolor rgb \"#0072b2\" fillcolor rgb \"#0072b2\", $wires using 1:2 with lines "
+                      "linewidth 1.6 linecolor rgb \"#2a9d5c\", "
+                      "$texts using 1:2:3 with labels font \",11\"\n",
+                  scratch);
+  if (!svg) return svg.error();
+  pugi::xml_document document;
+  if (const auto parsed = document.load_string(svg->c_str(), pugi::parse_default | pugi::parse_ws_pcdata);
+      !parsed)
+    return tool_failed(std::string("gnuplot: wrote SVG that cannot be read: ") + parsed.description());
+  return to_text(document);
+}
+
+}  // namespace halfway::report

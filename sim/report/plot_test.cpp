@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/report/plot.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <pugixml.hpp>
+
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Where each point stands, by its link and its name.
+std::map<std::string, std::pair<double, double>> places_in(const std::string& svg) {
+  std::map<std::string, std::pair<double, double>> places;
+  pugi::xml_document document;
+  EXPECT_TRUE(document.load_string(svg.c_str()));
+  for (const auto& found : document.select_nodes("//a")) {
+    const pugi::xml_node link = found.node();
+    const pugi::xml_node circle = link.child("circle");
+    EXPECT_TRUE(link.child("use"));
+    std::pair<double, double> place;
+    EXPECT_EQ(
+        std::sscanf(circle.attribute("transform").value(), "translate(%lf,%lf)", &place.first, &place.second),
+        2)
+        << circle.attribute("transform").value();
+    places[std::string(link.attribute("href").value()) + " " + link.attribute("aria-label").value()] = place;
+  }
+  return places;
+}
+
+class PlotTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
+  }
+  Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
+};
+
+TEST_F(PlotTest, EachPointIsALinkInItsPlace) {
+  Plot plot{.x_label = "clocks \"of\" a frame", .y_label = "error"};
+  plot.points = {{10, 1, 2, 0, "far < below"}, {1000, 100, 0, 1, "above"}, {100, 10, 2, 2, "between", true}};
+  plot.front = {{10, 1}, {1000, 100}};
+  const auto svg = draw_plot(plot, folder_->path());
+  ASSERT_TRUE(svg) << svg.error().message;
+  const auto places = places_in(*svg);
+  ASSERT_EQ(places.size(), 3U);
+  const auto below = places.at("#point-0 far < below"), above = places.at("#point-1 above"),
+             between = places.at("#point-2 between");
+  EXPECT_THAT(*svg, HasSubstr("aria-label=\"between\" class=\"aside\""));
+  EXPECT_THAT(*svg, Not(HasSubstr("aria-label=\"above\" class")));
+  // SVG's y goes down; both axes are logarithmic.
+  EXPECT_LT(below.first, between.first);
+  EXPECT_GT(below.second, between.second);
+  EXPECT_NEAR(between.first, (below.first + above.first) / 2, 1.0);
+  EXPECT_NEAR(between.second, (below.second + above.second) / 2, 1.0);
+}
+
+TEST_F(PlotTest, ZeroHasAPlaceOfItsOwn) {
+  Plot plot{.x_label = "evaluations", .y_label = "pixels seen"};
+  plot.points = {{0, 5, 0, 0, "none on the host"},
+                 {10, 1, 0, 1, "least"},
+                 {40, 0, 1, 2, "none seen"},
+                 {20, 300, 1, 3, "most"}};
+  plot.levels = {{0, "the best"}, {30, "a yardstick"}};
+  plot.front = {{0, 5}, {10, 1}, {40, 0}};
+  const auto svg = draw_plot(plot, folder_->path());
+  ASSERT_TRUE(svg) << svg.error().message;
+  const auto places = places_in(*svg);
+  ASSERT_EQ(places.size(), 4U);
+  const auto left = places.at("#point-0 none on the host"), least = places.at("#point-1 least"),
+             bottom = places.at("#point-2 none seen"), most = places.at("#point-3 most");
+  // As far apart as eyes see; SVG's y goes down.
+  EXPECT_LT(left.first, least.first - 20);
+  EXPECT_GT(bottom.second, least.second + 20);
+  EXPECT_LT(most.second, least.second);
+  EXPECT_LT(least.first, most.first);
+  EXPECT_THAT(*svg, HasSubstr(">0<"));
+  EXPECT_THAT(*svg, HasSubstr("a yardstick"));
+  EXPECT_THAT(*svg, HasSubstr("the best"));
+  // Of nothing else, too.
+  EXPECT_TRUE(draw_plot({.points = {{0, 0, 0, 0, "alone"}}}, folder_->path()));
+}
+
+TEST_F(PlotTest, TimingShowsLevelsAndValues) {
+  const auto svg = draw_timing({{"valid", true, {"0", "1", "1", "0"}}, {"x", false, {"", "7", "7", "31"}}}, 0,
+                               folder_->path());
+  ASSERT_TRUE(svg) << svg.error().message;
+  EXPECT_THAT(*svg, HasSubstr("valid"));
+  EXPECT_THAT(*svg, HasSubstr(">7<"));
+  EXPECT_THAT(*svg, HasSubstr(">31<"));
+}
+
+}  // namespace
+}  // namespace halfway::report

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway report`, as a user meets it.
+#include "sim/report/report.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sim/cli/command_test.hpp"
+
+namespace halfway::report {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class ReportCommand : public CommandTest {
+ protected:
+  Outcome report() const {
+    return run({"report", "--results", "out", "--study", "study", "--figures", "figures", "--out",
+                "new/page.html", "--no-timing"});
+  }
+  std::string page() const {
+    const auto text = read_file(folder_->path() / "new/page.html");
+    return text ? *text : "";
+  }
+  void put(const std::filesystem::path& file, const std::string& text) const {
+    ASSERT_TRUE(make_folders((folder_->path() / file).parent_path()));
+    ASSERT_TRUE(write_file(folder_->path() / file, text));
+  }
+};
+
+TEST_F(ReportCommand, SaysWhatIsMissingAndWhatMakesIt) {
+  const Outcome outcome = report();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  for (const char* command : {"make sim", "make study", "make figures"}) {
+    EXPECT_THAT(outcome.output, HasSubstr(command));
+    EXPECT_THAT(page(), HasSubstr(std::string("<code>") + command + "</code> makes it"));
+  }
+  // What comes with the checkout is there: pages as tables, diagrams as drawings, and no mark left.
+  EXPECT_THAT(page(),
+              AllOf(HasSubstr("<summary>Proofs</summary>"), HasSubstr("<summary>Hard cases</summary>"),
+                    HasSubstr("<summary>Mutants and coverage</summary>"),
+                    HasSubstr(">unrolled_shading_processor: "), Not(HasSubstr("{{"))));
+  const auto commit =
+      run_process({.arguments = {"git", "-C", HALFWAY_SOURCE_DIR, "describe", "--always", "--tags"}}, "");
+  if (commit && commit->succeeded()) {
+    EXPECT_THAT(page(), HasSubstr("Made at commit " + commit->output.substr(0, commit->output.find('\n'))));
+  }
+  EXPECT_THAT(page(), AllOf(Not(HasSubstr("src=\"http")), Not(HasSubstr("url(http"))));
+}
+
+TEST_F(ReportCommand, RefusesWhatIsDamaged) {
+  put("out/spheres/quadratic/summary.json", "{\"width\": 3");
+  Outcome outcome = report();
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("summary.json"), HasSubstr("make sim")));
+  EXPECT_EQ(page(), "");
+  put("out/spheres/quadratic/summary.json", "[]");
+  EXPECT_EQ(report().exit_code, 2);
+  std::filesystem::remove_all(folder_->path() / "out");
+  put("study/study.csv", "a,b\n1\n");
+  outcome = report();
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("study.csv:2: "));
+  std::filesystem::remove_all(folder_->path() / "study");
+  for (const char* damaged : {"[", "[{\"id\": 3}]"}) {
+    put("figures/figures.json", damaged);
+    outcome = report();
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("figures.json"), HasSubstr("make figures")));
+  }
+}
+
+// A picture of five designs and two of software, one design without a clock.
+constexpr const char* c_study =
+    R"(scene,scene_hash,tools,point,method,preset,tessellation,exponent,width,height,hardware,cells,cycles,clock_mhz,clock,frame_ns,rms,largest_error,error_99,psnr_db,highlight_rms,perceived_pixels,mach_rms,host_evaluations,host_instructions,front,record
+"ball",77,"GHDL 9, Verilator 8",P,phong,,1,5,320,240,,,0,,,,0,0,0,inf,0,0,0,0,,,a
+"ball",77,"GHDL 9, Verilator 8",G,gouraud,,1,5,320,240,,,0,,,,4.5,9,8,33.1,7,31,1,0,,,b
+"ball",77,"GHDL 9, Verilator 8",Q,quadratic,exact,1,5,320,240,q,5334,32813,112.1,"pinned",292712,0.5,4,3,50.9,1,0,0.5,1452,5417130,1,c
+"ball",77,"GHDL 9, Verilator 8",R,quadratic,exact,1,5,320,240,q,5334,33813,112.1,"pinned",301633,0.4,3,2,51.9,1,12,0.4,1474,78705437,0,d
+"ball",77,"GHDL 9, Verilator 8",S,spherical,exact,1,5,320,240,s,5985,33100,,"not placed",,0.3,2,1,57,0.4,0,0.3,31283,6417130,1,e
+"ball",77,"GHDL 9, Verilator 8",V,processors-1,exact,1,5,320,240,v,12214,31460,,"does not fit the HX8K: 9578 LUTs of 7680",,5.7,39,25,33,10,61,0.8,0,0,1,f
+"ball",77,"GHDL 9, Verilator 8",W,processors-2,exact,1,5,320,240,w,14214,31460,,"",,5.8,39,25,33,10,61,0.8,0,,0,g
+)";
+
+TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
+  ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
+  put("study/study.csv", c_study);
+  const Outcome outcome = report();
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const auto part = [text = page()](const std::string& begin, const std::string& end) {
+    const std::size_t at = text.find(begin);
+    return at == std::string::npos ? std::string() : text.substr(at, text.find(end, at) - at);
+  };
+  const auto plot = [&](const std::string& id) { return part("id=\"plot/" + id + "\"", "</figure>"); };
+  // Time where a clock is known; what has none is counted.
+  EXPECT_THAT(
+      plot("rms-time"),
+      AllOf(HasSubstr("aria-label=\"Q: time of the frame, ns 292712, rms error, steps of 1/255 0.5\""),
+            HasSubstr("href=\"#point-3\""), Not(HasSubstr("href=\"#point-4\"")),
+            HasSubstr("PLACE=1</code> finds: 1 of processors-2; 1 of spherical; in all 2"),
+            HasSubstr("the device has no room for their hardware: 1 of processors-1; in all 1"),
+            HasSubstr("gouraud (software)"), HasSubstr("phong (software)")));
+  // Clocks of all hardware; software has none, and is no point.
+  EXPECT_THAT(plot("rms-clocks"), AllOf(HasSubstr("href=\"#point-6\""), Not(HasSubstr("not here")),
+                                        Not(HasSubstr("href=\"#point-0\"")), Not(HasSubstr("e+0"))));
+  // 0 is a place, also of the host's work.
+  EXPECT_THAT(plot("perceived-time"), AllOf(HasSubstr("href=\"#point-2\""), HasSubstr("href=\"#point-3\"")));
+  EXPECT_THAT(plot("rms-host"),
+              AllOf(HasSubstr("href=\"#point-5\""), HasSubstr("V: instructions of setup on the host 0,"),
+                    HasSubstr("instructions of setup on the host 78705437,"),
+                    HasSubstr("1 of processors-2; in all 1")));
+  EXPECT_THAT(part("<ul class=\"legend\"", "</ul>"),
+              AllOf(HasSubstr("spherical"), Not(HasSubstr("software"))));
+  // The table tells all of them, and no 0 where there is nothing.
+  const auto row = [&](const std::string& point) {
+    return part("<td><a href=\"#point-" + point + "\">", "</tr>");
+  };
+  EXPECT_THAT(part("Points of the study</caption>", "</thead>"),
+              AllOf(HasSubstr("on the front"), HasSubstr("ns a frame"), HasSubstr("cells"), HasSubstr("PSNR"),
+                    HasSubstr("99th percentile")));
+  EXPECT_THAT(row("1"),
+              AllOf(HasSubstr("G</a></td><td>–</td><td>–</td><td>–</td><td>–</td><td>–</td><td>4.5</td>"),
+                    HasSubstr("<td>33.1</td>")));
+  EXPECT_THAT(row("2"),
+              HasSubstr("Q</a></td><td>yes</td><td>292712</td><td>32813</td><td>5334</td><td>5417130</td>"));
+  EXPECT_THAT(row("4"), HasSubstr("S</a></td><td>yes</td><td>–</td><td>33100</td>"));
+  // Which study it is, and that it is not the usual one.
+  EXPECT_THAT(part("id=\"study/of\"", "</p>"),
+              AllOf(HasSubstr("<strong>ball</strong>"), HasSubstr("<code>77</code>"),
+                    HasSubstr("7 points, of no space"), HasSubstr("GHDL 9, Verilator 8")));
+  const std::string other = "The study is of the scene ball, not of sim/studies/sphere.toml";
+  EXPECT_THAT(page(), HasSubstr(other));
+  EXPECT_THAT(outcome.output, HasSubstr(other));
+  // A point's panel says why it has no clock.
+  EXPECT_THAT(page(), AllOf(HasSubstr("[\"where that clock is from\",\"not placed\"]"),
+                            HasSubstr("[\"99th percentile of errors, /255\",\"25\"]"),
+                            HasSubstr("[\"on the front\",\"no\"]")));
+}
+
+TEST_F(ReportCommand, NamesTheStudysSceneAndSpace) {
+  const auto front = read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/gallery/front.csv");
+  ASSERT_TRUE(front);
+  put("study/study.csv", *front);
+  const Outcome outcome = report();
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(page(), HasSubstr("points of <code>sim/studies/small.toml</code>, in a table of 20"));
+  EXPECT_THAT(outcome.output, Not(HasSubstr("The study is of the scene")));
+}
+
+TEST_F(ReportCommand, MakeDrawsEveryFrameThatIsMissing) {
+  const auto here = folder_->path();
+  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
+  std::filesystem::copy_file(source / "Makefile", here / "Makefile");
+  for (const char* scene : {"lights", "matte"}) put(fmt::format("sim/scenes/{}.toml", scene), "");
+  // A first run was broken off in the second shader.
+  for (const char* drawn : {"lights/quadratic", "matte/quadratic", "lights/spherical"})
+    put(fmt::format("build/out/{}/summary.json", drawn), "{}");
+  put("build/out/matte/spherical/init.txt", "");
+  put("build/study/study.csv", "");
+  put("sim/figures/figures.json", "");
+  put("build/halfway", "#!/bin/sh\necho \"$@\" >>said\n[ \"$1\" != sim ]\n");  // 1: a difference
+  std::filesystem::permissions(here / "build/halfway", std::filesystem::perms::owner_all);
+  const auto made =
+      run_process({.arguments = {"make", "-o", "program", "report"}, .working_folder = here}, "");
+  ASSERT_TRUE(made && made->succeeded()) << (made ? made->output : made.error().message);
+  const auto said = read_file(here / "said");
+  ASSERT_TRUE(said);
+  EXPECT_EQ(*said,
+            "sim --shader spherical -- matte\n"
+            "sim --shader processors --simulator verilator -- lights\n"
+            "sim --shader processors --simulator verilator -- matte\n"
+            "report\n");
+}
+
+TEST_F(ReportCommand, EqualPicturesAreOne) {
+  const Outcome drawn =
+      run({"sim", "spheres", "--size", "96x72", "--simulator", "verilator", "--out", "out"});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+  const auto image_of = [&](const std::string& layer) {
+    const std::string mark = "<script type=\"application/json\" id=\"data\">";
+    const std::size_t begin = page().find(mark) + mark.size();
+    const auto data = nlohmann::json::parse(page().substr(begin, page().find("</script>", begin) - begin));
+    for (const auto& of : data.at("frames").at(0).at("layers"))
+      if (of.at("id") == layer) return of.at("image").get<int>();
+    return -1;
+  };
+  ASSERT_EQ(report().exit_code, 0);
+  EXPECT_EQ(image_of("golden"), image_of("verilator"));
+  EXPECT_NE(image_of("golden"), image_of("reference"));
+  EXPECT_EQ(image_of("ghdl"), -1);
+  // What is drawn of no scene but this is told.
+  for (const char* gap :
+       {"Frames by the shader quadratic of highlights, lights, matte, shadows, teapot:",
+        "Frames by the shader spherical of highlights, lights, matte, shadows, spheres, teapot:"})
+    EXPECT_THAT(page(), HasSubstr(gap));
+  // A wrong picture is shown as what it is.
+  const auto folder = folder_->path() / "out/spheres/quadratic";
+  std::filesystem::copy_file(folder / "reference.png", folder / "verilator.png",
+                             std::filesystem::copy_options::overwrite_existing);
+  ASSERT_EQ(report().exit_code, 0);
+  EXPECT_NE(image_of("golden"), image_of("verilator"));
+}
+
+}  // namespace
+}  // namespace halfway::report

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/report/timing.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "plan/plan.hpp"
+#include "sim/run/scene_stream.hpp"
+#include "sim/run/why.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway::report {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
+
+class Timing : public ::testing::TestWithParam<Shader> {};
+INSTANTIATE_TEST_SUITE_P(Of, Timing, ::testing::ValuesIn(c_shaders),
+                         [](const auto& shader) { return to_string(shader.param); });
+
+TEST_P(Timing, ShowsTheGoldenModelsFragmentsInVerilatorsClocks) {
+  for (const char* program : {"ghdl", "gnuplot"})
+    ASSERT_FALSE(find_program(program).empty()) << "no " << program << " here";
+  const SimulatorFolders folders{c_source, c_source / "build" / "cache"};
+  const auto timing = draw_shader_timing(GetParam(), folders);
+  ASSERT_TRUE(timing) << timing.error().message;
+
+  const auto scene = load_scene((c_source / "sim/report/timing.toml").string(), {});
+  ASSERT_TRUE(scene);
+  WhySettings why{.plan = {.shader = GetParam()}, .size = {16, 12}, .folders = folders};
+  why.setup.quadratic.test = HighlightTest::none;
+  const auto plan = plan_scene(*scene, why.plan);
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(timing->key, plan->key.name());
+  const auto setup = make_setup(*scene, why.size, plan->key, why.setup);
+  SceneStream stream(*setup, plan->key, 1);
+  Batch batch;
+  ASSERT_TRUE(stream.next(batch));
+  ASSERT_GE(batch.golden.size(), 4U);
+  why.x = batch.golden[0].x;
+  why.y = batch.golden[0].y;
+  const auto first = explain_pixel(*scene, why);
+  ASSERT_TRUE(first) << first.error().message;
+  const auto clock = first->stories.at(0).stages.back().cycle;
+  ASSERT_TRUE(clock);
+  std::string words;
+  for (unsigned n = 0; n < 4; ++n)
+    words += fmt::format("{}clock {}: fragment x {}, y {}, red {}", n == 0 ? "" : "; ", *clock + n,
+                         batch.golden[n].x, batch.golden[n].y, batch.golden[n].red);
+  EXPECT_EQ(timing->words, words);
+  for (const std::string& svg : timing->svgs) {
+    for (const char* signal : {"init_valid", "line_step", "span_step", "fragment_red"})
+      EXPECT_THAT(svg, HasSubstr(signal));
+    // As wide as a page is, at most.
+    int width = 0;
+    ASSERT_EQ(std::sscanf(svg.c_str() + svg.find("viewBox"), "viewBox=\"0 0 %d", &width), 1);
+    EXPECT_LE(width, 1312);
+  }
+  // The first fragment's clock stands at a tick or beside one.
+  std::string all;
+  for (const std::string& svg : timing->svgs) all += svg;
+  EXPECT_THAT(all, HasSubstr(fmt::format(">{}<", *clock / 2 * 2)));
+}
+
+}  // namespace
+}  // namespace halfway::report

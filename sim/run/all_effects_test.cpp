@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hardware with every effect draws what hardware with the effects called for draws, fragment by fragment:
+// scenes with each subset of effects through the golden model, some through the RTL.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plan/plan.hpp"
+#include "scene/builtin_meshes.hpp"
+#include "setup/setup.hpp"
+#include "setup/test/random_solids.hpp"
+#include "sim/compare/limits.hpp"
+#include "sim/run/scene_stream.hpp"
+#include "sim/verilator/verilator_simulator.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr FrameSize c_frame{40, 30};
+
+/// What a scene has.
+struct Subset {
+  unsigned directional = 0, positional = 0, spots = 0;
+  bool ambient = true, diffuse = false, specular = false;
+  bool coloured = false, coloured_highlights = false;
+  bool curved = true, shadows = false;
+
+  std::string name() const {
+    return fmt::format("{} directional, {} positional, {} spots{}{}{}{}{}{}{}", directional, positional,
+                       spots, ambient ? ", ambient" : "", diffuse ? ", diffuse" : "",
+                       specular ? ", specular" : "", coloured ? ", coloured" : "",
+                       coloured_highlights ? ", coloured highlights" : "", curved ? "" : ", flat",
+                       shadows ? ", shadows" : "");
+  }
+};
+
+// Of what every shader has.
+std::vector<Subset> every_subset() {
+  std::vector<Subset> subsets;
+  for (unsigned lights = 0; lights < 27; ++lights)
+    for (unsigned bits = 0; bits < 32; ++bits)
+      subsets.push_back({lights % 3, lights / 3 % 3, lights / 9, (bits & 1) == 0, (bits & 2) != 0,
+                         (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0});
+  return subsets;
+}
+
+// Of what the shading processors have besides.
+std::vector<Subset> every_subset_of_processors() {
+  std::vector<Subset> subsets;
+  for (Subset subset : every_subset())
+    for (const bool curved : {true, false})
+      for (const bool shadows : {false, true}) {
+        subset.curved = curved;
+        subset.shadows = shadows;
+        subsets.push_back(subset);
+      }
+  return subsets;
+}
+
+/// A sphere of two materials, lit from the eye's side; its exponents take different tables. Where there are
+/// shadows, a box before it casts one on it.
+Scene scene_of(const Subset& subset) {
+  Scene scene;
+  scene.name = "subset";
+  scene.ambient = glm::dvec3(subset.ambient ? 0.5 : 0.0);
+  for (unsigned i = 0; i < subset.directional; ++i)
+    scene.directional.push_back({glm::normalize(glm::dvec3(i == 0 ? -0.5 : 0.9, 0.6, 1.0)), glm::dvec3(0.4)});
+  for (unsigned i = 0; i < subset.positional; ++i)
+    scene.positional.push_back({glm::dvec3(i == 0 ? 1.5 : -1.2, i == 0 ? 0.7 : -0.8, 1.6), glm::dvec3(0.35)});
+  for (unsigned i = 0; i < subset.spots; ++i) {
+    const glm::dvec3 position(i == 0 ? -1.5 : 0.6, i == 0 ? 0.3 : -1.4, 2.0);
+    scene.spots.push_back({.position_world = position,
+                           .axis_world = glm::normalize(-position),
+                           .cos_inner = 0.99,
+                           .cos_outer = 0.9,
+                           .intensity = glm::dvec3(0.45)});
+  }
+  for (const double exponent : {5.0, 60.0}) {
+    Material m;
+    m.name = fmt::format("of exponent {}", exponent);
+    m.ambient = 0.2;
+    m.colour = subset.coloured ? glm::dvec3(0.9, 0.6, 0.3) : glm::dvec3(0.8);
+    m.specular_colour = subset.coloured_highlights ? glm::dvec3(1.0, 0.9, 0.5) : glm::dvec3(1.0);
+    m.diffuse = subset.diffuse ? 0.5 : 0.0;
+    m.specular = subset.specular ? 0.6 : 0.0;
+    m.exponent = exponent;
+    scene.materials.push_back(m);
+  }
+  Mesh mesh = make_uv_sphere(8, 6, 1.0);
+  if (!subset.curved) {
+    // One normal a triangle: its first corner's.
+    for (SceneTriangle& t : mesh.triangles) t.normal = {t.normal[0], t.normal[0], t.normal[0]};
+  }
+  scene.positions_world = mesh.positions;
+  scene.normals_world = mesh.normals;
+  scene.triangles = mesh.triangles;
+  scene.shadows = subset.shadows;
+  if (subset.shadows) {
+    Mesh box = make_box(glm::dvec3(0.5), 1);
+    for (glm::dvec3& p : box.positions) p += glm::dvec3(-0.1, 0.25, 1.3);
+    add_mesh(scene, box);
+  }
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) scene.triangles[i].material = i % 2;
+  scene.camera = {.eye_world = {0.0, 0.0, 3.4}, .vertical_fov_degrees = 40.0};
+  return scene;
+}
+
+Plan plan_of(const Scene& scene, const PlanRequest& request) {
+  const auto plan = plan_scene(scene, request);
+  if (!plan) throw std::runtime_error(plan.error().message);
+  return *plan;
+}
+
+struct Drawing {
+  std::vector<Fragment> golden, rtl;
+  std::uint64_t cycles = 0;
+};
+
+Drawing draw(const Scene& scene, const HardwareKey& key, bool with_rtl = false) {
+  Drawing out;
+  const auto setup = make_setup(scene, c_frame, key, {});
+  std::optional<VerilatorSimulator> rtl;
+  const auto sure = [](const Status& status) {
+    if (!status) throw std::runtime_error(status.error().message);
+  };
+  if (with_rtl) {
+    auto opened = VerilatorSimulator::open(
+        key, {HALFWAY_SOURCE_DIR, std::filesystem::path(HALFWAY_SOURCE_DIR) / "build" / "cache"},
+        {.idle_limit = c_idle_limit});
+    if (!opened) throw std::runtime_error(opened.error().message);
+    rtl.emplace(std::move(*opened));
+  }
+  const std::size_t words_per_vector = (setup->init_bits() + 31) / 32;
+  SceneStream stream(*setup, key, 1);
+  for (Batch batch; stream.next(batch);) {
+    out.golden.insert(out.golden.end(), batch.golden.begin(), batch.golden.end());
+    if (rtl)
+      sure(rtl->run(batch.init_words, batch.init_words.size() / words_per_vector, out.rtl,
+                    out.golden.size() + c_most_surplus));
+  }
+  if (rtl) {
+    sure(rtl->finish(out.rtl, out.golden.size() + c_most_surplus));
+    out.cycles = rtl->cycles();
+  }
+  return out;
+}
+
+void expect_equal(const std::vector<Fragment>& called_for, const std::vector<Fragment>& everything) {
+  ASSERT_FALSE(called_for.empty());
+  ASSERT_EQ(called_for.size(), everything.size());
+  for (std::size_t i = 0; i < called_for.size(); ++i) {
+    const Fragment &a = called_for[i], &b = everything[i];
+    ASSERT_EQ(a, b) << fmt::format(
+        "fragment {}, triangle {}, line {}, pixel {}: as called for {} {} {} z {}, "
+        "with all effects {} {} {} z {}",
+        i, a.triangle, a.y, a.x, a.red, a.green, a.blue, a.z, b.red, b.green, b.blue, b.z);
+  }
+}
+
+// Of each pixel the fragment that the frame keeps: hardware that goes by lines draws in another order, and
+// only these.
+std::vector<Fragment> nearest(const std::vector<Fragment>& fragments) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Fragment> kept;
+  for (const Fragment& f : fragments)
+    if (const auto [it, is_first] = kept.try_emplace({f.y, f.x}, f); !is_first && f.z < it->second.z)
+      it->second = f;
+  std::vector<Fragment> list;
+  for (const auto& [pixel, fragment] : kept) list.push_back(fragment);
+  return list;
+}
+
+struct Hardware {
+  Shader shader;
+  Preset preset;
+};
+
+class EachShader : public ::testing::TestWithParam<Hardware> {
+ protected:
+  PlanRequest request() const { return {.shader = GetParam().shader, .preset = GetParam().preset}; }
+};
+
+TEST_P(EachShader, DrawTheSameForEverySubset) {
+  std::set<std::string> keys;
+  for (const Subset& subset : every_subset()) {
+    SCOPED_TRACE(subset.name());
+    const Scene scene = scene_of(subset);
+    const Plan plan = plan_of(scene, request());
+    keys.insert(plan.called_for.name());
+    ASSERT_NO_FATAL_FAILURE(
+        expect_equal(draw(scene, plan.called_for).golden, draw(scene, plan.everything).golden));
+  }
+  fmt::print("{} scenes, {} kinds of hardware called for\n", every_subset().size(), keys.size());
+  // Lights 0 to 6; of these but the first: diffuse, specular by colours, both; in one and three channels.
+  EXPECT_EQ(keys.size(), GetParam().shader == Shader::quadratic ? 2U : 2 + 6 * (2 + 2 * (1 + 2)));
+}
+
+// No subset is drawn alike because its effect does not show.
+TEST_P(EachShader, EachShowsInTheFrame) {
+  const Subset full{2, 2, 2, true, true, true, true, true};
+  std::vector<Subset> less(8, full);
+  less[0].directional = less[1].positional = less[2].spots = 1;
+  less[3].ambient = less[4].diffuse = less[5].specular = less[6].coloured = less[7].coloured_highlights =
+      false;
+  const auto golden = [&](const Subset& subset) {
+    const Scene scene = scene_of(subset);
+    return draw(scene, plan_of(scene, request()).everything).golden;
+  };
+  const std::vector<Fragment> all = golden(full);
+  for (const Subset& subset : less) {
+    const std::vector<Fragment> without = golden(subset);
+    std::size_t changed = 0;
+    for (const Fragment& f : without)
+      for (const Fragment& g : all)
+        changed += f.x == g.x && f.y == g.y && f.triangle == g.triangle &&
+                   (f.red != g.red || f.green != g.green || f.blue != g.blue);
+    EXPECT_GT(changed, 20U) << subset.name();
+  }
+}
+
+TEST(AllEffects, LightsMoreThanTheScenesStayDark) {
+  const std::vector<Subset> subsets = {{}, {0, 1, 0, true, true, true}, {2, 2, 2, true, true, true, true}};
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (const Subset& subset : subsets)
+      for (const unsigned lights : {7U, 16U}) {
+        SCOPED_TRACE(fmt::format("{}, {}; hardware for {}", to_string(preset), subset.name(), lights));
+        const Scene scene = scene_of(subset);
+        const Plan plan = plan_of(
+            scene, {.shader = Shader::spherical, .preset = preset, .all_effects = true, .lights = lights});
+        EXPECT_EQ(plan.key.spherical.lights, lights);
+        ASSERT_NO_FATAL_FAILURE(
+            expect_equal(draw(scene, plan.called_for).golden, draw(scene, plan.key).golden));
+      }
+}
+
+TEST(AllEffects, ProcessorsDrawTheSameFrameForEverySubset) {
+  const std::vector<Subset> subsets = every_subset_of_processors();
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    std::set<std::string> keys;
+    for (const Subset& subset : subsets) {
+      SCOPED_TRACE(fmt::format("{}, {}", to_string(preset), subset.name()));
+      const Scene scene = scene_of(subset);
+      const Plan plan = plan_of(scene, {.shader = Shader::processors, .preset = preset});
+      keys.insert(plan.called_for.name());
+      ASSERT_NO_FATAL_FAILURE(expect_equal(nearest(draw(scene, plan.called_for).golden),
+                                           nearest(draw(scene, plan.everything).golden)));
+    }
+    fmt::print("{} scenes, {} kinds of hardware called for\n", subsets.size(), keys.size());
+    // One and three channels. Of each but the first of 27 sets of lights: diffuse, specular, both; with and
+    // without shadows; in preset exact, with and without N normalized.
+    EXPECT_EQ(keys.size(), 2U * (1 + 26 * 3 * 2 * (preset == Preset::exact ? 2 : 1)));
+  }
+}
+
+TEST(AllEffects, ProcessorsLightsMoreThanTheScenesStayDark) {
+  const std::vector<Subset> subsets = {{}, {0, 1, 0, true, true, true}, {2, 2, 2, true, true, true, true}};
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (Subset subset : subsets)
+      for (const bool shadows : {false, true}) {
+        subset.shadows = shadows;
+        SCOPED_TRACE(fmt::format("{}, {}", to_string(preset), subset.name()));
+        const Scene scene = scene_of(subset);
+        const Plan plan = plan_of(
+            scene, {.shader = Shader::processors, .preset = preset, .all_effects = true, .lights = 16});
+        EXPECT_EQ(plan.key.processors.spots, 16U);
+        ASSERT_NO_FATAL_FAILURE(expect_equal(nearest(draw(scene, plan.called_for).golden),
+                                             nearest(draw(scene, plan.key).golden)));
+      }
+}
+
+TEST(AllEffects, OfProcessorsEachShowsInTheFrame) {
+  const Subset full{2, 2, 2, true, true, true, true, true, true, true};
+  std::vector<Subset> less(10, full);
+  less[0].directional = less[1].positional = less[2].spots = 1;
+  less[3].ambient = less[4].diffuse = less[5].specular = less[6].coloured = less[7].coloured_highlights =
+      less[8].curved = less[9].shadows = false;
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    const auto golden = [&](const Subset& subset) {
+      const Scene scene = scene_of(subset);
+      return nearest(
+          draw(scene, plan_of(scene, {.shader = Shader::processors, .preset = preset}).everything).golden);
+    };
+    const std::vector<Fragment> all = golden(full);
+    for (const Subset& subset : less) {
+      std::size_t changed = 0;
+      for (const Fragment& f : golden(subset))
+        for (const Fragment& g : all)
+          changed += f.x == g.x && f.y == g.y && f.triangle == g.triangle &&
+                     (f.red != g.red || f.green != g.green || f.blue != g.blue);
+      EXPECT_GT(changed, 20U) << to_string(preset) << ", " << subset.name();
+    }
+  }
+}
+
+TEST_P(EachShader, DrawTheSameInTheRtl) {
+  const bool exact = GetParam().preset == Preset::exact;
+  std::vector<Subset> subsets = {{}, {1, 0, 0, true, true}};
+  if (exact) subsets.push_back({0, 1, 0, false, false, true});
+  if (exact && GetParam().shader == Shader::spherical) subsets.push_back({1, 1, 1, true, true, true, true});
+  for (const Subset& subset : subsets) {
+    SCOPED_TRACE(subset.name());
+    const Scene scene = scene_of(subset);
+    const Plan plan = plan_of(scene, request());
+    const Drawing few = draw(scene, plan.called_for, true), all = draw(scene, plan.everything, true);
+    ASSERT_NO_FATAL_FAILURE(expect_equal(few.rtl, all.rtl));
+    EXPECT_EQ(few.rtl, few.golden);
+    EXPECT_EQ(all.rtl, all.golden);
+    fmt::print("{}: {} cycles as called for ({}), {} with all effects ({})\n", subset.name(), few.cycles,
+               plan.called_for.name(), all.cycles, plan.everything.name());
+    // Without line records none is waited for; all else goes beside the same walk.
+    EXPECT_LE(few.cycles, all.cycles);
+    EXPECT_TRUE(few.cycles == all.cycles || !plan.called_for.spherical.records());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllEffects, EachShader,
+                         ::testing::Values(Hardware{Shader::quadratic, Preset::exact},
+                                           Hardware{Shader::quadratic, Preset::published},
+                                           Hardware{Shader::spherical, Preset::exact},
+                                           Hardware{Shader::spherical, Preset::published}),
+                         [](const auto& test) {
+                           return fmt::format("{}_{}", to_string(test.param.shader),
+                                              to_string(test.param.preset));
+                         });
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stream in parts draws what it draws in one.
+#include "sim/run/ghdl_parts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <stdexcept>
+
+#include "golden_run/golden_run.hpp"
+#include "plan/plan.hpp"
+#include "sim/run/scene_stream.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/stream_files/init_file.hpp"
+#include "sim/stream_files/trace.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+struct Stream {
+  HardwareKey key;
+  InitStream init;
+  std::vector<Fragment> golden;
+  Cuts cuts;
+};
+
+Stream stream_of(const char* name, Shader shader, FrameSize frame) {
+  const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
+  if (!scene) throw std::runtime_error(scene.error().message);
+  const auto plan = plan_scene(*scene, {.shader = shader});
+  if (!plan) throw std::runtime_error(plan.error().message);
+  const auto setup = make_setup(*scene, frame, plan->key, {});
+  Stream all{plan->key, {.bits = setup->init_bits(), .words = {}}, {}, Cuts(plan->key)};
+  SceneStream stream(*setup, plan->key, 2);
+  for (Batch batch; stream.next(batch);) {
+    all.init.words.insert(all.init.words.end(), batch.init_words.begin(), batch.init_words.end());
+    all.golden.insert(all.golden.end(), batch.golden.begin(), batch.golden.end());
+    all.cuts.add(batch.init_words);
+  }
+  return all;
+}
+
+// The first vectors of triangles, one after the other.
+std::vector<std::uint64_t> triangles_of(const Stream& s) {
+  const auto golden = make_golden_model(s.key);
+  std::vector<std::uint64_t> firsts;
+  for (std::uint64_t at = 0; at < s.init.size();
+       at += golden->group(std::span(s.init.words).subspan(at * s.init.words_per_vector())))
+    firsts.push_back(at);
+  return firsts;
+}
+
+TEST(GhdlParts, BeginAtTrianglesAndHangOnTheFrameAlone) {
+  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+    const Stream s = stream_of("spheres", shader, {320, 240});
+    const std::vector<std::uint64_t> triangles = triangles_of(s);
+    const std::vector<std::uint64_t> parts = s.cuts.parts();
+    ASSERT_THAT(parts, SizeIs(::testing::AllOf(::testing::Ge(8U), ::testing::Le(24U))));
+    EXPECT_EQ(parts.front(), 0U);
+    std::vector<std::uint64_t> pixels;  // of each part
+    const auto golden = make_golden_model(s.key);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      EXPECT_TRUE(std::binary_search(triangles.begin(), triangles.end(), parts[i])) << parts[i];
+      const std::uint64_t end = i + 1 < parts.size() ? parts[i + 1] : s.init.size();
+      ASSERT_GT(end, parts[i]);
+      pixels.push_back(golden
+                           ->draw(std::span(s.init.words)
+                                      .subspan(parts[i] * s.init.words_per_vector(),
+                                               (end - parts[i]) * s.init.words_per_vector()))
+                           .size());
+    }
+    EXPECT_EQ(std::accumulate(pixels.begin(), pixels.end(), std::size_t{0}), s.golden.size());
+    // None is long beside what the others have left when it begins.
+    std::uint64_t rest = s.golden.size();
+    for (const std::uint64_t part : pixels) {
+      EXPECT_LE(part, std::max<std::uint64_t>(3'500, rest / 6));
+      rest -= part;
+    }
+  }
+}
+
+TEST(GhdlParts, AreOneWhereThereIsLittleToDraw) {
+  EXPECT_THAT(stream_of("spheres", Shader::quadratic, {64, 48}).cuts.parts(), SizeIs(1));
+}
+
+TEST(GhdlParts, AreOneWhereTrianglesHangOnThoseBefore) {
+  const Stream s = stream_of("spheres", Shader::processors, {160, 120});
+  EXPECT_THAT(s.cuts.parts(), SizeIs(1));
+}
+
+TEST(GhdlParts, DrawWhatOneRunDraws) {
+  const auto scratch = TemporaryFolder::make(testing::TempDir());
+  ASSERT_TRUE(scratch) << scratch.error().message;
+  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
+  const SimulatorFolders folders{source, source / "build" / "cache"};
+  const auto init = scratch->path() / "init", trace = scratch->path() / "trace";
+  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+    const Stream s = stream_of("spheres", shader, {64, 48});
+    const auto runner = GhdlRunner::open(s.key, folders);
+    ASSERT_TRUE(runner) << runner.error().message;
+    ASSERT_TRUE(write_init_file(init, s.key.name(), s.init));
+    const std::vector<std::uint64_t> triangles = triangles_of(s);
+    const auto one = runner->run(init, trace);
+    ASSERT_TRUE(one) << one.error().message;
+    // The second part ends where the third begins; the last one is a triangle.
+    const std::uint64_t parts[] = {0, triangles[1], triangles[triangles.size() / 2], triangles.back()};
+    for (const unsigned threads : {1U, 3U}) {
+      const auto run = run_in_parts(*runner, s.key, init, parts, trace, {}, threads);
+      ASSERT_TRUE(run) << run.error().message;
+      EXPECT_EQ(run->fragments, s.golden.size());
+      EXPECT_GE(run->cycles, one->cycles);
+      EXPECT_LE(run->cycles, one->cycles + 3 * 16);
+      const auto drawn = read_trace(trace, s.key.name());
+      ASSERT_TRUE(drawn) << drawn.error().message;
+      EXPECT_EQ(drawn->fragments, s.golden);
+      EXPECT_EQ(drawn->cycles, run->cycles);
+    }
+    const auto too_many = run_in_parts(*runner, s.key, init, parts, trace, {.max_fragments = 10}, 2);
+    ASSERT_FALSE(too_many);
+    EXPECT_EQ(too_many.error().code, ExitCode::differs);
+    EXPECT_THAT(too_many.error().message, HasSubstr("of 4, from init vector "));
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(scratch->path()))
+    EXPECT_THAT(entry.path().filename().string(), ::testing::AnyOf("init", "trace"));
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The main job: a scene through golden model, simulators and reference renderer; streams compared, frames and
+// summary written.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/result.hpp"
+#include "frame/metrics.hpp"
+#include "plan/plan.hpp"
+#include "setup/setup.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/run/result_files.hpp"
+#include "sim/run/rtl_stream.hpp"
+
+namespace halfway {
+
+struct SimulateSettings {
+  PlanRequest plan;
+  FrameSize size;
+  SetupOptions setup;
+  unsigned threads = 1;
+  bool ghdl = true, verilator = true;
+  bool lanes = false;            ///< too; they tell no cycles, and know no stalls
+  std::uint32_t stall_seed = 0;  ///< not 0: both streams stall at random
+  std::filesystem::path out;
+  SimulatorFolders folders;
+  /// Told what is being done, and how far it is (0 to 1, or below 0 where that is not known).
+  std::function<void(const std::string& what, double done)> on_progress = [](const std::string&, double) {};
+  /// Told the folder of results where another run holds it.
+  std::function<void(const std::filesystem::path& folder)> on_wait = [](const std::filesystem::path&) {};
+};
+
+struct SceneSummary {
+  std::string scene, shader;
+  bool all_effects = false;  ///< elaborated, whatever the scene calls for
+  Plan plan;
+  FrameSize size;
+  SetupCounts setup;
+  std::uint64_t triangles = 0;  ///< of the scene
+  std::uint64_t fragments = 0;  ///< golden
+  std::vector<SimulatorRun> runs;
+  FrameDistance accuracy;          ///< golden frame against the reference, over the pixels that either covers
+  std::vector<std::string> notes;  ///< what a reader of the figures should know
+  double setup_seconds = 0.0, golden_seconds = 0.0, seconds = 0.0;
+  bool equal() const;
+};
+
+/// Removes the summary that an earlier run left, which says that its results are whole: of a scene that is
+/// yet to be drawn they must not pass for this run's. Waits while another run holds the folder.
+Status forget_summary(const ResultFiles& files, const std::function<void()>& on_wait);
+
+/// Results lie in ResultFiles::of(out, scene, plan). Hardware that differs is no error: see
+/// SceneSummary::equal.
+Result<SceneSummary> simulate(const Scene& scene, const SimulateSettings& settings);
+
+/// summary.json.
+std::string to_json(const SceneSummary& summary);
+
+/// One line: triangles, fragments, cycles, cycles a fragment, mismatches, PSNR, largest error, seconds.
+std::string to_line(const SceneSummary& summary);
+
+}  // namespace halfway

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tiles put together are the whole frame, bit for bit: in depth and colour, fragment by fragment, and in what
+// the host counts.
+#include "sim/run/tile_setup.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "frame/assemble.hpp"
+#include "plan/plan.hpp"
+#include "setup/test/random_solids.hpp"
+#include "sim/run/scene_stream.hpp"
+#include "sim/run/verilator_frame.hpp"
+#include "sim/scene_files/load_scene.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr FrameSize c_frame{64, 48};
+const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
+
+Scene scene_of(const std::string& name) {
+  auto scene = load_scene(name, c_source / "sim" / "scenes", {.tessellation = 0.25});
+  EXPECT_TRUE(scene) << scene.error().message;
+  return *scene;
+}
+
+HardwareKey key_of(const Scene& scene, Shader shader, Preset preset) {
+  const auto plan = plan_scene(scene, {.shader = shader, .preset = preset});
+  EXPECT_TRUE(plan) << plan.error().message;
+  return plan->key;
+}
+
+// What the golden model draws of a setup's stream, as a tile.
+struct Drawn {
+  FrameAssembler assembler;
+  std::vector<Fragment> inside;
+  SetupCounts counts;
+  std::size_t vectors = 0;  // words of the stream
+
+  Drawn(const Setup& setup, const HardwareKey& key, FrameSize frame, const Tile& tile)
+      : assembler(frame, tile, glm::dvec3(0.25)) {
+    SceneStream stream(setup, key, 1, {.ahead = false});
+    for (Batch batch; stream.next(batch);) {
+      const Status added = assembler.add(batch.golden);
+      EXPECT_TRUE(added) << added.error().message;
+      vectors += batch.init_words.size();
+      std::ranges::copy_if(batch.golden, std::back_inserter(inside),
+                           [&](const Fragment& f) { return tile.holds(f.x, f.y); });
+    }
+    EXPECT_FALSE(stream.fault());
+    counts = stream.counts();
+  }
+};
+
+std::vector<std::uint64_t> numbers(const SetupCounts& c) {
+  const ProjectionCounts& p = c.projection;
+  return {c.triangles,   c.subdivided, c.leaves,     c.vectors,        c.records, c.shaded,
+          c.overexposed, c.unresolved, c.shadows,    c.deepest_shadow, p.visible, p.back_facing,
+          p.behind_near, p.outside,    p.degenerate, p.unrepresentable};
+}
+
+// How many fragments the frame has.
+std::size_t expect_tiles_are_the_frame(const Scene& scene, const HardwareKey& key, FrameSize frame,
+                                       FrameSize size) {
+  SCOPED_TRACE(scene.name + " by " + key.name() + " in tiles of " + to_string(size));
+  const auto setup = make_setup(scene, frame, key, {});
+  const Drawn whole(*setup, key, frame, whole_frame(frame));
+  EXPECT_EQ(whole.inside.size(), whole.assembler.fragments());
+  SetupCounts counts;
+  std::size_t inside = 0;
+  for (const Tile& tile : tiles_of(frame, size)) {
+    const TileSetup part(*setup, key, tile);
+    const Drawn drawn(part, key, frame, tile);
+    // The same fragments in the same order.
+    std::vector<Fragment> wanted;
+    std::ranges::copy_if(whole.inside, std::back_inserter(wanted),
+                         [&](const Fragment& f) { return tile.holds(f.x, f.y); });
+    EXPECT_EQ(drawn.inside, wanted) << tile.x << "," << tile.y;
+    EXPECT_EQ(drawn.assembler.fragments_inside(), wanted.size());
+    EXPECT_LE(drawn.vectors, whole.vectors);
+    for (std::uint32_t y = 0; y < tile.size.height; ++y)
+      for (std::uint32_t x = 0; x < tile.size.width; ++x) {
+        const Frame &a = drawn.assembler.frame(), &b = whole.assembler.frame();
+        EXPECT_EQ(drawn.assembler.depth(x, y), whole.assembler.depth(tile.x + x, tile.y + y));
+        for (std::size_t k = 0; k < 3; ++k)
+          EXPECT_EQ(a.rgb[a.offset(x, y) + k], b.rgb[b.offset(tile.x + x, tile.y + y) + k]);
+      }
+    inside += drawn.inside.size();
+    counts += drawn.counts;
+  }
+  EXPECT_EQ(inside, whole.inside.size());
+  EXPECT_EQ(numbers(counts), numbers(whole.counts));
+  return inside;
+}
+
+TEST(TileSetup, TilesPutTogetherAreTheFrame) {
+  for (const char* name : {"shadows", "spheres", "lights"})
+    for (const Shader shader : c_shaders)
+      for (const Preset preset : {Preset::exact, Preset::published}) {
+        const Scene scene = scene_of(name);
+        const auto plan = plan_scene(scene, {.shader = shader, .preset = preset});
+        if (!plan) continue;  // no hardware for it
+        EXPECT_GT(expect_tiles_are_the_frame(scene, plan->key, c_frame, {20, 20}), 500U);
+        if (preset == Preset::exact) expect_tiles_are_the_frame(scene, plan->key, c_frame, {17, 100});
+      }
+}
+
+// Solids through one another and in each other's shadow, from afar and from among them: triangles behind the
+// eye, cut by the near plane, larger than the frame.
+TEST(TileSetup, WhateverTheScene) {
+  RandomSolids random(9);
+  std::size_t fragments = 0;
+  for (int i = 0; i < 8; ++i) {
+    Scene scene = random.scene(4);
+    scene.name = fmt::format("scene {}", i);
+    if (i % 2 == 1) scene.camera.eye_world = random.cube(0.8);
+    for (const Shader shader : c_shaders)
+      for (const Preset preset : {Preset::exact, Preset::published}) {
+        const auto plan = plan_scene(scene, {.shader = shader, .preset = preset});
+        if (plan) fragments += expect_tiles_are_the_frame(scene, plan->key, c_frame, {23, 16});
+      }
+  }
+  EXPECT_GT(fragments, 20'000U);
+}
+
+// One triangle over four tiles goes to each; what no triangle touches gets nothing.
+TEST(TileSetup, TakesATriangleIntoEachTileThatItTouches) {
+  Scene scene = scene_of("matte");
+  scene.positions_world = {{-0.9, -0.9, 0.0}, {0.9, -0.9, 0.0}, {0.0, 0.9, 0.0}};
+  scene.normals_world = {{0.0, 0.0, 1.0}};
+  scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}};
+  scene.camera = {.eye_world = {0.0, 0.0, 4.0}, .target_world = {0.0, 0.0, 0.0}};
+  for (const Shader shader : c_shaders) {
+    const HardwareKey key = key_of(scene, shader, Preset::exact);
+    const auto setup = make_setup(scene, c_frame, key, {});
+    const Drawn whole(*setup, key, c_frame, whole_frame(c_frame));
+    std::size_t middle = 0, empty = 0;
+    for (const Tile& tile : tiles_of(c_frame, {16, 16})) {
+      const TileSetup part(*setup, key, tile);
+      const Drawn drawn(part, key, c_frame, tile);
+      if (drawn.inside.empty()) {
+        ++empty;
+        EXPECT_EQ(drawn.assembler.fragments(), 0U);
+        continue;
+      }
+      ++middle;
+      EXPECT_EQ(drawn.assembler.fragments(), whole.assembler.fragments());  // never cut
+    }
+    EXPECT_GE(middle, 4U);
+    EXPECT_GE(empty, 4U);
+  }
+}
+
+TEST(TileSetup, TheRtlDrawsThem) {
+  const SimulatorFolders folders{c_source, c_source / "build" / "cache"};
+  const Scene scene = scene_of("shadows");
+  for (const Shader shader : c_shaders) {
+    const HardwareKey key = key_of(scene, shader, Preset::exact);
+    const auto whole = draw_in_verilator(scene, c_frame, key, {}, folders, 1);
+    ASSERT_TRUE(whole) << whole.error().message;
+    Frame frame(c_frame), mask(c_frame);
+    std::uint64_t fragments = 0, cycles = 0;
+    for (const Tile& tile : tiles_of(c_frame, {37, 29})) {
+      const auto drawn = draw_in_verilator(scene, c_frame, key, {}, folders, 1, tile);
+      ASSERT_TRUE(drawn) << drawn.error().message;
+      put_tile(frame, drawn->frame, tile);
+      fragments += drawn->fragments;
+      cycles += drawn->cycles;
+    }
+    EXPECT_EQ(frame.rgb, whole->frame.rgb) << key.name();
+    EXPECT_EQ(fragments, whole->fragments) << key.name();
+    EXPECT_GT(cycles, whole->cycles) << key.name();
+  }
+}
+
+}  // namespace
+}  // namespace halfway

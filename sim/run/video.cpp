@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/run/video.hpp"
+
+#include <fmt/format.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace halfway {
+namespace {
+
+constexpr const char* c_install = "apt-get install ffmpeg";
+constexpr std::chrono::seconds c_patience{2};  // with an ffmpeg that is to end at once
+// Of files that hold one video, at any rate; ffmpeg takes others for images, sound or playlists, or knows
+// them not at all.
+constexpr std::string_view c_endings[] = {".mp4", ".m4v", ".mov", ".mkv", ".webm", ".avi",
+                                          ".ogv", ".ts",  ".flv", ".wmv", ".gif"};
+
+bool is_ending(std::string ending) {
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return std::ranges::find(c_endings, ending) != std::end(c_endings);
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+Result<TemporaryFolder> temporary_beside(const std::filesystem::path& file) {
+  return TemporaryFolder::make(folder_of(file));
+}
+
+}  // namespace
+
+Status VideoWriter::check(const std::filesystem::path& file) {
+  if (!file.has_filename() || !file.has_extension())
+    return bad_input(
+        fmt::format("--video: '{}' names no video; give a file such as turn.mp4", file.string()));
+  if (!is_ending(file.extension().string()))
+    return bad_input(fmt::format("--video: '{}' does not end as a video; take one of {}", file.string(),
+                                 fmt::join(c_endings, " ")));
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    return bad_input(fmt::format("--video: {} is a folder; name a file", file.string()));
+  if (find_program("ffmpeg").empty())
+    return tool_failed(
+        fmt::format("ffmpeg: not found, and --video needs it; install it with: {}", c_install));
+  const auto writable = temporary_beside(file);
+  if (!writable) return writable.error();
+  return Ok{};
+}
+
+Result<VideoWriter> VideoWriter::open(const std::filesystem::path& file, FrameSize size, unsigned rate) {
+  auto folder = temporary_beside(file);
+  if (!folder) return folder.error();
+  // A socket, not a pipe: its writer can be told of ffmpeg's end without a signal.
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    return tool_failed(fmt::format("ffmpeg: cannot be given frames: {}", std::strerror(errno)));
+  VideoWriter writer(file, std::move(*folder));
+  writer.input_ = ends[0];
+  // Most players take 4:2:0 alone, which has even sides.
+  Command command{.arguments = {"ffmpeg",
+                                "-nostdin",
+                                "-hide_banner",
+                                "-loglevel",
+                                "error",
+                                "-y",
+                                "-f",
+                                "rawvideo",
+                                "-pix_fmt",
+                                "rgb24",
+                                "-s",
+                                fmt::format("{}x{}", size.width, size.height),
+                                "-r",
+                                std::to_string(rate),
+                                "-i",
+                                "pipe:0",
+                                "-vf",
+                                "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                "-pix_fmt",
+                                "yuv420p",
+                                (writer.folder_->path() / file.filename()).string()},
+                  .standard_input = ends[1]};
+  writer.ffmpeg_ = std::async(std::launch::async,
+                              [command = std::move(command)] { return run_process(command, c_install); });
+  return writer;
+}
+
+VideoWriter::VideoWriter(VideoWriter&& other) noexcept
+    : file_(std::move(other.file_)),
+      folder_(std::move(other.folder_)),
+      input_(std::exchange(other.input_, -1)),
+      ffmpeg_(std::move(other.ffmpeg_)) {
+  other.folder_.reset();
+}
+
+VideoWriter::~VideoWriter() {
+  close_input();
+  if (ffmpeg_.valid()) ffmpeg_.wait();
+}
+
+void VideoWriter::close_input() {
+  if (input_ >= 0) ::close(std::exchange(input_, -1));
+}
+
+Status VideoWriter::add(const Frame& frame) {
+  const std::uint8_t* bytes = frame.rgb.data();
+  for (std::size_t left = frame.rgb.size(); left > 0;) {
+    const ssize_t sent = ::send(input_, bytes, left, MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent < 0) {
+      if (Status status = finish(); !status) return status;
+      return tool_failed("ffmpeg: took no more frames, and did not say why");
+    }
+    bytes += sent;
+    left -= static_cast<std::size_t>(sent);
+  }
+  return Ok{};
+}
+
+Status VideoWriter::finish() {
+  close_input();
+  const auto end = ffmpeg_.get();
+  if (!end) return end.error();
+  if (!end->succeeded())
+    return tool_failed(fmt::format("{}: ffmpeg could not make it ({}):\n{}{}", file_.string(), end->how(),
+                                   end->output, room_note({folder_of(file_)})));
+  return Ok{};
+}
+
+Status VideoWriter::commit() {
+  if (Status status = finish(); !status) return status;
+  std::error_code error;
+  std::filesystem::rename(folder_->path() / file_.filename(), file_, error);
+  if (error)
+    return tool_failed(fmt::format("{}: cannot move the video here: {}", file_.string(), error.message()));
+  return Ok{};
+}
+
+void VideoWriter::abandon() const {
+  ::shutdown(input_, SHUT_RDWR);
+  if (const auto ffmpeg = ffmpeg_; ffmpeg.valid()) ffmpeg.wait_for(c_patience);
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_->path(), ignored);
+}
+
+}  // namespace halfway

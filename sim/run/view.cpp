@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/run/view.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <span>
+
+#include "scene/camera.hpp"
+#include "scene/turntable.hpp"
+#include "setup/spherical_setup.hpp"
+#include "sim/compare/limits.hpp"
+#include "sim/run/scene_stream.hpp"
+#include "sim/system/seconds.hpp"
+#include "sim/system/threads.hpp"
+
+namespace halfway {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Each drawing thread has a copy of the scene, whose camera it moves; larger scenes are drawn by fewer.
+constexpr std::size_t c_most_copied_bytes = std::size_t{1} << 30;
+
+std::size_t bytes(const Scene& scene) {
+  return sizeof(glm::dvec3) * (scene.positions_world.size() + scene.normals_world.size()) +
+         sizeof(SceneTriangle) * scene.triangles.size();
+}
+
+struct DrawnFrame {
+  std::uint64_t fragments = 0;
+  ViewSeconds seconds;
+  std::vector<std::string> notes;
+  bool covered = false;
+  bool lanes_failed = false;  ///< Verilator drew
+  std::optional<ViewDifference> difference;
+};
+
+// Models of the hardware, and the scene that they draw from place to place.
+class Easel {
+ public:
+  /// `lanes`: none where Verilator draws.
+  Easel(Scene scene, std::optional<VerilatorSimulator> verilator, std::optional<LaneSimulator> lanes,
+        const ViewSettings& settings, const SetupOptions& setup, const HardwareKey& key, unsigned threads)
+      : scene_(std::move(scene)),
+        first_camera_(scene_.camera),
+        verilator_(std::move(verilator)),
+        lanes_(std::move(lanes)),
+        s_(settings),
+        setup_(setup),
+        key_(key),
+        threads_(threads),
+        rtl_(settings.size, scene_.background, settings.compare) {}
+
+  Result<DrawnFrame> draw(std::uint32_t number) {
+    scene_.camera = turned(first_camera_, number, s_.frames);
+    if (!has_view(scene_.camera))
+      return bad_input(fmt::format(
+          "{}: frame {} has no view: the camera's eye is too near its target, or to the axis through that",
+          scene_.name, number));
+    DrawnFrame drawn;
+    RtlStream& rtl = rtl_;
+    rtl.clear();
+    if (Status status = lanes_ ? draw_in_lanes(rtl, drawn) : draw_in_verilator(rtl, drawn); !status)
+      return status.error();
+    SimulatorRun run = finish(rtl, drawn, to_string(lanes_ ? RtlEngine::lanes : RtlEngine::verilator));
+    if (lanes_ && !run.equal()) {
+      // Verilator tells it better: the cycle of a fault, and what was drawn before.
+      const SimulatorRun in_lanes = std::move(run);
+      drawn.lanes_failed = true;
+      rtl.clear();
+      if (Status status = draw_in_verilator(rtl, drawn); !status) return status.error();
+      run = finish(rtl, drawn, to_string(RtlEngine::verilator));
+      if (run.equal() && in_lanes.mismatches != 0)
+        return tool_failed(fmt::format(
+            "{}: frame {}: {} fragments differ in lanes, and none in Verilator; please report it, and take "
+            "--simulator verilator",
+            scene_.name, number, in_lanes.mismatches));
+      if (run.equal())
+        drawn.notes.push_back(fmt::format(
+            "frame {}: {}; Verilator drew it, without a fault; please report it", number, in_lanes.fault));
+    }
+    drawn.fragments = run.fragments;
+    drawn.covered = run.fragments != 0;
+    if (!run.equal()) drawn.difference = ViewDifference{number, scene_.camera, std::move(run)};
+
+    const double images_start = thread_seconds();
+    if (Status status = s_.on_drawn(number, rtl.assembler().frame()); !status) return status.error();
+    drawn.seconds.images = thread_seconds() - images_start;
+    frame_ = rtl.assembler().frame();
+    return drawn;
+  }
+  const Frame& frame() const { return frame_; }
+
+ private:
+  Status draw_in_lanes(RtlStream& rtl, DrawnFrame& drawn) {
+    fed_ = {};
+    if (!s_.compare) {
+      LaneFeed feed(*lanes_, rtl);
+      return draw(drawn, false, [&](const Batch& batch) { return feed.add(batch.init_words); });
+    }
+    if (!golden_) golden_ = make_golden_model(key_);
+    LaneFeed feed(*lanes_, rtl, *golden_);
+    const Status status = draw(drawn, false, [&](const Batch& batch) { return feed.add(batch.init_words); });
+    const double golden = fed_.share(feed.golden_seconds());
+    drawn.seconds.golden += golden;
+    drawn.seconds.rtl -= golden;
+    return status;
+  }
+  Status draw_in_verilator(RtlStream& rtl, DrawnFrame& drawn) {
+    fed_ = {};
+    if (!verilator_) {
+      auto opened = VerilatorSimulator::open(key_, s_.folders, {.idle_limit = c_idle_limit});
+      if (!opened) return opened.error();
+      verilator_.emplace(std::move(*opened));
+    }
+    VerilatorFeed feed(*verilator_, rtl);
+    if (Status status = draw(drawn, s_.compare,
+                             [&](const Batch& batch) {
+                               rtl.add_golden(batch.golden);
+                               return feed.add(batch.init_words);
+                             });
+        !status)
+      return status;
+    return fed_.add([&] { return feed.finish(); });
+  }
+
+  /// `golden`: batches hold the golden model's fragments.
+  template <class Feed>
+  Status draw(DrawnFrame& drawn, bool golden, const Feed& feed) {
+    const double setup_start = thread_seconds();
+    const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, key_, setup_);
+    drawn.notes = setup->notes();
+    drawn.seconds.setup += thread_seconds() - setup_start;
+    // With a thread a frame there is another frame to draw meanwhile.
+    SceneStream stream(*setup, key_, threads_, {.golden = golden, .ahead = threads_ > 1});
+    for (Batch batch; stream.next(batch);) {
+      if (Status status = check_shadow_counts(scene_, stream); !status) return status;
+      if (Status fed = fed_.add([&] { return feed(batch); }); !fed) return fed;
+    }
+    drawn.seconds.setup += stream.setup_seconds();
+    drawn.seconds.golden += stream.golden_seconds();
+    return check_projection(scene_, stream);
+  }
+
+  SimulatorRun finish(RtlStream& rtl, DrawnFrame& drawn, const char* simulator) {
+    SimulatorRun run = fed_.add([&] { return rtl.finish(simulator); });
+    const double compare = fed_.share(rtl.compare_seconds()), assemble = fed_.share(rtl.assemble_seconds());
+    drawn.seconds.rtl += fed_.processor() - compare - assemble;
+    drawn.seconds.compare += compare;
+    drawn.seconds.assemble += assemble;
+    return run;
+  }
+
+  Scene scene_;
+  Camera first_camera_;
+  std::optional<VerilatorSimulator> verilator_;
+  std::optional<LaneSimulator> lanes_;
+  std::unique_ptr<GoldenModel> golden_;  ///< beside lanes
+  Stretch fed_;                          ///< in which this frame's RTL draws, and all that hangs on it
+  const ViewSettings& s_;
+  const SetupOptions& setup_;
+  const HardwareKey& key_;
+  unsigned threads_;
+  RtlStream rtl_;
+  Frame frame_;
+};
+
+// Numbers of frames for the threads, and their frames in that order for whoever takes them.
+class Turn {
+ public:
+  Turn(const ViewSettings& settings, ViewSummary& summary) : s_(settings), summary_(summary) {}
+
+  /// None when all are drawn or one went wrong.
+  std::optional<std::uint32_t> next() {
+    const std::scoped_lock lock(mutex_);
+    if (stop_ || next_ == s_.frames) return std::nullopt;
+    return next_++;
+  }
+
+  void take(std::uint32_t number, const Result<DrawnFrame>& drawn, const Frame& frame) {
+    std::unique_lock lock(mutex_);
+    if (!drawn) {
+      fail(number, drawn.error());
+      return;
+    }
+    in_turn_.wait(lock, [&] { return taken_ == number || failed_ < number; });
+    if (failed_ < number) return;
+    // Alone here until `taken_` goes on.
+    lock.unlock();
+    const Status taken = s_.on_next(number, frame);
+    lock.lock();
+    summary_.fragments += drawn->fragments;
+    summary_.parts += drawn->seconds;
+    for (const std::string& note : drawn->notes) add_note(note);
+    if (!drawn->covered) ++bare_;
+    if (drawn->lanes_failed) summary_.lanes_failed.push_back(number);
+    ++summary_.frames;
+    ++taken_;
+    if (drawn->difference) {  // the last, whatever later ones came to
+      summary_.difference = drawn->difference;
+      error_.reset();
+      failed_ = number;
+      stop_ = true;
+    }
+    if (!taken) {
+      failed_ = number;
+      error_ = taken.error();
+      stop_ = true;
+    }
+    in_turn_.notify_all();
+  }
+  /// What came from elsewhere, such as out of memory: nobody waits any more.
+  void abandon() {
+    const std::scoped_lock lock(mutex_);
+    stop_ = true;
+    failed_ = 0;
+    in_turn_.notify_all();
+  }
+
+  const std::optional<Error>& error() const { return error_; }
+  std::uint32_t bare() const { return bare_; }
+
+ private:
+  // Frames are begun in order: those before the first failure are all drawn, whichever thread is fast.
+  void fail(std::uint32_t number, const Error& error) {
+    stop_ = true;
+    if (number < failed_) {
+      failed_ = number;
+      error_ = error;
+    }
+    in_turn_.notify_all();
+  }
+  void add_note(const std::string& note) {
+    const std::string text = fmt::format("{}: {}", summary_.scene, note);
+    if (std::ranges::find(summary_.notes, text) == summary_.notes.end()) summary_.notes.push_back(text);
+  }
+
+  const ViewSettings& s_;
+  ViewSummary& summary_;
+  std::mutex mutex_;
+  std::condition_variable in_turn_;
+  std::uint32_t next_ = 0, taken_ = 0;
+  std::uint32_t failed_ = c_most_view_frames;  ///< the first frame that is not to be taken any more
+  bool stop_ = false;
+  std::optional<Error> error_;
+  std::uint32_t bare_ = 0;
+};
+
+// "lanes", or "lanes, verilator in frames 3, 8".
+std::string who_drew(const ViewSummary& s) {
+  if (s.lanes_failed.empty()) return to_string(s.engine);
+  constexpr std::size_t c_named = 10;
+  const auto named = std::span(s.lanes_failed).first(std::min(c_named, s.lanes_failed.size()));
+  const std::size_t others = s.lanes_failed.size() - named.size();
+  return fmt::format("{}, verilator in frame{} {}{}", to_string(s.engine),
+                     s.lanes_failed.size() == 1 ? "" : "s", fmt::join(named, ", "),
+                     others == 0 ? "" : fmt::format(" and {} others", others));
+}
+
+}  // namespace
+
+ViewSeconds& ViewSeconds::operator+=(const ViewSeconds& other) {
+  setup += other.setup;
+  golden += other.golden;
+  rtl += other.rtl;
+  compare += other.compare;
+  assemble += other.assemble;
+  images += other.images;
+  return *this;
+}
+
+Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
+  auto plan = plan_scene(scene, settings.plan);
+  if (!plan) return plan.error();
+  ViewSummary summary{.scene = scene.name,
+                      .plan = std::move(*plan),
+                      .size = settings.size,
+                      .triangles = scene.triangles.size(),
+                      .compared = settings.compare,
+                      .threads = settings.threads};
+  const HardwareKey& key = summary.plan.key;
+  const auto in_lanes =
+      use_lanes(settings.engine, key,
+                double(settings.size.width) * double(settings.size.height) * double(settings.frames));
+  if (!in_lanes) return in_lanes.error();
+  summary.engine = *in_lanes ? RtlEngine::lanes : RtlEngine::verilator;
+  settings.on_build(key.name(), summary.engine);
+  std::optional<VerilatorSimulator> verilator;
+  std::optional<LaneSimulator> lanes;
+  if (*in_lanes) {
+    auto opened = LaneSimulator::open(key, settings.folders, {.idle_limit = c_idle_limit});
+    if (!opened && settings.engine == RtlEngine::lanes) return opened.error();
+    if (opened) {
+      lanes.emplace(std::move(*opened));
+    } else {
+      summary.notes.push_back(fmt::format("{}: Verilator draws, for lanes cannot be had: {}", scene.name,
+                                          opened.error().message));
+      summary.engine = RtlEngine::verilator;
+      settings.on_build(key.name(), summary.engine);
+    }
+  }
+  if (!lanes) {
+    auto opened = VerilatorSimulator::open(key, settings.folders, {.idle_limit = c_idle_limit});
+    if (!opened) return opened.error();
+    verilator.emplace(std::move(*opened));
+  }
+  if (Status status = settings.on_ready(); !status) return status.error();
+
+  const Clock::time_point start = Clock::now();
+  const auto fit = static_cast<unsigned>(std::clamp<std::size_t>(
+      c_most_copied_bytes / std::max<std::size_t>(bytes(scene), 1), 1, settings.threads));
+  SetupOptions setup = settings.setup;
+  if (key.shader == Shader::spherical && key.preset == Preset::exact)
+    setup.spherical.bells = std::make_shared<const Bells>(fitted_bells(scene));
+  const unsigned easels = std::min({settings.threads, fit, settings.frames});
+  Turn turn(settings, summary);
+  work_on_threads(easels, [&] {
+    try {
+      std::optional<VerilatorSimulator> own;
+      std::optional<LaneSimulator> own_lanes;
+      if (lanes) own_lanes.emplace(lanes->another());
+      if (verilator) {
+        auto model = verilator->another();
+        if (!model) {
+          turn.take(0, model.error(), {});
+          return;
+        }
+        own.emplace(std::move(*model));
+      }
+      Easel easel(scene, std::move(own), std::move(own_lanes), settings, setup, key,
+                  std::max(1U, settings.threads / easels));
+      while (const auto number = turn.next()) {
+        const auto drawn = easel.draw(*number);
+        turn.take(*number, drawn, easel.frame());
+      }
+    } catch (...) {
+      turn.abandon();
+      throw;
+    }
+  });
+  summary.seconds = seconds_since(start);
+  if (turn.error()) return *turn.error();
+  if (turn.bare() != 0)
+    summary.notes.push_back(
+        fmt::format("{}: {} of {} frames show no triangle, and so nothing of the hardware", scene.name,
+                    turn.bare(), summary.frames));
+  return summary;
+}
+
+std::string to_lines(const ViewSummary& s) {
+  const std::string compared = !s.compared    ? "not compared with the golden model"
+                               : s.difference ? fmt::format("{} mismatches in frame {}",
+                                                            s.difference->run.mismatches, s.difference->frame)
+                                              : "0 mismatches";
+  std::string text = fmt::format(
+      "{:<12} {:<10} {:<9} {:>4}x{:<4} {:>4} frame{} of {} triangles, {} fragments | {}: {} | {:.2f} "
+      "frames a second, {:.2f} s on {} thread{}\n",
+      s.scene, to_string(s.plan.key.shader), to_string(s.plan.key.preset), s.size.width, s.size.height,
+      s.frames, s.frames == 1 ? "" : "s", s.triangles, s.fragments, who_drew(s), compared, s.rate(),
+      s.seconds, s.threads, s.threads == 1 ? "" : "s");
+  if (s.frames == 0) return text;
+  const auto ms = [&](double seconds) { return 1e3 * seconds / s.frames; };
+  text += fmt::format("processor time a frame: setup {:.1f} ms, ", ms(s.parts.setup));
+  if (s.compared) text += fmt::format("golden model {:.1f}, ", ms(s.parts.golden));
+  text += fmt::format("{} {:.1f}, ", s.engine == RtlEngine::lanes ? "lanes" : "Verilator", ms(s.parts.rtl));
+  if (s.compared) text += fmt::format("comparison {:.1f}, ", ms(s.parts.compare));
+  return text + fmt::format("assembly {:.1f}, images {:.1f}\n", ms(s.parts.assemble), ms(s.parts.images));
+}
+
+}  // namespace halfway

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// A turntable: one scene from all sides, by one piece of hardware, in Verilator or in lanes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/result.hpp"
+#include "frame/frame.hpp"
+#include "plan/plan.hpp"
+#include "scene/scene.hpp"
+#include "setup/setup.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/run/lane_feed.hpp"
+#include "sim/run/rtl_stream.hpp"
+
+namespace halfway {
+
+inline constexpr std::uint32_t c_most_view_frames = 10'000;
+
+struct ViewSettings {
+  PlanRequest plan;
+  FrameSize size;
+  SetupOptions setup;
+  unsigned threads = 1;
+  std::uint32_t frames = 36;  ///< of one turn; 1 to c_most_view_frames
+  bool compare = true;        ///< else the golden model does not draw
+  RtlEngine engine = RtlEngine::automatic;
+  SimulatorFolders folders;
+  /// Told the key before its hardware is built, and for what.
+  std::function<void(const std::string& key, RtlEngine engine)> on_build = [](const std::string&, RtlEngine) {
+  };
+  /// Called once the hardware is there, before anything is drawn.
+  std::function<Status()> on_ready = []() -> Status { return Ok{}; };
+  /// Called with each frame once it is drawn: by several threads at once, in no order.
+  std::function<Status(std::uint32_t number, const Frame& frame)> on_drawn =
+      [](std::uint32_t, const Frame&) -> Status { return Ok{}; };
+  /// Called with each frame in their order, one at a time, after on_drawn.
+  std::function<Status(std::uint32_t number, const Frame& frame)> on_next =
+      [](std::uint32_t, const Frame&) -> Status { return Ok{}; };
+};
+
+/// Processor seconds of all frames.
+struct ViewSeconds {
+  double setup = 0.0, golden = 0.0, rtl = 0.0, compare = 0.0, assemble = 0.0;
+  double images = 0.0;  ///< on_drawn
+  ViewSeconds& operator+=(const ViewSeconds& other);
+};
+
+/// The first frame whose stream differs from the golden model's, or whose hardware went wrong.
+struct ViewDifference {
+  std::uint32_t frame;
+  Camera camera;
+  SimulatorRun run;
+};
+
+struct ViewSummary {
+  std::string scene;
+  Plan plan;
+  FrameSize size;
+  std::uint64_t triangles = 0;  ///< of the scene
+  std::uint32_t frames = 0;     ///< drawn; all, unless one differs
+  std::uint64_t fragments = 0;  ///< of the RTL, in all frames
+  bool compared = true;
+  RtlEngine engine = RtlEngine::verilator;  ///< which drew, but for the frames that follow
+  std::vector<std::uint32_t> lanes_failed;  ///< which Verilator drew
+  unsigned threads = 1;
+  double seconds = 0.0;  ///< from when the hardware was there until the last frame was taken
+  ViewSeconds parts;
+  std::optional<ViewDifference> difference;
+  std::vector<std::string> notes;  ///< what a reader of the figures should know
+  double rate() const { return seconds > 0.0 ? frames / seconds : 0.0; }
+};
+
+/// Draws the scene from `frames` places around its camera's target. Hardware is planned and built once: no
+/// effect depends on the camera. Threads draw whole frames, each on a model of its own, which is not reset
+/// between them; lanes where they pay, see use_lanes(), and can be had: else Verilator, with a note. A frame
+/// that differs in lanes, or in which they end with a fault, is drawn again in Verilator, which tells more:
+/// its cycles, and what was drawn until a fault. Where Verilator finds no fault, a note tells that of lanes;
+/// where it finds no mismatch, those of lanes are an error. Memory is bounded by the threads, by the frame,
+/// and by SceneStream, LaneSimulator and VerilatorFeed, not by the number of frames or of triangles. Ends
+/// after the first frame that differs, which is no error: see ViewSummary::difference.
+Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings);
+
+/// Two lines: frames a second, mismatches; the parts of a frame's time.
+std::string to_lines(const ViewSummary& summary);
+
+}  // namespace halfway

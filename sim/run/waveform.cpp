@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/run/waveform.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "golden/processors_layout.hpp"
+#include "golden/word.hpp"
+#include "golden_run/golden_run.hpp"
+#include "sim/compare/limits.hpp"
+#include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/stream_files/init_file.hpp"
+#include "sim/system/file.hpp"
+#include "sim/verilator/verilator_simulator.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr std::size_t c_vectors_a_read = 64;
+
+// The simulators write waveforms under the name given, and do not tell of a full disk.
+Result<std::filesystem::path> put_in_place(const std::filesystem::path& written,
+                                           const std::filesystem::path& path) {
+  if (const std::string note = room_note({path.parent_path()}); !note.empty())
+    return tool_failed(path.string() + ": may be cut off" + note);
+  std::error_code error;
+  std::filesystem::rename(written, path, error);
+  if (error) return tool_failed(fmt::format("{}: cannot write: {}", path.string(), error.message()));
+  return path;
+}
+
+// Runs the init file until `fragments` have come, or to the end.
+Status run_until(VerilatorSimulator& simulator, const ResultFiles& files, const std::string& key_name,
+                 std::uint64_t fragments) {
+  auto file = InitFileReader::open(files.init(), key_name);
+  if (!file) return file.error();
+  std::vector<Fragment> drawn;
+  std::uint64_t count = 0;
+  const auto taken = [&](const Status& status) {
+    count += drawn.size();
+    drawn.clear();
+    return static_cast<bool>(status);
+  };
+  std::vector<std::uint32_t> words;
+  while (count < fragments) {
+    words.clear();
+    const auto vectors = file->read(words, c_vectors_a_read);
+    if (!vectors) return vectors.error();
+    const auto limit = static_cast<std::size_t>(fragments - count);
+    const Status status =
+        *vectors == 0 ? simulator.finish(drawn, limit) : simulator.run(words, *vectors, drawn, limit);
+    if (!taken(status) || *vectors == 0) break;  // enough fragments, a hang, or the end
+  }
+  return Ok{};
+}
+
+// What the shading processors are told once, and what they keep of a line.
+bool is_load(const HardwareKey& key, std::span<const std::uint32_t> vector) {
+  using golden::Command;
+  if (key.shader != Shader::processors) return false;
+  const auto command =
+      static_cast<Command>(golden::get_bits(vector, golden::Exact::request_header_at::command));
+  return command == Command::new_frame || command == Command::define || command == Command::redefine ||
+         command == Command::remove;
+}
+std::optional<std::uint64_t> line_of_objects(const HardwareKey& key, std::span<const std::uint32_t> vector) {
+  if (key.shader != Shader::processors || !key.processors.shadows) return std::nullopt;
+  return golden::get_bits(vector, golden::Exact::init_header_at::y,
+                          golden::ProcessorsLayout<golden::Exact>::walk_low());
+}
+
+// The vectors of the triangles around fragment `index`: two before its own, and two after; of hardware that
+// keeps something from a vector to the next, also what it was told, and all of its line.
+Result<InitStream> vectors_around(const HardwareKey& key, const ResultFiles& files, std::uint64_t index) {
+  constexpr std::size_t c_around = 2;
+  auto file = InitFileReader::open(files.init(), key.name());
+  if (!file) return file.error();
+  const std::unique_ptr<GoldenModel> golden = make_golden_model(key);
+  InitStream kept{file->bits(), {}};
+  std::deque<std::size_t> before;  // words of each triangle kept so far
+  std::size_t loads = 0;           // words of what stands before them, and stays
+  std::optional<std::uint64_t> line;
+  std::uint64_t drawn = 0;
+  for (std::size_t after = 0; after <= c_around;) {
+    std::vector<std::uint32_t> words;
+    const auto begun = file->read(words, 1);
+    if (!begun) return begun.error();
+    if (*begun == 0) break;
+    if (const std::size_t records = golden->group(words) - 1; records != 0)
+      if (const auto more = file->read(words, records); !more) return more.error();
+    std::vector<Fragment> fragments;
+    golden->draw(words, fragments);
+    if (is_load(key, words)) {
+      kept.words.insert(kept.words.begin() + static_cast<std::ptrdiff_t>(loads), words.begin(), words.end());
+      loads += words.size();
+      continue;
+    }
+    const auto first = kept.words.begin() + static_cast<std::ptrdiff_t>(loads);
+    if (const auto now = line_of_objects(key, words); now != line) {
+      if (after == 0) {
+        kept.words.erase(first, kept.words.end());
+        before.clear();
+      }
+      line = now;
+    }
+    drawn += fragments.size();
+    kept.words.insert(kept.words.end(), words.begin(), words.end());
+    before.push_back(words.size());
+    if (drawn > index) {
+      ++after;
+    } else if (before.size() > c_around && !line) {
+      const auto oldest = kept.words.begin() + static_cast<std::ptrdiff_t>(loads);
+      kept.words.erase(oldest, oldest + static_cast<std::ptrdiff_t>(before.front()));
+      before.pop_front();
+    }
+  }
+  return kept;
+}
+
+Result<std::filesystem::path> write_ghdl_waveform(const HardwareKey& key, const SimulatorFolders& folders,
+                                                  const ResultFiles& files, std::uint64_t index,
+                                                  std::uint32_t stall_seed) {
+  const auto vectors = vectors_around(key, files, index);
+  if (!vectors) return vectors.error();
+  const std::filesystem::path path = files.folder / "mismatch-ghdl.fst";
+  const auto scratch = TemporaryFolder::make(files.folder);
+  if (!scratch) return scratch.error();
+  const std::filesystem::path init = scratch->path() / "init.txt";
+  if (const Status status = write_init_file(init, key.name(), *vectors); !status) return status.error();
+  const auto runner = GhdlRunner::open(key, folders);
+  if (!runner) return runner.error();
+  GhdlRunOptions options;
+  options.idle_limit = static_cast<std::uint32_t>(c_waveform_before);
+  options.stall_seed = stall_seed;
+  options.max_fragments = c_idle_limit;
+  options.wave_file = scratch->path() / path.filename();
+  const auto run = runner->run(init, scratch->path() / "trace", options);
+  if (!run && run.error().code != ExitCode::differs) return run.error();
+  return put_in_place(options.wave_file, path);
+}
+
+}  // namespace
+
+Result<std::filesystem::path> write_mismatch_waveform(const HardwareKey& key, const SimulatorFolders& folders,
+                                                      const ResultFiles& files, const std::string& simulator,
+                                                      std::optional<std::uint64_t> index,
+                                                      std::uint32_t stall_seed) {
+  if (simulator == "ghdl") return write_ghdl_waveform(key, folders, files, index.value_or(0), stall_seed);
+  const std::filesystem::path path = files.folder / "mismatch-verilator.fst";
+  VerilatorOptions options{.stall_seed = stall_seed, .idle_limit = c_idle_limit};
+  const std::uint64_t fragments = index ? *index + 1 : UINT64_MAX;
+  std::uint64_t at = 0;
+  {
+    auto first = VerilatorSimulator::open(key, folders, options);
+    if (!first) return first.error();
+    if (const Status status = run_until(*first, files, key.name(), fragments); !status) return status.error();
+    at = first->cycles();
+  }
+  const auto scratch = TemporaryFolder::make(files.folder);
+  if (!scratch) return scratch.error();
+  options.wave_file = scratch->path() / path.filename();
+  options.waves_from = at > c_waveform_before ? at - c_waveform_before : 0;
+  options.waves_to = at + c_waveform_after;
+  {
+    auto second = VerilatorSimulator::open(key, folders, options);
+    if (!second) return second.error();
+    const std::uint64_t past =
+        fragments > UINT64_MAX - c_waveform_after ? fragments : fragments + c_waveform_after;
+    if (const Status status = run_until(*second, files, key.name(), past); !status) return status.error();
+  }
+  return put_in_place(options.wave_file, path);
+}
+
+}  // namespace halfway

@@ -1,0 +1,445 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/scene_files/load_mesh.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace halfway {
+namespace {
+
+template <class T>
+std::string bytes(const std::vector<T>& values) {
+  std::string result(values.size() * sizeof(T), '\0');
+  std::memcpy(result.data(), values.data(), result.size());
+  return result;
+}
+
+std::string base64(const std::string& data) {
+  constexpr char c_digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < data.size(); i += 3) {
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      word = word << 8 | (i + k < data.size() ? static_cast<unsigned char>(data[i + k]) : 0u);
+    }
+    for (int k = 0; k < 4; ++k) {
+      text += i + static_cast<std::size_t>(k) > data.size() ? '=' : c_digits[word >> (18 - 6 * k) & 63];
+    }
+  }
+  return text;
+}
+
+// The same square pyramid, apex (0, 0, 1), in every format: 4 triangles and a square base, or 6 triangles.
+const std::string c_obj =
+    "# pyramid\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 1\n"
+    "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 4 3 2 1\n";
+const std::string c_ply_header =
+    "element vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 5\nproperty list uchar int vertex_indices\nend_header\n";
+const std::string c_ply_ascii = "ply\nformat ascii 1.0\n" + c_ply_header +
+                                "-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n0 0 1\n"
+                                "3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n4 3 2 1 0\n";
+const std::vector<float> c_positions = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 0, 0, 1};
+const std::vector<std::uint16_t> c_indices = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 3, 2, 1, 3, 1, 0};
+
+std::string ply_binary() {
+  std::string text = "ply\nformat binary_little_endian 1.0\n" + c_ply_header + bytes(c_positions);
+  for (const std::vector<std::int32_t>& face :
+       std::vector<std::vector<std::int32_t>>{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {3, 2, 1, 0}}) {
+    text += static_cast<char>(face.size()) + bytes(face);
+  }
+  return text;
+}
+
+std::string stl_binary() {
+  std::string text(80, ' ');
+  text += bytes(std::vector<std::uint32_t>{6});
+  for (std::size_t t = 0; t < 6; ++t) {
+    text += bytes(std::vector<float>{0, 0, 0});
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t v = c_indices[3 * t + c];
+      text += bytes(std::vector<float>{c_positions[3 * v], c_positions[3 * v + 1], c_positions[3 * v + 2]});
+    }
+    text += std::string(2, '\0');
+  }
+  return text;
+}
+
+std::string stl_ascii() {
+  std::string text = "solid pyramid\n";
+  for (std::size_t t = 0; t < 6; ++t) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (std::size_t c = 0; c < 3; ++c) {
+      text += "vertex";
+      for (std::size_t k = 0; k < 3; ++k)
+        text += " " + std::to_string(c_positions[3 * c_indices[3 * t + c] + k]);
+      text += "\n";
+    }
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid pyramid\n";
+}
+
+const std::string c_buffer = bytes(c_positions) + bytes(c_indices);
+
+std::string gltf_json(const std::string& buffer_uri, const std::string& count = "18") {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
+         R"("nodes":[{"children":[1],"translation":[10,0,0]},{"mesh":0,"scale":[2,2,2]}],)"
+         R"("materials":[{"name":"gold","pbrMetallicRoughness":{"baseColorFactor":[0.8,0.6,0.2,1],)"
+         R"("metallicFactor":1,"roughnessFactor":0.5}}],)"
+         R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],)"
+         R"("buffers":[{"byteLength":96)" +
+         buffer_uri +
+         R"(}],"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":60},{"buffer":0,"byteOffset":60,"byteLength":36}],)"
+         R"("accessors":[{"bufferView":0,"componentType":5126,"count":5,"type":"VEC3","min":[-1,-1,0],"max":[1,1,1]},)"
+         R"({"bufferView":1,"componentType":5123,"count":)" +
+         count + R"(,"type":"SCALAR"}]})";
+}
+
+std::string gltf(const std::string& buffer = c_buffer) {
+  return gltf_json(R"(,"uri":"data:application/octet-stream;base64,)" + base64(buffer) + '"');
+}
+
+std::string glb() {
+  std::string json = gltf_json("");
+  while (json.size() % 4 != 0) json += ' ';
+  const auto size = [](std::size_t n) { return static_cast<std::uint32_t>(n); };
+  return "glTF" + bytes(std::vector<std::uint32_t>{2, size(12 + 8 + json.size() + 8 + c_buffer.size())}) +
+         bytes(std::vector<std::uint32_t>{size(json.size()), 0x4e4f534a}) + json +
+         bytes(std::vector<std::uint32_t>{size(c_buffer.size()), 0x004e4942}) + c_buffer;
+}
+
+class LoadMesh : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "halfway-mesh-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  Result<LoadedMesh> load(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return load_mesh(folder_ / name);
+  }
+
+  /// The message without the folder, or "loaded".
+  std::string error(const std::string& name, const std::string& text) const {
+    const Result<LoadedMesh> mesh = load(name, text);
+    if (mesh) return "loaded";
+    EXPECT_EQ(mesh.error().code, ExitCode::bad_input);
+    const std::string prefix = folder_.string() + "/";
+    EXPECT_EQ(mesh.error().message.find(prefix), 0u);
+    return mesh.error().message.substr(prefix.size());
+  }
+
+  void expect_error(const std::string& name, const std::string& text, const std::string& expected) const {
+    const std::string message = error(name, text);
+    EXPECT_NE(message.find(expected), std::string::npos)
+        << name << ": " << message << "\nwanted: " << expected;
+  }
+
+  std::filesystem::path folder_;
+};
+
+double volume(const Mesh& mesh) {
+  double sum = 0.0;
+  for (const SceneTriangle& t : mesh.triangles) {
+    sum += glm::dot(mesh.positions[t.position[0]],
+                    glm::cross(mesh.positions[t.position[1]], mesh.positions[t.position[2]])) /
+           6.0;
+  }
+  return sum;
+}
+
+TEST_F(LoadMesh, ReadsThePyramidFromEveryFormat) {
+  const std::pair<const char*, std::string> files[] = {
+      {"p.obj", c_obj},        {"p.ply", c_ply_ascii}, {"q.ply", ply_binary()}, {"p.stl", stl_ascii()},
+      {"q.stl", stl_binary()}, {"p.gltf", gltf()},     {"p.glb", glb()},        {"P.OBJ", c_obj}};
+  for (const auto& [name, text] : files) {
+    Result<LoadedMesh> loaded = load(name, text);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded->mesh.triangles.size(), 6u) << name;
+    EXPECT_EQ(loaded->mesh.positions.size(), 5u) << name;
+    const bool is_gltf = std::string(name).starts_with("p.g");
+    EXPECT_NEAR(volume(loaded->mesh), (is_gltf ? 8.0 : 1.0) * 4.0 / 3.0, 1e-12) << name;
+    EXPECT_EQ(loaded->mesh.materials.size(), 1u) << name;
+    EXPECT_EQ(loaded->default_crease_degrees, name[2] == 's' ? 60.0 : 180.0);
+    EXPECT_TRUE(loaded->notes.empty()) << name << loaded->notes[0];
+    EXPECT_EQ(fill_normals(loaded->mesh, 180.0, false), 18u) << name;
+  }
+}
+
+TEST_F(LoadMesh, AppliesNodeTransformsAndGltfMaterials) {
+  const Result<LoadedMesh> loaded = load("p.glb", glb());
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  glm::dvec3 apex(0.0);
+  for (const glm::dvec3& p : loaded->mesh.positions) {
+    if (p.z > 0.0) apex = p;
+  }
+  EXPECT_EQ(apex, glm::dvec3(10.0, 0.0, 2.0));
+  const Material& gold = loaded->mesh.materials[loaded->mesh.triangles[0].material];
+  EXPECT_EQ(gold.name, "gold");
+  EXPECT_NEAR(glm::length(gold.colour - glm::dvec3(0.8, 0.6, 0.2)), 0.0, 1e-6);
+  EXPECT_NEAR(glm::length(gold.specular_colour - gold.colour), 0.0, 1e-6);
+  EXPECT_NEAR(gold.specular, 0.4 * 0.5, 1e-6);
+  EXPECT_NEAR(gold.exponent, 2.0 / 0.0625 - 2.0, 1e-9);
+}
+
+TEST_F(LoadMesh, ReadsMtl) {
+  std::ofstream(folder_ / "m.mtl") << "newmtl a\nKd 0.25 0.5 0.75\nKs 1 0.5 0\nNs 0.5\n"
+                                      "newmtl b\nKd 1 1 1\nKs 0 0 0\nNs 30\n";
+  const Result<LoadedMesh> loaded = load(
+      "m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl a\nf 1 2 3\nusemtl b\nf 1 2 4\n");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_EQ(loaded->mesh.triangles.size(), 2u);
+  const Material& a = loaded->mesh.materials[loaded->mesh.triangles[0].material];
+  const Material& b = loaded->mesh.materials[loaded->mesh.triangles[1].material];
+  EXPECT_EQ(a.name, "a");
+  EXPECT_EQ(a.colour, glm::dvec3(0.25, 0.5, 0.75));
+  EXPECT_EQ(a.specular_colour, glm::dvec3(1.0, 0.5, 0.0));
+  EXPECT_EQ(a.specular, 1.0);
+  EXPECT_EQ(a.exponent, 1.0);
+  EXPECT_EQ(b.name, "b");
+  EXPECT_EQ(b.specular, 0.0);
+  EXPECT_EQ(b.exponent, 30.0);
+  ASSERT_EQ(loaded->notes.size(), 1u);
+  EXPECT_NE(loaded->notes[0].find("material 'a': exponent 0.5 raised to 1"), std::string::npos);
+}
+
+TEST_F(LoadMesh, AMissingMaterialLibraryIsNoted) {
+  const Result<LoadedMesh> loaded = load("m.obj", "mtllib gone.mtl\nusemtl a\n" + c_obj);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->mesh.materials.at(0).name, "default");
+  ASSERT_EQ(loaded->notes.size(), 1u);
+  EXPECT_NE(loaded->notes[0].find("gone.mtl cannot be read"), std::string::npos);
+}
+
+// Opening a pipe waits for a writer, and a device may never end: neither may be waited for.
+TEST_F(LoadMesh, PipesAndDevicesAreNeitherLibrariesNorBuffers) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  for (const std::string name : {"pipe", "/dev/zero"}) {
+    const Result<LoadedMesh> loaded = load("m.obj", "mtllib " + name + "\nusemtl a\n" + c_obj);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    ASSERT_EQ(loaded->notes.size(), 1u);
+    EXPECT_NE(loaded->notes[0].find(name + " cannot be read"), std::string::npos);
+    expect_error("m.gltf", gltf_json(R"(,"uri":")" + name + '"'), "could not open");
+  }
+}
+
+TEST_F(LoadMesh, LinesEndSomewhere) {
+  const std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3";
+  EXPECT_EQ(error("m.obj", faces + std::string(std::size_t{15} << 20, ' ')), "loaded");
+  expect_error("m.obj", faces + std::string(std::size_t{17} << 20, ' '),
+               "m.obj:4: a line of more than 16 MiB");
+  std::string joined = faces;
+  for (int i = 0; i < 17; ++i) joined += std::string(std::size_t{1} << 20, ' ') + "\\\n";
+  expect_error("m.obj", joined, "a line of more than 16 MiB");
+}
+
+TEST_F(LoadMesh, KeepsTheFilesNormalsAndMendsZeroOnes) {
+  Result<LoadedMesh> loaded =
+      load("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 1 0\nvn 0 0 0\nf 1//1 2//1 3//2\n");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(fill_normals(loaded->mesh, 180.0, false), 1u);
+  const SceneTriangle& triangle = loaded->mesh.triangles.at(0);
+  EXPECT_EQ(loaded->mesh.normals[triangle.normal[0]], glm::dvec3(0.0, 1.0, 0.0));
+  EXPECT_EQ(loaded->mesh.normals[triangle.normal[2]], glm::dvec3(0.0, 0.0, 1.0));
+}
+
+TEST_F(LoadMesh, DropsPointsAndLines) {
+  const Result<LoadedMesh> loaded = load("l.obj", c_obj + "l 1 2\nl 2 3 4\np 1\n");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->mesh.triangles.size(), 6u);
+  ASSERT_EQ(loaded->notes.size(), 1u);
+  EXPECT_NE(loaded->notes[0].find("points and lines left out"), std::string::npos);
+}
+
+TEST_F(LoadMesh, OpenAndInsideOutMeshesAreAllowed) {
+  const Result<LoadedMesh> loaded = load("o.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  Mesh mesh = loaded->mesh;
+  EXPECT_EQ(fill_normals(mesh, 180.0, false), 6u);
+  for (const SceneTriangle& t : mesh.triangles) {
+    for (const std::uint32_t normal : t.normal) EXPECT_NEAR(glm::length(mesh.normals[normal]), 1.0, 1e-15);
+  }
+}
+
+TEST_F(LoadMesh, ObjFaultsNameTheLine) {
+  expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
+               "a.obj:4: a face names vertex 4, but the file has 3");
+  expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "a.obj:4: a face names vertex 0");
+  expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", "a.obj:4: a face names vertex -4");
+  expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1//1 2//1 3//1\n", "a.obj:4: a face names normal 1");
+  expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/9 2/9 3/9\n",
+               "a.obj:4: a face names texture coordinate 9");
+  expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 x\n", "a.obj:4: 'x' is not a corner of a face");
+  expect_error("a.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n", "a.obj:2: vertex 2: 'nan' is not finite");
+  expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 inf 0\nf 1 2 3\n", "a.obj:3: vertex 3: 'inf' is not finite");
+  expect_error("a.obj", "v 0 0 0\nv 1 0 1e39\nv 0 1 0\nf 1 2 3\n", "a.obj:2: vertex 2: '1e39' is too large");
+  expect_error("a.obj", "v 0 0 0\nv 1 0 1e999\nv 0 1 0\nf 1 2 3\n",
+               "a.obj:2: vertex 2: '1e999' is too large");
+  expect_error("a.obj", "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n", "a.obj:2: vertex 2 has 2 coordinates");
+  expect_error("a.obj", "v 0 0 0\nv 1 0 zero\nv 0 1 0\nf 1 2 3\n",
+               "a.obj:2: vertex 2: 'zero' is not a number");
+  expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "a.obj: the mesh has no faces");
+  expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\n", "a.obj: the mesh has no faces");
+}
+
+TEST_F(LoadMesh, PlyFaultsAreErrors) {
+  const auto ascii_face = [](const std::string& face) {
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+           "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n" +
+           face + "\n";
+  };
+  EXPECT_EQ(error("a.ply", ascii_face("3 0 1 2")), "loaded");
+  expect_error("a.ply", ascii_face("3 0 1 3"), "a.ply:13: a face names vertex 3, but the file has 3");
+  expect_error("a.ply", ascii_face("3 0 1 -1"), "a.ply:13: a face names vertex -1, but the file has 3");
+  expect_error("a.ply", ascii_face("3 0 1"), "a.ply:13: face 0 has too few numbers");
+  expect_error("a.ply", ascii_face("2 0 1"), "the mesh has no faces");
+  std::string nan = c_ply_ascii;
+  nan.replace(nan.find("1 -1 0"), 6, "1 na 0");
+  expect_error("a.ply", nan, "is not a number");
+  nan.replace(nan.find("1 na 0"), 6, "1 nan 0");
+  expect_error("a.ply", nan, "a.ply:10: vertex 0: 'nan' is not finite");
+  std::string binary = ply_binary();
+  const std::size_t data = binary.find("end_header\n") + 11;
+  const float not_finite = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(binary.data() + data + 12, &not_finite, 4);
+  expect_error("a.ply", binary, "a.ply: vertex 1: 'x' is not finite");
+  binary = ply_binary();
+  binary[data + 60 + 1] = 5;
+  expect_error("a.ply", binary, "a.ply: face 0 names vertex 5, but the file has 5");
+  binary[data + 60 + 4] = '\xff';
+  expect_error("a.ply", binary, "a.ply: face 0 names vertex -16777211");
+  expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nend_header\n",
+               "calls for 99999999999 items");
+  expect_error("a.ply", "nonsense\n", "a.ply:1: not a PLY file");
+  // Items without a property take no byte: any number of them could be called for.
+  expect_error("e.ply",
+               "ply\nformat binary_little_endian 1.0\nelement nothing 50\nelement vertex 0\n"
+               "property float x\nend_header\n",
+               "gives the 50 items of 'nothing' no property");
+}
+
+TEST_F(LoadMesh, StlFaultsAreErrors) {
+  std::string binary = stl_binary();
+  const float infinite = std::numeric_limits<float>::infinity();
+  std::memcpy(binary.data() + 84 + 50 + 12 + 12, &infinite, 4);
+  expect_error("a.stl", binary, "a.stl: vertex 5 of mesh");
+  binary = stl_binary();
+  binary[81] = 1;
+  expect_error("a.stl", binary, "its header calls for 262 facets");
+  expect_error("a.stl", std::string(80, ' ') + std::string(4, '\0'), "no faces");
+  expect_error("a.stl", "solid x\nendsolid x\n", "no faces");
+  std::string text = stl_ascii();
+  text.replace(text.find("vertex"), 12, "vertex nan 0");
+  expect_error("a.stl", text, "a.stl:4: vertex 1: 'nan' is not finite");
+}
+
+TEST_F(LoadMesh, GltfFaultsAreErrors) {
+  std::vector<std::uint16_t> indices = c_indices;
+  indices[4] = 5;
+  expect_error("a.gltf", gltf(bytes(c_positions) + bytes(indices)),
+               "6 polygons in the file, but only 5 can be read");
+  std::vector<float> positions = c_positions;
+  positions[4] = std::numeric_limits<float>::quiet_NaN();
+  expect_error("a.gltf", gltf(bytes(positions) + bytes(c_indices)), "vertex 2 of mesh");
+  expect_error("a.gltf", R"({"asset":{"version":"2.0"}})", "a.gltf: ");
+  expect_error("a.gltf", R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[]}],"scene":0})", "a.gltf: ");
+  expect_error("a.gltf", gltf_json(R"(,"uri":"gone.bin")"), "a.gltf: ");
+  expect_error(
+      "a.gltf",
+      gltf_json(R"(,"uri":"data:application/octet-stream;base64,)" + base64(c_buffer) + '"', "4000000000"),
+      "a.gltf: ");
+}
+
+/// Whatever becomes of a damaged file: no crash, no index out of range, no number that is not finite.
+void expect_error_or_sound(const Result<LoadedMesh>& loaded, const std::string& what) {
+  if (!loaded) {
+    EXPECT_EQ(loaded.error().code, ExitCode::bad_input) << what;
+    EXPECT_FALSE(loaded.error().message.empty()) << what;
+    return;
+  }
+  EXPECT_FALSE(loaded->mesh.triangles.empty()) << what;
+  for (const SceneTriangle& triangle : loaded->mesh.triangles) {
+    ASSERT_LT(triangle.material, loaded->mesh.materials.size()) << what;
+    for (int corner = 0; corner < 3; ++corner) {
+      ASSERT_LT(triangle.position[corner], loaded->mesh.positions.size()) << what;
+      ASSERT_LT(triangle.normal[corner], loaded->mesh.normals.size()) << what;
+      const glm::dvec3& p = loaded->mesh.positions[triangle.position[corner]];
+      ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) << what;
+    }
+  }
+}
+
+TEST_F(LoadMesh, CutOffFilesAreErrors) {
+  const std::pair<const char*, std::string> files[] = {{"p.ply", c_ply_ascii}, {"q.ply", ply_binary()},
+                                                       {"p.stl", stl_ascii()}, {"q.stl", stl_binary()},
+                                                       {"p.gltf", gltf()},     {"p.glb", glb()}};
+  for (const auto& [name, text] : files) {
+    for (std::size_t size = 0; size + 20 < text.size(); size += 1 + text.size() / 37) {
+      EXPECT_NE(error(name, text.substr(0, size)), "loaded") << name << " cut to " << size << " bytes";
+    }
+  }
+  // OBJ has no end mark: what is there is a mesh, or lacks a vertex or a corner.
+  for (std::size_t size = 0; size < c_obj.size(); ++size) {
+    expect_error_or_sound(load("p.obj", c_obj.substr(0, size)), "obj cut to " + std::to_string(size));
+  }
+}
+
+TEST_F(LoadMesh, GarbageIsAnError) {
+  std::mt19937 random(1);
+  for (const char* name : {"g.obj", "g.ply", "g.stl", "g.gltf", "g.glb"}) {
+    for (const std::size_t size : {1u, 16u, 83u, 84u, 1000u, 100000u}) {
+      std::string garbage;
+      for (std::size_t i = 0; i < size; ++i) garbage += static_cast<char>(random());
+      EXPECT_NE(error(name, garbage), "loaded") << name << ", " << size << " bytes";
+    }
+  }
+}
+
+TEST_F(LoadMesh, DamagedFilesAreErrorsOrMeshes) {
+  const std::pair<const char*, std::string> files[] = {
+      {"p.obj", c_obj},        {"p.ply", c_ply_ascii}, {"q.ply", ply_binary()}, {"p.stl", stl_ascii()},
+      {"q.stl", stl_binary()}, {"p.gltf", gltf()},     {"p.glb", glb()}};
+  std::mt19937 random(7);
+  for (const auto& [name, text] : files) {
+    for (int trial = 0; trial < 40; ++trial) {
+      std::string damaged = text;
+      for (auto hits = 1 + random() % 3; hits > 0; --hits) {
+        damaged[random() % damaged.size()] = static_cast<char>(random());
+      }
+      expect_error_or_sound(load(name, damaged), std::string(name) + " trial " + std::to_string(trial));
+    }
+  }
+}
+
+TEST_F(LoadMesh, AFileThatBreaksTheReaderIsAnError) {
+  // assimp's JSON reader takes some stack for each bracket and has no limit.
+  const std::string deep = std::string(2'000'000, '[') + std::string(2'000'000, ']');
+  std::string text = gltf();
+  text.insert(1, R"("extras":)" + deep + ",");
+  expect_error("a.gltf", text, "a.gltf: the reader broke on it");
+}
+
+TEST_F(LoadMesh, OtherFilesAreRefused) {
+  expect_error("a.dae", c_obj, "a.dae: not a mesh file by its name");
+  expect_error("a.obj", "", "a.obj: the file is empty");
+  std::filesystem::create_directory(folder_ / "d.obj");
+  EXPECT_NE(load_mesh(folder_ / "d.obj").error().message.find("a directory"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/stream_files/init_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+
+#include "sim/stream_files/text_fields.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr std::string_view kMagic = "halfway-init";
+
+/// The value of each hexadecimal digit; 16 for every other character.
+constexpr std::array<std::uint8_t, 256> kDigitValues = [] {
+  std::array<std::uint8_t, 256> values{};
+  values.fill(16);
+  for (unsigned i = 0; i < 10; ++i) values['0' + i] = static_cast<std::uint8_t>(i);
+  for (unsigned i = 0; i < 6; ++i) {
+    values['a' + i] = static_cast<std::uint8_t>(10 + i);
+    values['A' + i] = static_cast<std::uint8_t>(10 + i);
+  }
+  return values;
+}();
+
+}  // namespace
+
+Result<InitFileWriter> InitFileWriter::open(const std::filesystem::path& path, std::string_view key_name,
+                                            unsigned bits) {
+  auto writer = LineWriter::open(path);
+  if (!writer) return writer.error();
+  writer->append(fmt::format("{} 1 {} {}\n", kMagic, key_name, bits));
+  return InitFileWriter(std::move(*writer), bits);
+}
+
+void InitFileWriter::write(std::span<const std::uint32_t> words) {
+  const std::size_t words_per_vector = (bits_ + 31) / 32;
+  const std::size_t digits = (bits_ + 3) / 4;
+  for (; words.size() >= words_per_vector && words_per_vector > 0; words = words.subspan(words_per_vector)) {
+    char* to = writer_.reserve(digits + 1);
+    for (std::size_t digit = digits; digit-- > 0;) {
+      *to++ = "0123456789abcdef"[(words[digit / 8] >> (digit % 8 * 4)) & 15U];
+    }
+    *to++ = '\n';
+    writer_.advance(to);
+    ++count_;
+  }
+}
+
+Status InitFileWriter::commit() {
+  writer_.append(fmt::format("end {}\n", count_));
+  return writer_.commit();
+}
+
+Result<InitFileReader> InitFileReader::open(const std::filesystem::path& path, std::string_view key_name) {
+  auto reader = LineReader::open(path, kMostInitBits / 4 + 1);
+  if (!reader) return reader.error();
+  std::string_view line;
+  switch (reader->next(line)) {
+    case LineReader::Next::failed:
+      return reader->error();
+    case LineReader::Next::end_of_file:
+      return bad_input(
+          fmt::format("{}:1: the file is empty; write it again with halfway init", path.string()));
+    case LineReader::Next::line:
+      break;
+  }
+  const bool spaced = ends_in_space(line);
+  if (take_field(line) != kMagic)
+    return reader->at("no init file; the first line must begin with halfway-init");
+  if (take_field(line) != "1") return reader->at("an init file of another version; write it again");
+  const std::string found_key(take_field(line));
+  const auto bits = to_number(take_field(line), kMostInitBits);
+  if (found_key.empty() || !bits || *bits == 0 || !line.empty() || spaced) {
+    return reader->at("a broken header; it must read: halfway-init 1 <key name> <bits>");
+  }
+  if (!key_name.empty() && found_key != key_name) {
+    return reader->at(fmt::format("made for the hardware {}, wanted is {}; write it again for this one",
+                                  found_key, key_name));
+  }
+  return InitFileReader(std::move(*reader), found_key, static_cast<unsigned>(*bits));
+}
+
+Result<std::size_t> InitFileReader::read(std::vector<std::uint32_t>& words, std::size_t limit) {
+  const std::size_t words_per_vector = (bits_ + 31) / 32;
+  const std::size_t digits = (bits_ + 3) / 4;
+  const unsigned top_bits = bits_ % 4 == 0 ? 4 : bits_ % 4;
+  std::size_t got = 0;
+  std::string_view line;
+  while (got < limit && !ended_) {
+    switch (reader_.next(line)) {
+      case LineReader::Next::failed:
+        return reader_.error();
+      case LineReader::Next::end_of_file:
+        return reader_.at("the file ends here without its last line, end <count>; it was not written whole");
+      case LineReader::Next::line:
+        break;
+    }
+    if (line.substr(0, 4) == "end ") {
+      if (to_number(line.substr(4), UINT64_MAX) != count_) {
+        return reader_.at(fmt::format("the last line must read: end {}", count_));
+      }
+      ended_ = true;
+      switch (reader_.next(line)) {
+        case LineReader::Next::failed:
+          return reader_.error();
+        case LineReader::Next::line:
+          return reader_.at("something follows the line end <count>");
+        case LineReader::Next::end_of_file:
+          break;
+      }
+      break;
+    }
+    if (line.size() != digits) {
+      return reader_.at(fmt::format("{} characters; a vector of {} bits takes {} hexadecimal digits",
+                                    line.size(), bits_, digits));
+    }
+    const std::size_t first = words.size();
+    words.resize(first + words_per_vector);
+    std::uint32_t bad = 0;
+    for (std::size_t i = 0; i < digits; ++i) {
+      const std::size_t digit = digits - 1 - i;
+      const std::uint32_t value = kDigitValues[static_cast<unsigned char>(line[i])];
+      bad |= value & 16U;
+      words[first + digit / 8] |= (value & 15U) << (digit % 8 * 4);
+    }
+    if (bad != 0 || (kDigitValues[static_cast<unsigned char>(line[0])] >> top_bits) != 0) {
+      words.resize(first);
+      return reader_.at(bad != 0 ? std::string("a character that is no hexadecimal digit")
+                                 : fmt::format("a value of more than {} bits", bits_));
+    }
+    ++got;
+    ++count_;
+  }
+  return got;
+}
+
+Status write_init_file(const std::filesystem::path& path, std::string_view key_name,
+                       const InitStream& stream) {
+  auto writer = InitFileWriter::open(path, key_name, stream.bits);
+  if (!writer) return writer.error();
+  writer->write(stream.words);
+  return writer->commit();
+}
+
+Result<InitStream> read_init_file(const std::filesystem::path& path, std::string_view key_name) {
+  auto reader = InitFileReader::open(path, key_name);
+  if (!reader) return reader.error();
+  InitStream stream{reader->bits(), {}};
+  while (true) {
+    const auto got = reader->read(stream.words, 1U << 16);
+    if (!got) return got.error();
+    if (*got == 0) return stream;
+  }
+}
+
+}  // namespace halfway

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// A trace: the fragments in the order in which they were emitted, as a text file that diff can compare.
+//
+//   halfway-trace 1 <key name>
+//   <triangle> <y> <x> <z> <red> <green> <blue>      a fragment a line, decimal
+//   cycles <n>                                       only where a simulator wrote it
+//   end <count>
+//
+// Cycles count from the rising edge that takes the first init vector to the one that moves the last vector or
+// fragment, both counted; without a vector they are 0. A file without its last line is not whole.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/result.hpp"
+#include "frame/fragment.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway {
+
+struct Trace {
+  std::vector<Fragment> fragments;
+  std::optional<std::uint64_t> cycles;
+};
+
+class TraceWriter {
+ public:
+  static Result<TraceWriter> open(const std::filesystem::path& path, std::string_view key_name);
+  void write(std::span<const Fragment> fragments);
+  /// Ends the file and gives it its name. The first error of any write comes out here.
+  Status commit(std::optional<std::uint64_t> cycles = std::nullopt);
+
+ private:
+  explicit TraceWriter(LineWriter writer) : writer_(std::move(writer)) {}
+  LineWriter writer_;
+  std::uint64_t count_ = 0;
+};
+
+class TraceReader {
+ public:
+  /// Reads the header; a trace of another hardware key is an error. An empty `key_name` takes any.
+  static Result<TraceReader> open(const std::filesystem::path& path, std::string_view key_name);
+  const std::string& key_name() const { return key_name_; }
+  /// Appends up to `limit` fragments; gives how many. 0: the file's end, and the file was whole.
+  Result<std::size_t> read(std::vector<Fragment>& fragments, std::size_t limit);
+  /// Known once `read` has given 0.
+  std::optional<std::uint64_t> cycles() const { return cycles_; }
+
+ private:
+  TraceReader(LineReader reader, std::string key_name)
+      : reader_(std::move(reader)), key_name_(std::move(key_name)) {}
+  Status read_trailer(std::string_view line);
+
+  LineReader reader_;
+  std::string key_name_;
+  std::optional<std::uint64_t> cycles_;
+  std::uint64_t count_ = 0;
+  bool ended_ = false;
+};
+
+Status write_trace(const std::filesystem::path& path, std::string_view key_name, const Trace& trace);
+Result<Trace> read_trace(const std::filesystem::path& path, std::string_view key_name);
+
+}  // namespace halfway

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two traces, read side by side in bounded memory.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim/stream_files/trace.hpp"
+
+namespace halfway {
+
+/// Hands both traces on in turn, chunk by chunk, to their ends. `rtl` may be null: there is none.
+template <class OnGolden, class OnRtl>
+Status read_side_by_side(TraceReader& golden, TraceReader* rtl, OnGolden&& on_golden, OnRtl&& on_rtl) {
+  constexpr std::size_t c_chunk = 1 << 16;  // fragments
+  std::vector<Fragment> chunk;
+  const auto hand_on = [&](TraceReader& reader, bool& more, auto& sink) -> Status {
+    if (!more) return Ok{};
+    chunk.clear();
+    const auto count = reader.read(chunk, c_chunk);
+    if (!count) return count.error();
+    more = *count != 0;
+    sink(std::span<const Fragment>(chunk));
+    return Ok{};
+  };
+  for (bool more_golden = true, more_rtl = rtl != nullptr; more_golden || more_rtl;) {
+    if (Status status = hand_on(golden, more_golden, on_golden); !status) return status;
+    if (more_rtl)
+      if (Status status = hand_on(*rtl, more_rtl, on_rtl); !status) return status;
+  }
+  return Ok{};
+}
+
+}  // namespace halfway

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/study/design_point.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "sim/system/file.hpp"
+
+namespace halfway::study {
+namespace {
+
+using ::testing::HasSubstr;
+
+class SpaceTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+  }
+  Result<std::vector<DesignPoint>> read(const std::string& text) const {
+    const std::filesystem::path path = folder_->path() / "space.toml";
+    if (const Status written = write_file(path, text); !written) return written.error();
+    return read_space(path);
+  }
+  std::string message_of(const std::string& text) const {
+    const auto points = read(text);
+    return points ? "" : points.error().message;
+  }
+  std::optional<TemporaryFolder> folder_;
+};
+
+TEST_F(SpaceTest, IsTheProductOfEachSweepsLists) {
+  const auto points = read(
+      "[[sweep]]\nmethod = \"quadratic\"\npreset = [\"exact\", \"published\"]\nexponent = [5, 50]\n"
+      "[[sweep]]\nmethod = \"gouraud\"\ntessellation = [0.5, 1, 2]\n");
+  ASSERT_TRUE(points) << points.error().message;
+  EXPECT_EQ(points->size(), 4U + 3U);
+}
+
+TEST_F(SpaceTest, HasNoPointTwice) {
+  // Neither a preset nor a threshold means anything to software, nor a threshold to what is never split.
+  const auto points = read(
+      "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\"]\npreset = [\"exact\", \"published\"]\nthreshold = "
+      "[1, 2]\n"
+      "[[sweep]]\nmethod = \"gouraud\"\n");
+  ASSERT_TRUE(points) << points.error().message;
+  EXPECT_EQ(points->size(), 1U + 2U);
+  std::set<std::string> names;
+  for (const DesignPoint& point : *points) names.insert(point.name());
+  EXPECT_EQ(names.size(), points->size());
+}
+
+TEST_F(SpaceTest, PutsPointsOfAPictureTogether) {
+  const auto points = read(
+      "[[sweep]]\nmethod = \"gouraud\"\nexponent = [5, 50]\n[[sweep]]\nmethod = \"phong\"\nexponent = [50, "
+      "5]\n");
+  ASSERT_TRUE(points) << points.error().message;
+  ASSERT_EQ(points->size(), 4U);
+  EXPECT_EQ((*points)[0].picture(), (*points)[1].picture());
+  EXPECT_EQ((*points)[2].picture(), (*points)[3].picture());
+}
+
+TEST_F(SpaceTest, HasWordLengthsWhereTheyMeanSomething) {
+  const auto points = read(
+      "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\", \"spherical\", \"processors-2\"]\nangle_bits = [22, "
+      "16]\n"
+      "fraction_bits = [28, 20]\nseed_bits = [12, 8]\nnewton = [true, false]\n");
+  ASSERT_TRUE(points) << points.error().message;
+  std::vector<std::string> designs;
+  for (const DesignPoint& point : *points) designs.push_back(point.design());
+  EXPECT_THAT(designs, ::testing::UnorderedElementsAre(
+                           "gouraud", "quadratic exact", "quadratic exact fraction 20",
+                           "spherical exact, threshold 2", "spherical exact angle 16, threshold 2",
+                           "processors-2 exact", "processors-2 exact without Newton",
+                           "processors-2 exact seed 8", "processors-2 exact seed 8 without Newton"));
+  EXPECT_THAT(
+      message_of("[[sweep]]\nmethod = \"spherical\"\naddress_bits = 10\ndata_bits = 8\nangle_bits = 9\n"),
+      HasSubstr("space.toml:5: angle_bits must be 10 at least"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"processors-2\"\npreset = \"published\"\nnewton = true\n"),
+              HasSubstr("space.toml:4: newton goes with preset exact alone"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nfraction_bits = 60\n"),
+              HasSubstr("space.toml:3: fraction_bits takes numbers from 2 to 40"));
+}
+
+// What questions are answered by turns the tables' lengths; the whole space turns every knob that any other
+// does, word lengths among them.
+TEST(Spaces, HoldWhatTheyPromise) {
+  const std::filesystem::path studies = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/studies";
+  const auto designs_of = [&](const char* file) {
+    const auto points = read_space(studies / file);
+    EXPECT_TRUE(points) << points.error().message;
+    std::set<std::string> designs;
+    for (const DesignPoint& point : *points) designs.insert(point.design());
+    return designs;
+  };
+  const auto asked = designs_of("designs.toml"), full = designs_of("full.toml");
+  EXPECT_THAT(asked,
+              ::testing::IsSupersetOf({"spherical exact 8x7, threshold 8", "spherical exact 6x6, threshold 8",
+                                       "spherical exact, threshold 8", "spherical published 4x4"}));
+  for (const char* file : {"words.toml", "small.toml"})
+    for (const std::string& design : designs_of(file))
+      EXPECT_TRUE(full.contains(design)) << file << ": " << design;
+}
+
+TEST_F(SpaceTest, TellsFileAndLineOfWhatItCannotTake) {
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nexponent = 0.5\n"),
+              HasSubstr("space.toml:3: exponent takes numbers from 1"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratc\"\n"),
+              HasSubstr("space.toml:2: method takes phong"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nexponents = 5\n"),
+              HasSubstr("space.toml:3: exponents is no key here"));
+  EXPECT_THAT(message_of("[[sweep]]\nexponent = 5\n"), HasSubstr("space.toml:1: method is missing"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = []\n"), HasSubstr("space.toml:2: method is an empty list"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"spherical\"\naddress_bits = 6\n"), HasSubstr("data_bits"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nsize = \"4097x1\"\n"),
+              HasSubstr("space.toml:3: size takes WIDTHxHEIGHT in pixels, such as 640x480, each 1 to 4096"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nsize = \"large\"\n"), HasSubstr("size takes"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\ntile = \"15x100\"\n"),
+              HasSubstr("space.toml:3: tile takes WIDTHxHEIGHT in pixels, such as 640x480, each 16 to 4096"));
+  EXPECT_THAT(message_of(""), HasSubstr("no sweep"));
+  EXPECT_THAT(message_of("[[sweep]\n"), HasSubstr("space.toml:1:"));
+}
+
+TEST(DesignPoint, NamesAllThatTellsItFromOthers) {
+  DesignPoint point{
+      .method = Method::spherical, .tables = TableSize{9, 8}, .threshold = 4.0, .exponent = 50.0};
+  EXPECT_EQ(point.name(), "spherical exact 9x8, threshold 4, 320x240, exponent 50");
+  point.preset = Preset::published;
+  EXPECT_EQ(point.name(), "spherical published 9x8, 320x240, exponent 50");
+  point = {.method = Method::processors_2, .form = ProcessorForm::folded, .tessellation = 0.5};
+  EXPECT_EQ(point.name(), "processors-2 exact folded, 320x240, tessellation 0.5");
+}
+
+// A tile says how a frame is drawn only where it is smaller.
+TEST_F(SpaceTest, CutsFramesThatAreLargerThanATile) {
+  const auto points = read(
+      "[[sweep]]\nmethod = \"quadratic\"\nsize = [\"4096x4096\", \"33x17\", \"1280x960\"]\n"
+      "tile = [\"1280x960\", \"2048x4096\"]\n");
+  ASSERT_TRUE(points) << points.error().message;
+  std::vector<std::string> pictures;
+  for (const DesignPoint& point : *points)
+    pictures.push_back(fmt::format("{}: {}", point.picture(), point.tiles().size()));
+  EXPECT_THAT(pictures, ::testing::UnorderedElementsAre("4096x4096 in tiles of 1280x960: 20",
+                                                        "4096x4096 in tiles of 2048x4096: 2", "33x17: 1",
+                                                        "1280x960: 1"));
+}
+
+}  // namespace
+}  // namespace halfway::study

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// A measurement as named figures: what records and tables hold.
+#pragma once
+
+#include "sim/study/measure.hpp"
+
+namespace halfway::study {
+
+/// What setup counted, likewise.
+template <class Counts, class Visit>
+void for_each_setup_figure(Counts& setup, const Visit& visit) {
+  visit("screen_triangles", setup.triangles);
+  visit("leaves", setup.leaves);
+  visit("unresolved", setup.unresolved);
+  visit("init_vectors", setup.vectors);
+  visit("line_records", setup.records);
+  visit("host_evaluations", setup.shaded);
+}
+
+/// Every figure of a measurement with its column's name, in the table's order.
+template <class Measured, class Visit>
+void for_each_figure(Measured& m, const Visit& visit) {
+  visit("hardware", m.hardware);
+  visit("triangles", m.triangles);
+  visit("fragments", m.fragments);
+  visit("cycles", m.cycles);
+  visit("pixels", m.picture.pixels);
+  visit("largest_error", m.picture.max_lsb);
+  visit("error_99", m.picture.percentile99);
+  visit("rms", m.picture.rms);
+  visit("psnr_db", m.picture.psnr_db);
+  visit("highlight_pixels", m.highlight.pixels);
+  visit("highlight_largest_error", m.highlight.max_lsb);
+  visit("highlight_error_99", m.highlight.percentile99);
+  visit("highlight_rms", m.highlight.rms);
+  visit("highlight_psnr_db", m.highlight.psnr_db);
+  visit("perceived_pixels", m.perceived);
+  visit("mach_edges", m.mach_bands.edges);
+  visit("mach_rms", m.mach_bands.rms);
+  visit("mach_largest", m.mach_bands.largest);
+  for_each_setup_figure(m.setup, visit);
+  visit("host_instructions", m.host_instructions);
+}
+
+}  // namespace halfway::study

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/study/front.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+namespace halfway::study {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double c_infinity = std::numeric_limits<double>::infinity();
+
+// Few values, so that points tie in one figure, in some, in all.
+std::vector<Costs> random_points(std::mt19937& random) {
+  const std::size_t figures = 1 + random() % 4;
+  std::vector<Costs> points(1 + random() % 40);
+  for (Costs& point : points)
+    for (std::size_t i = 0; i < figures; ++i)
+      point.push_back(random() % 16 == 0 ? c_infinity : static_cast<double>(random() % 6));
+  return points;
+}
+
+TEST(Front, IsWhatNoOtherBeats) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 500; ++trial) {
+    const std::vector<Costs> points = random_points(random);
+    const auto front = front_of(points);
+    ASSERT_FALSE(front.empty());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      bool beaten = false;
+      for (const Costs& other : points) {
+        bool as_good = true, better = false;
+        for (std::size_t f = 0; f < other.size(); ++f) {
+          as_good = as_good && other[f] <= points[i][f];
+          better = better || other[f] < points[i][f];
+        }
+        beaten = beaten || (as_good && better);
+      }
+      EXPECT_NE(std::ranges::find(front, i) != front.end(), beaten) << trial << ": " << i;
+    }
+    const Status checked = check_front(points, front);
+    EXPECT_TRUE(checked) << checked.error().message;
+  }
+}
+
+TEST(Front, DoesNotDependOnTheOrder) {
+  std::mt19937 random(2);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<Costs> points = random_points(random);
+    const auto values = [&] {
+      std::vector<Costs> found;
+      for (const std::size_t at : front_of(points)) found.push_back(points[at]);
+      std::ranges::sort(found);
+      return found;
+    };
+    const auto before = values();
+    std::ranges::shuffle(points, random);
+    EXPECT_EQ(values(), before);
+  }
+}
+
+TEST(Front, KeepsEqualPointsTogether) {
+  const std::vector<Costs> points = {{1, 2}, {1, 2}, {2, 1}, {2, 2}, {2, 2}};
+  EXPECT_THAT(front_of(points), ElementsAre(0U, 1U, 2U));
+  EXPECT_THAT(front_of({}), IsEmpty());
+}
+
+TEST(Front, TheCheckTellsAWrongOne) {
+  std::mt19937 random(3);
+  int more = 0, less = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const std::vector<Costs> points = random_points(random);
+    const auto front = front_of(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      auto wrong = front;
+      const auto found = std::ranges::find(wrong, i);
+      if (found == wrong.end()) {
+        wrong.push_back(i);
+        const Status checked = check_front(points, wrong);
+        ASSERT_FALSE(checked);
+        EXPECT_EQ(checked.error().code, ExitCode::differs);
+        EXPECT_THAT(checked.error().message, HasSubstr("is on the front and is beaten"));
+        ++more;
+      } else {
+        wrong.erase(found);
+        EXPECT_FALSE(check_front(points, wrong));
+        ++less;
+      }
+    }
+  }
+  EXPECT_GT(more, 100);
+  EXPECT_GT(less, 100);
+}
+
+}  // namespace
+}  // namespace halfway::study

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/study/hardware.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/study/pictures.hpp"
+#include "sim/study/study.hpp"
+#include "sim/synth/pinned.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+using ::testing::ElementsAre;
+
+const fs::path c_source = HALFWAY_SOURCE_DIR;
+
+// Stand for Yosys and nextpnr, which would take minutes: figures in, figures out. A placement's clock is 100
+// MHz and more, by its seed, in an order of their own.
+constexpr const char* c_yosys = R"(#!/bin/sh
+[ "$1" = -V ] && echo 'Yosys 0.23' && exit
+echo >mapped.il
+echo '{"modules": {"wrapped": {"ports": {"clk": {"bits": [2]}}, "cells": {}, "netnames": {}}}}' >wrapped.json
+case "$*" in
+  *synth_ice40*) echo '{"design": {"num_cells_by_type": {"SB_LUT4": LUTS, "SB_DFF": 4}}}' >cells.json ;;
+  *) echo '{"design": {"num_cells_by_type": {"$lut": 20, "$_DFF_P_": FLIP_FLOPS}}}' >cells.json ;;
+esac
+)";
+constexpr const char* c_nextpnr = R"(#!/bin/sh
+[ "$1" = --version ] && echo 'nextpnr-ice40 (Version 0.4)' && exit
+case "$*" in
+  *--pack-only*) echo 'Info: 	 ICESTORM_LC:  PACKED/ 7680    1%' ; exit ;;
+esac
+seed=${*##*--seed } ; seed=${seed%% *}
+echo "$seed" >>'LOG'
+echo '{"utilization": {"ICESTORM_LC": {"used": 40, "available": 7680}}, "critical_paths": [],
+  "fmax": {"clk": {"achieved": '$((100 + seed * 7 % 5))'}}}' >report.json
+)";
+
+class HardwareFiguresTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(fs::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    folders_ = {folder_->path() / "source", folder_->path() / "cache"};
+    // Where clocks are pinned is its own.
+    for (const char* name : {"tb/synth", "sim/studies"}) ASSERT_TRUE(make_folders(folders_.source / name));
+    fs::create_directory_symlink(c_source / "rtl", folders_.source / "rtl");
+    for (const auto& entry : fs::directory_iterator(c_source / "sim"))
+      if (entry.is_directory() && entry.path().filename() != "studies")
+        fs::create_directory_symlink(entry.path(), folders_.source / "sim" / entry.path().filename());
+    // Analysis is GHDL's own, and takes longest.
+    ASSERT_TRUE(make_folders(folders_.cache));
+    ASSERT_TRUE(make_folders(c_source / "build/cache/ghdl"));
+    fs::create_directory_symlink(c_source / "build/cache/ghdl", folders_.cache / "ghdl");
+    pin("");
+    put_tools("4", "30", "40");
+    const auto scene = drawn_scene(scene_, c_source / "sim/scenes", point_);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto hardware = hardware_of(point_, *scene);
+    ASSERT_TRUE(hardware) << hardware.error().message;
+    key_ = hardware->key;
+    Record record{point_, {}};
+    record.measured.hardware = key_.name();
+    records_ = {record};
+  }
+  void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
+
+  void pin(const std::string& lines) const {
+    ASSERT_TRUE(write_file(folders_.source / "tb/synth/pinned.txt", lines));
+  }
+  void put_tools(const std::string& flip_flops, const std::string& luts, const std::string& packed) {
+    using Words = std::vector<std::pair<std::string, std::string>>;
+    const fs::path bin = folder_->path() / "bin";
+    ASSERT_TRUE(make_folders(bin));
+    const auto put = [&](const char* name, std::string text, const Words& words) {
+      for (const auto& [what, by] : words) {
+        const std::size_t at = text.find(what);
+        ASSERT_NE(at, std::string::npos);
+        text.replace(at, what.size(), by);
+      }
+      ASSERT_TRUE(write_file(bin / name, text));
+      fs::permissions(bin / name, fs::perms::all);
+    };
+    put("yosys", c_yosys, {{"FLIP_FLOPS", flip_flops}, {"LUTS", luts}});
+    put("nextpnr-ice40", c_nextpnr, {{"LOG", log().string()}, {"PACKED", packed}});
+    ::setenv("PATH", (bin.string() + ":" + path_).c_str(), 1);
+  }
+  fs::path log() const { return folder_->path() / "placements"; }
+  std::size_t placements() const {
+    const auto text = read_file(log());
+    return text ? static_cast<std::size_t>(std::ranges::count(*text, '\n')) : 0;
+  }
+  HardwareFigures figures(bool place) const {
+    const auto table = hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place});
+    EXPECT_TRUE(table) << table.error().message;
+    return table ? table->at(key_.name()) : HardwareFigures{};
+  }
+
+  const std::string path_ = std::getenv("PATH");
+  const std::string scene_ = c_source / "sim/studies/sphere.toml";
+  const DesignPoint point_{.method = Method::quadratic, .preset = Preset::published, .size = {160, 120}};
+  std::optional<TemporaryFolder> folder_;
+  SimulatorFolders folders_;
+  HardwareKey key_;
+  std::vector<Record> records_;
+};
+
+TEST_F(HardwareFiguresTest, AClockIsThePinnedOneOfTheSameNetlistAlone) {
+  const HardwareFigures none = figures(false);
+  EXPECT_FALSE(none.mhz);
+  EXPECT_EQ(none.clock, "not placed");
+  const auto tool = GhdlTool::find();
+  ASSERT_TRUE(tool) << tool.error().message;
+  const auto sources = read_rtl_sources(c_source);
+  ASSERT_TRUE(sources);
+  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders_.cache);
+  ASSERT_TRUE(library) << library.error().message;
+  const auto hash = synth::netlist_hash(
+      *library, {.name = "another", .entity = key_.entity(), .generics = key_.generics()});
+  ASSERT_TRUE(hash) << hash.error().message;
+  const std::string flow = fmt::format("flow {}\n", synth::flow_hash());
+  pin(flow + fmt::format("any 1 2 3 4 87.5 {}\n", *hash));
+  const HardwareFigures pinned = figures(true);
+  EXPECT_EQ(pinned.mhz, 87.5);
+  EXPECT_EQ(pinned.clock, "pinned");
+  EXPECT_EQ(pinned.tools, "cells by Yosys 0.23");
+  EXPECT_EQ(placements(), 0U);
+  ASSERT_TRUE(synth::write_pins(folders_.source / "tb/synth/pinned.txt",
+                                {{"any", {{1, 2, 3, 4}, 87.5, *hash}}}, "Placer 1, Router 2.5"));
+  EXPECT_EQ(figures(false).tools, "pinned with Placer 1, Router 2.5, cells by Yosys 0.23");
+  std::string other = *hash;
+  other[0] = other[0] == '0' ? '1' : '0';
+  pin(flow + fmt::format("any 1 2 3 4 87.5 {}\n", other));
+  EXPECT_FALSE(figures(false).mhz);
+  pin(fmt::format("any 1 2 3 4 87.5 {}\n", *hash));  // of no flow that is known
+  EXPECT_FALSE(figures(false).mhz);
+}
+
+TEST_F(HardwareFiguresTest, AClockIsTheMedianOfAllSeedsAndIsKept) {
+  const HardwareFigures placed = figures(true);
+  // 102, 104, 101
+  EXPECT_EQ(placed.mhz, 102.0);
+  EXPECT_EQ(placed.clock, "placed");
+  EXPECT_TRUE(placed.fits);
+  EXPECT_EQ(placed.ice40, (synth::Ice40Cells{.luts = 30, .flip_flops = 4}));
+  EXPECT_THAT(placed.tools, ::testing::MatchesRegex(
+                                "cells by Yosys 0.23, placed with GHDL .*, Yosys 0.23, nextpnr-ice40 0.4"));
+  EXPECT_EQ(placements(), synth::kSeeds);
+  EXPECT_EQ(figures(true).mhz, 102.0);
+  EXPECT_EQ(placements(), synth::kSeeds);
+}
+
+TEST_F(HardwareFiguresTest, WhatTheDeviceHasNoRoomForHasNoClockAndSaysWhy) {
+  const auto why = [&](const char* flip_flops, const char* luts, const char* packed) {
+    for (const char* made : {"yosys", "synth"}) fs::remove_all(folders_.cache / made);
+    put_tools(flip_flops, luts, packed);
+    const HardwareFigures none = figures(true);
+    EXPECT_FALSE(none.mhz);
+    EXPECT_FALSE(none.fits);
+    return none.clock;
+  };
+  EXPECT_EQ(why("4", "30", "7000"), "too full: 7000 of the HX8K's 7680 logic cells");
+  EXPECT_EQ(why("4", "7681", "40"), "does not fit the HX8K: 7681 LUTs of 7680");
+  // Told before it is synthesized for the device.
+  EXPECT_EQ(why("7681", "NONE", "40"), "does not fit the HX8K: 7681 flip-flops of 7680");
+  EXPECT_EQ(placements(), 0U);
+}
+
+TEST_F(HardwareFiguresTest, WhatIsPlacedCanBePinned) {
+  const auto table = [&](bool place) {
+    auto made = hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place});
+    EXPECT_TRUE(made) << made.error().message;
+    return made ? *made : HardwareTable{};
+  };
+  const auto pins = [&] {
+    const auto read = synth::read_pins(folders_.source / synth::kStudyPins);
+    EXPECT_TRUE(read) << read.error().message;
+    return read ? *read : synth::Pins{};
+  };
+  const auto pinned = [&](const HardwareTable& of) {
+    const auto count = pin_clocks(of, folders_);
+    EXPECT_TRUE(count) << count.error().message;
+    return count ? *count : 99;
+  };
+  EXPECT_EQ(pinned(table(false)), 0U);  // nothing is known of it
+  EXPECT_EQ(pinned(table(true)), 1U);
+  const synth::Ice40Cells cells{.luts = 30, .flip_flops = 4};
+  EXPECT_EQ(pins().at(key_.name()).cells, cells);
+  for (const bool place : {false, true}) {
+    const HardwareFigures figures = table(place).at(key_.name());
+    EXPECT_EQ(figures.mhz, 102.0);
+    EXPECT_EQ(figures.clock, "pinned");
+    EXPECT_EQ(figures.ice40, cells);
+  }
+  EXPECT_EQ(placements(), synth::kSeeds);
+  // Other hardware's stay, of the same flow.
+  synth::Pins others = pins();
+  others["other"] = {{1, 2, 3, 4}, 50.0, std::string(32, 'a')};
+  ASSERT_TRUE(synth::write_study_pins(folders_.source / synth::kStudyPins, others, "tools"));
+  EXPECT_EQ(pinned(table(false)), 2U);
+  EXPECT_EQ(pins().at("other").mhz, 50.0);
+  // A design's pin is enough.
+  pin(fmt::format("flow {}\nany 1 2 3 4 87.5 {}\n", synth::flow_hash(), pins().at(key_.name()).netlist));
+  EXPECT_EQ(pinned(table(false)), 1U);
+  EXPECT_EQ(table(false).at(key_.name()).mhz, 87.5);
+  pin("");
+  for (const char* made : {"yosys", "synth"}) fs::remove_all(folders_.cache / made);
+  put_tools("4", "7681", "40");
+  EXPECT_EQ(pinned(table(true)), 2U);
+  const HardwareFigures large = table(false).at(key_.name());
+  EXPECT_FALSE(large.mhz);
+  EXPECT_FALSE(large.fits);
+  EXPECT_EQ(large.clock, "does not fit the HX8K: 7681 LUTs of 7680");
+}
+
+// What the files tell is of the hardware that is drawn today.
+TEST(StudyClocks, AreOfTheSmallStudysHardware) {
+  const auto pins = synth::read_pins(c_source / synth::kStudyPins);
+  ASSERT_TRUE(pins) << pins.error().message;
+  const auto points = read_space((c_source / "sim/studies/small.toml").string());
+  ASSERT_TRUE(points) << points.error().message;
+  const std::string scene = c_source / "sim/studies/sphere.toml";
+  const SimulatorFolders folders{c_source, c_source / "build/cache"};
+  std::vector<Record> records;
+  for (const DesignPoint& point : *points) {
+    if (!in_hardware(point.method)) continue;
+    const auto drawn = drawn_scene(scene, c_source / "sim/scenes", point);
+    ASSERT_TRUE(drawn) << drawn.error().message;
+    const auto hardware = hardware_of(point, *drawn);
+    if (!hardware) continue;  // what cannot draw the scene
+    records.push_back({point, {}});
+    records.back().measured.hardware = hardware->key.name();
+  }
+  const auto table = hardware_figures(scene, records, folders, {.threads = 2, .cells = false});
+  ASSERT_TRUE(table) << table.error().message;
+  std::size_t clocks = 0;
+  for (const auto& [name, figures] : *table) {
+    clocks += figures.mhz ? 1 : 0;
+    const auto pin = pins->find(name);
+    if (pin != pins->end()) {
+      EXPECT_EQ(pin->second.netlist, figures.netlist) << name;
+    }
+    // Of most processors their multipliers alone are too large, which nobody need synthesize to know.
+    if (!name.starts_with("processors")) {
+      EXPECT_NE(figures.clock, c_not_placed)
+          << name << ": not pinned; make study PLACE=1 PIN=1 places it, minutes for each seed";
+    }
+  }
+  EXPECT_GT(clocks, 18U);
+}
+
+// As pieces of a study: what each part leaves in the cache is all that the table needs.
+TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
+  StudySettings settings{.scene = scene_,
+                         .points = {{.method = Method::gouraud, .size = {32, 24}}},
+                         .out = folder_->path() / "out",
+                         .parts = synth::kSeeds,
+                         .folders = folders_,
+                         .placed = {point_}};
+  EXPECT_EQ(most_parts(settings), synth::kSeeds);
+  const auto open = [&] {
+    const auto parts = open_parts(settings);
+    EXPECT_TRUE(parts) << parts.error().message;
+    return parts ? *parts : std::vector<std::size_t>();
+  };
+  const auto run = [&](std::size_t part) {
+    settings.part = part;
+    const auto made = run_study(settings);
+    EXPECT_TRUE(made) << made.error().message;
+    return made ? made->placements : 0;
+  };
+  EXPECT_THAT(open(), ElementsAre(0U, 1U, 2U));
+  EXPECT_EQ(run(1), 1U);
+  const auto seeds = read_file(log());
+  ASSERT_TRUE(seeds) << seeds.error().message;
+  EXPECT_EQ(*seeds, "2\n");
+  EXPECT_THAT(open(), ElementsAre(0U, 2U));
+  EXPECT_EQ(run(1), 0U);
+  EXPECT_EQ(run(2) + run(0), 2U);
+  EXPECT_TRUE(open().empty());
+  EXPECT_EQ(placements(), synth::kSeeds);
+  const HardwareFigures placed = figures(true);
+  EXPECT_EQ(placed.mhz, 102.0);
+  EXPECT_EQ(placed.clock, "placed");
+  EXPECT_EQ(placements(), synth::kSeeds);
+  // Another RTL, another piece.
+  fs::remove(folders_.source / "rtl");
+  fs::copy(c_source / "rtl", folders_.source / "rtl", fs::copy_options::recursive);
+  ASSERT_TRUE(write_file(folders_.source / "rtl/notes", "another"));
+  EXPECT_THAT(open(), ElementsAre(0U, 1U, 2U));
+}
+
+TEST_F(HardwareFiguresTest, WhatHasNoRoomIsDoneAsAPiece) {
+  put_tools("4", "7681", "40");
+  const StudySettings settings{
+      .scene = scene_, .out = folder_->path() / "out", .folders = folders_, .placed = {point_}};
+  const auto made = run_study(settings);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->placements, synth::kSeeds);
+  EXPECT_EQ(placements(), 0U);
+  const auto parts = open_parts(settings);
+  ASSERT_TRUE(parts) << parts.error().message;
+  EXPECT_TRUE(parts->empty());
+}
+
+}  // namespace
+}  // namespace halfway::study

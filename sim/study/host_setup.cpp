@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/study/host_setup.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <sstream>
+#include <string_view>
+
+#include "sim/system/file.hpp"
+#include "sim/system/sanitizers.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway::study {
+namespace {
+
+constexpr std::chrono::minutes c_longest{60};
+constexpr std::size_t c_longest_name = 512;
+constexpr std::string_view c_totals = "\ntotals: ";
+
+}  // namespace
+
+SetupCounts set_up_frame(const Scene& scene, FrameSize size, const HardwareKey& key,
+                         const SetupOptions& options) {
+  const std::unique_ptr<Setup> setup = make_setup(scene, size, key, options);
+  SetupCounts counts;
+  std::vector<std::uint32_t> words;
+  setup->append_prologue(words, counts);
+  for (std::uint32_t unit = 0; unit < setup->units(); ++unit) {
+    words.clear();
+    setup->append(unit, words, counts);
+  }
+  return counts;
+}
+
+Status in_processes(const std::filesystem::path& names,
+                    const std::function<Status(const std::string&)>& each) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(names.c_str(), "r"), &std::fclose);
+  if (!file) return bad_input(fmt::format("{}: {}", names.string(), std::strerror(errno)));
+  std::array<char, c_longest_name> line{};
+  // From here on this process allocates nothing.
+  while (std::fgets(line.data(), static_cast<int>(line.size()), file.get()) != nullptr) {
+    line[std::strcspn(line.data(), "\n")] = '\0';
+    const pid_t child = fork();
+    if (child < 0) return tool_failed(fmt::format("fork: {}", std::strerror(errno)));
+    if (child == 0) {
+      const Status done = each(line.data());
+      if (!done) fmt::print(stderr, "{}\n", done.error().message);
+      std::fflush(nullptr);
+      std::_Exit(done ? 0 : 1);
+    }
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (status != 0) return tool_failed(std::string(line.data()) + ": could not be set up");
+    dprintf(STDOUT_FILENO, "%d %s\n", child, line.data());
+  }
+  return Ok{};
+}
+
+Result<std::optional<std::vector<std::uint64_t>>> host_instructions(std::vector<std::string> worker,
+                                                                    const std::vector<std::string>& names,
+                                                                    const std::filesystem::path& scratch) {
+  std::optional<std::vector<std::uint64_t>> counted;
+  if (c_sanitized || find_program("valgrind").empty()) return counted;
+  auto folder = TemporaryFolder::make(scratch);
+  if (!folder) return folder.error();
+  // Bound at once: the first call of a library's function is no dearer than the others.
+  Command command{.arguments = {"valgrind", "--tool=callgrind", "--quiet", "--toggle-collect=*set_up_frame*",
+                                fmt::format("--callgrind-out-file={}/%p", folder->path().string())},
+                  .standard_output = folder->path() / "processes",
+                  .environment = {{"LD_BIND_NOW", "1"}},
+                  .timeout = c_longest};
+  const std::filesystem::path list = folder->path() / "names";
+  if (Status written = write_file(list, fmt::format("{}\n", fmt::join(names, "\n"))); !written)
+    return written.error();
+  // By a name that is as long anywhere: what the program keeps of it shifts its heap.
+  worker.insert(worker.end(), {"--set-up", "/dev/stdin"});
+  command.arguments.insert(command.arguments.end(), worker.begin(), worker.end());
+  command.standard_input = ::open(list.c_str(), O_RDONLY | O_CLOEXEC);
+  if (command.standard_input < 0)
+    return tool_failed(fmt::format("{}: {}", list.string(), std::strerror(errno)));
+  const auto end = run_process(command, c_install_valgrind);
+  if (!end) return end.error();
+  const auto failed = [&](const std::string& what) {
+    return tool_failed(fmt::format("valgrind: {}\n  while running: {}", what, to_string(command)));
+  };
+  if (!end->succeeded()) return failed(end->how() + ": " + end->output);
+  const auto processes = read_file(command.standard_output);
+  if (!processes) return processes.error();
+  std::istringstream lines(*processes);
+  counted.emplace();
+  std::string line;
+  for (const std::string& name : names) {
+    const std::size_t space = std::getline(lines, line) ? line.find(' ') : std::string::npos;
+    if (space == std::string::npos || line.substr(space + 1) != name) return failed("no process of " + name);
+    const auto text = read_file(folder->path() / line.substr(0, space));
+    if (!text) return failed(text.error().message);
+    std::uint64_t instructions = 0;
+    if (const std::size_t at = text->find(c_totals); at != std::string::npos)
+      std::from_chars(text->data() + at + c_totals.size(), text->data() + text->size(), instructions);
+    if (instructions == 0) return failed("no instructions of set_up_frame counted for " + name);
+    counted->push_back(instructions);
+  }
+  return counted;
+}
+
+}  // namespace halfway::study

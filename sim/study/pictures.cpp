@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/study/pictures.hpp"
+
+#include <cstdlib>
+
+#include "setup/project.hpp"
+#include "sim/scene_files/load_scene.hpp"
+
+namespace halfway::study {
+namespace {
+
+std::vector<std::uint8_t> highlight_mask(const Subject& subject, const RenderOptions& options,
+                                         const ReferenceImage& reference) {
+  Scene dull = subject.scene;
+  for (Material& material : dull.materials) material.specular = 0.0;
+  const Frame without = render_reference(dull, subject.triangles, options).frame;
+  std::vector<std::uint8_t> mask(reference.mask.size());
+  for (std::size_t pixel = 0; pixel < mask.size(); ++pixel)
+    for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
+      if (reference.frame.rgb[i] - without.rgb[i] >= c_highlight) mask[pixel] = 1;
+  return mask;
+}
+
+}  // namespace
+
+Result<Scene> drawn_scene(const std::string& scene, const std::filesystem::path& scenes_folder,
+                          const DesignPoint& point) {
+  auto drawn = load_scene(scene, scenes_folder, {.tessellation = point.tessellation});
+  if (drawn && point.exponent)
+    for (Material& material : drawn->materials) material.exponent = *point.exponent;
+  return drawn;
+}
+
+Reference render(const Subject& subject, FrameSize frame, const std::optional<Tile>& tile) {
+  const RenderOptions options{.frame = frame, .subpixel_bits = 4, .threads = 1, .tile = tile};
+  Reference reference;
+  reference.image = render_reference(subject.scene, subject.triangles, options);
+  reference.highlight = highlight_mask(subject, options, reference.image);
+  return reference;
+}
+
+Result<std::shared_ptr<const Subject>> PictureShelf::subject(const DesignPoint& point) {
+  return subjects_.of(point.picture(), [&]() -> Result<std::shared_ptr<const Subject>> {
+    auto scene = drawn_scene(scene_, scenes_folder_, point);
+    if (!scene) return scene.error();
+    auto made = std::make_shared<Subject>();
+    made->scene = std::move(*scene);
+    made->triangles = Projector(made->scene, point.size, {}).project_all();
+    return std::shared_ptr<const Subject>(std::move(made));
+  });
+}
+
+Result<std::shared_ptr<const Pictures>> PictureShelf::of(const DesignPoint& point,
+                                                         const MakeReference& reference) {
+  return pictures_.of(point.picture(), [&]() -> Result<std::shared_ptr<const Pictures>> {
+    const auto drawn = subject(point);
+    if (!drawn) return drawn.error();
+    auto made = reference ? reference() : render(**drawn, point.size);
+    if (!made) return made.error();
+    return std::make_shared<const Pictures>(Pictures{*drawn, std::move(*made)});
+  });
+}
+
+}  // namespace halfway::study

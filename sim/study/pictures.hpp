@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the points of a study are measured by: the scene as they draw it, and its reference picture.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/result.hpp"
+#include "reference/renderer.hpp"
+#include "scene/scene.hpp"
+#include "setup/screen_triangle.hpp"
+#include "sim/study/design_point.hpp"
+
+namespace halfway::study {
+
+/// What is drawn.
+struct Subject {
+  Scene scene;
+  std::vector<ScreenTriangle> triangles;
+};
+
+/// What it is to look like: a frame, or a tile of it.
+struct Reference {
+  ReferenceImage image;
+  /// Pixels where highlights take the reference up by c_highlight steps or more; one byte a pixel.
+  std::vector<std::uint8_t> highlight;
+};
+inline constexpr int c_highlight = 8;
+
+/// Both, of a whole frame.
+struct Pictures {
+  std::shared_ptr<const Subject> subject;
+  Reference reference;
+};
+
+/// The scene as the point draws it.
+Result<Scene> drawn_scene(const std::string& scene, const std::filesystem::path& scenes_folder,
+                          const DesignPoint& point);
+
+Reference render(const Subject& subject, FrameSize frame, const std::optional<Tile>& tile = {});
+
+/// Things by name, each made once for all who share it, and kept while it is likely to be asked for. Threads
+/// may ask at once.
+template <class Value>
+class Shelf {
+ public:
+  using Shared = std::shared_ptr<const Value>;
+
+  /// `make` gives a Result<Shared>.
+  template <class Make>
+  Result<Shared> of(const std::string& name, const Make& make) {
+    std::promise<Result<Shared>> promise;
+    Made made;
+    bool mine = false;
+    {
+      const std::scoped_lock lock(mutex_);
+      const auto found = std::ranges::find(kept_, name, &std::pair<std::string, Made>::first);
+      mine = found == kept_.end();
+      made = mine ? promise.get_future().share() : found->second;
+      if (mine) kept_.emplace_back(name, made);
+      if (kept_.size() > c_most_kept) kept_.pop_front();
+    }
+    if (mine) {
+      try {
+        promise.set_value(make());
+      } catch (...) {
+        promise.set_exception(std::current_exception());
+      }
+    }
+    return made.get();
+  }
+
+ private:
+  static constexpr std::size_t c_most_kept = 8;
+  using Made = std::shared_future<Result<Shared>>;
+  std::mutex mutex_;
+  std::deque<std::pair<std::string, Made>> kept_;
+};
+
+/// Those of a scene.
+class PictureShelf {
+ public:
+  /// How the reference of a picture comes; none: it is rendered.
+  using MakeReference = std::function<Result<Reference>()>;
+
+  PictureShelf(std::string scene, std::filesystem::path scenes_folder)
+      : scene_(std::move(scene)), scenes_folder_(std::move(scenes_folder)) {}
+
+  Result<std::shared_ptr<const Subject>> subject(const DesignPoint& point);
+  Result<std::shared_ptr<const Pictures>> of(const DesignPoint& point, const MakeReference& reference = {});
+
+ private:
+  std::string scene_;
+  std::filesystem::path scenes_folder_;
+  Shelf<Subject> subjects_;
+  Shelf<Pictures> pictures_;
+};
+
+}  // namespace halfway::study

@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/study/query.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace halfway::study {
+namespace {
+
+struct Quantity {
+  double value;
+  std::string unit;
+};
+
+std::optional<Quantity> read_quantity(const std::string& text) {
+  Quantity quantity{};
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, quantity.value);
+  if (error != std::errc{} || !std::isfinite(quantity.value)) return std::nullopt;
+  quantity.unit.assign(rest, end);
+  while (quantity.unit.starts_with(' ')) quantity.unit.erase(0, 1);
+  return quantity;
+}
+
+Error bad_option(const char* option, const std::string& text, const char* what) {
+  return bad_input(fmt::format("{}: '{}' is none; {}", option, text, what));
+}
+
+std::string time_text(double seconds) {
+  constexpr std::array c_units = {std::pair{1.0, "s"}, std::pair{1e-3, "ms"}, std::pair{1e-6, "us"}};
+  for (const auto& [size, unit] : c_units)
+    if (seconds >= size) return fmt::format("{:.4g} {}", seconds / size, unit);
+  return fmt::format("{:.4g} ns", seconds / 1e-9);
+}
+
+// What the offers of a market can be compared by.
+struct Scales {
+  bool cells;
+  bool seconds;  ///< of some
+  bool cycles;   ///< besides, because the seconds of others are not known
+  bool host;
+};
+Scales scales_of(std::span<const Offer> offers) {
+  const auto timed = [](const Offer& o) { return o.seconds.has_value(); };
+  return {.cells = std::ranges::all_of(offers, [](const Offer& o) { return o.cells.has_value(); }),
+          .seconds = std::ranges::any_of(offers, timed),
+          .cycles = !std::ranges::all_of(offers, [](const Offer& o) { return o.seconds || !o.fits; }),
+          .host = std::ranges::all_of(offers, [](const Offer& o) { return o.host.has_value(); })};
+}
+
+// Cells, time, host: the order of prices is the dictionary's.
+Costs price_of(const Offer& offer, Scales scales) {
+  constexpr double c_none = std::numeric_limits<double>::infinity();
+  return {scales.cells ? *offer.cells : 0.0, scales.seconds ? offer.seconds.value_or(c_none) : 0.0,
+          scales.cycles || !offer.seconds ? offer.cycles : 0.0, scales.host ? *offer.host : 0.0};
+}
+
+bool accurate_enough(const Offer& offer, const Demand& demand) {
+  return (!demand.largest_error || offer.largest_error <= *demand.largest_error) &&
+         (!demand.psnr_db || offer.psnr_db >= *demand.psnr_db);
+}
+
+bool in_time(const Offer& offer, const Demand& demand) {
+  return !demand.seconds || (offer.seconds && *offer.seconds <= *demand.seconds);
+}
+
+bool by_psnr(const Demand& demand) {
+  return demand.psnr_db && !demand.largest_error;
+}
+
+// The measure of accuracy that the demand names first; the less the better.
+Costs errors_of(const Offer& offer, const Demand& demand) {
+  Costs errors = {offer.largest_error, -offer.psnr_db};
+  if (by_psnr(demand)) std::swap(errors[0], errors[1]);
+  return errors;
+}
+
+Costs joined(Costs a, const Costs& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+// The first by `key` of those that `take` takes.
+template <class Key, class Take>
+std::optional<std::size_t> least(std::span<const Offer> offers, const Key& key, const Take& take) {
+  std::optional<std::size_t> found;
+  for (std::size_t at = 0; at < offers.size(); ++at)
+    if (take(offers[at]) && (!found || key(offers[at]) < key(offers[*found]))) found = at;
+  return found;
+}
+
+std::string offer_text(const Offer& o) {
+  std::string text = fmt::format("largest error {:g}/255, PSNR {:.2f} dB", o.largest_error, o.psnr_db);
+  if (o.cells) text += fmt::format(", {:.0f} cells", *o.cells);
+  text += fmt::format(", {:.0f} cycles", o.cycles);
+  if (o.seconds) text += fmt::format(" ({})", time_text(*o.seconds));
+  if (o.host) text += fmt::format(", {:.0f} host instructions a triangle", *o.host);
+  return text;
+}
+
+const char* time_scale(Scales scales) {
+  if (!scales.cycles) return "nanoseconds";
+  return scales.seconds ? "cycles, and in nanoseconds where the clock is known" : "cycles";
+}
+
+const char* host_scale(Scales scales) {
+  return scales.host ? "the host's work in instructions a triangle"
+                     : "the host's work not compared: its instructions are not counted (that takes Valgrind)";
+}
+
+// How much more `there` takes than `here`, figure by figure.
+std::string difference_text(const Offer& here, const Offer& there) {
+  std::vector<std::string> texts;
+  const auto add = [&](double from, double to, const char* what) {
+    if (from == to) return;
+    std::string text = fmt::format("{:+.0f} {}", to - from, what);
+    if (from > 0) text += fmt::format(" ({:+.3g} %)", 100.0 * (to / from - 1.0));
+    texts.push_back(std::move(text));
+  };
+  if (here.cells && there.cells) add(*here.cells, *there.cells, "cells");
+  add(here.cycles, there.cycles, "cycles");
+  if (here.seconds && there.seconds && *here.seconds != *there.seconds)
+    texts.push_back(fmt::format("{}{} ({:+.3g} %)", *there.seconds < *here.seconds ? '-' : '+',
+                                time_text(std::fabs(*there.seconds - *here.seconds)),
+                                100.0 * (*there.seconds / *here.seconds - 1.0)));
+  if (here.host && there.host) add(*here.host, *there.host, "host instructions a triangle");
+  return texts.empty() ? "no other cost" : fmt::format("{}", fmt::join(texts, ", "));
+}
+
+struct Knob {
+  const char* name;  // a space's key
+  std::string value;
+};
+
+// What sets designs apart. A key that means nothing for a design is not among its own.
+std::vector<Knob> knobs_of(const DesignPoint& p) {
+  const auto told = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
+  std::vector<Knob> knobs = {{"method", to_string(p.method)}, {"preset", to_string(p.preset)}};
+  switch (p.method) {
+    case Method::quadratic:
+    case Method::adaptive:
+      knobs.push_back({"fraction_bits", told(p.words.fraction_bits)});
+      break;
+    case Method::spherical:
+      knobs.push_back({"address_bits", p.tables ? std::to_string(p.tables->address_bits) : ""});
+      knobs.push_back({"data_bits", p.tables ? std::to_string(p.tables->data_bits) : ""});
+      knobs.push_back({"angle_bits", told(p.words.angle_bits)});
+      break;
+    case Method::processors_1:
+    case Method::processors_2:
+      knobs.push_back({"form", to_string(p.form)});
+      knobs.push_back({"seed_bits", told(p.words.seed_bits)});
+      knobs.push_back({"newton", told(p.words.newton)});
+      break;
+    case Method::phong:
+    case Method::gouraud:
+      break;
+  }
+  if (p.has_threshold()) knobs.push_back({"threshold", fmt::format("{:g}", p.threshold)});
+  return knobs;
+}
+
+// The space that an answer is the best of: how many designs, and in what they differ.
+std::string knobs_text(const Market& market, std::span<const Record> records) {
+  std::vector<std::pair<std::string, std::set<std::string>>> values;
+  for (const Offer& offer : market.offers)
+    for (const auto& [name, value] : knobs_of(records[offer.record].point)) {
+      auto known = std::ranges::find(values, name, &std::pair<std::string, std::set<std::string>>::first);
+      if (known == values.end()) known = values.insert(known, {name, {}});
+      known->second.insert(value);
+    }
+  std::vector<std::string> turned, left;
+  for (const auto& [name, of] : values) (of.size() > 1 ? turned : left).push_back(name);
+  std::string text = fmt::format("  {:<14} {} points of hardware", "looked at", market.offers.size());
+  if (!turned.empty()) text += fmt::format("; turned: {}", fmt::join(turned, ", "));
+  if (!left.empty()) text += fmt::format("; not turned: {}", fmt::join(left, ", "));
+  return text + "\n";
+}
+
+// The front as a table: of the whole front, which has designs for each of its figures, the steps.
+std::string front_text(const Market& market, const Answer& answer, const Demand& demand,
+                       std::span<const Record> records) {
+  const Scales scales = scales_of(market.offers);
+  std::string text =
+      fmt::format("  {:<14} {} of {} points of hardware, time in {}, {}\n", "front", answer.front.size(),
+                  market.offers.size(), time_scale(scales), host_scale(scales));
+  text += fmt::format("  of it what is more accurate (by {}) than all that is cheaper:\n",
+                      by_psnr(demand) ? "PSNR" : "largest error");
+  text += fmt::format("  {:>9} {:>8}  {:>8} {:>9} {:>10} {:>13}  {}\n", "error/255", "PSNR, dB", "cells",
+                      "cycles", "time", "host/triangle", "design");
+  for (const std::size_t at : answer.steps) {
+    const Offer& o = market.offers[at];
+    text += fmt::format("  {:>9g} {:>8.2f}  {:>8} {:>9.0f} {:>10} {:>13}  {}\n", o.largest_error, o.psnr_db,
+                        o.cells ? fmt::format("{:.0f}", *o.cells) : "-", o.cycles,
+                        o.seconds ? time_text(*o.seconds) : "-",
+                        o.host ? fmt::format("{:.0f}", *o.host) : "-", records[o.record].point.design());
+  }
+  return text;
+}
+
+std::string points_text(std::size_t count) {
+  return fmt::format("{} point{}", count, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string Demand::text() const {
+  std::vector<std::string> texts;
+  if (largest_error) texts.push_back(fmt::format("largest error at most {:g}/255", *largest_error));
+  if (psnr_db) texts.push_back(fmt::format("PSNR at least {:g} dB", *psnr_db));
+  if (seconds) texts.push_back(fmt::format("a frame in {}", time_text(*seconds)));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+Result<Demand> read_demand(const std::string& error, const std::string& psnr, const std::string& time) {
+  Demand demand;
+  if (!error.empty()) {
+    const auto read = read_quantity(error);
+    if (!read || !read->unit.empty() || read->value < 0 || read->value > 255)
+      return bad_option("--error", error, "take steps of 1/255 from 0 to 255, such as 2");
+    demand.largest_error = read->value;
+  }
+  if (!psnr.empty()) {
+    const auto read = read_quantity(psnr);
+    if (!read || (!read->unit.empty() && read->unit != "dB") || read->value <= 0)
+      return bad_option("--psnr", psnr, "take decibels above 0, such as 45");
+    demand.psnr_db = read->value;
+  }
+  if (!time.empty()) {
+    constexpr std::array c_units = {std::pair{"s", 1.0}, std::pair{"ms", 1e-3}, std::pair{"us", 1e-6},
+                                    std::pair{"ns", 1e-9}};
+    const auto read = read_quantity(time);
+    const auto unit =
+        std::ranges::find_if(c_units, [&](const auto& known) { return read && read->unit == known.first; });
+    if (unit == c_units.end() || read->value <= 0)
+      return bad_option("--time", time, "take a time with its unit, s, ms, us or ns, such as 10ms");
+    demand.seconds = read->value * unit->second;
+  }
+  return demand;
+}
+
+std::vector<Market> markets_of(std::span<const Record> records, const HardwareTable& hardware, Clock clock) {
+  std::vector<Market> markets;
+  for (std::size_t at = 0; at < records.size(); ++at) {
+    const DesignPoint& point = records[at].point;
+    const Measurement& measured = records[at].measured;
+    if (!in_hardware(point.method)) continue;
+    Offer offer{.record = at,
+                .largest_error = static_cast<double>(measured.picture.max_lsb),
+                .psnr_db = measured.picture.psnr_db,
+                .cycles = static_cast<double>(measured.cycles)};
+    if (measured.host_instructions && measured.triangles > 0)
+      offer.host = static_cast<double>(*measured.host_instructions) / static_cast<double>(measured.triangles);
+    std::optional<double> mhz = clock.mhz;
+    if (const auto found = hardware.find(measured.hardware); found != hardware.end()) {
+      const HardwareFigures& figures = found->second;
+      if (figures.cells) offer.cells = cell_count(*figures.cells);
+      if (figures.mhz) mhz = figures.mhz;
+      offer.fits = figures.fits;
+    }
+    if (mhz && offer.fits) offer.seconds = offer.cycles / (*mhz * 1e6);
+    const std::string picture = point.picture();
+    auto market = std::ranges::find(markets, picture, &Market::picture);
+    if (market == markets.end()) market = markets.insert(market, Market{picture, {}});
+    market->offers.push_back(offer);
+  }
+  return markets;
+}
+
+std::vector<Costs> costs_of(std::span<const Offer> offers) {
+  const Scales scales = scales_of(offers);
+  std::vector<Costs> costs;
+  for (const Offer& offer : offers) costs.push_back(joined(errors_of(offer, {}), price_of(offer, scales)));
+  return costs;
+}
+
+Result<Answer> answer(std::span<const Offer> offers, const Demand& demand) {
+  const Scales scales = scales_of(offers);
+  const auto price = [&](const Offer& o) { return price_of(o, scales); };
+  const auto errors = [&](const Offer& o) { return errors_of(o, demand); };
+  const auto cheapest_first = [&](const Offer& o) { return joined(price(o), errors(o)); };
+  const auto best_first = [&](const Offer& o) { return joined(errors(o), price(o)); };
+  const auto any = [](const Offer&) { return true; };
+
+  Answer found;
+  const std::vector<Costs> costs = costs_of(offers);
+  found.front = front_of(costs);
+  if (Status checked = check_front(costs, found.front); !checked) return checked.error();
+  std::ranges::stable_sort(found.front, {}, [&](std::size_t at) { return cheapest_first(offers[at]); });
+
+  found.cheapest = least(offers, cheapest_first,
+                         [&](const Offer& o) { return accurate_enough(o, demand) && in_time(o, demand); });
+  const auto without_clock = [&](bool fits) {
+    return static_cast<std::size_t>(std::ranges::count_if(offers, [&](const Offer& o) {
+      return demand.seconds && !o.seconds && o.fits == fits && accurate_enough(o, demand);
+    }));
+  };
+  found.unknown = without_clock(true);
+  found.no_room = without_clock(false);
+  for (const std::size_t at : found.front)
+    if (found.steps.empty() || errors(offers[at])[0] < errors(offers[found.steps.back()])[0])
+      found.steps.push_back(at);
+  found.best = least(offers, best_first, any);
+  found.best_met = least(offers, best_first,
+                         [&](const Offer& o) { return accurate_enough(o, demand) && in_time(o, demand); });
+  found.fastest = least(
+      offers, [&](const Offer& o) { return joined({o.seconds.value_or(0)}, best_first(o)); },
+      [](const Offer& o) { return o.seconds.has_value(); });
+  found.fewest_cycles = least(
+      offers, [&](const Offer& o) { return joined({o.cycles}, best_first(o)); }, any);
+  if (!found.cheapest) return found;
+  const Offer& here = offers[*found.cheapest];
+  found.cheaper = least(offers, best_first, [&](const Offer& o) { return price(o) < price(here); });
+  found.accurate = least(offers, cheapest_first, [&](const Offer& o) {
+    return in_time(o, demand) && errors(o)[0] < errors(here)[0];
+  });
+  return found;
+}
+
+std::string to_text(const Market& market, const Answer& answer, const Demand& demand,
+                    std::span<const Record> records) {
+  const Scales scales = scales_of(market.offers);
+  const auto name = [&](std::size_t at) { return records[market.offers[at].record].point.design(); };
+  if (!demand.any()) return market.picture + "\n" + front_text(market, answer, demand, records);
+  std::string text = fmt::format("{}: {}\n", market.picture, demand.text());
+  const auto line = [&](const char* what, std::size_t at, const std::string& more) {
+    text += fmt::format("  {:<14} {}: {}{}\n", what, name(at), offer_text(market.offers[at]), more);
+  };
+  const auto against = [&](std::size_t from, std::size_t to) {
+    return "; " + difference_text(market.offers[from], market.offers[to]);
+  };
+  if (!answer.cheapest) {
+    text += fmt::format("  none of {} points of hardware meets it\n", market.offers.size());
+    if (answer.best) line("most accurate", *answer.best, "");
+    if (answer.fastest)
+      line("fastest", *answer.fastest, scales.cycles ? "; of those whose clock is known" : "");
+    if (answer.fewest_cycles && scales.cycles) line("fewest cycles", *answer.fewest_cycles, "");
+  } else if (!demand.accuracy()) {
+    line("cheapest", *answer.cheapest, "");
+    line("most accurate", *answer.best_met, against(*answer.cheapest, *answer.best_met));
+  } else {
+    line("cheapest", *answer.cheapest, "");
+    const auto neighbour = [&](const char* what, std::optional<std::size_t> at, const char* none) {
+      if (at)
+        line(what, *at, against(*answer.cheapest, *at));
+      else
+        text += fmt::format("  {:<14} {}\n", what, none);
+    };
+    neighbour("cheaper", answer.cheaper, "nothing is");
+    neighbour("more accurate", answer.accurate, demand.seconds ? "nothing is, in that time" : "nothing is");
+  }
+  if (answer.unknown > 0)
+    text += fmt::format("  {} {}, but {} known (--place, or --clock)\n", points_text(answer.unknown),
+                        demand.accuracy() ? "would be accurate enough" : "might be fast enough",
+                        answer.unknown == 1 ? "its clock is not" : "no clock of theirs is");
+  if (answer.no_room > 0)
+    text += fmt::format("  {}{} {}\n", points_text(answer.no_room),
+                        demand.accuracy() ? " would be accurate enough, but" : "",
+                        answer.no_room == 1 ? "has no clock: the device has no room for it"
+                                            : "have no clock: the device has no room for them");
+  return text + knobs_text(market, records) + front_text(market, answer, demand, records);
+}
+
+}  // namespace halfway::study

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a record is worth anything for: the scene, program, RTL and tools that it was measured with.
+#include "sim/study/record.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/pictures/image_library.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway::study {
+namespace {
+
+const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
+
+Scene scene_of_everything() {
+  auto scene = load_scene((c_source / "sim/studies/sphere.toml").string(), c_source / "sim/scenes",
+                          {.tessellation = 0.25});
+  EXPECT_TRUE(scene) << scene.error().message;
+  scene->positional.resize(2);
+  scene->spots.resize(2);
+  scene->materials.resize(2);
+  return *scene;
+}
+
+TEST(SceneHash, ChangesWithEveryNumberThatAPictureDependsOn) {
+  using Change = std::function<void(Scene&)>;
+  std::vector<std::pair<std::string, Change>> changes;
+  const auto number = [&](const std::string& name, const auto& of) {
+    changes.emplace_back(name, [of](Scene& s) { of(s) += 1e-12; });
+  };
+  const auto vector = [&](const std::string& name, const auto& of) {
+    for (int i = 0; i < 3; ++i)
+      changes.emplace_back(name + std::to_string(i), [of, i](Scene& s) { of(s)[i] += 1e-12; });
+  };
+  vector(
+      "eye", [](Scene & s) -> auto& { return s.camera.eye_world; });
+  vector(
+      "target", [](Scene & s) -> auto& { return s.camera.target_world; });
+  vector(
+      "up", [](Scene & s) -> auto& { return s.camera.up_world; });
+  number(
+      "fov", [](Scene & s) -> auto& { return s.camera.vertical_fov_degrees; });
+  number(
+      "near", [](Scene & s) -> auto& { return s.camera.near; });
+  number(
+      "far", [](Scene & s) -> auto& { return s.camera.far; });
+  vector(
+      "ambient", [](Scene & s) -> auto& { return s.ambient; });
+  vector(
+      "background", [](Scene & s) -> auto& { return s.background; });
+  changes.emplace_back("shadows", [](Scene& s) { s.shadows = !s.shadows; });
+  vector(
+      "to light", [](Scene & s) -> auto& { return s.directional[0].to_light_world; });
+  vector(
+      "directional", [](Scene & s) -> auto& { return s.directional[0].intensity; });
+  vector(
+      "position of a light", [](Scene & s) -> auto& { return s.positional[1].position_world; });
+  vector(
+      "positional", [](Scene & s) -> auto& { return s.positional[1].intensity; });
+  vector(
+      "position of a spot", [](Scene & s) -> auto& { return s.spots[1].position_world; });
+  vector(
+      "axis", [](Scene & s) -> auto& { return s.spots[1].axis_world; });
+  number(
+      "inner", [](Scene & s) -> auto& { return s.spots[1].cos_inner; });
+  number(
+      "outer", [](Scene & s) -> auto& { return s.spots[1].cos_outer; });
+  vector(
+      "spot", [](Scene & s) -> auto& { return s.spots[1].intensity; });
+  changes.emplace_back("brdf", [](Scene& s) { s.materials[1].brdf = Brdf::phong; });
+  vector(
+      "colour", [](Scene & s) -> auto& { return s.materials[1].colour; });
+  vector(
+      "specular colour", [](Scene & s) -> auto& { return s.materials[1].specular_colour; });
+  number(
+      "k_a", [](Scene & s) -> auto& { return s.materials[1].ambient; });
+  number(
+      "k_d", [](Scene & s) -> auto& { return s.materials[1].diffuse; });
+  number(
+      "k_s", [](Scene & s) -> auto& { return s.materials[1].specular; });
+  number(
+      "exponent", [](Scene & s) -> auto& { return s.materials[1].exponent; });
+  number(
+      "roughness", [](Scene & s) -> auto& { return s.materials[1].roughness; });
+  number(
+      "reflectance", [](Scene & s) -> auto& { return s.materials[1].reflectance; });
+  vector(
+      "vertex", [](Scene & s) -> auto& { return s.positions_world.back(); });
+  vector(
+      "normal", [](Scene & s) -> auto& { return s.normals_world.back(); });
+  changes.emplace_back("corner", [](Scene& s) { s.triangles.back().position[2] ^= 1U; });
+  changes.emplace_back("corner's normal", [](Scene& s) { s.triangles.back().normal[2] ^= 1U; });
+  changes.emplace_back("material of a triangle", [](Scene& s) { s.triangles.back().material ^= 1U; });
+  changes.emplace_back("a light less", [](Scene& s) { s.positional.pop_back(); });
+  changes.emplace_back("a spot less", [](Scene& s) { s.spots.pop_back(); });
+  changes.emplace_back("a material less", [](Scene& s) { s.materials.pop_back(); });
+  changes.emplace_back("a triangle less", [](Scene& s) { s.triangles.pop_back(); });
+
+  const Scene scene = scene_of_everything();
+  std::set<std::string> hashes = {scene_hash(scene)};
+  EXPECT_EQ(scene_hash(scene_of_everything()), *hashes.begin());
+  for (const auto& [name, change] : changes) {
+    Scene changed = scene;
+    change(changed);
+    EXPECT_TRUE(hashes.insert(scene_hash(changed)).second) << name;
+  }
+}
+
+class RecordsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+  }
+  std::optional<TemporaryFolder> folder_;
+};
+
+TEST_F(RecordsTest, AreFoundByWhatTheyWereMeasuredWithAlone) {
+  const Provenance here{"scene", "1", "2", "3", "4"};
+  Record record{{.method = Method::adaptive}, {}};
+  record.measured.picture.psnr_db = std::numeric_limits<double>::infinity();
+  record.measured.cycles = 77;
+  const auto picture = Records(folder_->path(), here).add_frame(record.point, Frame(record.point.size));
+  ASSERT_TRUE(picture) << picture.error().message;
+  record.picture = *picture;
+  ASSERT_TRUE(Records(folder_->path(), here).add(record));
+  const auto find = [&](const Provenance& provenance, const DesignPoint& point) {
+    const auto kept = Records(folder_->path(), provenance).find(point);
+    EXPECT_TRUE(kept) << kept.error().message;
+    return kept ? *kept : std::nullopt;
+  };
+  const auto found = find(here, record.point);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->measured.cycles, 77U);
+  EXPECT_EQ(found->measured.picture.psnr_db, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(found->measured.host_instructions, std::nullopt);
+  for (std::string Provenance::*part : {&Provenance::scene, &Provenance::scene_hash, &Provenance::program,
+                                        &Provenance::rtl, &Provenance::tools}) {
+    Provenance other = here;
+    other.*part += "0";
+    EXPECT_FALSE(find(other, record.point)) << other.*part;
+  }
+  DesignPoint other = record.point;
+  other.threshold = 4.0;
+  EXPECT_FALSE(find(here, other));
+  std::filesystem::remove(Records(folder_->path(), here).picture(record.point));
+  EXPECT_FALSE(find(here, record.point));
+}
+
+// Each in turn, with what is beside it whole.
+TEST_F(RecordsTest, TellWhichFileIsDamaged) {
+  const Records records(folder_->path(), {"scene", "1", "2", "3", "4"});
+  Record record{{.method = Method::adaptive, .size = {40, 30}}, {}};
+  const auto add = [&](const Frame& frame) {
+    const auto picture = records.add_frame(record.point, frame);
+    ASSERT_TRUE(picture) << picture.error().message;
+    record.picture = *picture;
+    ASSERT_TRUE(records.add(record));
+  };
+  add(Frame(record.point.size));
+  for (const std::filesystem::path& file : {records.file(record.point), records.picture(record.point)}) {
+    const auto whole = read_file(file);
+    ASSERT_TRUE(whole);
+    std::string other = *whole;
+    other[other.size() / 2] ^= 1;
+    for (const std::string& text :
+         {std::string(), whole->substr(0, whole->size() - 5), "{}" + *whole, other}) {
+      ASSERT_TRUE(write_file(file, text));
+      const auto found = records.find(record.point);
+      ASSERT_FALSE(found) << text;
+      EXPECT_EQ(found.error().message, file.string() + ": damaged; the point is measured anew");
+    }
+    ASSERT_TRUE(write_file(file, *whole));
+    EXPECT_TRUE(records.find(record.point));
+  }
+  // A whole picture, but another one.
+  ASSERT_TRUE(records.add_frame(record.point, Frame({30, 40})));
+  EXPECT_FALSE(records.find(record.point));
+}
+
+// A checkout whose RTL has a byte, or a file's name, more.
+TEST_F(RecordsTest, ProvenanceIsOfEveryFileOfTheRtl) {
+  const Scene scene = scene_of_everything();
+  std::filesystem::create_directories(folder_->path() / "rtl/part");
+  const auto write = [&](const char* name, const char* text) {
+    ASSERT_TRUE(write_file(folder_->path() / "rtl" / name, text));
+  };
+  std::set<std::string> hashes;
+  const auto expect_another = [&](const char* what) {
+    const auto provenance = provenance_of(scene, {folder_->path(), folder_->path() / "cache"});
+    ASSERT_TRUE(provenance) << provenance.error().message;
+    EXPECT_TRUE(hashes.insert(provenance->rtl).second) << what;
+    EXPECT_EQ(provenance->scene_hash, scene_hash(scene));
+  };
+  write("a.vhd", "a");
+  expect_another("one file");
+  write("part/b.vhd", "b");
+  expect_another("two");
+  write("part/b.vhd", "c");
+  expect_another("a byte");
+  std::filesystem::rename(folder_->path() / "rtl/a.vhd", folder_->path() / "rtl/d.vhd");
+  expect_another("a name");
+}
+
+// The same bytes in another program are its provenance: a copy of this one with a byte more is another.
+TEST_F(RecordsTest, ProvenanceIsOfTheProgram) {
+  const auto mine = read_file("/proc/self/exe");
+  ASSERT_TRUE(mine);
+  const auto images = read_file(image_library_file());
+  ASSERT_TRUE(images);
+  const auto provenance = provenance_of(scene_of_everything(), {c_source, folder_->path()});
+  ASSERT_TRUE(provenance) << provenance.error().message;
+  EXPECT_THAT(provenance->tools,
+              ::testing::ContainsRegex("GHDL .*Verilator .*OpenImageIO [0-9]+[.][0-9]+[.][0-9]+"));
+  EXPECT_EQ(provenance->program, ContentHash().add(*mine).add(*images).hex());
+  EXPECT_NE(provenance->program, ContentHash().add(*mine + '\0').add(*images).hex());
+}
+
+}  // namespace
+}  // namespace halfway::study

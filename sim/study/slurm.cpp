@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/study/slurm.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <fstream>
+
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway::study {
+namespace {
+
+constexpr const char* c_install = "apt-get install slurm-client, on a machine of the cluster";
+constexpr std::size_t c_shown = 2000;  // characters of what a task said
+
+std::filesystem::path task_log(const JobArray& array, std::size_t part) {
+  return array.folder / fmt::format("task-{}.log", part);
+}
+
+}  // namespace
+
+std::string job_script(const JobArray& array) {
+  std::string command;
+  for (const std::string& word : array.worker) command += shell_word(word) + " ";
+  return fmt::format(
+      "#!/bin/sh\n"
+      "{}--part \"$SLURM_ARRAY_TASK_ID/{}\" && exit 0\n"
+      "status=$?\n"
+      "# The node may be at fault: Slurm finds another.\n"
+      "if [ \"${{SLURM_RESTART_COUNT:-0}}\" -lt {} ]; then\n"
+      "  echo \"exit status $status; tried again\"\n"
+      "  scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\"\n"
+      "fi\n"
+      "exit $status\n",
+      command, array.parts, array.retries);
+}
+
+Status run_job_array(const JobArray& array) {
+  if (array.open.empty()) return Ok{};
+  for (const std::size_t part : array.open) {
+    std::error_code ignored;
+    std::filesystem::remove(task_log(array, part), ignored);
+  }
+  if (Status made = make_folders(array.folder); !made) return made;
+  const std::filesystem::path script = array.folder / "job.sh";
+  if (Status written = write_file(script, job_script(array)); !written) return written;
+  Command submit{.arguments = {"sbatch", "--wait", "--requeue", "--job-name=halfway-study",
+                               fmt::format("--array={}", fmt::join(array.open, ",")),
+                               "--output=" + (array.folder / "task-%a.log").string(), "--open-mode=append"}};
+  submit.arguments.insert(submit.arguments.end(), array.options.begin(), array.options.end());
+  submit.arguments.push_back(script.string());
+  const auto end = run_process(submit, c_install);
+  if (!end) return end.error();
+  if (end->succeeded()) return Ok{};
+  std::string what = fmt::format("sbatch: {}: {}", end->how(), end->output);
+  for (const std::size_t part : array.open) {
+    const auto said = read_file(task_log(array, part));
+    if (!said || said->find("exit status ") == std::string::npos) continue;
+    what += fmt::format("\n{}:\n{}", task_log(array, part).string(),
+                        said->size() > c_shown ? said->substr(said->size() - c_shown) : *said);
+    break;
+  }
+  return tool_failed(what);
+}
+
+std::vector<std::string> notes_of(const JobArray& array) {
+  std::vector<std::string> notes;
+  for (const std::size_t part : array.open) {
+    std::ifstream log(task_log(array, part));
+    for (std::string line; std::getline(log, line);)
+      if (line.starts_with(c_note)) notes.push_back(line);
+  }
+  return notes;
+}
+
+}  // namespace halfway::study

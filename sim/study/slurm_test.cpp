@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// The script of a job array, and the array, run by a shell in the place of Slurm. tb/slurm has a real one.
+#include "sim/study/slurm.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+#include "sim/study/stand_in_slurm_test.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway::study {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class JobScriptTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    ASSERT_TRUE(write_file(folder_->path() / "scontrol", "#!/bin/sh\necho \"scontrol $*\"\n"));
+    std::filesystem::permissions(folder_->path() / "scontrol", std::filesystem::perms::owner_all);
+  }
+  ProcessEnd run(const JobArray& array, const std::string& restarts) const {
+    const auto end = run_process({.arguments = {"sh", "-c", job_script(array)},
+                                  .environment = {{"PATH", folder_->path().string() + ":/usr/bin:/bin"},
+                                                  {"SLURM_ARRAY_TASK_ID", "3"},
+                                                  {"SLURM_ARRAY_JOB_ID", "77"},
+                                                  {"SLURM_RESTART_COUNT", restarts}}},
+                                 "");
+    EXPECT_TRUE(end);
+    return end ? *end : ProcessEnd{};
+  }
+  std::optional<TemporaryFolder> folder_;
+};
+
+TEST_F(JobScriptTest, HandsThePartToTheWorkerWordForWord) {
+  const ProcessEnd end = run({.worker = {"printf", "<%s>", "a b", "it's", "$HOME", "--"}, .parts = 8}, "0");
+  EXPECT_TRUE(end.succeeded());
+  EXPECT_EQ(end.output, "<a b><it's><$HOME><--><--part><3/8>");
+}
+
+TEST_F(JobScriptTest, HasSlurmTryAgainAFewTimes) {
+  const JobArray array{.worker = {"sh", "-c", "exit 5"}, .parts = 8, .retries = 2};
+  for (const char* restarts : {"", "0", "1"}) {
+    const ProcessEnd end = run(array, restarts);
+    EXPECT_THAT(end.output, HasSubstr("scontrol requeue 77_3")) << restarts;
+    EXPECT_EQ(end.exit_status, 5);
+  }
+  const ProcessEnd end = run(array, "2");
+  EXPECT_THAT(end.output, Not(HasSubstr("scontrol")));
+  EXPECT_EQ(end.exit_status, 5);
+}
+
+class JobArrayTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    put_slurm(folder_->path());
+    ::setenv("PATH", (folder_->path().string() + ":" + path_).c_str(), 1);
+  }
+  void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
+  // Tasks 1, 4 and 5 of 8; $2 is the part.
+  JobArray array(const std::string& script) const {
+    return {.worker = {"sh", "-c", script, "worker"},
+            .parts = 8,
+            .open = {1, 4, 5},
+            .folder = folder_->path() / "slurm"};
+  }
+  const std::string path_ = std::getenv("PATH");
+  std::optional<TemporaryFolder> folder_;
+};
+
+TEST_F(JobArrayTest, WhatTasksNoteIsFound) {
+  const JobArray noted = array("echo working; [ $2 = 4/8 ] || echo \"note: $2\" >&2; echo 'no note: here'");
+  const Status ran = run_job_array(noted);
+  ASSERT_TRUE(ran) << ran.error().message;
+  EXPECT_THAT(notes_of(noted), ElementsAre("note: 1/8", "note: 5/8"));
+  const JobArray silent = array(":");
+  ASSERT_TRUE(run_job_array(silent));
+  EXPECT_THAT(notes_of(silent), IsEmpty());
+}
+
+TEST_F(JobArrayTest, ATaskThatFailsIsToldWithWhatItSaid) {
+  const JobArray broken = array("echo \"note: $2\"; [ $2 != 5/8 ] || { echo 'no such scene' >&2; exit 2; }");
+  const Status ran = run_job_array(broken);
+  ASSERT_FALSE(ran);
+  EXPECT_EQ(ran.error().code, ExitCode::tool_failed);
+  EXPECT_THAT(ran.error().message, AllOf(HasSubstr("sbatch: exit status 1"), HasSubstr("task-5.log:\n"),
+                                         HasSubstr("no such scene"), Not(HasSubstr("task-4.log"))));
+  EXPECT_THAT(notes_of(broken), ElementsAre("note: 1/8", "note: 4/8", "note: 5/8", "note: 5/8", "note: 5/8"));
+}
+
+}  // namespace
+}  // namespace halfway::study

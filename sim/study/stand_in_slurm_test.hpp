@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stands in for Slurm: sbatch --wait that runs tasks here, one behind the other, each anew while it asks for
+// that.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "sim/system/file.hpp"
+
+namespace halfway::study {
+
+inline constexpr const char* c_sbatch = R"(#!/bin/bash
+for word; do
+  case $word in
+    --array=*) tasks=${word#*=} ;;
+    --output=*) log=${word#*=} ;;
+  esac
+done
+failed=0
+for task in ${tasks//,/ }; do
+  for restart in 0 1 2; do
+    SLURM_ARRAY_TASK_ID=$task SLURM_ARRAY_JOB_ID=77 SLURM_RESTART_COUNT=$restart \
+      sh "${!#}" >>"${log/\%a/$task}" 2>&1 && continue 2
+  done
+  failed=1
+done
+exit $failed
+)";
+
+inline void put_slurm(const std::filesystem::path& folder) {
+  for (const auto& [name, text] : {std::pair{"sbatch", c_sbatch}, {"scontrol", "#!/bin/sh\n"}}) {
+    ASSERT_TRUE(write_file(folder / name, text));
+    std::filesystem::permissions(folder / name, std::filesystem::perms::all);
+  }
+}
+
+}  // namespace halfway::study

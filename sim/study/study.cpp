@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/study/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <span>
+
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/study/hardware.hpp"
+#include "sim/study/host_setup.hpp"
+#include "sim/study/measure.hpp"
+#include "sim/study/pictures.hpp"
+#include "sim/study/pieces.hpp"
+#include "sim/study/tile_record.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
+#include "sim/system/threads.hpp"
+
+namespace halfway::study {
+namespace {
+
+// A whole frame of a large picture, and what it is compared by, takes gigabytes.
+constexpr unsigned c_most_gathering = 2;
+
+struct Range {
+  std::size_t begin, end;
+};
+Range part_of(std::size_t count, std::size_t part, std::size_t parts) {
+  return {count * part / parts, count * (part + 1) / parts};
+}
+std::span<const Piece> part_of(std::span<const Piece> pieces, std::size_t part, std::size_t parts) {
+  const Range range = part_of(pieces.size(), part, parts);
+  return pieces.subspan(range.begin, range.end - range.begin);
+}
+
+bool is_point(const Piece& piece) {
+  return piece.kind == PieceKind::point || piece.kind == PieceKind::gathering;
+}
+
+// What came of a piece.
+struct Made {
+  std::optional<Record> record{};  // a point's, of which nothing is kept in memory but figures
+  std::size_t tiles = 0;           // drawn
+  std::vector<std::string> notes{};
+};
+
+// Where pieces are made, and lie when they are.
+class Bench {
+ public:
+  static Result<Bench> open(const StudySettings& settings) {
+    const auto scene = load_scene(settings.scene, settings.folders.source / "sim" / "scenes");
+    if (!scene) return scene.error();
+    auto provenance = provenance_of(*scene, settings.folders);
+    if (!provenance) return provenance.error();
+    const std::filesystem::path folder = settings.out / "points";
+    if (Status made = make_folders(folder); !made) return made.error();
+    Bench bench(settings, *provenance, folder);
+    if (!settings.placed.empty()) {
+      auto placements = Placements::open(settings.scene, settings.placed, settings.folders, provenance->rtl);
+      if (!placements) return placements.error();
+      bench.placements_ = std::move(*placements);
+    }
+    return bench;
+  }
+
+  const Provenance& provenance() const { return provenance_; }
+  const Records& kept() const { return kept_; }
+  const std::optional<Placements>& placements() const { return placements_; }
+  std::size_t placement_count() const { return placements_ ? placements_->count() : 0; }
+
+  // A point's record; an error where it is damaged.
+  Result<std::optional<Record>> find(const Piece& piece) const {
+    return is_point(piece) ? kept_.find(point_of(piece)) : std::optional<Record>();
+  }
+  // A tile is of no use any more where its points are there.
+  bool is_done(const Piece& piece) const {
+    const DesignPoint& point = point_of(piece);
+    if (piece.kind == PieceKind::tile && tiles_.has_drawing(point, piece.tile)) return true;
+    if (piece.kind == PieceKind::reference_tile && tiles_.has_reference(point, piece.tile)) return true;
+    return std::ranges::all_of(std::span(settings_.points).subspan(piece.point, piece.points),
+                               [&](const DesignPoint& each) {
+                                 const auto found = kept_.find(each);
+                                 return found && *found;
+                               });
+  }
+  bool can_gather(const Piece& piece) const { return is_done(piece) || tiles_.complete(point_of(piece)); }
+
+  Status make(const Piece& piece, Made& made) const {
+    const DesignPoint& point = point_of(piece);
+    return is_point(piece) ? make_point(point, piece.kind == PieceKind::gathering, made)
+                           : make_tile(point, piece.kind, piece.tile, made);
+  }
+
+ private:
+  Bench(const StudySettings& settings, const Provenance& provenance, const std::filesystem::path& folder)
+      : settings_(settings),
+        provenance_(provenance),
+        kept_(folder, provenance),
+        tiles_(folder, provenance),
+        shelf_(std::make_unique<PictureShelf>(settings.scene, settings.folders.source / "sim" / "scenes")) {}
+
+  const DesignPoint& point_of(const Piece& piece) const { return settings_.points[piece.point]; }
+
+  Status make_tile(const DesignPoint& point, PieceKind kind, std::size_t number, Made& made) const {
+    const auto subject = shelf_->subject(point);
+    if (!subject) return subject.error();
+    const Tile tile = point.tiles()[number];
+    ++made.tiles;
+    if (kind == PieceKind::reference_tile)
+      return tiles_.add_reference(point, number, render(**subject, point.size, tile));
+    const auto drawing = draw(point, **subject, settings_.folders, tile);
+    if (!drawing) return drawing.error();
+    return tiles_.add_drawing(point, number, *drawing);
+  }
+
+  TileRecords::Redraw redraw(const DesignPoint& point, PieceKind kind, Made& made) const {
+    return [this, &point, kind, &made](std::size_t tile, const std::filesystem::path& damaged) {
+      made.notes.push_back(damaged.string() + ": damaged; the tile is drawn anew");
+      return make_tile(point, kind, tile, made);
+    };
+  }
+
+  Status make_point(const DesignPoint& point, bool of_tiles, Made& made) const {
+    PictureShelf::MakeReference reference;
+    if (of_tiles)
+      reference = [&] { return tiles_.reference(point, redraw(point, PieceKind::reference_tile, made)); };
+    const auto pictures = shelf_->of(point, reference);
+    if (!pictures) return pictures.error();
+    std::optional<Drawing> drawing;
+    if (is_drawn(point.method)) {
+      auto drawn = of_tiles ? tiles_.drawing(point, redraw(point, PieceKind::tile, made))
+                            : draw(point, *(*pictures)->subject, settings_.folders);
+      if (!drawn) return drawn.error();
+      drawing = std::move(*drawn);
+    }
+    auto measured = measure(**pictures, std::move(drawing));
+    if (!measured) return measured.error();
+    Record record{point, std::move(*measured)};
+    auto added_frame = kept_.add_frame(point, record.measured.frame);
+    if (!added_frame) return added_frame.error();
+    record.picture = std::move(*added_frame);
+    record.measured.frame = {};
+    if (Status added = kept_.add(record); !added) return added.error();
+    if (of_tiles) tiles_.remove_drawing(point);
+    made.record = std::move(record);
+    return Ok{};
+  }
+
+  const StudySettings& settings_;
+  Provenance provenance_;
+  Records kept_;
+  TileRecords tiles_;
+  std::optional<Placements> placements_;
+  std::unique_ptr<PictureShelf> shelf_;
+};
+
+// Those of the part.
+Status place(const StudySettings& settings, const Bench& bench, Study& study) {
+  const Range mine = part_of(bench.placement_count(), settings.part, settings.parts);
+  const std::size_t count = mine.end - mine.begin;
+  std::size_t done = 0;
+  std::mutex mutex;
+  return for_each_on_threads(settings.threads, count, [&](std::size_t at) -> Status {
+    const std::size_t number = mine.begin + at;
+    const bool anew = !bench.placements()->is_done(number);
+    if (anew)
+      if (Status made = bench.placements()->make(number); !made)
+        return Error{made.error().code, bench.placements()->name(number) + ": " + made.error().message};
+    const std::scoped_lock lock(mutex);
+    study.placements += anew;
+    settings.on_progress(fmt::format("{} of {} placements", ++done, count));
+    return Ok{};
+  });
+}
+
+// Those of the records that lack them.
+Status count_instructions(const StudySettings& settings, const Records& kept, std::vector<Record>& records) {
+  std::vector<Record*> open;
+  for (Record& record : records)
+    if (in_hardware(record.point.method) && !record.measured.host_instructions) open.push_back(&record);
+  if (settings.set_up.empty() || find_program("valgrind").empty()) return Ok{};
+  // Valgrind takes seconds to begin with.
+  constexpr std::size_t c_batch = 16;
+  const std::size_t batches = (open.size() + c_batch - 1) / c_batch;
+  std::size_t done = 0;
+  std::mutex mutex;
+  return for_each_on_threads(settings.threads, batches, [&](std::size_t number) -> Status {
+    const std::size_t first = number * c_batch;
+    const std::span batch(open.data() + first, std::min(c_batch, open.size() - first));
+    std::vector<std::string> names;
+    for (const Record* record : batch) names.push_back(record->point.name());
+    const auto counted = host_instructions(settings.set_up, names, settings.out / "points");
+    if (!counted) return counted.error();
+    for (std::size_t i = 0; *counted && i < batch.size(); ++i) {
+      batch[i]->measured.host_instructions = (**counted)[i];
+      if (Status added = kept.add(*batch[i]); !added) return added;
+    }
+    const std::scoped_lock lock(mutex);
+    done += batch.size();
+    settings.on_progress(fmt::format("the host's instructions of {} of {} points", done, open.size()));
+    return Ok{};
+  });
+}
+
+}  // namespace
+
+Drawable drawable(std::vector<DesignPoint> points, const std::string& scene,
+                  const SimulatorFolders& folders) {
+  Drawable found;
+  std::optional<std::string> picture;
+  std::set<std::string> hardware;
+  Result<Scene> drawn = Scene{};
+  for (DesignPoint& point : points) {
+    if (picture != point.picture()) {
+      picture = point.picture();
+      drawn = drawn_scene(scene, folders.source / "sim" / "scenes", point);
+    }
+    std::string reason;
+    if (!drawn)
+      reason = drawn.error().message;
+    else if (in_hardware(point.method)) {
+      if (const auto made = hardware_of(point, *drawn); !made)
+        reason = fmt::format("{}: {}", to_string(point.method), made.error().message);
+      else if (hardware.insert(made->key.name()).second)
+        found.hardware.push_back(point);
+    }
+    if (reason.empty()) {
+      found.points.push_back(std::move(point));
+      continue;
+    }
+    ++found.left_out;
+    if (std::ranges::find(found.reasons, reason) == found.reasons.end()) found.reasons.push_back(reason);
+  }
+  return found;
+}
+
+std::size_t most_parts(const StudySettings& settings) {
+  return std::max(pieces_of(settings.points).size(), settings.placed.size() * synth::kSeeds);
+}
+
+Result<std::vector<std::size_t>> open_parts(const StudySettings& settings) {
+  const auto bench = Bench::open(settings);
+  if (!bench) return bench.error();
+  const std::vector<Piece> all = pieces_of(settings.points);
+  std::vector<std::size_t> open;
+  for (std::size_t part = 0; part < settings.parts; ++part) {
+    const Range placements = part_of(bench->placement_count(), part, settings.parts);
+    bool done = std::ranges::all_of(part_of(all, part, settings.parts),
+                                    [&](const Piece& piece) { return bench->is_done(piece); });
+    for (std::size_t number = placements.begin; done && number < placements.end; ++number)
+      done = bench->placements()->is_done(number);
+    if (!done) open.push_back(part);
+  }
+  return open;
+}
+
+Result<Study> run_study(const StudySettings& settings) {
+  auto bench = Bench::open(settings);
+  if (!bench) return bench.error();
+  const std::vector<Piece> all = pieces_of(settings.points);
+  const std::span<const Piece> mine = part_of(all, settings.part, settings.parts);
+  Study study{.provenance = bench->provenance()};
+  std::vector<std::optional<Record>> records(mine.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  const auto each = [&](std::size_t at) -> Status {
+    const Piece& piece = mine[at];
+    auto found = bench->find(piece);
+    const bool anew = is_point(piece) ? !found || !*found : !bench->is_done(piece);
+    Made made;
+    if (!found) made.notes.push_back(found.error().message);
+    if (!anew) made.record = std::move(*found);
+    const Status worked = anew ? bench->make(piece, made) : Ok{};
+    const std::scoped_lock lock(mutex);
+    for (const std::string& note : made.notes) settings.on_note(note);
+    if (!worked)
+      return Error{worked.error().code, settings.points[piece.point].name() + ": " + worked.error().message};
+    study.measured += anew && is_point(piece);
+    study.drawn_tiles += made.tiles;
+    records[at] = std::move(made.record);
+    settings.on_progress(fmt::format("{} of {} {}", ++done, mine.size(),
+                                     all.size() == settings.points.size() ? "points" : "points and tiles"));
+    return Ok{};
+  };
+  // What is put together of tiles comes when all that is drawn here is there. Of another part's it may not
+  // be: then that part, or a later run, does it.
+  std::vector<std::size_t> drawn, gathered;
+  for (std::size_t at = 0; at < mine.size(); ++at)
+    (mine[at].kind == PieceKind::gathering ? gathered : drawn).push_back(at);
+  Status worked =
+      for_each_on_threads(settings.threads, drawn.size(), [&](std::size_t i) { return each(drawn[i]); });
+  if (!worked) return worked.error();
+  if (settings.parts > 1)
+    std::erase_if(gathered, [&](std::size_t at) { return !bench->can_gather(mine[at]); });
+  worked = for_each_on_threads(std::min(settings.threads, c_most_gathering), gathered.size(),
+                               [&](std::size_t i) { return each(gathered[i]); });
+  if (!worked) return worked.error();
+  worked = place(settings, *bench, study);
+  if (!worked) return worked.error();
+  for (std::optional<Record>& record : records)
+    if (record) study.records.push_back(std::move(*record));
+  if (Status counted = count_instructions(settings, bench->kept(), study.records); !counted)
+    return counted.error();
+  return study;
+}
+
+}  // namespace halfway::study

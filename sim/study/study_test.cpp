@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/study/study.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "sim/pictures/image.hpp"
+#include "sim/study/figures.hpp"
+#include "sim/study/host_setup.hpp"
+#include "sim/study/table.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/sanitizers.hpp"
+#include "sim/system/subprocess.hpp"
+#include "tables/made_tables.hpp"
+
+namespace halfway::study {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
+
+std::string table_of(const Study& study) {
+  const auto csv = to_csv(study.provenance, study.records, {}, markets_of(study.records, {}, {}));
+  EXPECT_TRUE(csv) << csv.error().message;
+  return csv ? *csv : "";
+}
+
+class StudyTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    settings_.scene = c_source / "sim/studies/sphere.toml";
+    settings_.out = folder_->path();
+    settings_.threads = 2;
+    settings_.on_note = [this](const std::string& note) { notes_.push_back(note); };
+    settings_.folders = {c_source, c_source / "build" / "cache"};
+    for (const Method method : {Method::phong, Method::gouraud, Method::quadratic, Method::adaptive})
+      settings_.points.push_back(
+          {.method = method, .tessellation = 0.5, .exponent = 50.0, .size = {160, 120}});
+  }
+  Study study() const {
+    notes_.clear();
+    auto made = run_study(settings_);
+    EXPECT_TRUE(made) << made.error().message;
+    return made ? std::move(*made) : Study{};
+  }
+  std::optional<TemporaryFolder> folder_;
+  StudySettings settings_;
+  mutable std::vector<std::string> notes_;  // of the last study
+};
+
+TEST_F(StudyTest, MeasuresEachMethodAsWhatItIs) {
+  const Study made = study();
+  ASSERT_EQ(made.records.size(), 4U);
+  EXPECT_EQ(made.measured, 4U);
+  const Measurement &phong = made.records[0].measured, &gouraud = made.records[1].measured,
+                    &quadratic = made.records[2].measured, &adaptive = made.records[3].measured;
+  EXPECT_EQ(phong.picture.max_lsb, 0U);
+  EXPECT_EQ(phong.mach_bands.rms, 0.0);
+  EXPECT_GT(phong.mach_bands.edges, 10U);
+  EXPECT_GT(phong.highlight.pixels, 100U);
+  EXPECT_LT(phong.highlight.pixels, phong.picture.pixels / 2);
+  EXPECT_GT(gouraud.picture.rms, quadratic.picture.rms);
+  EXPECT_GT(quadratic.picture.rms, adaptive.picture.rms);
+  EXPECT_GT(gouraud.highlight.rms, gouraud.picture.rms);
+  EXPECT_GT(gouraud.perceived, adaptive.perceived);
+  EXPECT_LE(adaptive.picture.max_lsb, 4U);
+  EXPECT_EQ(gouraud.cycles, 0U);
+  EXPECT_GE(quadratic.cycles, quadratic.fragments);
+  EXPECT_GT(quadratic.fragments, 1000U);
+  EXPECT_EQ(quadratic.hardware, adaptive.hardware);
+  EXPECT_GT(adaptive.setup.leaves, quadratic.setup.leaves);
+}
+
+TEST_F(StudyTest, GoesOnWhereItWasBrokenOff) {
+  const std::string first = table_of(study());
+  EXPECT_EQ(study().measured, 0U);
+  // A point without its figures, and another without its frame.
+  const Provenance provenance = study().provenance;
+  const auto lose = [&](std::size_t point, const char* ending) {
+    return std::filesystem::remove(folder_->path() / "points" /
+                                   (record_name(provenance, settings_.points[point]) + ending));
+  };
+  EXPECT_TRUE(lose(0, ".json") && lose(1, ".png"));
+  const Study again = study();
+  EXPECT_EQ(again.measured, 2U);
+  EXPECT_EQ(table_of(again), first);
+}
+
+TEST_F(StudyTest, MeasuresAnewWhatIsDamagedOrOfAnotherScene) {
+  const std::string table = table_of(study());
+  const std::string stem = folder_->path() / "points" / record_name(study().provenance, settings_.points[0]);
+  for (const char* ending : {".json", ".png"}) {
+    const std::string file = stem + ending;
+    auto text = read_file(file);
+    ASSERT_TRUE(text);
+    (*text)[text->size() / 2] ^= 1;
+    ASSERT_TRUE(write_file(file, *text));
+    const Study again = study();
+    EXPECT_EQ(again.measured, 1U);
+    EXPECT_THAT(notes_, ::testing::ElementsAre(file + ": damaged; the point is measured anew"));
+    EXPECT_EQ(table_of(again), table);
+    study();
+    EXPECT_TRUE(notes_.empty());
+  }
+  settings_.scene = "matte";
+  EXPECT_EQ(study().measured, 4U);
+}
+
+TEST_F(StudyTest, PartsAreTheWhole) {
+  settings_.parts = 3;
+  std::vector<std::string> names;
+  for (settings_.part = 0; settings_.part < settings_.parts; ++settings_.part)
+    for (const Record& record : study().records) names.push_back(record.point.name());
+  std::vector<std::string> all;
+  for (const DesignPoint& point : settings_.points) all.push_back(point.name());
+  EXPECT_EQ(names, all);
+  const auto open = open_parts(settings_);
+  ASSERT_TRUE(open) << open.error().message;
+  EXPECT_TRUE(open->empty());
+  std::filesystem::remove_all(folder_->path() / "points");
+  settings_.part = 1;
+  study();
+  EXPECT_THAT(*open_parts(settings_), ::testing::ElementsAre(0U, 2U));
+}
+
+// The same figures as of the frame in one, but for the hardware's clocks.
+class TiledStudyTest : public StudyTest {
+ protected:
+  void SetUp() override {
+    StudyTest::SetUp();
+    for (DesignPoint& point : settings_.points) point.size = {64, 48};
+    whole_ = study();
+    for (DesignPoint& point : settings_.points) point.tile = {37, 29};
+  }
+  // Without what tells the two apart.
+  static std::string figures(Record record) {
+    record.measured.cycles = 0;
+    std::string text;
+    for_each_figure(record.measured, [&](const char* name, const auto& value) {
+      text += fmt::format("{} {}, ", name, ::testing::PrintToString(value));
+    });
+    return text;
+  }
+  void expect_whole(const Study& tiled) const {
+    ASSERT_EQ(tiled.records.size(), whole_.records.size());
+    for (std::size_t i = 0; i < tiled.records.size(); ++i) {
+      EXPECT_EQ(figures(tiled.records[i]), figures(whole_.records[i]));
+      EXPECT_EQ(picture(tiled, i), picture(whole_, i));
+      EXPECT_GE(tiled.records[i].measured.cycles, whole_.records[i].measured.cycles);
+    }
+  }
+  std::vector<std::uint8_t> picture(const Study& of, std::size_t point) const {
+    const auto frame =
+        read_png(folder_->path() / "points" / (record_name(of.provenance, of.records[point].point) + ".png"));
+    EXPECT_TRUE(frame) << frame.error().message;
+    return frame ? frame->rgb : std::vector<std::uint8_t>();
+  }
+  Study whole_;
+};
+
+TEST_F(TiledStudyTest, TilesAreTheWhole) {
+  const Study tiled = study();
+  EXPECT_EQ(tiled.measured, 4U);
+  EXPECT_EQ(tiled.drawn_tiles, 4U * 4U);  // the reference's, and of all but Phong's
+  expect_whole(tiled);
+  EXPECT_THAT(tiled.records[2].point.name(), HasSubstr("64x48 in tiles of 37x29"));
+  EXPECT_THAT(table_of(tiled), HasSubstr(",4\n"));
+  EXPECT_THAT(table_of(whole_), Not(HasSubstr(",4\n")));
+}
+
+// Of a study that was broken off before it had put anything together.
+class BrokenOffStudyTest : public TiledStudyTest {
+ protected:
+  void SetUp() override {
+    TiledStudyTest::SetUp();
+    // A point's tiles each; those of the reference, which the first part is, come last.
+    settings_.parts = settings_.points.size();
+    for (settings_.part = settings_.parts; settings_.part-- > 0;) study();
+    settings_.part = 0;
+    settings_.parts = 1;
+    for (const char* ending : {".json", ".png"})
+      ASSERT_TRUE(std::filesystem::remove(file(settings_.points[0].name(), ending)));
+    std::filesystem::copy(points(), tiles());
+    table_ = table_of(study());
+    restore();
+  }
+  std::filesystem::path points() const { return folder_->path() / "points"; }
+  std::filesystem::path tiles() const { return folder_->path() / "tiles"; }
+  void restore() const {
+    std::filesystem::remove_all(points());
+    std::filesystem::copy(tiles(), points());
+  }
+  std::filesystem::path file(const std::string& name, const char* ending) const {
+    return points() / (record_name(whole_.provenance, name) + ending);
+  }
+  void expect_anew(std::size_t tiles) const {
+    const Study again = study();
+    EXPECT_EQ(again.drawn_tiles, tiles);
+    EXPECT_EQ(again.measured, 4U);
+    EXPECT_EQ(table_of(again), table_);
+    expect_whole(again);
+  }
+  const std::string drawing_ = "quadratic exact, 64x48 in tiles of 37x29, tessellation 0.5, exponent 50",
+                    reference_ = "reference, 64x48 in tiles of 37x29, tessellation 0.5, exponent 50";
+  std::string table_;
+};
+
+// A tile that is lost is drawn anew, and no other.
+TEST_F(BrokenOffStudyTest, GoesOnTileByTile) {
+  EXPECT_TRUE(std::filesystem::remove(file(drawing_, "-tile-1.json")));
+  EXPECT_TRUE(std::filesystem::remove(file(drawing_, "-tile-2-mask.png")));
+  EXPECT_TRUE(std::filesystem::remove(file(reference_, "-tile-0.png")));
+  expect_anew(3);
+}
+
+// Nobody misses the reference's, which are for points to come.
+TEST_F(BrokenOffStudyTest, LeavesOfTilesTheReferencesAlone) {
+  expect_anew(0);
+  std::size_t left = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(points()))
+    left += entry.path().filename().string().find("-tile-") != std::string::npos;
+  EXPECT_EQ(left, 4U * 3U);
+  EXPECT_TRUE(std::filesystem::remove(file(reference_, "-tile-3.json")));
+  Study again = study();
+  EXPECT_EQ(again.drawn_tiles + again.measured, 0U);
+  EXPECT_TRUE(std::filesystem::remove(file(drawing_, ".json")));
+  again = study();
+  EXPECT_EQ(again.drawn_tiles, 5U);
+  EXPECT_EQ(again.measured, 1U);
+  EXPECT_EQ(table_of(again), table_);
+}
+
+// Cut short, with a byte another, another tile's or no picture at all: the point that is put together of it
+// draws it anew.
+TEST_F(BrokenOffStudyTest, DrawsADamagedTileAnew) {
+  const auto cut = [](const std::filesystem::path& path) {
+    const auto whole = read_file(path);
+    return whole && write_file(path, whole->substr(0, whole->size() / 2));
+  };
+  const auto flip = [](const std::filesystem::path& path) {
+    auto whole = read_file(path);
+    if (!whole) return false;
+    (*whole)[whole->size() / 2] ^= 1;
+    return !!write_file(path, *whole);
+  };
+  const auto takes = [&](const char* other) {
+    return [path = file(drawing_, other)](const std::filesystem::path& at) {
+      return std::filesystem::copy_file(path, at, std::filesystem::copy_options::overwrite_existing);
+    };
+  };
+  const auto holds = [](const char* text) {
+    return [text](const std::filesystem::path& path) { return !!write_file(path, text); };
+  };
+  const std::vector<std::pair<std::filesystem::path, std::function<bool(const std::filesystem::path&)>>>
+      damages = {{file(drawing_, "-tile-0.png"), cut},
+                 {file(drawing_, "-tile-1-mask.png"), cut},
+                 {file(drawing_, "-tile-2.json"), cut},
+                 {file(drawing_, "-tile-0.png"), flip},
+                 {file(drawing_, "-tile-1-mask.png"), flip},
+                 {file(drawing_, "-tile-2.json"), flip},
+                 {file(drawing_, "-tile-3.png"), takes("-tile-1.png")},
+                 {file(drawing_, "-tile-3.json"), takes("-tile-1.json")},
+                 {file(drawing_, "-tile-3.json"), holds("{\"tile\": 3}\n")},
+                 {file(reference_, "-tile-0.png"), holds("")},
+                 {file(reference_, "-tile-2-mask.png"), holds("no picture")}};
+  for (const auto& [path, damage] : damages) {
+    restore();
+    ASSERT_TRUE(damage(path)) << path;
+    const Study again = study();
+    EXPECT_EQ(again.drawn_tiles, 1U) << path;
+    EXPECT_EQ(again.measured, 4U) << path;
+    EXPECT_THAT(notes_, ::testing::ElementsAre(path.string() + ": damaged; the tile is drawn anew"));
+    EXPECT_EQ(table_of(again), table_);
+    expect_whole(again);
+  }
+}
+
+TEST_F(TiledStudyTest, PartsDrawTilesAndTheLastOneGathers) {
+  settings_.parts = 5;
+  std::size_t drawn = 0;
+  const auto run_parts = [&](const std::vector<std::size_t>& parts) {
+    std::size_t measured = 0;
+    for (settings_.part = 0; settings_.part < settings_.parts; ++settings_.part) {
+      if (std::ranges::find(parts, settings_.part) == parts.end()) continue;
+      const Study part = study();
+      drawn += part.drawn_tiles;
+      measured += part.measured;
+    }
+    return measured;
+  };
+  // Back to front: the reference comes last, and no point can be put together before.
+  EXPECT_EQ(run_parts({1, 2, 3, 4}), 0U);
+  EXPECT_THAT(*open_parts(settings_), ::testing::ElementsAre(0U, 1U, 2U, 3U, 4U));
+  run_parts({0});
+  EXPECT_EQ(drawn, 4U * 4U);
+  const auto open = open_parts(settings_);
+  ASSERT_TRUE(open);
+  EXPECT_FALSE(open->empty());
+  run_parts(*open);
+  EXPECT_EQ(drawn, 4U * 4U);
+  EXPECT_TRUE(open_parts(settings_)->empty());
+  settings_.part = 0;
+  settings_.parts = 1;
+  const Study all = study();
+  EXPECT_EQ(all.measured + all.drawn_tiles, 0U);
+  expect_whole(all);
+}
+
+TEST_F(StudyTest, TellsThePointThatFails) {
+  settings_.scene = "lights";
+  settings_.points = {{.method = Method::processors_1, .preset = Preset::published}};
+  const auto made = run_study(settings_);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, ExitCode::bad_input);
+  EXPECT_THAT(made.error().message, HasSubstr("processors-1 published"));
+  EXPECT_THAT(made.error().message, HasSubstr("version II"));
+}
+
+// Tables that the program was not built with, in RTL and golden model alike: measure() compares each
+// fragment.
+TEST_F(StudyTest, DrawsWithTablesOfAnySize) {
+  settings_.points.clear();
+  for (const auto size :
+       {std::optional<TableSize>{}, std::optional(TableSize{5, 4}), std::optional(TableSize{3, 2})})
+    settings_.points.push_back(
+        {.method = Method::spherical, .tables = size, .tessellation = 0.5, .size = {160, 120}});
+  const Study made = study();
+  ASSERT_EQ(made.records.size(), 3U);
+  const Measurement &usual = made.records[0].measured, &coarse = made.records[1].measured,
+                    &least = made.records[2].measured;
+  EXPECT_THAT(usual.hardware, HasSubstr("rom9x8"));
+  EXPECT_THAT(coarse.hardware, HasSubstr("rom5x4"));
+  EXPECT_THAT(least.hardware, HasSubstr("rom3x2"));
+  EXPECT_LT(usual.picture.rms, coarse.picture.rms);
+  EXPECT_LT(coarse.picture.rms, least.picture.rms);
+  EXPECT_EQ(usual.fragments, least.fragments);
+}
+
+// Word lengths that the program was not built with, in setup, golden model and RTL alike: 16 bits in all, 4
+// of them behind the point.
+TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
+  settings_.points = {
+      {.method = Method::quadratic, .tessellation = 0.5, .size = {160, 120}},
+      {.method = Method::quadratic, .words = {.fraction_bits = 4}, .tessellation = 0.5, .size = {160, 120}}};
+  const Study made = study();
+  ASSERT_EQ(made.records.size(), 2U);
+  const Measurement &usual = made.records[0].measured, &coarse = made.records[1].measured;
+  EXPECT_THAT(coarse.hardware, EndsWith("-fraction4"));
+  EXPECT_LT(usual.picture.rms, coarse.picture.rms);
+  EXPECT_EQ(usual.fragments, coarse.fragments);
+  EXPECT_EQ(usual.setup.shaded, coarse.setup.shaded);
+  EXPECT_THAT(table_of(made), HasSubstr(",,4,,,1\n"));
+}
+
+TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
+  const DesignPoint point{.method = Method::spherical, .tables = TableSize{5, 4}, .size = {160, 120}};
+  // What would be made stands there already, with one entry another.
+  const auto folder = tables::rtl_with_tables(true, {5, 4}, c_source, folder_->path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const std::filesystem::path package = *folder / "rtl/tables/cosine_pkg.vhd";
+  auto text = read_file(package);
+  ASSERT_TRUE(text);
+  const std::size_t at = text->find("c_exact_cosine_1_5_4");
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t entry = text->find("15", text->find('(', text->find(":=", at)));
+  ASSERT_NE(entry, std::string::npos);
+  ASSERT_TRUE(write_file(package, text->replace(entry, 2, "14")));
+  settings_.folders.cache = folder_->path();
+  settings_.points = {point};
+  const auto made = run_study(settings_);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, ExitCode::differs);
+  EXPECT_THAT(made.error().message, HasSubstr("the RTL differs from the golden model"));
+}
+
+TEST_F(StudyTest, LeavesOutWhatCannotDrawTheScene) {
+  const std::vector<DesignPoint> points = {{.method = Method::gouraud},
+                                           {.method = Method::processors_1, .preset = Preset::published},
+                                           {.method = Method::processors_2, .preset = Preset::published}};
+  const Drawable all = drawable(points, "matte", settings_.folders);
+  EXPECT_EQ(all.points.size(), 3U);
+  ASSERT_EQ(all.hardware.size(), 2U);
+  EXPECT_EQ(all.hardware[1].method, Method::processors_2);
+  EXPECT_EQ(all.left_out, 0U);
+  const Drawable some = drawable(points, "lights", settings_.folders);
+  ASSERT_EQ(some.points.size(), 2U);
+  EXPECT_EQ(some.hardware.size(), 1U);
+  EXPECT_EQ(some.points[1].method, Method::processors_2);
+  EXPECT_EQ(some.left_out, 1U);
+  ASSERT_EQ(some.reasons.size(), 1U);
+  EXPECT_THAT(some.reasons[0], HasSubstr("processors-1: lights: version I"));
+}
+
+TEST_F(StudyTest, TheTableTellsTheFront) {
+  settings_.points.push_back({.method = Method::gouraud, .size = {160, 120}});
+  const Study made = study();
+  HardwareTable hardware;
+  HardwareFigures& figures = hardware[made.records[2].measured.hardware];
+  figures.cells = Cells{.luts = 100, .flip_flops = 20};
+  figures.mhz = 80.0;
+  figures.clock = "pinned";
+  figures.tools = "cells by Tool 1";
+  const auto csv = to_csv(made.provenance, made.records, hardware, markets_of(made.records, hardware, {}));
+  ASSERT_TRUE(csv) << csv.error().message;
+  std::vector<std::string> lines;
+  std::istringstream stream(*csv);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 1 + made.records.size());
+  EXPECT_THAT(
+      lines[0],
+      EndsWith(",host_instructions,luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,"
+               "cycles_a_fragment,host_instructions_a_triangle,record,multiplier_luts,clock_mhz,clock,"
+               "frame_ns,fragment_ns,ice40_luts,ice40_carries,ice40_flip_flops,ice40_rams,"
+               "angle_bits,fraction_bits,seed_bits,newton,tiles"));
+  EXPECT_THAT(lines[1], EndsWith(",,,,,,,,,,," + record_name(made.provenance, made.records[0].point) +
+                                 ",,,,,,,,,,,,,,1"));
+  EXPECT_THAT(lines[3], HasSubstr(",100,20,0,0,0,120,1,1."));
+  // The tools of what has figures by them.
+  EXPECT_THAT(lines[1], HasSubstr(",\"" + made.provenance.tools + "\","));
+  EXPECT_THAT(lines[3], HasSubstr(",\"" + made.provenance.tools + ", cells by Tool 1\","));
+  const auto cycles = static_cast<double>(made.records[2].measured.cycles),
+             fragments = static_cast<double>(made.records[2].measured.fragments);
+  EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"pinned\",{:.6g},{:.6g},,,,,,,,,1", 12.5 * cycles,
+                                             12.5 * cycles / fragments)));
+  EXPECT_THAT(lines[4], HasSubstr(",100,20,0,0,0,120,1,1."));
+  const auto commas = [](const std::string& line) {
+    bool quoted = false;
+    return std::ranges::count_if(line, [&](char c) { return (quoted ^= c == '"', c == ',' && !quoted); });
+  };
+  for (const std::string& line : lines) EXPECT_EQ(commas(line), commas(lines[0])) << line;
+}
+
+TEST_F(StudyTest, CountsTheHostsInstructions) {
+  ASSERT_FALSE(find_program("valgrind").empty()) << "no Valgrind: " << c_install_valgrind;
+  if (c_sanitized) GTEST_SKIP() << "Valgrind cannot run a program built with sanitizers";
+  ASSERT_TRUE(write_file(folder_->path() / "space.toml",
+                         "[[sweep]]\nmethod = [\"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
+  const auto points = read_space(folder_->path() / "space.toml");
+  ASSERT_TRUE(points);
+  settings_.points = *points;
+  settings_.set_up = {HALFWAY_PROGRAM, "study", "--space", (folder_->path() / "space.toml").string()};
+  const Study made = study();
+  ASSERT_EQ(made.records.size(), 2U);
+  const auto of = [](const Record& record) { return record.measured.host_instructions; };
+  ASSERT_TRUE(of(made.records[0]) && of(made.records[1]));
+  EXPECT_GT(of(made.records[1]), of(made.records[0]));
+  // In the other's place: the same.
+  const auto again =
+      host_instructions(settings_.set_up, {points->at(1).name(), points->at(0).name()}, folder_->path());
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ((*again)->at(0), of(made.records[1]));
+  EXPECT_EQ((*again)->at(1), of(made.records[0]));
+  EXPECT_FALSE(host_instructions(settings_.set_up, {"no such point"}, folder_->path()));
+  // Kept with the record.
+  settings_.set_up.clear();
+  EXPECT_EQ(of(study().records[1]), of(made.records[1]));
+}
+
+}  // namespace
+}  // namespace halfway::study

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/system/folder_lock.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <thread>
+
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+TEST(FolderLock, MakesTheSecondWaitForTheFirst) {
+  auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  ASSERT_TRUE(folder);
+  auto first = FolderLock::take(folder->path(), [] { FAIL() << "nobody holds it"; });
+  ASSERT_TRUE(first) << first.error().message;
+  std::optional<FolderLock> held(std::move(*first));
+  std::atomic<bool> waited = false, taken = false;
+  std::jthread second([&] {
+    const auto lock = FolderLock::take(folder->path(), [&] { waited = true; });
+    EXPECT_TRUE(lock);
+    taken = true;
+  });
+  for (int i = 0; i < 10'000 && !waited; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(waited) << "the second did not meet the first's lock";
+  EXPECT_FALSE(taken);
+  held.reset();
+  second.join();
+  EXPECT_TRUE(taken);
+}
+
+TEST(FolderLock, FailsWhereThereIsNoFolder) {
+  const auto lock = FolderLock::take("/nonexistent/folder", [] {});
+  ASSERT_FALSE(lock);
+  EXPECT_NE(lock.error().message.find("/nonexistent/folder"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/system/machine.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <string_view>
+#include <thread>
+
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+// What stands in a file between `begin` and the next `end`, behind the first `key`.
+std::string told(const char* file, std::string_view key, std::string_view begin, char end) {
+  const auto text = read_file(file);
+  const std::size_t at = text ? text->find(key) : std::string::npos;
+  if (at == std::string::npos) return "unknown";
+  const std::size_t from = text->find(begin, at) + begin.size();
+  return text->substr(from, text->find(end, from) - from);
+}
+
+}  // namespace
+
+std::string machine() {
+  const double kilobytes = std::strtod(told("/proc/meminfo", "MemTotal", ":", 'k').c_str(), nullptr);
+  return fmt::format("{} cores of {}, {:.0f} GiB", std::thread::hardware_concurrency(),
+                     told("/proc/cpuinfo", "model name", ": ", '\n'), kilobytes / (1 << 20));
+}
+
+std::string operating_system() {
+  return told("/etc/os-release", "PRETTY_NAME", "\"", '"');
+}
+
+}  // namespace halfway

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/system/page_part.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr std::string_view c_page =
+    "# Page\n\n<!-- one: written by make one -->\n\nfirst\n\nsecond\n\n<!-- end of one -->\n\nrest\n"
+    "<!-- two: none -->\n<!-- end of two -->\n";
+
+TEST(PagePart, IsWhatStandsBetweenItsLines) {
+  const auto one = page_part(c_page, "one");
+  ASSERT_TRUE(one) << one.error().message;
+  EXPECT_EQ(*one, "first\n\nsecond\n");
+  const auto two = page_part(c_page, "two");
+  ASSERT_TRUE(two) << two.error().message;
+  EXPECT_EQ(*two, "");
+}
+
+TEST(PagePart, IsPutInThePlaceOfTheOldAndNothingElseMoves) {
+  const auto page = with_page_part(c_page, "one", "new\n");
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_EQ(*page,
+            "# Page\n\n<!-- one: written by make one -->\n\nnew\n\n<!-- end of one -->\n\nrest\n"
+            "<!-- two: none -->\n<!-- end of two -->\n");
+  EXPECT_EQ(*page_part(*page, "one"), "new\n");
+  const auto again = with_page_part(*page, "one", "new\n");
+  ASSERT_TRUE(again);
+  EXPECT_EQ(*again, *page);
+}
+
+TEST(PagePart, IsThereOnceAndEnds) {
+  for (const std::string& page : {std::string("# Page\n"), std::string("\n<!-- one: by make -->\ntext\n"),
+                                  std::string("\n<!-- end of one -->\n<!-- one: by make -->\n"),
+                                  std::string(c_page) + std::string(c_page)}) {
+    EXPECT_FALSE(page_part(page, "one")) << page;
+    const auto written = with_page_part(page, "one", "new\n");
+    ASSERT_FALSE(written) << page;
+    EXPECT_THAT(written.error().message, ::testing::HasSubstr("'<!-- end of one -->'"));
+  }
+}
+
+TEST(PagePart, IsRewrittenInItsFileOrTheFileStays) {
+  const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const std::filesystem::path path = folder->path() / "page.md";
+  const auto with_one = [](const char* name) {
+    return [name](const std::string& page) { return with_page_part(page, name, "new\n"); };
+  };
+  EXPECT_FALSE(rewrite_page(path, with_one("one"))) << "there is no page";
+  ASSERT_TRUE(write_file(path, std::string(c_page)));
+  const Status failed = rewrite_page(path, with_one("three"));
+  ASSERT_FALSE(failed);
+  EXPECT_THAT(failed.error().message, ::testing::StartsWith(path.string() + ": wants one part"));
+  EXPECT_EQ(*read_file(path), c_page);
+  ASSERT_TRUE(rewrite_page(path, with_one("one")));
+  EXPECT_EQ(*page_part(*read_file(path), "one"), "new\n");
+}
+
+}  // namespace
+}  // namespace halfway

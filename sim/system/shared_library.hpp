@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// What generated C++ needs on its way to a cached shared library: tools, the compiler, the library itself.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/result.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway {
+
+inline constexpr const char* kInstallVerilator = "apt-get install verilator";
+inline constexpr const char* kInstallCompiler = "apt-get install clang";
+
+/// What the command printed; an error with all of it where the command failed. `doing` begins the message.
+Result<std::string> run_tool(Command command, const std::string& install, const std::string& doing);
+/// A short answer, such as a version, without its line's end.
+Result<std::string> ask(const std::vector<std::string>& question, const std::string& install);
+
+struct Compiler {
+  std::string program;
+  std::string identity;  ///< program, version and this processor: what -march=native depends on
+  /// `wanted`, or, where that is empty, clang++ where it is installed, else g++.
+  static Result<Compiler> find(const std::string& wanted);
+};
+
+/// A loaded shared library; unloaded when the last copy goes.
+class SharedLibrary {
+ public:
+  static Result<SharedLibrary> load(const std::filesystem::path& file);
+
+  template <class Function>
+  Result<Function*> function(const char* name) const {
+    void* found = symbol(name);
+    if (found == nullptr) return tool_failed(file_.string() + ": has no function " + name);
+    return reinterpret_cast<Function*>(found);
+  }
+  /// Points each to the function of the name behind it: bind(run, "halfway_run", drain, "halfway_drain").
+  template <class Function, class... More>
+  Status bind(Function*& pointer, const char* name, More&&... more) const {
+    const auto found = function<Function>(name);
+    if (!found) return found.error();
+    pointer = *found;
+    if constexpr (sizeof...(more) > 0)
+      return bind(std::forward<More>(more)...);
+    else
+      return Ok{};
+  }
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  SharedLibrary(std::shared_ptr<void> handle, std::filesystem::path file)
+      : handle_(std::move(handle)), file_(std::move(file)) {}
+  void* symbol(const char* name) const;
+  std::shared_ptr<void> handle_;
+  std::filesystem::path file_;
+};
+
+}  // namespace halfway

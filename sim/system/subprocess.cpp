@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/system/subprocess.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+extern char** environ;
+
+namespace halfway {
+namespace {
+
+constexpr std::size_t kKeptOutput = 32U << 10;  ///< of the beginning, and as much of the end
+
+/// Keeps the beginning and the end of what a program says.
+class KeptOutput {
+ public:
+  void add(const char* bytes, std::size_t count) {
+    const std::size_t to_head = std::min(count, kKeptOutput - head_.size());
+    head_.append(bytes, to_head);
+    tail_.append(bytes + to_head, count - to_head);
+    if (tail_.size() > 2 * kKeptOutput) {
+      left_out_ += tail_.size() - kKeptOutput;
+      tail_.erase(0, tail_.size() - kKeptOutput);
+    }
+  }
+  std::string text() const {
+    return left_out_ == 0 ? head_ + tail_
+                          : fmt::format("{}\n... {} bytes left out ...\n{}", head_, left_out_, tail_);
+  }
+
+ private:
+  std::string head_, tail_;
+  std::size_t left_out_ = 0;
+};
+
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int value) : value_(value) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { reset(); }
+  void reset(int value = -1) {
+    if (value_ >= 0) ::close(value_);
+    value_ = value;
+  }
+  int get() const { return value_; }
+
+ private:
+  int value_ = -1;
+};
+
+struct Pipe {
+  Descriptor reader, writer;
+  bool open() {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) return false;
+    reader.reset(ends[0]);
+    writer.reset(ends[1]);
+    return true;
+  }
+};
+
+struct Start {
+  const char* program;
+  char* const* arguments;
+  char* const* variables;
+  const char* folder;  ///< empty: ours
+  int input, output, error;
+  int failure;  ///< is told errno where the program does not start
+  pid_t parent;
+};
+
+/// The child; -1 where there is none. Until it is the other program it runs in our memory while we wait, and
+/// so calls nothing but the system. A copy of our tables of pages would take longer than many a program runs,
+/// and each page that we write then again.
+[[gnu::noinline]] pid_t start(const Start& s) {
+  const pid_t child = ::vfork();
+  if (child != 0) return child;
+  ::setpgid(0, 0);                     // its own group: a timeout ends all that it started
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing runs on after us, whatever kills us
+  const bool orphan = ::getppid() != s.parent;
+  sigset_t none;
+  sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  if (!orphan && ::dup2(s.input, 0) >= 0 && ::dup2(s.output, 1) >= 0 && ::dup2(s.error, 2) >= 0 &&
+      (*s.folder == '\0' || ::chdir(s.folder) == 0)) {
+    ::execve(s.program, s.arguments, s.variables);
+  }
+  const int error = errno;
+  [[maybe_unused]] const ssize_t told = ::write(s.failure, &error, sizeof error);
+  ::_exit(127);
+}
+
+}  // namespace
+
+std::string ProcessEnd::how() const {
+  if (timed_out) return "stopped because it ran out of time";
+  if (signal != 0) return fmt::format("killed by signal {} ({})", signal, ::strsignal(signal));
+  return fmt::format("exit status {}", exit_status);
+}
+
+std::string shell_word(std::string_view word) {
+  std::string text = "'";
+  for (const char c : word) c == '\'' ? text += "'\\''" : text += c;
+  return text + "'";
+}
+
+std::string to_string(const Command& command) {
+  std::string text;
+  for (const std::string& argument : command.arguments) {
+    if (!text.empty()) text += ' ';
+    const bool plain =
+        !argument.empty() && argument.find_first_not_of(
+                                 "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
+                                 "_-+=./:,@%") == std::string::npos;
+    text += plain ? argument : shell_word(argument);
+  }
+  return text;
+}
+
+std::filesystem::path find_program(const std::string& name) {
+  const auto runs = [](const std::filesystem::path& path) {
+    struct stat status;
+    return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(path.c_str(), X_OK) == 0;
+  };
+  if (name.find('/') != std::string::npos)
+    return runs(name) ? std::filesystem::path(name) : std::filesystem::path();
+  const char* variable = std::getenv("PATH");
+  std::string_view rest = variable == nullptr ? "/usr/bin:/bin" : variable;
+  while (true) {
+    const std::size_t colon = rest.find(':');
+    const std::string_view folder = rest.substr(0, colon);
+    const auto path = std::filesystem::path(folder.empty() ? "." : folder) / name;
+    if (runs(path)) return path;
+    if (colon == std::string_view::npos) return {};
+    rest.remove_prefix(colon + 1);
+  }
+}
+
+Result<ProcessEnd> run_process(const Command& command, const std::string& install) {
+  const std::string& name = command.arguments.front();
+  Descriptor input(command.standard_input);
+  std::filesystem::path program = find_program(name);
+  if (program.empty()) return tool_failed(fmt::format("{}: not found; install it with: {}", name, install));
+  // The child may change its folder first, and what PATH gave may be relative.
+  program = std::filesystem::absolute(program);
+
+  Pipe output, failure;
+  if (input.get() < 0) input.reset(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  Descriptor file;
+  if (!output.open() || !failure.open() || input.get() < 0) {
+    return tool_failed(fmt::format("{}: cannot start: {}", name, std::strerror(errno)));
+  }
+  if (!command.standard_output.empty()) {
+    file.reset(::open(command.standard_output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+    if (file.get() < 0) {
+      return tool_failed(
+          fmt::format("{}: cannot write: {}", command.standard_output.string(), std::strerror(errno)));
+    }
+  }
+
+  // All that needs memory is made before the child: another thread may hold the allocator's lock.
+  std::vector<char*> arguments;
+  for (const std::string& argument : command.arguments)
+    arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  std::vector<std::string> own_variables;
+  std::vector<char*> variables;
+  for (const auto& [key, value] : command.environment) own_variables.push_back(key + '=' + value);
+  for (std::string& variable : own_variables) variables.push_back(variable.data());
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    const bool replaced =
+        std::any_of(command.environment.begin(), command.environment.end(),
+                    [&](const auto& pair) { return text.substr(0, text.find('=')) == pair.first; });
+    if (!replaced) variables.push_back(*variable);
+  }
+  variables.push_back(nullptr);
+  const pid_t child = start({.program = program.c_str(),
+                             .arguments = arguments.data(),
+                             .variables = variables.data(),
+                             .folder = command.working_folder.c_str(),
+                             .input = input.get(),
+                             .output = file.get() >= 0 ? file.get() : output.writer.get(),
+                             .error = output.writer.get(),
+                             .failure = failure.writer.get(),
+                             .parent = ::getpid()});
+  if (child < 0) return tool_failed(fmt::format("{}: cannot start: {}", name, std::strerror(errno)));
+  ::setpgid(child, child);
+  input.reset();
+  output.writer.reset();
+  failure.writer.reset();
+  file.reset();
+
+  int error = 0;
+  ssize_t got;
+  while ((got = ::read(failure.reader.get(), &error, sizeof error)) < 0 && errno == EINTR) {
+  }
+  if (got > 0) {
+    ::waitpid(child, nullptr, 0);
+    return tool_failed(fmt::format("{}: cannot start: {}", program.string(), std::strerror(error)));
+  }
+
+  ProcessEnd end;
+  KeptOutput kept;
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  Clock::time_point next_poll = start + command.poll_interval;
+  std::vector<char> chunk(1U << 16);
+  int status = 0;
+  bool exited = false, open = true;
+  Clock::time_point exit_time{};
+  while (!exited || open) {
+    if (!exited) {
+      exited = ::waitpid(child, &status, WNOHANG) == child;
+      if (exited) exit_time = Clock::now();
+    }
+    const Clock::time_point now = Clock::now();
+    // A grandchild may hold the pipe: after the child's end it gets no more than a second.
+    if (exited && now - exit_time > std::chrono::seconds(1)) break;
+    if (!exited && !end.timed_out && command.timeout && now - start >= *command.timeout) {
+      end.timed_out = true;
+      ::kill(-child, SIGKILL);
+    }
+    if (command.on_poll && now >= next_poll) {
+      command.on_poll();
+      next_poll = now + command.poll_interval;
+    }
+    pollfd watched{output.reader.get(), POLLIN, 0};
+    // The pipe's end wakes us at once, mostly as the child ends; one that closed it early is looked for.
+    const int wait_ms = open ? (exited ? 10 : 20) : 1;
+    const int ready = ::poll(open ? &watched : nullptr, open ? 1 : 0, wait_ms);
+    if (open && ready > 0) {
+      got = ::read(output.reader.get(), chunk.data(), chunk.size());
+      if (got > 0) kept.add(chunk.data(), static_cast<std::size_t>(got));
+      if (got == 0 || (got < 0 && errno != EINTR)) open = false;
+    }
+  }
+  ::kill(-child, SIGKILL);  // what it may have left behind in its group
+  if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  if (WIFEXITED(status)) end.exit_status = WEXITSTATUS(status);
+  end.output = kept.text();
+  return end;
+}
+
+}  // namespace halfway

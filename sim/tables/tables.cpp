@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway tables`: writes what is generated, or checks that it is as it would be written.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "sim/program/program.hpp"
+#include "sim/system/file.hpp"
+#include "sim/tables/generated_files.hpp"
+
+namespace halfway::cli {
+namespace {
+
+struct TablesOptions {
+  bool check = false;
+  bool errors = false;
+  std::string preset = "exact";
+  std::optional<std::string> address_bits, data_bits;
+};
+
+/// The same, checked.
+struct TablesSettings {
+  bool exact;
+  tables::CosineSizes sizes;
+};
+
+std::optional<int> whole_number(const std::string& text, int smallest, int largest) {
+  int number = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || rest != text.data() + text.size() || number < smallest || number > largest)
+    return std::nullopt;
+  return number;
+}
+
+Result<TablesSettings> checked(const TablesOptions& o) {
+  if (o.preset != "exact" && o.preset != "published")
+    return bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset));
+  TablesSettings s{o.preset == "exact", {}};
+  tables::CosineSize& size = (s.exact ? s.sizes.exact : s.sizes.published).front();
+  for (const auto& [option, text, bits] :
+       {std::tuple{"--address-bits", &o.address_bits, &tables::CosineSize::address_bits},
+        std::tuple{"--data-bits", &o.data_bits, &tables::CosineSize::data_bits}}) {
+    if (!*text) continue;
+    const int smallest = tables::c_smallest_cosine_size.*bits, largest = tables::c_largest_cosine_size.*bits;
+    const std::optional<int> number = whole_number(**text, smallest, largest);
+    if (!number)
+      return bad_input(
+          fmt::format("{}: '{}' is not a whole number from {} to {}", option, **text, smallest, largest));
+    size.*bits = *number;
+  }
+  return s;
+}
+
+void print_tables(const tables::CosineSizes& sizes) {
+  for (const tables::CosineTable& table : tables::cosine_tables(sizes)) {
+    const double error = tables::table_error(table);
+    fmt::print(
+        "{:<9}  cos^{:<2}  {:>2}/{:<2} address/data bits  {:>6} bits  largest error {:5.2f}/255 ({:.5f})\n",
+        table.exact ? "exact" : "published", table.power, table.address_bits, table.data_bits, table.bits(),
+        255 * error, error);
+  }
+}
+
+// What a cos^2 table of each size would do: the spherical paper's figure 11 in figures.
+void print_errors(bool exact) {
+  constexpr int c_fewest = 4, c_most = 10;
+  fmt::print("cos^2, preset {}: largest error in 1/255\n{:>12}", exact ? "exact" : "published", "data bits");
+  for (int data = c_fewest; data <= c_most; ++data) fmt::print("{:>7}", data);
+  fmt::print("\n");
+  for (int address = c_fewest; address <= c_most; ++address) {
+    fmt::print("{:>2} {:<9}", address,
+               address == c_fewest       ? "address"
+               : address == c_fewest + 1 ? "bits"
+                                         : "");
+    for (int data = c_fewest; data <= c_most; ++data)
+      fmt::print("{:>7.2f}", 255 * tables::table_error(tables::cosine_table(exact, 2, address, data)));
+    fmt::print("\n");
+  }
+}
+
+// Sizes that the checkout has tables of, and will not have.
+std::vector<tables::CosineSize> sizes_that_go(const std::filesystem::path& checkout, bool exact,
+                                              const tables::CosineSizes& sizes) {
+  const auto present = read_file(checkout / "rtl" / "tables" / "cosine_pkg.vhd");
+  if (!present) return {};
+  const auto& kept = exact ? sizes.exact : sizes.published;
+  std::vector<tables::CosineSize> gone;
+  const auto [least_address, least_data] = tables::c_smallest_cosine_size;
+  const auto [most_address, most_data] = tables::c_largest_cosine_size;
+  for (int address = least_address; address <= most_address; ++address)
+    for (int data = least_data; data <= most_data; ++data) {
+      const std::string name =
+          fmt::format("constant c_{}_cosine_1_{}_{} :", exact ? "exact" : "published", address, data);
+      if (present->find(name) != std::string::npos &&
+          std::ranges::find(kept, tables::CosineSize{address, data}) == kept.end())
+        gone.push_back({address, data});
+    }
+  return gone;
+}
+
+int run(const Folders& folders, const TablesOptions& options) {
+  const Result<TablesSettings> settings = checked(options);
+  if (!settings) return report(settings.error());
+  if (options.errors) {
+    print_errors(settings->exact);
+    return static_cast<int>(ExitCode::equal);
+  }
+  bool differs = false;
+  if (!options.check)
+    for (const bool exact : {true, false})
+      for (const tables::CosineSize size : sizes_that_go(folders.source, exact, settings->sizes))
+        fmt::print(
+            "preset {0}: the tables of {1}/{2} address/data bits go; for them again: make tables PRESET={0} "
+            "ADDRESS_BITS={1} DATA_BITS={2}\n",
+            exact ? "exact" : "published", size.address_bits, size.data_bits);
+  if (options.check)
+    for (const std::string& message : tables::stale_files(folders.source, settings->sizes)) {
+      fmt::print(stderr, "{}\n", message);
+      differs = true;
+    }
+  for (const tables::GeneratedFile& file : tables::generated_files(settings->sizes)) {
+    if (tables::first_different_line(folders.source, file) == 0) {
+      fmt::print("{}: as generated\n", file.path.string());
+    } else if (!options.check) {
+      if (const Status status = write_file(folders.source / file.path, file.text); !status)
+        return report(status.error());
+      fmt::print("{}: written\n", file.path.string());
+    }
+  }
+  print_tables(settings->sizes);
+  return static_cast<int>(differs ? ExitCode::differs : ExitCode::equal);
+}
+
+}  // namespace
+
+void add_tables(CLI::App& app, const Folders& folders, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "tables", "write the generated VHDL and C++ (formats, cosine tables) anew; print what the tables cost");
+  auto options = std::make_shared<TablesOptions>();
+  CLI::Option* check = command->add_flag("--check", options->check,
+                                         "write nothing; exit 1 if a file is not as it would be written");
+  command
+      ->add_option("--preset", options->preset, "whose cosine tables the sizes are for: exact or published")
+      ->capture_default_str();
+  const tables::CosineSizes sizes;
+  const auto add_bits = [&](const char* name, const char* what, std::optional<std::string>& text,
+                            int tables::CosineSize::*bits) {
+    return command->add_option(
+        name, text,
+        fmt::format("{}, {} to {} (default: {} in preset exact, {} in published)", what,
+                    tables::c_smallest_cosine_size.*bits, tables::c_largest_cosine_size.*bits,
+                    sizes.exact.front().*bits, sizes.published.front().*bits));
+  };
+  CLI::Option* address = add_bits("--address-bits", "a table has 2^this entries", options->address_bits,
+                                  &tables::CosineSize::address_bits);
+  CLI::Option* data =
+      add_bits("--data-bits", "bits of an entry", options->data_bits, &tables::CosineSize::data_bits);
+  command
+      ->add_flag("--errors", options->errors,
+                 "write nothing; print the largest error of cos^2 by address and data bits")
+      ->excludes(check)
+      ->excludes(address)
+      ->excludes(data);
+  command->callback([=, &folders, &exit_code] { exit_code = run(folders, *options); });
+}
+
+}  // namespace halfway::cli
