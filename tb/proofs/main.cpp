@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_proofs: proves every property of the list on the RTL, and puts each of its faults into a copy,
-// which must refute it.
+// halfway_proofs: proves the properties of the RTL. Each fault of a proof goes into a copy of the RTL, and
+// the proof must refute it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <mutex>
@@ -10,134 +11,191 @@
 #include <string_view>
 #include <vector>
 
+#include "proof_files.hpp"
 #include "prover.hpp"
 #include "sim/program/program.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/threads.hpp"
+#include "text.hpp"
 
 namespace halfway::proofs {
 namespace {
 
-constexpr std::size_t kQuickFaults = 4;  // of a proof; a walker's take longer than all proofs
+constexpr std::size_t kQuickFaults = 4;  // per proof: all faults of a walker take longer than all proofs
+constexpr unsigned kThreads = 2;
 constexpr std::string_view kTable =
-    "| property | entity | method | clocks | seconds | faults refuted |\n| --- | --- | --- | --- | --- | --- "
-    "|\n";
+    "| property | entity | method | clocks | seconds | faults refuted |\n"
+    "| --- | --- | --- | --- | --- | --- |\n";
 
 struct Options {
   bool faults = true;
   bool quick = false;
   std::filesystem::path page{};
   Folders folders{};
-  std::string part{};
+  std::string name{};
 };
 
-// What a proof and its faults came to.
-struct Outcome {
-  bool holds = false;
-  int refuted = 0;
-  double seconds = 0;  ///< of the proof alone
-};
+// ---- Which proofs
 
-std::string in_page(const Proof& proof, const Outcome& outcome) {
-  constexpr const char* names[] = {"induction", "BMC", "BMC", "PDR", "Gappa"};
-  const bool clocks = proof.method != Method::pdr && proof.method != Method::gappa;
-  return fmt::format(
-      "| {} | `{}` | {} | {} | {:.1f} | {} |\n", proof.property, proof.entity,
-      names[static_cast<int>(proof.method)], clocks ? std::to_string(proof.depth) : "all", outcome.seconds,
-      outcome.holds ? fmt::format("{} of {}", outcome.refuted, proof.faults.size()) : "not proved");
-}
-
-Status write_page(const std::filesystem::path& path, std::string_view rows) {
-  auto text = read_file(path);
-  if (!text) return text.error();
-  text->resize(std::min(text->find(kTable.substr(0, kTable.find('\n'))), text->size()));
-  return write_file(path, fmt::format("{}{}{}", *text, kTable, rows));
-}
-
-ExitCode run(const Options& options, const std::vector<Proof>& proofs) {
-  // Each job is a proof, or a fault of one.
-  struct Job {
-    std::size_t proof;
-    const Fault* fault;
-  };
-  std::vector<Job> jobs;
-  for (std::size_t i = 0; i < proofs.size(); ++i) {
-    jobs.push_back({i, nullptr});
-    if (!options.faults) continue;
-    for (const Fault& fault : proofs[i].faults) jobs.push_back({i, &fault});
-  }
-  std::vector<Outcome> outcomes(proofs.size());
-  std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  int unproved = 0, missed = 0, broken = 0;
-  const auto work = [&] {
-    for (std::size_t at; (at = next++) < jobs.size();) {
-      const auto [index, fault] = jobs[at];
-      const Proof& proof = proofs[index];
-      const auto began = std::chrono::steady_clock::now();
-      const auto answer = prove(options.folders, proof, fault);
-      const double seconds = seconds_since(began);
-      const std::lock_guard lock(mutex);
-      if (!answer) {
-        ++broken;
-        fmt::print("{}\n", answer.error().message);
-      } else if (fault == nullptr) {
-        outcomes[index].holds = answer->verdict == Verdict::holds;
-        outcomes[index].seconds = seconds;
-        unproved += answer->verdict == Verdict::holds ? 0 : 1;
-        fmt::print("{}: {}: {} ({:.1f} s)\n", proof.unit, proof.property,
-                   answer->verdict == Verdict::holds ? "proved" : "NOT PROVED: " + answer->said, seconds);
-      } else if (answer->verdict == Verdict::refuted) {
-        ++outcomes[index].refuted;
-        fmt::print("{}: refutes `{}` ({:.1f} s)\n", proof.unit, fault->to, seconds);
-      } else {
-        ++missed;
-        fmt::print("{}: does NOT refute `{}` for `{}` {}\n", proof.unit, fault->to, fault->from,
-                   answer->said);
-      }
-      std::fflush(stdout);
-    }
-  };
-  work_on_threads(2, work);
-  std::string rows;
-  for (std::size_t i = 0; i < proofs.size(); ++i) rows += in_page(proofs[i], outcomes[i]);
-  fmt::print("\n{}{}\n{} of {} not proved, {} faults not refuted, {} could not be run\n", kTable, rows,
-             unproved, proofs.size(), missed, broken);
-  if (unproved + missed > 0) return ExitCode::differs;
-  if (broken > 0) return ExitCode::tool_failed;
-  if (options.page.empty()) return ExitCode::equal;
-  const auto written = write_page(options.page, rows);
-  if (written) return ExitCode::equal;
-  fmt::print(stderr, "{}\n", written.error().message);
-  return written.error().code;
-}
-
-// Evenly out of all.
+// Keeps faults at equal distances.
 void keep_few(std::vector<Fault>& faults) {
-  const std::size_t all = faults.size();
-  if (all <= kQuickFaults) return;
-  for (std::size_t i = 0; i < kQuickFaults; ++i) faults[i] = faults[i * all / kQuickFaults];
+  const std::size_t count = faults.size();
+  if (count <= kQuickFaults) return;
+  for (std::size_t i = 0; i < kQuickFaults; ++i) faults[i] = faults[i * count / kQuickFaults];
   faults.resize(kQuickFaults);
 }
 
-int main_of(const Options& options) {
-  std::vector<Proof> proofs;
-  for (Proof& proof : all_proofs()) {
-    if (options.quick && !proof.quick) continue;
-    if (std::string_view(proof.unit).find(options.part) == std::string_view::npos) continue;
+Result<std::vector<Proof>> select_proofs(const Options& options) {
+  auto proofs = read_proofs(options.folders.source);
+  if (!proofs) return proofs;
+  std::erase_if(*proofs, [&](const Proof& proof) {
+    return (options.quick && !proof.quick) || !contains(proof.unit, options.name);
+  });
+  if (proofs->empty()) return bad_input(fmt::format("{}: no proof has this in its name", options.name));
+  for (Proof& proof : *proofs) {
+    if (!options.faults) proof.faults.clear();
     if (options.quick) keep_few(proof.faults);
-    proofs.push_back(std::move(proof));
   }
-  if (proofs.empty()) {
-    fmt::print(stderr, "{}: no proof is of an entity of this name\n", options.part);
-    return static_cast<int>(ExitCode::bad_input);
+  return proofs;
+}
+
+Status check_faults(const Options& options, const std::vector<Proof>& proofs) {
+  const auto rtl = read_rtl_sources(options.folders.source);
+  if (!rtl) return rtl.error();
+  for (const Proof& proof : proofs)
+    for (const Fault& fault : proof.faults)
+      if (const auto text = text_with_fault(*rtl, fault); !text) return text.error();
+  return Ok{};
+}
+
+// ---- Running them
+
+// One proof, or one fault of it.
+struct Job {
+  std::size_t proof;
+  const Fault* fault;  // null: the proof itself
+};
+
+std::vector<Job> jobs_of(const std::vector<Proof>& proofs) {
+  std::vector<Job> jobs;
+  for (std::size_t i = 0; i < proofs.size(); ++i) {
+    jobs.push_back({i, nullptr});
+    for (const Fault& fault : proofs[i].faults) jobs.push_back({i, &fault});
   }
-  if (const auto found = find_tools(); !found) {
-    fmt::print(stderr, "{}\n", found.error().message);
-    return static_cast<int>(found.error().code);
+  return jobs;
+}
+
+struct Outcome {
+  bool holds = false;
+  int refuted = 0;     // faults
+  double seconds = 0;  // of the proof, without its faults
+};
+
+struct Outcomes {
+  std::vector<Outcome> proofs;
+  int not_proved = 0;
+  int not_refuted = 0;  // faults
+  int broken = 0;       // jobs without an answer
+};
+
+void record(const Proof& proof, const Job& job, const Result<Answer>& answer, double seconds,
+            Outcomes& outcomes) {
+  Outcome& outcome = outcomes.proofs[job.proof];
+  if (!answer) {
+    ++outcomes.broken;
+    fmt::print("{}\n", answer.error().message);
+  } else if (job.fault == nullptr) {
+    outcome.holds = answer->verdict == Verdict::holds;
+    outcome.seconds = seconds;
+    if (!outcome.holds) ++outcomes.not_proved;
+    fmt::print("{}: {}: {} ({:.1f} s)\n", proof.unit, proof.property,
+               outcome.holds ? "proved" : "NOT PROVED: " + answer->reason, seconds);
+  } else if (answer->verdict == Verdict::refuted) {
+    ++outcome.refuted;
+    fmt::print("{}: refutes `{}` ({:.1f} s)\n", proof.unit, job.fault->new_text, seconds);
+  } else {
+    ++outcomes.not_refuted;
+    fmt::print("{}: {}: does NOT refute `{}` for `{}` {}\n", job.fault->where, proof.unit,
+               job.fault->new_text, job.fault->old_text, answer->reason);
   }
-  return static_cast<int>(run(options, proofs));
+  std::fflush(stdout);
+}
+
+Outcomes run_jobs(const Folders& folders, const std::vector<Proof>& proofs) {
+  const std::vector<Job> jobs = jobs_of(proofs);
+  Outcomes outcomes{.proofs = std::vector<Outcome>(proofs.size())};
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  work_on_threads(kThreads, [&] {
+    for (std::size_t at; (at = next++) < jobs.size();) {
+      const Job& job = jobs[at];
+      const Proof& proof = proofs[job.proof];
+      const auto began = std::chrono::steady_clock::now();
+      const auto answer = prove(folders, proof, job.fault);
+      const double seconds = seconds_since(began);
+      const std::lock_guard lock(mutex);
+      record(proof, job, answer, seconds, outcomes);
+    }
+  });
+  return outcomes;
+}
+
+// ---- The page
+
+std::string_view name_on_page(Method method) {
+  switch (method) {
+    case Method::induction:
+      return "induction";
+    case Method::bounded:
+    case Method::bounded_abc:
+      return "BMC";
+    case Method::pdr:
+      return "PDR";
+    case Method::gappa:
+      return "Gappa";
+  }
+  return "";
+}
+
+std::string row_of(const Proof& proof, const Outcome& outcome) {
+  return fmt::format(
+      "| {} | `{}` | {} | {} | {:.1f} | {} |\n", proof.property, proof.entity, name_on_page(proof.method),
+      proof.clocks > 0 ? std::to_string(proof.clocks) : "all", outcome.seconds,
+      outcome.holds ? fmt::format("{} of {}", outcome.refuted, proof.faults.size()) : "not proved");
+}
+
+std::string table_of(const std::vector<Proof>& proofs, const std::vector<Outcome>& outcomes) {
+  std::string table(kTable);
+  for (std::size_t i = 0; i < proofs.size(); ++i) table += row_of(proofs[i], outcomes[i]);
+  return table;
+}
+
+// The table is the end of the page.
+Status write_page(const std::filesystem::path& path, std::string_view table) {
+  auto text = read_file(path);
+  if (!text) return text.error();
+  const std::size_t begin = text->find(kTable.substr(0, kTable.find('\n')));
+  text->resize(std::min(begin, text->size()));
+  return write_file(path, fmt::format("{}{}", *text, table));
+}
+
+// ---- The program
+
+Result<ExitCode> prove_all(const Options& options) {
+  const auto proofs = select_proofs(options);
+  if (!proofs) return proofs.error();
+  if (auto checked = check_faults(options, *proofs); !checked) return checked.error();
+  if (auto found = find_tools(); !found) return found.error();
+  const Outcomes outcomes = run_jobs(options.folders, *proofs);
+  const std::string table = table_of(*proofs, outcomes.proofs);
+  fmt::print("\n{}\n{} of {} not proved, {} faults not refuted, {} could not be run\n", table,
+             outcomes.not_proved, proofs->size(), outcomes.not_refuted, outcomes.broken);
+  if (outcomes.not_proved + outcomes.not_refuted > 0) return ExitCode::differs;
+  if (outcomes.broken > 0) return ExitCode::tool_failed;
+  if (!options.page.empty())
+    if (auto written = write_page(options.page, table); !written) return written.error();
+  return ExitCode::equal;
 }
 
 }  // namespace
@@ -146,20 +204,25 @@ int main_of(const Options& options) {
 int main(int argc, char** argv) {
   using namespace halfway;
   proofs::Options options;
-  CLI::App app{"Proves properties of the RTL, and that each proof refutes the faults put in for it",
+  CLI::App app{"Proves properties of the RTL, and checks that each proof refutes its faults",
                "halfway_proofs"};
-  app.add_flag("--quick", options.quick,
-               fmt::format("proofs of a few seconds, each with {} faults at most", proofs::kQuickFaults));
-  app.add_flag("--no-faults{false}", options.faults, "proofs alone");
-  app.add_option("--page", options.page, "file whose table is written anew");
+  CLI::Option* quick = app.add_flag(
+      "--quick", options.quick,
+      fmt::format("only proofs that take a few seconds, each with {} faults at most", proofs::kQuickFaults));
+  CLI::Option* no_faults = app.add_flag("--no-faults{false}", options.faults, "only the proofs");
+  CLI::Option* page =
+      app.add_option("--page", options.page, "page whose table is replaced; needs all proofs and faults");
   app.add_option("SOURCE", options.folders.source, "the project's root")->required();
   app.add_option("SCRATCH", options.folders.scratch, "folder for temporary files")->required();
-  app.add_option("PART", options.part, "only proofs of entities whose names hold it");
+  CLI::Option* name = app.add_option("NAME", options.name,
+                                     "only proofs with this in their names, such as raster/edge_walker");
+  page->excludes(quick, no_faults, name);
   int exit_code = 0;
   app.callback([&] {
     options.folders.source = std::filesystem::absolute(options.folders.source);
     options.folders.scratch = std::filesystem::absolute(options.folders.scratch);
-    exit_code = proofs::main_of(options);
+    const auto end = proofs::prove_all(options);
+    exit_code = end ? static_cast<int>(*end) : cli::report(end.error());
   });
   return cli::run_program(app, argc, argv, exit_code);
 }

@@ -6,21 +6,26 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <chrono>
 
-#include "sim/ghdl/ghdl_library.hpp"
+#include "formal_verilog.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
 #include "tables/formats.hpp"
+#include "text.hpp"
 
 namespace halfway::proofs {
 namespace {
 
 constexpr const char* kInstall = "apt-get install yosys cvc5 gappa";
 constexpr std::chrono::minutes kTimeout{10};
+constexpr const char* kTimedOut = "no answer within 10 minutes";
 constexpr const char* kFormats = "rtl/tables/formats_pkg.vhd";
 
-bool is_in(std::string_view text, std::string_view part) {
-  return text.find(part) != std::string_view::npos;
+Result<std::string> read_unit(const Folders& folders, const std::string& name) {
+  auto text = read_file(folders.source / "tb/proofs" / name);
+  if (!text) return tool_failed(text.error().message);
+  return text;
 }
 
 Result<ProcessEnd> run(const std::filesystem::path& folder, std::vector<std::string> arguments,
@@ -32,207 +37,11 @@ Result<ProcessEnd> run(const std::filesystem::path& folder, std::vector<std::str
                      kInstall);
 }
 
-Error failed(const Proof& proof, std::string_view tool, const ProcessEnd& end) {
-  constexpr std::size_t kMost = 1000;  // characters: the first message, not all that follow from it
-  return tool_failed(fmt::format("{}: {} came to no verdict ({}):\n{}", proof.unit, tool, end.how(),
-                                 end.output.substr(0, std::min(end.output.find("\n\n"), kMost))));
-}
-
-std::vector<tables::PresetFormats> narrowed(const std::vector<Width>& widths) {
-  auto presets = tables::preset_formats();
-  for (tables::PresetFormats& preset : presets) {
-    for (tables::Format& format : preset.formats) {
-      const auto width =
-          std::find_if(widths.begin(), widths.end(), [&](const Width& w) { return w.format == format.name; });
-      if (width == widths.end()) continue;
-      format.integer_bits = width->integer_bits;
-      format.fraction_bits = width->fraction_bits;
-    }
-  }
-  return presets;
-}
-
-bool is_narrow(const Proof& proof, const Fault* fault) {
-  return !proof.widths.empty() && (fault != nullptr || !proof.full_width);
-}
-
-Result<std::vector<VhdlSource>> sources_of(const Folders& folders, const Proof& proof, const Fault* fault) {
-  auto sources = read_rtl_sources(folders.source);
-  if (!sources) return sources.error();
-  bool found = fault == nullptr;
-  for (VhdlSource& source : *sources) {
-    if (is_narrow(proof, fault) && source.name == kFormats)
-      source.content = tables::vhdl_package(narrowed(proof.widths));
-    if (fault == nullptr || source.name != std::string("rtl/") + fault->file) continue;
-    const std::size_t at = source.content.find(fault->from);
-    // Of the formats that both presets have, preset exact's stands first.
-    if (at == std::string::npos ||
-        (source.name != kFormats && source.content.find(fault->from, at + 1) != std::string::npos))
-      return bad_input(
-          fmt::format("{}: `{}` does not occur once; mend the list of proofs", source.name, fault->from));
-    source.content.replace(at, fault->from.size(), fault->to);
-    found = true;
-  }
-  if (!found)
-    return bad_input(fmt::format("rtl/{}: is not in files.f; mend the list of proofs", fault->file));
-  return sources;
-}
-
-std::string_view trimmed(std::string_view line) {
-  const std::size_t begin = line.find_first_not_of(' ');
-  return begin == std::string_view::npos ? std::string_view() : line.substr(begin);
-}
-
-std::string_view between(std::string_view text, std::string_view before, std::string_view after) {
-  const std::size_t at = text.find(before);
-  if (at == std::string_view::npos) return {};
-  text.remove_prefix(at + before.size());
-  const std::size_t end = text.find(after);
-  return end == std::string_view::npos ? std::string_view() : text.substr(0, end);
-}
-
-// GHDL writes what is asserted as $fatal, and what is assumed in VHDL; Yosys wants assert and assume.
-//   always @*                                    always @* x: assert (n1_o);
-//     if (!n1_o)
-//       $fatal(1, "assertion failure x");
-//   x: assert n1_o = '1' severity warning; --  assume       always @* x: assume (n1_o);
-struct Formal {
-  std::string verilog;
-  int asserts = 0, assumes = 0;
-};
-
-Formal formal(std::string_view netlist) {
-  std::vector<std::string_view> lines;
-  for (std::size_t begin = 0; begin < netlist.size();) {
-    const std::size_t end = std::min(netlist.find('\n', begin), netlist.size());
-    lines.push_back(netlist.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  Formal result;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (i + 2 < lines.size() && is_in(lines[i + 2], "$fatal(") && trimmed(lines[i]) == "always @*") {
-      result.verilog += fmt::format("  always @* {}: assert ({});\n", between(lines[i + 2], "failure ", "\""),
-                                    between(lines[i + 1], "if (!", ")"));
-      ++result.asserts;
-      i += 2;
-    } else if (is_in(lines[i], "'bX; // (signal)")) {
-      // A signal of the unit without a driver: one that is anything, and the same wherever it is read.
-    } else if (lines[i].ends_with("--  assume")) {
-      const std::string_view label = between(lines[i], "  ", ":");
-      result.verilog +=
-          fmt::format("  always @* {}: assume ({});\n", label, between(lines[i], "assert ", " ="));
-      ++result.assumes;
-    } else {
-      result.verilog.append(lines[i]).push_back('\n');
-    }
-  }
-  return result;
-}
-
-// A constant of more than 32 bits comes out as a string of digits: "01" for 2'b01.
-// One below zero comes out with zeros for its sign: that one is refused.
-Result<std::string> with_constants(std::string_view verilog) {
-  std::string result;
-  while (!verilog.empty()) {
-    const std::size_t open = verilog.find('"');
-    const std::size_t close = open == std::string_view::npos ? open : verilog.find('"', open + 1);
-    if (close == std::string_view::npos) break;
-    const std::string_view digits = verilog.substr(open + 1, close - open - 1);
-    if (digits.size() > 32 && digits.find('1') == digits.size() - 32)
-      return tool_failed(fmt::format("{}: GHDL has lost the sign of a constant; write it positive", digits));
-    result.append(verilog.substr(0, open));
-    result += digits.find_first_not_of("01") == std::string_view::npos && !digits.empty()
-                  ? fmt::format("{}'b{}", digits.size(), digits)
-                  : fmt::format("\"{}\"", digits);
-    verilog.remove_prefix(close + 1);
-  }
-  result.append(verilog);
-  return result;
-}
-
-// How often `word` stands in the unit, in front of a space, outside comments.
-int count_of(std::string_view unit, std::string_view word) {
-  int count = 0;
-  for (std::size_t begin = 0; begin < unit.size();) {
-    const std::size_t end = std::min(unit.find('\n', begin), unit.size());
-    std::string_view line = unit.substr(begin, end - begin);
-    line = line.substr(0, line.find("--"));
-    if (is_in(line, fmt::format(" : {} ", word))) ++count;
-    begin = end + 1;
-  }
-  return count;
-}
-
-constexpr std::string_view kPrepared =
-    "read_verilog -formal formal.v; prep -flatten -top {0}; {1}setundef -undriven -anyseq; opt -full; {2}"
-    "opt_clean -purge; async2sync; dffunmap; opt_clean; ";
-
-// A unit is bound to its entity, or an entity around it.
-std::string top_of(const Proof& proof, std::string_view unit) {
-  const std::string entity = std::filesystem::path(proof.entity).filename();
-  return is_in(unit, "\nentity ") ? entity + "_proof" : entity;
-}
-
-// Declarations and statements of a process that gives `entry` of `address`: a constant for each bit of the
-// entries.
-std::string vhdl_of_entries(const Proof& proof) {
-  std::string constants, assignments;
-  for (int bit = 0; bit < proof.entry_bits; ++bit) {
-    std::string word;
-    for (const std::uint64_t entry : proof.entries)
-      word.insert(word.begin(), (entry >> bit & 1) != 0 ? '1' : '0');
-    constants += fmt::format("    constant c_{} : std_logic_vector({} downto 0) := \"{}\";\n", bit,
-                             proof.entries.size() - 1, word);
-    assignments += fmt::format("    entry({0}) <= c_{0}(to_integer(unsigned(address)));\n", bit);
-  }
-  return fmt::format("{}  begin\n{}", constants, assignments);
-}
-
-// Its result is the netlist's top.
-Result<std::string> make_netlist(const Folders& folders, const std::filesystem::path& folder,
-                                 const Proof& proof, const Fault* fault) {
-  const auto sources = sources_of(folders, proof, fault);
-  if (!sources) return sources.error();
-  auto unit = read_file(folders.source / "tb/proofs" / proof.unit);
-  if (!unit) return tool_failed(unit.error().message);
-  // An architecture that is analysed last is the one that is taken.
-  std::string contracts;
-  for (const char* contract : proof.contracts) {
-    const auto text = read_file(folders.source / "tb/proofs" / contract);
-    if (!text) return tool_failed(text.error().message);
-    contracts += *text;
-  }
-  if (const std::size_t at = unit->find("\n$entries\n"); at != std::string::npos)
-    unit->replace(at + 1, std::string_view("$entries\n").size(), vhdl_of_entries(proof));
-  // GHDL drops what stands under `when others`.
-  if (is_in(*unit, " case ")) return bad_input(fmt::format("{}: a case; write if and elsif", proof.unit));
-  std::vector<std::string> command = {"ghdl", "--synth", "--std=08", "--no-assert-cover", "--out=verilog"};
-  for (const auto& [name, value] : proof.generics) command.push_back("-g" + name + '=' + value);
-  for (const VhdlSource& source : *sources) {
-    if (auto written = write_file(folder / source.name, source.content); !written) return written.error();
-    command.push_back(source.name);
-  }
-  const std::string top = top_of(proof, *unit);
-  unit->insert(0, contracts);
-  if (auto written = write_file(folder / "unit.psl", *unit); !written) return written.error();
-  command.insert(command.end(), {"unit.psl", "-e", top});
-  const auto synthesized = run(folder, command, folder / "netlist.v");
-  if (!synthesized) return synthesized.error();
-  if (!synthesized->succeeded()) return failed(proof, "ghdl", *synthesized);
-  const auto netlist = read_file(folder / "netlist.v");
-  if (!netlist) return netlist.error();
-
-  // The RTL's own assertions are of constants, and are gone. What the unit says must all have come through.
-  const Formal prepared = formal(*netlist);
-  const int asserts = count_of(*unit, "assert"), assumes = count_of(*unit, "assume");
-  if (prepared.asserts != asserts || prepared.assumes != assumes || asserts == 0 ||
-      is_in(prepared.verilog, "$fatal"))
-    return tool_failed(fmt::format("{}: of {} assertions and {} assumptions {} and {} came out of GHDL",
-                                   proof.unit, asserts, assumes, prepared.asserts, prepared.assumes));
-  const auto verilog = with_constants(prepared.verilog);
-  if (!verilog) return verilog.error();
-  if (auto written = write_file(folder / "formal.v", *verilog); !written) return written.error();
-  return top;
+// The first message of the tool stands for those that follow from it.
+Error no_verdict(const Proof& proof, std::string_view tool, const ProcessEnd& end) {
+  constexpr std::size_t kMostCharacters = 1000;
+  return tool_failed(fmt::format("{}: {} gave no verdict ({}):\n{}", proof.unit, tool, end.how(),
+                                 end.output.substr(0, std::min(end.output.find("\n\n"), kMostCharacters))));
 }
 
 std::string last_line_with(std::string_view text, std::string_view part) {
@@ -241,74 +50,247 @@ std::string last_line_with(std::string_view text, std::string_view part) {
                                       : std::string(text.substr(at, text.find('\n', at) - at));
 }
 
-Result<Answer> by_solver(const std::filesystem::path& folder, const Proof& proof, int depth, bool step) {
+// ---- The RTL
+
+std::string formats_package(const std::vector<Format>& narrow) {
+  auto presets = tables::preset_formats();
+  for (tables::PresetFormats& preset : presets)
+    for (tables::Format& format : preset.formats)
+      for (const Format& other : narrow)
+        if (other.name == format.name) {
+          format.integer_bits = other.integer_bits;
+          format.fraction_bits = other.fraction_bits;
+        }
+  return tables::vhdl_package(presets);
+}
+
+const std::vector<Format>& formats_of(const Proof& proof, const Fault* fault) {
+  return fault == nullptr ? proof.formats : proof.fault_formats;
+}
+
+VhdlSource* find_source(std::vector<VhdlSource>& rtl, std::string_view name) {
+  const auto at = std::ranges::find(rtl, name, &VhdlSource::name);
+  return at == rtl.end() ? nullptr : &*at;
+}
+
+Result<std::vector<VhdlSource>> read_rtl(const Folders& folders, const Proof& proof, const Fault* fault) {
+  auto rtl = read_rtl_sources(folders.source);
+  if (!rtl) return rtl;
+  if (const auto& formats = formats_of(proof, fault); !formats.empty())
+    if (VhdlSource* package = find_source(*rtl, kFormats)) package->content = formats_package(formats);
+  if (fault != nullptr) {
+    auto text = text_with_fault(*rtl, *fault);
+    if (!text) return text.error();
+    find_source(*rtl, "rtl/" + fault->file)->content = std::move(*text);
+  }
+  return rtl;
+}
+
+// ---- The unit
+
+// The top is the entity, to which a unit is bound, or an entity of the unit's own around it.
+std::string top_of(const Proof& proof, std::string_view unit) {
+  const std::string entity = std::filesystem::path(proof.entity).filename();
+  return contains(unit, "\nentity ") ? entity + "_proof" : entity;
+}
+
+// VHDL for `$entries`: `entry` is the table's entry at `address`. Each bit of the entries is one constant.
+std::string vhdl_of_table(const Proof& proof) {
+  std::string constants, assignments;
+  for (int bit = 0; bit < proof.table_bits; ++bit) {
+    std::string word;
+    for (const std::uint64_t entry : proof.table)
+      word.insert(word.begin(), (entry >> bit & 1) != 0 ? '1' : '0');
+    constants += fmt::format("    constant c_{} : std_logic_vector({} downto 0) := \"{}\";\n", bit,
+                             proof.table.size() - 1, word);
+    assignments += fmt::format("    entry({0}) <= c_{0}(to_integer(unsigned(address)));\n", bit);
+  }
+  return fmt::format("{}  begin\n{}", constants, assignments);
+}
+
+struct Unit {
+  std::string text;
+  std::string top;
+  PropertyCounts counts;
+};
+
+// The unit, with the table and the contracts that the proof needs.
+Result<Unit> make_unit(const Folders& folders, const Proof& proof) {
+  auto text = read_unit(folders, proof.unit);
+  if (!text) return text.error();
+  constexpr std::string_view kEntries = "$entries\n";
+  if (const std::size_t at = text->find("\n$entries\n"); at != std::string::npos)
+    text->replace(at + 1, kEntries.size(), vhdl_of_table(proof));
+  if (contains(*text, " case "))
+    return bad_input(
+        fmt::format("tb/proofs/{}: GHDL drops what follows `when others`; write if and elsif instead of case",
+                    proof.unit));
+  Unit unit{.text = {}, .top = top_of(proof, *text), .counts = {}};
+  // GHDL takes the architecture that it analyses last.
+  for (const std::string& contract : proof.contracts) {
+    const auto architecture = read_unit(folders, contract);
+    if (!architecture) return architecture.error();
+    unit.text += *architecture;
+  }
+  unit.text += *text;
+  unit.counts = count_properties(unit.text);
+  return unit;
+}
+
+// ---- The netlist
+
+// Synthesizes the RTL with the unit to netlist.v.
+Status synthesize(const std::filesystem::path& folder, const Proof& proof, const std::vector<VhdlSource>& rtl,
+                  const Unit& unit) {
+  std::vector<std::string> command = {"ghdl", "--synth", "--std=08", "--no-assert-cover", "--out=verilog"};
+  for (const auto& [name, value] : proof.generics) command.push_back("-g" + name + '=' + value);
+  for (const VhdlSource& source : rtl) {
+    if (auto written = write_file(folder / source.name, source.content); !written) return written;
+    command.push_back(source.name);
+  }
+  if (auto written = write_file(folder / "unit.psl", unit.text); !written) return written;
+  command.insert(command.end(), {"unit.psl", "-e", unit.top});
+  const auto end = run(folder, command, folder / "netlist.v");
+  if (!end) return end.error();
+  if (!end->succeeded()) return no_verdict(proof, "ghdl", *end);
+  return Ok{};
+}
+
+// Writes formal.v. All properties of the unit must be in it, and no others: the RTL's own assertions are of
+// constants.
+Status write_formal_verilog(const std::filesystem::path& folder, const Proof& proof, const Unit& unit) {
+  const auto netlist = read_file(folder / "netlist.v");
+  if (!netlist) return netlist.error();
+  const auto formal = formal_verilog(*netlist);
+  if (!formal) return tool_failed(fmt::format("{}: {}", proof.unit, formal.error().message));
+  if (formal->counts != unit.counts || unit.counts.asserts == 0)
+    return tool_failed(fmt::format(
+        "{}: the unit has {} assertions and {} assumptions, but GHDL's netlist has {} and {}", proof.unit,
+        unit.counts.asserts, unit.counts.assumes, formal->counts.asserts, formal->counts.assumes));
+  return write_file(folder / "formal.v", formal->text);
+}
+
+// ---- Solvers
+
+// ABC works bit by bit. It finds the refutation of a fault in seconds where cvc5 takes minutes, whatever
+// method proves the property; but it refuses a netlist without registers.
+bool uses_abc(const Proof& proof, const Fault* fault) {
+  return proof.method == Method::pdr || proof.method == Method::bounded_abc ||
+         (fault != nullptr && proof.clocks > 1);
+}
+
+std::string yosys_script(const Proof& proof, const Fault* fault, std::string_view top) {
+  const std::string prepare = fmt::format(
+      "read_verilog -formal formal.v; prep -flatten -top {}; {}setundef -undriven -anyseq; opt -full; {}"
+      "opt_clean -purge; async2sync; dffunmap; opt_clean; ",
+      top, proof.any_products ? "cutpoint t:$mul; " : "",
+      proof.split_small_registers ? "simplemap t:$dff r:WIDTH<8 %i; opt -full; " : "");
+  if (uses_abc(proof, fault))
+    return prepare +
+           "delete -output; techmap; opt -fast; memory_map; techmap; opt -full; dffunmap; abc -g AND -fast; "
+           "opt_clean; write_aiger -I -B -zinit -no-startoffset model.aig";
+  if (!formats_of(proof, fault).empty() || !proof.table.empty())
+    return prepare + "memory_map; opt -full; dffunmap; opt_clean; write_smt2 -wires model.smt2";
+  return prepare + "write_smt2 -wires model.smt2";
+}
+
+// `induction_step`: from any state; otherwise from reset.
+Result<Answer> run_cvc5(const std::filesystem::path& folder, const Proof& proof, int clocks,
+                        bool induction_step) {
   std::vector<std::string> command = {"yosys-smtbmc", "-s", "cvc5",
-                                      "--noprogress", "-t", std::to_string(depth)};
-  if (step) command.push_back("-i");
+                                      "--noprogress", "-t", std::to_string(clocks)};
+  if (induction_step) command.push_back("-i");
   command.push_back("model.smt2");
   const auto end = run(folder, command);
   if (!end) return end.error();
-  if (end->timed_out) return Answer{Verdict::open, "no answer within 10 minutes"};
-  if (end->succeeded() && is_in(end->output, "Status: PASSED")) return Answer{Verdict::holds, ""};
-  if (end->exit_status == 1 && is_in(end->output, "Status: FAILED") &&
-      (step || is_in(end->output, "Assert failed")))
-    return Answer{step ? Verdict::open : Verdict::refuted,
-                  (step ? "the induction step fails: " : "") + last_line_with(end->output, "Assert failed")};
-  return failed(proof, "yosys-smtbmc", *end);
+  if (end->timed_out) return Answer{Verdict::open, kTimedOut};
+  if (end->succeeded() && contains(end->output, "Status: PASSED")) return Answer{Verdict::holds};
+  if (end->exit_status != 1 || !contains(end->output, "Status: FAILED"))
+    return no_verdict(proof, "yosys-smtbmc", *end);
+  const std::string reason = last_line_with(end->output, "Assert failed");
+  if (induction_step) return Answer{Verdict::open, "the induction step fails: " + reason};
+  if (reason.empty()) return no_verdict(proof, "yosys-smtbmc", *end);
+  return Answer{Verdict::refuted, reason};
 }
 
-// `depth` of 0: over all clocks; else no way to break it in so many is as good.
-Result<Answer> by_abc(const std::filesystem::path& folder, const Proof& proof, int depth) {
-  const auto end = run(folder, {"yosys-abc", "-c",
-                                fmt::format("read_aiger model.aig; fold; strash; orpos; {}",
-                                            depth == 0 ? "pdr" : fmt::format("bmc3 -F {}", depth))});
+Result<Answer> run_abc(const std::filesystem::path& folder, const Proof& proof, const std::string& engine) {
+  const auto end = run(folder, {"yosys-abc", "-c", "read_aiger model.aig; fold; strash; orpos; " + engine});
   if (!end) return end.error();
-  if (end->timed_out) return Answer{Verdict::open, "no answer within 10 minutes"};
-  if (is_in(end->output, "Property proved.") || is_in(end->output, "No output asserted in"))
-    return Answer{Verdict::holds, ""};
-  if (is_in(end->output, "was asserted in frame"))
+  if (end->timed_out) return Answer{Verdict::open, kTimedOut};
+  if (contains(end->output, "Property proved.") || contains(end->output, "No output asserted in"))
+    return Answer{Verdict::holds};
+  if (contains(end->output, "was asserted in frame"))
     return Answer{Verdict::refuted, last_line_with(end->output, "was asserted")};
-  return failed(proof, "yosys-abc", *end);
+  return no_verdict(proof, "yosys-abc", *end);
 }
 
-// `$name.bits` and `$name.fraction`: of preset exact, from the VHDL as it stands there.
-Result<std::string> with_formats(std::string text, std::string_view vhdl) {
+Result<Answer> solve(const std::filesystem::path& folder, const Proof& proof, const Fault* fault) {
+  const int clocks = fault == nullptr ? proof.clocks : proof.fault_clocks;
+  if (uses_abc(proof, fault)) {
+    const bool unbounded = proof.method == Method::pdr && fault == nullptr;
+    return run_abc(folder, proof, unbounded ? "pdr" : fmt::format("bmc3 -F {}", clocks));
+  }
+  const auto from_reset = run_cvc5(folder, proof, clocks, false);
+  const bool needs_step = proof.method == Method::induction && fault == nullptr;
+  if (!needs_step || !from_reset || from_reset->verdict != Verdict::holds) return from_reset;
+  return run_cvc5(folder, proof, clocks, true);
+}
+
+Result<Answer> prove_unit(const Folders& folders, const std::filesystem::path& folder, const Proof& proof,
+                          const Fault* fault) {
+  const auto rtl = read_rtl(folders, proof, fault);
+  if (!rtl) return rtl.error();
+  const auto unit = make_unit(folders, proof);
+  if (!unit) return unit.error();
+  if (auto done = synthesize(folder, proof, *rtl, *unit); !done) return done.error();
+  if (auto done = write_formal_verilog(folder, proof, *unit); !done) return done.error();
+  const auto end = run(folder, {"yosys", "-q", "-p", yosys_script(proof, fault, unit->top)});
+  if (!end) return end.error();
+  if (!end->succeeded()) return no_verdict(proof, "yosys", *end);
+  return solve(folder, proof, fault);
+}
+
+// ---- Gappa
+
+// Replaces `$name.bits` and `$name.fraction` by the numbers of preset exact, the first in the package.
+Result<std::string> with_formats(std::string text, std::string_view package) {
   for (std::size_t at; (at = text.find('$')) != std::string::npos;) {
     std::size_t dot = at + 1;
     while (dot < text.size() &&
            (std::isalnum(static_cast<unsigned char>(text[dot])) != 0 || text[dot] == '_'))
       ++dot;
     const std::string name = text.substr(at + 1, dot - at - 1);
-    const bool fraction = text.compare(dot, 9, ".fraction") == 0;
-    if (!fraction && text.compare(dot, 5, ".bits") != 0)
-      return bad_input(fmt::format("${}: neither .bits nor .fraction follows", name));
-    const std::string_view format = between(vhdl, fmt::format("    {} => (", name), ")");
+    const bool is_fraction = text.compare(dot, 9, ".fraction") == 0;
+    if (!is_fraction && text.compare(dot, 5, ".bits") != 0)
+      return bad_input(fmt::format("${}: write .bits or .fraction after it", name));
+    const std::string_view format = between(package, fmt::format("    {} => (", name), ")");
     const std::size_t comma = format.find(", ");
-    if (comma == std::string_view::npos) return bad_input(fmt::format("{}: no such format", name));
-    text.replace(at, dot - at + (fraction ? 9 : 5),
-                 fraction ? format.substr(comma + 2) : format.substr(0, comma));
+    if (comma == std::string_view::npos)
+      return bad_input(fmt::format("${}: formats_pkg has no such format", name));
+    text.replace(at, dot - at + (is_fraction ? 9 : 5),
+                 is_fraction ? format.substr(comma + 2) : format.substr(0, comma));
   }
   return text;
 }
 
-Result<Answer> by_gappa(const Folders& folders, const std::filesystem::path& folder, const Proof& proof,
-                        const Fault* fault) {
-  const auto sources = sources_of(folders, proof, fault);
-  if (!sources) return sources.error();
-  const auto unit = read_file(folders.source / "tb/proofs" / proof.unit);
-  if (!unit) return tool_failed(unit.error().message);
-  const auto formats = std::find_if(sources->begin(), sources->end(),
-                                    [](const VhdlSource& source) { return source.name == kFormats; });
-  const auto text = with_formats(*unit, formats->content);
-  if (!text) return text.error();
+Result<Answer> prove_by_gappa(const Folders& folders, const std::filesystem::path& folder, const Proof& proof,
+                              const Fault* fault) {
+  auto rtl = read_rtl(folders, proof, fault);
+  if (!rtl) return rtl.error();
+  const auto unit = read_unit(folders, proof.unit);
+  if (!unit) return unit.error();
+  const VhdlSource* package = find_source(*rtl, kFormats);
+  if (package == nullptr) return bad_input(fmt::format("{}: is not in rtl/files.f; add it", kFormats));
+  const auto text = with_formats(*unit, package->content);
+  if (!text) return bad_input(fmt::format("tb/proofs/{}: {}", proof.unit, text.error().message));
   if (auto written = write_file(folder / "unit.gappa", *text); !written) return written.error();
   const auto end = run(folder, {"gappa", "unit.gappa"});
   if (!end) return end.error();
-  if (end->succeeded()) return Answer{Verdict::holds, ""};
-  if (is_in(end->output, "some enclosures were not satisfied") ||
-      is_in(end->output, "some properties were not satisfied"))
+  if (end->succeeded()) return Answer{Verdict::holds};
+  if (contains(end->output, "some enclosures were not satisfied") ||
+      contains(end->output, "some properties were not satisfied"))
     return Answer{Verdict::refuted, end->output};
-  return failed(proof, "gappa", *end);
+  return no_verdict(proof, "gappa", *end);
 }
 
 }  // namespace
@@ -322,40 +304,26 @@ Status find_tools() {
   return Ok{};
 }
 
-Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fault) {
-  auto scratch = TemporaryFolder::make(folders.scratch);
-  if (!scratch) return scratch.error();
-  const std::filesystem::path& folder = scratch->path();
-  if (proof.method == Method::gappa) return by_gappa(folders, folder, proof, fault);
-  const auto top = make_netlist(folders, folder, proof, fault);
-  if (!top) return top.error();
+Result<std::string> text_with_fault(const std::vector<VhdlSource>& rtl, const Fault& fault) {
+  const auto source = std::ranges::find(rtl, "rtl/" + fault.file, &VhdlSource::name);
+  if (source == rtl.end())
+    return bad_input(
+        fmt::format("{}: rtl/{} is not in rtl/files.f; name a file that is", fault.where, fault.file));
+  const int count = count_of(source->content, fault.old_text);
+  if (count != fault.occurrences)
+    return bad_input(
+        fmt::format("{}: `{}` occurs {} times in rtl/{}, but must occur {}; correct the fault", fault.where,
+                    fault.old_text, count, fault.file,
+                    fault.occurrences == 1 ? "once" : fmt::format("{} times", fault.occurrences)));
+  std::string text = source->content;
+  return text.replace(text.find(fault.old_text), fault.old_text.size(), fault.new_text);
+}
 
-  // A fault is refuted by clocks that show it, whatever proves that there are none without it: bit by bit
-  // they are found in seconds, by cvc5 in minutes; but ABC takes nothing that has no register.
-  const bool bits = proof.method == Method::pdr || proof.method == Method::unrolled ||
-                    (fault != nullptr && proof.depth > 1);
-  std::string script = fmt::format(kPrepared, *top, proof.any_products ? "cutpoint t:$mul; " : "",
-                                   proof.bit_registers ? "simplemap t:$dff r:WIDTH<8 %i; opt -full; " : "");
-  script +=
-      bits
-          ? "delete -output; techmap; opt -fast; memory_map; techmap; opt -full; dffunmap; abc -g AND -fast; "
-            "opt_clean; write_aiger -I -B -zinit -no-startoffset model.aig"
-      : is_narrow(proof, fault) || !proof.entries.empty()
-          ? "memory_map; opt -full; dffunmap; opt_clean; write_smt2 -wires model.smt2"
-          : "write_smt2 -wires model.smt2";
-  const auto prepared = run(folder, {"yosys", "-q", "-p", script});
-  if (!prepared) return prepared.error();
-  if (!prepared->succeeded()) return failed(proof, "yosys", *prepared);
-  const int fault_depth = std::max(proof.depth, proof.fault_depth);
-  if (bits)
-    return by_abc(folder, proof,
-                  fault != nullptr              ? fault_depth
-                  : proof.method == Method::pdr ? 0
-                                                : proof.depth);
-  const auto first = by_solver(folder, proof, fault == nullptr ? proof.depth : fault_depth, false);
-  if (!first || first->verdict != Verdict::holds || fault != nullptr || proof.method == Method::bounded)
-    return first;
-  return by_solver(folder, proof, proof.depth, true);
+Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fault) {
+  const auto scratch = TemporaryFolder::make(folders.scratch);
+  if (!scratch) return scratch.error();
+  return proof.method == Method::gappa ? prove_by_gappa(folders, scratch->path(), proof, fault)
+                                       : prove_unit(folders, scratch->path(), proof, fault);
 }
 
 }  // namespace halfway::proofs

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formal_verilog.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "text.hpp"
+
+namespace halfway::proofs {
+namespace {
+
+std::string_view without_leading_spaces(std::string_view line) {
+  const std::size_t begin = line.find_first_not_of(' ');
+  return begin == std::string_view::npos ? std::string_view() : line.substr(begin);
+}
+
+// GHDL writes an assertion as $fatal and an assumption as VHDL. Yosys reads assert and assume:
+//   always @*                                    always @* x: assert (n1_o);
+//     if (!n1_o)
+//       $fatal(1, "assertion failure x");
+//   x: assert n1_o = '1' severity warning; --  assume       always @* x: assume (n1_o);
+FormalVerilog with_properties(std::string_view netlist) {
+  const std::vector<std::string_view> lines = lines_of(netlist);
+  FormalVerilog result;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string_view line = lines[i];
+    if (i + 2 < lines.size() && contains(lines[i + 2], "$fatal(") &&
+        without_leading_spaces(line) == "always @*") {
+      result.text += fmt::format("  always @* {}: assert ({});\n", between(lines[i + 2], "failure ", "\""),
+                                 between(lines[i + 1], "if (!", ")"));
+      ++result.counts.asserts;
+      i += 2;
+    } else if (line.ends_with("--  assume")) {
+      result.text += fmt::format("  always @* {}: assume ({});\n", between(line, "  ", ":"),
+                                 between(line, "assert ", " ="));
+      ++result.counts.assumes;
+    } else if (contains(line, "'bX; // (signal)")) {
+      // Drop the driver of a signal that the unit leaves free: Yosys makes it an arbitrary value.
+    } else {
+      result.text.append(line).push_back('\n');
+    }
+  }
+  return result;
+}
+
+// GHDL writes a constant of more than 32 bits as a string of digits: "01" for 2'b01. It writes zeros for the
+// sign bits of a negative one.
+Result<std::string> with_numbers(std::string_view verilog) {
+  std::string result;
+  while (!verilog.empty()) {
+    const std::size_t open = verilog.find('"');
+    const std::size_t close = open == std::string_view::npos ? open : verilog.find('"', open + 1);
+    if (close == std::string_view::npos) break;
+    const std::string_view digits = verilog.substr(open + 1, close - open - 1);
+    const bool is_binary = !digits.empty() && digits.find_first_not_of("01") == std::string_view::npos;
+    if (is_binary && digits.size() > 32 && digits.find('1') == digits.size() - 32)
+      return tool_failed(
+          fmt::format("{}: GHDL lost the sign of this constant; write it as a positive one", digits));
+    result.append(verilog.substr(0, open));
+    result += is_binary ? fmt::format("{}'b{}", digits.size(), digits) : fmt::format("\"{}\"", digits);
+    verilog.remove_prefix(close + 1);
+  }
+  return result.append(verilog);
+}
+
+int count_statements(std::string_view unit, std::string_view keyword) {
+  int count = 0;
+  for (std::string_view line : lines_of(unit)) {
+    line = line.substr(0, line.find("--"));
+    if (contains(line, fmt::format(" : {} ", keyword))) ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+Result<FormalVerilog> formal_verilog(std::string_view netlist) {
+  FormalVerilog formal = with_properties(netlist);
+  if (contains(formal.text, "$fatal"))
+    return tool_failed("GHDL wrote an assertion in a form that is not known; rewrite the assertion");
+  auto text = with_numbers(formal.text);
+  if (!text) return text.error();
+  formal.text = std::move(*text);
+  return formal;
+}
+
+PropertyCounts count_properties(std::string_view unit) {
+  return {count_statements(unit, "assert"), count_statements(unit, "assume")};
+}
+
+}  // namespace halfway::proofs

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turns GHDL's Verilog of an entity and its PSL unit into what Yosys reads: assert and assume statements, and
+// constants that are numbers.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "common/result.hpp"
+
+namespace halfway::proofs {
+
+struct PropertyCounts {
+  int asserts = 0;
+  int assumes = 0;
+  bool operator==(const PropertyCounts&) const = default;
+};
+
+struct FormalVerilog {
+  std::string text;
+  PropertyCounts counts;
+};
+
+/// Fails where GHDL has changed the meaning: a wide constant below zero, an assertion in a form that is not
+/// known.
+Result<FormalVerilog> formal_verilog(std::string_view netlist);
+
+/// The labelled statements `: assert ` and `: assume ` of a unit, outside comments.
+PropertyCounts count_properties(std::string_view unit);
+
+}  // namespace halfway::proofs

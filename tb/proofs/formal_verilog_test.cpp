@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formal_verilog.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace halfway::proofs {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(FormalVerilog, WritesAssertAndAssumeAsYosysReadsThem) {
+  const auto formal = formal_verilog(
+      "module m;\n"
+      "  always @*\n    if (!n1_o)\n      $fatal(1, \"assertion failure holds\");\n"
+      "  stays: assert n2_o = '1' severity warning; --  assume\n"
+      "  assign ghost = 8'bX; // (signal)\n"
+      "endmodule\n");
+  ASSERT_TRUE(formal) << formal.error().message;
+  EXPECT_EQ(formal->text,
+            "module m;\n"
+            "  always @* holds: assert (n1_o);\n"
+            "  always @* stays: assume (n2_o);\n"
+            "endmodule\n");
+  EXPECT_EQ(formal->counts, (PropertyCounts{1, 1}));
+}
+
+TEST(FormalVerilog, WritesWideConstantsAsNumbers) {
+  const auto formal = formal_verilog("assign a = \"0101\";\nassign b = \"text\";\n");
+  ASSERT_TRUE(formal) << formal.error().message;
+  EXPECT_EQ(formal->text, "assign a = 4'b0101;\nassign b = \"text\";\n");
+}
+
+TEST(FormalVerilog, RefusesAConstantThatLostItsSign) {
+  const std::string word = '1' + std::string(31, '0');
+  const auto negative = formal_verilog("assign a = \"00000000" + word + "\";\n");
+  ASSERT_FALSE(negative);
+  EXPECT_THAT(negative.error().message, HasSubstr("GHDL lost the sign"));
+  EXPECT_TRUE(formal_verilog("assign a = \"00000001" + word + "\";\n"));
+  EXPECT_TRUE(formal_verilog("assign a = \"" + word + "\";\n"));
+}
+
+TEST(FormalVerilog, RefusesAnAssertionInAnotherForm) {
+  EXPECT_FALSE(formal_verilog("  always @(posedge clk)\n    if (!n1_o)\n      $fatal(1, \"failure x\");\n"));
+}
+
+TEST(CountProperties, CountsLabelledStatementsOutsideComments) {
+  const auto counts = count_properties(
+      "  a : assert always x;\n  b : assume always y; -- c : assume z\n  -- d : assert always w;\n  assert_x "
+      ":= 1;\n");
+  EXPECT_EQ(counts, (PropertyCounts{1, 1}));
+}
+
+}  // namespace
+}  // namespace halfway::proofs

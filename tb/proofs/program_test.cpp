@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// halfway_proofs: its exit codes and its page, by the proof of a small entity.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "prover.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
+
+namespace halfway::proofs {
+namespace {
+
+using testing::HasSubstr;
+
+const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
+
+class ProofProgram : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    folder_.emplace(std::move(*folder));
+    std::filesystem::create_directories(source() / "tb");
+    constexpr auto all = std::filesystem::copy_options::recursive;
+    std::filesystem::copy(c_source / "rtl", source() / "rtl", all);
+    std::filesystem::copy(c_source / "tb/proofs", source() / "tb/proofs", all);
+  }
+  std::filesystem::path source() const { return folder_->path() / "source"; }
+
+  std::string page() const { return source() / "tb/proofs/README.md"; }
+
+  void replace(const std::string& file, const std::string& from, const std::string& to) const {
+    auto text = read_file(source() / file);
+    ASSERT_TRUE(text) << text.error().message;
+    const std::size_t at = text->find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text->replace(at, from.size(), to);
+    ASSERT_TRUE(write_file(source() / file, *text));
+  }
+
+  // Removes the units and descriptions of all other proofs.
+  void keep_only(const std::string& proof) const {
+    const auto files = files_below(source() / "tb/proofs");
+    ASSERT_TRUE(files) << files.error().message;
+    for (const auto& file : *files)
+      if (file.has_parent_path() && file.stem() != proof)
+        std::filesystem::remove(source() / "tb/proofs" / file);
+  }
+
+  struct Outcome {
+    int exit_code;
+    std::string output;
+  };
+  Outcome run(const std::vector<std::string>& options, const std::string& name = "",
+              std::vector<std::pair<std::string, std::string>> environment = {}) const {
+    Command command;
+    command.arguments = {HALFWAY_PROOFS};
+    command.arguments.insert(command.arguments.end(), options.begin(), options.end());
+    command.arguments.insert(command.arguments.end(),
+                             {source().string(), (folder_->path() / "scratch").string()});
+    if (!name.empty()) command.arguments.push_back(name);
+    command.working_folder = folder_->path();
+    command.environment = std::move(environment);
+    command.timeout = std::chrono::minutes(5);
+    const auto end = run_process(command, "");
+    if (!end) return {-1, end.error().message};
+    return {end->exit_status, end->output};
+  }
+
+  std::optional<TemporaryFolder> folder_;
+};
+
+TEST_F(ProofProgram, EndsWithOneWhenAPropertyIsFalse) {
+  ASSERT_TRUE(find_tools()) << find_tools().error().message;
+  EXPECT_EQ(run({}, "parameter_register").exit_code, 0);
+  replace("rtl/stream/parameter_register.vhd", "value <= start;", "value <= not start;");
+  const Outcome outcome = run({"--no-faults"}, "parameter_register");
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("NOT PROVED: "));
+}
+
+TEST_F(ProofProgram, EndsWithOneWhenAFaultIsNotRefuted) {
+  ASSERT_TRUE(find_tools()) << find_tools().error().message;
+  replace("tb/proofs/stream/parameter_register.psl", "value = ghost_word", "value = value");
+  const Outcome outcome = run({}, "parameter_register");
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("does NOT refute"));
+}
+
+TEST_F(ProofProgram, EndsWithThreeWhenAUnitDoesNotCompile) {
+  ASSERT_TRUE(find_tools()) << find_tools().error().message;
+  replace("tb/proofs/stream/parameter_register.psl", "value = ghost_word", "value = ghost_words");
+  EXPECT_EQ(run({"--no-faults"}, "parameter_register").exit_code, 3);
+}
+
+TEST_F(ProofProgram, EndsWithThreeWhenAToolIsMissing) {
+  const std::vector<std::pair<std::string, std::string>> nowhere = {{"PATH", source().string()}};
+  for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--quick"}}) {
+    const Outcome outcome = run(options, "parameter_register", nowhere);
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("install it with"));
+  }
+}
+
+TEST_F(ProofProgram, EndsWithTwoOnBadUsage) {
+  EXPECT_EQ(run({}, "no_such_entity").exit_code, 2);
+  EXPECT_EQ(run({"--no-such-option"}, "parameter_register").exit_code, 2);
+  // The page lists all proofs.
+  EXPECT_EQ(run({"--page", page()}, "parameter_register").exit_code, 2);
+  EXPECT_EQ(run({"--page", page(), "--quick"}).exit_code, 2);
+}
+
+TEST_F(ProofProgram, EndsWithTwoWhenTheRtlHasNotTheTextOfAFault) {
+  replace("tb/proofs/stream/parameter_register.toml", "if load = '1' then", "if load = '2' then");
+  const Outcome outcome = run({}, "parameter_register");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("parameter_register.toml:11: `if load = '2' then` occurs 0 times"));
+}
+
+TEST_F(ProofProgram, ReplacesTheTableOfItsPage) {
+  ASSERT_TRUE(find_tools()) << find_tools().error().message;
+  keep_only("parameter_register");
+  const Outcome outcome = run({"--page", page()});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  const auto text = read_file(page());
+  ASSERT_TRUE(text) << text.error().message;
+  EXPECT_THAT(*text, testing::MatchesRegex("# Proofs\n.*\n\\| property .*\n\\| --- .*\n"
+                                           "\\| [^\n]* \\| `stream/parameter_register` \\| induction \\| 1 "
+                                           "\\| [0-9.]+ \\| 2 of 2 \\|\n"));
+}
+
+}  // namespace
+}  // namespace halfway::proofs

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proof_files.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "golden_table.hpp"
+#include "sim/system/file.hpp"
+#include "tables/formats.hpp"
+
+namespace halfway::proofs {
+namespace {
+
+constexpr const char* kFolder = "tb/proofs";
+constexpr int kFaultClocks = 10;  // unless the file says otherwise
+constexpr int kMostClocks = 1000;
+constexpr std::array<std::string_view, 5> kMethods = {"induction", "bounded", "bounded_abc", "pdr", "gappa"};
+
+// Keys that a [[proof]] has, or the file for all of its proofs that do not have them.
+const std::vector<std::string_view> kSharedKeys = {
+    "method",        "clocks",       "fault_clocks",          "quick",     "generics",     "formats",
+    "fault_formats", "any_products", "split_small_registers", "contracts", "golden_table", "faults"};
+const std::vector<std::string_view> kFaultKeys = {"file", "old", "new", "occurs"};
+
+std::vector<std::string_view> with_shared_keys(std::vector<std::string_view> keys) {
+  keys.insert(keys.end(), kSharedKeys.begin(), kSharedKeys.end());
+  return keys;
+}
+
+bool has_clocks(Method method) {
+  return method == Method::induction || method == Method::bounded || method == Method::bounded_abc;
+}
+
+bool is_format(std::string_view name) {
+  const auto preset = tables::preset_formats().front();
+  return std::ranges::any_of(preset.formats, [&](const tables::Format& f) { return f.name == name; });
+}
+
+// Reads one file. The first error is kept; values that are read after it have no meaning.
+class ProofFile {
+ public:
+  // `name` is relative to tb/proofs.
+  ProofFile(const std::filesystem::path& source, const std::filesystem::path& name)
+      : source_(source), name_(name), file_((kFolder / name).string()) {}
+
+  Result<std::vector<Proof>> read() {
+    const auto text = read_file(source_ / kFolder / name_);
+    if (!text) return text.error();
+    try {
+      root_ = toml::parse(*text, file_);
+    } catch (const toml::parse_error& error) {
+      return bad_input(fmt::format("{}:{}: bad TOML: {}; correct it", file_, error.source().begin.line,
+                                   error.description()));
+    }
+    check_keys(root_, with_shared_keys({"entity", "shared_faults", "proof"}));
+    read_entity();
+    read_unit();
+    read_shared_faults();
+    std::vector<Proof> proofs = read_proofs();
+    for (const auto& [list, faults] : shared_faults_)
+      if (!used_lists_.contains(list))
+        fail(root_["shared_faults"].node(), "no proof refutes '{}'; name it in faults, or remove it", list);
+    if (error_) return *error_;
+    return proofs;
+  }
+
+ private:
+  using Where = const toml::node*;
+
+  std::string place(Where where) const {
+    return where == nullptr || where->source().begin.line == 0
+               ? file_
+               : fmt::format("{}:{}", file_, where->source().begin.line);
+  }
+
+  template <class... Values>
+  void fail(Where where, fmt::format_string<Values...> message, Values&&... values) {
+    if (error_) return;
+    error_ =
+        bad_input(fmt::format("{}: {}", place(where), fmt::format(message, std::forward<Values>(values)...)));
+  }
+
+  void check_keys(const toml::table& table, const std::vector<std::string_view>& known) {
+    for (const auto& [key, value] : table)
+      if (std::ranges::find(known, key.str()) == known.end())
+        fail(&value, "unknown key '{}'; the keys here are {}", key.str(), fmt::join(known, ", "));
+  }
+
+  // ---- Values
+
+  std::string text(Where node, std::string_view key) {
+    const auto value = node->value_exact<std::string>();
+    if (!value || value->empty()) fail(node, "{} must be a text in quotes", key);
+    return value.value_or("");
+  }
+
+  int number(Where node, std::string_view key, int least) {
+    const auto value = node->value_exact<std::int64_t>();
+    if (!value || *value < least || *value > kMostClocks) {
+      fail(node, "{} must be a whole number from {} to {}", key, least, kMostClocks);
+      return least;
+    }
+    return static_cast<int>(*value);
+  }
+
+  bool flag(Where node, std::string_view key) {
+    const auto value = node->value_exact<bool>();
+    if (!value) fail(node, "{} must be true or false", key);
+    return value.value_or(false);
+  }
+
+  const toml::table& table(Where node, std::string_view key) {
+    static const toml::table empty;
+    if (node->is_table()) return *node->as_table();
+    fail(node, "{} must be a table", key);
+    return empty;
+  }
+
+  const toml::array& list(Where node, std::string_view key) {
+    static const toml::array empty;
+    if (node->is_array() && !node->as_array()->empty()) return *node->as_array();
+    fail(node, "{} must be a list with one element or more", key);
+    return empty;
+  }
+
+  // ---- The file
+
+  void read_entity() {
+    Where node = root_.get("entity");
+    if (node == nullptr) return fail(nullptr, "has no entity; name the one in rtl/{}", folder());
+    entity_ = (name_.parent_path() / text(node, "entity")).string();
+    if (!std::filesystem::exists(source_ / "rtl" / (entity_ + ".vhd")))
+      fail(node, "rtl/{}.vhd does not exist; name an entity of rtl/{}", entity_, folder());
+  }
+
+  std::string folder() const { return name_.parent_path().string(); }
+
+  void read_unit() {
+    std::vector<std::string> units;
+    for (const char* extension : {".psl", ".gappa"}) {
+      auto unit = name_;
+      unit.replace_extension(extension);
+      if (std::filesystem::exists(source_ / kFolder / unit)) units.push_back(unit.string());
+    }
+    if (units.size() == 1)
+      unit_ = units.front();
+    else
+      fail(nullptr, "{} next to it; one must be there: {}.psl or {}.gappa",
+           units.empty() ? "no unit" : "two units", name_.stem().string(), name_.stem().string());
+  }
+
+  void read_shared_faults() {
+    Where node = root_.get("shared_faults");
+    if (node == nullptr) return;
+    for (const auto& [key, value] : table(node, "shared_faults"))
+      for (const toml::node& fault : list(&value, key.str()))
+        shared_faults_[std::string(key.str())].push_back(read_fault(&fault));
+  }
+
+  Fault read_fault(Where node) {
+    const toml::table& table = this->table(node, "a fault");
+    check_keys(table, kFaultKeys);
+    for (const char* key : {"old", "new"})
+      if (!table.contains(key)) {
+        fail(node, "a fault has no '{}'; a fault is {{ old = \"text of the RTL\", new = \"another\" }}", key);
+        return {};
+      }
+    Fault fault{.file = entity_ + ".vhd",
+                .old_text = text(table.get("old"), "old"),
+                .new_text = text(table.get("new"), "new"),
+                .where = place(node)};
+    if (table.contains("file")) fault.file = text(table.get("file"), "file");
+    if (table.contains("occurs")) fault.occurrences = number(table.get("occurs"), "occurs", 2);
+    if (fault.old_text == fault.new_text) fail(node, "old and new are equal; change one of them");
+    return fault;
+  }
+
+  // ---- Proofs
+
+  std::vector<Proof> read_proofs() {
+    std::vector<Proof> proofs;
+    Where node = root_.get("proof");
+    if (node == nullptr) {
+      fail(nullptr, "has no proof; add a [[proof]]");
+      return proofs;
+    }
+    for (const toml::node& proof : list(node, "proof")) proofs.push_back(read_proof(table(&proof, "proof")));
+    return proofs;
+  }
+
+  Proof read_proof(const toml::table& table) {
+    check_keys(table, with_shared_keys({"property"}));
+    Proof proof{.entity = entity_, .unit = unit_};
+    if (Where node = required(table, "property")) proof.property = text(node, "property");
+    if (Where node = required(table, "method")) proof.method = read_method(node);
+    if (Where node = required(table, "quick")) proof.quick = flag(node, "quick");
+    if (Where node = required(table, "faults")) proof.faults = read_faults(node);
+    if (Where node = find(table, "generics")) proof.generics = read_generics(node);
+    if (Where node = find(table, "any_products")) proof.any_products = flag(node, "any_products");
+    if (Where node = find(table, "split_small_registers"))
+      proof.split_small_registers = flag(node, "split_small_registers");
+    if (Where node = find(table, "contracts")) proof.contracts = read_contracts(node);
+    if (Where node = find(table, "golden_table")) read_golden_table(node, proof);
+    read_clocks(table, proof);
+    read_formats(table, proof);
+    return proof;
+  }
+
+  // A proof's own value, or the file's; null if there is neither.
+  Where find(const toml::table& proof, std::string_view key) const {
+    Where own = proof.get(key);
+    return own != nullptr || key == "property" ? own : root_.get(key);
+  }
+
+  Where required(const toml::table& proof, std::string_view key) {
+    Where node = find(proof, key);
+    if (node == nullptr) fail(&proof, "a proof has no '{}'; add it", key);
+    return node;
+  }
+
+  Method read_method(Where node) {
+    const std::string name = text(node, "method");
+    const auto at = std::ranges::find(kMethods, name);
+    if (at == kMethods.end()) {
+      fail(node, "method is '{}', but must be one of {}", name, fmt::join(kMethods, ", "));
+      return {};
+    }
+    const auto method = static_cast<Method>(at - kMethods.begin());
+    if ((method == Method::gappa) != unit_.ends_with(".gappa"))
+      fail(node, "method '{}' does not fit {}; gappa is for units named .gappa", name, unit_);
+    return method;
+  }
+
+  void read_clocks(const toml::table& table, Proof& proof) {
+    if (has_clocks(proof.method)) {
+      if (Where node = required(table, "clocks")) proof.clocks = number(node, "clocks", 1);
+    } else if (Where node = find(table, "clocks")) {
+      fail(node, "this method takes no clocks; remove them, or give fault_clocks");
+    }
+    if (Where node = find(table, "fault_clocks")) {
+      proof.fault_clocks = number(node, "fault_clocks", std::max(1, proof.clocks));
+      if (proof.method == Method::gappa) fail(node, "method gappa takes no fault_clocks; remove them");
+    } else if (proof.method != Method::gappa) {
+      proof.fault_clocks = std::max(kFaultClocks, proof.clocks);
+    }
+  }
+
+  // `formats` hold in the proof and with its faults, `fault_formats` with the faults alone.
+  void read_formats(const toml::table& table, Proof& proof) {
+    Where formats = find(table, "formats");
+    Where fault_formats = find(table, "fault_formats");
+    if (formats != nullptr && fault_formats != nullptr)
+      fail(fault_formats, "formats hold with the faults, too; remove one of the two");
+    if (formats != nullptr) proof.formats = proof.fault_formats = format_list(formats);
+    if (fault_formats != nullptr) proof.fault_formats = format_list(fault_formats);
+  }
+
+  std::vector<Format> format_list(Where node) {
+    std::vector<Format> formats;
+    for (const auto& [key, value] : table(node, "formats")) {
+      const std::string name(key.str());
+      if (!is_format(name)) fail(&value, "formats_pkg has no format '{}'", name);
+      const toml::array& bits = list(&value, name);
+      if (bits.size() != 2)
+        fail(&value, "{} must be two numbers: integer bits and fraction bits", name);
+      else
+        formats.push_back({name, number(bits.get(0), name, 0), number(bits.get(1), name, 0)});
+    }
+    return formats;
+  }
+
+  std::vector<std::pair<std::string, std::string>> read_generics(Where node) {
+    std::vector<std::pair<std::string, std::string>> generics;
+    for (const auto& [key, value] : table(node, "generics")) {
+      const std::string name(key.str());
+      generics.emplace_back(name, value.is_boolean() ? flag(&value, name) ? "true" : "false"
+                                                     : std::to_string(number(&value, name, 0)));
+    }
+    return generics;
+  }
+
+  std::vector<std::string> read_contracts(Where node) {
+    std::vector<std::string> contracts;
+    for (const toml::node& item : list(node, "contracts")) {
+      contracts.push_back(text(&item, "a contract"));
+      if (!std::filesystem::exists(source_ / kFolder / contracts.back()))
+        fail(&item, "{}/{} does not exist", kFolder, contracts.back());
+    }
+    return contracts;
+  }
+
+  void read_golden_table(Where node, Proof& proof) {
+    const auto table = golden_table(text(node, "golden_table"), proof.generics);
+    if (!table) return fail(node, "golden_table: {}", table.error().message);
+    proof.table = table->entries;
+    proof.table_bits = table->entry_bits;
+  }
+
+  // Each element is a fault, or the name of a list in [shared_faults].
+  std::vector<Fault> read_faults(Where node) {
+    std::vector<Fault> faults;
+    for (const toml::node& item : list(node, "faults")) {
+      if (!item.is_string()) {
+        faults.push_back(read_fault(&item));
+        continue;
+      }
+      const std::string name = text(&item, "faults");
+      const auto shared = shared_faults_.find(name);
+      if (shared == shared_faults_.end()) {
+        fail(&item, "[shared_faults] has no list '{}'", name);
+        continue;
+      }
+      used_lists_.insert(name);
+      faults.insert(faults.end(), shared->second.begin(), shared->second.end());
+    }
+    return faults;
+  }
+
+  std::filesystem::path source_, name_;
+  std::string file_;  // for messages
+  toml::table root_;
+  std::string entity_, unit_;
+  std::map<std::string, std::vector<Fault>> shared_faults_;
+  std::set<std::string> used_lists_;
+  std::optional<Error> error_;
+};
+
+bool is_unit(const std::filesystem::path& file) {
+  return file.extension() == ".psl" || file.extension() == ".gappa";
+}
+
+// Every unit is proved, or is a contract of a proof.
+Status check_units(const std::vector<std::filesystem::path>& files, const std::vector<Proof>& proofs) {
+  std::set<std::string> used;
+  for (const Proof& proof : proofs) {
+    used.insert(proof.unit);
+    used.insert(proof.contracts.begin(), proof.contracts.end());
+  }
+  for (const auto& file : files)
+    if (is_unit(file) && !used.contains(file.string()))
+      return bad_input(
+          fmt::format("{0}/{1}: no proof uses it; describe it in {2}.toml next to it, or remove it", kFolder,
+                      file.string(), file.stem().string()));
+  return Ok{};
+}
+
+}  // namespace
+
+Result<std::vector<Proof>> read_proofs(const std::filesystem::path& source) {
+  const auto files = files_below(source / kFolder);
+  if (!files) return files.error();
+  std::vector<Proof> proofs;
+  for (const auto& file : *files) {
+    if (file.extension() != ".toml") continue;
+    auto read = ProofFile(source, file).read();
+    if (!read) return read.error();
+    std::ranges::move(*read, std::back_inserter(proofs));
+  }
+  if (const auto checked = check_units(*files, proofs); !checked) return checked.error();
+  return proofs;
+}
+
+}  // namespace halfway::proofs

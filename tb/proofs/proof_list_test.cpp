@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// All proofs together: each stream, each fault and each table.
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "golden/cosine_tables.hpp"
+#include "proof_files.hpp"
+#include "prover.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway::proofs {
+namespace {
+
+const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
+
+std::string without_comments(const std::string& vhdl) {
+  return std::regex_replace(vhdl, std::regex("--[^\n]*"), "");
+}
+
+struct StreamPort {
+  std::string name;
+  bool out;
+};
+
+// Ports of a valid/ready stream. All declarations stand one a line.
+std::vector<StreamPort> stream_ports(const std::string& vhdl) {
+  std::vector<StreamPort> ports;
+  const std::string text = without_comments(vhdl);
+  const std::size_t begin = text.find("\nentity "), end = text.find("end entity", begin);
+  if (begin == std::string::npos) return ports;
+  const std::string entity = text.substr(begin, end - begin);
+  const std::regex port(R"((\w+_(?:valid|ready)) *: (in|out) )");
+  for (std::sregex_iterator at(entity.begin(), entity.end(), port), last; at != last; ++at)
+    ports.push_back({(*at)[1], (*at)[2] == "out"});
+  return ports;
+}
+
+bool has_word(const std::string& text, const std::string& word) {
+  return std::regex_search(text, std::regex("\\b" + word + "\\b"));
+}
+
+// Statements that assert, without the rest.
+std::string assertions(const std::string& unit) {
+  std::string result;
+  const std::regex assertion(": assert [^;]*;");
+  for (std::sregex_iterator at(unit.begin(), unit.end(), assertion), last; at != last; ++at)
+    result += at->str();
+  return result;
+}
+
+class ProofList : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto rtl = read_rtl_sources(c_source);
+    ASSERT_TRUE(rtl) << rtl.error().message;
+    rtl_ = std::move(*rtl);
+    auto proofs = read_proofs(c_source);
+    ASSERT_TRUE(proofs) << proofs.error().message;
+    proofs_ = std::move(*proofs);
+  }
+
+  // The units of an entity, without comments.
+  std::string units_of(const std::string& entity) const {
+    std::set<std::string> names;
+    for (const Proof& proof : proofs_)
+      if (proof.entity == entity) names.insert(proof.unit);
+    std::string units;
+    for (const std::string& name : names) {
+      const auto unit = read_file(c_source / "tb/proofs" / name);
+      EXPECT_TRUE(unit) << unit.error().message;
+      if (unit) units += without_comments(*unit);
+    }
+    return units;
+  }
+
+  std::vector<VhdlSource> rtl_;
+  std::vector<Proof> proofs_;
+};
+
+TEST_F(ProofList, AssertsEveryPortOfEveryStream) {
+  int ports = 0;
+  for (const VhdlSource& source : rtl_) {
+    const std::string entity =
+        std::filesystem::path(source.name).lexically_relative("rtl").replace_extension().string();
+    const std::string units = units_of(entity);
+    for (const StreamPort& port : stream_ports(source.content)) {
+      ++ports;
+      EXPECT_TRUE(has_word(port.out ? assertions(units) : units, port.name))
+          << entity << ": no proof of it names " << port.name;
+    }
+  }
+  EXPECT_GE(ports, 37);  // in nine entities
+}
+
+TEST(StreamPorts, AreFoundInTheEntity) {
+  const auto ports = stream_ports(
+      "\nentity e is\n  port (\n    a_valid   : in  std_logic; -- b_valid : in x\n    a_ready : out "
+      "std_logic;\n"
+      "    other : in std_logic\n  );\nend entity;\n signal c_valid : in x");
+  ASSERT_EQ(ports.size(), 2U);
+  EXPECT_EQ(ports[0].name, "a_valid");
+  EXPECT_FALSE(ports[0].out);
+  EXPECT_EQ(ports[1].name, "a_ready");
+  EXPECT_TRUE(ports[1].out);
+}
+
+TEST_F(ProofList, HasFaultsThatOccurInTheRtl) {
+  for (const Proof& proof : proofs_)
+    for (const Fault& fault : proof.faults) {
+      const auto text = text_with_fault(rtl_, fault);
+      EXPECT_TRUE(text) << text.error().message;
+    }
+}
+
+TEST_F(ProofList, ComparesEveryTableWithTheGoldenModel) {
+  std::set<std::vector<std::uint64_t>> cosines;
+  std::set<std::string> functions;
+  for (const Proof& proof : proofs_) {
+    if (proof.entity == "tables/cosine_rom") cosines.insert(proof.table);
+    if (proof.entity == "tables/function_rom" && !proof.table.empty())
+      functions.insert(fmt::format("{}", fmt::join(proof.generics, " ")));
+  }
+  for (const golden::CosineTable& table : golden::c_cosine_tables)
+    EXPECT_TRUE(cosines.contains({table.entries.begin(), table.entries.end()}))
+        << "power " << table.power << ", " << table.address_bits << " by " << table.data_bits
+        << " bits: tb/proofs/tables/cosine_rom.toml has no proof of it; add one";
+  EXPECT_EQ(functions.size(), 6U);  // three functions in two presets
+}
+
+}  // namespace
+}  // namespace halfway::proofs
