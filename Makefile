@@ -26,7 +26,7 @@ takes_sanitize := TESTS JOBS
 takes_fuzz := SECONDS TARGET JOBS
 takes_kills := JOBS
 takes_mutate := JOBS
-takes_prove := JOBS
+takes_prove := PROOF JOBS
 takes_stability := JOBS
 takes_search := TRIANGLES SEED JOBS
 takes_bounds := JOBS
@@ -73,6 +73,7 @@ about_SECONDS := seconds for each fuzzer   (default: 60)
 about_TARGET := one fuzzer alone
 about_TRIANGLES := random triangles   (default: 10000000)
 about_SEED := which random triangles   (default: 1)
+about_PROOF := only proofs with this in their names, such as raster/edge_walker   (default: all)
 about_DESIGN := only designs with this in their names   (default: all)
 about_SEEDS := seeds of placement   (default: 3)
 about_JOBS := parallel compilations, tests and fuzzers   (default: all cores)
@@ -213,9 +214,9 @@ mutate: configure ## small faults in the RTL, which the tests must find, and wha
 	@build/tb/halfway_vectors all build/tb/vectors
 	@build/tb/halfway_mutants --jobs "$(jobs)" --page tb/mutants/README.md . build/tb/vectors build/tb/mutants
 
-prove: configure ## formal proofs on the RTL, each with faults that it must refute
+prove: configure ## formal proofs on the RTL, each with faults that it must refute (PROOF: only some, and no page)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_proofs
-	@build/tb/halfway_proofs --page tb/proofs/README.md . build/proofs
+	@build/tb/halfway_proofs $$([ -n "$$PROOF" ] || echo --page tb/proofs/README.md) . build/proofs $${PROOF:+"$$PROOF"}
 
 families := edges quadratic spherical processors shadows illumination arithmetic conversions
 stability: configure ## hard cases, in specification, golden model and RTL: what breaks, and what holds

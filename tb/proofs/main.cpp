@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdio>
 #include <mutex>
@@ -11,10 +12,10 @@
 #include <string_view>
 #include <vector>
 
+#include "page/page.hpp"
 #include "proof_files.hpp"
 #include "prover.hpp"
 #include "sim/program/program.hpp"
-#include "sim/system/file.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/threads.hpp"
 #include "text.hpp"
@@ -24,9 +25,6 @@ namespace {
 
 constexpr std::size_t kQuickFaults = 4;  // per proof: all faults of a walker take longer than all proofs
 constexpr unsigned kThreads = 2;
-constexpr std::string_view kTable =
-    "| property | entity | method | clocks | seconds | faults refuted |\n"
-    "| --- | --- | --- | --- | --- | --- |\n";
 
 struct Options {
   bool faults = true;
@@ -158,26 +156,21 @@ std::string_view name_on_page(Method method) {
   return "";
 }
 
-std::string row_of(const Proof& proof, const Outcome& outcome) {
-  return fmt::format(
-      "| {} | `{}` | {} | {} | {:.1f} | {} |\n", proof.property, proof.entity, name_on_page(proof.method),
-      proof.clocks > 0 ? std::to_string(proof.clocks) : "all", outcome.seconds,
-      outcome.holds ? fmt::format("{} of {}", outcome.refuted, proof.faults.size()) : "not proved");
+std::vector<std::string> row_of(const Proof& proof, const Outcome& outcome) {
+  return {proof.property,
+          fmt::format("`{}`", proof.entity),
+          std::string(name_on_page(proof.method)),
+          proof.clocks > 0 ? std::to_string(proof.clocks) : "all",
+          fmt::format("{:.1f}", outcome.seconds),
+          outcome.holds ? fmt::format("{} of {}", outcome.refuted, proof.faults.size()) : "not proved"};
 }
 
 std::string table_of(const std::vector<Proof>& proofs, const std::vector<Outcome>& outcomes) {
-  std::string table(kTable);
-  for (std::size_t i = 0; i < proofs.size(); ++i) table += row_of(proofs[i], outcomes[i]);
-  return table;
-}
-
-// The table is the end of the page.
-Status write_page(const std::filesystem::path& path, std::string_view table) {
-  auto text = read_file(path);
-  if (!text) return text.error();
-  const std::size_t begin = text->find(kTable.substr(0, kTable.find('\n')));
-  text->resize(std::min(begin, text->size()));
-  return write_file(path, fmt::format("{}{}", *text, table));
+  const std::vector<std::string> columns = {"property", "entity",  "method",
+                                            "clocks",   "seconds", "faults refuted"};
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < proofs.size(); ++i) rows.push_back(row_of(proofs[i], outcomes[i]));
+  return page::table(columns, rows);
 }
 
 // ---- The program
@@ -194,7 +187,9 @@ Result<ExitCode> prove_all(const Options& options) {
   if (outcomes.not_proved + outcomes.not_refuted > 0) return ExitCode::differs;
   if (outcomes.broken > 0) return ExitCode::tool_failed;
   if (!options.page.empty())
-    if (auto written = write_page(options.page, table); !written) return written.error();
+    if (auto written = page::write_sections(options.page, std::array{page::Section{"Results", table}});
+        !written)
+      return written.error();
   return ExitCode::equal;
 }
 
