@@ -34,7 +34,7 @@ void FrameAssembler::clear() {
   const auto background = background_;  // for the compiler: not a byte of the frame
   for (auto pixel = frame_.rgb.begin(); pixel != frame_.rgb.end();)
     pixel = std::copy(background.begin(), background.end(), pixel);
-  std::ranges::fill(z_, c_empty);
+  std::fill(z_.begin(), z_.end(), c_empty);
   fragments_ = beside_ = covered_pixels_ = 0;
 }
 

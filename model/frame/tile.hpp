@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "frame/frame.hpp"
@@ -46,8 +45,9 @@ inline std::vector<Tile> tiles_of(FrameSize frame, FrameSize tile) {
 /// Puts a tile's picture, which is as large as the tile, where it belongs in the frame.
 inline void put_tile(Frame& frame, const Frame& picture, const Tile& tile) {
   for (std::uint32_t y = 0; y < tile.size.height; ++y)
-    std::ranges::copy(std::span(picture.rgb).subspan(picture.offset(0, y), 3 * std::size_t{tile.size.width}),
-                      frame.rgb.begin() + static_cast<std::ptrdiff_t>(frame.offset(tile.x, tile.y + y)));
+    std::copy_n(picture.rgb.begin() + static_cast<std::ptrdiff_t>(picture.offset(0, y)),
+                3 * std::size_t{tile.size.width},
+                frame.rgb.begin() + static_cast<std::ptrdiff_t>(frame.offset(tile.x, tile.y + y)));
 }
 
 }  // namespace halfway

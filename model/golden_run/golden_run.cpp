@@ -9,7 +9,6 @@
 #include "golden/processors_shader.hpp"
 #include "golden/quadratic_shader.hpp"
 #include "golden/spherical_shader.hpp"
-#include "sim/formats/made_formats.hpp"
 
 namespace halfway {
 namespace {
@@ -177,7 +176,6 @@ std::unique_ptr<GoldenModel> make(const HardwareKey& key) {
 }  // namespace
 
 std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key) {
-  if (key.made_formats != nullptr) return key.made_formats->make_golden_model(key);
   return key.preset == Preset::exact ? make<golden::Exact>(key) : make<golden::Published>(key);
 }
 #endif

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "tables/made_tables.hpp"
-
 namespace halfway {
 namespace {
 
@@ -106,7 +104,7 @@ golden::SphericalConfig golden_config(const HardwareKey& key) {
                                  .powers = s.powers,
                                  .address_bits = s.tables.address_bits,
                                  .data_bits = s.tables.data_bits};
-  if (s.made_tables) config.tables = s.made_tables->tables();
+  if (!s.made_tables.empty()) config.tables = s.made_tables;
   return config;
 }
 

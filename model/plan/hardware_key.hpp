@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,10 +13,6 @@
 #include "tables/word_lengths.hpp"
 
 namespace halfway {
-
-namespace tables {
-class MadeTables;
-}
 
 enum class Shader { quadratic, spherical, processors };
 inline constexpr std::array c_shaders = {Shader::quadratic, Shader::spherical, Shader::processors};
@@ -49,8 +46,8 @@ struct SphericalUnits {
   unsigned highlight_channels = 1;  ///< 1 where every highlight is white: one multiplier for all channels
   unsigned powers = 0;              ///< bit i: there is a table of cosine to the power 2^i for highlights
   TableSize tables;
-  /// None: those that the program was built with. They must outlive the key and what draws by it.
-  const tables::MadeTables* made_tables = nullptr;
+  /// Empty: those that the program was built with. They must outlive the key and what draws by it.
+  std::span<const golden::CosineTable> made_tables{};
   /// Whether lines have records: some light has an effect.
   bool records() const { return lights > 0 && (diffuse || specular); }
 };
@@ -74,8 +71,6 @@ struct ProcessorUnits {
   unsigned lights() const { return directional + positional + spots; }
 };
 
-class MadeFormats;
-
 struct HardwareKey {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
@@ -84,10 +79,9 @@ struct HardwareKey {
   bool probe = false;     ///< brings the stages' registers out, for `halfway why` and the register tests
   SphericalUnits spherical;   ///< of the spherical shader
   ProcessorUnits processors;  ///< of the shading processors
-  /// Other word lengths than the preset's: what draws by the key is then of made_formats, which must outlive
-  /// both.
+  /// Other word lengths than the preset's. Setup and golden model of such a key are compiled for it: the
+  /// ones in this library have the preset's.
   tables::WordLengths words{};
-  const MadeFormats* made_formats = nullptr;
 
   /// Top entity in rtl/shaders.
   std::string entity() const;

@@ -42,8 +42,9 @@ struct PlanRequest {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
   std::optional<TableSize> tables;  ///< of the spherical shader; none: the preset's
-  /// Where the program was not built with that size; the RTL must have it, too (rtl_with_tables).
-  const tables::MadeTables* made_tables = nullptr;
+  /// Where the program was not built with that size; the RTL must have it, too (rtl_with_tables of
+  /// sim/formats).
+  std::span<const golden::CosineTable> made_tables{};
   /// Elaborate Plan::everything; what the scene has not, setup gives coefficients of zero.
   bool all_effects = false;
   /// Lights that Plan::everything has in the spherical shader and in the processors; none: those of the

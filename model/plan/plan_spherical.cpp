@@ -20,7 +20,7 @@ std::vector<TableSize> generated_sizes(bool exact) {
   std::vector<TableSize> sizes;
   for (const golden::CosineTable& table : golden::c_cosine_tables)
     if (const TableSize size{table.address_bits, table.data_bits};
-        table.exact == exact && std::ranges::find(sizes, size) == sizes.end())
+        table.exact == exact && std::find(sizes.begin(), sizes.end(), size) == sizes.end())
       sizes.push_back(size);
   return sizes;
 }
@@ -30,7 +30,8 @@ Result<TableSize> table_size(const PlanRequest& request) {
   const golden::CosineSize usual = exact ? golden::c_exact_cosine_size : golden::c_published_cosine_size;
   if (!request.tables) return TableSize{usual.address_bits, usual.data_bits};
   const std::vector<TableSize> sizes = generated_sizes(exact);
-  if (request.made_tables || std::ranges::find(sizes, *request.tables) != sizes.end()) return *request.tables;
+  if (!request.made_tables.empty() || std::find(sizes.begin(), sizes.end(), *request.tables) != sizes.end())
+    return *request.tables;
   std::vector<std::string> there;
   for (const TableSize& size : sizes)
     there.push_back(fmt::format("{}/{}", size.address_bits, size.data_bits));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,10 +21,14 @@ struct ReferenceImage {
   std::vector<std::uint8_t> mask;  ///< 1 where a triangle covers the pixel, else 0; one byte a pixel
 };
 
+/// Calls `work` at most `most` times, perhaps at the same time on several threads, and returns after the last
+/// call.
+using Workers = std::function<void(unsigned most, const std::function<void()>& work)>;
+
 struct RenderOptions {
   FrameSize frame;
   int subpixel_bits = 4;       ///< of the screen triangles' coordinates, 1 to 9
-  unsigned threads = 0;        ///< 0: as many as the machine has. The picture does not depend on it.
+  Workers workers{};           ///< none: this thread alone. The picture does not depend on it.
   std::optional<Tile> tile{};  ///< of the frame, in place of all of it
 };
 

@@ -16,6 +16,7 @@
 #include "setup/test/random_solids.hpp"
 #include "shading/light_ray.hpp"
 #include "shading/shade.hpp"
+#include "sim/system/threads.hpp"
 
 namespace halfway {
 namespace {
@@ -152,9 +153,10 @@ TEST(Renderer, TheNumberOfThreadsDoesNotMatter) {
   scene.shadows = true;
   const auto triangles = Projector(scene, {90, 200}, {}).project_all();
   for (const auto render : {render_reference, render_gouraud}) {
-    const ReferenceImage one = render(scene, triangles, {.frame = {90, 200}, .threads = 1});
+    const ReferenceImage one = render(scene, triangles, {.frame = {90, 200}});
     for (unsigned threads : {0u, 2u, 3u, 16u, 100u}) {
-      const ReferenceImage many = render(scene, triangles, {.frame = {90, 200}, .threads = threads});
+      const ReferenceImage many =
+          render(scene, triangles, {.frame = {90, 200}, .workers = on_threads(threads)});
       ASSERT_EQ(one.frame.rgb, many.frame.rgb);
       ASSERT_EQ(one.mask, many.mask);
     }

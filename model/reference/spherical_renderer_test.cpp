@@ -22,6 +22,7 @@
 #include "shading/bell.hpp"
 #include "shading/shade.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/threads.hpp"
 
 namespace halfway {
 namespace {
@@ -249,10 +250,11 @@ TEST(SphericalRenderer, TheNumberOfThreadsDoesNotMatter) {
   const Scene scene = builtin("lights");
   const auto triangles = Projector(scene, {90, 120}, {}).project_all();
   for (const SphericalMethod& method : all_methods()) {
-    const ReferenceImage one = render_spherical(scene, triangles, {.frame = {90, 120}, .threads = 1}, method);
+    const ReferenceImage one = render_spherical(scene, triangles, {.frame = {90, 120}}, method);
     for (unsigned threads : {0u, 3u, 16u})
       EXPECT_EQ(
-          render_spherical(scene, triangles, {.frame = {90, 120}, .threads = threads}, method).frame.rgb,
+          render_spherical(scene, triangles, {.frame = {90, 120}, .workers = on_threads(threads)}, method)
+              .frame.rgb,
           one.frame.rgb);
   }
 }

@@ -5,12 +5,10 @@
 #include <atomic>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <thread>
 #include <vector>
 
 #include "setup/edge.hpp"
 #include "setup/project.hpp"
-#include "sim/system/threads.hpp"
 
 namespace halfway {
 namespace {
@@ -103,9 +101,10 @@ ReferenceImage render_visible(const Scene& scene, std::span<const ScreenTriangle
         }
     }
   };
-  const unsigned wanted =
-      options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
-  work_on_threads(std::min<unsigned>(wanted, bands), work);
+  if (options.workers)
+    options.workers(bands, work);
+  else
+    work();
   return image;
 }
 

@@ -23,7 +23,7 @@ std::vector<HalfTriangle> half_triangles(const std::array<HalfVertex, 3>& p) {
   std::vector<HalfTriangle> halves;
   if (twice_area(p) == 0) return halves;
   std::array<std::size_t, 3> order = {0, 1, 2};
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return p[a].y < p[b].y; });
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p[a].y < p[b].y; });
   const std::size_t top = order[0], mid = order[1], bottom = order[2];
   // Whole numbers: a rounded edge could fall on the wrong side of a vertex that it meets.
   const bool long_left =

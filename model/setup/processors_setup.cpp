@@ -155,8 +155,8 @@ class ProcessorsSetup final : public Setup {
         view_(scene.camera),
         projector_(scene, frame, {.subpixel_bits = 4, .clip_to_frame = false}),
         lights_(reflected_lights(scene)),
-        has_places_(std::ranges::any_of(lights_,
-                                        [](LightRef light) { return light.kind != LightKind::directional; })),
+        has_places_(std::any_of(lights_.begin(), lights_.end(),
+                                [](LightRef light) { return light.kind != LightKind::directional; })),
         normalizes_(has_places_ || options.normalize) {
     set_scales();
     for (const Material& m : scene.materials) materials_.push_back(material_words(m));

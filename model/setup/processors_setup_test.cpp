@@ -71,7 +71,7 @@ Drawn draw(const Scene& scene, const HardwareKey& key, FrameSize size = c_frame)
 }
 
 ReferenceImage reference_of(const Scene& scene, FrameSize size = c_frame) {
-  return render_reference(scene, Projector(scene, size, {}).project_all(), {.frame = size, .threads = 1});
+  return render_reference(scene, Projector(scene, size, {}).project_all(), {.frame = size});
 }
 
 FrameDistance distance(const Scene& scene, const Frame& frame, FrameSize size = c_frame) {

@@ -6,7 +6,6 @@
 #include "setup/processors_setup.hpp"
 #include "setup/quadratic_setup.hpp"
 #include "setup/spherical_setup.hpp"
-#include "sim/formats/made_formats.hpp"
 
 namespace halfway {
 
@@ -27,7 +26,6 @@ SetupCounts& SetupCounts::operator+=(const SetupCounts& o) {
 
 std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
                                   const SetupOptions& options) {
-  if (key.made_formats != nullptr) return key.made_formats->make_setup(scene, frame, key, options);
   if (key.shader == Shader::spherical)
     return std::make_unique<SphericalSetup>(scene, frame, key, options.spherical);
   if (key.shader == Shader::processors) return make_processors_setup(scene, frame, key, options.processors);

@@ -91,7 +91,8 @@ SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const Hardwa
       options_(options),
       config_(golden_config(key)),
       lights_(reflected_lights(scene)),
-      has_spots_(std::ranges::any_of(lights_, [](LightRef light) { return light.kind == LightKind::spot; })),
+      has_spots_(std::any_of(lights_.begin(), lights_.end(),
+                             [](LightRef light) { return light.kind == LightKind::spot; })),
       has_records_(key.spherical.records()),
       init_bits_(static_cast<unsigned>(preset_ == Preset::exact
                                            ? golden::SphericalLayout<Exact>(config_).init_bits()
@@ -483,7 +484,8 @@ class SphericalSetup::ExactTriangle {
   // Whether a line's error stays below the threshold where it is looked at.
   bool interpolates_well(const Span& at, const SpanArcs& arcs) const {
     if (at.steps() == 0) return true;
-    return std::ranges::all_of(places_to_look_at(arcs, at), [&](std::int64_t i) {
+    const std::vector<std::int64_t> places = places_to_look_at(arcs, at);
+    return std::all_of(places.begin(), places.end(), [&](std::int64_t i) {
       ++counts_.shaded;
       const double t = arcs.first + static_cast<double>(i) * arcs.step;
       return setup_.interpolation_error(material_, arcs, t, point(2 * (at.first + i * at.way()) + 1, at.y)) <=
@@ -494,7 +496,9 @@ class SphericalSetup::ExactTriangle {
   std::vector<std::int64_t> places_to_look_at(const SpanArcs& arcs, const Span& at) const {
     const std::int64_t steps = at.steps();
     std::vector<std::int64_t> places;
-    if (!std::ranges::all_of(std::span(arcs.light).first(setup_.lights_.size()), &LightArcs::exact_at_ends))
+    const auto lights = std::span(arcs.light).first(setup_.lights_.size());
+    if (!std::all_of(lights.begin(), lights.end(),
+                     [](const LightArcs& light) { return light.exact_at_ends; }))
       places.insert(places.end(), {0, steps});
     if (steps <= c_short_span) {
       for (std::int64_t i = 1; i < steps; ++i) places.push_back(i);
@@ -522,7 +526,7 @@ class SphericalSetup::ExactTriangle {
     auto looks = std::max(c_least_looks, to_integer<std::int64_t>(c_looks_a_half_bell * half_bells) + 1);
     looks = std::min(looks, steps - 1);
     for (std::int64_t look = 1; look <= looks; ++look) places.push_back(look * steps / (looks + 1));
-    std::ranges::sort(places);
+    std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
     return places;
   }
@@ -584,7 +588,7 @@ class SphericalSetup::ExactTriangle {
                  2.0 * (along * along_ahead - cosine * cosine * d01), along * along - cosine * cosine * d00))
         turns.push_back(s);
     std::erase_if(turns, [](double s) { return !(s >= 0.0 && s <= 1.0); });
-    std::ranges::sort(turns);
+    std::sort(turns.begin(), turns.end());
     for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
       const glm::dvec3 there = from_light + 0.5 * (turns[i] + turns[i + 1]) * ahead;
       if (spot_factor(spot, glm::dot(there, spot.axis_world) / glm::length(there)) == 0.0) continue;

@@ -28,6 +28,7 @@
 #include "setup/test/random_triangles.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/threads.hpp"
 #include "tables/cosine.hpp"
 
 namespace halfway {
@@ -580,7 +581,7 @@ void measure(const Scene& scene, FrameSize size, const SphericalSetupOptions& op
   const Frame& frame = assembler.frame();
   const auto triangles = projected(scene, size);
   const ReferenceImage truth = render_reference(
-      scene, triangles, {.frame = size, .subpixel_bits = c_exact_subpixel_bits, .threads = 2});
+      scene, triangles, {.frame = size, .subpixel_bits = c_exact_subpixel_bits, .workers = on_threads(2)});
   const double promised = promised_steps(scene, key, options.threshold) + 0.5;  // the reference's rounding
   for (std::size_t pixel = 0; pixel < truth.mask.size(); ++pixel) {
     if (truth.mask[pixel] == 0) continue;

@@ -50,7 +50,8 @@ Worn worn_of(const Scene& scene) {
 
 // The first that passes; null where none does.
 const Material* first(const Worn& materials, bool (*test)(const Material&)) {
-  const auto it = std::ranges::find_if(materials, [&](const Material* m) { return test(*m); });
+  const auto it =
+      std::find_if(materials.begin(), materials.end(), [&](const Material* m) { return test(*m); });
   return it == materials.end() ? nullptr : *it;
 }
 
@@ -130,7 +131,8 @@ Call call_lights(const Scene& scene, LightKind kind, const SceneCalls& calls) {
   const std::size_t all = count_of(scene, kind), count = calls.count(kind);
   if (all == 0) return {false, fmt::format("the scene has no {} light", kind_name(kind))};
   if (count > 0) return {true, fmt::format("{} of {} lights", count, calls.lights.size())};
-  const bool shine = std::ranges::any_of(shining_lights(scene), [&](LightRef l) { return l.kind == kind; });
+  const std::vector<LightRef> shining = shining_lights(scene);
+  const bool shine = std::any_of(shining.begin(), shining.end(), [&](LightRef l) { return l.kind == kind; });
   return {false, shine ? "no material reflects them" : "their intensity is 0"};
 }
 
@@ -194,7 +196,7 @@ const char* to_string(Effect effect) {
 
 std::size_t SceneCalls::count(LightKind kind) const {
   return static_cast<std::size_t>(
-      std::ranges::count_if(lights, [&](LightRef light) { return light.kind == kind; }));
+      std::count_if(lights.begin(), lights.end(), [&](LightRef light) { return light.kind == kind; }));
 }
 
 SceneCalls calls_of(const Scene& scene) {

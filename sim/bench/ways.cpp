@@ -121,7 +121,7 @@ Result<Go> in_ghdl(Way way, const WayInput& input) {
 }
 
 ReferenceImage reference_of(const WayInput& input, const std::vector<ScreenTriangle>& triangles) {
-  return render_reference(*input.scene, triangles, {.frame = input.size, .subpixel_bits = 4, .threads = 1});
+  return render_reference(*input.scene, triangles, {.frame = input.size, .subpixel_bits = 4});
 }
 
 /// The pixels that are covered with all their neighbours.

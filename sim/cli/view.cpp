@@ -18,6 +18,7 @@
 
 #include "common/printable.hpp"
 #include "sim/cli/options.hpp"
+#include "sim/formats/compiled_sizes.hpp"
 #include "sim/pictures/image.hpp"
 #include "sim/pictures/image_library.hpp"
 #include "sim/pictures/terminal_picture.hpp"
@@ -29,7 +30,6 @@
 #include "sim/system/interruption.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/tables/generated_files.hpp"
-#include "tables/compiled_sizes.hpp"
 
 namespace halfway::cli {
 namespace {

@@ -12,6 +12,7 @@
 #include "sim/figures/rings.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/threads.hpp"
 
 namespace halfway {
 namespace {
@@ -38,7 +39,7 @@ TEST(Figure15, RingsOfFourBitsAreGoneAtSix) {
   const std::vector<ScreenTriangle> triangles =
       Projector(*scene, c_frame, {.subpixel_bits = 4}).project_all();
   const Frame without_tables =
-      render_spherical(*scene, triangles, {.frame = c_frame, .subpixel_bits = 4, .threads = 2},
+      render_spherical(*scene, triangles, {.frame = c_frame, .subpixel_bits = 4, .workers = on_threads(2)},
                        {.ends = SpanEnds::slerped_along_edges, .curve = HighlightCurve::squared_cosine})
           .frame;
   const Rings none = figures::measure_rings(without_tables, without_tables);

@@ -18,6 +18,7 @@
 #include "sim/run/scene_stream.hpp"
 #include "sim/run/verilator_frame.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/threads.hpp"
 
 namespace halfway::figures {
 namespace {
@@ -65,7 +66,8 @@ Result<Scene> teapot_scene(const Context& context) {
 Software draw_in_software(const Scene& scene, FrameSize size, unsigned threads) {
   Software software;
   software.triangles = Projector(scene, size, {.subpixel_bits = c_subpixel_bits}).project_all();
-  const RenderOptions options{.frame = size, .subpixel_bits = c_subpixel_bits, .threads = threads};
+  const RenderOptions options{
+      .frame = size, .subpixel_bits = c_subpixel_bits, .workers = on_threads(threads)};
   software.phong = render_reference(scene, software.triangles, options);
   software.gouraud = render_gouraud(scene, software.triangles, options);
   return software;
@@ -100,7 +102,8 @@ Frame draw_mesh(const Scene& scene, FrameSize size, unsigned threads) {
   constexpr double c_line = 0.55, c_soft = 0.7;  // pixels: half a line's width, and how it fades
   const std::vector<ScreenTriangle> triangles =
       Projector(scene, size, {.subpixel_bits = c_subpixel_bits}).project_all();
-  const RenderOptions options{.frame = size, .subpixel_bits = c_subpixel_bits, .threads = threads};
+  const RenderOptions options{
+      .frame = size, .subpixel_bits = c_subpixel_bits, .workers = on_threads(threads)};
   Scene paper = scene;
   paper.background = glm::dvec3(1.0);
   return render_visible(

@@ -19,9 +19,9 @@
 #include "sim/figures/pictures.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/stream_files/table4.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
-#include "tb/vectors/table4.hpp"
 
 namespace halfway::figures {
 namespace {

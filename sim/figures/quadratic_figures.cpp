@@ -369,7 +369,7 @@ Result<Times> software_times(const Scene& scene) {
       *seconds = std::min(*seconds, drawn.seconds);
     }
   // They must draw what they are named for.
-  const RenderOptions options{.frame = c_timed_size, .subpixel_bits = 4, .threads = 1};
+  const RenderOptions options{.frame = c_timed_size, .subpixel_bits = 4};
   const ReferenceImage phong = render_reference(scene, triangles, options);
   const Frame gouraud = render_gouraud(scene, triangles, options).frame;
   if (distance(frames[0], gouraud, phong.mask).max_lsb > 1 ||

@@ -22,6 +22,7 @@
 #include "sim/figures/rings.hpp"
 #include "sim/figures/timing_diagram.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/threads.hpp"
 #include "tables/cosine.hpp"
 
 namespace halfway::figures {
@@ -379,7 +380,8 @@ Result<Scene> smooth_highlights(const Context& context) {
 
 Frame by_curve(const Scene& scene, FrameSize size, HighlightCurve curve, unsigned threads) {
   const auto triangles = Projector(scene, size, {.subpixel_bits = 4}).project_all();
-  return render_spherical(scene, triangles, {.frame = size, .subpixel_bits = 4, .threads = threads},
+  return render_spherical(scene, triangles,
+                          {.frame = size, .subpixel_bits = 4, .workers = on_threads(threads)},
                           {.ends = SpanEnds::on_surface, .curve = curve})
       .frame;
 }
@@ -450,7 +452,7 @@ Status draw_figure_15(const Context& context, Drawing& out) {
   const auto triangles = Projector(*scene, c_rings_frame, {.subpixel_bits = 4}).project_all();
   const Frame without =
       render_spherical(*scene, triangles,
-                       {.frame = c_rings_frame, .subpixel_bits = 4, .threads = context.threads},
+                       {.frame = c_rings_frame, .subpixel_bits = 4, .workers = on_threads(context.threads)},
                        {.ends = SpanEnds::slerped_along_edges, .curve = HighlightCurve::squared_cosine})
           .frame;
   const Rings none = measure_rings(without, without);
@@ -520,7 +522,7 @@ Status draw_figure_16(const Context& context, Drawing& out) {
       std::vector<Frame> drawn{draw_mesh(scene, size, context.threads), software.phong.frame};
       const auto by = [&, &scene = scene](HighlightCurve curve) {
         return render_spherical(scene, software.triangles,
-                                {.frame = size, .subpixel_bits = 4, .threads = context.threads},
+                                {.frame = size, .subpixel_bits = 4, .workers = on_threads(context.threads)},
                                 {.ends = SpanEnds::slerped_along_edges, .curve = curve})
             .frame;
       };
@@ -630,7 +632,7 @@ double largest_scheme_angle(const Scene& scene, FrameSize size) {
 
 FrameDistance between_schemes(const Scene& scene, FrameSize size, unsigned threads) {
   const auto triangles = Projector(scene, size, {.subpixel_bits = 4}).project_all();
-  const RenderOptions options{.frame = size, .subpixel_bits = 4, .threads = threads};
+  const RenderOptions options{.frame = size, .subpixel_bits = 4, .workers = on_threads(threads)};
   const auto by = [&](VectorScheme scheme) {
     return render_spherical(scene, triangles, options, {scheme, SpanEnds::slerped_along_edges});
   };

@@ -16,7 +16,6 @@ constexpr auto c_shader = static_cast<Shader>(HALFWAY_SHADER);
 // In here the formats are those that the key asks for.
 HardwareKey built_in(HardwareKey key) {
   key.words = {};
-  key.made_formats = nullptr;
   return key;
 }
 

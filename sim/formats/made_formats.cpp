@@ -103,4 +103,13 @@ std::unique_ptr<GoldenModel> MadeFormats::make_golden_model(const HardwareKey& k
   return std::unique_ptr<GoldenModel>(golden_model_(key));
 }
 
+std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                                  const SetupOptions& options, const MadeFormats* formats) {
+  return formats ? formats->make_setup(scene, frame, key, options) : make_setup(scene, frame, key, options);
+}
+
+std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key, const MadeFormats* formats) {
+  return formats ? formats->make_golden_model(key) : make_golden_model(key);
+}
+
 }  // namespace halfway

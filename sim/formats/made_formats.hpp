@@ -14,6 +14,7 @@
 
 namespace halfway {
 
+/// Makes setups and golden models of keys with the word lengths that it was compiled for.
 class MadeFormats {
  public:
   /// For the key's shader, preset and word lengths. Compiles them by the compiler that compiled the program,
@@ -33,5 +34,10 @@ class MadeFormats {
   MakeSetup* setup_ = nullptr;
   MakeGoldenModel* golden_model_ = nullptr;
 };
+
+/// The setup and the golden model of a key: of `formats`, or where it is null, the program's own.
+std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                                  const SetupOptions& options, const MadeFormats* formats);
+std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key, const MadeFormats* formats);
 
 }  // namespace halfway

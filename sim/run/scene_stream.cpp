@@ -9,6 +9,7 @@
 #include <span>
 
 #include "golden_run/golden_run.hpp"
+#include "sim/formats/made_formats.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/threads.hpp"
 
@@ -107,7 +108,8 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batc
     return Chunk{taken++, held};
   };
   const auto work = [&] {
-    const std::unique_ptr<GoldenModel> golden = options_.golden ? make_golden_model(key_) : nullptr;
+    const std::unique_ptr<GoldenModel> golden =
+        options_.golden ? make_golden_model(key_, options_.formats) : nullptr;
     std::vector<Fragment> none;
     if (golden) golden->draw(prologue_, none);
     while (const auto chunk = take()) {

@@ -20,10 +20,15 @@ struct Batch {
   double done = 0.0;  ///< part of the stream, this batch included: 0 to 1
 };
 
+class MadeFormats;
+
 struct SceneStreamOptions {
   bool golden = true;  ///< else batches hold no fragments
   /// Else a batch is made when it is asked for: better where other threads have work of their own.
   bool ahead = true;
+  /// Makes the golden models of a key with other word lengths; null: the program's own. It must outlive the
+  /// stream.
+  const MadeFormats* formats = nullptr;
 };
 
 /// Setup and golden model on `threads` threads, one batch ahead of who takes them. The stream does not depend

@@ -28,6 +28,7 @@
 #include "sim/system/file.hpp"
 #include "sim/system/folder_lock.hpp"
 #include "sim/system/seconds.hpp"
+#include "sim/system/threads.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 #include "tables/cosine.hpp"
 
@@ -201,7 +202,8 @@ class Simulation {
 
   ReferenceImage draw_reference() const {
     const std::vector<ScreenTriangle> triangles = Projector(scene_, s_.size, {}).project_all();
-    return render_reference(scene_, triangles, {.frame = s_.size, .subpixel_bits = 4, .threads = s_.threads});
+    return render_reference(scene_, triangles,
+                            {.frame = s_.size, .subpixel_bits = 4, .workers = on_threads(s_.threads)});
   }
 
   // Setup, golden model and Verilator, batch by batch; init file and traces written on the way.

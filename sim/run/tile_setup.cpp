@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace halfway {
 
-TileSetup::TileSetup(const Setup& frame, const HardwareKey& key, const Tile& tile)
-    : frame_(frame), tile_(tile), golden_(make_golden_model(key)) {
+TileSetup::TileSetup(const Setup& frame, std::unique_ptr<GoldenModel> golden, const Tile& tile)
+    : frame_(frame), tile_(tile), golden_(std::move(golden)) {
   for (std::uint32_t unit = 0; unit < frame.units(); ++unit)
     if (const Tile reach = frame.reach(unit); is_counted(reach) || overlap(reach, tile))
       units_.push_back(unit);

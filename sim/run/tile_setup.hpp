@@ -9,7 +9,6 @@
 
 #include "frame/tile.hpp"
 #include "golden_run/golden_run.hpp"
-#include "plan/hardware_key.hpp"
 #include "setup/setup.hpp"
 
 namespace halfway {
@@ -24,8 +23,8 @@ namespace halfway {
 /// counts together are the frame's, whatever their size.
 class TileSetup final : public Setup {
  public:
-  /// `frame` must outlive it.
-  TileSetup(const Setup& frame, const HardwareKey& key, const Tile& tile);
+  /// `golden` is of the frame's hardware. `frame` must outlive this.
+  TileSetup(const Setup& frame, std::unique_ptr<GoldenModel> golden, const Tile& tile);
 
   unsigned init_bits() const override { return frame_.init_bits(); }
   std::uint32_t units() const override { return static_cast<std::uint32_t>(units_.size()); }

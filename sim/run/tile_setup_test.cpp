@@ -75,7 +75,7 @@ std::size_t expect_tiles_are_the_frame(const Scene& scene, const HardwareKey& ke
   SetupCounts counts;
   std::size_t inside = 0;
   for (const Tile& tile : tiles_of(frame, size)) {
-    const TileSetup part(*setup, key, tile);
+    const TileSetup part(*setup, make_golden_model(key), tile);
     const Drawn drawn(part, key, frame, tile);
     // The same fragments in the same order.
     std::vector<Fragment> wanted;
@@ -142,7 +142,7 @@ TEST(TileSetup, TakesATriangleIntoEachTileThatItTouches) {
     const Drawn whole(*setup, key, c_frame, whole_frame(c_frame));
     std::size_t middle = 0, empty = 0;
     for (const Tile& tile : tiles_of(c_frame, {16, 16})) {
-      const TileSetup part(*setup, key, tile);
+      const TileSetup part(*setup, make_golden_model(key), tile);
       const Drawn drawn(part, key, c_frame, tile);
       if (drawn.inside.empty()) {
         ++empty;

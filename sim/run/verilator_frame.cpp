@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "sim/compare/limits.hpp"
+#include "sim/formats/made_formats.hpp"
 #include "sim/run/rtl_stream.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/run/tile_setup.hpp"
@@ -14,13 +15,15 @@ namespace halfway {
 
 Result<VerilatorFrame> draw_in_verilator(const Scene& scene, FrameSize size, const HardwareKey& key,
                                          const SetupOptions& options, const SimulatorFolders& folders,
-                                         unsigned threads, const std::optional<Tile>& tile) {
+                                         unsigned threads, const std::optional<Tile>& tile,
+                                         const MadeFormats* formats) {
   auto simulator = VerilatorSimulator::open(key, folders, {.idle_limit = c_idle_limit});
   if (!simulator) return simulator.error();
-  const std::unique_ptr<Setup> frame = make_setup(scene, size, key, options);
+  const std::unique_ptr<Setup> frame = make_setup(scene, size, key, options, formats);
   std::optional<TileSetup> part;
-  if (tile) part.emplace(*frame, key, *tile);
-  SceneStream stream(part ? static_cast<const Setup&>(*part) : *frame, key, threads, {.ahead = threads > 1});
+  if (tile) part.emplace(*frame, make_golden_model(key, formats), *tile);
+  SceneStream stream(part ? static_cast<const Setup&>(*part) : *frame, key, threads,
+                     {.ahead = threads > 1, .formats = formats});
   RtlStream rtl(size, tile.value_or(whole_frame(size)), scene.background);
   VerilatorFeed feed(*simulator, rtl);
   for (Batch batch; stream.next(batch);) {

@@ -16,6 +16,8 @@
 
 namespace halfway {
 
+class MadeFormats;
+
 struct VerilatorFrame {
   Frame frame;                     ///< or a tile of it
   std::vector<std::uint8_t> mask;  ///< a byte a pixel: 1 where a fragment covers it
@@ -26,9 +28,10 @@ struct VerilatorFrame {
 
 /// Every fragment is compared with the golden model's: one that differs, or a fault of the hardware, is an
 /// error (ExitCode::differs) that tells the first ones. Of a tile's pixels every fragment is the whole
-/// frame's.
+/// frame's. `formats` makes setup and golden model of a key with other word lengths; null: the program's own.
 Result<VerilatorFrame> draw_in_verilator(const Scene& scene, FrameSize size, const HardwareKey& key,
                                          const SetupOptions& options, const SimulatorFolders& folders,
-                                         unsigned threads, const std::optional<Tile>& tile = {});
+                                         unsigned threads, const std::optional<Tile>& tile = {},
+                                         const MadeFormats* formats = nullptr);
 
 }  // namespace halfway

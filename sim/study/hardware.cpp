@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "sim/formats/made_tables.hpp"
 #include "sim/study/pictures.hpp"
 #include "sim/synth/pinned.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
 #include "sim/system/threads.hpp"
-#include "tables/made_tables.hpp"
 
 namespace halfway::study {
 
@@ -37,7 +37,7 @@ Result<PointHardware> hardware_of(const DesignPoint& point, const Scene& scene) 
   if (const auto size = made_size(point))
     hardware.tables = std::make_shared<tables::MadeTables>(point.preset == Preset::exact, *size);
   PlanRequest request = point.plan();
-  request.made_tables = hardware.tables.get();
+  if (hardware.tables) request.made_tables = hardware.tables->tables();
   auto plan = plan_scene(scene, request);
   if (!plan) return plan.error();
   hardware.key = plan->key;
@@ -59,7 +59,6 @@ Result<PointHardware> drawing_hardware_of(const DesignPoint& point, const Scene&
   auto formats = MadeFormats::open(hardware->key, folders);
   if (!formats) return formats.error();
   hardware->formats = std::move(*formats);
-  hardware->key.made_formats = hardware->formats.get();
   return hardware;
 }
 

@@ -17,12 +17,12 @@
 #include "scene/scene.hpp"
 #include "sim/costs/cells.hpp"
 #include "sim/formats/made_formats.hpp"
+#include "sim/formats/made_tables.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/study/design_point.hpp"
 #include "sim/study/record.hpp"
 #include "sim/synth/pinned.hpp"
 #include "sim/synth/synthesis.hpp"
-#include "tables/made_tables.hpp"
 
 namespace halfway::study {
 

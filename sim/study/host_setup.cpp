@@ -32,8 +32,8 @@ constexpr std::string_view c_totals = "\ntotals: ";
 }  // namespace
 
 SetupCounts set_up_frame(const Scene& scene, FrameSize size, const HardwareKey& key,
-                         const SetupOptions& options) {
-  const std::unique_ptr<Setup> setup = make_setup(scene, size, key, options);
+                         const SetupOptions& options, const MadeFormats* formats) {
+  const std::unique_ptr<Setup> setup = make_setup(scene, size, key, options, formats);
   SetupCounts counts;
   std::vector<std::uint32_t> words;
   setup->append_prologue(words, counts);

@@ -13,14 +13,16 @@
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
+#include "sim/formats/made_formats.hpp"
 
 namespace halfway::study {
 
 inline constexpr const char* c_install_valgrind = "apt-get install valgrind";
 
-/// Makes the init vectors of one frame, from the scene on: what is counted. Callgrind knows it by its name.
+/// Makes the init vectors of one frame, from the scene on: what is counted. `formats` as in
+/// make_setup. Callgrind knows it by its name.
 [[gnu::noinline]] SetupCounts set_up_frame(const Scene& scene, FrameSize size, const HardwareKey& key,
-                                           const SetupOptions& options);
+                                           const SetupOptions& options, const MadeFormats* formats);
 
 /// For each line of the file, a name: calls `each` in a process of its own, then writes the process's number
 /// and the name to standard output. The processes begin with the same heap, whatever the names: the number of

@@ -31,7 +31,7 @@ constexpr std::uint32_t c_nothing = std::numeric_limits<std::uint32_t>::max();
 std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> seen_pixels(
     const Scene& scene, std::span<const ScreenTriangle> triangles, FrameSize size) {
   std::vector<std::uint32_t> owner(Frame::pixels(size), c_nothing);
-  render_visible(scene, triangles, {.frame = size, .subpixel_bits = c_subpixel_bits, .threads = 1}, [&] {
+  render_visible(scene, triangles, {.frame = size, .subpixel_bits = c_subpixel_bits}, [&] {
     return [&](std::uint32_t index, std::uint32_t x, std::uint32_t y) {
       owner[std::size_t{y} * size.width + x] = triangles[index].source;
       return glm::dvec3(0.0);

@@ -17,7 +17,8 @@ Result<Drawing> draw_in_hardware(const DesignPoint& point, const Scene& scene,
   const auto rtl_folders = rtl_of(point, folders);
   if (!rtl_folders) return rtl_folders.error();
   const HardwareKey& key = hardware->key;
-  auto drawn = draw_in_verilator(scene, point.size, key, point.setup(), *rtl_folders, 1, tile);
+  auto drawn = draw_in_verilator(scene, point.size, key, point.setup(), *rtl_folders, 1, tile,
+                                 hardware->formats.get());
   if (!drawn) return drawn.error();
   return Drawing{std::move(drawn->frame), std::move(drawn->mask), key.name(),
                  drawn->fragments,        drawn->cycles,          drawn->counts};
@@ -30,7 +31,7 @@ Result<Drawing> draw(const DesignPoint& point, const Subject& subject, const Sim
   if (in_hardware(point.method)) return draw_in_hardware(point, subject.scene, folders, tile);
   Drawing drawing;
   drawing.frame = render_gouraud(subject.scene, subject.triangles,
-                                 {.frame = point.size, .subpixel_bits = 4, .threads = 1, .tile = tile})
+                                 {.frame = point.size, .subpixel_bits = 4, .tile = tile})
                       .frame;
   return drawing;
 }

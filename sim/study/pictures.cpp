@@ -32,7 +32,7 @@ Result<Scene> drawn_scene(const std::string& scene, const std::filesystem::path&
 }
 
 Reference render(const Subject& subject, FrameSize frame, const std::optional<Tile>& tile) {
-  const RenderOptions options{.frame = frame, .subpixel_bits = 4, .threads = 1, .tile = tile};
+  const RenderOptions options{.frame = frame, .subpixel_bits = 4, .tile = tile};
   Reference reference;
   reference.image = render_reference(subject.scene, subject.triangles, options);
   reference.highlight = highlight_mask(subject, options, reference.image);

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <utility>
 
+#include "sim/formats/made_tables.hpp"
 #include "sim/pictures/image.hpp"
 #include "sim/study/figures.hpp"
 #include "sim/study/host_setup.hpp"
@@ -18,7 +19,6 @@
 #include "sim/system/file.hpp"
 #include "sim/system/sanitizers.hpp"
 #include "sim/system/subprocess.hpp"
-#include "tables/made_tables.hpp"
 
 namespace halfway::study {
 namespace {

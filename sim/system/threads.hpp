@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -40,6 +41,14 @@ void work_on_threads(unsigned threads, const Work& work) {
     guarded();
   }
   if (first) std::rethrow_exception(first);
+}
+
+/// Calls work on `threads` threads at most; 0: as many as the machine has.
+inline auto on_threads(unsigned threads) {
+  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  return [threads](unsigned most, const std::function<void()>& work) {
+    work_on_threads(std::min(threads, most), work);
+  };
 }
 
 /// Calls `each`, which returns a Status, with every number below `count` once, in order, on `threads` threads

@@ -102,7 +102,7 @@ void draw(const Scene& scene, unsigned choice) {
   for (const Shader shader : c_shaders) draw_by(shader, scene, size, choice);
 
   const std::vector<ScreenTriangle> triangles = Projector(scene, size, {}).project_all();
-  const RenderOptions options{.frame = size, .subpixel_bits = 4, .threads = 1};
+  const RenderOptions options{.frame = size, .subpixel_bits = 4};
   const ReferenceImage reference = render_reference(scene, triangles, options);
   const ReferenceImage gouraud = render_gouraud(scene, triangles, options);
   const SphericalMethod method{

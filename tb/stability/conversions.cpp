@@ -451,7 +451,7 @@ void extremes_in_the_reference(Trial& trial) {
   with_each_number(trial, values, [&](Scene& scene, const std::string& name) {
     scene.shadows = true;
     const auto triangles = Projector(scene, c_frame, {.subpixel_bits = 4}).project_all();
-    const ReferenceImage image = render_reference(scene, triangles, {.frame = c_frame, .threads = 1});
+    const ReferenceImage image = render_reference(scene, triangles, {.frame = c_frame});
     std::size_t covered = 0, drawn = 0;
     for (const ScreenTriangle& t : triangles)
       for_each_covered(screen_points(t), 4, c_frame, [&](auto, auto) { ++covered; });

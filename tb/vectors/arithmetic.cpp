@@ -5,9 +5,9 @@
 #include "golden/multiplier.hpp"
 #include "golden/saturate.hpp"
 #include "golden/saturating_sum.hpp"
+#include "sim/stream_files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
-#include "vectors/vector_file.hpp"
 
 namespace halfway::vectors {
 namespace {

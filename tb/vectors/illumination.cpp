@@ -8,10 +8,10 @@
 #include "golden/cosine_rom.hpp"
 #include "golden/diffuse_slice.hpp"
 #include "golden/specular_slice.hpp"
+#include "sim/stream_files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/light_parts.hpp"
 #include "vectors/random.hpp"
-#include "vectors/vector_file.hpp"
 
 namespace halfway::vectors {
 namespace {

@@ -6,9 +6,9 @@
 #include "golden/part_interpolator.hpp"
 #include "golden/quadratic_interpolator.hpp"
 #include "golden/z_interpolator.hpp"
+#include "sim/stream_files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
-#include "vectors/vector_file.hpp"
 
 namespace halfway::vectors {
 namespace {

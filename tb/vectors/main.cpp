@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "sim/stream_files/table4.hpp"
 #include "vectors/entities.hpp"
-#include "vectors/table4.hpp"
 
 int main(int argc, char** argv) {
   using namespace halfway;

@@ -8,7 +8,7 @@
 
 #include "golden/delay_line.hpp"
 #include "golden/vector_shift.hpp"
-#include "vectors/vector_file.hpp"
+#include "sim/stream_files/vector_file.hpp"
 
 namespace halfway::vectors {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "golden/shading_pipeline.hpp"
+#include "sim/stream_files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
-#include "vectors/vector_file.hpp"
 
 namespace halfway::vectors {
 namespace {

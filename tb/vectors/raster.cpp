@@ -4,10 +4,10 @@
 #include "golden/edge_walker.hpp"
 #include "golden/object_stage.hpp"
 #include "golden/slope_walker.hpp"
+#include "sim/stream_files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
 #include "vectors/triangles.hpp"
-#include "vectors/vector_file.hpp"
 
 namespace halfway::vectors {
 namespace {

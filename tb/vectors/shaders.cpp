@@ -8,11 +8,11 @@
 
 #include "golden/quadratic_shader.hpp"
 #include "golden/spherical_shader.hpp"
+#include "sim/stream_files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/light_parts.hpp"
 #include "vectors/random.hpp"
 #include "vectors/triangles.hpp"
-#include "vectors/vector_file.hpp"
 
 namespace halfway::vectors {
 namespace {

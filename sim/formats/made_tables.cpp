@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tables/made_tables.hpp"
+#include "sim/formats/made_tables.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
+#include "sim/formats/compiled_sizes.hpp"
 #include "sim/system/file.hpp"
-#include "tables/compiled_sizes.hpp"
 #include "tables/formats.hpp"
 #include "tables/functions.hpp"
 

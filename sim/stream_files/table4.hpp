@@ -7,7 +7,7 @@
 
 #include "common/result.hpp"
 #include "plan/processor_clocks.hpp"
-#include "tb/vectors/vector_file.hpp"
+#include "sim/stream_files/vector_file.hpp"
 
 namespace halfway::vectors {
 

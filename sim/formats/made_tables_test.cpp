@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tables/made_tables.hpp"
+#include "sim/formats/made_tables.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tables/compiled_sizes.hpp"
+#include "sim/formats/compiled_sizes.hpp"
 
 #include <algorithm>
 
