@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tb/oracle/oracle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "scene/scene.hpp"
+
+namespace halfway::oracle {
+namespace {
+
+constexpr Real c_pi = 3.14159265358979323846264338327950288L;
+constexpr int c_units = 16;  // of a pixel
+constexpr Real c_last_depth = 16777215;
+
+Vector operator+(const Vector& a, const Vector& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+Vector operator-(const Vector& a, const Vector& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Vector operator*(Real s, const Vector& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+/// Channel by channel.
+Vector operator*(const Vector& a, const Vector& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+Real dot(const Vector& a, const Vector& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+Vector cross(const Vector& a, const Vector& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+Real length(const Vector& a) {
+  return std::sqrt(dot(a, a));
+}
+Vector unit(const Vector& a) {
+  return (1 / length(a)) * a;
+}
+Real power(Real base, Real exponent) {
+  return base > 0 ? std::pow(base, exponent) : 0;
+}
+
+template <class Other>
+Vector copy(const Other& v) {
+  return {v.x, v.y, v.z};
+}
+
+}  // namespace
+
+World copy(const halfway::Scene& scene) {
+  World world{.eye = copy(scene.camera.eye_world),
+              .target = copy(scene.camera.target_world),
+              .up = copy(scene.camera.up_world),
+              .ambient = copy(scene.ambient),
+              .background = copy(scene.background),
+              .fov_degrees = scene.camera.vertical_fov_degrees,
+              .near = scene.camera.near,
+              .far = scene.camera.far,
+              .shadows = scene.shadows,
+              .materials = {},
+              .lights = {},
+              .triangles = {}};
+  for (const auto& m : scene.materials)
+    world.materials.push_back({m.brdf == Brdf::phong   ? Reflection::phong
+                               : m.brdf == Brdf::blinn ? Reflection::blinn
+                                                       : Reflection::cook_torrance,
+                               copy(m.colour), copy(m.specular_colour), m.ambient, m.diffuse, m.specular,
+                               m.exponent, m.roughness, m.reflectance});
+  for (const auto& l : scene.directional)
+    world.lights.push_back({.kind = Kind::directional,
+                            .place = copy(l.to_light_world),
+                            .intensity = copy(l.intensity),
+                            .axis = {}});
+  for (const auto& l : scene.positional)
+    world.lights.push_back({.kind = Kind::positional,
+                            .place = copy(l.position_world),
+                            .intensity = copy(l.intensity),
+                            .axis = {}});
+  for (const auto& l : scene.spots)
+    world.lights.push_back({Kind::spot, copy(l.position_world), copy(l.intensity), copy(l.axis_world),
+                            l.cos_inner, l.cos_outer});
+  for (const auto& t : scene.triangles) {
+    Triangle triangle{.corner = {}, .material = t.material};
+    for (int i = 0; i < 3; ++i)
+      triangle.corner[i] = {copy(scene.positions_world[t.position[i]]),
+                            copy(scene.normals_world[t.normal[i]])};
+    world.triangles.push_back(triangle);
+  }
+  return world;
+}
+
+const char* name(Fault fault) {
+  constexpr const char* c_names[] = {"none",
+                                     "mirrored",
+                                     "upside_down",
+                                     "fov_is_horizontal",
+                                     "fov_is_half",
+                                     "snapped_down",
+                                     "depth_of_distance",
+                                     "depth_one_step_deeper",
+                                     "bottom_right_rule",
+                                     "closed_edges",
+                                     "pixel_corners",
+                                     "back_faces_shown",
+                                     "last_of_depth",
+                                     "linear_on_screen",
+                                     "normal_not_unit",
+                                     "flat_normal",
+                                     "ambient_missing",
+                                     "diffuse_unclamped",
+                                     "highlight_below_horizon",
+                                     "eye_at_infinity",
+                                     "halfway_not_unit",
+                                     "halfway_of_normal",
+                                     "phong_by_light",
+                                     "exponent_plus_one",
+                                     "beckmann_without_pi",
+                                     "beckmann_squared_cosine",
+                                     "fresnel_of_fourth_power",
+                                     "masking_missing",
+                                     "specular_takes_colour",
+                                     "diffuse_in_all_channels",
+                                     "positional_is_directional",
+                                     "falls_off_by_distance",
+                                     "spot_backwards",
+                                     "spot_linear",
+                                     "spot_without_edge",
+                                     "second_light_missing",
+                                     "shadows_missing",
+                                     "lit_faces_cast",
+                                     "averted_faces_lit",
+                                     "shadows_beyond_light",
+                                     "truncated_to_byte"};
+  static_assert(std::size(c_names) == static_cast<std::size_t>(Fault::end));
+  return c_names[static_cast<std::size_t>(fault)];
+}
+
+// The camera's axes by Gram-Schmidt, and the slope that fills the frame: a point at the distance w along the
+// viewing axis and h above it lies (h/w) (height/2) / tan(fov/2) pixels above the frame's centre.
+Oracle::Oracle(World world, unsigned width, unsigned height, Fault fault)
+    : world_(std::move(world)), width_(width), height_(height), fault_(fault) {
+  forward_ = unit(world_.target - world_.eye);
+  up_ = unit(world_.up - dot(world_.up, forward_) * forward_);
+  right_ = cross(forward_, up_);
+  if (has(Fault::mirrored)) right_ = -1 * right_;
+  if (has(Fault::upside_down)) up_ = -1 * up_;
+  const Real half_angle = world_.fov_degrees * c_pi / 180 / (has(Fault::fov_is_half) ? 1 : 2);
+  const Real half_side = Real(has(Fault::fov_is_horizontal) ? width : height) / 2;
+  pixels_per_slope_ = half_side / std::tan(half_angle);
+
+  Vector low = world_.eye, high = world_.eye;
+  for (const Triangle& t : world_.triangles)
+    for (const Corner& c : t.corner) {
+      low = {std::min(low.x, c.position.x), std::min(low.y, c.position.y), std::min(low.z, c.position.z)};
+      high = {std::max(high.x, c.position.x), std::max(high.y, c.position.y), std::max(high.z, c.position.z)};
+    }
+  radius_ = length(high - low) / 2;
+  screen_.resize(world_.triangles.size());
+  for (std::size_t i = 0; i < world_.triangles.size(); ++i) project(i);
+}
+
+Real Oracle::distance(const Vector& position) const {
+  return dot(position - world_.eye, forward_);
+}
+
+// Corners snap to the nearest 1/16 pixel, halves up. A triangle is seen where its corners, counter-clockwise
+// from outside, go counter-clockwise on the screen.
+void Oracle::project(std::size_t triangle) {
+  ScreenTriangle corners;
+  for (int i = 0; i < 3; ++i) {
+    const Vector& position = world_.triangles[triangle].corner[i].position;
+    const Real w = distance(position);
+    if (!(w >= world_.near && w <= world_.far)) {
+      clipped_ = true;
+      return;
+    }
+    const Vector from_eye = position - world_.eye;
+    const Real x = Real(width_) / 2 + pixels_per_slope_ * dot(from_eye, right_) / w;
+    const Real y = Real(height_) / 2 - pixels_per_slope_ * dot(from_eye, up_) / w;
+    const Real half = has(Fault::snapped_down) ? 0 : 0.5L;
+    const auto snapped = [&](Real pixels) {
+      const Real steps = pixels * c_units + half;
+      if (std::abs(steps - std::round(steps)) < c_doubt) ++doubtful_corners_;
+      return static_cast<std::int64_t>(std::floor(steps));
+    };
+    corners[i] = {snapped(x), snapped(y), 1 / w};
+  }
+  const auto& [a, b, c] = corners;
+  // Twice the area in a frame whose y grows downwards: negative where the corners go counter-clockwise.
+  const std::int64_t area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  if (area < 0 || (has(Fault::back_faces_shown) && area != 0)) screen_[triangle] = corners;
+}
+
+// The point is inside where it lies on the inner side of each edge; on an edge where that is a top edge
+// (level, the triangle below it) or a left edge (the triangle to the right of it).
+bool Oracle::covers(std::size_t triangle, int x, int y) const {
+  if (!screen_[triangle]) return false;
+  ScreenTriangle t = *screen_[triangle];
+  const int centre = has(Fault::pixel_corners) ? 0 : c_units / 2;
+  const std::int64_t px = std::int64_t{c_units} * x + centre, py = std::int64_t{c_units} * y + centre;
+  const auto side = [](const ScreenCorner& a, const ScreenCorner& b, std::int64_t qx, std::int64_t qy) {
+    return (b.x - a.x) * (qy - a.y) - (b.y - a.y) * (qx - a.x);
+  };
+  if (side(t[0], t[1], t[2].x, t[2].y) < 0) std::swap(t[1], t[2]);
+  for (int i = 0; i < 3; ++i) {
+    const ScreenCorner &a = t[i], &b = t[(i + 1) % 3];
+    const std::int64_t inside = side(a, b, px, py);
+    if (inside < 0) return false;
+    if (inside > 0 || has(Fault::closed_edges)) continue;
+    const bool top = a.y == b.y && b.x > a.x, left = b.y < a.y;
+    if ((top || left) == has(Fault::bottom_right_rule)) return false;
+  }
+  return true;
+}
+
+// Barycentric weights by areas, as rationals.
+std::array<mpq_class, 3> Oracle::weights(const ScreenTriangle& t, int x, int y) const {
+  const auto number = [](std::int64_t v) { return mpz_class(static_cast<long>(v)); };
+  const mpz_class px = number(std::int64_t{c_units} * x + c_units / 2),
+                  py = number(std::int64_t{c_units} * y + c_units / 2);
+  const auto area = [&](const ScreenCorner& a, const ScreenCorner& b) -> mpz_class {
+    return (number(a.x) - px) * (number(b.y) - py) - (number(a.y) - py) * (number(b.x) - px);
+  };
+  const mpz_class parts[3] = {area(t[1], t[2]), area(t[2], t[0]), area(t[0], t[1])};
+  const mpz_class whole = parts[0] + parts[1] + parts[2];
+  std::array<mpq_class, 3> weight;
+  for (int i = 0; i < 3; ++i) {
+    weight[i] = mpq_class(parts[i], whole);
+    weight[i].canonicalize();
+  }
+  return weight;
+}
+
+namespace {
+
+Real real(const mpq_class& q) {
+  return Real(q.get_num().get_si()) / Real(q.get_den().get_si());
+}
+
+}  // namespace
+
+// 1/w is linear on the screen; so is depth = far/(far - near) (1 - near/w), 0 at the near plane and 1 at the
+// far one.
+Real Oracle::depth_of(const Corner& corner) const {
+  const Real w = distance(corner.position), near = world_.near, far = world_.far;
+  if (has(Fault::depth_of_distance)) return (w - near) / (far - near);
+  return far / (far - near) * (1 - near / w);
+}
+
+Real Oracle::depth_steps(std::size_t triangle, int x, int y) const {
+  const auto weight = weights(*screen_[triangle], x, y);
+  Real depth = 0;
+  for (int i = 0; i < 3; ++i) depth += real(weight[i]) * depth_of(world_.triangles[triangle].corner[i]);
+  return depth * c_last_depth + (has(Fault::depth_one_step_deeper) ? 1 : 0);
+}
+
+// What is linear on the surface is linear on the screen once it is divided by w: the weights on the surface
+// are those on the screen times 1/w, scaled to the sum 1.
+Oracle::Surface Oracle::surface(std::size_t triangle, int x, int y) const {
+  const ScreenTriangle& t = *screen_[triangle];
+  const auto weight = weights(t, x, y);
+  std::array<Real, 3> share;
+  Real sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    share[i] = real(weight[i]) * (has(Fault::linear_on_screen) ? 1 : t[i].inverse_w);
+    sum += share[i];
+  }
+  Surface s;
+  for (int i = 0; i < 3; ++i) {
+    const Corner& corner = world_.triangles[triangle].corner[i];
+    s.position = s.position + (share[i] / sum) * corner.position;
+    s.normal = s.normal + (share[i] / sum) * corner.normal;
+  }
+  if (has(Fault::flat_normal)) s.normal = world_.triangles[triangle].corner[0].normal;
+  if (!has(Fault::normal_not_unit)) s.normal = unit(s.normal);
+  return s;
+}
+
+// The factor of k_s: what follows (N.L > 0 is known).
+Real Oracle::highlight(const Material& m, const Vector& n, const Vector& l, const Vector& v) const {
+  const Real nl = dot(n, l), exponent = m.exponent + (has(Fault::exponent_plus_one) ? 1 : 0);
+  // R = 2 (N.L) N - L; (R.V)^n.
+  if (m.reflection == Reflection::phong)
+    return power(dot(has(Fault::phong_by_light) ? l : 2 * nl * n - l, v), exponent);
+  // H = (L + V)/|L + V|; (N.H)^n.
+  const Vector sum = (has(Fault::halfway_of_normal) ? n : l) + v;
+  const Vector h = has(Fault::halfway_not_unit) ? 0.5L * sum : unit(sum);
+  const Real nh = dot(n, h);
+  if (m.reflection == Reflection::blinn) return power(nh, exponent);
+  // P F G / (4 (N.L)(N.V)), times the N.L of irradiance.
+  const Real nv = dot(n, v), vh = dot(v, h), lh = dot(l, h);
+  if (!(nv > 0) || !(nh > 0)) return 0;
+  // P = exp(-tan^2/m^2) / (pi m^2 cos^4).
+  const Real cos2 = nh * nh, slope2 = m.roughness * m.roughness;
+  const Real density =
+      std::exp(-(1 - cos2) / cos2 / slope2) / ((has(Fault::beckmann_without_pi) ? 1 : c_pi) * slope2 * cos2 *
+                                               (has(Fault::beckmann_squared_cosine) ? 1 : cos2));
+  // F = F0 + (1 - F0)(1 - L.H)^5.
+  const Real fresnel =
+      m.reflectance + (1 - m.reflectance) * power(1 - lh, has(Fault::fresnel_of_fourth_power) ? 4 : 5);
+  // G = min{1, 2 (N.H)(N.V)/(V.H), 2 (N.H)(N.L)/(L.H)}.
+  const Real masking =
+      has(Fault::masking_missing) ? 1 : std::min({Real(1), 2 * nh * nv / vh, 2 * nh * nl / lh});
+  return density * fresnel * masking / (4 * nl * nv) * nl;
+}
+
+// A light reaches a point where the point's triangle faces it, and no triangle that is averted from it lies
+// between.
+bool Oracle::is_shadowed(std::size_t triangle, const Vector& from, const Light& light, bool* doubtful) const {
+  const bool far = light.kind == Kind::directional;
+  const auto doubt = [&](Real margin) {
+    if (std::abs(margin) < c_doubt && doubtful != nullptr) *doubtful = true;
+  };
+  // How far its outside turns to the light: the sine of the angle.
+  const auto facing = [&](const Triangle& t) {
+    const Vector normal =
+        cross(t.corner[1].position - t.corner[0].position, t.corner[2].position - t.corner[0].position);
+    const Vector way = far ? light.place : light.place - t.corner[0].position;
+    return dot(normal, way) / (length(normal) * length(way));
+  };
+  const Real own = facing(world_.triangles[triangle]);
+  doubt(own);
+  if (own < 0 && !has(Fault::averted_faces_lit)) return true;
+
+  // from + s way, s from 0 to 1, or without an end.
+  const Vector way = far ? light.place : light.place - from;
+  bool shadowed = false;
+  for (std::size_t i = 0; i < world_.triangles.size(); ++i) {
+    const Triangle& t = world_.triangles[i];
+    if (i == triangle || (facing(t) < 0) == has(Fault::lit_faces_cast)) continue;
+    const Vector e1 = t.corner[1].position - t.corner[0].position,
+                 e2 = t.corner[2].position - t.corner[0].position;
+    const Vector p = cross(way, e2);
+    const Real determinant = dot(e1, p);
+    if (determinant == 0) continue;
+    const Vector to = from - t.corner[0].position;
+    const Vector q = cross(to, e1);
+    const Real u = dot(to, p) / determinant, v = dot(way, q) / determinant, s = dot(e2, q) / determinant;
+    // The margin by which the ray passes inside (above 0) or outside.
+    const Real least = s * length(way) / radius_, most = far || has(Fault::shadows_beyond_light) ? 1 : 1 - s;
+    const Real margin = std::min({u, v, 1 - u - v, least - c_doubt, most});
+    // The start lies on another triangle where two meet in an edge: such touching ones do not count.
+    doubt(std::min({u, v, 1 - u - v, most}) > -c_doubt && std::abs(least) < 100 * c_doubt ? 0 : margin);
+    shadowed |= margin > 0;
+  }
+  return shadowed;
+}
+
+// I = k_a I_a + sum over lights I_in (k_d (N.L) + k_s highlight), N.L > 0; ambient and diffuse parts in the
+// material's colour, highlights in their own.
+Vector Oracle::radiance(std::size_t triangle, const Surface& surface, bool* doubtful) const {
+  const Material& m = world_.materials[world_.triangles[triangle].material];
+  const Vector& n = surface.normal;
+  const Vector v = has(Fault::eye_at_infinity) ? -1 * forward_ : unit(world_.eye - surface.position);
+  Vector sum;
+  if (!has(Fault::ambient_missing)) sum = m.ambient * (world_.ambient * m.colour);
+  for (std::size_t i = 0; i < world_.lights.size(); ++i) {
+    if (has(Fault::second_light_missing) && i == 1) continue;
+    const Light& light = world_.lights[i];
+    const bool far = light.kind == Kind::directional;
+    const bool by_direction = has(Fault::positional_is_directional) && !far;
+    const Vector way = far || by_direction ? light.place : light.place - surface.position;
+    const Vector l = unit(way);
+    Vector intensity = light.intensity;
+    if (has(Fault::falls_off_by_distance) && !far) intensity = (1 / dot(way, way)) * intensity;
+    if (light.kind == Kind::spot) {
+      // Full within the inner cone, none outside the outer one, 3 t^2 - 2 t^3 of the cosine between.
+      const Real cosine = dot(l, light.axis) * (has(Fault::spot_backwards) ? 1 : -1);
+      const Real width = light.cos_inner - light.cos_outer;
+      const Real t = width > 0 ? std::clamp((cosine - light.cos_outer) / width, Real(0), Real(1))
+                               : Real(cosine >= light.cos_inner);
+      if (!(width > 0) && std::abs(cosine - light.cos_inner) < c_doubt && doubtful != nullptr)
+        *doubtful = true;
+      const Real share = has(Fault::spot_linear)         ? t
+                         : has(Fault::spot_without_edge) ? Real(t > 0)
+                                                         : t * t * (3 - 2 * t);
+      if (!(share > 0)) continue;
+      intensity = share * intensity;
+    }
+    const Real nl = dot(n, l);
+    // A highlight need not vanish at the horizon.
+    if (std::abs(nl) < c_doubt && doubtful != nullptr) *doubtful = true;
+    const bool lit = nl > 0;
+    if (lit || has(Fault::averted_faces_lit))
+      if (world_.shadows && !has(Fault::shadows_missing) &&
+          is_shadowed(triangle, surface.position, light, doubtful))
+        continue;
+    if (lit || has(Fault::diffuse_unclamped)) {
+      const Vector colour = has(Fault::diffuse_in_all_channels) ? m.colour.x * Vector{1, 1, 1} : m.colour;
+      sum = sum + (m.diffuse * nl) * (intensity * colour);
+    }
+    if (lit || has(Fault::highlight_below_horizon))
+      sum = sum + (m.specular * highlight(m, n, l, v)) *
+                      (intensity * (has(Fault::specular_takes_colour) ? m.colour : m.specular_colour));
+  }
+  return sum;
+}
+
+// The nearest triangle's radiance, as a byte: 255 times it, rounded, halves up.
+Oracle::Pixel Oracle::pixel(int x, int y) const {
+  Pixel pixel{.triangle = std::nullopt, .colour = world_.background};
+  Real nearest = 0;
+  bool doubtful = false;
+  for (std::size_t i = 0; i < world_.triangles.size(); ++i) {
+    if (!covers(i, x, y)) continue;
+    const Real depth = depth_steps(i, x, y) * (has(Fault::last_of_depth) ? -1 : 1);
+    if (pixel.triangle && std::abs(depth - nearest) < 1e-3L) doubtful = true;
+    if (pixel.triangle && !(depth < nearest)) continue;
+    pixel.triangle = i;
+    nearest = depth;
+  }
+  if (pixel.triangle) pixel.colour = radiance(*pixel.triangle, surface(*pixel.triangle, x, y), &doubtful);
+  const Real channel[3] = {pixel.colour.x, pixel.colour.y, pixel.colour.z};
+  for (int i = 0; i < 3; ++i) {
+    const Real steps =
+        255 * std::clamp(channel[i], Real(0), Real(1)) + (has(Fault::truncated_to_byte) ? 0 : 0.5L);
+    pixel.byte[i] = static_cast<std::uint8_t>(std::floor(steps));
+    pixel.doubtful[i] = doubtful || std::abs(steps - std::round(steps)) < c_doubt;
+  }
+  return pixel;
+}
+
+}  // namespace halfway::oracle

@@ -1,0 +1,423 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reference renderer, illumination model, setup and golden model against the oracle. Three comparisons:
+//   picture    each byte of the reference picture, and its mask. Equal, but where the oracle's real number
+//   lies within
+//              1e-9 of the edge between two bytes (or of a horizon, a shadow's edge): there double may round
+//              otherwise.
+//   radiance   the illumination model in double at the oracle's surface points: within 1e-9 of the oracle's.
+//   fragments  the golden model's fragments of preset exact: each triangle's pixels equal; the depth within
+//   0.5 + 0.19
+//              steps of the exact one, rounding to whole steps and what formats state for depth_sum.
+// A fault that is put into the oracle must be found by one of them.
+#include "tb/oracle/oracle.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <random>
+#include <set>
+
+#include "plan/plan.hpp"
+#include "reference/renderer.hpp"
+#include "scene/scene.hpp"
+#include "setup/project.hpp"
+#include "setup/setup.hpp"
+#include "shading/shade.hpp"
+#include "sim/run/scene_stream.hpp"
+#include "sim/scene_files/load_scene.hpp"
+
+namespace halfway {
+namespace {
+
+using oracle::copy;
+using oracle::Fault;
+using oracle::name;
+using oracle::Oracle;
+using oracle::Real;
+
+constexpr double c_radiance_tolerance = 1e-9;
+constexpr Real c_depth_tolerance = 0.5L + 0.19L;
+
+/// What a comparison came to.
+struct Findings {
+  std::uint64_t compared = 0, wrong = 0, doubtful = 0;
+  double largest = 0.0;  ///< difference
+  std::string first;     ///< that is wrong
+  void note_wrong(const std::string& what) {
+    if (wrong++ == 0) first = what;
+  }
+  Findings& operator+=(const Findings& other) {
+    if (wrong == 0) first = other.first;
+    compared += other.compared;
+    wrong += other.wrong;
+    doubtful += other.doubtful;
+    largest = std::max(largest, other.largest);
+    return *this;
+  }
+};
+
+Findings compare_picture(const Scene& scene, FrameSize size, const Oracle& oracle) {
+  const ReferenceImage reference = render_reference(scene, Projector(scene, size, {}).project_all(),
+                                                    {.frame = size, .subpixel_bits = 4, .threads = 1});
+  Findings found;
+  for (std::uint32_t y = 0; y < size.height; ++y)
+    for (std::uint32_t x = 0; x < size.width; ++x) {
+      const Oracle::Pixel pixel = oracle.pixel(static_cast<int>(x), static_cast<int>(y));
+      const std::size_t at = reference.frame.offset(x, y);
+      ++found.compared;
+      if ((reference.mask[at / 3] != 0) != pixel.triangle.has_value())
+        found.note_wrong(fmt::format("pixel {},{}: the reference {} it", x, y,
+                                     reference.mask[at / 3] != 0 ? "covers" : "does not cover"));
+      bool doubtful = false;
+      for (int c = 0; c < 3; ++c) {
+        const int difference = std::abs(int{reference.frame.rgb[at + c]} - int{pixel.byte[c]});
+        doubtful |= pixel.doubtful[c];
+        if (difference != 0 && !pixel.doubtful[c])
+          found.note_wrong(fmt::format("pixel {},{}, channel {}: reference {}, oracle {}", x, y, c,
+                                       reference.frame.rgb[at + c], pixel.byte[c]));
+      }
+      found.doubtful += doubtful;
+    }
+  return found;
+}
+
+glm::dvec3 in_double(const oracle::Vector& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+
+Findings compare_radiance(const Scene& scene, FrameSize size, const Oracle& oracle) {
+  Findings found;
+  for (std::uint32_t y = 0; y < size.height; ++y)
+    for (std::uint32_t x = 0; x < size.width; ++x) {
+      const auto triangle = oracle.pixel(static_cast<int>(x), static_cast<int>(y)).triangle;
+      if (!triangle) continue;
+      const auto surface = oracle.surface(*triangle, static_cast<int>(x), static_cast<int>(y));
+      bool doubtful = false;
+      const glm::dvec3 expected = in_double(oracle.radiance(*triangle, surface, &doubtful));
+      const glm::dvec3 got = radiance(scene, scene.materials[scene.triangles[*triangle].material],
+                                      in_double(surface.position), in_double(surface.normal));
+      ++found.compared;
+      found.doubtful += doubtful;
+      if (doubtful) continue;
+      for (int c = 0; c < 3; ++c) {
+        const double difference = std::abs(got[c] - expected[c]) / std::max(1.0, std::abs(expected[c]));
+        found.largest = std::max(found.largest, difference);
+        if (!(difference <= c_radiance_tolerance))
+          found.note_wrong(
+              fmt::format("pixel {},{}, channel {}: radiance {}, oracle {}", x, y, c, got[c], expected[c]));
+      }
+    }
+  return found;
+}
+
+Findings compare_fragments(const Scene& scene, FrameSize size, const Oracle& oracle, Shader shader) {
+  const auto plan = plan_scene(scene, {.shader = shader});
+  EXPECT_TRUE(plan) << plan.error().message;
+  Findings found;
+  if (!plan) return found;
+  const auto setup = make_setup(scene, size, plan->key, {});
+  SceneStream stream(*setup, plan->key, 1);
+  std::vector<Fragment> fragments;
+  for (Batch batch; stream.next(batch);)
+    fragments.insert(fragments.end(), batch.golden.begin(), batch.golden.end());
+  std::ranges::sort(fragments, {}, [](const Fragment& f) { return std::tuple(f.triangle, f.y, f.x); });
+
+  auto fragment = fragments.begin();
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+    for (std::uint32_t y = 0; y < size.height; ++y)
+      for (std::uint32_t x = 0; x < size.width; ++x) {
+        const bool covered = oracle.covers(t, static_cast<int>(x), static_cast<int>(y));
+        int drawn = 0;
+        for (; fragment != fragments.end() && fragment->triangle == t && fragment->y == y && fragment->x == x;
+             ++fragment, ++drawn) {
+          if (!covered) continue;
+          const Real exact = oracle.depth_steps(t, static_cast<int>(x), static_cast<int>(y));
+          const double difference = static_cast<double>(std::abs(Real(fragment->z) - exact));
+          found.largest = std::max(found.largest, difference);
+          if (!(difference <= c_depth_tolerance))
+            found.note_wrong(fmt::format("{}, triangle {}, pixel {},{}: depth {}, oracle {}",
+                                         to_string(shader), t, x, y, fragment->z,
+                                         static_cast<double>(exact)));
+        }
+        found.compared += covered;
+        if (drawn != (covered ? 1 : 0))
+          found.note_wrong(fmt::format("{}, triangle {}, pixel {},{}: drawn {} times, covered {}",
+                                       to_string(shader), t, x, y, drawn, covered));
+      }
+  if (fragment != fragments.end()) found.note_wrong("a fragment of a triangle that does not exist");
+  return found;
+}
+
+// Scenes.
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double within(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+  }
+  glm::dvec3 cube(double side) { return {within(-side, side), within(-side, side), within(-side, side)}; }
+  glm::dvec3 colour() { return {within(0.1, 1), within(0.1, 1), within(0.1, 1)}; }
+  glm::dvec3 direction() {
+    glm::dvec3 v = cube(1);
+    while (glm::length(v) < 0.2) v = cube(1);
+    return glm::normalize(v);
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+enum class Lights { ambient, directional, positional, spot, hard_spot, all };
+constexpr const char* c_light_names[] = {"ambient", "directional", "positional", "spot", "hard_spot", "all"};
+constexpr const char* c_brdf_names[] = {"blinn", "phong", "cook_torrance"};
+
+void add_light(Scene& scene, Random& random, Lights kind) {
+  const glm::dvec3 intensity = random.within(0.3, 0.8) * random.colour();
+  const glm::dvec3 place = random.within(0.3, 4.0) * random.direction();
+  const glm::dvec3 axis = glm::normalize(random.cube(0.5) - place);
+  const double inner = random.within(0.85, 0.97);
+  if (kind == Lights::directional) scene.directional.push_back({random.direction(), intensity});
+  if (kind == Lights::positional) scene.positional.push_back({place, intensity});
+  if (kind == Lights::spot)
+    scene.spots.push_back({place, axis, inner, inner - random.within(0.02, 0.2), intensity});
+  if (kind == Lights::hard_spot) scene.spots.push_back({place, axis, inner, inner, intensity});
+}
+
+void add_triangle(Scene& scene, const std::array<glm::dvec3, 3>& positions,
+                  const std::array<glm::dvec3, 3>& normals, std::uint32_t material) {
+  SceneTriangle triangle{.position = {}, .normal = {}, .material = material};
+  for (int i = 0; i < 3; ++i) {
+    triangle.position[i] = static_cast<std::uint32_t>(scene.positions_world.size());
+    triangle.normal[i] = static_cast<std::uint32_t>(scene.normals_world.size());
+    scene.positions_world.push_back(positions[i]);
+    scene.normals_world.push_back(normals[i]);
+  }
+  scene.triangles.push_back(triangle);
+}
+
+/// A dented octahedron, each side in four; normals somewhat off its own.
+void add_solid(Scene& scene, Random& random, glm::dvec3 centre, double radius, std::uint32_t material) {
+  const glm::dvec3 seed = random.cube(9);
+  const auto corner = [&](glm::dvec3 v) {
+    return centre + radius * (1 + 0.2 * std::sin(glm::dot(seed, v))) * glm::normalize(v);
+  };
+  const auto normal = [&](glm::dvec3 v) {
+    return glm::normalize(glm::normalize(v) +
+                          0.3 * glm::dvec3(std::sin(3 * v.y), std::cos(4 * v.z), std::sin(2 * v.x)));
+  };
+  const auto add = [&](glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+    add_triangle(scene, {corner(a), corner(b), corner(c)}, {normal(a), normal(b), normal(c)}, material);
+  };
+  for (int side = 0; side < 8; ++side) {
+    const glm::dvec3 x{side & 1 ? -1 : 1, 0, 0}, y{0, side & 2 ? -1 : 1, 0}, z{0, 0, side & 4 ? -1 : 1};
+    const bool turned = x.x * y.y * z.z < 0;
+    const glm::dvec3 a = x, b = turned ? z : y, c = turned ? y : z;
+    const glm::dvec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+    add(a, ab, ca);
+    add(ab, b, bc);
+    add(ca, bc, c);
+    add(ab, bc, ca);
+  }
+}
+
+Scene random_scene(unsigned seed, Brdf brdf, Lights lights, bool shadows) {
+  Random random(seed);
+  Scene scene;
+  scene.name = "random";
+  scene.camera = {.eye_world = random.within(4.0, 6.0) * random.direction(),
+                  .target_world = random.cube(0.3),
+                  .up_world = random.direction(),
+                  .vertical_fov_degrees = random.within(28, 50),
+                  .near = 0.7,
+                  .far = 11.0};
+  scene.ambient = random.colour();
+  scene.background = 0.3 * random.colour();
+  scene.shadows = shadows;
+  for (int i = 0; i < 2; ++i)
+    scene.materials.push_back({.name = fmt::format("m{}", i),
+                               .brdf = brdf,
+                               .colour = random.colour(),
+                               .specular_colour = random.colour(),
+                               .ambient = random.within(0.1, 0.4),
+                               .diffuse = random.within(0.2, 0.7),
+                               .specular = random.within(0.2, 0.6),
+                               .exponent = std::exp(random.within(0.0, 5.0)),
+                               .roughness = random.within(0.15, 0.6),
+                               .reflectance = random.within(0.02, 0.9)});
+  for (std::uint32_t i = 0; i < 3; ++i)
+    add_solid(scene, random, random.cube(0.9), random.within(0.4, 0.9), i % 2);
+  for (int i = 0; i < 2; ++i) {
+    if (lights == Lights::all)
+      for (const Lights kind : {Lights::directional, Lights::positional, Lights::spot})
+        add_light(scene, random, kind);
+    else
+      add_light(scene, random, lights);
+  }
+  return scene;
+}
+
+/// Triangles whose corners lie on whole and half pixels, so that edges pass through centres of pixels.
+Scene half_pixel_scene(unsigned seed, FrameSize size) {
+  Random random(seed);
+  Scene scene = random_scene(seed, Brdf::blinn, Lights::directional, false);
+  scene.triangles.clear();
+  scene.positions_world.clear();
+  scene.normals_world.clear();
+  scene.camera = {.eye_world = {0, 0, 2},
+                  .target_world = {0, 0, 0},
+                  .up_world = {0, 1, 0},
+                  .vertical_fov_degrees = 53.0,
+                  .near = 0.5,
+                  .far = 4.0};
+  const double slope = 2 * std::tan(53.0 / 360.0 * 3.14159265358979323846) / size.height;
+  const auto corner = [&] {
+    const double x = std::floor(random.within(2, 2.0 * size.width - 2)) / 2,
+                 y = std::floor(random.within(2, 2.0 * size.height - 2)) / 2;
+    const double distance = random.within(0.8, 3.5);
+    return glm::dvec3((x - 0.5 * size.width) * slope * distance, (0.5 * size.height - y) * slope * distance,
+                      2 - distance);
+  };
+  for (int i = 0; i < 40; ++i)
+    add_triangle(scene, {corner(), corner(), corner()},
+                 {random.direction(), random.direction(), random.direction()}, 0);
+  return scene;
+}
+
+struct Case {
+  std::string name;
+  std::shared_ptr<const Scene> scene;
+  FrameSize size;
+};
+
+std::vector<Case> random_cases(unsigned seeds) {
+  std::vector<Case> cases;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    for (const Brdf brdf : {Brdf::blinn, Brdf::phong, Brdf::cook_torrance})
+      for (const Lights lights : {Lights::ambient, Lights::directional, Lights::positional, Lights::spot,
+                                  Lights::hard_spot, Lights::all})
+        for (const bool shadows : {false, true}) {
+          if (shadows && lights == Lights::ambient) continue;
+          const unsigned number = static_cast<unsigned>(cases.size());
+          cases.push_back(
+              {fmt::format("{} {}{}, seed {}", c_brdf_names[static_cast<int>(brdf)],
+                           c_light_names[static_cast<int>(lights)], shadows ? " shadows" : "", seed),
+               std::make_shared<Scene>(random_scene(1000 * seed + number, brdf, lights, shadows)),
+               {31 + number % 7, 27 + number % 5}});
+        }
+    const FrameSize size{33, 29};
+    cases.push_back({fmt::format("half pixels, seed {}", seed),
+                     std::make_shared<Scene>(half_pixel_scene(seed, size)), size});
+  }
+  return cases;
+}
+
+std::vector<Case> builtin_cases() {
+  const std::filesystem::path folder = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/scenes";
+  std::vector<Case> cases;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".toml") continue;
+    auto scene = load_scene(entry.path().string(), folder);
+    EXPECT_TRUE(scene) << scene.error().message;
+    if (!scene) continue;
+    // The oracle has no rule for what the scene leaves open.
+    scene->camera.near = 1.0;
+    scene->camera.far = 100.0;
+    cases.push_back({entry.path().stem().string(), std::make_shared<Scene>(std::move(*scene)), {61, 47}});
+  }
+  return cases;
+}
+
+bool is_drawn_by(const Scene& scene, Shader shader) {
+  const auto of = [&](auto test) { return std::ranges::any_of(scene.materials, test); };
+  if (shader == Shader::quadratic) return true;
+  if (of([](const Material& m) { return m.brdf == Brdf::cook_torrance; })) return false;
+  // With shadows the processors draw a pixel's surfaces one after the other, and triangles of their own.
+  return shader == Shader::spherical ||
+         (!scene.shadows && !of([](const Material& m) { return m.brdf == Brdf::phong; }));
+}
+
+struct AllFindings {
+  Findings picture, radiance, fragments;
+  bool wrong() const { return picture.wrong + radiance.wrong + fragments.wrong != 0; }
+};
+
+void compare_all(const Case& one, AllFindings& found) {
+  const Oracle oracle(copy(*one.scene), one.size.width, one.size.height, Fault::none);
+  ASSERT_FALSE(oracle.is_clipped());
+  ASSERT_EQ(oracle.doubtful_corners(), 0U) << "take another size or seed";
+  AllFindings here;
+  here.picture = compare_picture(*one.scene, one.size, oracle);
+  // radiance() itself knows no shadows.
+  oracle::World lit = copy(*one.scene);
+  lit.shadows = false;
+  here.radiance =
+      compare_radiance(*one.scene, one.size, Oracle(lit, one.size.width, one.size.height, Fault::none));
+  for (const Shader shader : c_shaders)
+    if (is_drawn_by(*one.scene, shader))
+      here.fragments += compare_fragments(*one.scene, one.size, oracle, shader);
+  EXPECT_EQ(here.picture.wrong, 0U) << "picture: " << here.picture.first;
+  EXPECT_EQ(here.radiance.wrong, 0U) << "radiance: " << here.radiance.first;
+  EXPECT_EQ(here.fragments.wrong, 0U) << "fragments: " << here.fragments.first;
+  EXPECT_GT(here.fragments.compared, 0U);
+  found.picture += here.picture;
+  found.radiance += here.radiance;
+  found.fragments += here.fragments;
+}
+
+void compare_all(const std::vector<Case>& cases) {
+  AllFindings found;
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.name);
+    compare_all(one, found);
+  }
+  fmt::print(
+      "{} scenes: {} pixels of pictures, {} in doubt; {} radiances within {:.1e}, {} in doubt; {} fragments, "
+      "depths within "
+      "{:.4f} steps\n",
+      cases.size(), found.picture.compared, found.picture.doubtful, found.radiance.compared,
+      found.radiance.largest, found.radiance.doubtful, found.fragments.compared, found.fragments.largest);
+  EXPECT_LE(1000 * found.picture.doubtful, found.picture.compared)
+      << "the oracle doubts too much to find anything";
+  EXPECT_LE(1000 * found.radiance.doubtful, found.radiance.compared);
+}
+
+TEST(Oracle, AgreesOnRandomScenes) {
+  compare_all(random_cases(2));
+}
+
+TEST(Oracle, AgreesOnBuiltInScenes) {
+  const auto cases = builtin_cases();
+  EXPECT_GE(cases.size(), 6U);
+  compare_all(cases);
+}
+
+class OracleFault : public ::testing::TestWithParam<int> {};
+
+// The fault in the oracle stands for the same fault in both that it is compared with.
+TEST_P(OracleFault, IsFound) {
+  static const std::vector<Case> cases = random_cases(1);
+  const auto fault = static_cast<Fault>(GetParam());
+  for (const Case& one : cases) {
+    const Oracle oracle(copy(*one.scene), one.size.width, one.size.height, fault);
+    if (compare_picture(*one.scene, one.size, oracle).wrong != 0) return;
+  }
+  // What the picture does not show: depth.
+  for (const Case& one : cases) {
+    const Oracle oracle(copy(*one.scene), one.size.width, one.size.height, fault);
+    if (compare_fragments(*one.scene, one.size, oracle, Shader::quadratic).wrong != 0) return;
+  }
+  ADD_FAILURE() << name(fault) << " is not found";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OracleFault, ::testing::Range(1, static_cast<int>(Fault::end)),
+                         [](const auto& fault) {
+                           return std::string(name(static_cast<Fault>(fault.param)));
+                         });
+
+}  // namespace
+}  // namespace halfway
