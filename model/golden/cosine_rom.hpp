@@ -26,7 +26,6 @@ class CosineRom {
     entries_ = table->entries;
   }
 
-  bool empty() const { return entries_.empty(); }
   std::uint32_t sample(std::uint32_t address) const { return entries_.empty() ? 0 : entries_[address]; }
 
  private:

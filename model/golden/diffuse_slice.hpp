@@ -38,22 +38,18 @@ class DiffuseSlice {
   void span_step() { angle_.step(slope_); }
 
   Angle angle() const { return angle_.value(); }
-  Angle slope() const { return slope_; }
-  int address_bits() const { return address_bits_; }
-  const CosineRom& rom() const { return rom_; }
-  std::uint32_t factor(int channel) const { return factors_[static_cast<std::size_t>(channel)]; }
   /// The pixel is not behind the light's horizon.
   bool lit() const { return place().in_range; }
   std::uint32_t sample() const { return rom_.sample(place().address); }
-  std::uint64_t product(int channel) const { return product(channel, gated()); }
+  std::uint64_t product(int channel) const { return product(channel, gated_sample()); }
 
-  /// What the multipliers take in place of the sample: zero past the bell's ends.
-  std::uint32_t gated() const {
+  /// What the multipliers take instead of the sample: zero past the bell's ends.
+  std::uint32_t gated_sample() const {
     const AngleAddress at = place();
     return at.in_range ? rom_.sample(at.address) : 0;
   }
-  std::uint64_t product(int channel, std::uint32_t gated) const {
-    return multiply(gated, factors_[static_cast<std::size_t>(channel)]);
+  std::uint64_t product(int channel, std::uint32_t gated_sample) const {
+    return multiply(gated_sample, factors_[static_cast<std::size_t>(channel)]);
   }
 
  private:

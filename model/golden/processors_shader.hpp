@@ -40,49 +40,32 @@ class ProcessorsShader {
   /// A count of shadow volumes went wrong: what came since is worth nothing.
   bool fault() const { return pipeline_.fault(); }
 
-  /// Draws one vector: emit(Fragment) for each pixel that leaves the pipeline; watch.line where the span
-  /// stage takes a line, watch.span for each pixel of it, watch.processor for each object that leaves a
-  /// processor, as the RTL's probe. Faster where emit.room(n) gives room for n fragments; nothing is watched
-  /// then.
+  /// Processes one vector. Calls emit(fragment) for each pixel that leaves the pipeline, and what the RTL's
+  /// probe shows: watch.line(*this) when the span stage loads a line, watch.span(*this, x) at each pixel of
+  /// it, watch.processor(*this, x, number) for each object that leaves a processor.
   template <class Emit, class Watch = Unwatched>
   void draw(std::span<const std::uint32_t> vector, Emit&& emit, Watch&& watch = {}) {
     assert(vector.size() >= init_words());
     const auto request = [&](const Field& field) {
       return static_cast<std::uint32_t>(get_bits(vector, field));
     };
-    const auto command = static_cast<Command>(request(RequestAt::command));
-    switch (command) {
-      case Command::new_frame:
-        previous_.reset();
-        if (objects_) objects_->clear();
-        [[fallthrough]];
-      case Command::define:
-      case Command::redefine:
-      case Command::remove: {
-        Token load = Token::decode(config_, vector);
-        pipeline_.process(load);
-        return;
-      }
-      default:
-        break;
+    walk_ = static_cast<Command>(request(RequestAt::command));
+    if (walk_ == Command::new_frame) {
+      previous_.reset();
+      if (objects_) objects_->clear();
     }
-    walk_ = command;
+    if (is_load(walk_)) {
+      Token load = Token::decode(config_, vector);
+      pipeline_.process(load);
+      return;
+    }
     token_.light_number = request(RequestAt::light);
     token_.opens = request(RequestAt::opens) != 0;
     token_.normalize = request(RequestAt::normalize) != 0;
-    line_load(vector);
-    token_.triangle = walker_.triangle();
-    walker_.walk(
-        [&] {
-          if (walker_.line_empty()) return;
-          watch.line(*this);
-          span_load();
-          draw_span(emit, watch);
-        },
-        [&](bool carry) {
-          depth_.line_step(carry);
-          for (auto& plane : planes_) plane.line_step(carry);
-        });
+    for (line_load(vector);; line_step()) {
+      if (!walker_.line_empty()) draw_line(emit, watch);
+      if (walker_.line_last()) return;
+    }
   }
 
   const TriangleWalker<Exact>& walker() const { return walker_; }
@@ -146,6 +129,12 @@ class ProcessorsShader {
     return words;
   }
 
+  /// For the processors alone: the vector covers no pixel.
+  static bool is_load(Command command) {
+    return command == Command::new_frame || command == Command::define || command == Command::redefine ||
+           command == Command::remove;
+  }
+
   // It begins amid a word.
   std::array<std::uint32_t, words_of(Exact::c_init_header_bits)> walk_of(
       std::span<const std::uint32_t> vector) const {
@@ -181,6 +170,12 @@ class ProcessorsShader {
       if (config_.specular) token_.specular[channel] = material(layout_.specular_low(i), c_k);
     }
   }
+  void line_step() {
+    const bool carry = walker_.carry();
+    walker_.line_step();
+    depth_.line_step(carry);
+    for (auto& plane : planes_) plane.line_step(carry);
+  }
   void span_load() {
     depth_.span_load();
     for (auto& plane : planes_) plane.span_load();
@@ -197,23 +192,23 @@ class ProcessorsShader {
   }
 
   template <class Emit, class Watch>
-  void draw_span(Emit& emit, Watch& watch) {
-    const std::int64_t from = walker_.start().value(), to = walker_.stop().value();
-    const std::int64_t step = walker_.pixel_step();
+  void draw_line(Emit& emit, Watch& watch) {
+    watch.line(*this);
+    span_load();
+    token_.triangle = walker_.triangle();
     token_.y = walker_.y();
-    for (std::int64_t x = from; x != to; x += step) {
-      const auto at = SpanXWord::from_bits(static_cast<std::uint64_t>(x));
-      watch.span(*this, at);
-      token_.x = static_cast<std::uint32_t>(low_bits(at.bits(), Preset::c_pixel_x_bits));
-      token_.z = static_cast<std::uint32_t>(
-          low_bits(depth_.value().bits() >> Preset::c_depth_sum_fraction_bits, Preset::c_depth_bits));
+    const SpanXWord stop = walker_.stop(), step = walker_.pixel_step();
+    for (SpanXWord x = walker_.start(); x != stop; x += step) {
+      watch.span(*this, x);
+      token_.x = static_cast<std::uint32_t>(low_bits(x.bits(), Preset::c_pixel_x_bits));
+      token_.z = depth_.z();
       if (!objects_ || objects_->passes(walk_, token_.x, token_.z, token_.triangle)) {
         if (walk_ == Command::shadow) {
           token_.command = Command::shadow;
           pipeline_.process(token_);
         } else {
-          shade(at, watch);
-          emit_fragment(emit);
+          shade(x, watch);
+          emit(fragment());
         }
       }
       span_step();
@@ -221,19 +216,16 @@ class ProcessorsShader {
   }
 
   template <class Watch>
-  void shade(SpanXWord at, Watch& watch) {
+  void shade(SpanXWord x, Watch& watch) {
     token_.command = place_of_object();
     for (int i = 0; i < c_axes; ++i) token_.normal[static_cast<std::size_t>(i)] = plane_value(i);
     if (layout_.has_place())
       for (int i = 0; i < c_axes; ++i) token_.place[static_cast<std::size_t>(i)] = plane_value(c_axes + i);
     if (layout_.has_distance()) token_.distance = plane_value(2 * c_axes);
     token_.radiance.fill(c_half);
-    if constexpr (std::is_same_v<std::remove_cvref_t<Watch>, Unwatched>)
-      pipeline_.process(token_);
-    else
-      pipeline_.process(token_, [&](std::size_t processor, const Token&) {
-        watch.processor(*this, at, static_cast<int>(processor));
-      });
+    pipeline_.process(token_, [&](std::size_t processor, const Token&) {
+      watch.processor(*this, x, static_cast<int>(processor));
+    });
   }
 
   Command place_of_object() {
@@ -245,26 +237,21 @@ class ProcessorsShader {
     return command;
   }
 
-  template <class Emit>
-  void emit_fragment(Emit& emit) {
-    const auto colour = [&](std::size_t channel) {
-      constexpr int c_bits = Preset::c_radiance_bits + 2;
-      return static_cast<std::uint8_t>(
-          saturate<c_bits, Preset::c_radiance_fraction_bits, Preset::c_colour_bits>(
-              Word<c_bits>::from_bits(token_.radiance[config_.channels == 3 ? channel : 0])));
-    };
-    Fragment fragment{};
-    fragment.triangle = token_.triangle;
-    fragment.y = static_cast<std::uint16_t>(token_.y);
-    fragment.x = static_cast<std::uint16_t>(token_.x);
-    fragment.z = token_.z;
-    fragment.red = colour(0);
-    fragment.green = colour(1);
-    fragment.blue = colour(2);
-    if constexpr (requires { emit.room(std::size_t{}); })
-      *emit.room(1) = fragment;
-    else
-      emit(fragment);
+  Fragment fragment() const {
+    return {.triangle = token_.triangle,
+            .z = token_.z,
+            .y = static_cast<std::uint16_t>(token_.y),
+            .x = static_cast<std::uint16_t>(token_.x),
+            .red = colour(0),
+            .green = colour(1),
+            .blue = colour(2)};
+  }
+  /// With one channel, grey: all colours are that channel's.
+  std::uint8_t colour(std::size_t channel) const {
+    constexpr int c_bits = Preset::c_radiance_bits + 2;
+    return static_cast<std::uint8_t>(
+        saturate<c_bits, Preset::c_radiance_fraction_bits, Preset::c_colour_bits>(
+            Word<c_bits>::from_bits(token_.radiance[config_.channels == 3 ? channel : 0])));
   }
 
   struct Pixel {

@@ -5,11 +5,9 @@
 
 #include <array>
 #include <cassert>
-#include <vector>
 
 #include "frame/fragment.hpp"
 #include "golden/quadratic_interpolator.hpp"
-#include "golden/quadratic_side_by_side.hpp"
 #include "golden/saturate.hpp"
 #include "golden/triangle_walker.hpp"
 #include "golden/unwatched.hpp"
@@ -31,16 +29,16 @@ class QuadraticShader {
   static constexpr std::size_t group(std::span<const std::uint32_t>) { return 1; }
   static constexpr std::size_t c_probe_words = (c_probe_bits + 31) / 32;
 
-  /// Draws one init vector of c_init_words words: emit(Fragment) for each pixel; watch.line where the span
-  /// stage takes a line, watch.span for each pixel, as the RTL's probe. Faster where emit.room(n) gives room
-  /// for n fragments in place of taking them one by one; nothing is watched then.
+  /// Draws one init vector of c_init_words words. Calls emit(fragment) for each covered pixel, and what the
+  /// RTL's probe shows: watch.line(*this) when the span stage loads a line, watch.span(*this, x) at each
+  /// pixel.
   template <class Emit, class Watch = Unwatched>
   void draw(std::span<const std::uint32_t> init, Emit&& emit, Watch&& watch = {}) {
     assert(init.size() >= c_init_words);
-    if constexpr (requires { emit.room(std::size_t{}); })
-      draw_unwatched(init, emit);
-    else
-      draw_watched(init, emit, watch);
+    for (line_load(init);; line_step()) {
+      if (!walker_.line_empty()) draw_line(emit, watch);
+      if (walker_.line_last()) return;
+    }
   }
 
   const TriangleWalker<Preset>& walker() const { return walker_; }
@@ -89,78 +87,53 @@ class QuadraticShader {
   }
 
  private:
-  template <class Emit>
-  void draw_unwatched(std::span<const std::uint32_t> init, Emit& emit) {
-    walker_.line_load(init);
-    QuadraticSideBySide<Preset, Channels> interpolators;
-    interpolators.line_load(init);
-    walker_.walk(
-        [&] {
-          if (walker_.line_empty()) return;
-          const std::size_t count = walker_.pixels();
-          interpolators.draw_span(walker_.triangle(), walker_.y(),
-                                  static_cast<std::uint64_t>(walker_.start().value()),
-                                  static_cast<std::uint64_t>(walker_.pixel_step()), count, emit.room(count));
-        },
-        [&](bool carry) { interpolators.line_step(carry); });
-  }
-
-  template <class Emit, class Watch>
-  void draw_watched(std::span<const std::uint32_t> init, Emit& emit, Watch& watch) {
+  void line_load(std::span<const std::uint32_t> init) {
     walker_.line_load(init);
     depth_.line_load(init);
     for (int c = 0; c < Channels; ++c)
       channel_[c].line_load(init, Preset::c_init_header_bits + c * Preset::c_init_channel_bits);
-    walker_.walk(
-        [&] {
-          if (walker_.line_empty()) return;
-          watch.line(*this);
-          draw_span(emit, watch);
-        },
-        [&](bool carry) {
-          depth_.line_step(carry);
-          for (auto& channel : channel_) channel.line_step(carry);
-        });
+  }
+  void line_step() {
+    const bool carry = walker_.carry();
+    walker_.line_step();
+    depth_.line_step(carry);
+    for (auto& channel : channel_) channel.line_step(carry);
+  }
+  void span_load() {
+    depth_.span_load();
+    for (auto& channel : channel_) channel.span_load();
+  }
+  void span_step() {
+    depth_.span_step();
+    for (auto& channel : channel_) channel.span_step();
   }
 
   template <class Emit, class Watch>
-  void draw_span(Emit& emit, Watch& watch) {
-    depth_.span_load();
-    for (auto& channel : channel_) channel.span_load();
-    const SpanXWord stop = walker_.stop();
-    const auto step = SpanXWord::from_bits(static_cast<std::uint64_t>(walker_.pixel_step()));
-    Fragment fragment = span_fragment();
+  void draw_line(Emit& emit, Watch& watch) {
+    watch.line(*this);
+    span_load();
+    const SpanXWord stop = walker_.stop(), step = walker_.pixel_step();
     for (SpanXWord x = walker_.start(); x != stop; x += step) {
       watch.span(*this, x);
-      set_pixel(fragment, x.bits(), depth_.value(), channel_[0].value(),
-                channel_[Channels == 3 ? 1 : 0].value(), channel_[Channels == 3 ? 2 : 0].value());
-      emit(fragment);
-      depth_.span_step();
-      for (auto& channel : channel_) channel.span_step();
+      emit(fragment(x));
+      span_step();
     }
   }
 
-  Fragment span_fragment() const {
-    Fragment fragment{};
-    fragment.triangle = walker_.triangle();
-    fragment.y = static_cast<std::uint16_t>(walker_.y());
-    return fragment;
+  Fragment fragment(SpanXWord x) const {
+    return {.triangle = walker_.triangle(),
+            .z = depth_.z(),
+            .y = static_cast<std::uint16_t>(walker_.y()),
+            .x = static_cast<std::uint16_t>(low_bits(x.bits(), Preset::c_pixel_x_bits)),
+            .red = colour(0),
+            .green = colour(1),
+            .blue = colour(2)};
   }
-  using Depth = Word<Preset::c_depth_sum_bits>;
-  using Intensity = Word<Preset::c_intensity_bits>;
-  static void set_pixel(Fragment& fragment, std::uint64_t x, Depth depth, Intensity red, Intensity green,
-                        Intensity blue) {
-    fragment.x = static_cast<std::uint16_t>(low_bits(x, Preset::c_pixel_x_bits));
-    fragment.z = static_cast<std::uint32_t>(
-        low_bits(depth.bits() >> Preset::c_depth_sum_fraction_bits, Preset::c_depth_bits));
-    fragment.red = colour(red);
-    fragment.green = colour(green);
-    fragment.blue = colour(blue);
-  }
-  static std::uint8_t colour(Intensity intensity) {
+  /// With one channel, grey: all colours are that channel's.
+  std::uint8_t colour(std::size_t channel) const {
     return static_cast<std::uint8_t>(
         saturate<Preset::c_intensity_bits, Preset::c_intensity_fraction_bits, Preset::c_colour_bits>(
-            intensity));
+            channel_[Channels == 3 ? channel : 0].value()));
   }
 
   TriangleWalker<Preset> walker_;

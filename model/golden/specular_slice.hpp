@@ -50,22 +50,18 @@ class SpecularSlice {
   void span_step() { angle_.step(slope_); }
 
   Angle angle() const { return angle_.value(); }
-  Angle slope() const { return slope_; }
-  int address_bits() const { return address_bits_; }
-  const CosineRom& rom() const { return selected_; }  ///< selected
-  std::uint32_t factor(int channel) const { return factors_[static_cast<std::size_t>(channel)]; }
   /// Not past the bell's ends and, `lit`, not behind the light's horizon.
   bool in_range(bool lit) const { return lit && place().in_range; }
   std::uint32_t sample() const { return selected_.sample(place().address); }
-  std::uint64_t product(int channel, bool lit) const { return product(channel, gated(lit)); }
+  std::uint64_t product(int channel, bool lit) const { return product(channel, gated_sample(lit)); }
 
-  /// What the multipliers take in place of the sample: zero where not in_range.
-  std::uint32_t gated(bool lit) const {
+  /// What the multipliers take instead of the sample: zero where not in_range.
+  std::uint32_t gated_sample(bool lit) const {
     const AngleAddress at = place();
     return lit && at.in_range ? selected_.sample(at.address) : 0;
   }
-  std::uint64_t product(int channel, std::uint32_t gated) const {
-    return multiply(gated, factors_[static_cast<std::size_t>(channel)]);
+  std::uint64_t product(int channel, std::uint32_t gated_sample) const {
+    return multiply(gated_sample, factors_[static_cast<std::size_t>(channel)]);
   }
 
  private:

@@ -12,7 +12,6 @@
 #include "golden/saturating_sum.hpp"
 #include "golden/specular_slice.hpp"
 #include "golden/spherical_layout.hpp"
-#include "golden/spherical_side_by_side.hpp"
 #include "golden/triangle_walker.hpp"
 #include "golden/unwatched.hpp"
 #include "golden/z_interpolator.hpp"
@@ -50,27 +49,17 @@ class SphericalShader {
     return 1 + lines;
   }
 
-  /// Draws the init vectors of one group, init_words() words each: emit(Fragment) for each pixel; watch.line
-  /// where the span stage takes a line, watch.span, watch.sample and watch.product for each pixel, as the
-  /// RTL's probe. Faster where emit.room(n) gives room for n fragments, and for three more that mean
-  /// nothing, in place of taking them one by one; nothing is watched then.
+  /// Draws the init vectors of one group, init_words() words each. Calls emit(fragment) for each covered
+  /// pixel, and what the RTL's probe shows: watch.line(*this) when the span stage loads a line, watch.span,
+  /// watch.sample and watch.product(*this, x) at each pixel.
   template <class Emit, class Watch = Unwatched>
   void draw(std::span<const std::uint32_t> vectors, Emit&& emit, Watch&& watch = {}) {
     assert(vectors.size() >= init_words() && vectors.size() >= group(vectors) * init_words());
-    walker_.line_load(vectors);
-    depth_.line_load(vectors);
-    for (int c = 0; c < config_.channels; ++c)
-      ambient_[static_cast<std::size_t>(c)] = static_cast<std::uint32_t>(
-          get_bits(vectors, Preset::ambient_channel_at::ambient, layout_.ambient_low(c)));
-    walker_.walk(
-        [&] {
-          if (layout_.record_bits() != 0) vectors = vectors.subspan(init_words());
-          if (walker_.line_empty()) return;
-          watch.line(*this);
-          span_load(vectors);
-          draw_span(emit, watch);
-        },
-        [&](bool carry) { depth_.line_step(carry); });
+    for (line_load(vectors);; line_step()) {
+      if (layout_.record_bits() != 0) vectors = vectors.subspan(init_words());
+      if (!walker_.line_empty()) draw_line(vectors, emit, watch);
+      if (walker_.line_last()) return;
+    }
   }
 
   const TriangleWalker<Preset>& walker() const { return walker_; }
@@ -156,15 +145,18 @@ class SphericalShader {
     }
   }
 
-  struct Light {
-    const DiffuseSlice<Preset>& diffuse;
-    const SpecularSlice<Preset>& specular;
-  };
-  Light light_at(std::size_t light) const {
-    return {diffuse_.empty() ? no_diffuse_ : diffuse_[light],
-            specular_.empty() ? no_specular_ : specular_[light]};
+  void line_load(std::span<const std::uint32_t> header) {
+    walker_.line_load(header);
+    depth_.line_load(header);
+    for (int c = 0; c < config_.channels; ++c)
+      ambient_[static_cast<std::size_t>(c)] = static_cast<std::uint32_t>(
+          get_bits(header, Preset::ambient_channel_at::ambient, layout_.ambient_low(c)));
   }
-
+  void line_step() {
+    const bool carry = walker_.carry();
+    walker_.line_step();
+    depth_.line_step(carry);
+  }
   void span_load(std::span<const std::uint32_t> record) {
     depth_.span_load();
     for (int l = 0; l < config_.lights; ++l) {
@@ -173,122 +165,57 @@ class SphericalShader {
       if (!specular_.empty()) specular_[light].span_load(record, layout_.specular_low(l));
     }
   }
+  void span_step() {
+    depth_.span_step();
+    for (auto& slice : diffuse_) slice.span_step();
+    for (auto& slice : specular_) slice.span_step();
+  }
 
   template <class Emit, class Watch>
-  void draw_span(Emit& emit, Watch& watch) {
-    Fragment fragment{};
-    fragment.triangle = walker_.triangle();
-    fragment.y = static_cast<std::uint16_t>(walker_.y());
-    if constexpr (requires { emit.room(std::size_t{}); }) {
-      const std::int64_t from = walker_.start().value();
-      const std::size_t count = walker_.pixels();
-      Fragment* out = emit.room(count);
-      if (config_.channels == 1)
-        draw_run<1, false>(fragment, from, count, out);
-      else if (config_.highlight_channels == 1)
-        draw_run<3, false>(fragment, from, count, out);
-      else
-        draw_run<3, true>(fragment, from, count, out);
-    } else {
-      const SpanXWord stop = walker_.stop();
-      const auto step = SpanXWord::from_bits(static_cast<std::uint64_t>(walker_.pixel_step()));
-      for (SpanXWord x = walker_.start(); x != stop; x += step) {
-        watch.span(*this, x);
-        watch.sample(*this, x);
-        watch.product(*this, x);
-        if (config_.channels == 1)
-          set_pixel<1>(fragment, x.bits(), depth_, pixel_sums<1>().data());
-        else
-          set_pixel<3>(fragment, x.bits(), depth_, pixel_sums<3>().data());
-        emit(fragment);
-        depth_.span_step();
-        for (auto& slice : diffuse_) slice.span_step();
-        for (auto& slice : specular_) slice.span_step();
-      }
+  void draw_line(std::span<const std::uint32_t> record, Emit& emit, Watch& watch) {
+    watch.line(*this);
+    span_load(record);
+    const SpanXWord stop = walker_.stop(), step = walker_.pixel_step();
+    for (SpanXWord x = walker_.start(); x != stop; x += step) {
+      watch.span(*this, x);
+      watch.sample(*this, x);
+      watch.product(*this, x);
+      emit(fragment(x));
+      span_step();
     }
   }
 
-  // The last block of four is drawn whole: emit.room() has room for that.
-  template <int Channels, bool Coloured>
-  void draw_run(const Fragment& line, std::int64_t from, std::size_t count, Fragment* out) {
-    FourSums start{};
-    const auto ambient = ambient_sums<Channels>();
-    for (std::size_t c = 0; c < Channels; ++c) start.channel[c] = FourWords{} + ambient[c].sum();
-    FourSteps<Preset::c_depth_sum_bits> depth(depth_.value(), depth_.dx());
-    const auto step = static_cast<std::uint64_t>(walker_.pixel_step());
-    auto x = static_cast<std::uint64_t>(from);
-    const auto put = [&](const FourWords* sums) {
-      put_pixels<Preset, Channels>(line, x, step, depth.aligned(), sums, config_.data_bits, out);
-      out += 4;
-      x += 4 * step;
-      depth.step();
-    };
-    if (config_.lights == 1) {
-      const Light light = light_at(0);
-      FourLit<Preset> lit(light.diffuse, light.specular);
-      for (std::size_t i = 0; i < count; i += 4, lit.step()) {
-        FourSums sums = start;
-        lit.template add_to<Channels, Coloured>(sums.channel);
-        put(sums.channel);
-      }
-      return;
-    }
-    // One light after the other over the whole span.
-    sums_.assign((count + 3) / 4, start);
-    for (std::size_t l = 0; l < static_cast<std::size_t>(config_.lights); ++l) {
-      const Light light = light_at(l);
-      FourLit<Preset> lit(light.diffuse, light.specular);
-      for (FourSums& sums : sums_) {
-        lit.template add_to<Channels, Coloured>(sums.channel);
-        lit.step();
-      }
-    }
-    for (const FourSums& sums : sums_) put(sums.channel);
-  }
-
-  /// What the adders have before any light.
-  template <int Channels>
-  std::array<SaturatingSum, Channels> ambient_sums() const {
-    std::array<SaturatingSum, Channels> sums;
-    for (std::size_t c = 0; c < Channels; ++c) sums[c].add(std::uint64_t{ambient_[c]} << config_.data_bits);
-    return sums;
-  }
-  template <int Channels>
-  std::array<SaturatingSum, Channels> pixel_sums() const {
-    auto sums = ambient_sums<Channels>();
-    for (std::size_t l = 0; l < static_cast<std::size_t>(config_.lights); ++l) {
-      const Light light = light_at(l);
-      if (config_.highlight_channels == Channels)
-        add_light<Channels, true>(light.diffuse, light.specular, sums.data());
-      else
-        add_light<Channels, false>(light.diffuse, light.specular, sums.data());
-    }
-    return sums;
-  }
-  // A slice that is not there has no table, and so no sample; its horizon is nowhere.
-  template <int Channels, bool Coloured>
-  static void add_light(const DiffuseSlice<Preset>& diffuse, const SpecularSlice<Preset>& specular,
-                        SaturatingSum* sums) {
-    const std::uint32_t cosine = diffuse.gated(), highlight = specular.gated(diffuse.lit());
-    for (int c = 0; c < Channels; ++c) {
-      sums[c].add(diffuse.product(c, cosine));
-      sums[c].add(specular.product(Coloured ? c : 0, highlight));
-    }
-  }
-
-  template <int Channels>
-  void set_pixel(Fragment& fragment, std::uint64_t x, const ZInterpolator<Preset>& depth,
-                 const SaturatingSum* sums) const {
-    const auto colour = [&](int channel) {
-      return static_cast<std::uint8_t>(sums[Channels == 3 ? channel : 0].result(
+  Fragment fragment(SpanXWord x) const {
+    const auto sums = channel_sums();
+    // With one channel, grey: all colours are that channel's.
+    const auto colour = [&](std::size_t channel) {
+      return static_cast<std::uint8_t>(sums[config_.channels == 3 ? channel : 0].result(
           Preset::c_factor_fraction_bits + config_.data_bits, Preset::c_colour_bits));
     };
-    fragment.x = static_cast<std::uint16_t>(low_bits(x, Preset::c_pixel_x_bits));
-    fragment.z = static_cast<std::uint32_t>(
-        low_bits(depth.value().bits() >> Preset::c_depth_sum_fraction_bits, Preset::c_depth_bits));
-    fragment.red = colour(0);
-    fragment.green = colour(1);
-    fragment.blue = colour(2);
+    return {.triangle = walker_.triangle(),
+            .z = depth_.z(),
+            .y = static_cast<std::uint16_t>(walker_.y()),
+            .x = static_cast<std::uint16_t>(low_bits(x.bits(), Preset::c_pixel_x_bits)),
+            .red = colour(0),
+            .green = colour(1),
+            .blue = colour(2)};
+  }
+
+  /// Ambient light and every slice's product, a sum per channel.
+  std::array<SaturatingSum, 3> channel_sums() const {
+    std::array<SaturatingSum, 3> sums;
+    for (int c = 0; c < config_.channels; ++c) sums[c].add(std::uint64_t{ambient_[c]} << config_.data_bits);
+    for (const auto& slice : diffuse_) {
+      const std::uint32_t sample = slice.gated_sample();
+      for (int c = 0; c < config_.channels; ++c) sums[c].add(slice.product(c, sample));
+    }
+    for (std::size_t light = 0; light < specular_.size(); ++light) {
+      const auto& slice = specular_[light];
+      const std::uint32_t sample = slice.gated_sample(lit(light));
+      for (int c = 0; c < config_.channels; ++c)
+        sums[c].add(slice.product(config_.highlight_channels == 1 ? 0 : c, sample));
+    }
+    return sums;
   }
 
   SphericalConfig config_;
@@ -298,9 +225,6 @@ class SphericalShader {
   std::array<std::uint32_t, 3> ambient_{};
   std::vector<DiffuseSlice<Preset>> diffuse_;    // one a light, or none
   std::vector<SpecularSlice<Preset>> specular_;  // one a light, or none
-  const DiffuseSlice<Preset> no_diffuse_{};
-  const SpecularSlice<Preset> no_specular_{};
-  std::vector<FourSums> sums_;  // of a span's pixels
 };
 
 }  // namespace halfway::golden

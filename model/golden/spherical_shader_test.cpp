@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spherical shader's colours against illumination in double precision; its ways of drawing against each
-// other; angles about the bell's ends; sums that would wrap.
+// The spherical shader's colours against illumination in double precision; angles about the bell's ends; sums
+// that would wrap.
 #include "golden/spherical_shader.hpp"
 
 #include <gtest/gtest.h>
@@ -61,24 +61,10 @@ class Drawing {
     return static_cast<double>(word) / scale;
   }
 
-  std::vector<Fragment> draw_one_by_one() {
+  std::vector<Fragment> draw() {
     std::vector<Fragment> fragments;
     shader.draw(vectors, [&](const Fragment& f) { fragments.push_back(f); });
     return fragments;
-  }
-  std::vector<Fragment> draw_spans() {
-    struct Room {
-      std::vector<Fragment> fragments;
-      std::size_t count = 0;
-      Fragment* room(std::size_t more) {
-        count += more;
-        fragments.resize(count + 3);  // which may be written too
-        return fragments.data() + count - more;
-      }
-    } room;
-    shader.draw(vectors, room);
-    room.fragments.resize(room.count);
-    return room.fragments;
   }
 
   SphericalLayout<Preset> layout;
@@ -175,7 +161,7 @@ void expect_illumination(const SphericalConfig& config, unsigned seed) {
       }
     }
   }
-  const auto fragments = d.draw_one_by_one();
+  const auto fragments = d.draw();
   ASSERT_EQ(fragments.size(), static_cast<std::size_t>(c_lines * c_width));
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     const Fragment& f = fragments[i];
@@ -193,7 +179,6 @@ void expect_illumination(const SphericalConfig& config, unsigned seed) {
       EXPECT_LE(colours[c], high) << "pixel " << i << " channel " << c << " of sum " << e.sum;
     }
   }
-  EXPECT_EQ(d.draw_spans(), fragments);
 }
 
 TEST(SphericalShader, IlluminatesAsTheFormulasSay) {
@@ -224,7 +209,7 @@ TEST(SphericalShader, EndsAHighlightAtTheHorizon) {
     set_bits(d.record(line), Exact::specular_channel_at::factor, 100 << Exact::c_factor_fraction_bits,
              d.layout.specular_low(0) + Exact::c_specular_header_bits);
   }
-  const auto fragments = d.draw_one_by_one();
+  const auto fragments = d.draw();
   ASSERT_EQ(fragments.size(), 2U);
   EXPECT_EQ(fragments[0].red, 99);  // 100 times 255 / 256, the fraction dropped
   EXPECT_EQ(fragments[1].red, 0);
@@ -239,7 +224,7 @@ TEST(SphericalShader, PowerWithoutATableIsDark) {
     set_bits(d.record(0), Exact::specular_header_at::power, power, d.layout.specular_low(0));
     set_bits(d.record(0), Exact::specular_channel_at::factor, 100 << Exact::c_factor_fraction_bits,
              d.layout.specular_low(0) + Exact::c_specular_header_bits);
-    EXPECT_EQ(d.draw_one_by_one().at(0).red, bright ? 99 : 0) << powers << ' ' << power;
+    EXPECT_EQ(d.draw().at(0).red, bright ? 99 : 0) << powers << ' ' << power;
   }
 }
 
@@ -256,7 +241,7 @@ TEST(SphericalShader, GroupHoldsARecordForEveryLine) {
     Drawing<Exact> without(config, 3, 4, false);
     EXPECT_EQ(without.layout.record_bits(), 0);
     EXPECT_EQ(without.shader.group(without.vectors), 1U);
-    EXPECT_EQ(without.draw_one_by_one().size(), 12U);
+    EXPECT_EQ(without.draw().size(), 12U);
   }
 }
 

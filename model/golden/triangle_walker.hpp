@@ -64,23 +64,17 @@ class TriangleWalker {
     return static_cast<std::size_t>(backward_ ? from - to : to - from);
   }
   /// From a pixel of a span to the next one: 1 or -1.
-  std::int64_t pixel_step() const { return backward_ ? -1 : 1; }
-
-  /// The lines from the loaded one to the triangle's last: line() at each, line_step(carry) of whatever walks
-  /// along from each to the next.
-  template <class Line, class Step>
-  void walk(Line&& line, Step&& step) {
-    for (;;) {
-      line();
-      if (line_last()) return;
-      const bool carries = carry();
-      line_step();
-      step(carries);
-    }
+  SpanXWord pixel_step() const {
+    return SpanXWord::from_bits(backward_ ? ~std::uint64_t{0} : std::uint64_t{1});
   }
+
+  /// Calls line() at each line from the loaded one to the triangle's last.
   template <class Line>
   void walk(Line&& line) {
-    walk(line, [](bool) {});
+    for (;; line_step()) {
+      line();
+      if (line_last()) return;
+    }
   }
 
   void line_step() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a golden shader's watcher may be told; this one sees no register, for speed.
+// The callbacks of a golden shader that show its registers; this one ignores them all.
 #pragma once
 
 #include "golden/edge_walker.hpp"

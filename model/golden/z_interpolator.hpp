@@ -22,6 +22,12 @@ class ZInterpolator : public PlaneInterpolator<Preset::c_depth_sum_bits> {
     else
       Plane::line_load(word(At::z), word(At::z_dx), word(At::z_de0), word(At::z_de0));
   }
+
+  /// Depth of the pixel: whole bits of the sum.
+  std::uint32_t z() const {
+    return static_cast<std::uint32_t>(
+        low_bits(Plane::value().bits() >> Preset::c_depth_sum_fraction_bits, Preset::c_depth_bits));
+  }
 };
 
 }  // namespace halfway::golden

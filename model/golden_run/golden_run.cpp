@@ -5,42 +5,12 @@
 #include <memory>
 #include <utility>
 
-#include "common/for_processors.hpp"
 #include "golden/processors_shader.hpp"
 #include "golden/quadratic_shader.hpp"
 #include "golden/spherical_shader.hpp"
 
 namespace halfway {
 namespace {
-
-// Fragments one after the other; a vector would write zeros first.
-class Room {
- public:
-  Fragment* room(std::size_t count) {
-    if (capacity_ - size_ < count + c_surplus) grow(count);
-    Fragment* begin = data_.get() + size_;
-    size_ += count;
-    return begin;
-  }
-  void clear() { size_ = 0; }
-  std::span<const Fragment> fragments() const { return {data_.get(), size_}; }
-
- private:
-  static constexpr std::size_t c_surplus = 3;  // which a shader may write past what it asked for
-
-  [[gnu::noinline]] void grow(std::size_t count) {
-    capacity_ = 2 * (size_ + count) + 4096;
-    auto larger = std::make_unique_for_overwrite<Fragment[]>(capacity_);
-    std::copy_n(data_.get(), size_, larger.get());
-    data_ = std::move(larger);
-  }
-
-  std::unique_ptr<Fragment[]> data_;
-  std::size_t size_ = 0, capacity_ = 0;
-};
-
-// A block of fragments to stay in the processor's nearer caches.
-constexpr std::size_t c_block = 8192;
 
 // Takes the next triangle's vectors off the front; none where there is no more, or one that is cut short,
 // which draws nothing.
@@ -53,19 +23,6 @@ std::span<const std::uint32_t> take_triangle(const Shader& shader,
   const auto triangle = init_words.first(whole ? words : 0);
   init_words = whole && words != 0 ? init_words.subspan(words) : std::span<const std::uint32_t>();
   return triangle;
-}
-
-// Draws triangles until the room holds `most` fragments or there are no more; what is left.
-template <class Shader>
-HALFWAY_FOR_PROCESSORS std::span<const std::uint32_t> draw_into(Room& room, Shader& shader,
-                                                                std::span<const std::uint32_t> init_words,
-                                                                std::size_t most) {
-  while (room.fragments().size() < most) {
-    const auto triangle = take_triangle(shader, init_words);
-    if (triangle.empty()) break;
-    shader.draw(triangle, room);
-  }
-  return init_words;
 }
 
 struct Watch {
@@ -109,9 +66,9 @@ class Model final : public GoldenModel {
     auto walker = shader_.walker_of(init_words);
     walker.walk([&] {
       if (touched || walker.line_empty() || walker.y() < top || walker.y() >= bottom) return;
-      const std::int64_t from = walker.start().value(),
-                         to = from + walker.pixel_step() * (length(walker) - 1);
-      touched = std::min(from, to) < right && std::max(from, to) >= left;
+      const std::int64_t first = walker.start().value(),
+                         last = walker.stop().value() - walker.pixel_step().value();
+      touched = std::min(first, last) < right && std::max(first, last) >= left;
     });
     return touched;
   }
@@ -124,23 +81,11 @@ class Model final : public GoldenModel {
     return count;
   }
   void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) override {
-    while (!init_words.empty()) {
-      room_.clear();
-      init_words = draw_into(room_, shader_, init_words, c_block);
-      fragments.insert(fragments.end(), room_.fragments().begin(), room_.fragments().end());
-    }
-  }
-  std::span<const Fragment> draw(std::span<const std::uint32_t> init_words) override {
-    room_.clear();
-    draw_into(room_, shader_, init_words, SIZE_MAX);
-    return room_.fragments();
+    draw(init_words, fragments, golden::Unwatched());
   }
   void draw_probed(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,
                    std::vector<ProbeEvent>& events) override {
-    for (auto triangle = take_triangle(shader_, init_words); !triangle.empty();
-         triangle = take_triangle(shader_, init_words))
-      shader_.draw(
-          triangle, [&](const Fragment& f) { fragments.push_back(f); }, Watch{events, fragments});
+    draw(init_words, fragments, Watch{events, fragments});
   }
   bool fault() const override {
     if constexpr (requires { shader_.fault(); })
@@ -152,10 +97,17 @@ class Model final : public GoldenModel {
   unsigned probe_bits() const override { return static_cast<unsigned>(shader_.probe_bits()); }
 
  private:
-  static std::int64_t length(const auto& walker) { return static_cast<std::int64_t>(walker.pixels()); }
+  // Inline the shader, so that the fields of a fragment go straight to the vector.
+  template <class Watch>
+  [[gnu::flatten]] void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,
+                             Watch watch) {
+    const auto emit = [&](const Fragment& fragment) { fragments.push_back(fragment); };
+    for (auto triangle = take_triangle(shader_, init_words); !triangle.empty();
+         triangle = take_triangle(shader_, init_words))
+      shader_.draw(triangle, emit, watch);
+  }
 
   Shader shader_;
-  Room room_;
 };
 
 }  // namespace

@@ -39,8 +39,12 @@ class GoldenModel {
   virtual std::uint64_t pixels(std::span<const std::uint32_t> init_words) const = 0;
   /// Appends the fragments of whole triangles' vectors.
   virtual void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) = 0;
-  /// The same fragments in the model's own room, until it draws again.
-  virtual std::span<const Fragment> draw(std::span<const std::uint32_t> init_words) = 0;
+  /// The same fragments in a vector of the model, valid until the next call.
+  std::span<const Fragment> draw(std::span<const std::uint32_t> init_words) {
+    drawn_.clear();
+    draw(init_words, drawn_);
+    return drawn_;
+  }
   /// The same, and the stages' registers.
   virtual void draw_probed(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,
                            std::vector<ProbeEvent>& events) = 0;
@@ -48,6 +52,9 @@ class GoldenModel {
   virtual bool fault() const = 0;
   virtual unsigned init_bits() const = 0;
   virtual unsigned probe_bits() const = 0;
+
+ private:
+  std::vector<Fragment> drawn_;
 };
 
 std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The golden model's fast way, vectors of words on whatever processor this is, against the watched one, which
-// steps each register by itself.
+// The golden model draws the same fragments with and without a probe.
 #include "golden_run/golden_run.hpp"
 
 #include <gtest/gtest.h>
@@ -16,9 +15,10 @@ namespace {
 template <class Preset>
 using HeaderAt = typename Preset::init_header_at;
 
-// Whatever an init vector holds, with few lines: the registers wrap, spans run either way and past the frame.
+// Init vectors of random bits, with few lines: registers wrap, spans run in both directions and past the
+// frame.
 template <class Preset>
-void expect_both_ways_alike(const HardwareKey& key, bool headers_alone) {
+void expect_probe_changes_nothing(const HardwareKey& key, bool headers_alone) {
   SCOPED_TRACE(key.name());
   const auto golden = make_golden_model(key);
   const std::size_t words = (golden->init_bits() + 31) / 32;
@@ -38,24 +38,24 @@ void expect_both_ways_alike(const HardwareKey& key, bool headers_alone) {
     for (std::size_t word = 0; word < lines * words; ++word)
       vectors.push_back(static_cast<std::uint32_t>(random()));
   }
-  std::vector<Fragment> watched, appended(3);
+  std::vector<Fragment> probed, appended(3);
   std::vector<ProbeEvent> events;
-  golden->draw_probed(vectors, watched, events);
+  golden->draw_probed(vectors, probed, events);
   golden->draw(vectors, appended);
   const std::span<const Fragment> drawn = golden->draw(vectors);
-  ASSERT_GT(watched.size(), 1000U);
-  EXPECT_TRUE(std::equal(drawn.begin(), drawn.end(), watched.begin(), watched.end()));
-  EXPECT_TRUE(std::equal(appended.begin() + 3, appended.end(), watched.begin(), watched.end()));
+  ASSERT_GT(probed.size(), 1000U);
+  EXPECT_TRUE(std::equal(drawn.begin(), drawn.end(), probed.begin(), probed.end()));
+  EXPECT_TRUE(std::equal(appended.begin() + 3, appended.end(), probed.begin(), probed.end()));
 }
 
-TEST(GoldenRun, DrawsTheSameWatchedAndUnwatched) {
+TEST(GoldenRun, DrawsTheSameWithAndWithoutProbe) {
   HardwareKey key;
   for (const unsigned channels : {1U, 3U}) {
     key.channels = channels;
     key.preset = Preset::exact;
-    expect_both_ways_alike<golden::Exact>(key, true);
+    expect_probe_changes_nothing<golden::Exact>(key, true);
     key.preset = Preset::published;
-    expect_both_ways_alike<golden::Published>(key, true);
+    expect_probe_changes_nothing<golden::Published>(key, true);
   }
   key.shader = Shader::spherical;
   for (const unsigned lights : {0U, 1U, 3U})
@@ -64,11 +64,11 @@ TEST(GoldenRun, DrawsTheSameWatchedAndUnwatched) {
         for (const unsigned highlights : {1U, key.channels}) {
           key.spherical = {lights, diffuse, specular, highlights, 0x16, {9, 8}};
           key.preset = Preset::exact;
-          expect_both_ways_alike<golden::Exact>(key, !key.spherical.records());
+          expect_probe_changes_nothing<golden::Exact>(key, !key.spherical.records());
           key.spherical.powers = 2;
           key.spherical.tables = {6, 6};
           key.preset = Preset::published;
-          expect_both_ways_alike<golden::Published>(key, !key.spherical.records());
+          expect_probe_changes_nothing<golden::Published>(key, !key.spherical.records());
         }
 }
 
