@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/bench/yardstick.hpp"
 
-#include "common/for_processors.hpp"
+// A function compiled for several processors; the one it runs on selects the copy.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define HALFWAY_FOR_PROCESSORS \
+  __attribute__((flatten, target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define HALFWAY_FOR_PROCESSORS
+#endif
 
 namespace halfway {
 

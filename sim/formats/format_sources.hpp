@@ -16,7 +16,7 @@ namespace halfway {
 /// these call besides is the program's own.
 std::vector<std::string> format_sources(Shader shader);
 
-/// Of a checkout's: the sources of all shaders, what they include of them, and every header under model/.
+/// Of a checkout's: the sources of all shaders, and every header under model/.
 Result<std::string> format_sources_hash(const std::filesystem::path& source);
 
 /// The same of the checkout that this program was built from, as it was then. Written by the build.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way into setup and golden model of one shader and preset, compiled with other formats:
-// sim/formats/made_formats.hpp. HALFWAY_SHADER is the shader's number, HALFWAY_PRESET its formats' name.
-#define HALFWAY_MODELS_ALONE 1
-#include "golden_run/golden_run.cpp"
+// The entry points of a shared library with setup and golden model of one shader and preset, compiled with
+// other word lengths: sim/formats/README.md. HALFWAY_SHADER is the shader's number, HALFWAY_PRESET its
+// formats' name.
+#include "golden_run/shader_model.hpp"
 #include "setup/processors_setup.hpp"
 #include "setup/quadratic_setup.hpp"
 #include "setup/spherical_setup.hpp"
@@ -30,18 +30,6 @@ std::unique_ptr<Setup> setup_of(const Scene& scene, FrameSize frame, const Hardw
     return std::make_unique<QuadraticSetup>(scene, frame, key, options.quadratic);
 }
 
-template <Shader S>
-std::unique_ptr<GoldenModel> model_of(const HardwareKey& key) {
-  if constexpr (S == Shader::spherical)
-    return std::make_unique<Model<golden::SphericalShader<Formats>>>(golden_config(key));
-  else if constexpr (S == Shader::processors)
-    return std::make_unique<Model<golden::ProcessorsShader<Formats>>>(processors_config(key));
-  else if (key.channels == 1)
-    return std::make_unique<Model<golden::QuadraticShader<Formats, 1>>>();
-  else
-    return std::make_unique<Model<golden::QuadraticShader<Formats, 3>>>();
-}
-
 }  // namespace
 }  // namespace halfway
 
@@ -58,6 +46,6 @@ extern "C" {
 [[gnu::visibility("default")]] halfway::GoldenModel* halfway_make_golden_model(
     const halfway::HardwareKey& key) {
   using namespace halfway;
-  return model_of<c_shader>(built_in(key)).release();
+  return make_shader_model<Formats, c_shader>(built_in(key)).release();
 }
 }

@@ -31,7 +31,7 @@ TEST(MadeFormats, AProgramOlderThanTheCheckoutIsRefused) {
   HardwareKey key;
   key.words.fraction_bits = 4;
   for (const char* name : {"model/golden/edge_walker.hpp", "model/setup/quadratic_setup.cpp",
-                           "model/golden_run/golden_run.cpp", "sim/formats/harness.cpp"}) {
+                           "model/golden_run/shader_model.hpp", "sim/formats/harness.cpp"}) {
     const auto text = read_file(copy / name);
     ASSERT_TRUE(text) << text.error().message;
     ASSERT_TRUE(write_file(copy / name, *text + "\n"));
