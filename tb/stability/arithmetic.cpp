@@ -15,9 +15,8 @@
 #include "golden/saturating_sum.hpp"
 #include "golden/unit_vector.hpp"
 #include "golden/word.hpp"
-#include "setup/project.hpp"
 #include "stability/hard_case.hpp"
-#include "stability/shading_bound.hpp"
+#include "stability/measure.hpp"
 #include "stability/trial.hpp"
 
 namespace halfway::stability {
@@ -25,33 +24,26 @@ namespace {
 
 using golden::Axes, golden::Exact;
 
-constexpr ProcessorForm c_forms[] = {ProcessorForm::folded, ProcessorForm::unrolled};
-
 long double real(std::int64_t value, int fraction_bits) {
   return std::ldexp(static_cast<long double>(value), -fraction_bits);
 }
 
-template <class Preset>
-void figure(Trial& trial, long double value, long double bound, const std::function<std::string()>& where) {
-  if constexpr (std::is_same_v<Preset, Exact>)
-    trial.ours(static_cast<double>(value), static_cast<double>(bound), where);
-  else
-    trial.published(static_cast<double>(value), static_cast<double>(bound), where);
-}
+template <class P>
+constexpr Preset c_preset = std::is_same_v<P, Exact> ? Preset::exact : Preset::published;
 
 // 1/sqrt(x) by a table alone, and by a table and a Newton step; the bound is reciprocal_root.vhd's.
-template <class Preset>
+template <class P>
 void roots_of(Trial& trial) {
-  using Root = golden::ReciprocalRoot<Preset>;
-  constexpr int c_fraction = Preset::c_square_fraction_bits;
+  using Root = golden::ReciprocalRoot<P>;
+  constexpr int c_fraction = P::c_square_fraction_bits;
   constexpr std::int64_t c_one = std::int64_t{1} << c_fraction;
-  const int bits = golden::function_table<Preset>(golden::Function::reciprocal_root).address_bits - 1;
+  const int bits = golden::function_table<P>(golden::Function::reciprocal_root).address_bits - 1;
   const auto try_at = [&](std::int64_t x) {
     if (x < c_one / 4 || x >= 4 * c_one) return;
     const long double exact = 1.0L / std::sqrt(real(x, c_fraction)),
                       root = real(Root::reciprocal(static_cast<std::uint32_t>(x)), Root::c_fraction_bits);
-    figure<Preset>(trial, std::abs(root / exact - 1.0L), 0x1p-19L,
-                   [&] { return fmt::format("1/sqrt({})", static_cast<double>(real(x, c_fraction))); });
+    trial.measure(c_preset<P>, std::abs(root / exact - 1.0L), 0x1p-19L,
+                  [&] { return fmt::format("1/sqrt({})", static_cast<double>(real(x, c_fraction))); });
   };
   // Borders of the cells, from 1/4 to 4, in each octave.
   for (int octave = -2; octave < 2; ++octave)
@@ -74,45 +66,39 @@ struct Pixel {
 };
 
 // Each a pixel of its own, with a light from the eye: what the hardware makes of the words.
-template <class Preset>
+template <class P>
 std::vector<Fragment> draw_pixels(Trial& trial, const Scene& scene, ProcessorForm form,
                                   const std::vector<Pixel>& pixels,
                                   std::optional<Axes> to_light = std::nullopt) {
-  using Request = typename Preset::request_header_at;
-  using Plane = typename Preset::plane_header_at;
+  using Request = typename P::request_header_at;
+  using Plane = typename P::plane_header_at;
   constexpr FrameSize c_frame{1, 1};
-  const auto plan = plan_scene(
-      scene, {.shader = Shader::processors,
-              .preset = std::is_same_v<Preset, Exact> ? halfway::Preset::exact : halfway::Preset::published,
-              .form = form});
+  const auto plan = plan_scene(scene, {.shader = Shader::processors, .preset = c_preset<P>, .form = form});
   if (!plan) return {};
   const auto setup = make_setup(scene, c_frame, plan->key, {});
   const golden::ProcessorsConfig config = processors_config(plan->key);
-  const golden::ProcessorsLayout<Preset> layout(config);
-  std::vector<std::uint32_t> words, draw;
-  SetupCounts counts;
-  setup->append_prologue(words, counts);
+  const golden::ProcessorsLayout<P> layout(config);
+  const Stream stream = stream_of(*setup);
+  std::vector<std::uint32_t> words = stream.prologue, draw = stream.units;
   // Behind new_frame and the ambient light, whatever the scene says.
-  const auto light = std::span(words).subspan(2 * ((setup->init_bits() + 31) / 32));
+  const auto light = std::span(words).subspan(2 * stream.vector_words());
   for (int axis = 0; to_light && axis < golden::c_axes; ++axis)
-    golden::set_bits(light, Preset::light_axes_channel_at::place,
+    golden::set_bits(light, P::light_axes_channel_at::place,
                      static_cast<std::uint64_t>((*to_light)[static_cast<std::size_t>(axis)]),
-                     golden::ProcessorsLayout<Preset>::light_axis_low(axis));
-  for (std::uint32_t unit = 0; draw.empty() && unit < setup->units(); ++unit)
-    setup->append(unit, draw, counts);
+                     golden::ProcessorsLayout<P>::light_axis_low(axis));
   for (const Pixel& pixel : pixels) {
     golden::set_bits(draw, Request::normalize, pixel.normalize);
     for (int axis = 0; axis < golden::c_axes; ++axis) {
       const int low = layout.plane_low(axis);
       golden::set_bits(draw, Plane::value,
                        static_cast<std::uint64_t>(pixel.normal[static_cast<std::size_t>(axis)])
-                           << (Preset::c_plane_sum_fraction_bits - Preset::c_vector_fraction_bits),
+                           << (P::c_plane_sum_fraction_bits - P::c_vector_fraction_bits),
                        low);
       for (const golden::Field* step : {&Plane::dx, &Plane::de0, &Plane::de1})
         golden::set_bits(draw, *step, 0, low);
     }
     if (config.specular)
-      golden::set_bits(draw, {"", layout.exponent_low(), Preset::c_exponent_bits, false, 0},
+      golden::set_bits(draw, {"", layout.exponent_low(), P::c_exponent_bits, false, 0},
                        static_cast<std::uint64_t>(pixel.exponent), layout.init_material_low());
     words.insert(words.end(), draw.begin(), draw.end());
   }
@@ -155,30 +141,30 @@ std::vector<Axes> hard_vectors(int random_ones) {
 }
 
 // Length and angle: the sum of both errors, which unit_vector.hpp's bounds are for.
-template <class Preset, int Bits>
+template <class P, int Bits>
 void unit_vectors_of(Trial& trial) {
   const std::vector<Axes> vectors = hard_vectors<Bits>(trial.rounds(2'000, 1'000'000));
   for (const Axes& v : vectors) {
-    const Axes unit = golden::normalized<Preset, Bits>(v);
-    const LongVec exact(v[0], v[1], v[2]), ours(real(unit[0], Preset::c_direction_fraction_bits),
-                                                real(unit[1], Preset::c_direction_fraction_bits),
-                                                real(unit[2], Preset::c_direction_fraction_bits));
+    const Axes unit = golden::normalized<P, Bits>(v);
+    const LongVec exact(v[0], v[1], v[2]),
+        ours(real(unit[0], P::c_direction_fraction_bits), real(unit[1], P::c_direction_fraction_bits),
+             real(unit[2], P::c_direction_fraction_bits));
     const long double length = glm::length(exact);
     const auto where = [&] { return fmt::format("({}, {}, {}) of {} bits", v[0], v[1], v[2], Bits); };
     const long double error = length > 0.0L ? glm::length(ours - exact / length) : glm::length(ours);
-    figure<Preset>(trial, error, 0x1.6ap-20L + 0x1.26p-21L, where);
+    trial.measure(c_preset<P>, error, 0x1.6ap-20L + 0x1.26p-21L, where);
   }
 }
 
-template <class Preset>
+template <class P>
 void draw_unit_vectors(Trial& trial) {
   const Scene scene = lit_wall(1.0, 0.0);
   std::vector<Pixel> pixels;
-  for (const Axes& v : hard_vectors<Preset::c_vector_bits>(300)) pixels.push_back({.normal = v});
+  for (const Axes& v : hard_vectors<P::c_vector_bits>(300)) pixels.push_back({.normal = v});
   for (const ProcessorForm form : c_forms) {
-    const auto fragments = draw_pixels<Preset>(trial, scene, form, pixels);
+    const auto fragments = draw_pixels<P>(trial, scene, form, pixels);
     trial.require(fragments.size() == pixels.size(), [] { return "not a fragment a pixel"; });
-    if (!std::is_same_v<Preset, Exact>) continue;
+    if (!std::is_same_v<P, Exact>) continue;
     for (std::size_t i = 0; i < fragments.size(); ++i) {
       const Axes& v = pixels[i].normal;
       const LongVec n(v[0], v[1], v[2]);
@@ -203,37 +189,38 @@ void unit_vectors(Trial& trial) {
 }
 
 // The bound is power.vhd's, in weights; exponents in their own format.
-template <class Preset>
+template <class P>
 void powers_of(Trial& trial) {
-  using P = golden::Power<Preset>;
-  std::vector<std::int64_t> bases = {0, 1, 2, 3, P::c_one / 2 - 1, P::c_one / 2, P::c_one / 2 + 1};
-  const int cells = golden::function_table<Preset>(golden::Function::logarithm).address_bits;
+  using Power = golden::Power<P>;
+  std::vector<std::int64_t> bases = {
+      0, 1, 2, 3, Power::c_one / 2 - 1, Power::c_one / 2, Power::c_one / 2 + 1};
+  const int cells = golden::function_table<P>(golden::Function::logarithm).address_bits;
   for (std::int64_t cell = 0; cell <= 1 << cells; ++cell)
     for (const std::int64_t beside : {-1, 0, 1})
       bases.push_back(std::min<std::int64_t>(
-          P::c_one / 2 + (cell << (P::c_base_fraction - 1 - cells)) + beside, P::c_one));
-  for (int i = 0; i < 40; ++i) bases.push_back(P::c_one - i);
+          Power::c_one / 2 + (cell << (Power::c_base_fraction - 1 - cells)) + beside, Power::c_one));
+  for (int i = 0; i < 40; ++i) bases.push_back(Power::c_one - i);
   const auto held = [](std::int64_t m) {
-    return std::min<std::int64_t>(m, (std::int64_t{1} << Preset::c_exponent_bits) - 1);
+    return std::min<std::int64_t>(m, (std::int64_t{1} << P::c_exponent_bits) - 1);
   };
   std::vector<std::int64_t> exponents = {0, 1};
-  const std::int64_t one = std::int64_t{1} << Preset::c_exponent_fraction_bits;
+  const std::int64_t one = std::int64_t{1} << P::c_exponent_fraction_bits;
   for (const std::int64_t m : {1, 2, 3, 5, 20, 63, 64, 65, 1000, 1023, 4096, 8191})
     for (const std::int64_t beside : {-1, 0, 1}) exponents.push_back(held(m * one + beside));
   exponents.push_back(held(std::numeric_limits<std::int32_t>::max()));
   for (const std::int64_t m : exponents)
     for (const std::int64_t base : bases) {
-      const long double exponent = real(m, Preset::c_exponent_fraction_bits),
-                        wanted = base == 0 ? 0.0L : std::pow(real(base, P::c_base_fraction), exponent),
-                        power =
-                            real(P::power(static_cast<std::uint32_t>(base), static_cast<std::uint32_t>(m)),
-                                 Preset::c_weight_fraction_bits);
+      const long double exponent = real(m, P::c_exponent_fraction_bits),
+                        wanted = base == 0 ? 0.0L : std::pow(real(base, Power::c_base_fraction), exponent),
+                        power = real(
+                            Power::power(static_cast<std::uint32_t>(base), static_cast<std::uint32_t>(m)),
+                            P::c_weight_fraction_bits);
       const auto where = [&] {
-        return fmt::format("{} of {} to the {}", base, P::c_one, static_cast<double>(exponent));
+        return fmt::format("{} of {} to the {}", base, Power::c_one, static_cast<double>(exponent));
       };
-      figure<Preset>(trial, std::abs(power - wanted), 0x1p-15L + exponent * 0x1p-23L, where);
+      trial.measure(c_preset<P>, std::abs(power - wanted), 0x1p-15L + exponent * 0x1p-23L, where);
       // No exponent takes anything from 1, or leaves anything of 0.
-      if (base == P::c_one) trial.require(power == 1.0L, where);
+      if (base == Power::c_one) trial.require(power == 1.0L, where);
       if (base == 0) trial.require(power == 0.0L, where);
     }
 }
@@ -286,10 +273,9 @@ void cosines(Trial& trial) {
     const long double exact = std::clamp(real(dot, 2 * c_fraction), 0.0L, 1.0L);
     const long double cosine = real(golden::cosine<Exact>(dot), c_fraction);
     const auto where = [&] { return fmt::format("a sum of {}", dot); };
-    trial.ours(static_cast<double>(std::ldexp(std::abs(cosine - exact), c_fraction)), 0.5, where);
-    // Without the bounds: as the formula has it.
-    trial.published(static_cast<double>(std::ldexp(std::abs(real(dot, 2 * c_fraction) - exact), c_fraction)),
-                    0.5, where);
+    // As published: without the bounds.
+    trial.both(std::ldexp(std::abs(cosine - exact), c_fraction),
+               std::ldexp(std::abs(real(dot, 2 * c_fraction) - exact), c_fraction), 0.5, where);
   }
 }
 
@@ -303,9 +289,9 @@ void products_of(Trial& trial) {
         const Axes u{a, b, c}, v{c, a, b};
         const Wide exact = Wide{a} * c + Wide{b} * a + Wide{c} * b;
         const Axes products = golden::vector_multiply(u, v);
-        int wrong = Wide{golden::dot_product(u, v)} != exact;
-        wrong += Wide{products[0]} + products[1] + products[2] != exact;
-        trial.ours(wrong, 0, [&] { return fmt::format("({}, {}, {}) by ({}, {}, {})", a, b, c, c, a, b); });
+        const bool right = Wide{golden::dot_product(u, v)} == exact &&
+                           Wide{products[0]} + products[1] + products[2] == exact;
+        trial.check(right, [&] { return fmt::format("({}, {}, {}) by ({}, {}, {})", a, b, c, c, a, b); });
       }
 }
 void products(Trial& trial) {
@@ -338,7 +324,7 @@ void ties(Trial& trial) {
             bits == 0 ? whole : whole * (std::int64_t{1} << bits) + (std::int64_t{1} << (bits - 1)) + beside;
         const long double exact = std::floor(real(value, bits) + 0.5L);
         const auto where = [&] { return fmt::format("{} without {} bits", value, bits); };
-        trial.ours(static_cast<long double>(golden::round_half_up(value, bits)) != exact, 0, where);
+        trial.check(static_cast<long double>(golden::round_half_up(value, bits)) == exact, where);
       }
 }
 
@@ -352,13 +338,13 @@ void saturation(Trial& trial) {
       const auto word = Sum::from_bits(static_cast<std::uint64_t>(value));
       const long double wanted = clamped_floor(real(word.value(), 28));
       const auto where = [&] { return fmt::format("{} and {} 2^-28", whole, beside); };
-      trial.ours(static_cast<double>(std::abs(golden::saturate<40, 28, 8>(word) - wanted)), 0, where);
+      trial.ours(std::abs(golden::saturate<40, 28, 8>(word) - wanted), 0, where);
     }
   for (const std::uint64_t each : {0ULL, 1ULL, 255ULL << 16, (255ULL << 16) / 33, (1ULL << 40) - 1}) {
     golden::SaturatingSum sum;
     for (int i = 0; i < 33; ++i) sum.add(each);
     const long double wanted = clamped_floor(std::ldexp(33.0L * static_cast<long double>(each), -16));
-    trial.ours(static_cast<double>(std::abs(sum.result(16, 8) - wanted)), 0,
+    trial.ours(std::abs(sum.result(16, 8) - wanted), 0,
                [&] { return fmt::format("33 terms of {} 2^-16", each); });
   }
 }
@@ -381,19 +367,8 @@ void shifts(Trial& trial) {
       constexpr FrameSize c_frame{16, 12};
       const Drawing drawing =
           trial.draw(scene, {.plan = {.shader = Shader::processors, .form = form}, .frame = c_frame});
-      const ShadingBound bound(scene, c_frame);
-      const auto pieces = Projector(scene, c_frame, {}).project_all();
-      if (pieces.empty()) continue;
-      for (const Fragment& f : drawing.fragments) {
-        for (const ScreenTriangle& t : pieces) {
-          const auto& v = t.vertex;
-          if (!covers({{{v[0].x, v[0].y}, {v[1].x, v[1].y}, {v[2].x, v[2].y}}}, 4, f.x, f.y)) continue;
-          const Promise promise = bound.at(t, f.x, f.y);
-          trial.ours(static_cast<double>(std::abs(promise.exact[0] - f.red)),
-                     static_cast<double>(promise.bound(0)),
-                     [&] { return fmt::format("a light 2^{} away: pixel ({}, {})", exponent, f.x, f.y); });
-        }
-      }
+      measure_shading(trial, Preset::exact, scene, c_frame, drawing.fragments,
+                      fmt::format("a light 2^{} away", exponent));
     }
 }
 

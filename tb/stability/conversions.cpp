@@ -31,6 +31,7 @@
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
 #include "stability/hard_case.hpp"
+#include "stability/measure.hpp"
 #include "stability/spherical_trial.hpp"
 #include "stability/trial.hpp"
 
@@ -38,7 +39,6 @@ namespace halfway::stability {
 namespace {
 
 constexpr double c_nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double c_infinity = std::numeric_limits<double>::infinity();
 
 constexpr double c_no_numbers[] = {c_nan, -c_nan, c_infinity, -c_infinity};
 constexpr double c_extremes[] = {1.7976931348623157e308,
@@ -65,6 +65,12 @@ constexpr double c_extremes[] = {1.7976931348623157e308,
                                  -0.0,
                                  0.5,
                                  -0.5};
+
+std::vector<double> hostile_numbers() {
+  std::vector<double> all(std::begin(c_no_numbers), std::end(c_no_numbers));
+  all.insert(all.end(), std::begin(c_extremes), std::end(c_extremes));
+  return all;
+}
 
 // ---- Where they stand
 
@@ -151,8 +157,8 @@ void ask_clang(Trial& trial, const std::filesystem::path& file, const std::strin
   static const std::regex c_place(R"(([^\s:]+):(\d+):\d+: note: "root")");
   for (auto it = std::sregex_iterator(end->output.begin(), end->output.end(), c_place);
        it != std::sregex_iterator(); ++it)
-    trial.ours((*it)[1].str().ends_with("common/to_integer.hpp") ? 0 : 1, 0,
-               [&] { return fmt::format("{}:{}, a cast", (*it)[1].str(), (*it)[2].str()); });
+    trial.check((*it)[1].str().ends_with("common/to_integer.hpp"),
+                [&] { return fmt::format("{}:{}, a cast", (*it)[1].str(), (*it)[2].str()); });
   trial.ours(0, 0, [&] { return name; });
 }
 
@@ -189,8 +195,7 @@ class AnyDouble {
   double next() { return std::bit_cast<double>(random_()); }
   template <class F>
   void sweep(int rounds, F&& f) {
-    for (const double v : c_no_numbers) f(v);
-    for (const double v : c_extremes) f(v);
+    for (const double v : hostile_numbers()) f(v);
     for (int i = 0; i < rounds; ++i) f(next());
   }
 
@@ -260,8 +265,7 @@ void channels(Trial& trial) {
   AnyDouble any;
   const auto measure = [&](double v) {
     const long double truth = std::isnan(v) ? 0.0L : 255.0L * std::clamp((long double)v, 0.0L, 1.0L);
-    trial.ours(static_cast<double>(std::fabs(to_byte(v) - truth)), 0.5 + 0x1p-44,
-               [&] { return fmt::format("{}", v); });
+    trial.ours(std::fabs(to_byte(v) - truth), 0.5 + 0x1p-44, [&] { return fmt::format("{}", v); });
   };
   any.sweep(trial.rounds(20'000, 4'000'000), measure);
   for (int step = 0; step <= 510; ++step)  // whole steps and ties
@@ -354,17 +358,16 @@ constexpr ShaderAndPreset c_shaders_and_presets[] = {
     {Shader::quadratic, Preset::exact},  {Shader::quadratic, Preset::published},
     {Shader::processors, Preset::exact}, {Shader::processors, Preset::published}};
 
-// Setup and golden model alone, whatever the plan would say; fragments outside of the frame.
-double fragments_outside(const Scene& scene, const HardwareKey& key) {
-  const auto setup = make_setup(scene, c_frame, key, {});
-  std::vector<std::uint32_t> words;
-  SetupCounts counts;
-  setup->append_prologue(words, counts);
-  for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, words, counts);
-  std::vector<Fragment> fragments;
-  make_golden_model(key)->draw(words, fragments);
+double outside(std::span<const Fragment> fragments) {
   return static_cast<double>(std::ranges::count_if(
       fragments, [](const Fragment& f) { return f.x >= c_frame.width || f.y >= c_frame.height; }));
+}
+
+// Setup and golden model alone, whatever the plan would say; fragments outside of the frame.
+double fragments_outside(const Scene& scene, const HardwareKey& key) {
+  std::vector<Fragment> fragments;
+  make_golden_model(key)->draw(stream_of(*make_setup(scene, c_frame, key, {})).words(), fragments);
+  return outside(fragments);
 }
 
 // Refused by the plan; and whoever sets it up all the same stays in the frame.
@@ -379,7 +382,7 @@ void no_numbers(Trial& trial) {
       const auto refused = plan_scene(scene, s.plan());
       const bool well = !refused && refused.error().code == ExitCode::bad_input &&
                         refused.error().message.starts_with("stage: ");
-      trial.ours(well ? 0 : 1, 0, where);
+      trial.check(well, where);
       trial.ours(fragments_outside(scene, plan->key), 0, where);
     });
   }
@@ -394,14 +397,13 @@ std::uint64_t left_out(const ProjectionCounts& c) {
 void extremes(Trial& trial) {
   with_each_number(trial, c_extremes, [&](const Scene& scene, const std::string& name) {
     if (!check_numbers(scene)) {
-      trial.ours(0, 0, [&] { return name; });
+      trial.check(true, [&] { return name; });
       return;
     }
     const ShaderAndPreset s = c_shaders_and_presets[0];
     const Drawing drawing = trial.draw(scene, {.plan = s.plan(), .frame = c_frame});
     if (drawing.fragments.empty()) {
-      trial.ours(left_out(drawing.counts.projection) > 0 ? 0 : 1, 0,
-                 [&] { return name + ": lost in silence"; });
+      trial.check(left_out(drawing.counts.projection) > 0, [&] { return name + ": lost in silence"; });
       return;
     }
     const double bound = promised_steps(scene, drawing.key, 2.0);
@@ -410,12 +412,9 @@ void extremes(Trial& trial) {
       return;
     }
     const Truth truth(scene, c_frame);
-    for (const Fragment& f : drawing.fragments) {
-      const LongVec off = LongVec(f.red, f.green, f.blue) -
-                          255.0L * glm::min(truth.radiance_at(f.triangle, f.x, f.y), LongVec(1));
-      trial.ours(static_cast<double>(std::max({std::fabs(off.x), std::fabs(off.y), std::fabs(off.z)})), bound,
+    for (const Fragment& f : drawing.fragments)
+      trial.ours(colour_error(f, truth.radiance_at(f.triangle, f.x, f.y)), bound,
                  [&] { return fmt::format("{}, pixel {}, {}", name, f.x, f.y); });
-    }
   });
 }
 
@@ -428,15 +427,12 @@ void extremes_elsewhere(Trial& trial) {
       const auto where = [&] { return fmt::format("{}: {}", s.name(), name); };
       const auto plan = plan_scene(scene, s.plan());
       if (!plan) {
-        trial.ours(plan.error().code == ExitCode::bad_input ? 0 : 1, 0, where);
+        trial.check(plan.error().code == ExitCode::bad_input, where);
         return;
       }
       // The RTL in turns: a build for each shader is for the full sweep.
       if (s.shader == Shader::spherical ? ++turn % 16 == 0 : !trial.quick() && ++turn % 8 == 0) {
-        double outside = 0;
-        for (const Fragment& f : trial.draw(scene, {.plan = s.plan(), .frame = c_frame}).fragments)
-          outside += f.x >= c_frame.width || f.y >= c_frame.height;
-        trial.ours(outside, 0, where);
+        trial.ours(outside(trial.draw(scene, {.plan = s.plan(), .frame = c_frame}).fragments), 0, where);
         return;
       }
       trial.ours(fragments_outside(scene, plan->key), 0, where);
@@ -446,9 +442,7 @@ void extremes_elsewhere(Trial& trial) {
 // The reference picture, shadows and all; and the tree that its shadow rays go through, with bins for many
 // triangles, against every triangle in turn.
 void extremes_in_the_reference(Trial& trial) {
-  std::vector<double> values(std::begin(c_no_numbers), std::end(c_no_numbers));
-  values.insert(values.end(), std::begin(c_extremes), std::end(c_extremes));
-  with_each_number(trial, values, [&](Scene& scene, const std::string& name) {
+  with_each_number(trial, hostile_numbers(), [&](Scene& scene, const std::string& name) {
     scene.shadows = true;
     const auto triangles = Projector(scene, c_frame, {.subpixel_bits = 4}).project_all();
     const ReferenceImage image = render_reference(scene, triangles, {.frame = c_frame});
@@ -456,10 +450,10 @@ void extremes_in_the_reference(Trial& trial) {
     for (const ScreenTriangle& t : triangles)
       for_each_covered(screen_points(t), 4, c_frame, [&](auto, auto) { ++covered; });
     for (const std::uint8_t there : image.mask) drawn += there;
-    trial.ours(covered == drawn ? 0 : 1, 0, [&] { return name; });
+    trial.check(covered == drawn, [&] { return name; });
   });
   RandomScenes random(32);
-  for (const double value : values)
+  for (const double value : hostile_numbers())
     for (int axis = 0; axis < 3; ++axis) {
       Scene scene;
       random.add_triangles(scene, 60, 0.5, 0.1);
@@ -474,8 +468,8 @@ void extremes_in_the_reference(Trial& trial) {
           const CornersWorld corners = corners_world(scene, t);
           return ray.hit(corners, 1e-6).crossing == Crossing::enters;
         });
-        trial.ours(rays.is_blocked(ray, 1e-6) == blocked ? 0 : 1, 0,
-                   [&] { return fmt::format("a shadow ray among vertices with {:g}", value); });
+        trial.check(rays.is_blocked(ray, 1e-6) == blocked,
+                    [&] { return fmt::format("a shadow ray among vertices with {:g}", value); });
       }
     }
 }
@@ -483,9 +477,7 @@ void extremes_in_the_reference(Trial& trial) {
 // Every snapped vertex within the guard band, its depth in [0, 1], its distance in front of the eye; what
 // does not come so far is counted.
 void snapped(Trial& trial) {
-  std::vector<double> values(std::begin(c_no_numbers), std::end(c_no_numbers));
-  values.insert(values.end(), std::begin(c_extremes), std::end(c_extremes));
-  with_each_number(trial, values, [&](const Scene& scene, const std::string& name) {
+  with_each_number(trial, hostile_numbers(), [&](const Scene& scene, const std::string& name) {
     for (const int bits : {0, 4, c_max_subpixel_bits})
       for (const bool to_frame : {false, true}) {
         ProjectionCounts counts;
@@ -589,7 +581,7 @@ void files_of(Trial& trial, const std::string& file_name, std::string_view text,
                 [&] { return file_name + ": the file itself is refused"; });
   with_each_word(text, number, [&](const std::string& changed, const std::string& what) {
     write(changed);
-    trial.ours(is_refused_or_sound(path, by_line) ? 0 : 1, 0, [&] { return file_name + ", " + what; });
+    trial.check(is_refused_or_sound(path, by_line), [&] { return file_name + ", " + what; });
   });
 }
 
@@ -652,8 +644,8 @@ void mesh_files(Trial& trial) {
     std::string text(c_ply);
     text.replace(text.rfind("3 0 2 3"), 1, length);
     std::ofstream(path, std::ios::binary) << text;
-    trial.ours(is_refused_or_sound(path, false) ? 0 : 1, 0,
-               [&] { return fmt::format("a polygon of {} corners", length); });
+    trial.check(is_refused_or_sound(path, false),
+                [&] { return fmt::format("a polygon of {} corners", length); });
   }
 }
 

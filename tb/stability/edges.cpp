@@ -17,11 +17,6 @@
 
 namespace halfway::stability {
 
-std::string name_of(const Points& p, int unit_bits) {
-  return fmt::format("({}, {}) ({}, {}) ({}, {}) in 1/{} pixel", p[0].x, p[0].y, p[1].x, p[1].y, p[2].x,
-                     p[2].y, 1 << unit_bits);
-}
-
 namespace {
 
 // Triangles that cover each of their pixels once, drawn as pieces that should do the same.
@@ -40,11 +35,10 @@ enum class Wrong {
 
 using Pixel = std::tuple<std::uint32_t, std::uint16_t, std::uint16_t>;  // shape, y, x
 
-// Hands on, shape by shape, how many pixels are drawn otherwise than covered.
-template <class Figure>
-void count_wrong(const std::vector<Shape>& shapes, FrameSize frame, std::vector<Fragment> fragments,
-                 Wrong wrong, Figure&& figure) {
-  std::vector<Pixel> drawn, covered;
+// How many pixels of each shape are drawn otherwise than covered.
+std::vector<std::size_t> wrong_pixels(const std::vector<Shape>& shapes, FrameSize frame,
+                                      const std::vector<Fragment>& fragments, Wrong wrong) {
+  std::vector<Pixel> drawn, covered, other;
   for (const Fragment& f : fragments) drawn.emplace_back(f.triangle, f.y, f.x);
   for (std::uint32_t i = 0; i < shapes.size(); ++i)
     for (const ScreenPiece& whole : shapes[i].whole)
@@ -53,40 +47,42 @@ void count_wrong(const std::vector<Shape>& shapes, FrameSize frame, std::vector<
       });
   std::ranges::sort(drawn);
   std::ranges::sort(covered);
-  if (wrong == Wrong::missing) drawn.erase(std::unique(drawn.begin(), drawn.end()), drawn.end());
-  std::vector<Pixel> other;
-  if (wrong == Wrong::missing)
+  if (wrong == Wrong::missing) {
+    drawn.erase(std::unique(drawn.begin(), drawn.end()), drawn.end());
     std::ranges::set_difference(covered, drawn, std::back_inserter(other));
-  else
+  } else {
     std::ranges::set_symmetric_difference(covered, drawn, std::back_inserter(other));
+  }
   std::vector<std::size_t> count(shapes.size());
   for (const auto& [shape, y, x] : other) ++count[shape];
-  for (std::size_t i = 0; i < shapes.size(); ++i) figure(shapes[i], static_cast<double>(count[i]));
+  return count;
 }
 
-void cover(Trial& trial, const std::vector<Shape>& shapes, FrameSize frame) {
+// Preset published: of the shapes that lie in the frame.
+void cover(Trial& trial, Preset preset, std::vector<Shape> shapes, FrameSize frame,
+           Wrong wrong = Wrong::any) {
+  const bool exact = preset == Preset::exact;
+  if (!exact)
+    std::erase_if(shapes, [&](const Shape& shape) {
+      return !std::ranges::all_of(shape.whole,
+                                  [&](const ScreenPiece& whole) { return in_frame(whole, frame); });
+    });
   std::vector<std::uint32_t> words;
   for (std::uint32_t i = 0; i < shapes.size(); ++i)
-    for (const ScreenPiece& piece : shapes[i].pieces) append_exact(piece, i, frame, words);
-  count_wrong(
-      shapes, frame, trial.draw(c_exact_key, words), Wrong::any, [&](const Shape& shape, double count) {
-        trial.ours(count, 0, [&] { return name_of(shape.whole[0].points, shape.whole[0].unit_bits); });
-      });
+    for (const ScreenPiece& piece : shapes[i].pieces)
+      exact ? append_exact(piece, i, frame, words) : append_published(piece, i, words);
+  const auto count =
+      wrong_pixels(shapes, frame, trial.draw(exact ? c_exact_key : c_published_key, words), wrong);
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    trial.measure(preset, static_cast<double>(count[i]), 0,
+                  [&] { return name_of(shapes[i].whole[0].points, shapes[i].whole[0].unit_bits); });
 }
-
-// Of the shapes that lie in the frame.
-void cover_published(Trial& trial, const std::vector<Shape>& all, FrameSize frame, Wrong wrong) {
-  std::vector<Shape> shapes;
-  std::ranges::copy_if(all, std::back_inserter(shapes), [&](const Shape& shape) {
-    return std::ranges::all_of(shape.whole, [&](const ScreenPiece& whole) { return in_frame(whole, frame); });
-  });
-  std::vector<std::uint32_t> words;
-  for (std::uint32_t i = 0; i < shapes.size(); ++i)
-    for (const ScreenPiece& piece : shapes[i].pieces) append_published(piece, i, words);
-  count_wrong(
-      shapes, frame, trial.draw(c_published_key, words), wrong, [&](const Shape& shape, double count) {
-        trial.published(count, 0, [&] { return name_of(shape.whole[0].points, shape.whole[0].unit_bits); });
-      });
+void cover_exact(Trial& trial, const std::vector<Shape>& shapes, FrameSize frame) {
+  cover(trial, Preset::exact, shapes, frame);
+}
+void cover_both(Trial& trial, const std::vector<Shape>& shapes, FrameSize frame) {
+  cover(trial, Preset::exact, shapes, frame);
+  cover(trial, Preset::published, shapes, frame);
 }
 
 constexpr FrameSize c_frame{97, 61}, c_largest{4096, 4096};
@@ -103,8 +99,7 @@ std::vector<Shape> random_shapes(Trial& trial, FrameSize frame, int quick, int f
 template <TriangleKind kind>
 void random_ones(Trial& trial) {
   const std::vector<Shape> shapes = random_shapes<kind>(trial, c_frame, 300, 20'000);
-  cover(trial, shapes, c_frame);
-  cover_published(trial, shapes, c_frame, Wrong::any);
+  cover_both(trial, shapes, c_frame);
 }
 
 // Within the frame, and out to the guard band's ends.
@@ -118,17 +113,16 @@ void a_line_high(Trial& trial) {
     };
     shapes.push_back(shape_of({corner(), corner(), corner()}));
   }
-  cover(trial, shapes, c_frame);
-  cover_published(trial, shapes, c_frame, Wrong::any);
+  cover_both(trial, shapes, c_frame);
 }
 
 // Over the guard band, and so over any frame.
 void wide_ones(Trial& trial) {
   constexpr TriangleKind c_kind = TriangleKind::crossing;
-  cover(trial, random_shapes<c_kind>(trial, c_frame, 300, 20'000), c_frame);
-  cover(trial, random_shapes<c_kind>(trial, {4096, 3}, 40, 2'000), {4096, 3});
-  cover(trial, random_shapes<c_kind>(trial, {3, 4096}, 40, 2'000), {3, 4096});
-  if (!trial.quick()) cover(trial, random_shapes<c_kind>(trial, c_largest, 0, 6), c_largest);
+  cover_exact(trial, random_shapes<c_kind>(trial, c_frame, 300, 20'000), c_frame);
+  cover_exact(trial, random_shapes<c_kind>(trial, {4096, 3}, 40, 2'000), {4096, 3});
+  cover_exact(trial, random_shapes<c_kind>(trial, {3, 4096}, 40, 2'000), {3, 4096});
+  if (!trial.quick()) cover_exact(trial, random_shapes<c_kind>(trial, c_largest, 0, 6), c_largest);
 }
 
 // From one end of the guard band through the frame to the other, the third corner a few units off.
@@ -160,7 +154,7 @@ void wide_slivers(Trial& trial) {
                           held(a.y + t * (b.y - a.y) + random.within(-off, off))};
       shapes.push_back(shape_of({a, b, c}));
     }
-    cover(trial, shapes, frame);
+    cover_exact(trial, shapes, frame);
   }
 }
 
@@ -182,8 +176,7 @@ void slivers(Trial& trial) {
     c = {std::clamp(c.x, 0, side), std::clamp(c.y, 0, side)};
     shapes.push_back(shape_of({a, b, c}));
   }
-  cover(trial, shapes, c_largest);
-  cover_published(trial, shapes, c_largest, Wrong::any);
+  cover_both(trial, shapes, c_largest);
 }
 
 // Collinear corners, two that are one, all three.
@@ -197,8 +190,7 @@ void no_area(Trial& trial) {
     const auto at = [&](int n) { return ScreenPoint{a.x + n * step.x, a.y + n * step.y}; };
     shapes.push_back(shape_of({a, at(random.within(0, 6)), at(random.within(-6, 6))}));
   }
-  cover(trial, shapes, c_frame);
-  cover_published(trial, shapes, c_frame, Wrong::any);
+  cover_both(trial, shapes, c_frame);
 }
 
 // Two triangles on an edge, or several around a corner.
@@ -226,19 +218,14 @@ void neighbours(Trial& trial) {
     shape.pieces = shape.whole;
     shapes.push_back(std::move(shape));
   }
-  cover(trial, shapes, c_frame);
-  cover_published(trial, shapes, c_frame, Wrong::any);
+  cover_both(trial, shapes, c_frame);
 }
 
 // Two triangles on an edge: one whole, the other split throughout.
 Shape half_split(const Points& whole, const Points& split, int level) {
   Shape shape{{{.points = whole}, {.points = split}}, {{.points = whole}}};
-  std::vector<Points> pieces = {split}, deeper;
-  for (int n = 0; n < level; ++n, std::swap(pieces, deeper)) {
-    deeper.clear();
-    for (const Points& p : pieces) std::ranges::copy(quarters(p), std::back_inserter(deeper));
-  }
-  for (const Points& p : pieces) shape.pieces.push_back({.points = p, .unit_bits = c_subpixel_bits + level});
+  for (const Points& p : stability::split(split, level))
+    shape.pieces.push_back({.points = p, .unit_bits = c_subpixel_bits + level});
   return shape;
 }
 
@@ -257,8 +244,8 @@ void t_junctions(Trial& trial) {
       shapes.push_back(
           half_split({top, bottom, corner(0, 36, 0, 60)}, {top, bottom, corner(60, 96, 0, 60)}, 1 + i % 5));
     }
-    cover(trial, shapes, c_frame);
-    if (on_centres) cover_published(trial, shapes, c_frame, Wrong::missing);
+    cover_exact(trial, shapes, c_frame);
+    if (on_centres) cover(trial, Preset::published, shapes, c_frame, Wrong::missing);
   }
 }
 
@@ -277,10 +264,10 @@ void guard_band(Trial& trial) {
       shapes.push_back(shape_of({{{place(), place()}, {place(), place()}, {place(), place()}}}));
     return shapes;
   };
-  cover(trial, some(300, 20'000), c_frame);
-  cover(trial, some(20, 1'000), {4096, 4});
-  cover(trial, some(20, 1'000), {4, 4096});
-  if (!trial.quick()) cover(trial, some(0, 8), c_largest);
+  cover_exact(trial, some(300, 20'000), c_frame);
+  cover_exact(trial, some(20, 1'000), {4096, 4});
+  cover_exact(trial, some(20, 1'000), {4, 4096});
+  if (!trial.quick()) cover_exact(trial, some(0, 8), c_largest);
 }
 
 // A steep ramp of colour behind edges of every slope.
@@ -301,26 +288,8 @@ void fractional_edges(Trial& trial) {
     for (double& s : piece.sample) s = 255.0 * (s - least) / (greatest - least);
     pieces.push_back(piece);
   }
-  std::vector<std::uint32_t> words, published;
-  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
-    append_exact(pieces[i], i, c_frame, words);
-    append_published(pieces[i], i, published);
-  }
-  const auto each = [&](const HardwareKey& key, std::span<const std::uint32_t> of, int fraction_bits,
-                        auto&& figure) {
-    for (const Fragment& f : trial.draw(key, of)) {
-      const ScreenPiece& piece = pieces[f.triangle];
-      const long double exact = std::clamp(exact_colour(piece, f.x, f.y), 0.0L, 255.0L);
-      figure(static_cast<double>(std::abs(f.red - exact)),
-             colour_bound(most_steps(piece, c_frame), fraction_bits), [&] {
-               return fmt::format("pixel {},{} of {}", f.x, f.y, name_of(piece.points, piece.unit_bits));
-             });
-    }
-  };
-  each(c_exact_key, words, golden::Exact::c_intensity_fraction_bits,
-       [&](double figure, double bound, auto&& where) { trial.ours(figure, bound, where); });
-  each(c_published_key, published, golden::Published::c_intensity_fraction_bits,
-       [&](double figure, double bound, auto&& where) { trial.published(figure, bound, where); });
+  for (const Preset preset : {Preset::exact, Preset::published})
+    measure_colours(trial, preset, pieces, c_frame);
 }
 
 // A wide floor of random triangles under the eye and behind it.

@@ -11,6 +11,7 @@
 #include "setup/test/random_scenes.hpp"
 #include "shading/shade.hpp"
 #include "stability/hard_case.hpp"
+#include "stability/measure.hpp"
 #include "stability/specification.hpp"
 #include "stability/spherical_trial.hpp"
 #include "stability/trial.hpp"
@@ -19,11 +20,6 @@ namespace halfway::stability {
 namespace {
 
 constexpr double c_epsilon = std::numeric_limits<double>::epsilon();
-constexpr double c_infinity = std::numeric_limits<double>::infinity();
-
-double or_infinity(double v) {
-  return std::isfinite(v) ? v : c_infinity;
-}
 
 // ---- As printed, in double
 
@@ -95,23 +91,35 @@ double radiance_error(const Scene& scene, const Material& m, const LongVec& posi
   return static_cast<double>(255 * (error + 8 * c_epsilon * std::max({sum.x, sum.y, sum.z})));
 }
 
-// The reference renderer's radiance beside the specification's.
+// Measures the reference renderer's radiance against the specification, within counted roundings, or exactly
+// where `is_exact`.
 void compare(Trial& trial, const Scene& scene, const Material& m, glm::dvec3 position, glm::dvec3 normal,
-             double bound, const std::function<std::string()>& where) {
-  const glm::dvec3 ours = radiance(scene, m, position, normal);
+             const std::function<std::string()>& where, bool is_exact = false) {
   const LongVec truth = radiance(scene, m, LongVec(position), LongVec(normal));
-  const LongVec off = 255.0L * glm::abs(LongVec(ours) - truth);
-  trial.ours(or_infinity(static_cast<double>(std::max({off.x, off.y, off.z}))), bound, where);
+  const LongVec off = 255.0L * glm::abs(LongVec(radiance(scene, m, position, normal)) - truth);
+  trial.ours(or_infinity(std::max({off.x, off.y, off.z})),
+             is_exact ? 0.0 : radiance_error(scene, m, LongVec(position), LongVec(normal)), where);
 }
-// And the printed formula's, of a single positional light.
-void compare_printed(Trial& trial, const Scene& scene, const Material& m, glm::dvec3 position,
-                     glm::dvec3 normal, double bound, const std::function<std::string()>& where) {
-  const PositionalLight& light = scene.positional.at(0);
-  const double printed =
-      light.intensity.x * reflected_as_printed(m, normal, unit_as_printed(light.position_world - position),
-                                               unit_as_printed(scene.camera.eye_world - position));
+
+Scene dark() {
+  Scene scene;
+  scene.ambient = glm::dvec3(0.0);
+  return scene;
+}
+
+// The same of a positional light alone; and the printed formula against the same bound.
+void compare_light(Trial& trial, const Material& m, glm::dvec3 position, glm::dvec3 normal,
+                   glm::dvec3 light_world, glm::dvec3 eye_world, const std::function<std::string()>& where) {
+  Scene scene = dark();
+  scene.positional.push_back({light_world, glm::dvec3(1.0)});
+  scene.camera.eye_world = eye_world;
+  const bool is_exact = light_world == position;
+  compare(trial, scene, m, position, normal, where, is_exact);
+  const double printed = reflected_as_printed(m, normal, unit_as_printed(light_world - position),
+                                              unit_as_printed(eye_world - position));
   const LongVec truth = radiance(scene, m, LongVec(position), LongVec(normal));
-  trial.published(or_infinity(static_cast<double>(255.0L * std::fabs(printed - truth.x))), bound, where);
+  trial.published(or_infinity(255.0L * std::fabs(printed - truth.x)),
+                  is_exact ? 0.0 : radiance_error(scene, m, LongVec(position), LongVec(normal)), where);
 }
 
 Material shiny(double exponent, Brdf brdf = Brdf::blinn) {
@@ -164,9 +172,7 @@ void normals_that_vanish_drawn(Trial& trial) {
     Scene scene = stage();
     for (glm::dvec3& n : scene.normals_world) n *= length;
     add_side_lights(scene);
-    const std::string name = fmt::format("normals of length {:g}", length);
-    const Shown shown = show(trial, scene, name);
-    trial.require(shown.brightest > 100, [&] { return name + ": too dark"; });
+    show(trial, scene, fmt::format("normals of length {:g}", length), {.least_red = 101});
   }
 }
 
@@ -198,8 +204,8 @@ void cosines_past_one(Trial& trial) {
     const auto where = [&] {
       return fmt::format("cosine 1 + {:.3g}, exponent {:.3g}", cosine - 1.0, exponent);
     };
-    trial.ours(std::max(highlight_power(cosine, exponent) - 1.0, 0.0), 0.0, where);
-    trial.published(std::max(std::pow(cosine, exponent) - 1.0, 0.0), 0.0, where);
+    trial.both(std::max(highlight_power(cosine, exponent) - 1.0, 0.0),
+               std::max(std::pow(cosine, exponent) - 1.0, 0.0), 0.0, where);
   }
 }
 
@@ -207,57 +213,39 @@ void cosines_past_one(Trial& trial) {
 void cosines_below_zero(Trial& trial) {
   RandomScenes random(23);
   for (int i = 0; i < trial.rounds(5000, 500'000); ++i) {
-    Scene scene;
     const Material m = shiny(random.one_in(2) ? random.whole(1, 51) : random.within(1.0, 51.0));
     const glm::dvec3 n = random.unit(), p = random.cube();
-    scene.ambient = glm::dvec3(0.0);
     glm::dvec3 away = random.unit();
     if (glm::dot(away, n) > 0) away = -away;
-    scene.positional.push_back({p + 3.0 * away, glm::dvec3(1.0)});
-    scene.camera.eye_world = p + 3.0 * random.unit();
-    const auto where = [&] { return fmt::format("light {}, exponent {:.3g}", i, m.exponent); };
-    const double bound = radiance_error(scene, m, LongVec(p), LongVec(n));
-    compare(trial, scene, m, p, n, bound, where);
-    compare_printed(trial, scene, m, p, n, bound, where);
+    compare_light(trial, m, p, n, p + 3.0 * away, p + 3.0 * random.unit(),
+                  [&] { return fmt::format("light {}, exponent {:.3g}", i, m.exponent); });
   }
 }
 
 // ---- Places
 
-void light_at_the_point(Trial& trial) {
-  RandomScenes random(24);
+// A light at each of the distances from a point, which is the origin itself where `at_origin`.
+void light_at_distances(Trial& trial, unsigned seed, std::span<const double> distances, bool at_origin) {
+  RandomScenes random(seed);
   for (int i = 0; i < trial.rounds(200, 20'000); ++i)
-    for (const double distance : {0.0, 5e-324, 1e-310, 1e-300, 1e-200, 1e-160, 1e-100, 1e-12}) {
-      Scene scene;
-      scene.ambient = glm::dvec3(0.0);
+    for (const double distance : distances) {
       const Material m = shiny(random.log_within(1.0, 1000.0));
-      const glm::dvec3 n = random.unit(), p(0.0);
-      scene.positional.push_back({distance * random.unit(), glm::dvec3(1.0)});
-      scene.camera.eye_world = 3.0 * random.unit();
-      const auto where = [&] { return fmt::format("light {:g} away", distance); };
-      const double bound = distance > 0 ? radiance_error(scene, m, LongVec(p), LongVec(n)) : 0.0;
-      compare(trial, scene, m, p, n, bound, where);
-      compare_printed(trial, scene, m, p, n, bound, where);
+      const glm::dvec3 n = random.unit(), p = at_origin ? glm::dvec3(0.0) : random.cube(),
+                       light = distance * random.unit();
+      compare_light(trial, m, p, n, light, p + 3.0 * random.unit(),
+                    [&] { return fmt::format("light {:g} away", distance); });
     }
+}
+
+void light_at_the_point(Trial& trial) {
+  constexpr double c_near[] = {0.0, 5e-324, 1e-310, 1e-300, 1e-200, 1e-160, 1e-100, 1e-12};
+  light_at_distances(trial, 24, c_near, true);
 }
 
 constexpr double c_far[] = {1e3, 1e6, 1e12, 1e100, 1e155, 1e200, 1e300, 1e308};
 
 void light_far_away(Trial& trial) {
-  RandomScenes random(25);
-  for (int i = 0; i < trial.rounds(200, 20'000); ++i)
-    for (const double distance : c_far) {
-      Scene scene;
-      scene.ambient = glm::dvec3(0.0);
-      const Material m = shiny(random.log_within(1.0, 1000.0));
-      const glm::dvec3 n = random.unit(), p = random.cube();
-      scene.positional.push_back({distance * random.unit(), glm::dvec3(1.0)});
-      scene.camera.eye_world = p + 3.0 * random.unit();
-      const auto where = [&] { return fmt::format("light {:g} away", distance); };
-      const double bound = radiance_error(scene, m, LongVec(p), LongVec(n));
-      compare(trial, scene, m, p, n, bound, where);
-      compare_printed(trial, scene, m, p, n, bound, where);
-    }
+  light_at_distances(trial, 25, c_far, false);
 }
 
 // As a directional light draws it.
@@ -268,9 +256,7 @@ void light_far_away_drawn(Trial& trial) {
     const glm::dvec3 towards = glm::normalize(glm::dvec3(0.3, 0.2, 1.0));
     scene.positional.push_back({distance * towards, glm::dvec3(0.5)});
     scene.spots.push_back({distance * towards, -towards, 0.99, 0.98, glm::dvec3(0.5)});
-    const std::string name = fmt::format("lights {:g} away", distance);
-    const Shown shown = show(trial, scene, name);
-    trial.require(shown.brightest > 150, [&] { return name + ": too dark"; });
+    show(trial, scene, fmt::format("lights {:g} away", distance), {.least_red = 151});
   }
 }
 
@@ -278,18 +264,12 @@ void light_behind_the_eye(Trial& trial) {
   RandomScenes random(26);
   for (int i = 0; i < trial.rounds(300, 30'000); ++i)
     for (const double aside : {0.0, 1e-17, 1e-16, 1e-12, 1e-8, 1e-3}) {
-      Scene scene;
-      scene.ambient = glm::dvec3(0.0);
       const Material m = shiny(random.log_within(1.0, 1000.0));
-      const glm::dvec3 n = random.unit(), v = random.unit(), p(0.0);
-      scene.camera.eye_world = 2.0 * v;
-      scene.positional.push_back({-2.0 * v + aside * random.cube(), glm::dvec3(1.0)});
-      const LongVec l = glm::normalize(LongVec(scene.positional[0].position_world));
-      if (std::fabs(glm::dot(l, LongVec(n))) < 1e-6L) continue;  // whether it shines is a rounding's
-      const auto where = [&] { return fmt::format("light {:g} from opposed to the eye", aside); };
-      const double bound = radiance_error(scene, m, LongVec(p), LongVec(n));
-      compare(trial, scene, m, p, n, bound, where);
-      compare_printed(trial, scene, m, p, n, bound, where);
+      const glm::dvec3 n = random.unit(), v = random.unit(), light = -2.0 * v + aside * random.cube();
+      // Skip lights at the horizon: a rounding decides whether they shine.
+      if (std::fabs(glm::dot(glm::normalize(LongVec(light)), LongVec(n))) < 1e-6L) continue;
+      compare_light(trial, m, glm::dvec3(0.0), n, light, 2.0 * v,
+                    [&] { return fmt::format("light {:g} from opposed to the eye", aside); });
     }
 }
 
@@ -308,8 +288,7 @@ void reference_renderer(Trial& trial) {
     scene.camera.eye_world = place();
     scene.directional.push_back({random.unit(), random.log_within(1e-3, 1e3) * random.colour(false)});
     scene.positional.push_back({place(), random.log_within(1e-3, 1e3) * random.colour(false)});
-    const double bound = radiance_error(scene, m, LongVec(p), LongVec(n));
-    compare(trial, scene, m, p, n, bound, [&] {
+    compare(trial, scene, m, p, n, [&] {
       return fmt::format("point {}, exponent {:.3g}, roughness {:.3g}", i, m.exponent, m.roughness);
     });
   }
@@ -359,12 +338,10 @@ void spots_without_an_edge(Trial& trial) {
     const long double truth = cosine >= inner ? 1.0L : cosine <= outer ? 0.0L : t * t * (3 - 2 * t);
     const auto where = [&] { return fmt::format("cosine {} between {} and {}", cosine, outer, inner); };
     // Two differences, a quotient, and the polynomial, whose slope is 3/2 at most: 8 roundings.
-    trial.ours(or_infinity(static_cast<double>(std::fabs(spot_factor(spot, cosine) - truth))), 8 * c_epsilon,
-               where);
     const double printed = std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
-    trial.published(
-        or_infinity(static_cast<double>(std::fabs(printed * printed * (3 - 2 * printed) - truth))),
-        8 * c_epsilon, where);
+    const auto off = [&](double share) { return or_infinity(std::fabs(share - truth)); };
+    trial.both(off(spot_factor(spot, cosine)), off(printed * printed * (3 - 2 * printed)), 8 * c_epsilon,
+               where);
   }
 }
 
@@ -402,7 +379,7 @@ void sizes(Trial& trial) {
         wrong = static_cast<double>(std::max(drawing.fragments.size(), one.size()));
       else
         for (std::size_t i = 0; i < one.size(); ++i) wrong += !(drawing.fragments[i] == one[i]);
-      preset == Preset::exact ? trial.ours(wrong, 0, where) : trial.published(wrong, 0, where);
+      trial.measure(preset, wrong, 0, where);
     }
   }
 }

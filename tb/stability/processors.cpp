@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <glm/trigonometric.hpp>
-#include <map>
 
 #include "golden/processors_layout.hpp"
 #include "golden/word.hpp"
@@ -13,14 +12,11 @@
 #include "setup/project.hpp"
 #include "setup/test/random_scenes.hpp"
 #include "stability/hard_case.hpp"
-#include "stability/shading_bound.hpp"
+#include "stability/measure.hpp"
 #include "stability/trial.hpp"
 
 namespace halfway::stability {
 namespace {
-
-constexpr ProcessorForm c_forms[] = {ProcessorForm::folded, ProcessorForm::unrolled};
-constexpr int c_subpixel_bits = 4;
 
 struct Shade {
   Preset preset = Preset::exact;
@@ -43,56 +39,10 @@ Drawing draw(Trial& trial, const Scene& scene, const Shade& how) {
   return drawing;
 }
 
-// The scene's pieces on the screen, found again by a fragment.
-class Pieces {
- public:
-  Pieces(const Scene& scene, FrameSize frame) {
-    for (const ScreenTriangle& t : Projector(scene, frame, {}).project_all()) pieces_.emplace(t.source, t);
-  }
-  const ScreenTriangle* behind(const Fragment& f) const {
-    const auto [first, last] = pieces_.equal_range(f.triangle);
-    for (auto at = first; at != last; ++at) {
-      const auto& v = at->second.vertex;
-      if (covers({{{v[0].x, v[0].y}, {v[1].x, v[1].y}, {v[2].x, v[2].y}}}, c_subpixel_bits, f.x, f.y))
-        return &at->second;
-    }
-    return nullptr;
-  }
-
- private:
-  std::multimap<std::uint32_t, ScreenTriangle> pieces_;
-};
-
-// Each fragment against the illumination model at the pixel's centre.
-void measure(Trial& trial, const Scene& scene, const Shade& how, std::span<const Fragment> fragments,
-             std::string_view name) {
-  const ShadingBound bound(scene, how.frame);
-  const Pieces pieces(scene, how.frame);
-  for (const Fragment& f : fragments) {
-    const auto where = [&] {
-      return fmt::format("{}, {} by {}: pixel ({}, {}), triangle {}", name, how.frame.width, how.frame.height,
-                         f.x, f.y, f.triangle);
-    };
-    const ScreenTriangle* piece = pieces.behind(f);
-    trial.require(piece != nullptr, [&] { return where() + " is not covered"; });
-    if (piece == nullptr) continue;
-    const Promise promise = bound.at(*piece, f.x, f.y);
-    const std::array<std::uint8_t, 3> drawn = {f.red, f.green, f.blue};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto figure = static_cast<double>(std::abs(promise.exact[c] - drawn[c])),
-                 most = static_cast<double>(promise.bound(c));
-      if (how.preset == Preset::exact)
-        trial.ours(figure, most, where);
-      else
-        trial.published(figure, most, where);
-    }
-  }
-}
-
 void shade(Trial& trial, const Scene& scene, std::string_view name, Shade how = {}) {
   for (const Preset preset : {Preset::exact, Preset::published}) {
     how.preset = preset;
-    measure(trial, scene, how, draw(trial, scene, how).fragments, name);
+    measure_shading(trial, preset, scene, how.frame, draw(trial, scene, how).fragments, name);
   }
 }
 
@@ -175,8 +125,7 @@ void perspective(Trial& trial) {
 void light_at_the_surface(Trial& trial) {
   constexpr FrameSize c_frame{48, 36};
   Scene scene = bent(c_shiny, 40.0);
-  const auto pieces = Projector(scene, c_frame, {}).project_all();
-  const LongVec point = surface(pieces[0], c_subpixel_bits, 30, 20).position_world;
+  const LongVec point = surface(Pieces(scene, c_frame).all()[0], c_subpixel_bits, 30, 20).position_world;
   for (const double above : {0.0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4, 1e-2})
     for (const bool spot : {false, true}) {
       scene.positional.clear();
@@ -388,36 +337,15 @@ void objects_at_a_pixel(Trial& trial) {
 
 using Request = golden::Exact::request_header_at;
 
-// What the host sends.
-struct Stream {
+struct Frame {
   HardwareKey key;
-  unsigned words_each;
-  std::vector<std::uint32_t> prologue, units;
+  Stream stream;
 };
 
-Stream stream_of(const Scene& scene, FrameSize frame, Preset preset, ProcessorForm form) {
-  Stream stream{};
+Frame frame_of(const Scene& scene, FrameSize size, Preset preset, ProcessorForm form) {
   const auto plan = plan_scene(scene, request_of({.preset = preset}, form));
-  if (!plan) return stream;
-  stream.key = plan->key;
-  const auto setup = make_setup(scene, frame, stream.key, {});
-  stream.words_each = (setup->init_bits() + 31) / 32;
-  SetupCounts counts;
-  setup->append_prologue(stream.prologue, counts);
-  for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, stream.units, counts);
-  return stream;
-}
-
-std::span<std::uint32_t> vector_of(std::vector<std::uint32_t>& words, const Stream& stream, std::size_t i) {
-  return std::span(words).subspan(i * stream.words_each, stream.words_each);
-}
-
-bool same(std::span<const Fragment> a, std::span<const Fragment> b) {
-  return a.size() == b.size() &&
-         std::equal(a.begin(), a.end(), b.begin(), [](const Fragment& f, const Fragment& g) {
-           return f.triangle == g.triangle && f.x == g.x && f.y == g.y && f.z == g.z && f.red == g.red &&
-                  f.green == g.green && f.blue == g.blue;
-         });
+  if (!plan) return {};
+  return {plan->key, stream_of(*make_setup(scene, size, plan->key, {}))};
 }
 
 // A frame after another frame must be what it is on its own, whatever the lights were.
@@ -433,42 +361,38 @@ void lights_between_frames(Trial& trial) {
   for (const Preset preset : {Preset::exact, Preset::published})
     for (const ProcessorForm form : c_forms)
       for (int i = 0; i < trial.rounds(2, 20); ++i) {
-        Stream a = stream_of(with_lights(2), c_frame, preset, form),
-               b = stream_of(with_lights(2), c_frame, preset, form),
-               dark = stream_of(with_lights(0), c_frame, preset, form);
-        const auto alone = [&](const Stream& frame) {
-          std::vector<std::uint32_t> words = frame.prologue;
-          words.insert(words.end(), frame.units.begin(), frame.units.end());
-          return trial.draw(frame.key, words);
-        };
+        const Frame a = frame_of(with_lights(2), c_frame, preset, form),
+                    b = frame_of(with_lights(2), c_frame, preset, form),
+                    dark = frame_of(with_lights(0), c_frame, preset, form);
+        const std::size_t size = a.stream.vector_words();
+        // The lights' vectors with another command. They follow new_frame and the ambient light.
         const auto command = [&](std::vector<std::uint32_t> words, golden::Command c) {
-          // Behind new_frame and the ambient light.
-          for (std::size_t v = 1; v < words.size() / a.words_each; ++v)
-            golden::set_bits(vector_of(words, a, v), Request::command, static_cast<std::uint32_t>(c));
+          for (std::size_t at = size; at < words.size(); at += size)
+            golden::set_bits(std::span(words).subspan(at, size), Request::command,
+                             static_cast<std::uint32_t>(c));
           return words;
         };
         std::vector<std::uint32_t> all;
         std::vector<Fragment> wanted;
-        const auto frame = [&](const std::vector<std::uint32_t>& prologue, const Stream& units,
-                               const std::vector<Fragment>& fragments) {
+        const auto add = [&](const std::vector<std::uint32_t>& prologue, const Frame& frame) {
           all.insert(all.end(), prologue.begin(), prologue.end());
-          all.insert(all.end(), units.units.begin(), units.units.end());
-          wanted.insert(wanted.end(), fragments.begin(), fragments.end());
+          all.insert(all.end(), frame.stream.units.begin(), frame.stream.units.end());
+          const std::vector<Fragment> alone = trial.draw(frame.key, frame.stream.words());
+          wanted.insert(wanted.end(), alone.begin(), alone.end());
         };
-        frame(a.prologue, a, alone(a));
-        frame(command(b.prologue, golden::Command::redefine), b, alone(b));
-        frame(b.prologue, b, alone(b));
-        // All but the ambient light go; a light that is gone is not redefined.
-        std::vector<std::uint32_t> gone = dark.prologue;
-        const std::vector<std::uint32_t> removed = command(a.prologue, golden::Command::remove),
-                                         redefined = command(a.prologue, golden::Command::redefine);
-        for (const auto* words : {&removed, &redefined})
-          gone.insert(gone.end(), words->begin() + 2 * a.words_each, words->end());
-        frame(gone, dark, alone(dark));
-        frame(a.prologue, a, alone(a));
-        const bool equal = same(trial.draw(a.key, all), wanted);
-        const auto where = [&] { return fmt::format("{}, scenes {}", a.key.name(), i); };
-        preset == Preset::exact ? trial.ours(!equal, 0, where) : trial.published(!equal, 0, where);
+        add(a.stream.prologue, a);
+        add(command(b.stream.prologue, golden::Command::redefine), b);
+        add(b.stream.prologue, b);
+        // Remove all lights but the ambient one, then redefine them: a removed light is not redefined.
+        std::vector<std::uint32_t> gone = dark.stream.prologue;
+        for (const golden::Command c : {golden::Command::remove, golden::Command::redefine}) {
+          const auto words = command(a.stream.prologue, c);
+          gone.insert(gone.end(), words.begin() + std::ptrdiff_t(2 * size), words.end());
+        }
+        add(gone, dark);
+        add(a.stream.prologue, a);
+        trial.measure(preset, trial.draw(a.key, all) != wanted, 0,
+                      [&] { return fmt::format("{}, scenes {}", a.key.name(), i); });
       }
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numbers>
 #include <random>
 
@@ -24,49 +23,6 @@ using golden::Exact;
 
 constexpr FrameSize c_frame{97, 61}, c_largest{4096, 4096};
 constexpr double c_nearest = 1, c_farthest = (1 << 24) - 3;  // steps, as setup keeps them
-
-std::string at(const Fragment& f, const ScreenPiece& piece) {
-  return fmt::format("pixel {},{} of {}", f.x, f.y, name_of(piece.points, piece.unit_bits));
-}
-
-// Calls figure(fragment, piece) for each fragment that the golden model draws of the pieces.
-template <class Figure>
-void draw_exact(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame, Figure&& figure) {
-  std::vector<std::uint32_t> words;
-  for (std::uint32_t i = 0; i < pieces.size(); ++i) append_exact(pieces[i], i, frame, words);
-  for (const Fragment& f : trial.draw(c_exact_key, words)) figure(f, pieces[f.triangle]);
-}
-template <class Figure>
-void draw_published(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame, Figure&& figure) {
-  std::vector<std::uint32_t> words;
-  for (std::uint32_t i = 0; i < pieces.size(); ++i)
-    if (in_frame(pieces[i], frame)) append_published(pieces[i], i, words);
-  for (const Fragment& f : trial.draw(c_published_key, words)) figure(f, pieces[f.triangle]);
-}
-
-double colour_off(const Fragment& f, const ScreenPiece& piece) {
-  return static_cast<double>(std::abs(f.red - std::clamp(exact_colour(piece, f.x, f.y), 0.0L, 255.0L)));
-}
-double depth_off(const Fragment& f, const ScreenPiece& piece) {
-  return static_cast<double>(std::abs(f.z - exact_depth(piece, f.x, f.y)));
-}
-
-void our_colours(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame) {
-  draw_exact(trial, pieces, frame, [&](const Fragment& f, const ScreenPiece& piece) {
-    trial.ours(colour_off(f, piece), colour_bound(most_steps(piece, frame), Exact::c_intensity_fraction_bits),
-               [&] { return at(f, piece); });
-  });
-}
-void our_depths(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame) {
-  draw_exact(trial, pieces, frame, [&](const Fragment& f, const ScreenPiece& piece) {
-    trial.ours(depth_off(f, piece), depth_bound(most_steps(piece, frame)), [&] { return at(f, piece); });
-  });
-}
-void published_depths(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame) {
-  draw_published(trial, pieces, frame, [&](const Fragment& f, const ScreenPiece& piece) {
-    trial.published(depth_off(f, piece), depth_bound(most_steps(piece, frame)), [&] { return at(f, piece); });
-  });
-}
 
 std::array<double, 6> random_samples(RandomTriangles& random, double most = 255.0) {
   std::array<double, 6> sample;
@@ -105,15 +61,10 @@ double five_divisions(const ScreenPiece& piece, std::int64_t x, std::int64_t y) 
 void five_division_colours(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame) {
   for (const ScreenPiece& piece : pieces)
     for_each_covered(piece.points, piece.unit_bits, frame, [&](std::int64_t x, std::int64_t y) {
-      const double value = five_divisions(piece, x, y);
-      const double off =
-          std::isfinite(value)
-              ? std::abs(std::clamp(value, 0.0, 255.0) -
-                         static_cast<double>(std::clamp(exact_colour(piece, x, y), 0.0L, 255.0L)))
-              : std::numeric_limits<double>::infinity();
-      trial.published(off, 0.5, [&] {
-        return fmt::format("pixel {},{} of {}", x, y, name_of(piece.points, piece.unit_bits));
-      });
+      const double value = five_divisions(piece, x, y),
+                   exact = static_cast<double>(std::clamp(exact_colour(piece, x, y), 0.0L, 255.0L)),
+                   off = std::isfinite(value) ? std::abs(std::clamp(value, 0.0, 255.0) - exact) : c_infinity;
+      trial.published(off, 0.5, [&] { return pixel_of(piece, x, y); });
     });
 }
 
@@ -127,7 +78,7 @@ void level_edge(Trial& trial) {
     p[1].y = p[0].y + i % 3;
     pieces.push_back({.points = p, .sample = random_samples(random)});
   }
-  our_colours(trial, pieces, c_frame);
+  measure_colours(trial, Preset::exact, pieces, c_frame);
   five_division_colours(trial, pieces, c_frame);
 }
 
@@ -182,7 +133,7 @@ void sliver_colours(Trial& trial) {
   const int count = trial.rounds(200, 10'000);
   for (const FrameSize frame : {c_frame, c_largest}) {
     const std::vector<ScreenPiece> pieces = slivers(random, frame.width > 1000 ? count / 4 : count, frame);
-    our_colours(trial, pieces, frame);
+    measure_colours(trial, Preset::exact, pieces, frame);
   }
   five_division_colours(trial, slivers(random, trial.rounds(800, 10'000), c_largest, 4096), c_largest);
   // Held at their format's ends, words that wrap would be wrong wherever they are stepped with.
@@ -207,8 +158,8 @@ void sliver_depths(Trial& trial) {
   const int count = trial.rounds(200, 10'000);
   for (const FrameSize frame : {c_frame, c_largest}) {
     const std::vector<ScreenPiece> pieces = slivers(random, frame.width > 1000 ? count / 4 : count, frame);
-    our_depths(trial, pieces, frame);
-    published_depths(trial, pieces, frame);
+    measure_depths(trial, Preset::exact, pieces, frame);
+    measure_depths(trial, Preset::published, pieces, frame);
   }
 }
 
@@ -222,8 +173,8 @@ void depth_ends(Trial& trial) {
                                             c_subpixel_bits, c_frame),
                       .depth = {end(1), end(2), end(3)}});
   }
-  our_depths(trial, pieces, c_frame);
-  published_depths(trial, pieces, c_frame);
+  measure_depths(trial, Preset::exact, pieces, c_frame);
+  measure_depths(trial, Preset::published, pieces, c_frame);
 }
 
 // Upright start edges on pixel centres, where the published form has no fault but its rounding: so many
@@ -241,18 +192,19 @@ std::vector<ScreenPiece> upright(RandomTriangles& random, int count, int width, 
 
 // The paper's own bound of the published form: M steps, off by 2^-b each.
 void published_drift(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame) {
-  draw_published(trial, pieces, frame, [&](const Fragment& f, const ScreenPiece& piece) {
+  for (const Fragment& f : draw_pieces(trial, Preset::published, pieces, frame)) {
+    const ScreenPiece& piece = pieces[f.triangle];
     const double m = most_steps(piece, frame);
     trial.published(colour_off(f, piece), 0.5 + std::ldexp(m, -golden::Published::c_intensity_fraction_bits),
-                    [&] { return at(f, piece); });
-  });
+                    [&] { return pixel_of(piece, f.x, f.y); });
+  }
 }
 
 void long_spans(Trial& trial) {
   RandomTriangles random(5);
   const FrameSize frame{4096, 8};
   const auto pieces = upright(random, trial.rounds(30, 1'500), 4096, 8);
-  our_colours(trial, pieces, frame);
+  measure_colours(trial, Preset::exact, pieces, frame);
   published_drift(trial, pieces, frame);
 }
 
@@ -268,7 +220,7 @@ void tall_triangles(Trial& trial) {
     if (random.within(0, 1) == 0)
       for (ScreenPoint& p : piece.points) p.x = 8 * 16 - p.x;
   }
-  our_colours(trial, pieces, frame);
+  measure_colours(trial, Preset::exact, pieces, frame);
 }
 
 void largest_triangles(Trial& trial) {
@@ -276,7 +228,7 @@ void largest_triangles(Trial& trial) {
   if (trial.quick()) {
     const FrameSize frame{1000, 1000};
     const auto pieces = upright(random, 1, 1000, 1000);
-    our_colours(trial, pieces, frame);
+    measure_colours(trial, Preset::exact, pieces, frame);
     published_drift(trial, pieces, frame);
     return;
   }
@@ -285,7 +237,7 @@ void largest_triangles(Trial& trial) {
     published_drift(trial, pieces, c_largest);
     const auto anywhere = [&] { return ScreenPoint{random.within(0, 65536), random.within(0, 65536)}; };
     pieces.push_back({.points = {anywhere(), anywhere(), anywhere()}, .sample = random_samples(random)});
-    our_colours(trial, pieces, c_largest);
+    measure_colours(trial, Preset::exact, pieces, c_largest);
   }
 }
 
@@ -300,25 +252,19 @@ void overshoot(Trial& trial) {
       for (std::size_t i = 0; i < 6; ++i) piece.sample[i] = bits >> i & 1 ? 255 : 0;
       pieces.push_back(piece);
     }
-  draw_published(trial, pieces, c_frame, [&](const Fragment& f, const ScreenPiece& piece) {
-    trial.published(colour_off(f, piece),
-                    colour_bound(most_steps(piece, c_frame), golden::Published::c_intensity_fraction_bits),
-                    [&] { return at(f, piece); });
-  });
+  measure_colours(trial, Preset::published, pieces, c_frame);
   // And the brightest that setup lets pass.
   for (std::size_t i = pieces.size(); i-- > 0;) {
     pieces.push_back(pieces[i]);
     for (double& s : pieces.back().sample) s *= c_largest_sample / 255;
     pieces.back().points = random.next(TriangleKind::any, c_subpixel_bits, c_frame);
   }
-  draw_exact(trial, pieces, c_frame, [&](const Fragment& f, const ScreenPiece& piece) {
-    const long double exact = exact_colour(piece, f.x, f.y);
-    below |= exact < -100;
-    above |= exact > 355;
-    trial.ours(colour_off(f, piece),
-               colour_bound(most_steps(piece, c_frame), Exact::c_intensity_fraction_bits),
-               [&] { return at(f, piece); });
-  });
+  measure_colours(trial, Preset::exact, pieces, c_frame);
+  for (const ScreenPiece& piece : pieces)
+    for_each_covered(piece.points, piece.unit_bits, c_frame, [&](std::int64_t x, std::int64_t y) {
+      below |= exact_colour(piece, x, y) < -100;
+      above |= exact_colour(piece, x, y) > 355;
+    });
   trial.require(below && above, [] { return std::string("nothing overshoots"); });
 }
 
@@ -380,19 +326,12 @@ void between_samples(Trial& trial) {
     const Patch patch = random.highlighted(c_patch_frame);
     const auto off = [&](const Fragment& f) {
       const ExactSurface s = surface(patch.seen, c_subpixel_bits, f.x, f.y);
-      const LongVec exact = 255.0L * radiance(patch.scene, patch.scene.materials[0], s.position_world,
-                                              glm::normalize(s.normal_world));
-      long double most = 0;
-      for (int c = 0; c < 3; ++c) {
-        const long double drawn = c == 0 ? f.red : c == 1 ? f.green : f.blue;
-        most = std::max(most, std::abs(drawn - std::clamp(exact[c], 0.0L, 255.0L)));
-      }
-      return static_cast<double>(most);
+      return colour_error(f, radiance(patch.scene, patch.scene.materials[0], s.position_world,
+                                      glm::normalize(s.normal_world)));
     };
     DrawOptions options{.frame = c_patch_frame};
     // Twice the threshold is what the test is calibrated to (setup/highlight_bound.hpp), and rounding.
-    const double bound =
-        2 * options.setup.quadratic.threshold + colour_bound(3 * 80, Exact::c_intensity_fraction_bits);
+    const double bound = 2 * options.setup.quadratic.threshold + colour_bound(Preset::exact, 3 * 80);
     const Drawing ours = trial.draw(patch.scene, options);
     split += ours.counts.subdivided;
     if (ours.counts.unresolved == 0)
@@ -420,14 +359,9 @@ void overexposed(Trial& trial) {
       DrawOptions options{.plan = {.preset = preset}, .frame = c_patch_frame};
       const Drawing drawing = trial.draw(patch.scene, options);
       held += drawing.counts.overexposed;
-      for (const Fragment& f : drawing.fragments) {
-        const double off = 255.0 - std::min({f.red, f.green, f.blue});
-        const auto where = [&] { return fmt::format("patch {}, pixel {},{}", i, f.x, f.y); };
-        if (preset == Preset::exact)
-          trial.ours(off, 0, where);
-        else
-          trial.published(off, 0, where);
-      }
+      for (const Fragment& f : drawing.fragments)
+        trial.measure(preset, 255 - std::min({f.red, f.green, f.blue}), 0,
+                      [&] { return fmt::format("patch {}, pixel {},{}", i, f.x, f.y); });
     }
   }
   trial.require(held > 0, [] { return std::string("no sample is held"); });
@@ -445,13 +379,9 @@ void split_alike(Trial& trial) {
                        .sample = random_samples(random)};
     if (!in_frame(parent, c_frame)) continue;
     whole.push_back(parent);
-    std::vector<Points> split = {parent.points}, deeper;
-    for (int n = 0; n < level; ++n, std::swap(split, deeper)) {
-      deeper.clear();
-      for (const Points& p : split) std::ranges::copy(quarters(p), std::back_inserter(deeper));
-    }
+    const std::vector<Points> parts = split(parent.points, level);
     for (ScreenPoint& p : parent.points) p = {p.x << level, p.y << level};
-    for (const Points& p : split) {
+    for (const Points& p : parts) {
       ScreenPiece piece{.points = p, .unit_bits = c_subpixel_bits + level};
       for (std::size_t n = 0; n < 6; ++n) {
         constexpr std::array<std::array<std::size_t, 2>, 6> c_ends = {
@@ -469,22 +399,13 @@ void split_alike(Trial& trial) {
       whole_of.push_back(whole.size() - 1);
     }
   }
-  const auto figures = [&](const HardwareKey& key, std::span<const std::uint32_t> words, int fraction_bits,
-                           auto&& figure) {
-    for (const Fragment& f : trial.draw(key, words))
-      figure(colour_off(f, whole[whole_of[f.triangle]]),
-             colour_bound(most_steps(pieces[f.triangle], c_frame), fraction_bits),
-             [&] { return at(f, pieces[f.triangle]); });
-  };
-  std::vector<std::uint32_t> words, published;
-  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
-    append_exact(pieces[i], i, c_frame, words);
-    append_published(pieces[i], i, published);
-  }
-  figures(c_exact_key, words, Exact::c_intensity_fraction_bits,
-          [&](double figure, double bound, auto&& where) { trial.ours(figure, bound, where); });
-  figures(c_published_key, published, golden::Published::c_intensity_fraction_bits,
-          [&](double figure, double bound, auto&& where) { trial.published(figure, bound, where); });
+  for (const Preset preset : {Preset::exact, Preset::published})
+    for (const Fragment& f : draw_pieces(trial, preset, pieces, c_frame)) {
+      const ScreenPiece& piece = pieces[f.triangle];
+      trial.measure(preset, colour_off(f, whole[whole_of[f.triangle]]),
+                    colour_bound(preset, most_steps(piece, c_frame)),
+                    [&] { return pixel_of(piece, f.x, f.y); });
+    }
 }
 
 constexpr std::string_view c_colour = "the quadratic at the pixel's centre, rounding and drift",

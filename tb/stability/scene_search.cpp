@@ -11,6 +11,7 @@
 
 #include "setup/init_vector.hpp"
 #include "setup/test/random_scenes.hpp"
+#include "stability/measure.hpp"
 #include "stability/shading_bound.hpp"
 #include "stability/spherical_trial.hpp"
 
@@ -192,20 +193,15 @@ PlanRequest request_of(Shader shader, const Input& input) {
   return request;
 }
 
-// What the scene's pieces cover, and by which of them.
+// How many pieces cover each pixel, of each triangle and of all.
 class Cover {
  public:
-  Cover(const Scene& scene, FrameSize frame) : pieces_(Projector(scene, frame, {}).project_all()) {
-    for (const ScreenTriangle& t : pieces_)
+  Cover(const Pieces& pieces, FrameSize frame) {
+    for (const ScreenTriangle& t : pieces.all())
       for_each_covered(screen_points(t), 4, frame, [&](std::int64_t x, std::int64_t y) {
-        by_pixel_[{t.source, x, y}].push_back(&t);
+        ++by_triangle_[{t.source, x, y}];
         ++pixels_[{x, y}];
       });
-  }
-  /// Of the fragment's triangle, behind its pixel; none: it is not covered.
-  const ScreenTriangle* piece(const Fragment& f) const {
-    const auto found = by_pixel_.find({f.triangle, f.x, f.y});
-    return found == by_pixel_.end() ? nullptr : found->second.front();
   }
   /// Pixels too many and too few: each piece's once, or with an object stage each pixel.
   std::uint64_t wrong(const std::vector<Fragment>& fragments, bool nearest_alone) const {
@@ -218,15 +214,13 @@ class Cover {
       for (const auto& [at, count] : pixels_) wrong += !pixels.contains(at);
       return wrong;
     }
-    for (const auto& [at, pieces] : by_pixel_) wrong += drawn[at] != static_cast<int>(pieces.size());
-    for (const auto& [at, count] : drawn) wrong += !by_pixel_.contains(at);
+    for (const auto& [at, count] : by_triangle_) wrong += drawn[at] != count;
+    for (const auto& [at, count] : drawn) wrong += !by_triangle_.contains(at);
     return wrong;
   }
 
  private:
-  std::vector<ScreenTriangle> pieces_;
-  std::map<std::tuple<std::uint32_t, std::int64_t, std::int64_t>, std::vector<const ScreenTriangle*>>
-      by_pixel_;
+  std::map<std::tuple<std::uint32_t, std::int64_t, std::int64_t>, int> by_triangle_;
   std::map<std::pair<std::int64_t, std::int64_t>, int> pixels_;
 };
 
@@ -243,26 +237,22 @@ class SceneChecker : public Checker {
     if (!drawing) return Failure{"plan", drawing.error().message};
     tally.fragments += drawing->fragments.size();
     if (drawing->fault) return Failure{"fault", "a count of shadow volumes left its format"};
-    std::optional<Failure> failure;
-    const auto add = [&](const char* quantity, double figure, double bound, const std::string& what) {
-      tally.worst[quantity].add(figure, bound, [&] { return what; });
-      if (!(figure <= bound) && !failure) failure = {quantity, what};
-    };
     // Spans of preset published's spherical shader cover by other rules.
-    if (shader_ == Shader::spherical && preset_of(input) == Preset::published) return failure;
-    const Cover cover(scene, frame);
-    const auto wrong = static_cast<double>(cover.wrong(drawing->fragments, drawing->key.processors.shadows));
-    add("coverage", wrong, 0, fmt::format("{} pixels", wrong));
-    if (preset_of(input) == Preset::published || failure) return failure;
-    Shade worst;
+    if (shader_ == Shader::spherical && preset_of(input) == Preset::published) return {};
+    InputFigures figures(tally);
+    const Pieces pieces(scene, frame);
+    Worst coverage, colour;
+    coverage.add(
+        static_cast<double>(Cover(pieces, frame).wrong(drawing->fragments, drawing->key.processors.shadows)),
+        0, [] { return "pixels"; });
+    figures.add("coverage", coverage);
+    if (preset_of(input) == Preset::published || figures.failure()) return figures.failure();
     if (shader_ == Shader::processors)
-      against_range(scene, frame, *drawing, cover, worst);
+      against_range(scene, frame, *drawing, pieces, colour);
     else
-      against_promise(scene, frame, *drawing, worst);
-    if (worst.any)
-      add("colour", worst.figure, worst.bound,
-          fmt::format("pixel {},{}: {:.4g} of {:.4g} steps", worst.x, worst.y, worst.figure, worst.bound));
-    return failure;
+      against_promise(scene, frame, *drawing, colour);
+    figures.add("colour", colour);
+    return figures.failure();
   }
 
   Result<std::optional<Failure>> check_rtl(std::span<const Input> inputs, Tally& tally) override {
@@ -272,24 +262,14 @@ class SceneChecker : public Checker {
       if (many && (quick_ || preset_of(input) == Preset::published || input[At::form] == 0)) continue;
       Trial trial(folders_, rtl_, true);
       trial.draw(scene_of(input), {.plan = request_of(shader_, input), .frame = frame_of(input)});
-      if (!trial.tools()) return trial.tools().error();
-      ++tally.rtl_inputs;
-      tally.rtl_fragments += trial.rtl_fragments();
-      if (!trial.failure().empty()) return std::optional(Failure{"rtl", trial.failure()});
+      auto failure = rtl_failure(trial, 1, tally);
+      if (!failure || *failure) return failure;
     }
     return std::optional<Failure>{};
   }
 
  private:
-  struct Shade {
-    bool any = false;
-    double figure = 0.0, bound = 1.0;
-    int x = 0, y = 0;
-    void take(long double next, long double next_bound, const Fragment& f) {
-      if (any && double(next) * bound <= figure * double(next_bound)) return;
-      *this = {true, double(next), double(next_bound), f.x, f.y};
-    }
-  };
+  static std::string where(const Fragment& f) { return fmt::format("pixel {},{}", f.x, f.y); }
 
   PlanRequest called_for(const Input& input) const {
     PlanRequest request = request_of(shader_, input);
@@ -299,38 +279,33 @@ class SceneChecker : public Checker {
   }
 
   // A light may reach a pixel or not, as its shadow has it: some set of lights must give the colour.
-  static void against_range(const Scene& scene, FrameSize frame, const Drawing& drawing, const Cover& cover,
-                            Shade& worst) {
+  static void against_range(const Scene& scene, FrameSize frame, const Drawing& drawing, const Pieces& pieces,
+                            Worst& worst) {
     const ShadingBound bound(scene, frame);
     const std::size_t lights = bound.lights().size();
     if (drawing.key.processors.shadows && lights > 6) return;  // too many
-    const std::uint32_t all = (1U << lights) - 1;
+    const std::uint32_t all = drawing.key.processors.shadows ? (1U << lights) - 1 : 0;
     for (const Fragment& f : drawing.fragments) {
-      const ScreenTriangle* piece = cover.piece(f);
-      Shade best;
-      for (std::uint32_t dark = 0; dark <= (drawing.key.processors.shadows ? all : 0); ++dark) {
+      const ScreenTriangle* piece = pieces.covering(f);
+      Worst best;
+      for (std::uint32_t dark = 0; dark <= all && !(best.count > 0 && best.within()); ++dark) {
         const Promise promise = bound.at(*piece, f.x, f.y, [&](std::size_t i) { return !(dark >> i & 1); });
-        const std::array<std::uint8_t, 3> drawn = {f.red, f.green, f.blue};
-        Shade here;
+        Worst here;
         for (std::size_t c = 0; c < 3; ++c)
-          here.take(std::abs(promise.exact[c] - drawn[c]), promise.bound(c), f);
-        if (!best.any || here.figure * best.bound < best.figure * here.bound) best = here;
-        if (best.figure <= best.bound) break;
+          here.add(static_cast<double>(std::abs(promise.exact[c] - channels(f)[c])),
+                   static_cast<double>(promise.bound(c)), [&] { return where(f); });
+        if (best.count == 0 || here.figure * best.bound < best.figure * here.bound) best = here;
       }
-      worst.take(best.figure, best.bound, f);
+      worst.add(best.figure, best.bound, [&] { return best.where; });
     }
   }
 
-  static void against_promise(const Scene& scene, FrameSize frame, const Drawing& drawing, Shade& worst) {
+  static void against_promise(const Scene& scene, FrameSize frame, const Drawing& drawing, Worst& worst) {
     const double bound = promised_steps(scene, drawing.key, SphericalSetupOptions{}.threshold);
     const Truth truth(scene, frame);
-    for (const Fragment& f : drawing.fragments) {
-      const LongVec exact = truth.radiance_at(f.triangle, f.x, f.y);
-      const std::array<std::uint8_t, 3> drawn = {f.red, f.green, f.blue};
-      for (int c = 0; c < 3; ++c)
-        worst.take(std::abs(std::clamp(255.0L * exact[c], 0.0L, 255.0L) - drawn[static_cast<std::size_t>(c)]),
-                   bound, f);
-    }
+    for (const Fragment& f : drawing.fragments)
+      worst.add(static_cast<double>(colour_error(f, truth.radiance_at(f.triangle, f.x, f.y))), bound,
+                [&] { return where(f); });
   }
 
   Shader shader_;

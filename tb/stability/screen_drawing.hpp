@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,12 @@
 #include "setup/init_vector.hpp"
 #include "setup/quadratic_setup.hpp"
 #include "setup/test/random_triangles.hpp"
+#include "stability/measure.hpp"
 #include "stability/specification.hpp"
 #include "stability/trial.hpp"
 
 namespace halfway::stability {
 
-inline constexpr int c_subpixel_bits = 4;
 inline constexpr HardwareKey c_exact_key{.shader = Shader::quadratic, .preset = Preset::exact, .channels = 1};
 inline constexpr HardwareKey c_published_key{
     .shader = Shader::quadratic, .preset = Preset::published, .channels = 1};
@@ -31,6 +32,7 @@ struct ScreenPiece {
 
 std::string name_of(const Points& points, int unit_bits);
 
+/// Appends the piece's vectors for the preset. `tag` is the triangle's number.
 inline void append_exact(const ScreenPiece& piece, std::uint32_t tag, FrameSize frame,
                          std::vector<std::uint32_t>& words) {
   const std::vector<Walk> walks = plan_walks(piece.points, piece.unit_bits, frame);
@@ -77,9 +79,11 @@ inline double most_steps(const ScreenPiece& piece, FrameSize frame) {
 }
 
 /// How far a colour may be off: rounding, and what k steps of second differences add whose words are rounded
-/// to half of 2^-fraction_bits each: (1 + k + k (k - 1) / 2) of that. Samples are rounded alike; the
+/// to half of the preset's last bit each: (1 + k + k (k - 1) / 2) of that. Samples are rounded alike; the
 /// quadratic takes 5/3 of that from them at most.
-inline double colour_bound(double k, int fraction_bits) {
+inline double colour_bound(Preset preset, double k) {
+  const int fraction_bits = preset == Preset::exact ? golden::Exact::c_intensity_fraction_bits
+                                                    : golden::Published::c_intensity_fraction_bits;
   return 0.5 + std::ldexp(1 + k + k * (k - 1) / 2 + 5.0 / 3, -fraction_bits - 1);
 }
 /// The same of a depth, which has first differences alone.
@@ -106,5 +110,27 @@ inline std::array<Points, 4> quarters(const Points& p) {
                     ab = middle(p[0], p[1]), ac = middle(p[0], p[2]), bc = middle(p[1], p[2]);
   return {{{ab, bc, ac}, {a, ab, ac}, {ab, b, bc}, {ac, bc, c}}};
 }
+
+/// The pieces of a triangle that is split `level` times throughout, in 1/2^level of its units.
+std::vector<Points> split(const Points& whole, int level);
+
+/// How far a fragment of the piece is off, in colour steps and in depth steps.
+inline double colour_off(const Fragment& f, const ScreenPiece& piece) {
+  return static_cast<double>(std::abs(f.red - std::clamp(exact_colour(piece, f.x, f.y), 0.0L, 255.0L)));
+}
+inline double depth_off(const Fragment& f, const ScreenPiece& piece) {
+  return static_cast<double>(std::abs(f.z - exact_depth(piece, f.x, f.y)));
+}
+
+std::string pixel_of(const ScreenPiece& piece, std::int64_t x, std::int64_t y);
+
+/// The fragments that the preset draws of the pieces: their triangle is the piece's index. Preset published
+/// draws the pieces that lie in the frame.
+std::vector<Fragment> draw_pieces(Trial& trial, Preset preset, std::span<const ScreenPiece> pieces,
+                                  FrameSize frame);
+
+/// Draws the pieces and measures each fragment against the bound of its differences.
+void measure_colours(Trial& trial, Preset preset, std::span<const ScreenPiece> pieces, FrameSize frame);
+void measure_depths(Trial& trial, Preset preset, std::span<const ScreenPiece> pieces, FrameSize frame);
 
 }  // namespace halfway::stability

@@ -41,9 +41,26 @@ struct Failure {
 /// What was seen so far.
 struct Tally {
   std::uint64_t inputs = 0, fragments = 0, rtl_inputs = 0, rtl_fragments = 0;
-  std::map<std::string, Worst> worst{};  ///< by quantity
+  std::map<std::string, Worst> worst{};  ///< by quantity, a figure for each input
   void add(const Tally& other);
 };
+
+/// The figures of one input. The first that exceeds its bound is the failure.
+class InputFigures {
+ public:
+  explicit InputFigures(Tally& tally) : tally_(tally) {}
+  /// The worst of a quantity; not taken if it has no figure.
+  void add(const char* quantity, const Worst& worst);
+  const std::optional<Failure>& failure() const { return failure_; }
+
+ private:
+  Tally& tally_;
+  std::optional<Failure> failure_;
+};
+
+/// Adds `inputs` inputs that the trial has drawn to the tally. The failure is a difference of RTL and golden
+/// model, an error is a tool that is missing or broke.
+Result<std::optional<Failure>> rtl_failure(const Trial& trial, std::uint64_t inputs, Tally& tally);
 
 /// What one thread checks inputs with: it may keep models and simulators from one to the next.
 class Checker {

@@ -28,19 +28,6 @@
 
 namespace halfway::stability {
 
-void Tally::add(const Tally& other) {
-  inputs += other.inputs;
-  fragments += other.fragments;
-  rtl_inputs += other.rtl_inputs;
-  rtl_fragments += other.rtl_fragments;
-  for (const auto& [quantity, theirs] : other.worst) {
-    Worst& ours = worst[quantity];
-    const std::uint64_t count = ours.count + theirs.count;
-    ours.add(theirs.figure, theirs.bound, [&where = theirs.where] { return where; });
-    ours.count = count;
-  }
-}
-
 namespace {
 
 std::vector<std::unique_ptr<Search>> all_searches() {

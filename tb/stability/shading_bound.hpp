@@ -14,6 +14,7 @@
 
 #include "scene/camera.hpp"
 #include "scene/scene.hpp"
+#include "setup/init_vector.hpp"
 #include "setup/screen_triangle.hpp"
 #include "shading/effects.hpp"
 #include "stability/specification.hpp"
@@ -104,11 +105,7 @@ class ShadingBound {
   Surface surface_of(const ScreenTriangle& t, const ExactSurface& s, std::int64_t x, std::int64_t y) const {
     Surface out{};
     out.position = s.position_world;
-    const auto weight = barycentric({{{t.vertex[0].x, t.vertex[0].y},
-                                      {t.vertex[1].x, t.vertex[1].y},
-                                      {t.vertex[2].x, t.vertex[2].y}}},
-                                    centre(x, 4), centre(y, 4))
-                            .real();
+    const auto weight = barycentric(screen_points(t), centre(x, 4), centre(y, 4)).real();
     long double inverse_w = 0.0L, most = 0.0L;
     for (std::size_t i = 0; i < 3; ++i) {
       inverse_w += weight[i] * (long double)t.vertex[i].inverse_w;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
-#include <map>
 
 #include "golden/processors_layout.hpp"
 #include "golden/word.hpp"
@@ -17,13 +16,13 @@
 #include "setup/shadow_volume.hpp"
 #include "setup/test/random_solids.hpp"
 #include "stability/hard_case.hpp"
+#include "stability/measure.hpp"
 #include "stability/shading_bound.hpp"
 #include "stability/trial.hpp"
 
 namespace halfway::stability {
 namespace {
 
-constexpr ProcessorForm c_forms[] = {ProcessorForm::folded, ProcessorForm::unrolled};
 constexpr unsigned c_lights = 3;
 
 PlanRequest request_of(ProcessorForm form) {
@@ -93,21 +92,17 @@ struct Seen {
 
 // All that a frame shows, by pixel.
 std::vector<Seen> look(Trial& trial, const Scene& scene, FrameSize frame,
-                       const std::vector<Fragment>& fragments, const std::vector<ScreenTriangle>& pieces) {
+                       const std::vector<Fragment>& fragments, const Pieces& pieces) {
   const ShadingBound bound(scene, frame);
   const Rays rays(scene);
-  std::multimap<std::uint32_t, const ScreenTriangle*> by_source;
-  for (const ScreenTriangle& t : pieces) by_source.emplace(t.source, &t);
   std::vector<Seen> seen(std::size_t{frame.width} * frame.height);
   for (const Fragment& f : fragments) {
     Seen& pixel = seen[std::size_t{f.y} * frame.width + f.x];
-    const auto [first, last] = by_source.equal_range(f.triangle);
-    for (auto at = first; at != last; ++at)
-      if (covers(screen_points(*at->second), 4, f.x, f.y)) pixel.piece = at->second;
+    pixel.piece = pieces.covering(f);
     if (pixel.piece == nullptr) continue;
     const LongVec point = surface(*pixel.piece, 4, f.x, f.y).position_world;
     const Promise promise = bound.at(*pixel.piece, f.x, f.y);
-    const std::array<std::uint8_t, 3> drawn = {f.red, f.green, f.blue};
+    const std::array<std::uint8_t, 3> drawn = channels(f);
     for (std::size_t i = 0; i < c_lights; ++i) {
       pixel.wanted[i] = rays.reaches(i, point, f.triangle);
       pixel.steps[i] = static_cast<double>(promise.exact[i]);
@@ -230,23 +225,22 @@ void cast(Trial& trial, Scene scene, std::string_view name, Sum& sum, bool with_
   for (const ProcessorForm form : c_forms)
     drawing = trial.draw(scene, {.plan = request_of(form), .frame = frame});
   trial.require(!drawing.fault, [&] { return fmt::format("{}: fault", name); });
-  const auto pieces = Projector(scene, frame, {}).project_all();
+  const Pieces pieces(scene, frame);
   const std::vector<Seen> seen = look(trial, scene, frame, drawing.fragments, pieces);
-  const auto where = [&](std::uint32_t x, std::uint32_t y, std::size_t light, const Seen& pixel) {
-    return fmt::format("{}, {} by {}: pixel ({}, {}), light {} of {:.3g} steps", name, frame.width,
-                       frame.height, x, y, light + 1, pixel.steps[light]);
+  const auto measure = [&](Preset preset, const std::vector<Seen>& counted, Sum& to) {
+    trial.measure(preset, 0, c_grazing, [&] { return std::string(name); });
+    off_the_edge(counted, frame, to,
+                 [&](std::uint32_t x, std::uint32_t y, std::size_t light, const Seen& pixel) {
+                   trial.measure(preset, pixel.grazing[light], c_grazing, [&] {
+                     return fmt::format("{}, {} by {}: pixel ({}, {}), light {} of {:.3g} steps", name,
+                                        frame.width, frame.height, x, y, light + 1, pixel.steps[light]);
+                   });
+                 });
   };
-  trial.ours(0, c_grazing, [&] { return std::string(name); });
-  off_the_edge(seen, frame, sum, [&](std::uint32_t x, std::uint32_t y, std::size_t light, const Seen& pixel) {
-    trial.ours(pixel.grazing[light], c_grazing, [&] { return where(x, y, light, pixel); });
-  });
+  measure(Preset::exact, seen, sum);
   if (!with_published) return;
   Sum published;
-  trial.published(0, c_grazing, [&] { return std::string(name); });
-  off_the_edge(counted_as_published(scene, frame, seen, drawing.fragments), frame, published,
-               [&](std::uint32_t x, std::uint32_t y, std::size_t light, const Seen& pixel) {
-                 trial.published(pixel.grazing[light], c_grazing, [&] { return where(x, y, light, pixel); });
-               });
+  measure(Preset::published, counted_as_published(scene, frame, seen, drawing.fragments), published);
 }
 
 // A vertex on the screen is up to a 32nd of a pixel off, so that an edge sweeps a 16th of its pixels at most.
@@ -272,25 +266,27 @@ Scene on_a_floor(RandomSolids& random, int solids) {
   return scene;
 }
 
-// Calls change(scene, round) on scenes that stand on a floor.
-template <class Change>
-void cast_on_floors(Trial& trial, unsigned seed, Change&& change) {
+// Casts shadows in scenes that make(random, round) returns.
+template <class Make>
+void cast_all(Trial& trial, unsigned seed, Make&& make, bool with_published = true) {
   RandomSolids random(seed);
   Sum sum;
-  for (int i = 0; i < trial.rounds(4, 20); ++i) {
+  for (int i = 0; i < trial.rounds(4, 20); ++i)
+    cast(trial, make(random, i), fmt::format("scene {}", i), sum, with_published);
+  finish(trial, sum);
+}
+// The same in scenes that stand on a floor, changed by change(random, scene, round).
+template <class Change>
+void cast_on_floors(Trial& trial, unsigned seed, Change&& change) {
+  cast_all(trial, seed, [&](RandomSolids& random, int i) {
     Scene scene = on_a_floor(random, 4);
     change(random, scene, i);
-    cast(trial, scene, fmt::format("scene {}", i), sum);
-  }
-  finish(trial, sum);
+    return scene;
+  });
 }
 
 void shared_edges(Trial& trial) {
-  RandomSolids random(5);
-  Sum sum;
-  for (int i = 0; i < trial.rounds(4, 20); ++i)
-    cast(trial, random.scene(1 + i % 5), fmt::format("scene {}", i), sum);
-  finish(trial, sum);
+  cast_all(trial, 5, [](RandomSolids& random, int i) { return random.scene(1 + i % 5); });
 }
 
 void within_volumes(Trial& trial) {
@@ -320,22 +316,17 @@ void open_meshes(Trial& trial) {
 
 void light_inside(Trial& trial) {
   cast_on_floors(trial, 11, [](RandomSolids& random, Scene& scene, int) {
-    // In the first solid, and the eye in the last but the floor's.
-    const auto middle = [&](std::size_t triangle) {
-      const CornersWorld c = corners_world(scene, scene.triangles[triangle]);
-      return glm::cross(c[1] - c[0], c[2] - c[0]);
-    };
+    // Put the light right behind the first solid's first triangle.
     const CornersWorld c = corners_world(scene, scene.triangles[0]);
     scene.positional[0].position_world =
-        (c[0] + c[1] + c[2]) / 3.0 - random.within(1e-3, 0.1) * glm::normalize(middle(0));
+        (c[0] + c[1] + c[2]) / 3.0 -
+        random.within(1e-3, 0.1) * glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
   });
 }
 
 // Smooth spheres: where the surface turns away from the light, triangles do so one by one.
 void terminators(Trial& trial) {
-  RandomSolids random(12);
-  Sum sum;
-  for (int i = 0; i < trial.rounds(4, 20); ++i) {
+  const auto sphere = [](RandomSolids& random, int) {
     Scene scene = random.scene(0);
     add_mesh(scene, make_uv_sphere(random.whole(5, 24), random.whole(4, 16), 1.3));
     const double side = random.within(-0.3, 0.3);
@@ -344,16 +335,14 @@ void terminators(Trial& trial) {
     scene.positional[0].position_world = {0.3, 2.0, 2.0};
     scene.spots[0].position_world = {0.5, -2.5, 1.0};
     scene.spots[0].axis_world = glm::normalize(-scene.spots[0].position_world);
-    cast(trial, scene, fmt::format("sphere {}", i), sum, false);
-  }
-  finish(trial, sum);
+    return scene;
+  };
+  cast_all(trial, 12, sphere, false);
 }
 
 // Plates that touch and lie on one another, the lights almost in their plane.
 void plates(Trial& trial) {
-  RandomSolids random(13);
-  Sum sum;
-  for (int i = 0; i < trial.rounds(4, 20); ++i) {
+  cast_all(trial, 13, [](RandomSolids& random, int) {
     Scene scene = random.scene(0);
     double top = 0.0;
     for (int plate = 0; plate < 6; ++plate) {
@@ -373,9 +362,8 @@ void plates(Trial& trial) {
     scene.positional[0].position_world = {3.0, top + 3.0 * over, random.within(-1, 1)};
     scene.spots[0].position_world = {-3.0, top + 3.0 * over, random.within(-1, 1)};
     scene.spots[0].axis_world = glm::normalize(-scene.spots[0].position_world);
-    cast(trial, scene, fmt::format("scene {}", i), sum);
-  }
-  finish(trial, sum);
+    return scene;
+  });
 }
 
 // Of a wall, which casts nothing.
@@ -513,20 +501,20 @@ void deep_shadows(Trial& trial) {
     // What setup counts may be more, by sides that are thinner than a pixel: never less.
     const std::uint64_t deepest = drawing.counts.deepest_shadow;
     const bool refused = deepest > c_most_shadows;
-    trial.ours(deepest < static_cast<std::uint64_t>(count) || (refused && count < 500), 0,
-               [&] { return fmt::format("{} sheets: setup counts {}", count, deepest); });
-    trial.ours(drawing.fault && !refused, 0, [&] { return fmt::format("{} sheets: fault", count); });
-    trial.ours(!drawing.fault && count > 520, 0, [&] { return fmt::format("{} sheets: no fault", count); });
+    trial.check(deepest >= static_cast<std::uint64_t>(count) && !(refused && count < 500),
+                [&] { return fmt::format("{} sheets: setup counts {}", count, deepest); });
+    trial.check(!drawing.fault || refused, [&] { return fmt::format("{} sheets: fault", count); });
+    trial.check(drawing.fault || count <= 520, [&] { return fmt::format("{} sheets: no fault", count); });
     if (drawing.fault) continue;
-    const auto pieces = Projector(scene, frame, {}).project_all();
+    const Pieces pieces(scene, frame);
     const Rays rays(scene);
-    for (const Fragment& f : drawing.fragments)
-      for (const ScreenTriangle& t : pieces) {
-        if (t.source != f.triangle || !covers(screen_points(t), 4, f.x, f.y)) continue;
-        const bool lit = rays.reaches(0, surface(t, 4, f.x, f.y).position_world, f.triangle);
-        trial.ours((f.red > 0) != lit, 0,
-                   [&] { return fmt::format("{} sheets: pixel ({}, {})", count, f.x, f.y); });
-      }
+    for (const Fragment& f : drawing.fragments) {
+      const ScreenTriangle* piece = pieces.covering(f);
+      if (piece == nullptr) continue;
+      const bool lit = rays.reaches(0, surface(*piece, 4, f.x, f.y).position_world, f.triangle);
+      trial.check((f.red > 0) == lit,
+                  [&] { return fmt::format("{} sheets: pixel ({}, {})", count, f.x, f.y); });
+    }
   }
 }
 

@@ -15,6 +15,7 @@
 #include "frame/frame_size.hpp"
 #include "scene/scene.hpp"
 #include "setup/edge.hpp"
+#include "setup/init_vector.hpp"
 #include "setup/screen_triangle.hpp"
 
 namespace halfway::stability {
@@ -137,11 +138,7 @@ struct ExactSurface {
 };
 
 inline ExactSurface surface(const ScreenTriangle& t, int unit_bits, std::int64_t x, std::int64_t y) {
-  const auto screen =
-      barycentric(
-          {{{t.vertex[0].x, t.vertex[0].y}, {t.vertex[1].x, t.vertex[1].y}, {t.vertex[2].x, t.vertex[2].y}}},
-          centre(x, unit_bits), centre(y, unit_bits))
-          .real();
+  const auto screen = barycentric(screen_points(t), centre(x, unit_bits), centre(y, unit_bits)).real();
   ExactSurface s{LongVec(0), LongVec(0), 0};
   long double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numbers>
 
-#include "golden/triangle_walker.hpp"
 #include "golden_run/test/spherical_drawing.hpp"
 #include "setup/arc.hpp"
 #include "setup/test/exact_turns.hpp"
@@ -26,7 +24,6 @@ namespace {
 
 using golden::Exact;
 constexpr double c_pi = std::numbers::pi;
-constexpr double c_infinity = std::numeric_limits<double>::infinity();
 
 // ---- Cosines along an arc: doubles against 250 bits
 
@@ -54,10 +51,6 @@ CosineArc arc_as_published(const Ends& e, bool equation15 = false) {
   return {std::hypot(cos1, b), gamma, std::atan2(equation15 ? -b : b, cos1)};
 }
 
-double or_infinity(double v) {
-  return std::isfinite(v) ? v : c_infinity;
-}
-
 double largest_error(const CosineArc& arc, const std::array<double, 9>& expected) {
   double largest = 0.0;
   for (std::size_t i = 0; i < 9; ++i)
@@ -70,7 +63,6 @@ double largest_error(const CosineArc& arc, const std::array<double, 9>& expected
 void try_arc(Trial& trial, const Ends& e, double at, bool is_known = true) {
   const bool still = e.v1 == e.v2;
   const CosineArc ours = still ? cosine_arc(e.u1, e.u2, e.v1) : cosine_arc(e.u1, e.u2, e.v1, e.v2);
-  const CosineArc published = arc_as_published(e);
   const auto where = [&] { return fmt::format("an angle of {:.0e}", at); };
   trial.require(ours.amplitude >= 0.0 && ours.amplitude <= 1.0 && ours.sweep >= 0.0 && ours.sweep <= c_pi &&
                     std::abs(0.5 * ours.sweep - ours.phase) <= c_pi,
@@ -80,53 +72,51 @@ void try_arc(Trial& trial, const Ends& e, double at, bool is_known = true) {
   if (!is_known) return;
   const auto expected = expected_cosines<Real>(e.u1, e.u2, e.v1, e.v2);
   const double bound = still ? c_arc_bound : c_arc_bound / std::sin(ours.sweep);
-  trial.ours(largest_error(ours, expected), bound, where);
-  trial.published(largest_error(published, expected), bound, where);
+  trial.both(largest_error(ours, expected), largest_error(arc_as_published(e), expected), bound, where);
+}
+
+// Calls each(random, angle) for every small angle, many times.
+template <class Each>
+void sweep_small(Trial& trial, unsigned seed, Each&& each, int quick = 100) {
+  Directions random(seed);
+  for (const double angle : c_small)
+    for (int i = 0; i < trial.rounds(quick, 100 * quick); ++i) each(random, angle);
 }
 
 void gamma_to_zero(Trial& trial) {
-  Directions random(4);
-  for (const double gamma : c_small)
-    for (int i = 0; i < trial.rounds(100, 10'000); ++i) {
-      const glm::dvec3 u1 = random.any(), v = random.any();
-      try_arc(trial, {u1, random.at(u1, gamma), v, v}, gamma);
-    }
+  sweep_small(trial, 4, [&](Directions& random, double gamma) {
+    const glm::dvec3 u1 = random.any(), v = random.any();
+    try_arc(trial, {u1, random.at(u1, gamma), v, v}, gamma);
+  });
 }
 
 void gamma_to_pi(Trial& trial) {
-  Directions random(5);
-  for (const double left : c_small)
-    for (int i = 0; i < trial.rounds(100, 10'000); ++i) {
-      const glm::dvec3 u1 = random.any(), u2 = random.at(u1, left, true), v1 = random.any();
-      const bool known = left >= c_least_known;
-      try_arc(trial, {u1, u2, v1, v1}, left, known);
-      // Opposed only when it is turned back.
-      const glm::dvec3 v2 = random.at(v1, 0.7);
-      const auto ahead =
-          turned_back(Vector<long double>(u2), Vector<long double>(v2), Vector<long double>(v1));
-      try_arc(trial, {u1, {double(ahead.x), double(ahead.y), double(ahead.z)}, v1, v2}, left, known);
-    }
+  sweep_small(trial, 5, [&](Directions& random, double left) {
+    const glm::dvec3 u1 = random.any(), u2 = random.at(u1, left, true), v1 = random.any();
+    const bool known = left >= c_least_known;
+    try_arc(trial, {u1, u2, v1, v1}, left, known);
+    // Opposed only when it is turned back.
+    const glm::dvec3 v2 = random.at(v1, 0.7);
+    const auto ahead = turned_back(Vector<long double>(u2), Vector<long double>(v2), Vector<long double>(v1));
+    try_arc(trial, {u1, {double(ahead.x), double(ahead.y), double(ahead.z)}, v1, v2}, left, known);
+  });
 }
 
 void gamma_v_to_zero(Trial& trial) {
-  Directions random(14);
-  for (const double gamma_v : c_small)
-    for (int i = 0; i < trial.rounds(100, 10'000); ++i) {
-      const glm::dvec3 u1 = random.any(), v1 = random.any();
-      const Ends e{u1, random.at(u1, 0.8), v1, random.at(v1, gamma_v)};
-      try_arc(trial, e, gamma_v);
-    }
+  sweep_small(trial, 14, [&](Directions& random, double gamma_v) {
+    const glm::dvec3 u1 = random.any(), v1 = random.any();
+    const Ends e{u1, random.at(u1, 0.8), v1, random.at(v1, gamma_v)};
+    try_arc(trial, e, gamma_v);
+  });
 }
 
 void gamma_v_to_pi(Trial& trial) {
-  Directions random(6);
-  for (const double left : c_small)
-    for (int i = 0; i < trial.rounds(100, 10'000); ++i) {
-      const glm::dvec3 u1 = random.any(), v1 = random.any();
-      try_arc(trial, {u1, random.at(u1, 1.0), v1, random.at(v1, left, true)}, left, left >= c_least_known);
-      // u stands still: seen from v it turns as far the other way.
-      try_arc(trial, {v1, v1, u1, random.at(u1, left, true)}, left, false);
-    }
+  sweep_small(trial, 6, [&](Directions& random, double left) {
+    const glm::dvec3 u1 = random.any(), v1 = random.any();
+    try_arc(trial, {u1, random.at(u1, 1.0), v1, random.at(v1, left, true)}, left, left >= c_least_known);
+    // u stands still: seen from v it turns as far the other way.
+    try_arc(trial, {v1, v1, u1, random.at(u1, left, true)}, left, false);
+  });
 }
 
 void gamma_by_arc_cosine(Trial& trial) {
@@ -139,9 +129,8 @@ void gamma_by_arc_cosine(Trial& trial) {
         const auto where = [&] {
           return fmt::format("{} of {:.0e}", opposed ? "half a turn short" : "an angle", angle);
         };
-        trial.ours(std::abs(cosine_arc(u1, u2, v).sweep - gamma), c_arc_bound, where);
-        trial.published(or_infinity(std::abs(arc_as_published({u1, u2, v, v}).sweep - gamma)), c_arc_bound,
-                        where);
+        trial.both(std::abs(cosine_arc(u1, u2, v).sweep - gamma),
+                   or_infinity(std::abs(arc_as_published({u1, u2, v, v}).sweep - gamma)), c_arc_bound, where);
       }
 }
 
@@ -156,9 +145,9 @@ void sine_part_cancels(Trial& trial) {
       const double truth = static_cast<double>(dot(tangent, Vector<Real>(v)));
       const auto sine_part = [](const CosineArc& arc) { return arc.amplitude * std::sin(arc.phase); };
       const auto where = [&] { return fmt::format("an angle of {:.0e}", gamma); };
-      trial.ours(std::abs(sine_part(cosine_arc(u1, u2, v)) - truth), c_arc_bound, where);
-      trial.published(or_infinity(std::abs(sine_part(arc_as_published({u1, u2, v, v})) - truth)), c_arc_bound,
-                      where);
+      trial.both(std::abs(sine_part(cosine_arc(u1, u2, v)) - truth),
+                 or_infinity(std::abs(sine_part(arc_as_published({u1, u2, v, v})) - truth)), c_arc_bound,
+                 where);
     }
   }
 }
@@ -170,8 +159,8 @@ void equation_15(Trial& trial) {
     const Ends e{u1, random.at(u1, 0.5 + std::abs(random.uniform())), v, v};
     const auto expected = expected_cosines<Real>(e.u1, e.u2, v, v);
     const auto where = [&] { return fmt::format("arc {}", i); };
-    trial.ours(largest_error(cosine_arc(e.u1, e.u2, v), expected), c_arc_bound, where);
-    trial.published(largest_error(arc_as_published(e, true), expected), c_arc_bound, where);
+    trial.both(largest_error(cosine_arc(e.u1, e.u2, v), expected),
+               largest_error(arc_as_published(e, true), expected), c_arc_bound, where);
   }
 }
 
@@ -193,8 +182,7 @@ void both_at_once(Trial& trial) {
       const auto where = [&] {
         return fmt::format("turns of {:.3f} and {:.3f}, at {}/8", gamma, gamma_v, k);
       };
-      trial.ours(255.0 * std::abs(ours.at(t) - both), bound, where);
-      trial.published(255.0 * std::abs(published.at(t) - both), bound, where);
+      trial.both(255.0 * std::abs(ours.at(t) - both), 255.0 * std::abs(published.at(t) - both), bound, where);
     }
   }
 }
@@ -234,8 +222,8 @@ void bells(Trial& trial) {
     const auto where = [&] { return fmt::format("exponent {:.5g}", exponent); };
     const int samples = trial.rounds(2000, 20'000);
     const Bell published{2, published_scale(exponent)};
-    trial.ours(largest_difference(exponent, fitted_bell(exponent), samples), bell_bound(exponent), where);
-    trial.published(largest_difference(exponent, published, samples), bell_bound(exponent), where);
+    trial.both(largest_difference(exponent, fitted_bell(exponent), samples),
+               largest_difference(exponent, published, samples), bell_bound(exponent), where);
   };
   for (const double exponent : c_exponents) measure(exponent);
   RandomScenes random(19);
@@ -276,9 +264,8 @@ void narrow_bells(Trial& trial) {
       const glm::dvec3 v = glm::normalize(scene.camera.eye_world - p.position_world);
       // Its peak at one pixel's centre.
       scene.directional.push_back({2.0 * glm::dot(p.normal_world, v) * p.normal_world - v, glm::dvec3(1.0)});
-      const std::string name = fmt::format("exponent {:g}, place {}", exponent, i);
-      const Shown shown = show(trial, scene, name, {.frame = c_small_frame});
-      trial.require(shown.brightest > 200, [&] { return name + ": the highlight is missed"; });
+      show(trial, scene, fmt::format("exponent {:g}, place {}", exponent, i),
+           {.frame = c_small_frame, .least_red = 201});
     }
 }
 
@@ -305,8 +292,7 @@ void gamma_to_zero_drawn(Trial& trial) {
       for (glm::dvec3& n : scene.normals_world) n = glm::normalize(n + apart * random.cube());
       add_side_lights(scene);
       const std::string name = fmt::format("normals {:g} apart", apart);
-      const Shown shown = show(trial, scene, name);
-      trial.require(shown.brightest > 100, [&] { return name + ": too dark"; });
+      show(trial, scene, name, {.least_red = 101});
       // A light and an eye that are far away as well: nothing turns at all.
       scene.positional.clear();
       scene.spots.clear();
@@ -371,10 +357,8 @@ void powers_underflow(Trial& trial) {
     Scene scene = stage({{{0.0, 1.6, 1}, {0.3, 1.7, 1}, {0.1, 1.8, 1}}});
     scene.materials[0].exponent = exponent;
     scene.directional.push_back({{0, 0, 1}, glm::dvec3(1.0)});
-    const std::string name = fmt::format("exponent {:g}", exponent);
-    const Shown shown = show(trial, scene, name);
     // Diffuse light alone: N.H is about a half.
-    trial.require(shown.brightest > 40, [&] { return name + ": too dark"; });
+    show(trial, scene, fmt::format("exponent {:g}", exponent), {.least_red = 41});
   }
 }
 
@@ -389,20 +373,17 @@ void halfway_of_zero(Trial& trial) {
           direction(surface_at(scene, c_stage_frame, 32, 24).position_world, scene.camera.eye_world);
       scene.directional.push_back(
           {aside == 0.0 ? -v : glm::normalize(glm::dvec3(aside, 0, 0) - v), glm::dvec3(1.0)});
-      const std::string name = fmt::format("light {:g} from opposed to the eye", aside);
-      const Shown shown = show(trial, scene, name);
-      trial.require(shown.brightest > 100, [&] { return name + ": too dark"; });
+      show(trial, scene, fmt::format("light {:g} from opposed to the eye", aside), {.least_red = 101});
     }
 }
 
 void light_at_the_surface(Trial& trial) {
   const Scene dark = stage({{{0.6, 0, 1}, {-0.6, 0, 1}, {0, 0.1, 1}}});
   // The line through the middle: its first pixels, one in the middle, its last.
-  const Projector projector(dark, c_stage_frame, {.subpixel_bits = c_exact_subpixel_bits});
-  const ScreenTriangle t = projector.project_all().at(0);
+  const ScreenTriangle t = Pieces(dark, c_stage_frame).all().at(0);
   int first = -1, last = -1;
   for (int x = 0; x < static_cast<int>(c_stage_frame.width); ++x)
-    if (covers(screen_points(t), c_exact_subpixel_bits, x, 24)) first = first < 0 ? x : first, last = x;
+    if (covers(screen_points(t), c_subpixel_bits, x, 24)) first = first < 0 ? x : first, last = x;
   trial.require(first >= 0 && first + 8 < last, [] { return "the line is too short"; });
   for (const int x : {first, first + 1, 32, last})
     for (const Brdf brdf : {Brdf::blinn, Brdf::phong})
@@ -472,8 +453,7 @@ void behind_the_horizon(Trial& trial) {
     half.materials[0].exponent = 1.0;
     half.directional.push_back({glm::normalize(glm::dvec3(1, 0, 0.1)), glm::dvec3(1.0)});
     half.positional.push_back({{1.5, 0.0, 0.2}, glm::dvec3(0.5)});
-    const Shown across = show(trial, half, name + ", horizon across the triangle");
-    trial.require(across.brightest > 100, [&] { return name + ": too dark"; });
+    show(trial, half, name + ", horizon across the triangle", {.least_red = 101});
   }
 }
 
@@ -482,9 +462,7 @@ void spots_that_end_at_once(Trial& trial) {
     Scene scene = stage({{{0.1, 0, 1}, {-0.1, 0, 1}, {0, 0.1, 1}}});
     scene.spots.push_back(
         {{0.3, 0.1, 2.0}, glm::normalize(glm::dvec3(-0.3, -0.2, -2.0)), cosine, cosine, glm::dvec3(1.0)});
-    const std::string name = fmt::format("cosine {}", cosine);
-    const Shown shown = show(trial, scene, name);
-    trial.require(shown.brightest > 100, [&] { return name + ": too dark"; });
+    show(trial, scene, fmt::format("cosine {}", cosine), {.least_red = 101});
   }
 }
 
@@ -515,8 +493,7 @@ void over_exposure(Trial& trial) {
                 c_grazing ||
             truth.radiance_at(0, f.x, f.y).x < c_clearly_white)
           continue;
-        preset == Preset::exact ? trial.ours(255.0 - f.red, 0.0, where)
-                                : trial.published(255.0 - f.red, 0.0, where);
+        trial.measure(preset, 255 - f.red, 0, where);
       }
     }
   }
@@ -555,38 +532,22 @@ void many_lights(Trial& trial) {
 
 // ---- Long spans: how far the angle's register has drifted at a span's last pixel
 
-// The diffuse angle of every full line in half bells, as its words step it and as the arc has it.
+// Calls figure(angle, first, last, y) for every line of so many pixels: the diffuse angle in half bells at
+// the last pixel, as the line's words step it.
 template <class P>
 void measure_drift(const Drawing& drawing, std::int64_t pixels, auto&& figure) {
-  constexpr bool c_exact = std::is_same_v<P, Exact>;
   // The published cosine table goes all the way round: its angles are in half turns.
-  constexpr double c_unit = c_exact ? c_pi / 2 : c_pi;
-  const auto model = make_golden_model(drawing.key);
-  const golden::SphericalLayout<P> layout(golden_config(drawing.key));
-  const std::size_t vector_words = (drawing.init_bits + 31) / 32;
-  std::span<const std::uint32_t> rest = drawing.words;
-  while (!rest.empty()) {
-    const std::size_t vectors = model->group(rest);
-    golden::TriangleWalker<P> walker;
-    walker.line_load(rest);
-    for (std::size_t line = 1;; ++line) {
-      const std::int64_t steps = std::abs(walker.stop().value() - walker.start().value()) - 1;
-      if (!walker.line_empty() && steps == pixels - 1) {
-        const auto record = rest.subspan(line * vector_words, vector_words);
-        using At = typename P::diffuse_header_at;
-        using Angle = golden::Word<P::c_angle_bits>;
-        const int low = layout.diffuse_low(0);
-        const std::int64_t word = Angle::from_bits(golden::get_bits(record, At::angle, low)).value() +
-                                  steps * Angle::from_bits(golden::get_bits(record, At::slope, low)).value();
-        const std::int64_t way = walker.start().value() <= walker.stop().value() ? 1 : -1;
-        figure(std::ldexp(static_cast<double>(word), -P::c_angle_fraction_bits) * c_unit / (c_pi / 2),
-               walker.start().value(), walker.stop().value() - way, walker.y());
-      }
-      if (walker.line_last()) break;
-      walker.line_step();
-    }
-    rest = rest.subspan(vectors * vector_words);
-  }
+  constexpr double c_unit = std::is_same_v<P, Exact> ? 1.0 : 2.0;
+  const int low = golden::SphericalLayout<P>(golden_config(drawing.key)).diffuse_low(0);
+  for_each_line<P>(drawing,
+                   [&](const golden::TriangleWalker<P>& walker, std::span<const std::uint32_t> record) {
+                     const std::int64_t start = walker.start().value(), stop = walker.stop().value();
+                     if (walker.line_empty() || std::abs(stop - start) != pixels) return;
+                     using At = typename P::diffuse_header_at;
+                     const std::int64_t word = angle_after<P>(record, At::angle, At::slope, low, pixels - 1);
+                     figure(std::ldexp(static_cast<double>(word), -P::c_angle_fraction_bits) * c_unit, start,
+                            stop - (start <= stop ? 1 : -1), walker.y());
+                   });
 }
 
 // An arc's angle at its end in half bells: equations 15 to 17 in long double.
@@ -629,7 +590,7 @@ void drift(Trial& trial) {
 
     const Scene scene = lit_from_somewhere(random, c_twice_as_wide);
     options.frame = {4096, 24};
-    const ScreenTriangle t = Projector(scene, options.frame, {.subpixel_bits = 4}).project_all().at(0);
+    const ScreenTriangle t = Pieces(scene, options.frame).all().at(0);
     measure_drift<Exact>(trial.draw(scene, options), 4096,
                          [&](double angle, std::int64_t first, std::int64_t last, std::uint32_t y) {
                            const LongVec u1 = unit_normal(t, surface(t, 4, first, y)),

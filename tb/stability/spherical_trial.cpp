@@ -4,16 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <map>
-#include <optional>
 #include <tuple>
 #include <vector>
 
-#include "golden/spherical_layout.hpp"
-#include "golden/triangle_walker.hpp"
-#include "golden_run/golden_run.hpp"
 #include "golden_run/test/spherical_drawing.hpp"
 #include "stability/specification.hpp"
 
@@ -22,106 +16,70 @@ namespace {
 
 using golden::Exact, golden::Published;
 
-std::vector<ScreenTriangle> projected(const Scene& scene, FrameSize frame) {
-  return Projector(scene, frame, {.subpixel_bits = c_exact_subpixel_bits}).project_all();
-}
-
-std::array<long double, 3> barycentric_of(const ScreenTriangle& t, std::int64_t x, std::int64_t y) {
-  return barycentric({{{t.vertex[0].x, t.vertex[0].y},
-                       {t.vertex[1].x, t.vertex[1].y},
-                       {t.vertex[2].x, t.vertex[2].y}}},
-                     centre(x, c_exact_subpixel_bits), centre(y, c_exact_subpixel_bits))
-      .real();
-}
-
-double error_of(const Fragment& f, const LongVec& radiance) {
-  const LongVec off = LongVec(f.red, f.green, f.blue) - 255.0L * glm::min(radiance, LongVec(1));
-  return static_cast<double>(std::max({std::fabs(off.x), std::fabs(off.y), std::fabs(off.z)}));
-}
-
 // Every record's words stay in their formats, on every pixel of its line.
 template <class P>
 void require_words_in_range(Trial& trial, const Drawing& drawing, const std::string& name) {
   constexpr bool c_exact = std::is_same_v<P, Exact>;
   const golden::SphericalConfig config = golden_config(drawing.key);
   const golden::SphericalLayout<P> layout(config);
+  const auto require_factor = [&](std::span<const std::uint32_t> words, const golden::Field& field, int low) {
+    trial.require(golden::get_bits(words, field, low) <= (c_exact ? 65535U : 1023U)
+                                                             << P::c_factor_fraction_bits,
+                  [&] { return name + ": a factor is past the largest"; });
+  };
   const auto model = make_golden_model(drawing.key);
   const std::size_t vector_words = (drawing.init_bits + 31) / 32;
-  std::span<const std::uint32_t> rest = drawing.words;
-  while (!rest.empty()) {
-    const std::size_t vectors = model->group(rest);
-    golden::TriangleWalker<P> walker;
-    walker.line_load(rest);
-    const auto require_factor = [&](std::span<const std::uint32_t> words, const golden::Field& field,
-                                    int low) {
-      trial.require(golden::get_bits(words, field, low) <= (c_exact ? 65535U : 1023U)
-                                                               << P::c_factor_fraction_bits,
-                    [&] { return name + ": a factor is past the largest"; });
-    };
+  for (std::span<const std::uint32_t> rest = drawing.words; !rest.empty();
+       rest = rest.subspan(model->group(rest) * vector_words))
     for (int c = 0; c < config.channels; ++c)
       require_factor(rest, P::ambient_channel_at::ambient, layout.ambient_low(c));
-    for (std::size_t line = 1; vectors > 1; ++line) {
-      const auto record = rest.subspan(line * vector_words, vector_words);
-      using Angle = golden::Word<P::c_angle_bits>;
-      const std::int64_t steps = std::abs(walker.stop().value() - walker.start().value()) - 1;
-      const auto require_angle = [&](const golden::Field& angle, const golden::Field& slope, int low) {
-        if (!c_exact || walker.line_empty()) return;  // published wraps
-        const std::int64_t last = Angle::from_bits(golden::get_bits(record, angle, low)).value() +
-                                  steps * Angle::from_bits(golden::get_bits(record, slope, low)).value();
-        trial.require(std::abs(last) < std::int64_t{1} << (P::c_angle_bits - 1),
-                      [&] { return name + ": an angle wraps"; });
-      };
-      for (int l = 0; l < config.lights; ++l) {
-        if (layout.has_diffuse_part()) {
-          using At = typename P::diffuse_header_at;
-          require_angle(At::angle, At::slope, layout.diffuse_low(l));
-          for (int c = 0; c < layout.diffuse_channels(); ++c)
-            require_factor(record, P::diffuse_channel_at::factor,
-                           layout.diffuse_low(l) + P::c_diffuse_header_bits + c * P::c_diffuse_channel_bits);
-        }
-        using At = typename P::specular_header_at;
-        require_angle(At::angle, At::slope, layout.specular_low(l));
-        for (int c = 0; c < config.highlight_channels; ++c)
-          require_factor(record, P::specular_channel_at::factor,
-                         layout.specular_low(l) + P::c_specular_header_bits + c * P::c_specular_channel_bits);
+  for_each_line<P>(drawing, [&](const golden::TriangleWalker<P>& walker,
+                                std::span<const std::uint32_t> record) {
+    const std::int64_t steps = std::abs(walker.stop().value() - walker.start().value()) - 1;
+    const auto require_angle = [&](const golden::Field& angle, const golden::Field& slope, int low) {
+      if (!c_exact || walker.line_empty()) return;  // published wraps
+      trial.require(std::abs(angle_after<P>(record, angle, slope, low, steps)) < std::int64_t{1}
+                                                                                     << (P::c_angle_bits - 1),
+                    [&] { return name + ": an angle wraps"; });
+    };
+    for (int l = 0; l < config.lights; ++l) {
+      if (layout.has_diffuse_part()) {
+        using At = typename P::diffuse_header_at;
+        require_angle(At::angle, At::slope, layout.diffuse_low(l));
+        for (int c = 0; c < layout.diffuse_channels(); ++c)
+          require_factor(record, P::diffuse_channel_at::factor,
+                         layout.diffuse_low(l) + P::c_diffuse_header_bits + c * P::c_diffuse_channel_bits);
       }
-      if (walker.line_last()) break;
-      walker.line_step();
+      using At = typename P::specular_header_at;
+      require_angle(At::angle, At::slope, layout.specular_low(l));
+      for (int c = 0; c < config.highlight_channels; ++c)
+        require_factor(record, P::specular_channel_at::factor,
+                       layout.specular_low(l) + P::c_specular_header_bits + c * P::c_specular_channel_bits);
     }
-    rest = rest.subspan(vectors * vector_words);
-  }
+  });
 }
 
 }  // namespace
 
 SurfacePoint surface_at(const Scene& scene, FrameSize frame, std::int64_t x, std::int64_t y) {
-  const ScreenTriangle t = projected(scene, frame).at(0);
-  return surface_point(
-      t, barycentric_screen(t, (2 * x + 1) << c_exact_subpixel_bits, (2 * y + 1) << c_exact_subpixel_bits));
+  const ScreenTriangle t = Pieces(scene, frame).all().at(0);
+  return surface_point(t,
+                       barycentric_screen(t, (2 * x + 1) << c_subpixel_bits, (2 * y + 1) << c_subpixel_bits));
 }
 
-Truth::Truth(const Scene& scene, FrameSize frame) : scene_(scene) {
-  for (const ScreenTriangle& t : projected(scene, frame)) pieces_[t.source].push_back(t);
-}
-
-// Of a triangle that was clipped, the piece that has the pixel.
-const ScreenTriangle& Truth::piece_at(std::uint32_t source, std::int64_t x, std::int64_t y) const {
-  return *std::ranges::max_element(pieces_.at(source), {}, [&](const ScreenTriangle& piece) {
-    return std::ranges::min(barycentric_of(piece, x, y));
-  });
-}
+Truth::Truth(const Scene& scene, FrameSize frame) : scene_(scene), pieces_(scene, frame) {}
 
 LongVec Truth::radiance_at(std::uint32_t source, std::int64_t x, std::int64_t y) const {
-  const ScreenTriangle& t = piece_at(source, x, y);
-  const ExactSurface s = surface(t, c_exact_subpixel_bits, x, y);
+  const ScreenTriangle& t = pieces_.nearest(source, x, y);
+  const ExactSurface s = surface(t, c_subpixel_bits, x, y);
   Material material = scene_.materials[t.material];
   material.exponent = std::min(material.exponent, c_largest_exponent);
   return radiance(scene_, material, s.position_world, unit_normal(t, s));
 }
 
 LongVec Truth::normal_at(std::uint32_t source, std::int64_t x, std::int64_t y) const {
-  const ScreenTriangle& t = piece_at(source, x, y);
-  return unit_normal(t, surface(t, c_exact_subpixel_bits, x, y));
+  const ScreenTriangle& t = pieces_.nearest(source, x, y);
+  return unit_normal(t, surface(t, c_subpixel_bits, x, y));
 }
 
 Shown show(Trial& trial, const Scene& scene, const std::string& name, const ShowOptions& options) {
@@ -139,9 +97,11 @@ Shown show(Trial& trial, const Scene& scene, const std::string& name, const Show
   const auto where = [&](const Fragment& f) { return fmt::format("{}, pixel {}, {}", name, f.x, f.y); };
   for (const Fragment& f : exact.fragments) {
     const LongVec radiance = there[{f.triangle, f.x, f.y}] = truth.radiance_at(f.triangle, f.x, f.y);
-    trial.ours(error_of(f, radiance), bound, [&] { return where(f); });
+    trial.ours(colour_error(f, radiance), bound, [&] { return where(f); });
     shown.brightest = std::max(shown.brightest, int{f.red});
   }
+
+  trial.require(shown.brightest >= options.least_red, [&] { return name + ": too dark"; });
 
   draw.setup.spherical.ends = SpanEnds::slerped_along_edges;
   const Drawing slerped = trial.draw(scene, draw);
@@ -160,7 +120,8 @@ Shown show(Trial& trial, const Scene& scene, const std::string& name, const Show
     shown.published_brightest = std::max(shown.published_brightest, int{f.red});
     // Vertices on whole pixels: not on the others' pixels all along the edges.
     const auto found = there.find({f.triangle, f.x, f.y});
-    if (found != there.end()) trial.published(error_of(f, found->second), bound, [&] { return where(f); });
+    if (found != there.end())
+      trial.published(colour_error(f, found->second), bound, [&] { return where(f); });
   }
   return shown;
 }

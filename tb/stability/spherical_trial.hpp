@@ -4,13 +4,16 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "golden/spherical_layout.hpp"
+#include "golden/triangle_walker.hpp"
+#include "golden_run/golden_run.hpp"
 #include "golden_run/test/spherical_drawing.hpp"
 #include "scene/scene.hpp"
+#include "stability/measure.hpp"
 #include "stability/specification.hpp"
 #include "stability/trial.hpp"
 
@@ -29,9 +32,8 @@ class Truth {
   LongVec normal_at(std::uint32_t source, std::int64_t x, std::int64_t y) const;
 
  private:
-  const ScreenTriangle& piece_at(std::uint32_t source, std::int64_t x, std::int64_t y) const;
   const Scene& scene_;
-  std::map<std::uint32_t, std::vector<ScreenTriangle>> pieces_;
+  Pieces pieces_;
 };
 
 struct Shown {
@@ -43,10 +45,39 @@ struct Shown {
 struct ShowOptions {
   FrameSize frame = c_stage_frame;
   double threshold = 2.0;
+  int least_red = 0;      ///< that the brightest pixel must have
   unsigned lights = 3;    ///< of the hardware: the same for most cases, so that one build serves
   bool published = true;  ///< draw it by preset published too
   std::optional<TableSize> published_tables{};
 };
+
+/// Calls line(walker, record) for each line record of preset P's stream: the walker stands on that line.
+template <class P, class Line>
+void for_each_line(const Drawing& drawing, Line&& line) {
+  const auto model = make_golden_model(drawing.key);
+  const std::size_t vector_words = (drawing.init_bits + 31) / 32;
+  std::span<const std::uint32_t> rest = drawing.words;
+  while (!rest.empty()) {
+    const std::size_t vectors = model->group(rest);
+    golden::TriangleWalker<P> walker;
+    walker.line_load(rest);
+    for (std::size_t at = 1; vectors > 1; ++at) {
+      line(walker, rest.subspan(at * vector_words, vector_words));
+      if (walker.line_last()) break;
+      walker.line_step();
+    }
+    rest = rest.subspan(vectors * vector_words);
+  }
+}
+
+/// An angle of a line record after so many steps.
+template <class P>
+std::int64_t angle_after(std::span<const std::uint32_t> record, const golden::Field& angle,
+                         const golden::Field& slope, int low, std::int64_t steps) {
+  using Angle = golden::Word<P::c_angle_bits>;
+  return Angle::from_bits(golden::get_bits(record, angle, low)).value() +
+         steps * Angle::from_bits(golden::get_bits(record, slope, low)).value();
+}
 
 /// The scene by preset exact, ends on the surface: each fragment's largest error of a channel against what
 /// setup's threshold, bells and tables allow (promised_steps), in colour steps. And the same pixels as preset

@@ -66,16 +66,29 @@ std::string refutation(PublishedForm expected, const Worst& ours, const Worst& p
          beyond(published);
 }
 
+std::vector<std::uint32_t> Stream::words() const {
+  std::vector<std::uint32_t> all = prologue;
+  all.insert(all.end(), units.begin(), units.end());
+  return all;
+}
+
+Stream stream_of(const Setup& setup) {
+  Stream stream{.init_bits = setup.init_bits()};
+  setup.append_prologue(stream.prologue, stream.counts);
+  for (std::uint32_t unit = 0; unit < setup.units(); ++unit) setup.append(unit, stream.units, stream.counts);
+  return stream;
+}
+
 Result<Drawing> draw_golden(const Scene& scene, const DrawOptions& options) {
   const auto plan = plan_scene(scene, options.plan);
   if (!plan) return plan.error();
   Drawing drawing;
   drawing.key = plan->key;
   const auto setup = make_setup(scene, options.frame, drawing.key, options.setup);
-  drawing.init_bits = setup->init_bits();
-  setup->append_prologue(drawing.words, drawing.counts);
-  for (std::uint32_t unit = 0; unit < setup->units(); ++unit)
-    setup->append(unit, drawing.words, drawing.counts);
+  const Stream stream = stream_of(*setup);
+  drawing.init_bits = stream.init_bits;
+  drawing.words = stream.words();
+  drawing.counts = stream.counts;
   drawing.notes = setup->notes();
   const auto golden = make_golden_model(drawing.key);
   golden->draw(drawing.words, drawing.fragments);

@@ -48,6 +48,17 @@ struct DrawOptions {
   SetupOptions setup{};
 };
 
+/// Everything that the setup sends to the hardware for one frame.
+struct Stream {
+  unsigned init_bits = 0;
+  std::vector<std::uint32_t> prologue{}, units{};
+  SetupCounts counts{};
+
+  std::size_t vector_words() const { return (init_bits + 31) / 32; }
+  std::vector<std::uint32_t> words() const;  ///< prologue and units
+};
+Stream stream_of(const Setup& setup);
+
 /// A scene's stream and what the golden model makes of it.
 struct Drawing {
   HardwareKey key{};
@@ -80,13 +91,25 @@ class Trial {
   /// Rounds of a random sweep.
   int rounds(int quick, int full) const { return quick_ ? quick : full; }
 
-  /// What ours does, and what the published form does, beside the bound of the property.
-  void ours(double figure, double bound, const std::function<std::string()>& where) {
-    ours_.add(figure, bound, where);
+  /// A figure of our form, of the published form, or of the preset's form, and the bound of the property.
+  void ours(long double figure, long double bound, const std::function<std::string()>& where) {
+    ours_.add(static_cast<double>(figure), static_cast<double>(bound), where);
   }
-  void published(double figure, double bound, const std::function<std::string()>& where) {
-    published_.add(figure, bound, where);
+  void published(long double figure, long double bound, const std::function<std::string()>& where) {
+    published_.add(static_cast<double>(figure), static_cast<double>(bound), where);
   }
+  void measure(Preset preset, long double figure, long double bound,
+               const std::function<std::string()>& where) {
+    preset == Preset::exact ? ours(figure, bound, where) : published(figure, bound, where);
+  }
+  /// Figures of both forms, which have one bound.
+  void both(long double ours_figure, long double published_figure, long double bound,
+            const std::function<std::string()>& where) {
+    ours(ours_figure, bound, where);
+    published(published_figure, bound, where);
+  }
+  /// A figure of our form that is 0 where the property holds, else 1.
+  void check(bool holds, const std::function<std::string()>& where) { ours(holds ? 0 : 1, 0, where); }
   /// A property without a figure.
   void require(bool holds, const std::function<std::string()>& what) {
     if (!holds && failure_.empty()) failure_ = what();

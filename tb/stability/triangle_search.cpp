@@ -15,14 +15,13 @@
 #include "setup/project.hpp"
 #include "setup/quadratic_setup.hpp"
 #include "setup/test/random_triangles.hpp"
-#include "stability/specification.hpp"
+#include "stability/screen_drawing.hpp"
 
 namespace halfway::stability {
 namespace {
 
 using golden::Exact;
 
-constexpr int c_subpixel_bits = 4;
 constexpr int c_sample_bits = Exact::c_intensity_fraction_bits;
 constexpr int c_depth_bits = Exact::c_depth_sum_fraction_bits;
 constexpr std::int64_t c_greatest_sample = std::int64_t{1023} << c_sample_bits;
@@ -91,22 +90,6 @@ struct Subject {
   ChannelSamples sample;
 };
 
-Points quarter(const Points& p, std::int64_t which) {
-  const auto middle = [](ScreenPoint a, ScreenPoint b) { return ScreenPoint{a.x + b.x, a.y + b.y}; };
-  const ScreenPoint a = middle(p[0], p[0]), b = middle(p[1], p[1]), c = middle(p[2], p[2]),
-                    ab = middle(p[0], p[1]), ac = middle(p[0], p[2]), bc = middle(p[1], p[2]);
-  switch (which) {
-    case 0:
-      return {ab, bc, ac};
-    case 1:
-      return {a, ab, ac};
-    case 2:
-      return {ab, b, bc};
-    default:
-      return {ac, bc, c};
-  }
-}
-
 Subject subject_of(const Input& input) {
   Subject s;
   s.frame = {static_cast<std::uint32_t>(input[At::width]), static_cast<std::uint32_t>(input[At::height])};
@@ -119,7 +102,7 @@ Subject subject_of(const Input& input) {
   }
   s.piece = s.whole;
   for (std::int64_t i = 0; i < input[At::level]; ++i)
-    s.piece = quarter(s.piece, input[At::quarters] >> (2 * i) & 3);
+    s.piece = stability::quarters(s.piece)[static_cast<std::size_t>(input[At::quarters] >> (2 * i) & 3)];
   for (ScreenPoint& p : s.whole) p = {p.x << input[At::level], p.y << input[At::level]};
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < 6; ++i)
@@ -133,17 +116,6 @@ void append(const Subject& s, std::uint32_t triangle, std::vector<std::uint32_t>
   append_vectors(words, static_cast<int>(s.channels), triangle, walks, s.piece, s.unit_bits,
                  DepthFit(s.whole, s.unit_bits, s.depth), s.sample);
 }
-
-// How far past half a unit a figure is off, of how much it may be.
-struct Excess {
-  long double figure = 0, bound = 0;
-  std::int64_t x = 0, y = 0;
-  void take(long double off, long double most, std::int64_t at_x, std::int64_t at_y) {
-    const long double next = std::max(off - 0.5L, 0.0L);
-    if (bound > 0 && next * bound <= figure * most) return;
-    *this = {next, most, at_x, at_y};
-  }
-};
 
 class TriangleChecker final : public Checker {
  public:
@@ -171,7 +143,7 @@ class TriangleChecker final : public Checker {
     };
     std::size_t at = 0;
     std::int64_t first_y = -1;
-    Excess colour, z;
+    Worst colour, z;
     for_each_covered_span(s.piece, s.unit_bits, s.frame,
                           [&](std::int64_t y, std::int64_t begin, std::int64_t end) {
                             if (first_y < 0) first_y = y;
@@ -192,38 +164,32 @@ class TriangleChecker final : public Checker {
                           });
     while (at < fragments_.size()) uncovered(fragments_[at++]);
 
-    std::optional<Failure> failure;
-    const auto add = [&](const char* quantity, double figure, double bound, const std::string& what) {
-      tally.worst[quantity].add(figure, bound, [&] { return what; });
-      if (!(figure <= bound) && !failure) failure = {quantity, what};
-    };
-    add("coverage", double(pixels), 0, wrong);
-    const auto add_excess = [&](const char* quantity, const Excess& e) {
-      add(quantity, double(e.figure), double(e.bound),
-          fmt::format("pixel {},{}: {:.3g} of {:.3g} steps past its rounding", e.x, e.y, double(e.figure),
-                      double(e.bound)));
-    };
-    if (colour.bound > 0) add_excess("colour", colour);
-    if (z.bound > 0) add_excess("depth", z);
-    if (!failure && std::ranges::any_of(fragments_, [](const Fragment& f) { return f.triangle != c_tag; }))
-      failure = {"tag", "a fragment has another triangle's number"};
-    return failure;
+    InputFigures figures(tally);
+    Worst coverage;
+    coverage.add(static_cast<double>(pixels), 0, [&] { return wrong; });
+    figures.add("coverage", coverage);
+    figures.add("colour", colour);
+    figures.add("depth", z);
+    if (!figures.failure() &&
+        std::ranges::any_of(fragments_, [](const Fragment& f) { return f.triangle != c_tag; }))
+      return Failure{"tag", "a fragment has another triangle's number"};
+    return figures.failure();
   }
 
   Result<std::optional<Failure>> check_rtl(std::span<const Input> inputs, Tally& tally) override {
     for (const unsigned channels : {1u, 3u}) {
       words_.clear();
+      std::uint64_t count = 0;
       for (std::size_t i = 0; i < inputs.size(); ++i) {
         const Subject s = subject_of(inputs[i]);
         if (s.channels != channels) continue;
         append(s, static_cast<std::uint32_t>(i), words_);
-        ++tally.rtl_inputs;
+        ++count;
       }
       Trial trial(folders_, rtl_, true);
       trial.draw(key_of(channels), words_);
-      tally.rtl_fragments += trial.rtl_fragments();
-      if (!trial.tools()) return trial.tools().error();
-      if (!trial.failure().empty()) return std::optional(Failure{"rtl", trial.failure()});
+      auto failure = rtl_failure(trial, count, tally);
+      if (!failure || *failure) return failure;
     }
     return std::optional<Failure>{};
   }
@@ -249,21 +215,25 @@ class TriangleChecker final : public Checker {
       colour_bound_ = std::ldexp(1 + k + k * (k - 1) / 2, -c_sample_bits - 1) + 0x1p-48L;
       depth_bound_ = std::ldexp(1 + k, -c_depth_bits - 1) + 0x1p-34L;
     }
-    void compare(const Fragment& f, std::int64_t x, Excess& colour, Excess& z) const {
+    // Measures what is more than the half step of rounding.
+    void compare(const Fragment& f, std::int64_t x, Worst& colour, Worst& z) const {
       const std::array<long double, 3> p = piece_.at(x - begin_), w = whole_.at(x - begin_);
-      const std::array<std::uint8_t, 3> drawn = {f.red, f.green, f.blue};
+      const auto add = [&](Worst& worst, long double off, long double bound) {
+        worst.add(static_cast<double>(std::max(off - 0.5L, 0.0L)), static_cast<double>(bound),
+                  [&] { return fmt::format("pixel {},{}, steps past its rounding", x, y_); });
+      };
       for (std::size_t c = 0; c < 3; ++c) {
         const auto& sample = subject_.sample[subject_.channels == 3 ? c : 0];
         const long double exact =
             quadratic(p, {sample[0], sample[1], sample[2], sample[3], sample[4], sample[5]});
-        colour.take(std::abs(drawn[c] - std::clamp(exact, 0.0L, 255.0L)), colour_bound_, x, y_);
+        add(colour, std::abs(channels(f)[c] - std::clamp(exact, 0.0L, 255.0L)), colour_bound_);
       }
       const auto& d = subject_.depth;
       const long double exact =
           std::ldexp(linear(w, {static_cast<long double>(d[0]), static_cast<long double>(d[1]),
                                 static_cast<long double>(d[2])}),
                      -c_depth_bits);
-      z.take(std::abs(static_cast<long double>(f.z) - exact), depth_bound_, x, y_);
+      add(z, std::abs(static_cast<long double>(f.z) - exact), depth_bound_);
     }
 
    private:

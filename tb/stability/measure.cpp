@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stability/measure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "setup/init_vector.hpp"
+#include "stability/shading_bound.hpp"
+
+namespace halfway::stability {
+
+long double colour_error(const Fragment& f, const LongVec& radiance) {
+  const LongVec off =
+      glm::abs(LongVec(f.red, f.green, f.blue) - 255.0L * glm::clamp(radiance, LongVec(0), LongVec(1)));
+  return std::max({off.x, off.y, off.z});
+}
+
+Pieces::Pieces(const Scene& scene, FrameSize frame)
+    : pieces_(Projector(scene, frame, {.subpixel_bits = c_subpixel_bits}).project_all()) {
+  std::ranges::stable_sort(pieces_, {}, &ScreenTriangle::source);
+}
+
+const ScreenTriangle* Pieces::covering(std::uint32_t source, std::int64_t x, std::int64_t y) const {
+  for (const ScreenTriangle& t : std::ranges::equal_range(pieces_, source, {}, &ScreenTriangle::source))
+    if (covers(screen_points(t), c_subpixel_bits, x, y)) return &t;
+  return nullptr;
+}
+
+const ScreenTriangle& Pieces::nearest(std::uint32_t source, std::int64_t x, std::int64_t y) const {
+  return *std::ranges::max_element(
+      std::ranges::equal_range(pieces_, source, {}, &ScreenTriangle::source), {},
+      [&](const ScreenTriangle& t) {
+        return std::ranges::min(
+            barycentric(screen_points(t), centre(x, c_subpixel_bits), centre(y, c_subpixel_bits)).real());
+      });
+}
+
+void measure_shading(Trial& trial, Preset preset, const Scene& scene, FrameSize frame,
+                     std::span<const Fragment> fragments, std::string_view name) {
+  const ShadingBound bound(scene, frame);
+  const Pieces pieces(scene, frame);
+  for (const Fragment& f : fragments) {
+    const auto where = [&] {
+      return fmt::format("{}, {} by {}: pixel ({}, {}), triangle {}", name, frame.width, frame.height, f.x,
+                         f.y, f.triangle);
+    };
+    const ScreenTriangle* piece = pieces.covering(f);
+    trial.require(piece != nullptr, [&] { return where() + " is not covered"; });
+    if (piece == nullptr) continue;
+    const Promise promise = bound.at(*piece, f.x, f.y);
+    for (std::size_t c = 0; c < 3; ++c)
+      trial.measure(preset, std::abs(promise.exact[c] - channels(f)[c]), promise.bound(c), where);
+  }
+}
+
+}  // namespace halfway::stability
