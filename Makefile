@@ -232,8 +232,9 @@ search: configure ## random triangles in golden model and RTL; what fails is shr
 	  --page=tb/stability/README.md --keep=tb/stability/regressions .
 
 bounds: configure ## every bound of formats and tables: derived, proved, and how near the worst found comes
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds
-	@build/tb/halfway_bounds --page tb/bounds/README.md build/bounds
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds halfway_page
+	@build/tb/halfway_bounds --gtest_brief=1 '--gtest_filter=*.Full/*:Checks.*' --gtest_output=xml:build/bounds.xml
+	@build/tb/halfway_page tb/bounds/README.md build/bounds.xml
 
 synth: configure ## cells on two FPGAs, and the clock on one, against what is pinned (DESIGN, SEEDS, PIN=1)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth synth_frames

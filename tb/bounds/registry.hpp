@@ -101,7 +101,4 @@ std::optional<std::string> gappa(const Context& context, std::string_view script
 /// What Sollya prints for a script; an empty optional where it is not asked: --quick.
 std::optional<std::string> sollya(const Context& context, std::string_view script);
 
-/// x.y as it is worth.
-std::string number(double value);
-
 }  // namespace halfway::bounds

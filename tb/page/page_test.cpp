@@ -35,6 +35,19 @@ TEST(Results, BecomeATableForEachSuite) {
   EXPECT_EQ(sections->front().body, "| case | a, b |\n| --- | --- |\n| γ | 1 |\n| γ | 1 |\n");
 }
 
+TEST(Results, MayBeAWholeTable) {
+  const std::string columns[] = {"a", "b"};
+  const std::vector<std::string> rows[] = {{"1", "2"}};
+  const std::string body = table(columns, rows);
+  EXPECT_EQ(body, "| a | b |\n| --- | --- |\n| 1 | 2 |\n");
+  std::string escaped;  // as GoogleTest writes it
+  for (const char c : body) escaped += c == '\n' ? std::string("&#x0A;") : std::string(1, c);
+  const auto sections = read_results("r.xml", results(result("x", "<property name=\"" + std::string(c_table) +
+                                                                      "\" value=\"" + escaped + "\"/>")));
+  ASSERT_TRUE(sections) << sections.error().message;
+  EXPECT_EQ(sections->front().body, body);
+}
+
 TEST(Results, AreNoPageWhereATestFailedOrHasNoRow) {
   const auto message = [](const std::string& xml) {
     const auto sections = read_results("r.xml", xml);
@@ -45,10 +58,12 @@ TEST(Results, AreNoPageWhereATestFailedOrHasNoRow) {
             "r.xml: two_words/Suite.y did not run");
   EXPECT_EQ(message(results(good + R"(<testcase name="y" result="completed"><failure/></testcase>)")),
             "r.xml: two_words/Suite.y failed");
-  EXPECT_EQ(message(results(result("x", ""))), "r.xml: two_words/Suite.x records nothing");
+  EXPECT_EQ(message(results(result("x", ""))), "r.xml: no test records a property");
+  EXPECT_EQ(message(results(result("x", "") + good)),
+            "r.xml: two_words/Suite.x records other properties than the suite's first test");
   EXPECT_EQ(message(results(good + result("y", R"(<property name="case" value="1"/>)"))),
             "r.xml: two_words/Suite.y records other properties than the suite's first test");
-  EXPECT_EQ(message("<testsuites/>"), "r.xml: holds no test suite");
+  EXPECT_EQ(message("<testsuites/>"), "r.xml: no test records a property");
   EXPECT_TRUE(message("<testsuites>").starts_with("r.xml: ")) << message("<testsuites>");
 }
 

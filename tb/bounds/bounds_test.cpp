@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every bound that model/tables states of a format or a table: its derivation comes to no more, nothing found
+// or proved exceeds it, and something comes within a factor of two of it. Each test records its row of the
+// page, or its table.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <ostream>
+#include <set>
+
+#include "page/page.hpp"
+#include "registry.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway::bounds {
+namespace {
+
+std::string number(double value) {
+  if (value == std::floor(value) && std::fabs(value) < 0x1p53) return fmt::format("{:.0f}", value);
+  return std::fabs(value) >= 0.001 && std::fabs(value) < 1e6 ? fmt::format("{:.5g}", value)
+                                                             : fmt::format("{:.4g}", value);
+}
+
+constexpr double c_tight = 0.5;      // of a bound that means something
+constexpr double c_rounding = 1e-9;  // of the doubles that both sides are computed in, relative
+
+std::string number_or_dash(double value) {
+  return value > 0 ? number(value) : "–";
+}
+
+// Runs a check with a folder for its scripts.
+template <class Run>
+auto with_context(bool quick, Run&& run) {
+  const auto scratch = TemporaryFolder::make(testing::TempDir());
+  EXPECT_TRUE(scratch) << scratch.error().message;
+  return run(Context{quick, scratch ? scratch->path() : std::filesystem::path()});
+}
+
+const std::vector<tables::PresetFormats>& presets() {
+  static const auto presets = tables::preset_formats();
+  return presets;
+}
+
+std::vector<Check> all_checks() {
+  std::vector<Check> all;
+  for (const auto& family : {integer_checks(), difference_checks(), angle_checks(), root_checks(),
+                             power_checks(), setup_checks(), sum_checks()})
+    all.insert(all.end(), family.begin(), family.end());
+  return all;
+}
+
+bool is_of(const Check& check, const tables::PresetFormats& preset, const tables::Format& format,
+           const tables::Bound& bound) {
+  return (check.preset == "both" || check.preset == preset.name) && check.name == format.name &&
+         check.of == bound.of;
+}
+
+// ---- Formats
+
+struct StatedBound {
+  const tables::PresetFormats* preset;
+  const tables::Format* format;
+  const tables::Bound* bound;
+  Check check;  ///< its `run` is empty if nothing checks the bound
+
+  friend void PrintTo(const StatedBound& b, std::ostream* out) {
+    *out << b.format->name << ' ' << b.bound->of;
+  }
+};
+
+std::vector<StatedBound> bounds_of(std::string_view preset_name) {
+  const std::vector<Check> checks = all_checks();
+  std::vector<StatedBound> stated;
+  for (const tables::PresetFormats& preset : presets())
+    for (const tables::Format& format : preset.formats)
+      for (const tables::Bound& bound : format.bounds) {
+        if (preset.name != preset_name) continue;
+        const auto check =
+            std::ranges::find_if(checks, [&](const Check& c) { return is_of(c, preset, format, bound); });
+        stated.push_back({&preset, &format, &bound, check == checks.end() ? Check{} : *check});
+      }
+  return stated;
+}
+
+std::string name_of(const testing::TestParamInfo<StatedBound>& info) {
+  const std::string_view of = info.param.bound->of;
+  std::string name = fmt::format("{}{}{}", info.param.format->name, of.empty() ? "" : "_", of);
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
+class FormatBounds : public testing::TestWithParam<StatedBound> {
+ protected:
+  void check(bool quick) {
+    const auto& [preset, format, bound, check] = GetParam();
+    ASSERT_TRUE(check.run) << "nothing checks the bound";
+    const Finding finding =
+        with_context(quick, [&](const Context& c) { return check.run(c, *preset, *format, *bound); });
+    EXPECT_EQ(finding.failure, "");
+    const double derived = tables::derived(*preset, *format, *bound);
+    const double most = bound->value * (1 + c_rounding), worst = std::max(finding.worst, 0.0);
+    EXPECT_LE(derived, most) << "its derivation";
+    EXPECT_LE(worst, most) << "found at " << finding.where;
+    EXPECT_LE(finding.proved, bound->value * (1 + 0x1p-9)) << "no less is proved";
+    double ratio = bound->value == 0 ? 1.0 : worst / bound->value;
+    if (finding.of_stated > 0) ratio = finding.of_stated;
+    EXPECT_LE(ratio, 1 + c_rounding) << "of what is stated at " << finding.where;
+    EXPECT_GE(ratio, c_tight) << "of the bound: nothing comes closer, at " << finding.where;
+    if (bound->kind == tables::Bound::Kind::range) {
+      // A signed format holds one more below zero.
+      const double capacity =
+          std::ldexp(1.0, format->integer_bits) - (format->is_signed ? 0 : format->unit());
+      EXPECT_LE(bound->value, capacity) << "the format's largest number";
+      if (check.roomy.empty()) {
+        EXPECT_GE(2 * bound->value, capacity) << "the format holds twice as much";
+      }
+    }
+
+    const std::string of(bound->kind == tables::Bound::Kind::range ? "range" : bound->of);
+    RecordProperty("format", fmt::format("`{}` {}{}.{}", format->name, format->is_signed ? 's' : 'u',
+                                         format->integer_bits, format->fraction_bits));
+    RecordProperty("of", of.empty() ? "–" : of);
+    RecordProperty("bound", fmt::format("{}{}{}", tables::shown(bound->value), bound->unit.empty() ? "" : " ",
+                                        bound->unit));
+    RecordProperty("from", fmt::format("`{}`", bound->derivation));
+    RecordProperty("derived", number(derived));
+    RecordProperty("found", number(finding.worst));
+    RecordProperty("of the bound", fmt::format("{:.2f}", ratio));
+    RecordProperty("where",
+                   check.roomy.empty() ? finding.where : fmt::format("{}; {}", finding.where, check.roomy));
+    RecordProperty("how", std::string(check.how));
+    RecordProperty("proved", number_or_dash(finding.proved));
+  }
+};
+
+TEST_P(FormatBounds, Quick) {
+  check(true);
+}
+TEST_P(FormatBounds, Full) {
+  check(false);
+}
+INSTANTIATE_TEST_SUITE_P(Formats_of_preset_exact, FormatBounds, testing::ValuesIn(bounds_of("exact")),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Formats_of_preset_published, FormatBounds, testing::ValuesIn(bounds_of("published")),
+                         name_of);
+
+TEST(Checks, EachFormatStatesABoundAndEachCheckHasOne) {
+  for (const tables::PresetFormats& preset : presets())
+    for (const tables::Format& format : preset.formats)
+      EXPECT_FALSE(format.bounds.empty()) << preset.name << ' ' << format.name;
+  for (const Check& check : all_checks()) {
+    const auto has = [&](const StatedBound& b) { return is_of(check, *b.preset, *b.format, *b.bound); };
+    EXPECT_TRUE(std::ranges::any_of(bounds_of("exact"), has) ||
+                std::ranges::any_of(bounds_of("published"), has))
+        << check.preset << ' ' << check.name << ' ' << check.of;
+  }
+}
+
+// ---- Tables
+
+using Rows = std::vector<std::vector<std::string>>;
+
+// Each is a test of its own suite, so that its table is a section of its own.
+struct Table {
+  std::string name;
+  std::vector<std::string> columns;
+  /// Checks the rows.
+  Rows (*rows)(const Context&);
+
+  friend void PrintTo(const Table& t, std::ostream* out) { *out << t.name; }
+};
+
+class TableBounds : public testing::TestWithParam<Table> {
+ protected:
+  void check(bool quick) {
+    const Rows rows = with_context(quick, GetParam().rows);
+    EXPECT_FALSE(rows.empty());
+    RecordProperty(std::string(page::c_table), page::table(GetParam().columns, rows));
+  }
+};
+
+TEST_P(TableBounds, Quick) {
+  check(true);
+}
+TEST_P(TableBounds, Full) {
+  check(false);
+}
+
+void expect_near_bound(double worst, double bound, std::string_view what) {
+  EXPECT_LE(worst, bound) << what;
+  EXPECT_GE(worst, c_tight * bound) << what << ": nothing comes closer";
+}
+
+Rows rows_of(const std::vector<TableFinding>& findings) {
+  Rows rows;
+  for (const TableFinding& f : findings) {
+    EXPECT_EQ(f.failure, "") << f.table;
+    EXPECT_LE(f.derived, f.bound * (1 + c_rounding)) << f.table;
+    expect_near_bound(f.worst, f.bound, f.table);
+    rows.push_back({f.table, number(f.bound), number(f.worst), fmt::format("{:.2f}", f.worst / f.bound),
+                    number_or_dash(f.sollya), f.where});
+  }
+  return rows;
+}
+
+Rows rows_of_rule(const Context& context) {
+  Rows rows;
+  for (const RuleRow& row : rule_rows(context)) {
+    expect_near_bound(row.our_error, row.our_bound, fmt::format("M = {}", row.walked));
+    // With the rule's bits the error would stay below half a step if the rule were right.
+    EXPECT_GE(row.rule_error, 0.5) << "M = " << row.walked << ": the published rule holds";
+    EXPECT_GE(row.rule_shown, 2) << "M = " << row.walked << ": the published rule holds";
+    rows.push_back({fmt::format("{}", row.walked), fmt::format("{}", row.rule_bits),
+                    fmt::format("{:.2f}", row.rule_error), fmt::format("{}", row.rule_shown),
+                    fmt::format("{}", row.our_bits), fmt::format("{:.3f}", row.our_bound),
+                    fmt::format("{:.3f}", row.our_error),
+                    fmt::format("{:.2f}", row.our_error / row.our_bound), row.triangle});
+  }
+  return rows;
+}
+
+Rows rows_of_drift(const Context& /*context*/) {
+  Rows rows;
+  for (const DriftRow& row : drift_rows()) {
+    expect_near_bound(row.addresses, row.bound, fmt::format("{} bits below the address", row.bits_below));
+    rows.push_back({fmt::format("{}", row.bits_below), fmt::format("{}", row.steps), number(row.bound),
+                    fmt::format("{:.3f}", row.addresses)});
+  }
+  return rows;
+}
+
+const std::vector<std::string>& table_columns() {
+  static const std::vector<std::string> columns = {"table",        "bound",  "found",
+                                                   "of the bound", "Sollya", "where"};
+  return columns;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cosine_tables, TableBounds,
+                         testing::Values(Table{"cosine", table_columns(), [](const Context& context) {
+                                                 return rows_of(cosine_tables(context));
+                                               }}));
+INSTANTIATE_TEST_SUITE_P(Function_tables, TableBounds,
+                         testing::Values(Table{"function", table_columns(), [](const Context& context) {
+                                                 return rows_of(function_tables(context));
+                                               }}));
+INSTANTIATE_TEST_SUITE_P(The_published_rule_of_fraction_bits, TableBounds,
+                         testing::Values(Table{"rule",
+                                               {"lines + pixels M", "rule: bits", "off by, colour steps",
+                                                "a pixel shown wrong by", "ours: bits", "bound", "found",
+                                                "of the bound", "the rule's triangle"},
+                                               rows_of_rule}));
+INSTANTIATE_TEST_SUITE_P(
+    Drift_of_the_spherical_angle, TableBounds,
+    testing::Values(Table{
+        "drift", {"bits below the table's address", "steps", "addresses, bound", "found"}, rows_of_drift}));
+
+}  // namespace
+}  // namespace halfway::bounds
