@@ -363,7 +363,7 @@ void add_view(CLI::App& app, const Folders& folders, int& exit_code) {
                   "with --terminal: 24bit or 256 (default: as COLORTERM says)");
   sub->add_option("--simulator", command->engine,
                   "verilator; lanes: many copies of the RTL in one vector, faster, and longer to build; or\n"
-                  "auto: lanes from 2^28 pixels of all frames on, with AVX-512, quadratic and spherical")
+                  "auto: lanes from 2^26 pixels of all frames on, with AVX-512, quadratic and spherical")
       ->capture_default_str();
   sub->add_flag("--no-compare", command->no_compare,
                 "leave the golden model out: faster, and nothing says whether the frames are right");

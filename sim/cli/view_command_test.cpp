@@ -372,8 +372,8 @@ TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
 // still hold comes in no later frame.
 TEST_F(ViewCommand, WhatLanesBreakOffIsDrawnInVerilatorAndTold) {
   const std::filesystem::path copy = copy_checkout();
-  spoil(copy / "sim/lanes/lane_harness.cpp", "      const M moved = block();\n",
-        "      const M moved = block();\n      static bool broken = false;\n"
+  spoil(copy / "sim/lanes/lane_harness.cpp", "      const std::uint32_t moved = block();\n",
+        "      const std::uint32_t moved = block();\n      static bool broken = false;\n"
         "      if (!broken) {\n        broken = true;\n        return HALFWAY_HANG;\n      }\n");
   const Outcome expected = run({"view", "matte", "--size", "320x240", "--frames", "3", "--simulator",
                                 "verilator", "--threads", "1", "--out", "expected"});

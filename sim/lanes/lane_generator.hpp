@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From Verilator's XML of a flattened netlist to C++ that clocks many copies of it at once, each in a lane of
-// its own. sim/lanes/lane_vectors.hpp has the operations that the text calls.
+// its own. The text calls the operations of sim/lanes/lane_operations.hpp.
 #pragma once
 
 #include <map>

@@ -123,6 +123,20 @@ int LaneGraph::mask_invert(int a) {
   return add({.op = LaneOp::mask_invert, .operands = {a, -1, -1}});
 }
 
+int LaneGraph::mask_select(int mask, int a, int b) {
+  const LaneNode &m = (*this)[mask], &x = (*this)[a], &y = (*this)[b];
+  if (m.op == LaneOp::mask_constant) return m.value != 0 ? a : b;
+  if (m.op == LaneOp::mask_invert) return mask_select(m.operands[0], b, a);
+  if (a == b) return a;
+  if (x.op == LaneOp::mask_constant)
+    return x.value != 0 ? mask_operate(LaneOp::mask_either, mask, b)
+                        : mask_operate(LaneOp::mask_both, mask_invert(mask), b);
+  if (y.op == LaneOp::mask_constant)
+    return y.value != 0 ? mask_operate(LaneOp::mask_either, mask_invert(mask), a)
+                        : mask_operate(LaneOp::mask_both, mask, a);
+  return add({.op = LaneOp::mask_select, .operands = {mask, a, b}});
+}
+
 int LaneGraph::bit(int a, unsigned index) {
   const LaneNode& x = (*this)[a];
   if (x.bits <= index) return mask_constant(false);
@@ -139,6 +153,50 @@ int LaneGraph::compare(LaneOp op, int a, int b) {
   }
   if (op == LaneOp::equal && a > b) std::swap(a, b);
   return add({.op = op, .operands = {a, b, -1}});
+}
+
+int LaneGraph::with_operands(const LaneNode& node, const std::array<int, 3>& x) {
+  switch (node.op) {
+    case LaneOp::add:
+    case LaneOp::subtract:
+    case LaneOp::multiply:
+    case LaneOp::multiply_high:
+    case LaneOp::both:
+    case LaneOp::either:
+    case LaneOp::differ:
+    case LaneOp::left_by:
+    case LaneOp::right_by:
+    case LaneOp::signed_right_by:
+      return operate(node.op, x[0], x[1]);
+    case LaneOp::invert:
+      return invert(x[0]);
+    case LaneOp::left:
+      return shift(x[0], static_cast<int>(node.value));
+    case LaneOp::right:
+      return shift(x[0], -static_cast<int>(node.value));
+    case LaneOp::select:
+      return select(x[0], x[1], x[2]);
+    case LaneOp::fill:
+      return fill(x[0], node.value);
+    case LaneOp::mask_both:
+    case LaneOp::mask_either:
+    case LaneOp::mask_differ:
+      return mask_operate(node.op, x[0], x[1]);
+    case LaneOp::mask_invert:
+      return mask_invert(x[0]);
+    case LaneOp::mask_select:
+      return mask_select(x[0], x[1], x[2]);
+    case LaneOp::equal:
+    case LaneOp::less:
+    case LaneOp::signed_less:
+      return compare(node.op, x[0], x[1]);
+    case LaneOp::bit:
+      return bit(x[0], static_cast<unsigned>(node.value));
+    default:
+      LaneNode other = node;
+      other.operands = x;
+      return add(other);
+  }
 }
 
 }  // namespace halfway

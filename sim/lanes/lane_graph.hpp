@@ -42,6 +42,7 @@ enum class LaneOp {
   mask_either,
   mask_differ,
   mask_invert,
+  mask_select,  ///< mask ? a : b, all masks
   equal,
   less,
   signed_less,
@@ -83,8 +84,10 @@ class LaneGraph {
   }
   int mask_operate(LaneOp op, int a, int b);
   int mask_invert(int a);
+  int mask_select(int mask, int a, int b);
   int bit(int a, unsigned index);
   int compare(LaneOp op, int a, int b);
+  int with_operands(const LaneNode& node, const std::array<int, 3>& operands);
 
  private:
   int add(LaneNode node);

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "sim/lanes/lane_api.h"
-#include "sim/lanes/lane_vectors.hpp"
+#include "sim/lanes/lane_operations.hpp"
 
 namespace halfway::lanes {
 namespace {
@@ -46,7 +46,7 @@ class Lanes {
         if (lane.room < lane.count + kBlock + 1) move(lane, 2 * lane.waiting() + 4 * kBlock);
         lane.next = lane.fragments.get() + lane.count;
       }
-      const M moved = block();
+      const std::uint32_t moved = block();
       for (unsigned i = 0; i < kLanes; ++i) {
         Lane& lane = lanes_[i];
         lane.still = (moved >> i & 1) != 0 ? 0 : lane.still + kBlock;
@@ -57,7 +57,7 @@ class Lanes {
     Outputs out;
     for (int i = 0; active_ == 0 && i < kLateClocks; ++i) {
       step(state_, in_, out);
-      faults_ |= out.fault;
+      faults_ |= to_bits(out.fault);
     }
     return faults_ != 0 ? HALFWAY_FAULT : HALFWAY_DONE;
   }
@@ -119,8 +119,8 @@ class Lanes {
   }
 
   void begin_part(unsigned i) {
-    const M bit = static_cast<M>(1u << i);
-    active_ &= static_cast<M>(~bit);
+    const std::uint32_t bit = 1u << i;
+    active_ &= ~bit;
     const std::size_t next = __atomic_fetch_add(batch_->next, 1, __ATOMIC_RELAXED);
     if (next >= batch_->end) {
       stops_ = batch_->more != 0;
@@ -141,15 +141,14 @@ class Lanes {
 
   void offer(unsigned i) {
     const Lane& lane = lanes_[i];
-    const M bit = static_cast<M>(1u << i);
-    in_.init_valid &= static_cast<M>(~bit);
+    const std::uint32_t bit = 1u << i, others = to_bits(in_.init_valid) & ~bit;
+    in_.init_valid = to_mask(lane.vectors == 0 ? others : others | bit);
     if (lane.vectors == 0) return;
-    in_.init_valid |= bit;
     set_init_data(in_, i, lane.words);
   }
 
-  __attribute__((noinline)) void taken(M take) {
-    for (; take != 0; take &= static_cast<M>(take - 1)) {
+  __attribute__((noinline)) void taken(std::uint32_t take) {
+    for (; take != 0; take &= take - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(take));
       lanes_[i].words += kInitWords;
       --lanes_[i].vectors;
@@ -157,8 +156,8 @@ class Lanes {
     }
   }
 
-  __attribute__((noinline)) void ended(M idle, std::size_t clocks) {
-    for (; idle != 0; idle &= static_cast<M>(idle - 1)) {
+  __attribute__((noinline)) void ended(std::uint32_t idle, std::size_t clocks) {
+    for (; idle != 0; idle &= idle - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(idle));
       Lane& lane = lanes_[i];
       count(lane, clocks);
@@ -173,26 +172,26 @@ class Lanes {
     lane.count = static_cast<std::size_t>(lane.next + clocks - lane.fragments.get());
   }
 
-  M block() {
-    M moved = 0;
+  std::uint32_t block() {
+    std::uint32_t moved = 0;
     std::size_t clock = 0;
     while (clock < kBlock && goes()) {
       Outputs out;
-      const M offered = in_.init_valid;
+      const std::uint32_t offered = to_bits(in_.init_valid);
       step(state_, in_, out);
-      const M take = offered & out.init_ready;
+      const std::uint32_t take = offered & to_bits(out.init_ready), drawn = to_bits(out.fragment_valid);
       write(out, clock++);
       // Most lanes have a fragment in most clocks: only where there is none the place does not move.
-      for (M none = active_ & ~out.fragment_valid; none != 0; none &= static_cast<M>(none - 1))
+      for (std::uint32_t none = active_ & ~drawn; none != 0; none &= none - 1)
         --lanes_[std::countr_zero(none)].next;
-      moved |= take | out.fragment_valid;
-      faults_ |= out.fault;
+      moved |= take | drawn;
+      faults_ |= to_bits(out.fault);
       cycles_ += static_cast<unsigned>(std::popcount(active_));
       if (take != 0) taken(take);
-      const M idle = active_ & ~(offered | out.fragment_valid | out.busy);
+      const std::uint32_t idle = active_ & ~(offered | drawn | to_bits(out.busy));
       if (idle != 0) ended(idle, clock);
     }
-    for (M left = active_; left != 0; left &= static_cast<M>(left - 1))
+    for (std::uint32_t left = active_; left != 0; left &= left - 1)
       count(lanes_[std::countr_zero(left)], clock);
     return moved;
   }
@@ -206,8 +205,8 @@ class Lanes {
   State state_;
   Inputs in_;
   Lane lanes_[kLanes];
-  M active_ = 0, faults_ = 0;
-  bool stops_ = false;  // a lane has nothing to begin, and the caller has more
+  std::uint32_t active_ = 0, faults_ = 0;  // a bit per lane
+  bool stops_ = false;                     // a lane has nothing to begin, and the caller has more
   const HalfwayBatch* batch_ = nullptr;
   std::uint32_t owner_;
   std::uint64_t idle_limit_, cycles_ = 0;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "sim/system/file.hpp"
 
 namespace halfway {
@@ -22,17 +24,25 @@ const std::vector<std::string> kCompilerFlags = {
     "-fvisibility=hidden",
     "-Wl,-Bsymbolic",
     "-Wl,-z,defs",
-    // clang++ 14 aligns the vectors that it keeps on the stack only where that has a frame pointer.
+    // clang++ 14 aligns vectors on the stack only in functions with a frame pointer.
     "-fno-omit-frame-pointer",
 #ifdef __x86_64__
     "-mprefer-vector-width=512",
 #endif
 };
-// What the text depends on beside the netlist.
-const std::vector<std::string> kSources = {"sim/lanes/lane_generator.cpp", "sim/lanes/lane_generator.hpp",
-                                           "sim/lanes/lane_graph.cpp",     "sim/lanes/lane_graph.hpp",
-                                           "sim/lanes/lane_vectors.hpp",   "sim/lanes/lane_api.h",
-                                           "sim/verilator/harness_api.h"};
+/// The sources of the generated library: this folder's, without tests, and the header of the interface.
+Result<std::vector<std::filesystem::path>> generator_sources(const std::filesystem::path& source) {
+  std::vector<std::filesystem::path> files = {source / "sim/verilator/harness_api.h"};
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(source / "sim/lanes", error)) {
+    const std::string name = entry.path().filename().string();
+    const bool code = name.ends_with(".cpp") || name.ends_with(".hpp") || name.ends_with(".h");
+    if (code && !name.ends_with("_test.cpp")) files.push_back(entry.path());
+  }
+  if (error) return tool_failed(fmt::format("{}: {}", (source / "sim/lanes").string(), error.message()));
+  std::sort(files.begin(), files.end());
+  return files;
+}
 
 }  // namespace
 
@@ -47,8 +57,10 @@ Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::
   ContentHash hash;
   hash.add("lanes 1").add(*verilator_version).add(compiler->identity).add(build.netlist).add(build.top);
   hash.add(*harness).add(build.fast ? "-O3" : "-O1");
-  for (const std::string& name : kSources) {
-    const auto text = read_file(build.source / name);
+  const auto sources = generator_sources(build.source);
+  if (!sources) return sources.error();
+  for (const std::filesystem::path& file : *sources) {
+    const auto text = read_file(file);
     if (!text) return tool_failed(text.error().message);
     hash.add(*text);
   }

@@ -21,7 +21,7 @@ constexpr std::size_t kVectors = 500;  // a lane
 
 // As tb/netlist/netlist_harness.cpp, each lane with its own vectors.
 const char* const kHarness = R"(
-#include "sim/lanes/lane_vectors.hpp"
+#include "sim/lanes/lane_operations.hpp"
 namespace halfway::lanes { namespace {
 #include "lanes.hpp"
 } }
@@ -85,6 +85,25 @@ ROM
   reg stored, held, beside;
   reg [11:0] counted, caught;
   reg [3:0] unset;
+  // Registers as GHDL prints them: loaded in every clock, often with their own value.
+  reg [16:0] record;
+  reg [11:0] walked, deep;
+  reg walked_carry, top, masked_top;
+  wire [11:0] addend, stepped;
+  wire [13:0] digit;
+  assign addend = f ? d : c;
+  assign stepped = walked + addend;
+  assign digit = {2'b0, c} * {12'b0, n[1] & g, n[0] & g};
+  always @(posedge clk)
+    record <= reset ? 17'h155 : e ? {f, c, n[3:0]} : g ? {record[16], record[15:4] + 12'd3, record[3:0]} : record;
+  always @(posedge clk)
+    walked <= (e | f) ? (e ? addend : stepped) : walked;
+  always @(posedge clk)
+    walked_carry <= (e | f) ? stepped[11] & ~e : walked_carry;
+  always @(posedge clk)
+    deep <= n[0] ? (n[1] ? deep : n[2] ? (n[3] ? (n[4] ? (n[5] ? (e ? (f ? deep : c) : d) : deep) : c) : deep) : d) : deep;
+  always @(posedge clk) top <= digit[13] & (n[1] & g);
+  always @(posedge clk) masked_top <= digit[13] & n[0];
   wire [39:0] next;
   assign next = e ? sum + a : sum - b;
   always @(posedge clk)
@@ -122,7 +141,7 @@ ROM
   always @(posedge clk)
     if (held) begin held <= e; beside <= h; caught <= g ? c : caught; end else begin held <= f; end
   assign response = {
-    819'b0, unset, {2'b0, unset} + n, stored, held, beside, counted, caught, left, right, k + l, k - l, k * l, -k, k << n, k >> n, $signed(k) >>> n, {k[70:0], 1'b1} + {l[70:0], e},
+    774'b0, record, walked, deep, walked_carry, top, masked_top, 1'b0, unset, {2'b0, unset} + n, stored, held, beside, counted, caught, left, right, k + l, k - l, k * l, -k, k << n, k >> n, $signed(k) >>> n, {k[70:0], 1'b1} + {l[70:0], e},
     k == l, k < l, k >= l, $signed(k) < $signed(l), {a[38:0], 1'b1} + {b[38:0], e}, {b[38:0], f} + {a[38:0], 1'b1}, places[n[4:2]], place, {f, place[68:0]}, c != d ? a : b,
     {40{two}}, {24'b0, c, mixed[18], n, d[3:0]}, one, two, product, read, mixed, wide, q, p, sum,
     a << 5, a >> 7, a << n, a >> n, {52'b0, c} << n, $signed(c) >>> 3, $signed(d) >>> n[3:0],
@@ -208,12 +227,62 @@ TEST_F(Lanes, EveryOperationIsAsInVerilator) {
   }
 }
 
+std::string text_of(const SharedLibrary& lanes) {
+  const auto text = read_file(lanes.file().parent_path() / "lanes.hpp");
+  return text ? *text : text.error().message;
+}
+
+TEST_F(Lanes, WhatARegisterKeepsBecomesACondition) {
+  // A record of two fields; each has conditions of its own.
+  const auto record = open(
+      "  reg [15:0] q;\n"
+      "  always @(posedge clk)\n"
+      "    q <= stimulus[0] ? {q[15:8], stimulus[15:8]} : stimulus[1] ? {stimulus[31:24], q[7:0]} : q;\n"
+      "  assign response = {3184'b0, q};\n");
+  ASSERT_TRUE(record) << record.error().message;
+  EXPECT_EQ(text_of(*record).find("select("), std::string::npos) << text_of(*record);
+  EXPECT_EQ(text_of(*record).find("  {\n"), std::string::npos) << text_of(*record);
+
+  // A sum that is loaded or stepped: the step alone adds.
+  const auto sum = open(
+      "  reg [15:0] q;\n"
+      "  wire [15:0] addend;\n"
+      "  assign addend = stimulus[1] ? stimulus[31:16] : stimulus[63:48];\n"
+      "  always @(posedge clk)\n"
+      "    q <= (stimulus[0] | stimulus[1]) ? (stimulus[0] ? addend : q + addend) : q;\n"
+      "  assign response = {3184'b0, q};\n");
+  ASSERT_TRUE(sum) << sum.error().message;
+  const std::string text = text_of(*sum);
+  const std::size_t step = text.find("LANE_STEP void step("), reset = text.find("LANE_STEP void reset_step(");
+  ASSERT_NE(step, std::string::npos);
+  const std::string body = text.substr(step, reset - step);
+  std::size_t groups = 0;
+  for (std::size_t at = 0; (at = body.find("  if (any(", at)) != std::string::npos; ++at) ++groups;
+  EXPECT_EQ(groups, 2U) << body;
+}
+
+TEST_F(Lanes, OnePartOfASignalMayDependOnAnother) {
+  // As GHDL prints a record whose fields are calculated from one another.
+  const auto chain = open(
+      "  wire [11:0] chain;\n"
+      "  assign chain = {chain[7:4] + 4'd1, chain[3:0] ^ 4'd5, stimulus[3:0]};\n"
+      "  reg [11:0] q;\n"
+      "  always @(posedge clk) q <= chain;\n"
+      "  assign response = {3188'b0, q};\n");
+  EXPECT_TRUE(chain) << chain.error().message;
+  expect_refused(
+      "  wire [7:0] loop;\n"
+      "  assign loop = {loop[3:0] + 4'd1, loop[7:4]};\n"
+      "  assign response = {3192'b0, loop};\n",
+      "depends on itself");
+}
+
 TEST_F(Lanes, WhatTheyCannotDoIsRefused) {
   const auto respond = [](const std::string& expression) {
     return "  assign response = " + expression + ";\n";
   };
-  expect_refused(respond("{3192'b0, stimulus[7:0] / stimulus[15:8]}"), "do not know 'div'");
-  expect_refused(respond("{3199'b0, ^stimulus[7:0]}"), "do not know 'redxor'");
+  expect_refused(respond("{3192'b0, stimulus[7:0] / stimulus[15:8]}"), "do not support 'div'");
+  expect_refused(respond("{3199'b0, ^stimulus[7:0]}"), "do not support 'redxor'");
   expect_refused("  reg [3:0] m[2047:0];\n  always @(posedge clk) m[stimulus[10:0]] <= stimulus[18:15];\n" +
                      respond("{3196'b0, m[stimulus[30:20]]}"),
                  "m.m: a memory of 2048 places");
@@ -222,7 +291,7 @@ TEST_F(Lanes, WhatTheyCannotDoIsRefused) {
       "  always @(posedge clk) if (stimulus[6]) m[stimulus[0]] <= n[stimulus[1]];\n"
       "  always @(posedge clk) if (stimulus[7]) n[stimulus[2]] <= m[stimulus[3]];\n" +
           respond("{3192'b0, m[stimulus[4]], n[stimulus[5]]}"),
-      "take from one another");
+      "read from one another");
   expect_refused("  reg [3:0] m[11:0];\n  always @(posedge clk) m[stimulus[3:0]] <= stimulus[7:4];\n" +
                      respond("{3196'b0, m[stimulus[11:8]]}"),
                  "m.m: an address that may lie outside");

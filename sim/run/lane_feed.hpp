@@ -23,7 +23,7 @@ inline const char* to_string(RtlEngine engine) {
 Result<RtlEngine> parse_rtl_engine(const std::string& text);
 
 /// Of all frames together; from here on lanes save more than the 5 s that their compilation takes.
-inline constexpr double c_least_lane_pixels = double(1U << 28);
+inline constexpr double c_least_lane_pixels = double(1U << 26);
 
 /// Whether lanes are to draw so many pixels: on processors with AVX-512, a shader whose triangles stand
 /// alone, and work enough. An engine that was asked for is taken; lanes that cannot be had are bad input.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/verilator/shader_netlist.hpp"
 
+#include "sim/verilator/netlist.hpp"
+
 namespace halfway {
 
-Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders, Wires wires) {
+Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders) {
   const auto tool = GhdlTool::find();
   if (!tool) return tool.error();
   const auto sources = read_rtl_sources(folders.source);
@@ -12,9 +14,7 @@ Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& f
   if (!library) return library.error();
   const auto netlist = library->synthesize(key.entity(), key.generics());
   if (!netlist) return netlist.error();
-  auto mended = mend_netlist(*netlist);
-  if (!mended) return mended.error();
-  return split_registers(*mended, wires);
+  return mend_netlist(*netlist);
 }
 
 }  // namespace halfway

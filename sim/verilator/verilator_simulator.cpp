@@ -63,7 +63,7 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
   }
   // The others are for looking at a few cycles, at every wire.
   const bool fast = options.wave_file.empty() && !key.probe && options.netlist.empty();
-  auto netlist = netlist_of(key, folders, fast ? Wires::inside : Wires::outside);
+  auto netlist = netlist_of(key, folders);
   if (!netlist) return netlist.error();
   const unsigned init_bits = port_bits(*netlist, key.entity(), "init_data");
   const unsigned probe_bits = port_bits(*netlist, key.entity(), "probe");

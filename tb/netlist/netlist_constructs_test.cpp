@@ -25,7 +25,7 @@ constexpr unsigned kResponseBits = kLaneBits * kLanes;
 constexpr std::size_t kVectors = 4000;
 
 using Generics = std::vector<std::pair<std::string, std::string>>;
-enum class Netlist { raw, mended, split, inside };
+enum class Netlist { raw, mended };
 
 std::string to_hex(std::span<const std::uint32_t> words, unsigned bits) {
   std::string text;
@@ -137,8 +137,6 @@ class NetlistConstructs : public testing::Test {
       netlist = mend_netlist(*netlist);
       if (!netlist) return netlist.error();
     }
-    if (kind == Netlist::split) netlist = Result<std::string>(split_registers(*netlist));
-    if (kind == Netlist::inside) netlist = Result<std::string>(split_registers(*netlist, Wires::inside));
     const std::filesystem::path root = HALFWAY_SOURCE_DIR;
     const auto verilated = open_verilated({.name = entity,
                                            .netlist = *netlist,
@@ -190,11 +188,9 @@ TEST_F(NetlistConstructs, EveryConstructOfTheRtlIsEqual) {
   for (const Generics& generics :
        {Generics{{"g_exact", "true"}, {"g_count", "3"}}, Generics{{"g_exact", "false"}, {"g_count", "4"}}}) {
     const auto expected = simulate(generics);
-    for (const Netlist kind : {Netlist::mended, Netlist::split, Netlist::inside}) {
-      const auto found = verilate("netlist_constructs", generics, kind);
-      ASSERT_TRUE(found) << found.error().message;
-      EXPECT_EQ(differences(expected, *found), "") << generics[0].second;
-    }
+    const auto found = verilate("netlist_constructs", generics, Netlist::mended);
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(differences(expected, *found), "") << generics[0].second;
     // Every lane must have done something.
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const std::size_t at = (kLanes - 1 - lane) * kLaneBits / 4;
@@ -211,11 +207,9 @@ TEST_F(NetlistConstructs, EveryConstructOfTheRtlIsEqual) {
 // Its products and memories are other text where GHDL simulates them than where it synthesizes them.
 TEST_F(NetlistConstructs, TheShadingArithmeticIsEqual) {
   const auto expected = simulate({{"g_shading", "true"}});
-  for (const Netlist kind : {Netlist::mended, Netlist::split, Netlist::inside}) {
-    const auto found = verilate("netlist_shading", {}, kind);
-    ASSERT_TRUE(found) << found.error().message;
-    EXPECT_EQ(differences(expected, *found), "");
-  }
+  const auto found = verilate("netlist_shading", {}, Netlist::mended);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(differences(expected, *found), "");
   constexpr std::size_t used_lanes = 24;
   for (std::size_t lane = 0; lane < used_lanes; ++lane) {
     const std::size_t at = (kLanes - 1 - lane) * kLaneBits / 4;
@@ -236,7 +230,7 @@ TEST_F(NetlistConstructs, KnownBadConstructsAreCaught) {
                           Case{4, "signed division", "signed division"}, Case{5, "minimum", "VHDL text"},
                           Case{7, "mod", "signed division"}, Case{8, "case with others", "when others"}}) {
     const Generics generics = {{"g_construct", std::to_string(bad.construct)}};
-    const auto found = verilate("netlist_known_bad", generics, Netlist::split);
+    const auto found = verilate("netlist_known_bad", generics, Netlist::mended);
     if (bad.refusal != nullptr) {
       ASSERT_FALSE(found) << bad.name;
       EXPECT_EQ(found.error().code, ExitCode::tool_failed);
@@ -255,7 +249,7 @@ TEST_F(NetlistConstructs, WideConstantsNeedTheMending) {
   Generics simulated = generics;
   simulated.emplace_back("g_known_bad", "true");
   const auto expected = simulate(simulated);
-  const auto mended = verilate("netlist_known_bad", generics, Netlist::split);
+  const auto mended = verilate("netlist_known_bad", generics, Netlist::mended);
   ASSERT_TRUE(mended) << mended.error().message;
   EXPECT_EQ(differences(expected, *mended), "");
   const auto raw = verilate("netlist_known_bad", generics, Netlist::raw);
@@ -265,7 +259,7 @@ TEST_F(NetlistConstructs, WideConstantsNeedTheMending) {
 }
 
 TEST_F(NetlistConstructs, SoundConstructInTheSameTestbenchIsEqual) {
-  const auto found = verilate("netlist_known_bad", {{"g_construct", "0"}}, Netlist::split);
+  const auto found = verilate("netlist_known_bad", {{"g_construct", "0"}}, Netlist::mended);
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_EQ(differences(simulate({{"g_construct", "0"}, {"g_known_bad", "true"}}), *found), "");
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operations of the generated lanes: vectors of a 32-bit number a lane, and masks of a bit a lane. With
-// AVX-512 a mask is a mask register's; elsewhere the compiler does what it can.
+// The vector type of the generated lanes, with all that depends on the processor: V holds a 32-bit number per
+// lane, M a condition per lane. Another processor needs another version of this header alone.
+//
+// With AVX-512 M is a mask register. Elsewhere the compiler translates the vector extension as it can.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +20,7 @@ constexpr unsigned kLanes = 16;
 using V = std::uint32_t __attribute__((vector_size(4 * kLanes)));
 using S = std::int32_t __attribute__((vector_size(4 * kLanes)));
 using M = std::uint16_t;
-constexpr M kAll = 0xffff;
+constexpr M kAll = 0xffff, kNone = 0;
 
 LANE_FUNCTION V splat(std::uint32_t value) {
   return V{} + value;
@@ -49,7 +51,7 @@ LANE_FUNCTION V lookup(const std::uint32_t* table, V address) {
   return (V)_mm512_i32gather_epi32((__m512i)address, table, 4);
 }
 #else
-LANE_FUNCTION V spread(M mask) {  // a lane's bit as all ones or zeros
+LANE_FUNCTION V spread(M mask) {  // each lane's bit as all ones or zeros
   V bits{};
   for (unsigned i = 0; i < kLanes; ++i) bits[i] = -(std::uint32_t{mask} >> i & 1);
   return bits;
@@ -93,27 +95,32 @@ LANE_FUNCTION M select(M mask, M a, M b) {
 LANE_FUNCTION void assign(M mask, M& to, M value) {
   to = select(mask, value, to);
 }
-LANE_FUNCTION V left_by(V a, V distance) {
-  return select(less(distance, splat(32)), a << (distance & 31), V{});
+LANE_FUNCTION M invert(M mask) {
+  return static_cast<M>(~mask);
 }
-LANE_FUNCTION V right_by(V a, V distance) {
-  return select(less(distance, splat(32)), a >> (distance & 31), V{});
+LANE_FUNCTION bool any(M mask) {
+  return mask != 0;
 }
-LANE_FUNCTION V signed_right_by(V a, V distance) {
-  return (V)((S)a >> (S)select(less(distance, splat(31)), distance, splat(31)));
+// The lanes of a mask as bits, and the reverse.
+LANE_FUNCTION std::uint32_t to_bits(M mask) {
+  return mask;
 }
-LANE_FUNCTION V multiply_high(V a, V b) {  // the product's upper word
-  const V al = a & 0xffff, ah = a >> 16, bl = b & 0xffff, bh = b >> 16;
-  const V low = al * bl, left = ah * bl + (low >> 16), right = al * bh + (left & 0xffff);
-  return ah * bh + (left >> 16) + (right >> 16);
+LANE_FUNCTION M to_mask(std::uint32_t bits) {
+  return static_cast<M>(bits);
+}
+LANE_FUNCTION void set_lane(V& vector, unsigned lane, std::uint32_t value) {
+  reinterpret_cast<std::uint32_t __attribute__((may_alias))*>(&vector)[lane] = value;
+}
+LANE_FUNCTION void set_lane(M& mask, unsigned lane, std::uint32_t value) {
+  mask = static_cast<M>((mask & ~(1u << lane)) | value << lane);
 }
 
-/// Four words a lane: of all lanes by word, or, turned, by lane: lane 4 q + j is the q-th quarter of the j-th
-/// vector.
+/// Four words per lane, one vector per word. Turned, the words of each lane are adjacent: lane 4 q + j is the
+/// q-th quarter of the j-th vector.
 struct Row {
   V words[4];
 };
-// Of each four words of `a` and `b`: words i and j of both, by turns; two of each, from word i on.
+// From each four words of `a` and `b`: words i and j of both, alternating; two of each, from word i on.
 #define LANE_PAIRS(a, b, i, j)                                                                            \
   __builtin_shufflevector(a, b, i, 16 + i, j, 16 + j, 4 + i, 20 + i, 4 + j, 20 + j, 8 + i, 24 + i, 8 + j, \
                           24 + j, 12 + i, 28 + i, 12 + j, 28 + j)
@@ -129,39 +136,6 @@ LANE_FUNCTION Row turn(const Row& row) {
 }
 LANE_FUNCTION char* of_lane(Row& turned, unsigned lane) {
   return reinterpret_cast<char*>(&turned.words[lane % 4]) + lane / 4 * 16;
-}
-
-/// A memory: each lane's places lie together, and behind them one for what is not written.
-template <unsigned places>
-struct Memory {
-  alignas(64) std::uint32_t of[kLanes][places + 1][4]{};
-};
-template <unsigned places>
-LANE_FUNCTION void store(Memory<places>& memory, M mask, V address, const Row& row) {
-  Row turned = turn(row);
-  const V where = select(mask, address, splat(places));
-  for (unsigned i = 0; i < kLanes; ++i) std::memcpy(memory.of[i][where[i]], of_lane(turned, i), 16);
-}
-template <unsigned places>
-LANE_FUNCTION Row load(const Memory<places>& memory, V address) {
-  Row turned;
-  for (unsigned i = 0; i < kLanes; ++i) std::memcpy(of_lane(turned, i), memory.of[i][address[i]], 16);
-  return turn(turned);
-}
-
-/// `width` bits, 32 at most, of an array of words from bit `low` up; reads no word but those they lie in.
-template <unsigned low, unsigned width>
-LANE_FUNCTION std::uint32_t field(const std::uint32_t* words) {
-  constexpr unsigned first = low / 32, shift = low % 32;
-  std::uint64_t value = words[first];
-  if constexpr (shift + width > 32) value |= static_cast<std::uint64_t>(words[first + 1]) << 32;
-  return static_cast<std::uint32_t>(value >> shift & ((std::uint64_t{1} << width) - 1));
-}
-LANE_FUNCTION void set_lane(V& vector, unsigned lane, std::uint32_t value) {
-  reinterpret_cast<std::uint32_t __attribute__((may_alias))*>(&vector)[lane] = value;
-}
-LANE_FUNCTION void set_lane(M& mask, unsigned lane, std::uint32_t value) {
-  mask = static_cast<M>((mask & ~(1u << lane)) | value << lane);
 }
 
 }  // namespace halfway::lanes

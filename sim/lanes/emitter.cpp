@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/lanes/emitter.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <set>
+#include <vector>
+
+namespace halfway {
+namespace {
+
+/// The text of one function.
+class StepEmitter {
+ public:
+  StepEmitter(const ScheduledStep& scheduled, const Delays& delays)
+      : step_(scheduled.step), schedule_(scheduled.schedule), delays_(delays) {}
+
+  std::string emit(const std::string& name) {
+    text_ = "LANE_STEP void " + name + "(State& s, const Inputs& in, Outputs& out) {\n";
+    emit_rings();
+    for (const std::size_t cell : schedule_.saved)
+      text_ += fmt::format("  const {0} o{1} = s.c{1};\n", type_of(cell), cell);
+    emit_nodes(schedule_.always, {});
+    emit_outputs();
+    in_group_ = true;
+    for (const Group& group : schedule_.groups) emit_group(group);
+    return text_ + (delays_.empty() ? "}\n" : "  ++s.clock;\n}\n");
+  }
+
+ private:
+  void emit_rings() {
+    if (delays_.empty()) return;
+    text_ += fmt::format("  Late& next = s.late[(s.clock + 1) % {}];\n", kRingPlaces);
+    for (unsigned age = 0; age <= kOldest; ++age)
+      text_ += fmt::format("  const Late& late{0} = s.late[(s.clock - {0}) % {1}];\n", age, kRingPlaces);
+  }
+
+  void emit_outputs() {
+    for (const auto& [output, words] : step_.outputs) {
+      for (std::size_t i = 0; i < words.size(); ++i) {
+        text_ += fmt::format("  out.{}{} = {};\n", output, words.size() == 1 ? "" : fmt::format("[{}]", i),
+                             reference(words[i]));
+      }
+    }
+  }
+
+  void emit_group(const Group& group) {
+    // Open the block, unless it runs in every clock.
+    const bool always = step_.graph[group.condition].op == LaneOp::mask_constant;
+    const std::string condition = reference(group.condition);
+    text_ += always ? "  {\n" : fmt::format("  if (any({})) {{\n", condition);
+
+    // Calculate what the group needs.
+    std::vector<bool> used = schedule_.always;
+    CellSet cells;
+    for (const Update& update : group.updates) {
+      const auto [where, value] = changed_lanes(step_, delays_, update);
+      for (const int node : {where, value})
+        if (node >= 0) mark_used(step_.graph, node, used, cells);
+    }
+    for (const auto& [bank, store] : group.banks) {
+      mark_used(step_.graph, store.address, used, cells);
+      for (const int word : store.words) mark_used(step_.graph, word, used, cells);
+    }
+    emit_nodes(used, schedule_.always);
+
+    // Read all new values before the first register changes.
+    for (const Update& update : group.updates)
+      text_ += fmt::format("  const {} n{} = {};\n", type_of(update.cell), update.cell,
+                           reference(changed_lanes(step_, delays_, update).second));
+    for (const Update& update : group.updates) emit_update(update, always ? "" : condition);
+    for (const auto& [bank, store] : group.banks) {
+      text_ += fmt::format("  store(s.bank{}, {}, {}, {{", bank, condition, reference(store.address));
+      for (const int word : store.words) text_ += reference(word) + ", ";
+      text_ += "});\n";
+    }
+    text_ += "  }\n";
+  }
+
+  /// `mask`: the lanes that change; empty: all.
+  void emit_update(const Update& update, std::string mask) {
+    const int where = changed_lanes(step_, delays_, update).first;
+    if (where >= 0) mask += (mask.empty() ? "" : " & ") + reference(where);
+    const char* const to = delays_.count(update.cell) != 0 ? "next" : "s";
+    text_ += mask.empty() ? fmt::format("  {1}.c{0} = n{0};\n", update.cell, to)
+                          : fmt::format("  assign({1}, s.c{0}, n{0});\n", update.cell, mask);
+  }
+
+  /// The nodes of `used` that are not in `known`, each as a constant.
+  void emit_nodes(const std::vector<bool>& used, const std::vector<bool>& known) {
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      if (!used[i] || (i < known.size() && known[i])) continue;
+      const int number = static_cast<int>(i);
+      const LaneNode& node = step_.graph[number];
+      const std::string expression = expression_of(node);
+      if (expression.empty()) continue;
+      const char* type = node.is_mask() ? "M" : node.op == LaneOp::row ? "Row" : "V";
+      text_ += fmt::format("  const {} {} = {};\n", type, reference(number), expression);
+    }
+  }
+
+  const char* type_of(std::size_t cell) const { return step_.cells[cell].mask ? "M" : "V"; }
+
+  /// How a node is read.
+  std::string reference(int number) const {
+    const LaneNode& node = step_.graph[number];
+    switch (node.op) {
+      case LaneOp::constant:
+        return fmt::format("splat({:#x}u)", node.value);
+      case LaneOp::mask_constant:
+        return node.value != 0 ? "kAll" : "kNone";
+      case LaneOp::cell:
+      case LaneOp::mask_cell:
+        return cell_reference(node.value);
+      default:
+        return fmt::format("{}{}", node.is_mask() ? 'm' : 'v', number);
+    }
+  }
+
+  std::string cell_reference(std::size_t number) const {
+    const Cell& cell = step_.cells[number];
+    const bool first = cell.low == 0;
+    const bool last = number + 1 == step_.cells.size() || step_.cells[number + 1].signal != cell.signal;
+    if (cell.input && cell.width == 1 && first && last) return "in." + cell.signal;
+    if (cell.input) return fmt::format("in.c{}", number);
+    if (const auto delay = delays_.find(number); delay != delays_.end())
+      return fmt::format("late{}.c{}", delay->second.age, delay->second.head);
+    return fmt::format("{}{}", in_group_ && schedule_.saved.count(number) != 0 ? "o" : "s.c", number);
+  }
+
+  /// Empty for a node that is read where it is used.
+  std::string expression_of(const LaneNode& node) const {
+    std::array<std::string, 3> x;
+    for (std::size_t i = 0; i < 3 && node.operands[i] >= 0; ++i) x[i] = reference(node.operands[i]);
+    const auto infix = [&](const char* op) { return fmt::format("{} {} {}", x[0], op, x[1]); };
+    const auto call = [&](const char* f) { return fmt::format("{}({}, {})", f, x[0], x[1]); };
+    switch (node.op) {
+      case LaneOp::constant:
+      case LaneOp::mask_constant:
+      case LaneOp::cell:
+      case LaneOp::mask_cell:
+        return {};
+      case LaneOp::add:
+        return infix("+");
+      case LaneOp::subtract:
+        return infix("-");
+      case LaneOp::multiply:
+        return infix("*");
+      case LaneOp::multiply_high:
+        return call("multiply_high");
+      case LaneOp::both:
+      case LaneOp::mask_both:
+        return infix("&");
+      case LaneOp::either:
+      case LaneOp::mask_either:
+        return infix("|");
+      case LaneOp::differ:
+      case LaneOp::mask_differ:
+        return infix("^");
+      case LaneOp::invert:
+        return "~" + x[0];
+      case LaneOp::left:
+        return fmt::format("{} << {}", x[0], node.value);
+      case LaneOp::right:
+        return fmt::format("{} >> {}", x[0], node.value);
+      case LaneOp::left_by:
+        return call("left_by");
+      case LaneOp::right_by:
+        return call("right_by");
+      case LaneOp::signed_right_by:
+        return call("signed_right_by");
+      case LaneOp::select:
+      case LaneOp::mask_select:
+        return fmt::format("select({}, {}, {})", x[0], x[1], x[2]);
+      case LaneOp::fill:
+        return fmt::format("fill({}, {:#x}u)", x[0], node.value);
+      case LaneOp::rom:
+        return fmt::format("lookup(c_rom{}, {})", node.value, x[0]);
+      case LaneOp::row:
+        return fmt::format("load(s.bank{}, {})", node.value, x[0]);
+      case LaneOp::word:
+        return fmt::format("{}.words[{}]", x[0], node.value);
+      case LaneOp::mask_invert:
+        return fmt::format("invert({})", x[0]);
+      case LaneOp::equal:
+        return call("equal");
+      case LaneOp::less:
+        return call("less");
+      case LaneOp::signed_less:
+        return call("signed_less");
+      case LaneOp::bit:
+        return fmt::format("test({}, {:#x}u)", x[0], std::uint64_t{1} << node.value);
+    }
+    return {};
+  }
+
+  const Step& step_;
+  const Schedule& schedule_;
+  const Delays& delays_;
+  std::string text_;
+  bool in_group_ = false;  ///< registers may have changed already: read saved values
+};
+
+/// The structs and tables that both functions use.
+class StateEmitter {
+ public:
+  StateEmitter(const EmittedHardware& hardware, const Step& step) : hardware_(hardware), step_(step) {}
+
+  std::string emit() {
+    for (std::size_t i = 0; i < step_.cells.size(); ++i)
+      step_.cells[i].input ? add_input(i) : add_register(i);
+    add_banks();
+    if (!rings_.empty()) {
+      rings_ = "struct Late {\n" + rings_ + "};\n";
+      masks_ += fmt::format("  Late late[{}];\n  unsigned clock = 0;\n", kRingPlaces);
+    }
+    return rings_ + "struct State {\n" + vectors_ + masks_ + "};\nstruct Inputs {\n" + inputs_ +
+           "};\nstruct Outputs {\n" + outputs() + "};\n" + tables() + setters();
+  }
+
+ private:
+  void add_register(std::size_t number) {
+    if (hardware_.live.count(number) == 0) return;
+    const auto delay = hardware_.delays.find(number);
+    if (step_.cells[number].mask) {
+      masks_ += fmt::format("  M c{}{{}};\n", number);
+    } else if (delay == hardware_.delays.end()) {
+      vectors_ += fmt::format("  V c{}{{}};\n", number);
+    } else if (delay->second.age == 0) {
+      rings_ += fmt::format("  V c{}{{}};\n", number);
+    }
+  }
+
+  /// An input of one bit is a mask by its name; a wider one is set lane by lane.
+  void add_input(std::size_t number) {
+    const Cell& cell = step_.cells[number];
+    if (hardware_.netlist.inputs.at(cell.signal) == 1) {
+      inputs_ += fmt::format("  M {}{{}};\n", cell.signal);
+      return;
+    }
+    std::string& setter = setters_[cell.signal];
+    if (hardware_.live.count(number) == 0) return;
+    inputs_ += fmt::format("  {} c{}{{}};\n", cell.mask ? "M" : "V", number);
+    setter += fmt::format("  set_lane(in.c{}, lane, field<{}, {}>(words));\n", number, cell.low, cell.width);
+  }
+
+  void add_banks() {
+    std::map<std::size_t, std::size_t> places;
+    for (const auto& [name, memory] : hardware_.netlist.memories)
+      for (std::size_t i = 0; i < memory.words(); ++i)
+        places[(hardware_.memory_words.at(name) + i) / kBankWords] = memory.places;
+    for (const auto& [bank, count] : places)
+      if (hardware_.live.count(kFirstBank + bank) != 0)
+        masks_ += fmt::format("  Memory<{}> bank{};\n", count, bank);
+  }
+
+  std::string outputs() const {
+    std::string text;
+    for (const auto& [name, words] : step_.outputs) {
+      text += fmt::format("  {} {}{};\n", step_.graph[words[0]].is_mask() ? "M" : "V", name,
+                          words.size() == 1 ? "" : fmt::format("[{}]", words.size()));
+    }
+    return text;
+  }
+
+  /// Equal tables are written once, by the number of the first.
+  std::string tables() const {
+    std::string text;
+    std::size_t number = 0;
+    std::set<std::vector<std::uint64_t>> written;
+    for (const auto& [name, rom] : hardware_.netlist.roms) {
+      if (written.insert(rom.data).second) {
+        text += fmt::format("constexpr std::uint32_t c_rom{}[{}] = {{", number, rom.data.size());
+        for (const std::uint64_t datum : rom.data) text += fmt::format("{}u,", datum);
+        text += "};\n";
+      }
+      ++number;
+    }
+    return text;
+  }
+
+  std::string setters() const {
+    std::string text;
+    for (const auto& [name, setter] : setters_) {
+      text += fmt::format(
+          "LANE_FUNCTION void set_{}(Inputs& in, unsigned lane, const std::uint32_t* words) {{\n{}}}\n", name,
+          setter);
+    }
+    return text;
+  }
+
+  const EmittedHardware& hardware_;
+  const Step& step_;
+  std::string vectors_, masks_, rings_, inputs_;
+  std::map<std::string, std::string> setters_;  ///< the statements, by input
+};
+
+}  // namespace
+
+std::string emit_lanes(const EmittedHardware& hardware, const ScheduledStep& step,
+                       const ScheduledStep& reset_step) {
+  return StateEmitter(hardware, step.step).emit() + StepEmitter(step, hardware.delays).emit("step") +
+         StepEmitter(reset_step, hardware.delays).emit("reset_step");
+}
+
+}  // namespace halfway

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Phase 3 of the lane generator: builds the graph of one clock from a netlist's expressions.
+#pragma once
+
+#include "common/result.hpp"
+#include "sim/lanes/cell_layout.hpp"
+#include "sim/lanes/lane_generator.hpp"
+#include "sim/lanes/netlist_reader.hpp"
+#include "sim/lanes/step.hpp"
+
+namespace halfway {
+
+/// The step with `reset` 0 or 1, with registers cut as `layout` says. Notes in `layout` where they must be
+/// cut besides; if that changes it, build again.
+Result<Step> build_step(const LaneNetlist& netlist, const LanePorts& ports, bool reset, CellLayout& layout);
+
+}  // namespace halfway

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/lanes/schedule.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <string>
+
+namespace halfway {
+namespace {
+
+bool is_cell(const LaneNode& node) {
+  return node.op == LaneOp::cell || node.op == LaneOp::mask_cell;
+}
+
+/// What the places of banks become: the words of memories that share a bank, together.
+std::map<Guard, std::map<std::size_t, Store>> bank_stores(const Step& step, const MemoryWords& memory_words) {
+  std::map<Guard, std::map<std::size_t, Store>> banks;
+  for (const auto& [name, store] : step.stores) {
+    for (std::size_t i = 0; i < store.words.size(); ++i) {
+      const std::size_t word = memory_words.at(name) + i;
+      Store& bank = banks[store.guard][word / kBankWords];
+      bank.address = store.address;
+      bank.words.resize(kBankWords, store.words[0]);
+      bank.words[word % kBankWords] = store.words[i];
+    }
+  }
+  return banks;
+}
+
+/// What a cell becomes at each edge in both steps; empty if a condition decides.
+std::optional<std::pair<int, int>> unconditional_values(const Step& step, const Step& reset_step,
+                                                        std::size_t cell) {
+  std::array<std::optional<int>, 2> values;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const auto& [guard, updates] : (i == 0 ? step : reset_step).updates) {
+      for (const Update& update : updates) {
+        if (update.cell != cell) continue;
+        if (!guard.empty()) return std::nullopt;
+        values[i] = update.value;
+      }
+    }
+  }
+  if (!values[0] || !values[1]) return std::nullopt;
+  return std::pair(*values[0], *values[1]);
+}
+
+class Scheduler {
+ public:
+  Scheduler(Step& step, const MemoryWords& memory_words, const CellSet& live, const Delays& delays)
+      : step_(step), delays_(delays) {
+    make_groups(memory_words, live);
+  }
+
+  Result<Schedule> make() {
+    find_always();
+    for (Group& group : schedule_.groups) find_uses(group);
+    order();
+    if (!schedule_.saved.empty() && *schedule_.saved.rbegin() >= kFirstBank)
+      return tool_failed("the lanes do not support memories that read from one another at one edge");
+    return std::move(schedule_);
+  }
+
+ private:
+  void make_groups(const MemoryWords& memory_words, const CellSet& live) {
+    for (const auto& [guard, updates] : step_.updates) {
+      Group group{guard, condition_of(guard)};
+      for (const Update& update : updates)
+        if (live.count(update.cell) != 0 && !is_delayed(update.cell)) group.updates.push_back(update);
+      put_masks_last(group);
+      if (!group.updates.empty()) schedule_.groups.push_back(std::move(group));
+    }
+    for (const auto& [guard, banks] : bank_stores(step_, memory_words)) {
+      Group group{guard, condition_of(guard)};
+      for (const auto& [bank, store] : banks)
+        if (live.count(kFirstBank + bank) != 0) group.banks.emplace(bank, store);
+      if (!group.banks.empty()) schedule_.groups.push_back(std::move(group));
+    }
+  }
+
+  int condition_of(const Guard& guard) {
+    LaneGraph& graph = step_.graph;
+    int all = graph.mask_constant(true);
+    for (const auto& [mask, wanted] : guard) {
+      if (implies_operands(graph[mask], wanted)) continue;  // the guard holds the operands too
+      all = graph.mask_operate(LaneOp::mask_both, all, wanted ? mask : graph.mask_invert(mask));
+    }
+    return all;
+  }
+
+  bool is_delayed(std::size_t cell) const {
+    const auto delay = delays_.find(cell);
+    return delay != delays_.end() && delay->second.age > 0;
+  }
+
+  /// The cell that is a group's condition, and so is read where the group starts.
+  std::optional<std::size_t> condition_cell(const Group& group) const {
+    const LaneNode& mask = step_.graph[group.condition];
+    return mask.op == LaneOp::mask_cell ? std::optional<std::size_t>(mask.value) : std::nullopt;
+  }
+
+  /// A mask that the group writes may be the condition of its other updates: write masks last, and the
+  /// group's own condition after all others.
+  void put_masks_last(Group& group) const {
+    std::ranges::stable_sort(group.updates, {}, [&](const Update& update) {
+      return std::pair(step_.cells[update.cell].mask, condition_cell(group) == update.cell);
+    });
+  }
+
+  void find_always() {
+    std::vector<bool>& always = schedule_.always;
+    CellSet cells;
+    for (const auto& [output, words] : step_.outputs)
+      for (const int word : words) mark_used(step_.graph, word, always, cells);
+    for (const Group& group : schedule_.groups) mark_used(step_.graph, group.condition, always, cells);
+    // A cell is read where it is used.
+    always.resize(static_cast<std::size_t>(step_.graph.size()));
+    for (int i = 0; i < step_.graph.size(); ++i)
+      if (is_cell(step_.graph[i])) always[static_cast<std::size_t>(i)] = false;
+  }
+
+  void find_uses(Group& group) const {
+    std::vector<bool> used = schedule_.always;
+    mark_used(step_.graph, group.condition, used, group.reads);
+    for (const Update& update : group.updates) {
+      mark_used(step_.graph, update.value, used, group.reads);
+      if (delays_.count(update.cell) == 0) group.writes.insert(update.cell);
+    }
+    for (const auto& [bank, store] : group.banks) {
+      mark_used(step_.graph, store.address, used, group.reads);
+      for (const int word : store.words) mark_used(step_.graph, word, used, group.reads);
+      group.writes.insert(kFirstBank + bank);
+    }
+  }
+
+  /// The cells that `first` writes and `later` must still read.
+  CellSet overwritten(const Group& first, const Group& later) const {
+    CellSet cells;
+    if (excludes(first.guard, later.guard)) {
+      // No lane runs both, but the later condition is read in all lanes.
+      if (const auto cell = condition_cell(later); cell && first.writes.count(*cell) != 0)
+        cells.insert(*cell);
+    } else {
+      std::set_intersection(first.writes.begin(), first.writes.end(), later.reads.begin(), later.reads.end(),
+                            std::inserter(cells, cells.end()));
+    }
+    return cells;
+  }
+
+  /// Takes next the group that overwrites the fewest cells which remaining groups read. A bank is too large
+  /// to be saved, so it counts more than any number of cells.
+  void order() {
+    std::vector<Group> ordered, remaining = std::move(schedule_.groups);
+    while (!remaining.empty()) {
+      std::size_t best = 0;
+      CellSet best_overwritten;
+      const auto cost = [](const CellSet& cells) {
+        return std::pair(std::distance(cells.lower_bound(kFirstBank), cells.end()), cells.size());
+      };
+      for (std::size_t i = 0; i < remaining.size(); ++i) {
+        CellSet cells;
+        for (std::size_t k = 0; k < remaining.size(); ++k)
+          if (k != i) cells.merge(overwritten(remaining[i], remaining[k]));
+        if (i == 0 || cost(cells) < cost(best_overwritten)) {
+          best = i;
+          best_overwritten = std::move(cells);
+        }
+      }
+      schedule_.saved.merge(best_overwritten);
+      ordered.push_back(std::move(remaining[best]));
+      remaining.erase(remaining.begin() + static_cast<std::ptrdiff_t>(best));
+    }
+    schedule_.groups = std::move(ordered);
+  }
+
+  Step& step_;
+  const Delays& delays_;
+  Schedule schedule_;
+};
+
+}  // namespace
+
+void mark_used(const LaneGraph& graph, int node, std::vector<bool>& used, CellSet& cells) {
+  const auto index = static_cast<std::size_t>(node);
+  if (index >= used.size()) used.resize(static_cast<std::size_t>(graph.size()));
+  if (used[index]) return;
+  used[index] = true;
+  const LaneNode& at = graph[node];
+  if (is_cell(at)) cells.insert(at.value);
+  if (at.op == LaneOp::row) cells.insert(kFirstBank + at.value);
+  for (const int operand : at.operands)
+    if (operand >= 0) mark_used(graph, operand, used, cells);
+}
+
+CellSet live_cells(const Step& step, const MemoryWords& memory_words) {
+  std::vector<bool> used;
+  CellSet live;
+  const auto mark = [&](int node) { mark_used(step.graph, node, used, live); };
+  for (const auto& [name, words] : step.outputs)
+    for (const int word : words) mark(word);
+  const auto banks = bank_stores(step, memory_words);
+  for (std::size_t before = SIZE_MAX; before != live.size();) {
+    before = live.size();
+    for (const auto& [guard, updates] : step.updates) {
+      for (const Update& update : updates) {
+        if (live.count(update.cell) == 0) continue;
+        mark(update.value);
+        for (const auto& literal : guard) mark(literal.first);
+      }
+    }
+    for (const auto& [guard, stores] : banks) {
+      for (const auto& [bank, store] : stores) {
+        if (live.count(kFirstBank + bank) == 0) continue;
+        mark(store.address);
+        for (const int word : store.words) mark(word);
+        for (const auto& literal : guard) mark(literal.first);
+      }
+    }
+  }
+  return live;
+}
+
+Delays find_delays(const Step& step, const Step& reset_step, const CellSet& live) {
+  // Find the cells that are loaded in every clock, and those that then take another cell's value.
+  std::map<std::size_t, std::vector<std::size_t>> followers;
+  std::set<std::size_t> loaded;
+  for (const std::size_t cell : live) {
+    if (cell >= kFirstBank || step.cells[cell].input || step.cells[cell].mask) continue;
+    const auto values = unconditional_values(step, reset_step, cell);
+    if (!values) continue;
+    loaded.insert(cell);
+    const LaneNode &a = step.graph[values->first], &b = reset_step.graph[values->second];
+    if (a.op == LaneOp::cell && b.op == LaneOp::cell && a.value == b.value)
+      followers[a.value].push_back(cell);
+  }
+
+  // Follow each chain from its first cell; start a new ring where one is too short.
+  std::set<std::size_t> heads = loaded;
+  for (const auto& [source, cells] : followers)
+    if (loaded.count(source) != 0)
+      for (const std::size_t cell : cells) heads.erase(cell);
+  Delays delays;
+  const std::function<void(std::size_t, Delay)> follow = [&](std::size_t cell, Delay delay) {
+    if (delay.age > kOldest) delay = {cell, 0};
+    const auto found = followers.find(cell);
+    if (found != followers.end())
+      for (const std::size_t follower : found->second) follow(follower, {delay.head, delay.age + 1});
+    if (delay.age > 0 || found != followers.end()) delays[cell] = delay;
+  };
+  for (const std::size_t head : heads) follow(head, {head, 0});
+  return delays;
+}
+
+Result<Schedule> make_schedule(Step& step, const MemoryWords& memory_words, const CellSet& live,
+                               const Delays& delays) {
+  return Scheduler(step, memory_words, live, delays).make();
+}
+
+std::pair<int, int> changed_lanes(const Step& step, const Delays& delays, const Update& update) {
+  const LaneNode& node = step.graph[update.value];
+  if (node.op != LaneOp::select || delays.count(update.cell) != 0) return {-1, update.value};
+  const LaneNode& other = step.graph[node.operands[2]];
+  if (other.op != LaneOp::cell || other.value != update.cell) return {-1, update.value};
+  return {node.operands[0], node.operands[1]};
+}
+
+}  // namespace halfway

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Phase 5 of the lane generator: the order in which one clock's updates are made.
+//
+// Updates with the same condition form a group, which runs only if some lane needs it: within a span only
+// what steps along it. A group that reads a register comes before one that writes it; where no such order
+// exists, the old value is saved.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "common/result.hpp"
+#include "sim/lanes/cell_layout.hpp"
+#include "sim/lanes/step.hpp"
+
+namespace halfway {
+
+/// Cells and banks that a group reads and writes share one numbering: banks start here.
+constexpr std::size_t kFirstBank = std::size_t{1} << 32;
+
+/// Cells and banks.
+using CellSet = std::set<std::size_t>;
+
+/// Registers that only delay another one are not moved: the values of `head` are kept in a ring, one place
+/// per clock, and a delay of `age` clocks reads an older place.
+struct Delay {
+  std::size_t head;
+  unsigned age;
+};
+using Delays = std::map<std::size_t, Delay>;   ///< by cell
+constexpr unsigned kRingPlaces = 8;            ///< a power of two
+constexpr unsigned kOldest = kRingPlaces - 2;  ///< the next older place is the one being written
+
+struct Group {
+  Guard guard;
+  int condition;  ///< the guard as one mask
+  std::vector<Update> updates{};
+  std::map<std::size_t, Store> banks{};  ///< what their places become
+  CellSet reads{}, writes{};
+};
+
+struct Schedule {
+  std::vector<bool> always;   ///< nodes calculated in every clock, for outputs and conditions
+  std::vector<Group> groups;  ///< in order
+  CellSet saved;              ///< cells whose old values are saved before all groups
+};
+
+/// The cells and banks that the outputs depend on, over any number of clocks.
+CellSet live_cells(const Step& step, const MemoryWords& memory_words);
+
+Delays find_delays(const Step& step, const Step& reset_step, const CellSet& live);
+
+/// Memories that read from one another at the same edge have no order: an error (exit code tool_failed).
+Result<Schedule> make_schedule(Step& step, const MemoryWords& memory_words, const CellSet& live,
+                               const Delays& delays);
+
+/// An update as the lanes that change and what to: -1 and the value if all do.
+std::pair<int, int> changed_lanes(const Step& step, const Delays& delays, const Update& update);
+
+/// Marks a node and all that it is calculated from, and collects the cells and banks among them.
+void mark_used(const LaneGraph& graph, int node, std::vector<bool>& used, CellSet& cells);
+
+}  // namespace halfway
