@@ -6,10 +6,10 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 
 # The variables that each target takes. A variable on the command line that no target of the call takes is an error:
 # it would be ignored.
-drawing := SCENE SHADER FORM PRESET SIZE ALL_EFFECTS LIGHTS FAST
+drawing := SCENE SHADER FORM PRESET SIZE ALL_EFFECTS LIGHTS
 takes_sim := $(drawing) SIMULATOR OUT THREADS JOBS
 takes_view := $(drawing) SIMULATOR OUT THREADS FRAMES VIDEO RATE TERMINAL JOBS
-takes_compare := SCENE SHADER ALL_EFFECTS FAST OUT JOBS
+takes_compare := SCENE SHADER ALL_EFFECTS OUT JOBS
 takes_why := $(drawing) PIXEL OUT JOBS
 takes_plan := $(drawing) SIMULATOR THREADS MEASURE OBJECTS RATE JOBS
 takes_savings := THREADS JOBS
@@ -44,7 +44,6 @@ about_PRESET := exact or published   (default: exact; make tables: both)
 about_SIZE := WIDTHxHEIGHT in pixels   (default: 640x480)
 about_ALL_EFFECTS := 1: hardware with every effect, whether or not the scene needs it
 about_LIGHTS := with ALL_EFFECTS: the number of lights of the hardware
-about_FAST := 1: the quadratic shader built for the clock: the same fragments
 about_SIMULATOR := ghdl, verilator or lanes; make view: auto, verilator or lanes   (default: ghdl and verilator; auto)
 about_OUT := the folder for results   (default: build/out)
 about_THREADS := threads for setup and golden model; make view: for whole frames   (default: all cores)
@@ -109,8 +108,7 @@ sanitized = $(lock) sh -c 'cmake --log-level=NOTICE -S . -B build/sanitize -G Ni
   -DCMAKE_CXX_COMPILER=clang++ && cmake --build build/sanitize -j "$$@"' make "$(jobs)"
 scene := $${SCENE:+-- "$$SCENE"}
 run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size) \
-  $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights) \
-  $(call flag,FAST,--fast)
+  $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights)
 sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) \
   $(call option,OUT,--out)
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
@@ -141,7 +139,7 @@ view: program ## one scene from all sides, by the RTL in Verilator or lanes (SCE
 
 compare: program ## the frames that make sim left, once more
 	@build/halfway compare $(call option,SHADER,--shader) $(call flag,ALL_EFFECTS,--all-effects) \
-	  $(call flag,FAST,--fast) $(call option,OUT,--out) $(scene)
+	  $(call option,OUT,--out) $(scene)
 
 why: program ## one pixel stage by stage, golden beside RTL (SCENE, PIXEL)
 	@build/halfway why $(run_options) $(call option,PIXEL,--pixel) $(call option,OUT,--out) $(scene)

@@ -26,9 +26,7 @@ interpolation/z_interpolator.vhd
 interpolation/quadratic_interpolator.vhd
 raster/edge_walker.vhd
 raster/slope_walker.vhd
-raster/split_slope_walker.vhd
 raster/triangle_walker.vhd
-raster/queued_walker.vhd
 raster/object_stage.vhd
 illumination/diffuse_slice.vhd
 illumination/specular_slice.vhd

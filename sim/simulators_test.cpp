@@ -51,7 +51,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 entity quadratic_shader is
-  generic (g_exact : boolean := true; g_channels : positive := 3; g_fast : boolean := false;
+  generic (g_exact : boolean := true; g_channels : positive := 3;
            g_probe : boolean := false);
   port (
     clk, reset : in std_logic;

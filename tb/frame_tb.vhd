@@ -15,7 +15,6 @@ entity frame_tb is
     -- The shader's own; each shader takes those that it has.
     g_exact              : boolean  := true;
     g_channels           : positive := 3;
-    g_fast               : boolean  := false;
     g_lights             : natural  := 1;
     g_diffuse            : boolean  := true;
     g_specular           : boolean  := true;

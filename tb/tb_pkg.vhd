@@ -11,12 +11,9 @@ package tb_pkg is
 
   constant c_half_period : time := 5 ns;
 
-  -- An interpolator as faster hardware has it: parts of a word, what is added chosen ahead, clocks more until it comes (of a
-  -- plane alone), words for a probe, clocks behind the plain one.
+  -- A form of an interpolator: parts of a word, outputs for a probe, clocks after the plain form.
   type interpolator_form_t is record
     parts  : positive;
-    ahead  : boolean;
-    late   : natural;
     probe  : boolean;
     behind : natural;
   end record;

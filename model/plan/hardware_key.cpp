@@ -33,7 +33,6 @@ std::string HardwareKey::entity() const {
 std::vector<std::pair<std::string, std::string>> HardwareKey::generics() const {
   std::vector<std::pair<std::string, std::string>> list = {{"g_exact", boolean(preset == Preset::exact)},
                                                            {"g_channels", std::to_string(channels)}};
-  if (shader == Shader::quadratic) list.emplace_back("g_fast", boolean(fast));
   if (shader == Shader::spherical) {
     list.emplace_back("g_lights", std::to_string(spherical.lights));
     list.emplace_back("g_diffuse", boolean(spherical.diffuse));
@@ -89,7 +88,6 @@ std::string HardwareKey::name() const {
     if (p.shadows) text += "-shadows";
     text += fmt::format("-{}", to_string(p.form));
   }
-  if (fast) text += "-fast";
   if (words.any()) text += "-" + words.name();
   return text + (probe ? "-probe" : "");
 }

@@ -74,9 +74,8 @@ struct ProcessorUnits {
 struct HardwareKey {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
-  unsigned channels = 3;  ///< 1 where every colour of the scene is grey
-  bool fast = false;      ///< the quadratic shader built for the clock: the same fragments, more flip-flops
-  bool probe = false;     ///< brings the stages' registers out, for `halfway why` and the register tests
+  unsigned channels = 3;      ///< 1 where every colour of the scene is grey
+  bool probe = false;         ///< brings the stages' registers out, for `halfway why` and the register tests
   SphericalUnits spherical;   ///< of the spherical shader
   ProcessorUnits processors;  ///< of the shading processors
   /// Other word lengths than the preset's. Setup and golden model of such a key are compiled for it: the
@@ -85,8 +84,6 @@ struct HardwareKey {
 
   /// Top entity in rtl/shaders.
   std::string entity() const;
-  /// The entity that walks its triangles.
-  const char* walker() const { return fast ? "queued_walker" : "triangle_walker"; }
   /// Generics of the top entity, as `-g` takes them, in a fixed order.
   std::vector<std::pair<std::string, std::string>> generics() const;
   /// The widths of the top's ports init_data and probe, as VHDL expressions of its generics.

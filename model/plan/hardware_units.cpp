@@ -10,7 +10,6 @@ namespace {
 // The quadratic shader cuts the words of its interpolators in halves, the spherical one those of depth.
 constexpr int kHalves = 2;
 // The quadratic shader built for the clock.
-constexpr int kThirds = 3;
 
 // Entities below one, with all that lies below them.
 class Units {
@@ -31,9 +30,9 @@ class Units {
     add("parameter_register", count);
   }
   void add_walker() {
-    add(key_.walker());
+    add("triangle_walker");
     add("edge_walker", exact_ ? 2 : 0);
-    add(key_.fast ? "split_slope_walker" : "slope_walker", exact_ ? 0 : 2);
+    add("slope_walker", exact_ ? 0 : 2);
     add("parameter_register", exact_ ? 1 : 0);  // the lower section
   }
   // `parts`: of each word
@@ -70,19 +69,14 @@ class Units {
     add("multiplier", static_cast<int>(key_.spherical.highlight_channels));
   }
   void add_quadratic_shader() {
-    const int parts = key_.fast ? kThirds : kHalves;
-    // The init buffer.
-    if (key_.fast)
-      add("parameter_register");
-    else
-      add_stream_registers(1);
+    add_stream_registers(1);  // the init buffer
     add("stream_queue");
     add_walker();
-    add_z_interpolator(parts);
-    for (unsigned c = 0; c < key_.channels; ++c) add_quadratic_interpolator(parts);
+    add_z_interpolator(kHalves);
+    for (unsigned c = 0; c < key_.channels; ++c) add_quadratic_interpolator(kHalves);
     // The second place of their words.
     const int channels = static_cast<int>(key_.channels);
-    add("parameter_register", parts * (exact_ ? 4 + 10 * channels : 3 + 6 * channels));
+    add("parameter_register", kHalves * (exact_ ? 4 + 10 * channels : 3 + 6 * channels));
     add("saturate", static_cast<int>(key_.channels));
   }
   void add_spherical_shader() {

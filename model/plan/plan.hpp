@@ -51,7 +51,6 @@ struct PlanRequest {
   /// scene, and at least one.
   std::optional<unsigned> lights;
   std::optional<ProcessorForm> form;  ///< of the shading processors; none: unrolled
-  bool fast = false;                  ///< the quadratic shader, built for the clock
 };
 
 inline constexpr std::size_t c_most_lights = 16;  ///< of the spherical shader, and of the processors

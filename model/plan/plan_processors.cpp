@@ -181,7 +181,6 @@ class Planner {
 Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const PlanRequest& request) {
   if (request.tables)
     return bad_input("--address-bits, --data-bits: only the spherical shader has cosine tables");
-  if (request.fast) return bad_input(c_fast_of_another);
   if (calls.lights.size() > c_most_lights)
     return bad_input(fmt::format(
         "{}: {} lights; the shading processors take up to {}: leave some out, or take the quadratic shader",

@@ -50,7 +50,6 @@ Result<Plan> plan_quadratic(const Scene&, const SceneCalls& calls, const PlanReq
   if (request.form) return bad_input(c_form_of_another);
   Plan plan;
   plan.called_for.preset = request.preset;
-  plan.called_for.fast = request.fast;
   plan.everything = plan.called_for;
   plan.called_for.channels = calls[Effect::colour].called_for ? 3 : 1;
   plan.everything.channels = 3;

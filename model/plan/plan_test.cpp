@@ -480,36 +480,13 @@ TEST(Plan, AllEffectsAreAllThatTheShaderHas) {
   EXPECT_FALSE(effect(most, Effect::spot).other);
 }
 
-TEST(Plan, FastIsTheQuadraticShaderAlone) {
-  for (const bool all_effects : {false, true}) {
-    const Plan fast = planned(grey_scene(), {.all_effects = all_effects, .fast = true});
-    EXPECT_EQ(fast.called_for.name(), "quadratic_shader-exact-c1-fast");
-    EXPECT_EQ(fast.everything.name(), "quadratic_shader-exact-c3-fast");
-    EXPECT_EQ(fast.key.name(), (all_effects ? fast.everything : fast.called_for).name());
-    // What an effect costs is told of the same form.
-    EXPECT_TRUE(effect(fast, Effect::colour).other->fast);
-    const auto usual = hardware_units(planned(grey_scene(), {.all_effects = all_effects}).key);
-    auto units = hardware_units(fast.key);
-    EXPECT_EQ(units["queued_walker"], 1);
-    EXPECT_FALSE(units.contains("triangle_walker"));
-    EXPECT_EQ(2 * units["part_interpolator"], 3 * usual.at("part_interpolator"));
-  }
-  for (const Shader shader : {Shader::spherical, Shader::processors}) {
-    const auto plan = plan_scene(grey_scene(), {.shader = shader, .fast = true});
-    ASSERT_FALSE(plan);
-    EXPECT_EQ(plan.error().code, ExitCode::bad_input);
-    EXPECT_EQ(plan.error().message, "--fast: only the quadratic shader is also built for the clock");
-  }
-}
-
 // All the hardware there is, up to what a plan may ask for.
 std::vector<HardwareKey> every_key() {
   std::vector<HardwareKey> keys;
   for (const Preset preset : {Preset::exact, Preset::published})
     for (const unsigned channels : {1U, 3U})
       for (const bool probe : {false, true}) {
-        for (const bool fast : {false, true})
-          keys.push_back({.preset = preset, .channels = channels, .fast = fast, .probe = probe});
+        keys.push_back({.preset = preset, .channels = channels, .probe = probe});
         const auto spherical = [&](const SphericalUnits& units) {
           keys.push_back({.shader = Shader::spherical,
                           .preset = preset,
@@ -579,13 +556,8 @@ TEST(HardwareKey, GenericsAreTheKey) {
   const HardwareKey quadratic{.preset = Preset::published, .channels = 1};
   const auto few = quadratic.generics();
   EXPECT_EQ(Map(few.begin(), few.end()),
-            (Map{{"g_exact", "false"}, {"g_channels", "1"}, {"g_fast", "false"}, {"g_probe", "false"}}));
+            (Map{{"g_exact", "false"}, {"g_channels", "1"}, {"g_probe", "false"}}));
   EXPECT_EQ(quadratic.name(), "quadratic_shader-published-c1");
-  const HardwareKey fast{.preset = Preset::published, .channels = 1, .fast = true, .probe = true};
-  const auto of_fast = fast.generics();
-  EXPECT_EQ(Map(of_fast.begin(), of_fast.end()),
-            (Map{{"g_exact", "false"}, {"g_channels", "1"}, {"g_fast", "true"}, {"g_probe", "true"}}));
-  EXPECT_EQ(fast.name(), "quadratic_shader-published-c1-fast-probe");
 }
 
 }  // namespace

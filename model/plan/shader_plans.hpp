@@ -11,8 +11,6 @@ Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const P
 Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const PlanRequest& request);
 
 inline constexpr const char* c_form_of_another = "--form: only the shading processors have two forms";
-inline constexpr const char* c_fast_of_another =
-    "--fast: only the quadratic shader is also built for the clock";
 
 /// What the scene says of the effect, and who does it; nothing elaborated yet.
 PlannedEffect planned(const SceneCalls& calls, Effect effect, DoneBy by, std::string how);

@@ -4,10 +4,8 @@
 --             that no sum is longer than a part.
 -- Contract    a part takes load and step, and its bits of start and increment, a clock after the part below it, whose
 --             carry_out is its carry_in; the lowest one's is '0'. load and step are never both '1'
--- Ahead       with g_ahead what is added is a register, chosen in the clock of load or step; the sum, with carry_in, is
---             the clock behind: a register and the sum's own cells are then all that a clock has to pass
 -- Formats     g_bits throughout; the sum of all parts wraps
--- Latency     1 clock from load or step to value and carry_out, with g_ahead 2
+-- Latency     1 clock from load or step to value and carry_out
 -- Throughput  1 step a clock
 -- Error       none of its own; k steps carry k times the increment's rounding
 -- Source      line_interpolator; ours
@@ -20,8 +18,7 @@ use work.quick_numeric_pkg.sum;
 
 entity part_interpolator is
   generic (
-    g_bits  : positive;
-    g_ahead : boolean := false -- choose what is added a clock ahead of the sum
+    g_bits : positive
   );
   port (
     clk       : in  std_logic;
@@ -51,62 +48,28 @@ architecture rtl of part_interpolator is
 
 begin
 
-  now : if not g_ahead generate
-
-    -- One clocked process, as in line_interpolator, and the ports are the registers: a copy would cost a simulator as much.
-    registers : process (clk)
-      variable addend : part_t;
-      variable sum    : std_logic_vector(g_bits downto 0);
-    begin
-      if rising_edge(clk) then
-        if load = '1' or step = '1' then
-          -- Chosen in front of the sum, so that the sum's own cells choose what comes out.
-          addend := start;
-          if step = '1' then
-            addend := increment;
-          end if;
-          sum := sum_of(value, addend, carry_in);
-          -- Nobody asks behind a load; so that neither register changes but where the part loads or steps. No reset of the
-          -- register's own: it would not share the sum's cells.
-          carry_out <= sum(g_bits) and not load;
-          value     <= sum(g_bits - 1 downto 0);
-          if load = '1' then
-            value <= addend;
-          end if;
+  -- One clocked process, as in line_interpolator, and the ports are the registers: a copy would cost a simulator as much.
+  registers : process (clk)
+    variable addend : part_t;
+    variable sum    : std_logic_vector(g_bits downto 0);
+  begin
+    if rising_edge(clk) then
+      if load = '1' or step = '1' then
+        -- Chosen in front of the sum, so that the sum's own cells choose what comes out.
+        addend := start;
+        if step = '1' then
+          addend := increment;
+        end if;
+        sum := sum_of(value, addend, carry_in);
+        -- Nobody asks behind a load; so that neither register changes but where the part loads or steps. No reset of the
+        -- register's own: it would not share the sum's cells.
+        carry_out <= sum(g_bits) and not load;
+        value     <= sum(g_bits - 1 downto 0);
+        if load = '1' then
+          value <= addend;
         end if;
       end if;
-    end process;
-
-  else generate
-
-    signal addend      : part_t;
-    signal loads, goes : std_logic; -- the clock before had a load; that, or a step
-
-    begin
-
-      registers : process (clk)
-        variable sum : std_logic_vector(g_bits downto 0);
-      begin
-        if rising_edge(clk) then
-          loads <= load;
-          goes  <= load or step;
-          if load = '1' or step = '1' then
-            addend <= increment;
-            if load = '1' then
-              addend <= start;
-            end if;
-          end if;
-          if goes = '1' then
-            sum       := sum_of(value, addend, carry_in);
-            carry_out <= sum(g_bits) and not loads;
-            value     <= sum(g_bits - 1 downto 0);
-            if loads = '1' then
-              value <= addend;
-            end if;
-          end if;
-        end if;
-      end process;
-
-  end generate;
+    end if;
+  end process;
 
 end architecture;

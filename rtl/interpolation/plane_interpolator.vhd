@@ -9,7 +9,7 @@
 --             words stand still in the clock of its line_load, a clock behind the part's below it
 -- Formats     plane: value, dx, de0 and, with g_carries, de1, the first lowest, g_bits each, signed; sums wrap, the value
 --             at a covered pixel fits
--- Latency     g_parts + g_late clocks from a load or step to its value, with g_ahead 2 more
+-- Latency     g_parts clocks from a load or step to its value
 -- Throughput  1 line and 1 pixel a clock
 -- Error       each word half a unit off, so the value (1 + lines + steps)/2 units at most: see plane_sum and depth_sum
 --             in formats_pkg
@@ -24,8 +24,6 @@ entity plane_interpolator is
     g_bits    : positive;
     g_carries : boolean  := true; -- false: edges step by a real slope, and de1 does not exist
     g_parts   : positive := 1;    -- of a word, each a clock behind the one below it
-    g_ahead   : boolean  := false; -- what is added is chosen a clock ahead of its sum
-    g_late    : natural  := 0;     -- clocks more until both values come
     g_probe   : boolean  := true   -- give line_value; it is zero without
   );
   port (
@@ -43,11 +41,8 @@ end entity;
 
 architecture rtl of plane_interpolator is
 
-  -- Clocks by which the span is behind the edge that it begins from.
-  constant c_behind : natural := boolean'pos(g_ahead);
-
   -- The strobes, clock by clock: each part of the words takes them from a register of its own, the lowest first.
-  subtype strobe_t is std_logic_vector(g_parts + c_behind - 1 downto 0);
+  subtype strobe_t is std_logic_vector(g_parts - 1 downto 0);
 
   signal line_loads, line_steps, line_carries, span_loads, span_steps : strobe_t;
 
@@ -141,8 +136,7 @@ begin
 
       along_edge : entity work.part_interpolator
         generic map (
-          g_bits  => c_part_bits,
-          g_ahead => g_ahead
+          g_bits => c_part_bits
           )
         port map (
           clk       => clk,
@@ -169,28 +163,27 @@ begin
 
       along_line : entity work.part_interpolator
         generic map (
-          g_bits  => c_part_bits,
-          g_ahead => g_ahead
+          g_bits => c_part_bits
           )
         port map (
           clk       => clk,
-          load      => span_loads(part + c_behind),
+          load      => span_loads(part),
           start     => part_value,
-          step      => span_steps(part + c_behind),
+          step      => span_steps(part),
           increment => span_dx,
           carry_in  => span_carries(part),
           value     => pixel_value,
           carry_out => span_carries(part + 1)
           );
 
-        -- A lower part waits for the upper ones, the edge for the span.
+        -- A lower part waits for the upper ones.
       line_waits : if not g_probe generate
 
         line_value(c_high downto c_low) <= (others => '0');
 
-      elsif part < g_parts - 1 + c_behind + g_late generate
+      elsif part < g_parts - 1 generate
 
-        type waits_t is array (1 to g_parts - 1 + c_behind + g_late - part) of part_t;
+        type waits_t is array (1 to g_parts - 1 - part) of part_t;
 
         signal waits : waits_t;
 
@@ -211,9 +204,9 @@ begin
 
       end generate;
 
-      span_waits : if part < g_parts - 1 + g_late generate
+      span_waits : if part < g_parts - 1 generate
 
-        type waits_t is array (1 to g_parts - 1 + g_late - part) of part_t;
+        type waits_t is array (1 to g_parts - 1 - part) of part_t;
 
         signal waits : waits_t;
 

@@ -9,7 +9,7 @@
 -- Contract    line_load and line_step are never both '1', nor span_load and span_step; a part's bits of init's words stand
 --             still in the clock of its line_load, a clock behind the part's below it
 -- Formats     formats_pkg: intensity; sums wrap, the value at a covered pixel fits
--- Latency     g_parts clocks from a load or step to its value, with g_ahead 3 more
+-- Latency     g_parts clocks from a load or step to its value
 -- Throughput  1 line and 1 pixel a clock
 -- Error       0.15 of a colour step at most in preset exact, 16 in published: see intensity in formats_pkg
 -- Source      quadratic paper, section 5 (the nested loops) and figure 6
@@ -23,7 +23,6 @@ entity quadratic_interpolator is
   generic (
     g_exact : boolean  := true;
     g_parts : positive := 1;    -- of a word, each a clock behind the one below it
-    g_ahead : boolean  := false; -- what is added is chosen a clock ahead of its sum
     g_probe : boolean  := true   -- give the outputs beside value; they are zero without
   );
   port (
@@ -48,11 +47,8 @@ architecture rtl of quadratic_interpolator is
   constant c_bits : positive       := formats(g_exact).intensity.bits;
   constant c_init : init_channel_t := init_channel(g_exact);
 
-  -- Clocks by which a sum is behind another whose word it takes: values behind differences, spans behind the edge.
-  constant c_behind : natural := boolean'pos(g_ahead);
-
   -- The strobes, clock by clock: each part of the words takes them from a register of its own, the lowest first.
-  subtype strobe_t is std_logic_vector(g_parts + 2 * c_behind - 1 downto 0);
+  subtype strobe_t is std_logic_vector(g_parts - 1 downto 0);
 
   signal line_loads, line_steps, line_carries, span_loads, span_steps : strobe_t;
 
@@ -105,7 +101,6 @@ begin
     -- What the next step along the edge adds.
     signal value_step, dx_step, de0_step : part_t;
 
-    signal value_start                             : part_t; -- of the value along the edge, when it loads
     signal part_value, part_dx, part_de0, part_de1 : part_t; -- along the edge
     signal pixel_value, pixel_dx                   : part_t; -- along the line
 
@@ -186,8 +181,7 @@ begin
 
           de1_along_edge : entity work.part_interpolator
             generic map (
-              g_bits  => c_part_bits,
-              g_ahead => g_ahead
+              g_bits => c_part_bits
               )
             port map (
               clk       => clk,
@@ -200,7 +194,7 @@ begin
               carry_out => carries(edge_de1)(part + 1)
               );
 
-          value_step <= part_de1 when line_carries(part + c_behind) = '1' else part_de0;
+          value_step <= part_de1 when line_carries(part) = '1' else part_de0;
           dx_step    <= dxe1 when line_carries(part) = '1' else dxe0;
           de0_step   <= de0e1 when line_carries(part) = '1' else de0e0;
           de1_step   <= de1e1 when line_carries(part) = '1' else de0e1;
@@ -215,33 +209,15 @@ begin
 
       end generate;
 
-      value_behind : if g_ahead generate
-
-        registers : process (clk)
-        begin
-          if rising_edge(clk) then
-            if line_loads(part) = '1' then
-              value_start <= init(c_init.value.low + c_high downto c_init.value.low + c_low);
-            end if;
-          end if;
-        end process;
-
-      else generate
-
-        value_start <= init(c_init.value.low + c_high downto c_init.value.low + c_low);
-
-      end generate;
-
       value_along_edge : entity work.part_interpolator
         generic map (
-          g_bits  => c_part_bits,
-          g_ahead => g_ahead
+          g_bits => c_part_bits
           )
         port map (
           clk       => clk,
-          load      => line_loads(part + c_behind),
-          start     => value_start,
-          step      => line_steps(part + c_behind),
+          load      => line_loads(part),
+          start     => init(c_init.value.low + c_high downto c_init.value.low + c_low),
+          step      => line_steps(part),
           increment => value_step,
           carry_in  => carries(edge_value)(part),
           value     => part_value,
@@ -250,8 +226,7 @@ begin
 
       dx_along_edge : entity work.part_interpolator
         generic map (
-          g_bits  => c_part_bits,
-          g_ahead => g_ahead
+          g_bits => c_part_bits
           )
         port map (
           clk       => clk,
@@ -266,8 +241,7 @@ begin
 
       de0_along_edge : entity work.part_interpolator
         generic map (
-          g_bits  => c_part_bits,
-          g_ahead => g_ahead
+          g_bits => c_part_bits
           )
         port map (
           clk       => clk,
@@ -294,14 +268,13 @@ begin
 
       value_along_line : entity work.part_interpolator
         generic map (
-          g_bits  => c_part_bits,
-          g_ahead => g_ahead
+          g_bits => c_part_bits
           )
         port map (
           clk       => clk,
-          load      => span_loads(part + 2 * c_behind),
+          load      => span_loads(part),
           start     => part_value,
-          step      => span_steps(part + 2 * c_behind),
+          step      => span_steps(part),
           increment => pixel_dx,
           carry_in  => carries(span_value)(part),
           value     => pixel_value,
@@ -310,30 +283,29 @@ begin
 
       dx_along_line : entity work.part_interpolator
         generic map (
-          g_bits  => c_part_bits,
-          g_ahead => g_ahead
+          g_bits => c_part_bits
           )
         port map (
           clk       => clk,
-          load      => span_loads(part + c_behind),
+          load      => span_loads(part),
           start     => part_dx,
-          step      => span_steps(part + c_behind),
+          step      => span_steps(part),
           increment => span_dxx,
           carry_in  => carries(span_dx)(part),
           value     => pixel_dx,
           carry_out => carries(span_dx)(part + 1)
           );
 
-        -- A lower part waits for the upper ones, and all for the last of the sums.
+        -- A lower part waits for the upper ones.
       edge_differences : if not g_probe generate
 
         line_dx(c_high downto c_low)  <= (others => '0');
         line_de0(c_high downto c_low) <= (others => '0');
         line_de1(c_high downto c_low) <= (others => '0');
 
-      elsif part < g_parts - 1 + 2 * c_behind generate
+      elsif part < g_parts - 1 generate
 
-        type waits_t is array (1 to g_parts - 1 + 2 * c_behind - part) of part_t;
+        type waits_t is array (1 to g_parts - 1 - part) of part_t;
 
         signal line_dx_waits, line_de0_waits, line_de1_waits : waits_t;
 
@@ -365,9 +337,9 @@ begin
         line_value(c_high downto c_low) <= (others => '0');
         dx(c_high downto c_low)         <= (others => '0');
 
-      elsif part < g_parts - 1 + c_behind generate
+      elsif part < g_parts - 1 generate
 
-        type waits_t is array (1 to g_parts - 1 + c_behind - part) of part_t;
+        type waits_t is array (1 to g_parts - 1 - part) of part_t;
 
         signal line_value_waits, dx_waits : waits_t;
 

@@ -4,7 +4,7 @@
 -- Formats     formats_pkg: depth_sum; sums wrap, the value at a covered pixel fits
 -- Contract    line_load and line_step are never both '1', nor span_load and span_step; a part's bits of the plane's
 --             words stand still in the clock of its line_load, a clock behind the part's below it
--- Latency     g_parts + g_late clocks from a load or step to its value, with g_ahead 2 more
+-- Latency     g_parts clocks from a load or step to its value
 -- Throughput  1 line and 1 pixel a clock
 -- Error       0.19 of a depth step at most: see depth_sum in formats_pkg
 -- Source      plane_interpolator; the papers leave depth to the host
@@ -18,8 +18,6 @@ entity z_interpolator is
   generic (
     g_exact : boolean  := true; -- false: edges step by a real slope, and de1 does not exist
     g_parts : positive := 1;    -- of a word, each a clock behind the one below it
-    g_ahead : boolean  := false; -- what is added is chosen a clock ahead of its sum
-    g_late  : natural  := 0;     -- clocks more until both values come
     g_probe : boolean  := true   -- give line_value; it is zero without
   );
   port (
@@ -50,8 +48,6 @@ begin
       g_bits    => c_bits,
       g_carries => g_exact,
       g_parts   => g_parts,
-      g_ahead   => g_ahead,
-      g_late    => g_late,
       g_probe   => g_probe
       )
     port map (

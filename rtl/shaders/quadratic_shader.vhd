@@ -5,17 +5,12 @@
 --             -> stream_queue
 --             The walker alone waits for whoever takes the fragments. What it tells the interpolators goes through
 --             registers, and all behind it runs on; the queue has a place for every pixel that is on its way.
---             g_fast: the same fragments by hardware that is built for the clock: queued_walker, words in three parts in
---             place of two, what they add chosen a clock ahead.
 -- Contract    Both streams are valid/ready; a fragment stands still while it waits. One channel (g_channels = 1) is
 --             given out as red, green and blue.
 -- Formats     formats_pkg: init (header, then a block a channel), depth, colour
--- Latency     8 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel), with
---             g_fast 12, and a vector is taken a clock after it is offered or later
+-- Latency     8 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel)
 -- Throughput  1 fragment a clock, with no bubble between spans, lines and triangles, but that a triangle takes 2 clocks
---             at least, with g_fast 3, where behind one as many clocks may be lost as it has pixels less than 4, or its
---             last two lines less than 3; lines that cover no pixel cost a clock each where no span is being drawn
---             meanwhile
+--             at least; lines that cover no pixel cost a clock each where no span is being drawn meanwhile
 -- Error       preset exact: the colour is within 0.65 steps of the quadratic through the six samples (0.5 rounding,
 --             0.15 differences), depth within 0.69 of the triangle's plane, and a step more within a step of 0 or of
 --             its largest value, which setup keeps clear
@@ -30,7 +25,6 @@ entity quadratic_shader is
   generic (
     g_exact    : boolean  := true;
     g_channels : positive := 3;
-    g_fast     : boolean  := false; -- for the clock, in place of registers and of clocks between triangles
     g_probe    : boolean  := false -- bring the stages' registers out
   );
   port (
@@ -80,21 +74,19 @@ architecture rtl of quadratic_shader is
     x        : span_x_t;
   end record;
 
-  -- The interpolators' words come in parts, the lowest first, a clock from part to part. With g_fast depth and colour are
-  -- clocks later than the last part's sum.
-  constant c_parts : positive := 2 + boolean'pos(g_fast);
-  constant c_late  : natural  := 3 * boolean'pos(g_fast);
-  constant c_whole : positive := c_parts + c_late; -- clocks from what the walker says to a whole word
+  -- The interpolators' words come in parts, the lowest first, a clock from part to part: so a word is whole c_parts clocks
+  -- after the walker's strobe.
+  constant c_parts : positive := 2;
 
-  type pixels_t is array (1 to c_whole) of pixel_t;
+  type pixels_t is array (1 to c_parts) of pixel_t;
 
-  -- What the walker has said, a clock ago and more: for each part of the words, and until a word is whole.
+  -- What the walker has said, a clock ago and more: for each part of the words.
   subtype strobe_t is std_logic_vector(1 to c_parts);
 
   -- Behind the buffer the interpolators' words have a second place, from which they load: so the buffer is free when the
-  -- last part has gone there, a clock behind the walker's reading, with g_fast two.
+  -- last part has gone there, a clock behind the walker's reading.
   type reg_t is record
-    walk_valid : std_logic; -- a triangle that the walker has not taken is in the buffer, with g_fast in front of both
+    walk_valid : std_logic; -- a triangle that the walker has not taken is in the buffer
     walk_taken : std_logic; -- the walker took it in the clock before: the buffer lets it go
     copy_waits : std_logic; -- the buffer holds a triangle whose words have not gone on
     placed     : std_logic; -- the second place holds words of a triangle that has not begun
@@ -103,7 +95,7 @@ architecture rtl of quadratic_shader is
     line_step  : std_logic;
     line_carry : std_logic;
     span_load  : std_logic;
-    span_step  : std_logic_vector(1 to c_whole);
+    span_step  : strobe_t;
     span_goes  : std_logic; -- a step that is no load, too
   end record;
 
@@ -120,6 +112,7 @@ architecture rtl of quadratic_shader is
   signal pixels    : pixels_t;
 
   signal init, words                   : std_logic_vector(init_data'range); -- in the buffer; in the second place
+  signal buffer_free                   : std_logic;
   signal waiting, walk_ready           : std_logic;
   signal line_load, line_step          : std_logic;
   signal line_carry                    : std_logic;
@@ -147,105 +140,51 @@ begin
     & " whole bits, depth " & integer'image(c_formats.depth.bits)
     severity failure;
 
-  front : if not g_fast generate
+  init_buffer : entity work.stream_register
+    generic map (
+      g_bits => init_data'length
+      )
+    port map (
+      clk       => clk,
+      reset     => reset,
+      in_valid  => init_valid,
+      in_ready  => buffer_free,
+      in_data   => init_data,
+      out_valid => waiting,
+      out_ready => r.walk_taken,
+      out_data  => init
+      );
 
-    signal buffer_free : std_logic;
+  walker : entity work.triangle_walker
+    generic map (
+      g_exact => g_exact
+      )
+    port map (
+      clk            => clk,
+      reset          => reset,
+      init_valid     => r.walk_valid,
+      init_ready     => walk_ready,
+      init           => init(c_header_bits - 1 downto 0),
+      line_ready     => '1',
+      line_held      => open,
+      line_load      => line_load,
+      line_step      => line_step,
+      line_carry     => line_carry,
+      span_load      => span_load,
+      span_step      => span_step,
+      line_y         => line_y,
+      line_start     => line_start,
+      line_stop      => line_stop,
+      fragment_valid => open,
+      fragment_ready => room,
+      triangle       => triangle,
+      y              => y,
+      x              => x,
+      busy           => walking
+      );
 
-    begin
-
-      init_buffer : entity work.stream_register
-        generic map (
-          g_bits => init_data'length
-          )
-        port map (
-          clk       => clk,
-          reset     => reset,
-          in_valid  => init_valid,
-          in_ready  => buffer_free,
-          in_data   => init_data,
-          out_valid => waiting,
-          out_ready => r.walk_taken,
-          out_data  => init
-          );
-
-      walker : entity work.triangle_walker
-        generic map (
-          g_exact => g_exact
-          )
-        port map (
-          clk            => clk,
-          reset          => reset,
-          init_valid     => r.walk_valid,
-          init_ready     => walk_ready,
-          init           => init(c_header_bits - 1 downto 0),
-          line_ready     => '1',
-          line_held      => open,
-          line_load      => line_load,
-          line_step      => line_step,
-          line_carry     => line_carry,
-          span_load      => span_load,
-          span_step      => span_step,
-          line_y         => line_y,
-          line_start     => line_start,
-          line_stop      => line_stop,
-          fragment_valid => open,
-          fragment_ready => room,
-          triangle       => triangle,
-          y              => y,
-          x              => x,
-          busy           => walking
-          );
-
-      init_ready <= buffer_free;
-      takes      <= init_valid and buffer_free;
-
-  else generate
-
-    -- The walker takes a vector from where it is offered; the buffer has only the interpolators' words.
-    words_buffer : entity work.parameter_register
-      generic map (
-        g_bits => init_data'length - c_depth_low
-        )
-      port map (
-        clk   => clk,
-        load  => r.walk_valid,
-        start => init_data(init_data'high downto c_depth_low),
-        value => init(init'high downto c_depth_low)
-        );
-
-    init(c_depth_low - 1 downto 0) <= (others => '0'); -- the walker's alone
-    waiting                        <= '0'; -- the walker holds whatever the buffer does
-
-    walker : entity work.queued_walker
-      generic map (
-        g_exact => g_exact
-        )
-      port map (
-        clk            => clk,
-        reset          => reset,
-        init_valid     => r.walk_valid,
-        init_ready     => walk_ready,
-        init           => init_data(c_header_bits - 1 downto 0),
-        line_load      => line_load,
-        line_step      => line_step,
-        line_carry     => line_carry,
-        span_load      => span_load,
-        span_step      => span_step,
-        line_y         => line_y,
-        line_start     => line_start,
-        line_stop      => line_stop,
-        fragment_valid => open,
-        fragment_ready => room,
-        triangle       => triangle,
-        y              => y,
-        x              => x,
-        busy           => walking
-        );
-
-    init_ready <= walk_ready;
-    takes      <= walk_ready;
-
-  end generate;
+  init_ready <= buffer_free;
+  takes      <= init_valid and buffer_free;
 
   combinational : process (all)
     variable v : reg_t;
@@ -261,17 +200,8 @@ begin
     v.line_step  := line_step and not line_load;
     v.line_carry := line_carry;
     v.span_load  := span_load;
-    v.span_step  := span_step & r.span_step(1 to c_whole - 1);
+    v.span_step  := span_step & r.span_step(1 to c_parts - 1);
     v.span_goes  := span_step and not span_load;
-    if g_fast then
-      -- A vector is taken when it has been offered for a clock, and the last part of the one before it goes on.
-      v.walk_valid := init_valid and not takes and not v.copy_waits;
-      for part in 2 to c_parts - 1 loop
-        if v.copy(part) = '1' then
-          v.walk_valid := '0';
-        end if;
-      end loop;
-    end if;
     if reset = '1' then
       v.walk_valid := '0';
       v.walk_taken := '0';
@@ -288,7 +218,7 @@ begin
   begin
     if rising_edge(clk) then
       r      <= r_next;
-      pixels <= pixel_t'(triangle, y, x) & pixels(1 to c_whole - 1);
+      pixels <= pixel_t'(triangle, y, x) & pixels(1 to c_parts - 1);
     end if;
   end process;
 
@@ -318,13 +248,10 @@ begin
 
   end generate;
 
-  -- With g_fast a plane is a clock before a quadratic.
   depth : entity work.z_interpolator
     generic map (
       g_exact => g_exact,
       g_parts => c_parts,
-      g_ahead => g_fast,
-      g_late  => boolean'pos(g_fast),
       g_probe => g_probe
       )
     port map (
@@ -377,7 +304,6 @@ begin
         generic map (
           g_exact => g_exact,
           g_parts => c_parts,
-          g_ahead => g_fast,
           g_probe => g_probe
           )
         port map (
@@ -428,19 +354,18 @@ begin
   end generate;
 
   whole_z     <= z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction);
-  pixel_valid <= r.span_step(c_whole);
+  pixel_valid <= r.span_step(c_parts);
 
   -- Each for itself: what changes is all that a simulator copies.
   pixel(c_red_low + 3 * c_colour - 1 downto c_red_low)                     <= colours;
   pixel(c_z_low + fragment_z'length - 1 downto c_z_low)                    <= whole_z;
-  pixel(c_x_low + fragment_x'length - 1 downto c_x_low)                    <= pixels(c_whole).x(fragment_x'range);
-  pixel(c_y_low + fragment_y'length - 1 downto c_y_low)                    <= pixels(c_whole).y;
-  pixel(c_triangle_low + fragment_triangle'length - 1 downto c_triangle_low) <= pixels(c_whole).triangle;
+  pixel(c_x_low + fragment_x'length - 1 downto c_x_low)                    <= pixels(c_parts).x(fragment_x'range);
+  pixel(c_y_low + fragment_y'length - 1 downto c_y_low)                    <= pixels(c_parts).y;
+  pixel(c_triangle_low + fragment_triangle'length - 1 downto c_triangle_low) <= pixels(c_parts).triangle;
 
   queue : entity work.stream_queue
     generic map (
-      g_bits       => pixel'length,
-      g_index_bits => 3 + boolean'pos(g_fast)
+      g_bits => pixel'length
       )
     port map (
       clk       => clk,
@@ -477,7 +402,7 @@ begin
       stop   : span_x_t;
     end record;
 
-    type lines_t is array (1 to c_whole) of line_t;
+    type lines_t is array (1 to c_parts) of line_t;
 
     signal lines : lines_t;
 
@@ -486,7 +411,7 @@ begin
       beside_lines : process (clk)
       begin
         if rising_edge(clk) then
-          lines <= line_t'(span_load, line_carry, line_y, line_start, line_stop) & lines(1 to c_whole - 1);
+          lines <= line_t'(span_load, line_carry, line_y, line_start, line_stop) & lines(1 to c_parts - 1);
           if reset = '1' then
             for clock in lines_t'range loop
               lines(clock).begins <= '0';
@@ -495,20 +420,20 @@ begin
         end if;
       end process;
 
-      probe(c_probe.line_event.low)                                <= lines(c_whole).begins;
-      probe(c_probe.span_event.low)                                <= r.span_step(c_whole);
+      probe(c_probe.line_event.low)                                <= lines(c_parts).begins;
+      probe(c_probe.span_event.low)                                <= r.span_step(c_parts);
       probe(c_probe.sample_event.low)                              <= '0'; -- stages of another shader
       probe(c_probe.product_event.low)                             <= '0';
-      probe(c_probe.line_y.high downto c_probe.line_y.low)         <= lines(c_whole).y;
-      probe(c_probe.line_start.high downto c_probe.line_start.low) <= lines(c_whole).start;
-      probe(c_probe.line_stop.high downto c_probe.line_stop.low)   <= lines(c_whole).stop;
+      probe(c_probe.line_y.high downto c_probe.line_y.low)         <= lines(c_parts).y;
+      probe(c_probe.line_start.high downto c_probe.line_start.low) <= lines(c_parts).start;
+      probe(c_probe.line_stop.high downto c_probe.line_stop.low)   <= lines(c_parts).stop;
       probe(c_probe.line_z.high downto c_probe.line_z.low)         <= line_z;
-      probe(c_probe.span_y.high downto c_probe.span_y.low)         <= pixels(c_whole).y;
-      probe(c_probe.span_x.high downto c_probe.span_x.low)         <= pixels(c_whole).x;
+      probe(c_probe.span_y.high downto c_probe.span_y.low)         <= pixels(c_parts).y;
+      probe(c_probe.span_x.high downto c_probe.span_x.low)         <= pixels(c_parts).x;
       probe(c_probe.span_z.high downto c_probe.span_z.low)         <= z;
 
       probed_carry : if g_exact generate
-        probe(c_probe.line_carry.low) <= lines(c_whole).carry;
+        probe(c_probe.line_carry.low) <= lines(c_parts).carry;
       end generate;
 
   else generate

@@ -82,14 +82,6 @@ TEST_F(CliTest, BadUsageExitsTwoAndSaysWhatToDo) {
        "run `make sim SCENE=spheres SHADER=spherical` first"},
       {{"compare", "spheres", "--all-effects", "--out", "o"},
        "run `make sim SCENE=spheres ALL_EFFECTS=1 OUT=o` first"},
-      {{"compare", "spheres", "--fast"}, "run `make sim SCENE=spheres FAST=1` first"},
-      {{"compare", "spheres", "--shader", "spherical", "--fast"},
-       "--fast belongs to the quadratic shader, and says nothing for the spherical shader"},
-      {{"sim", "spheres", "--shader", "spherical", "--fast"},
-       "--fast belongs to the quadratic shader, and says nothing for the spherical shader"},
-      {{"view", "spheres", "--shader", "processors", "--fast"}, "--fast belongs to the quadratic shader"},
-      {{"why", "spheres", "--shader", "spherical", "--pixel", "0,0", "--fast"},
-       "--fast belongs to the quadratic shader"},
   };
   for (const auto& [arguments, expected] : cases) {
     const Outcome outcome = run(arguments);
@@ -294,42 +286,6 @@ TEST_F(CliTest, AllEffectsHaveAFolderOfTheirOwn) {
     EXPECT_EQ(run({"compare", mesh, "--out", out(), "--shader", shader, "--all-effects"}).exit_code, 2);
     EXPECT_EQ(run({"compare", mesh, "--out", out(), "--shader", shader}).exit_code, 0);
   }
-}
-
-// As with all effects: the same fragments and frames, side by side.
-TEST_F(CliTest, FastHardwareHasAFolderOfItsOwn) {
-  const auto mesh = write("one.obj", c_triangle);
-  const auto sim = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"sim", mesh, "--out", out(), "--size", "40x30"});
-    const Outcome outcome = run(more);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-    return outcome.output;
-  };
-  EXPECT_THAT(sim({}), Not(HasSubstr(", fast")));
-  EXPECT_THAT(sim({"--fast"}), HasSubstr(" fragments, fast | ghdl: "));
-  EXPECT_THAT(sim({"--fast", "--all-effects"}), HasSubstr(" fragments, all effects, fast | ghdl: "));
-  const auto one = out() / "one";
-  const auto usual = read_file(one / "quadratic" / "summary.json");
-  ASSERT_TRUE(usual);
-  EXPECT_EQ(nlohmann::json::parse(*usual)["hardware"]["fast"], false);
-  for (const auto& [folder, key] :
-       {std::pair{"quadratic-fast", "quadratic_shader-exact-c1-fast"},
-        std::pair{"quadratic-all-effects-fast", "quadratic_shader-exact-c3-fast"}}) {
-    for (const char* file : {"golden.png", "ghdl.png", "verilator.png"}) {
-      const auto a = read_file(one / "quadratic" / file), b = read_file(one / folder / file);
-      ASSERT_TRUE(a && b) << file;
-      EXPECT_EQ(*a, *b) << folder << " " << file;
-    }
-    const auto text = read_file(one / folder / "summary.json");
-    ASSERT_TRUE(text);
-    const auto json = nlohmann::json::parse(*text);
-    EXPECT_EQ(json["hardware"]["fast"], true);
-    EXPECT_EQ(json["hardware"]["key"], key);
-  }
-  EXPECT_EQ(run({"compare", mesh, "--out", out(), "--fast"}).exit_code, 0);
-  std::filesystem::remove_all(one / "quadratic-fast");
-  EXPECT_EQ(run({"compare", mesh, "--out", out(), "--fast"}).exit_code, 2);
-  EXPECT_EQ(run({"compare", mesh, "--out", out(), "--fast", "--all-effects"}).exit_code, 0);
 }
 
 TEST_F(CliTest, TheLineNamesTablesOfAnUnusualSize) {
@@ -578,22 +534,18 @@ TEST_F(CliTest, WhyAgreesOnRightHardware) {
 // The last fragment leaves in the last of the clocks that sim counts, whatever the way to it takes.
 TEST_F(CliTest, WhyTellsTheFragmentsClock) {
   const auto mesh = write("one.obj", c_triangle);
-  for (const bool fast : {false, true}) {
-    const std::string results = fast ? "quadratic-fast" : "quadratic";
-    const auto given = [&](std::vector<std::string> arguments) {
-      arguments.insert(arguments.end(), {"--size", "40x30", "--out", out()});
-      if (fast) arguments.emplace_back("--fast");
-      return run(arguments);
-    };
-    ASSERT_EQ(given({"sim", mesh, "--simulator", "verilator"}).exit_code, 0);
-    const auto trace = read_trace(out() / "one" / results / "verilator.trace", "");
-    ASSERT_TRUE(trace) << trace.error().message;
-    ASSERT_TRUE(trace->cycles);
-    const Fragment& last = trace->fragments.back();
-    const Outcome why = given({"why", mesh, "--pixel", fmt::format("{},{}", last.x, last.y)});
-    ASSERT_EQ(why.exit_code, 0) << why.output;
-    EXPECT_THAT(why.output, HasSubstr(fmt::format("fragment stage, cycle {}\n", *trace->cycles - 1)));
-  }
+  const auto given = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--size", "40x30", "--out", out()});
+    return run(arguments);
+  };
+  ASSERT_EQ(given({"sim", mesh, "--simulator", "verilator"}).exit_code, 0);
+  const auto trace = read_trace(out() / "one" / "quadratic" / "verilator.trace", "");
+  ASSERT_TRUE(trace) << trace.error().message;
+  ASSERT_TRUE(trace->cycles);
+  const Fragment& last = trace->fragments.back();
+  const Outcome why = given({"why", mesh, "--pixel", fmt::format("{},{}", last.x, last.y)});
+  ASSERT_EQ(why.exit_code, 0) << why.output;
+  EXPECT_THAT(why.output, HasSubstr(fmt::format("fragment stage, cycle {}\n", *trace->cycles - 1)));
 }
 
 // Names of any length, in one column; and words.

@@ -21,7 +21,7 @@ namespace {
 
 struct CompareCommand {
   std::string shader = "quadratic";
-  bool all_effects = false, fast = false;
+  bool all_effects = false;
   std::string out = "build/out";
   std::vector<std::string> scenes;
 };
@@ -62,7 +62,6 @@ std::string make_sim(const std::string& scene, const CompareCommand& command) {
   std::string text = "make sim SCENE=" + scene;
   if (command.shader != CompareCommand{}.shader) text += " SHADER=" + command.shader;
   if (command.all_effects) text += " ALL_EFFECTS=1";
-  if (command.fast) text += " FAST=1";
   if (command.out != CompareCommand{}.out) text += " OUT=" + command.out;
   return text;
 }
@@ -71,9 +70,8 @@ std::string make_sim(const std::string& scene, const CompareCommand& command) {
 Result<bool> compare_scene(const std::string& scene, const CompareCommand& command, Shader shader) {
   if (const std::string name = result_name(scene); name.empty() || name == "." || name == "..")
     return bad_input(fmt::format("'{}' is no scene's name", scene));
-  const ResultFiles files =
-      ResultFiles::of(command.out, result_name(scene),
-                      {.shader = shader, .all_effects = command.all_effects, .fast = command.fast});
+  const ResultFiles files = ResultFiles::of(command.out, result_name(scene),
+                                            {.shader = shader, .all_effects = command.all_effects});
   const auto none = [&](const char* what) {
     return bad_input(
         fmt::format("{}: {}; run `{}` first", files.folder.string(), what, make_sim(scene, command)));
@@ -122,8 +120,6 @@ Result<bool> compare_scene(const std::string& scene, const CompareCommand& comma
 int run(const Folders& folders, const CompareCommand& command) {
   const auto shader = checked_shader(command.shader);
   if (!shader) return report(shader.error());
-  if (command.fast && *shader != Shader::quadratic)
-    return report(bad_input(of_other_hardware("--fast", "the quadratic shader", *shader)));
   std::vector<std::string> scenes = command.scenes;
   if (scenes.empty()) {
     auto builtin = builtin_scenes(folders);
@@ -148,7 +144,6 @@ void add_compare(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("scene", command->scenes, "as for sim; none: all built-in scenes");
   sub->add_option("--shader", command->shader, c_shader_names)->capture_default_str();
   sub->add_flag("--all-effects", command->all_effects, "what sim --all-effects left");
-  sub->add_flag("--fast", command->fast, "what sim --fast left");
   sub->add_option("--out", command->out, "folder of results")->capture_default_str();
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }

@@ -49,8 +49,7 @@ Status check_hardware(const DrawOptions& o, Shader shader, Preset preset) {
       {"--address-bits", o.address_bits.has_value(), {{Shader::spherical}}},
       {"--data-bits", o.data_bits.has_value(), {{Shader::spherical}}},
       {"--lights", o.lights.has_value(), {{Shader::spherical}, {Shader::processors}}},
-      {"--form", o.form.has_value(), {{Shader::processors}}},
-      {"--fast", o.fast, {{Shader::quadratic}}}};
+      {"--form", o.form.has_value(), {{Shader::processors}}}};
   for (const Option& option : options) {
     if (!option.given || std::ranges::any_of(option.belongs_to, [&](const Hardware& hardware) {
           return hardware.shader == shader && hardware.preset.value_or(preset) == preset;
@@ -117,10 +116,6 @@ void DrawOptions::add_to(CLI::App& command) {
   command.add_option("--form", form,
                      "processors: unrolled, an object a clock, or folded, as published: one datapath a\n"
                      "processor, several clocks an object (default: unrolled)");
-  command.add_flag(
-      "--fast", fast,
-      "quadratic: hardware built for the clock: the same fragments at more MHz, for a third more\n"
-      "flip-flops; a triangle takes 3 clocks at least in place of 2");
   command.add_option(
       "--span-ends", span_ends,
       "spherical, preset exact: vectors at a span's ends from the surface, or by slerp along the\n"
@@ -164,7 +159,6 @@ Result<DrawSettings> checked(const DrawOptions& o) {
     s.plan.form = ProcessorForm::folded;
   else if (o.form && o.form != "unrolled")
     return bad_input(fmt::format("--form: '{}' is not a form; take folded or unrolled", *o.form));
-  s.plan.fast = o.fast;
   if (o.lights && !o.all_effects) return bad_input("--lights goes with --all-effects; give both");
   s.plan.lights = o.lights;
   if (o.span_ends == "slerp")

@@ -25,7 +25,6 @@ struct DrawOptions {
   std::optional<std::string> span_ends;
   std::string preset = "exact";
   std::optional<std::string> form;  ///< of the shading processors; none: unrolled
-  bool fast = false;                ///< the quadratic shader, built for the clock
   std::string size = "640x480";
   std::string out = "build/out";
   std::optional<std::string> highlight_test;

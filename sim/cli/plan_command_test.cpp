@@ -123,8 +123,6 @@ TEST_F(PlanCommand, BadUsageExitsTwo) {
       {{"plan", "matte", "--form", "folded"},
        "--form belongs to the processors shader, and says nothing for the quadratic shader"},
       {{"plan", "matte", "--shader", "processors", "--form", "flat"}, "take folded or unrolled"},
-      {{"plan", "matte", "--shader", "processors", "--fast"},
-       "--fast belongs to the quadratic shader, and says nothing for the processors shader"},
       {{"plan", "matte", "--objects", "-1"}, "--objects"},
       {{"plan", "matte", "--measure", "--simulator", "modelsim"}, "is not a simulator"},
       {{"sim", "matte", "--simulator", "modelsim"}, "is not a simulator"},
@@ -202,17 +200,6 @@ TEST_F(PlanCommand, MeasuringTellsFramesThatDiffer) {
                               path_with_yosys());
   EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
   EXPECT_THAT(outcome.output, AllOf(HasSubstr("the two frames DIFFER"), Not(HasSubstr("seconds in GHDL"))));
-}
-
-TEST_F(PlanCommand, TellsFastHardware) {
-  const Outcome fast = run({"plan", "matte", "--fast"});
-  EXPECT_EQ(fast.exit_code, 0) << fast.output;
-  EXPECT_THAT(fast.output,
-              AllOf(HasSubstr("as called for  quadratic_shader-exact-c1-fast\n"),
-                    HasSubstr("all effects    quadratic_shader-exact-c3-fast\n"),
-                    ContainsRegex("\n  queued_walker +1 +1 +0 %\n"), Not(HasSubstr("triangle_walker"))));
-  EXPECT_THAT(run({"init", "matte", "--fast", "--size", "40x30"}).output,
-              HasSubstr("quadratic_shader-exact-c1-fast"));
 }
 
 TEST_F(PlanCommand, AllEffectsDrawTheSamePicture) {

@@ -152,7 +152,7 @@ Status add_frames(Page& page) {
       const auto it = std::ranges::find_if(c_shaders, is_called);
       const auto preset =
           summary["preset"] == to_string(Preset::published) ? Preset::published : Preset::exact;
-      if (it == c_shaders.end()) continue;  // with all effects, or fast: what is called for is told beside it
+      if (it == c_shaders.end()) continue;  // with all effects: what is called for is told beside it
       const auto scene = load_scene(scene_name, page.settings.folders.source / "sim" / "scenes");
       if (!scene) continue;  // a mesh from elsewhere: its name alone does not load it
       auto plan = plan_scene(*scene, {.shader = *it, .preset = preset});

@@ -9,15 +9,14 @@
 
 namespace halfway {
 
-/// The files that a run leaves in <out>/<scene>/<shader>/; with all effects in <shader>-all-effects/, and of
-/// hardware built for the clock in <shader>-fast/ or <shader>-all-effects-fast/, so that all can be compared.
+/// The files that a run leaves in <out>/<scene>/<shader>/; with all effects in <shader>-all-effects/, so that
+/// both can be compared.
 struct ResultFiles {
   std::filesystem::path folder;
 
   static ResultFiles of(const std::filesystem::path& out, const std::string& scene, const PlanRequest& plan) {
     std::string hardware = to_string(plan.shader);
     if (plan.all_effects) hardware += "-all-effects";
-    if (plan.fast) hardware += "-fast";
     return {out / scene / hardware};
   }
   std::filesystem::path init() const { return folder / "init.txt"; }

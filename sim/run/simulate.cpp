@@ -481,11 +481,7 @@ std::string to_json(const SceneSummary& s) {
       {"height", s.size.height},
       {"triangles", s.triangles},
       {"fragments", s.fragments},
-      {"hardware",
-       {{"key", s.plan.key.name()},
-        {"all_effects", s.all_effects},
-        {"fast", s.plan.key.fast},
-        {"units", units}}},
+      {"hardware", {{"key", s.plan.key.name()}, {"all_effects", s.all_effects}, {"units", units}}},
       {"runs", runs},
       // JSON has no infinity: null where golden and reference are the same.
       {"accuracy",
@@ -521,7 +517,6 @@ std::string to_line(const SceneSummary& s) {
       fmt::format("{:<12} {:<10} {:<9} {:>4}x{:<4} {:>8} triangles {:>9} fragments", s.scene, s.shader,
                   to_string(s.plan.key.preset), s.size.width, s.size.height, s.triangles, s.fragments);
   if (s.all_effects) line += ", all effects";
-  if (s.plan.key.fast) line += ", fast";
   line += unusual_tables(s.plan.key);
   for (const SimulatorRun& run : s.runs) {
     const auto to = std::back_inserter(line);

@@ -20,6 +20,9 @@
 namespace halfway {
 namespace {
 
+// Walks the triangles of every shader.
+constexpr const char* c_walker = "triangle_walker";
+
 // A field of a flat vector, wherever its block lies.
 struct PlacedField {
   std::string name;
@@ -43,9 +46,9 @@ struct Layouts {
   unsigned clocks_to_fragment = 1;  ///< from the last stage's event, where nothing waits
 };
 
-std::vector<ProbedStage> walked_stages(const HardwareKey& key, std::initializer_list<const char*> names) {
+std::vector<ProbedStage> walked_stages(std::initializer_list<const char*> names) {
   std::vector<ProbedStage> stages;
-  for (const char* name : names) stages.push_back({name, static_cast<int>(stages.size()), key.walker()});
+  for (const char* name : names) stages.push_back({name, static_cast<int>(stages.size()), c_walker});
   return stages;
 }
 
@@ -62,11 +65,8 @@ std::string within(std::string_view entity, std::string_view around) {
 template <class P>
 std::string walk_entity(std::string_view field, const HardwareKey& key) {
   if (field == "line_start" || field == "line_stop" || field == "line_carry")
-    return within(std::is_same_v<P, golden::Exact> ? "edge_walker"
-                  : key.fast                       ? "split_slope_walker"
-                                                   : "slope_walker",
-                  key.walker());
-  return within(field.ends_with("_z") ? "z_interpolator" : key.walker(), key.entity());
+    return within(std::is_same_v<P, golden::Exact> ? "edge_walker" : "slope_walker", c_walker);
+  return within(field.ends_with("_z") ? "z_interpolator" : c_walker, key.entity());
 }
 
 template <class P>
@@ -82,7 +82,7 @@ template <class P>
 Layouts quadratic_layouts(const HardwareKey& key) {
   const unsigned channels = key.channels;
   Layouts layouts;
-  layouts.stages = walked_stages(key, {"line", "span"});
+  layouts.stages = walked_stages({"line", "span"});
   layouts.clocks_to_fragment = 2;  // a span's pixel goes into the queue
   for (const golden::Field& f : P::c_init_header) layouts.init.push_back({std::string(f.name), f, 0});
   place_probe_header<P>(layouts, key);
@@ -107,7 +107,7 @@ Layouts spherical_layouts(const HardwareKey& key) {
   const golden::SphericalConfig config = golden_config(key);
   const golden::SphericalLayout<P> at(config);
   Layouts layouts;
-  layouts.stages = walked_stages(key, {"line", "span", "sample", "product"});
+  layouts.stages = walked_stages({"line", "span", "sample", "product"});
   for (const golden::Field& f : P::c_init_header) layouts.init.push_back({std::string(f.name), f, 0});
   for (int c = 0; c < config.channels; ++c)
     layouts.init.push_back({channel_name(static_cast<unsigned>(c), key.channels) + " ambient",
@@ -163,7 +163,7 @@ Layouts processors_layouts(const HardwareKey& key) {
   const bool folded = key.processors.form == ProcessorForm::folded;
   const std::string_view processor = folded ? "shading_processor" : "unrolled_shading_processor";
   Layouts layouts;
-  layouts.stages = walked_stages(key, {"line", "span"});
+  layouts.stages = walked_stages({"line", "span"});
   const auto colour = [&](int channel) { return channel_name(static_cast<unsigned>(channel), key.channels); };
   // What the planes are of.
   std::vector<std::string> planes;

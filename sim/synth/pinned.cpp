@@ -123,14 +123,9 @@ Result<std::string> readme_clocks(const Pins& pins) {
       return bad_input(fmt::format("{}: {}: not pinned with a clock, which README tells", kPins, name));
     return found->second;
   };
-  constexpr const char* c_shaders[] = {"quadratic_shader_fast_grey_published",
-                                       "quadratic_shader_grey_published",
-                                       "quadratic_shader_grey_exact",
-                                       "quadratic_shader_fast_published",
-                                       "quadratic_shader_published",
-                                       "spherical_shader_grey_published",
-                                       "spherical_shader_published",
-                                       "spherical_shader_grey_exact",
+  constexpr const char* c_shaders[] = {"quadratic_shader_grey_published", "quadratic_shader_grey_exact",
+                                       "quadratic_shader_published",      "spherical_shader_grey_published",
+                                       "spherical_shader_published",      "spherical_shader_grey_exact",
                                        "spherical_shader_exact"};
   std::string text =
       "| design | LUTs | flip-flops | RAMs | clock, MHz | ns a pixel | published, ns |\n"

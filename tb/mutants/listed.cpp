@@ -128,14 +128,6 @@ constexpr Listed c_listed[] = {
      "part     := r.part", "raster/triangle_walker.vhd"},
     {"raster/slope_walker.vhd", "next_fraction(c_fraction) xor fraction(fraction_t'high)",
      "next_fraction(c_fraction)", "raster/triangle_walker.vhd"},
-    // A carry of the lower half lost in the first step, and the half itself; an edge stage that never waits;
-    // a
-    // line that there was not, behind a reset; a long line taken for a short one.
-    {"raster/split_slope_walker.vhd", "high_carry := r.first_carry", "high_carry := '0'"},
-    {"raster/split_slope_walker.vhd", "low        := r.first_low", "low        := r.low"},
-    {"raster/queued_walker.vhd", "reset or moves or not (r.second.valid or taken.valid)", "'1'"},
-    {"raster/queued_walker.vhd", "holds and r.accepts and not r.clears", "holds and r.accepts"},
-    {"raster/queued_walker.vhd", "few   => '0'", "few   => '1'"},
     // A clock lost between lines of different triangles, and between lines; a line lost to a stall; the stop
     // edge never bends.
     {"raster/triangle_walker.vhd", "v.edges.reads        := r.edges.lower_none and r.edges.left(left_t'high)",

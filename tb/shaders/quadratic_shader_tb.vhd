@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, one and three channels, without g_fast and with it, by shader_checker. Without empty lines there is a
--- fragment a clock, but behind a triangle of a single pixel, with g_fast behind small ones (tb/vectors/shaders.cpp).
+-- Both presets, one and three channels, by shader_checker. Without empty lines there is a fragment per clock, but a
+-- triangle of a single pixel takes two clocks.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -10,7 +10,6 @@ entity quadratic_shader_run is
   generic (
     g_exact    : boolean;
     g_channels : positive;
-    g_fast     : boolean;
     g_probe    : boolean;
     g_stem     : string -- of the files' names
   );
@@ -70,7 +69,7 @@ architecture sim of quadratic_shader_run is
   signal probe             : probe_t;
 begin
   dut : entity work.quadratic_shader
-    generic map (g_exact => g_exact, g_channels => g_channels, g_fast => g_fast, g_probe => g_probe)
+    generic map (g_exact => g_exact, g_channels => g_channels, g_probe => g_probe)
     port map (
       clk               => clk,
       reset             => reset,
@@ -97,11 +96,8 @@ begin
       g_probe_bits => c_probe_bits,
       g_probe      => g_probe,
       g_fields     => c_no_fields & c_no_fields & fields_of(false) & fields_of(true),
-      g_latency    => 8 + 4 * boolean'pos(g_fast),
+      g_latency    => 8,
       g_gapless    => true,
-      g_least      => 2 + 2 * boolean'pos(g_fast),
-      g_tail       => boolean'pos(g_fast),
-      g_waits      => g_fast,
       g_stem       => g_stem)
     port map (
       clk               => clk,
@@ -131,38 +127,23 @@ entity quadratic_shader_tb is
 end entity;
 
 architecture sim of quadratic_shader_tb is
-  signal finished : boolean_vector(0 to 7);
+  signal finished : boolean_vector(0 to 3);
 begin
-  forms : for fast in boolean generate
-    -- As the files' names say.
-    function form return string is
-    begin
-      if fast then
-        return "_fast_";
-      end if;
-      return "_";
-    end function;
+  exact_colour : entity work.quadratic_shader_run
+    generic map (g_exact => true, g_channels => 3, g_probe => true, g_stem => g_folder & "/exact3_")
+    port map (finished => finished(0));
 
-    constant c_first : natural := 4 * boolean'pos(fast);
-    begin
-      exact_colour : entity work.quadratic_shader_run
-        generic map (g_exact => true, g_channels => 3, g_fast => fast, g_probe => true, g_stem => g_folder & "/exact3" & form)
-        port map (finished => finished(c_first));
+  exact_grey : entity work.quadratic_shader_run
+    generic map (g_exact => true, g_channels => 1, g_probe => false, g_stem => g_folder & "/exact1_")
+    port map (finished => finished(1));
 
-      exact_grey : entity work.quadratic_shader_run
-        generic map (g_exact => true, g_channels => 1, g_fast => fast, g_probe => false, g_stem => g_folder & "/exact1" & form)
-        port map (finished => finished(c_first + 1));
+  published_colour : entity work.quadratic_shader_run
+    generic map (g_exact => false, g_channels => 3, g_probe => false, g_stem => g_folder & "/published3_")
+    port map (finished => finished(2));
 
-      published_colour : entity work.quadratic_shader_run
-        generic map (g_exact => false, g_channels => 3, g_fast => fast, g_probe => false,
-          g_stem => g_folder & "/published3" & form)
-        port map (finished => finished(c_first + 2));
-
-      published_grey : entity work.quadratic_shader_run
-        generic map (g_exact => false, g_channels => 1, g_fast => fast, g_probe => true,
-          g_stem => g_folder & "/published1" & form)
-        port map (finished => finished(c_first + 3));
-  end generate;
+  published_grey : entity work.quadratic_shader_run
+    generic map (g_exact => false, g_channels => 1, g_probe => true, g_stem => g_folder & "/published1_")
+    port map (finished => finished(3));
 
   done : process is
   begin

@@ -21,10 +21,7 @@ entity shader_checker is
     g_events     : integer_vector(0 to 3) := (0, 1, 2, 3); -- their bits of the probe
     g_timed      : boolean  := true; -- the files give the clocks
     g_latency    : positive := 1;    -- clocks from a triangle's first init vector taken to its first fragment, where timed
-    g_gapless    : boolean;          -- between triangles without an empty line no clock is lost
-    g_least      : positive := 2;    -- but where one has less pixels than this: as many clocks as are missing
-    g_waits      : boolean  := false; -- init_ready comes only where init_valid was there for a clock
-    g_tail       : natural  := 0;    -- or so many behind any
+    g_gapless    : boolean;          -- between triangles without an empty line no clock is lost, but one after a single pixel
     g_resets     : natural  := 10;   -- passes that a reset ends
     g_faults     : boolean  := false; -- there is a set, "fault", at the end of which the hardware says that it went wrong
     g_stem       : string            -- of the files' names
@@ -203,7 +200,7 @@ begin
               end if;
               -- Neighbours may have the same number.
               if given = 1 or fragment_triangle /= last or unsigned(fragment_y) - last_y > 1 then
-                if set = "dense" and given > 1 and g_gapless and clock > before + 1 + maximum(g_tail, g_least - pixels) then
+                if set = "dense" and given > 1 and g_gapless and clock > before + maximum(1, 3 - pixels) then
                   fragments.fail("of another triangle comes " & to_string(clock - before) & " clocks after the one before");
                 end if;
                 pixels := 0;
@@ -287,7 +284,7 @@ begin
       fragment_ready <= '1';
       for i in 1 to 3 loop
         wait until rising_edge(clk);
-        check_flag("init_ready when idle", init_ready, to_flag(not g_waits), clock);
+        check_flag("init_ready when idle", init_ready, '1', clock);
         check_flag("fragment_valid when idle", fragment_valid, '0', clock);
         check_flag("busy when idle", busy, '0', clock);
         check_flag("fault when idle", fault, '0', clock);

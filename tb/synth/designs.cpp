@@ -75,8 +75,6 @@ std::vector<ListedDesign> all_designs() {
 
     all.push_back(shader("quadratic_shader_" + p, {.preset = preset}));
     all.push_back(shader("quadratic_shader_grey_" + p, {.preset = preset, .channels = 1}));
-    all.push_back(shader("quadratic_shader_fast_" + p, {.preset = preset, .fast = true}));
-    all.push_back(shader("quadratic_shader_fast_grey_" + p, {.preset = preset, .channels = 1, .fast = true}));
     all.push_back(shader("spherical_shader_" + p, spherical(preset, 3, exact ? 8 : 2, tables)));
     all.push_back(shader("spherical_shader_grey_" + p, spherical(preset, 1, exact ? 8 : 2, tables)));
     for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
@@ -91,14 +89,9 @@ std::vector<ListedDesign> all_designs() {
     const std::pair<std::string, std::string> halves = {"g_parts", "2"};
     add("z_interpolator", {is_exact, halves}, true);
     add("quadratic_interpolator", {is_exact, halves}, true);
-    const Generics fast = {{"g_parts", "3"}, {"g_ahead", "true"}};
-    add("z_interpolator", with({is_exact}, fast), true, "_fast");
-    add("quadratic_interpolator", with({is_exact}, fast), true, "_fast");
     if (exact) add("edge_walker", {}, true);
     if (!exact) add("slope_walker", {}, true);
-    if (!exact) add("split_slope_walker", {}, true);
     add("triangle_walker", {is_exact}, true);
-    add("queued_walker", {is_exact}, true);
     add("saturate",
         {{"g_value_bits", of("intensity")},
          {"g_fraction_bits", std::to_string(exact ? 28 : 20)},

@@ -24,11 +24,9 @@ struct Drawn {
   Preset preset;
   std::uint32_t stall_seed;  ///< 0: full speed
   ProcessorForm form = ProcessorForm::unrolled;
-  bool fast = false;
 };
 void PrintTo(const Drawn& drawn, std::ostream* out) {
-  *out << drawn.scene << ' ' << to_string(drawn.shader) << ' ' << to_string(drawn.preset)
-       << (drawn.fast ? " fast" : "");
+  *out << drawn.scene << ' ' << to_string(drawn.shader) << ' ' << to_string(drawn.preset);
 }
 
 class MappedFrame : public ::testing::TestWithParam<Drawn> {};
@@ -39,7 +37,7 @@ TEST_P(MappedFrame, EqualsTheGoldenModels) {
   const SimulatorFolders folders{source, HALFWAY_CACHE_DIR};
   const auto scene = load_scene(GetParam().scene, source / "sim" / "scenes");
   ASSERT_TRUE(scene) << scene.error().message;
-  PlanRequest request{.shader = GetParam().shader, .preset = GetParam().preset, .fast = GetParam().fast};
+  PlanRequest request{.shader = GetParam().shader, .preset = GetParam().preset};
   if (request.shader == Shader::processors) request.form = GetParam().form;
   const auto plan = plan_scene(*scene, request);
   ASSERT_TRUE(plan) << plan.error().message;
@@ -73,21 +71,12 @@ TEST_P(MappedFrame, EqualsTheGoldenModels) {
 
 INSTANTIATE_TEST_SUITE_P(Small, MappedFrame,
                          ::testing::Values(Drawn{"matte", Shader::quadratic, Preset::exact, 7},
-                                           Drawn{.scene = "matte",
-                                                 .shader = Shader::quadratic,
-                                                 .preset = Preset::published,
-                                                 .stall_seed = 7,
-                                                 .fast = true}));
+                                           Drawn{"matte", Shader::quadratic, Preset::published, 7}));
 INSTANTIATE_TEST_SUITE_P(Whole, MappedFrame,
                          ::testing::Values(Drawn{"spheres", Shader::spherical, Preset::published, 0},
                                            Drawn{"spheres", Shader::spherical, Preset::exact, 7},
                                            Drawn{"spheres", Shader::quadratic, Preset::exact, 0},
                                            Drawn{"spheres", Shader::quadratic, Preset::published, 0},
-                                           Drawn{.scene = "spheres",
-                                                 .shader = Shader::quadratic,
-                                                 .preset = Preset::exact,
-                                                 .stall_seed = 0,
-                                                 .fast = true},
                                            Drawn{"matte", Shader::processors, Preset::published, 7,
                                                  ProcessorForm::folded}));
 

@@ -139,7 +139,7 @@ TEST_F(SynthProgram, PinsAndLeavesReadmeWhereItLacksAClock) {
   ASSERT_TRUE(write_file(readme, before));
   const Outcome outcome = run({"--pin", "--readme", readme.string()});
   EXPECT_EQ(outcome.exit_status, 2);
-  EXPECT_THAT(outcome.errors, HasSubstr("quadratic_shader_fast_grey_published: not pinned"));
+  EXPECT_THAT(outcome.errors, HasSubstr("quadratic_shader_grey_published: not pinned"));
   EXPECT_EQ(*read_file(readme), before);
   EXPECT_EQ(run({"--readme", readme.string()}).exit_status, 2) << "without pinning";
 }

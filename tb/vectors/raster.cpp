@@ -63,8 +63,7 @@ struct WalkFiles {
 template <class Preset>
 std::vector<InitVector> walker_triangles(Random& random, Mix mix) {
   using At = typename Preset::init_header_at;
-  auto set =
-      random_triangles<Preset>(random, mix, Preset::c_init_header_bits, mix == Mix::small ? 1500 : 5000);
+  auto set = random_triangles<Preset>(random, mix, Preset::c_init_header_bits, 5000);
   if (mix != Mix::mixed) return set;
   // No line at all counts as all that the counter holds; here they are empty.
   InitVector none = set.front();
@@ -110,90 +109,6 @@ Status write_walker(const std::filesystem::path& folder) {
           mix == Mix::dense && (lost < 0 || lost > (pixels_before == 1 ? 1 : 0)))
         return tool_failed(fmt::format("triangle_walker: {} clocks lost before clock {}", lost, first_clock));
       pixels_before = pixels;
-    }
-    if (auto s = files.write(folder, std::string(Preset::c_name) + '_' + name); !s) return s;
-  }
-  return Ok{};
-}
-
-// A triangle's sections: upright, all lines of `pixels` pixels.
-template <class Preset>
-InitVector upright(Random& random, std::int64_t pixels, int upper_lines, int lower_lines) {
-  InitVector init = random_vector(random, Preset::c_init_header_bits);
-  if constexpr (std::is_same_v<Preset, Exact>) {
-    Walk walk;
-    walk.upper_lines = upper_lines;
-    walk.lower_lines = lower_lines;
-    walk.upper.pixel = walk.lower.pixel = pixels;
-    put_walk(init, walk);
-  } else {
-    using At = Published::init_header_at;
-    set_bits(init, At::upper_lines, static_cast<std::uint64_t>(upper_lines + lower_lines));
-    for (const golden::Field* field : {&At::start_x, &At::start_slope, &At::upper_slope})
-      set_bits(init, *field, 0);
-    set_bits(init, At::upper_x, static_cast<std::uint64_t>(pixels - 1) << Published::c_edge_x_fraction_bits);
-  }
-  return init;
-}
-
-// Where the lower part of a count of pixels or lines runs out: with each of those that it begins with.
-template <class Preset>
-std::vector<InitVector> counted_triangles(Random& random) {
-  constexpr int c_pixels = 1 << Preset::c_span_x_bits / 2, c_lines = 1 << Preset::c_lines_bits / 2;
-  std::vector<InitVector> set;
-  for (int i = -1; i < 5; ++i) {
-    for (const int times : {1, 2}) {
-      set.push_back(upright<Preset>(random, times * c_pixels + i, 1, 0));
-      set.push_back(upright<Preset>(random, 1, times * c_lines + i, 0));
-      set.push_back(upright<Preset>(random, 1, 2, times * c_lines + i));
-    }
-  }
-  return set;
-}
-
-// init: the header, the clock in which it is taken at full speed, and that in which its triangle begins.
-// Clocks count from the first init vector taken. A vector that is as the one before is offered in the clock
-// behind.
-template <class Preset>
-Status write_queued(const std::filesystem::path& folder) {
-  Random random(Preset::c_init_header_bits + 1);
-  for (const auto& [mix, name] :
-       {std::pair{Mix::dense, "dense"}, {Mix::small, "small"}, {Mix::mixed, "mixed"}}) {
-    std::vector<InitVector> set;
-    for (InitVector& init : walker_triangles<Preset>(random, mix)) {
-      for (std::int64_t again = random.one_in(6) ? random.between(1, 5) : 0; again > 0; --again)
-        set.push_back(init);
-      set.push_back(std::move(init));
-    }
-    if (mix == Mix::mixed)
-      for (InitVector& init : counted_triangles<Preset>(random)) set.push_back(std::move(init));
-    WalkFiles files;
-    QueuedWalkerClock clock;
-    LostClocks losses;
-    const InitVector* before = nullptr;
-    std::int64_t taken = 0, pixels_before = 0;
-    for (const InitVector& init : set) {
-      // It stands still from a clock before it is offered.
-      const std::int64_t least = before != nullptr && *before == init ? 1 : 2;
-      taken = clock.take_init(before == nullptr ? 0 : taken + least);
-      std::int64_t begun = -1, first_clock = -1, pixels = 0;
-      for (const WalkedLine& line : walk_lines<Preset>(init)) {
-        files.add_line<Preset>(line);
-        const std::int64_t first = clock.take_line(line.pixels()) + 1;
-        if (begun < 0) begun = clock.line_load();
-        if (pixels == 0) first_clock = first;
-        pixels += line.pixels();
-        files.add_fragments<Preset>(line, first);
-      }
-      files.inits.words_of(init, Preset::c_init_header_bits);
-      for (const std::int64_t c : {taken, begun}) files.inits.word(static_cast<std::uint64_t>(c), 32);
-      files.inits.end_vector();
-      // What the header of queued_walker.vhd promises: no clock is lost but what the offer takes.
-      if (const std::int64_t lost = losses.triangle(first_clock, pixels);
-          mix != Mix::mixed && (lost < 0 || lost > std::max<std::int64_t>(least - pixels_before, 0)))
-        return tool_failed(fmt::format("queued_walker: {} clocks lost before clock {}", lost, first_clock));
-      pixels_before = pixels;
-      before = &init;
     }
     if (auto s = files.write(folder, std::string(Preset::c_name) + '_' + name); !s) return s;
   }
@@ -254,43 +169,6 @@ Status write_objects(const std::filesystem::path& folder) {
   return out.write(folder / (std::string(Preset::c_name) + "_out.txt"));
 }
 
-// A line: checked, load, x, slope, step; x, before the edge. Words of all kinds: sums wrap. `stands`: where
-// an edge is taken its words have stood still since the clock before; and what the fraction's lower half
-// carries goes through the upper one often.
-Status write_slopes(const std::filesystem::path& folder, bool stands) {
-  using EdgeX = golden::SlopeWalker::EdgeX;
-  Random random(15);
-  VectorFile file;
-  golden::SlopeWalker twin;
-  bool waits = false;  // a load, for its step
-  bool taken = false;
-  EdgeX x, slope;
-  for (int i = 0; i < 6000; ++i) {
-    const bool fresh = i == 0 || (!waits && (!stands || random.one_in(2)));
-    if (fresh) {
-      x = EdgeX::from_bits(random.word(Published::c_edge_x_bits));
-      slope = EdgeX::from_bits(random.word(Published::c_edge_x_bits));
-      if (stands && random.one_in(2)) {
-        constexpr std::uint64_t c_upper = ((1u << Published::c_edge_x_fraction_bits) - 1) &
-                                          ~((1u << Published::c_edge_x_fraction_bits / 2) - 1);
-        x = EdgeX::from_bits(x.bits() | c_upper);
-        slope = EdgeX::from_bits(slope.bits() & ~c_upper);
-      }
-    }
-    const bool load = !taken || waits || random.one_in(12);
-    const bool step = (!taken || !random.one_in(5)) && !(load && fresh && stands);
-    waits = load && !step;
-    file.flag(taken).flag(load).word(x).word(slope).flag(step).word(twin.x()).end_vector();
-    if (load && step) {
-      twin.load(x, slope);
-      taken = true;
-    } else if (step) {
-      twin.step();
-    }
-  }
-  return file.write(folder / "edges.txt");
-}
-
 }  // namespace
 
 // A line: checked, load, x, quotient, remainder, divisor, error, carry, step; x, carry, before the edge.
@@ -324,12 +202,32 @@ Status write_edge_walker(const std::filesystem::path& folder) {
   return file.write(folder / "edges.txt");
 }
 
+// A line: checked, load, x, slope, step; x, before the edge. Words of all kinds: sums wrap.
 Status write_slope_walker(const std::filesystem::path& folder) {
-  return write_slopes(folder, false);
-}
-
-Status write_split_slope_walker(const std::filesystem::path& folder) {
-  return write_slopes(folder, true);
+  using EdgeX = golden::SlopeWalker::EdgeX;
+  Random random(15);
+  VectorFile file;
+  golden::SlopeWalker twin;
+  bool waits = false;  // a load, for its step
+  bool taken = false;
+  EdgeX x, slope;
+  for (int i = 0; i < 6000; ++i) {
+    if (!waits) {
+      x = EdgeX::from_bits(random.word(Published::c_edge_x_bits));
+      slope = EdgeX::from_bits(random.word(Published::c_edge_x_bits));
+    }
+    const bool load = !taken || waits || random.one_in(12);
+    const bool step = !taken || !random.one_in(5);
+    waits = load && !step;
+    file.flag(taken).flag(load).word(x).word(slope).flag(step).word(twin.x()).end_vector();
+    if (load && step) {
+      twin.load(x, slope);
+      taken = true;
+    } else if (step) {
+      twin.step();
+    }
+  }
+  return file.write(folder / "edges.txt");
 }
 
 Status write_object_stage(const std::filesystem::path& folder) {
@@ -340,11 +238,6 @@ Status write_object_stage(const std::filesystem::path& folder) {
 Status write_triangle_walker(const std::filesystem::path& folder) {
   if (auto s = write_walker<Exact>(folder); !s) return s;
   return write_walker<Published>(folder);
-}
-
-Status write_queued_walker(const std::filesystem::path& folder) {
-  if (auto s = write_queued<Exact>(folder); !s) return s;
-  return write_queued<Published>(folder);
 }
 
 }  // namespace halfway::vectors

@@ -53,10 +53,8 @@ void put_colours(InitVector& init, Random& random, int channels) {
 // promises. Clocks count from the first init vector taken.
 class QuadraticClock {
  public:
-  /// The clocks that may be lost behind a triangle of so many pixels, so many of them in its last two lines.
-  static std::int64_t may_lose(std::int64_t pixels, std::int64_t) {
-    return std::max<std::int64_t>(2 - pixels, 0);
-  }
+  /// The clocks that may be lost after a triangle of so many pixels.
+  static std::int64_t may_lose(std::int64_t pixels) { return std::max<std::int64_t>(2 - pixels, 0); }
 
   /// The clock in which the next vector is taken.
   std::int64_t take_init() {
@@ -76,39 +74,8 @@ class QuadraticClock {
   bool first_ = true;
 };
 
-/// The same with g_fast.
-class FastClock {
- public:
-  static std::int64_t may_lose(std::int64_t pixels, std::int64_t last_pixels) {
-    return std::max<std::int64_t>({4 - pixels, 3 - last_pixels, 0});
-  }
-
-  std::int64_t take_init() {
-    // Offered when the words before have gone to their second place, all but the last part.
-    const std::int64_t taken = clock_.take_init(first_ ? 0 : copied_ + 2);
-    copied_ = std::max(taken, begun_) + 1;
-    first_ = false;
-    begins_ = true;
-    return taken;
-  }
-  /// The clock of the line's first fragment. One to the span stage, three for the words' parts, three for
-  /// what they choose ahead, two in the queue.
-  std::int64_t take_line(std::int64_t pixels) {
-    const std::int64_t gone = clock_.take_line(pixels);
-    if (begins_) begun_ = clock_.line_load();
-    begins_ = false;
-    return gone + 9;
-  }
-
- private:
-  QueuedWalkerClock clock_;
-  // Of the last triangle: its words went to their second place; of the last that began: line_load.
-  std::int64_t copied_ = 0, begun_ = -1;
-  bool first_ = true, begins_ = false;
-};
-
-template <class Preset, int Channels, class Clock>
-Status write_quadratic(const std::filesystem::path& folder, const char* form) {
+template <class Preset, int Channels>
+Status write_quadratic(const std::filesystem::path& folder) {
   using Shader = golden::QuadraticShader<Preset, Channels>;
   Random random(Shader::c_init_bits);
   for (const auto& [mix, name] : c_sets) {
@@ -122,7 +89,7 @@ Status write_quadratic(const std::filesystem::path& folder, const char* form) {
       }
     };
     Shader twin;
-    Clock clock;
+    QuadraticClock clock;
     LostClocks losses;
     std::int64_t may_lose = 0;
     auto set = random_triangles<Preset>(random, mix, Shader::c_init_bits, mix == Mix::dense ? 700 : 1000);
@@ -132,8 +99,7 @@ Status write_quadratic(const std::filesystem::path& folder, const char* form) {
       put_colours<Preset>(init, random, Channels);
       add_clock(inits.words_of(init, Shader::c_init_bits), clock.take_init());
       std::vector<std::int64_t> clocks;
-      const auto lines = walk_lines<Preset>(init);
-      for (const WalkedLine& line : lines) {
+      for (const WalkedLine& line : walk_lines<Preset>(init)) {
         const std::int64_t first = clock.take_line(line.pixels());
         for (std::int64_t i = 0; i < line.pixels(); ++i) clocks.push_back(first + i);
       }
@@ -143,28 +109,21 @@ Status write_quadratic(const std::filesystem::path& folder, const char* form) {
         const std::int64_t lost = losses.triangle(clocks.front(), pixels);
         if (lost < 0 || lost > may_lose)
           return tool_failed(
-              fmt::format("quadratic_shader{}: {} clocks lost before clock {}", form, lost, clocks.front()));
-        const auto n = lines.size();
-        may_lose = Clock::may_lose(pixels, lines[n - 1].pixels() + (n > 1 ? lines[n - 2].pixels() : 0));
+              fmt::format("quadratic_shader: {} clocks lost before clock {}", lost, clocks.front()));
+        may_lose = QuadraticClock::may_lose(pixels);
       }
       auto at = clocks.begin();
       twin.draw(
           init, [&](const Fragment& f) { add_fragment<Preset>(fragments, f, *at++); },
           Watch{line_probes, span_probes});
     }
-    const std::string stem = std::string(Preset::c_name) + std::to_string(Channels) + form + '_' + name;
+    const std::string stem = std::string(Preset::c_name) + std::to_string(Channels) + '_' + name;
     if (auto s = inits.write(folder / (stem + "_init.txt")); !s) return s;
     if (auto s = fragments.write(folder / (stem + "_fragments.txt")); !s) return s;
     if (auto s = line_probes.write(folder / (stem + "_line_probes.txt")); !s) return s;
     if (auto s = span_probes.write(folder / (stem + "_span_probes.txt")); !s) return s;
   }
   return Ok{};
-}
-
-template <class Preset, int Channels>
-Status write_quadratic(const std::filesystem::path& folder) {
-  if (auto s = write_quadratic<Preset, Channels, QuadraticClock>(folder, ""); !s) return s;
-  return write_quadratic<Preset, Channels, FastClock>(folder, "_fast");
 }
 
 // A configuration of the spherical shader; tb/shaders/spherical_shader_tb.vhd has the same.

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -50,54 +49,6 @@ std::vector<WalkedLine> walk_lines(const InitVector& init) {
     walker.line_step();
   }
 }
-
-/// When queued_walker does things at full speed, from what the header of rtl/raster/queued_walker.vhd
-/// promises: between the edges, the line that is measured and the span stands a queue of two lines. Clocks
-/// count from that in which the first init vector is taken.
-class QueuedWalkerClock {
- public:
-  /// The clock in which an init vector is taken that is offered from `offered` on.
-  std::int64_t take_init(std::int64_t offered) {
-    const std::int64_t taken = accepted(std::max(offered, left_));
-    left_ = accepted(taken + 1);
-    lines_ = 0;
-    return taken;
-  }
-
-  /// The clock in which the next line goes to the span, or where it covers no pixel nowhere. Its first pixel
-  /// leaves a clock later, the others follow.
-  std::int64_t take_line(std::int64_t pixels) {
-    if (lines_++ != 0) left_ = measured_;
-    measured_ = accepted(left_ + 1);
-    waits_from_ = std::max(measured_, gone_) + 1;
-    // In the second place until the line before has gone.
-    occupied_[0] = occupied_[1];
-    occupied_[1] = {measured_, gone_};
-    gone_ = pixels == 0 ? waits_from_ : std::max(waits_from_, span_free_);
-    if (pixels != 0) span_free_ = gone_ + pixels;
-    return gone_;
-  }
-
-  /// The clock in which that line came to wait for the span; of a triangle's first one, that of line_load.
-  std::int64_t line_load() const { return waits_from_ - 1; }
-
- private:
-  struct Stay {
-    std::int64_t behind, last;  // clocks; in none where last is not behind `behind`
-  };
-
-  // The first clock from `clock` on in which the second place is free.
-  std::int64_t accepted(std::int64_t clock) const {
-    for (const Stay& stay : occupied_)
-      if (stay.behind < clock && clock <= stay.last) clock = stay.last + 1;
-    return clock;
-  }
-
-  std::array<Stay, 2> occupied_{{{0, 0}, {0, 0}}};
-  // Of the last line: left the edge stage, was measured for the last clock, came to wait, went.
-  std::int64_t left_ = 0, measured_ = 0, waits_from_ = 0, gone_ = 0;
-  std::int64_t span_free_ = 0, lines_ = 0;
-};
 
 /// The clocks that are lost between triangles of which every line covers a pixel, held against a promise.
 class LostClocks {
