@@ -1,5 +1,4 @@
 tables/formats_pkg.vhd
-arithmetic/quick_numeric_pkg.vhd
 tables/cosine_pkg.vhd
 tables/cosine_rom.vhd
 tables/function_pkg.vhd

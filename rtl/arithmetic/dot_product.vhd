@@ -13,7 +13,6 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.processors_pkg.all;
 use work.shading_pkg.all;
-use work.quick_numeric_pkg.sum_of_products;
 
 entity dot_product is
   generic (
@@ -33,10 +32,15 @@ architecture rtl of dot_product is
 begin
 
   registers : process (clk)
+    variable whole : signed(sum'range);
   begin
     if rising_edge(clk) then
       if enable = '1' then
-        sum <= std_logic_vector(sum_of_products(a, b, c_axes, sum'length));
+        whole := (others => '0');
+        for axis in 0 to c_axes - 1 loop
+          whole := whole + axis_of(a, axis) * axis_of(b, axis);
+        end loop;
+        sum <= std_logic_vector(whole);
       end if;
     end if;
   end process;

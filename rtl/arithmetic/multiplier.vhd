@@ -14,7 +14,6 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
-use work.quick_numeric_pkg;
 
 entity multiplier is
   generic (
@@ -55,9 +54,6 @@ architecture rtl of multiplier is
   function product_of (digit, word : unsigned) return digit_t is
     variable result : digit_t;
   begin
-    -- synthesis translate_off
-    return quick_numeric_pkg.product(digit, word);
-    -- synthesis translate_on
     if g_gated then
       return digit * word;
     end if;
@@ -98,16 +94,14 @@ begin
       end if;
       if r.filled(1) = '1' then
         for i in halves_t'range loop
-          r.halves(i)(half_t'high downto c_digit) <= quick_numeric_pkg.sum(
-            resize(r.digits(2 * i + 1), half_t'length - c_digit),
-            resize(r.digits(2 * i)(digit_t'high downto c_digit), half_t'length - c_digit));
+          r.halves(i)(half_t'high downto c_digit) <= resize(r.digits(2 * i + 1), half_t'length - c_digit)
+            + resize(r.digits(2 * i)(digit_t'high downto c_digit), half_t'length - c_digit);
           r.halves(i)(c_digit - 1 downto 0) <= r.digits(2 * i)(c_digit - 1 downto 0);
         end loop;
       end if;
       if r.filled(2) = '1' then
-        r.product(whole_t'high downto 2 * c_digit) <= quick_numeric_pkg.sum(
-          resize(r.halves(1), whole_t'length - 2 * c_digit),
-          resize(r.halves(0)(half_t'high downto 2 * c_digit), whole_t'length - 2 * c_digit));
+        r.product(whole_t'high downto 2 * c_digit) <= resize(r.halves(1), whole_t'length - 2 * c_digit)
+          + resize(r.halves(0)(half_t'high downto 2 * c_digit), whole_t'length - 2 * c_digit);
         r.product(2 * c_digit - 1 downto 0) <= r.halves(0)(2 * c_digit - 1 downto 0);
       end if;
     end if;

@@ -17,7 +17,6 @@ use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.function_pkg.all;
 use work.shading_pkg.all;
-use work.quick_numeric_pkg.product;
 
 entity power is
   generic (
@@ -193,7 +192,7 @@ begin
             r.log_rest     <= unsigned(split.mantissa(c_log_rest - 1 downto 0));
             r.log_exponent <= unsigned(exponent);
 
-            log_part  := product(unsigned(log_sample(log_sample'high downto c_log.value_bits)), r.log_rest);
+            log_part  := unsigned(log_sample(log_sample'high downto c_log.value_bits)) * r.log_rest;
             logarithm := unsigned(log_sample(c_log.value_bits - 1 downto 0))
               + log_part(log_part'high downto c_log_rest);
             lead                                        := (others => '0');
@@ -201,13 +200,13 @@ begin
             r.loss                                      <= lead - logarithm;
             r.loss_exponent                             <= r.log_exponent;
 
-            wide      := product(r.loss, r.loss_exponent);
+            wide      := r.loss * r.loss_exponent;
             r.product <= wide(wide'high downto c_cut);
 
             r.decay_whole <= r.product(c_product_bits - 1 downto c_decay_fraction);
             r.decay_rest  <= r.product(c_dec_rest - 1 downto 0);
 
-            decay_part := product(unsigned(decay_sample(decay_sample'high downto c_dec.value_bits)), r.decay_rest);
+            decay_part := unsigned(decay_sample(decay_sample'high downto c_dec.value_bits)) * r.decay_rest;
             r.decay    <= unsigned(decay_sample(c_dec.value_bits - 1 downto 0))
               - decay_part(decay_part'high downto c_dec_rest);
             r.whole    <= r.decay_whole;
@@ -256,7 +255,7 @@ begin
         end if;
       end process;
 
-      raised        <= product(loss, r.log_exponent);
+      raised        <= loss * r.log_exponent;
       decay_address <= std_logic_vector(raised(c_decay_fraction - 1 downto c_decay_fraction - c_dec.address_bits));
 
       registers : process (clk)

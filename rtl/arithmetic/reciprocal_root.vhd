@@ -16,7 +16,6 @@ use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.function_pkg.all;
 use work.shading_pkg.all;
-use work.quick_numeric_pkg.product;
 
 entity reciprocal_root is
   generic (
@@ -110,13 +109,13 @@ begin
             r.square_below_one <= r.table_below_one;
             r.square_x         <= r.table_x;
             r.square_entry     <= unsigned(entry);
-            r.entry_square     <= product(unsigned(entry), unsigned(entry));
+            r.entry_square     <= unsigned(entry) * unsigned(entry);
             r.rest_below_one   <= r.square_below_one;
             r.rest_entry       <= r.square_entry;
-            difference         := (c_three & (c_cut - 1 downto 0 => '0')) - product(r.square_x, r.entry_square);
+            difference         := (c_three & (c_cut - 1 downto 0 => '0')) - r.square_x * r.entry_square;
             r.rest             <= difference(difference'high downto c_cut);
             r.below_one        <= r.rest_below_one;
-            twice              := product(r.rest_entry, r.rest);
+            twice              := r.rest_entry * r.rest;
             r.root             <= std_logic_vector(twice(c_root_low + c_formats.root.bits - 1 downto c_root_low));
           end if;
         end if;

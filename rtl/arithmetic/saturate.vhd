@@ -13,7 +13,6 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
-use work.quick_numeric_pkg.is_zero;
 
 entity saturate is
   generic (
@@ -47,7 +46,7 @@ begin
   begin
     if value(c_sign) = '1' then
       result <= (others => '0');
-    elsif not is_zero(unsigned(above)) then
+    elsif not (unsigned(above) = 0) then
       result <= (others => '1');
     else
       result <= value(c_result_high downto g_fraction_bits);

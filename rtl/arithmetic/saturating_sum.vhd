@@ -15,7 +15,6 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
-use work.quick_numeric_pkg.sum;
 
 entity saturating_sum is
   generic (
@@ -64,7 +63,7 @@ begin
       if enable = '1' then
         v := resize(unsigned(terms(g_term_bits - 1 downto 0)), c_sum_bits);
         for i in 1 to g_terms - 1 loop
-          v := sum(v, resize(unsigned(terms((i + 1) * g_term_bits - 1 downto i * g_term_bits)), c_sum_bits));
+          v := v + resize(unsigned(terms((i + 1) * g_term_bits - 1 downto i * g_term_bits)), c_sum_bits);
         end loop;
         -- Where none has, nothing carries so far. As that is said, a cell of the sum's own gives its highest bit.
         high := '0';

@@ -13,7 +13,6 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.processors_pkg.all;
 use work.shading_pkg.all;
-use work.quick_numeric_pkg.product;
 
 entity vector_multiply is
   generic (
@@ -41,7 +40,7 @@ begin
       if enable = '1' then
         for axis in 0 to c_axes - 1 loop
           products((axis + 1) * c_bits - 1 downto axis * c_bits) <=
-            std_logic_vector(product(axis_of(a, axis), axis_of(b, axis)));
+            std_logic_vector(axis_of(a, axis) * axis_of(b, axis));
         end loop;
       end if;
     end if;

@@ -20,7 +20,6 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.shading_pkg.all;
-use work.quick_numeric_pkg.product;
 
 entity spot_cone is
   generic (
@@ -87,7 +86,7 @@ begin
         end if;
         r.slope <= unsigned(slope);
 
-        wide_t := product(r.over, r.slope);
+        wide_t := r.over * r.slope;
         t      := wide_t(wide_t'high downto c_t_low);
         r.t    <= one;
         if t(t'high downto c_weight - 1) = (t'high downto c_weight - 1 => '0') then
@@ -95,11 +94,11 @@ begin
         end if;
 
         r.square_t <= r.t;
-        r.square   <= product(r.t, r.t);
+        r.square   <= r.t * r.t;
 
         -- 3 - 2 t
         rest     := (one & '0') + one - (r.square_t & '0');
-        cubic    := product(r.square, rest);
+        cubic    := r.square * rest;
         share    := round_half_up(cubic, 2 * c_formats.weight.fraction);
         r.factor <= std_logic_vector(share(c_weight - 1 downto 0));
       end if;

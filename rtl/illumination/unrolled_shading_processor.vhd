@@ -19,7 +19,6 @@ use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
 use work.shading_pkg.all;
-use work.quick_numeric_pkg.product;
 use work.terms_pkg.all;
 
 entity unrolled_shading_processor is
@@ -838,7 +837,7 @@ begin
               if flows = '1' then
                 weight <= raised_now;
                 if light(c_light_header.spot.low) = '1' then
-                  weight <= coned_weight(g_exact, product(unsigned(raised_now), unsigned(factor_now)));
+                  weight <= coned_weight(g_exact, unsigned(raised_now) * unsigned(factor_now));
                 end if;
               end if;
             end if;

@@ -12,7 +12,6 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
-use work.quick_numeric_pkg.sum;
 
 entity line_interpolator is
   generic (
@@ -46,7 +45,7 @@ begin
       if load = '1' then
         r.value <= signed(start);
       elsif step = '1' then
-        r.value <= sum(r.value, signed(increment));
+        r.value <= r.value + signed(increment);
       end if;
     end if;
   end process;

@@ -14,7 +14,6 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
-use work.quick_numeric_pkg.sum;
 
 entity part_interpolator is
   generic (
@@ -42,7 +41,7 @@ architecture rtl of part_interpolator is
   begin
     -- The carry comes in through a bit below, so that one sum takes it. The highest bit cancels: so a cell of the sum's
     -- own, and none behind it, gives what is carried.
-    whole := sum(word(g_bits - 1) & unsigned(word) & '1', '0' & unsigned(addend) & carry);
+    whole := (word(g_bits - 1) & unsigned(word) & '1') + ('0' & unsigned(addend) & carry);
     return (whole(g_bits + 1) xor word(g_bits - 1)) & std_logic_vector(whole(g_bits downto 1));
   end function;
 

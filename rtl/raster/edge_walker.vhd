@@ -17,7 +17,6 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
-use work.quick_numeric_pkg.all;
 
 entity edge_walker is
   port (
@@ -63,19 +62,19 @@ begin
   begin
     v      := r;
     below  := r.reduced(r.reduced'high);
-    next_x := sum(r.x & '1', r.quotient & r.carry); -- one sum takes the carry
+    next_x := (r.x & '1') + (r.quotient & r.carry); -- one sum takes the carry
 
     increment := '1' & not r.remainder;
     if below = '1' then
       increment := '0' & r.rise;
     end if;
-    next_reduced := sum(r.reduced & '1', increment & not below);
+    next_reduced := (r.reduced & '1') + (increment & not below);
 
     -- What the steps add is taken while load waits for its step: no sum of the edge before is wanted then.
     if load = '1' then
       v.quotient  := signed(load_quotient);
       v.remainder := unsigned(load_remainder);
-      v.rise      := difference(unsigned(load_divisor), unsigned(load_remainder));
+      v.rise      := unsigned(load_divisor) - unsigned(load_remainder);
     end if;
     if step = '1' then
       v.x       := next_x(next_x'high downto 1);

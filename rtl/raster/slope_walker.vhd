@@ -15,7 +15,6 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
-use work.quick_numeric_pkg.sum;
 
 entity slope_walker is
   generic (
@@ -73,7 +72,7 @@ begin
     variable next_x         : unsigned(span_x_t'length downto 0);
   begin
     v      := r;
-    next_x := sum(r.x & '1', r.whole & r.carry); -- one sum takes the carry
+    next_x := (r.x & '1') + (r.whole & r.carry); -- one sum takes the carry
 
     -- Chosen in front of the sum: a load has its own first step.
     fraction := r.fraction;
@@ -83,7 +82,7 @@ begin
       part     := unsigned(load_slope(c_fraction - 1 downto 0));
     end if;
     -- The highest bit cancels: so a cell of the sum's own, and none behind it, gives what is carried.
-    next_fraction := sum(fraction(fraction_t'high) & fraction, '0' & part);
+    next_fraction := (fraction(fraction_t'high) & fraction) + ('0' & part);
     next_carry    := next_fraction(c_fraction) xor fraction(fraction_t'high);
 
     -- What the steps add is taken while load waits for its step: no sum of the edge before is wanted then.

@@ -25,7 +25,6 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
-use work.quick_numeric_pkg.all;
 
 entity triangle_walker is
   generic (
@@ -188,7 +187,7 @@ begin
     behind(0) := not r.span.ends;
     if r.span.ends = '1' then
       last := not begins;
-      if is_zero(r.line.more) then
+      if r.line.more = 0 then
         last := '1';
       end if;
       pixels := signed('0' & r.line.more);
@@ -196,9 +195,9 @@ begin
     blank := more(more_t'high) or not r.edges.valid;
     if fragment_ready = '1' then
       if r.span.backward = '1' then
-        v.span.x := before(r.span.x);
+        v.span.x := r.span.x - 1;
       else
-        v.span.x := next_of(r.span.x);
+        v.span.x := r.span.x + 1;
       end if;
       if r.span.ends = '1' then
         v.span.valid    := begins;
@@ -207,7 +206,7 @@ begin
         v.span.x        := r.line.start;
         v.span.backward := r.line.backward;
       end if;
-      v.span.more := sum(pixels, behind);
+      v.span.more := pixels + behind;
       v.span.ends := last;
       -- While a line waits for line_ready alone it need wait for no span: none begins.
       if moves = '1' or r.flows = '0' then
@@ -237,7 +236,7 @@ begin
     fewer    := (others => '1'); -- a line less, or three where lines are counted anew
     fewer(1) := r.edges.follows;
     if edge_goes = '1' then
-      v.edges.left := sum(lines, fewer);
+      v.edges.left := lines + fewer;
       if r.edges.reads = '1' then
         v.edges.y            := unsigned(init(c_init.y.high downto c_init.y.low));
         v.edges.section_last := '0';
@@ -255,7 +254,7 @@ begin
         -- While the first line is here init may still be this triangle's.
         v.edges.reads := not init_valid;
       else
-        v.edges.y            := next_of(r.edges.y);
+        v.edges.y            := r.edges.y + 1;
         v.edges.section_last := r.edges.left(left_t'high);
         v.edges.reads        := r.edges.lower_none and r.edges.left(left_t'high);
         if r.edges.section_last = '1' then
@@ -378,7 +377,7 @@ begin
       -- One pixel less than lies between them: the complement is the negative less one.
       from_x <= resize(stop, more_t'length) when r.edges.backward = '1' else resize(start, more_t'length);
       to_x   <= resize(start, more_t'length) when r.edges.backward = '1' else resize(stop, more_t'length);
-      more   <= sum(to_x, not from_x);
+      more   <= to_x + not from_x;
 
   else generate
 
@@ -425,7 +424,7 @@ begin
       not_start <= signed(not_start_x);
       start     <= not not_start;
       stop      <= signed(stop_x);
-      more      <= sum(resize(stop, more_t'length), resize(not_start, more_t'length));
+      more      <= resize(stop, more_t'length) + resize(not_start, more_t'length);
 
   end generate;
 

@@ -16,7 +16,6 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
-use work.quick_numeric_pkg.all;
 
 entity stream_queue is
   generic (
@@ -69,7 +68,7 @@ begin
   leaves  <= r.out_valid and out_ready;
 
   -- So a synthesizer sees that no place is read while it is written; else it brings registers for that.
-  reads <= (out_ready or not r.out_valid) when not equal(r.write, r.read) else '0';
+  reads <= (out_ready or not r.out_valid) when not (r.write = r.read) else '0';
 
   combinational : process (all)
     variable v   : reg_t;
@@ -77,16 +76,16 @@ begin
   begin
     v := r;
     if claim = '1' and leaves = '0' then
-      v.claimed := next_of(r.claimed);
+      v.claimed := r.claimed + 1;
     elsif claim = '0' and leaves = '1' then
-      v.claimed := before(r.claimed);
+      v.claimed := r.claimed - 1;
     end if;
     v.room := '1';
-    if equal(v.claimed, c_most) then
+    if v.claimed = c_most then
       v.room := '0';
     end if;
     two := '0';
-    if equal(r.write, r.second) then
+    if r.write = r.second then
       two := '1';
     end if;
     if in_valid = '1' and advance = '0' then
@@ -97,11 +96,11 @@ begin
       v.single := two;
     end if;
     if in_valid = '1' then
-      v.write := next_of(r.write);
+      v.write := r.write + 1;
     end if;
     if advance = '1' then
-      v.read   := next_of(r.read);
-      v.second := next_of(r.second);
+      v.read   := r.read + 1;
+      v.second := r.second + 1;
     end if;
     v.out_valid := r.stored or (r.out_valid and not out_ready);
     if reset = '1' then
@@ -141,10 +140,10 @@ begin
       begin
         if rising_edge(clk) then
           if reads = '1' then
-            out_data(word_t'range) <= memory(index_of(r.read));
+            out_data(word_t'range) <= memory(to_integer(r.read));
           end if;
           if in_valid = '1' then
-            memory(index_of(r.write)) := in_data(word_t'range);
+            memory(to_integer(r.write)) := in_data(word_t'range);
           end if;
         end if;
       end process;
@@ -152,7 +151,7 @@ begin
   end generate;
 
   room      <= r.room;
-  holds     <= '0' when is_zero(r.claimed) else '1';
+  holds     <= '0' when r.claimed = 0 else '1';
   out_valid <= r.out_valid;
 
 end architecture;

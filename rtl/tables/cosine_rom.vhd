@@ -14,7 +14,6 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.cosine_pkg.all;
-use work.quick_numeric_pkg.index_of;
 
 entity cosine_rom is
   generic (
@@ -61,7 +60,7 @@ begin
   begin
     if rising_edge(clk) then
       if enable = '1' then
-        r.sample <= c_rom(index_of(unsigned(address)));
+        r.sample <= c_rom(to_integer(unsigned(address)));
       end if;
     end if;
   end process;

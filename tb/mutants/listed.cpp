@@ -35,21 +35,12 @@ constexpr Listed c_listed[] = {
      "c_table(i + 1) - c_table(i) - boolean'pos(i = 7)"},
     {"tables/function_pkg.vhd", "508, 500,", "508, 501,", "tables/function_rom.vhd"},
     {"tables/function_rom.vhd", "if enable = '1' then", "if enable = '1' or address(0) = '1' then"},
-    // A carry lost, and a digit's; the sign forgotten; one less by the bits of one more; what is unknown
-    // equal
-    // to itself.
-    {"arithmetic/quick_numeric_pkg.vhd", "carried := x;", "carried := '0';"},
-    {"arithmetic/quick_numeric_pkg.vhd", "half := half - 1;", "half := half;"},
-    {"arithmetic/quick_numeric_pkg.vhd", "digit := digit - weight;", "digit := digit + weight;"},
-    {"arithmetic/quick_numeric_pkg.vhd", "passes := x = passed;", "passes := x = '1';"},
-    {"arithmetic/quick_numeric_pkg.vhd", "x /= beside(i) or (x /= '0' and x /= '1')", "x /= beside(i)"},
     // A tie rounded down; light from the horizon; a cosine above 1.
     {"arithmetic/shading_pkg.vhd", "+ ('0' & word(bits - 1 downto bits - 1))", "+ 0"},
     {"arithmetic/shading_pkg.vhd", "dot(dot'left) = '0' and dot /= c_zero", "dot(dot'left) = '0'"},
     {"arithmetic/shading_pkg.vhd", "one(c_fraction) := '1';", "one(c_fraction) := '0';"},
     // A component left out; one clock late where enable is '0'; the wrong axis.
-    {"arithmetic/dot_product.vhd", "sum_of_products(a, b,",
-     "sum_of_products(a, b(3 * g_bits - 1 downto g_bits) & (g_bits - 1 downto 0 => '0'),"},
+    {"arithmetic/dot_product.vhd", "for axis in 0 to c_axes - 1 loop", "for axis in 1 to c_axes - 1 loop"},
     {"arithmetic/dot_product.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
     {"arithmetic/vector_multiply.vhd", "axis_of(b, axis)", "axis_of(b, 2 - axis)"},
     {"arithmetic/vector_multiply.vhd", "if enable = '1' then", "if enable = '1' or a(0) = '1' then"},
@@ -64,15 +55,14 @@ constexpr Listed c_listed[] = {
      "r.root & '0' when r.rest_below_one = '1'"},
     {"arithmetic/reciprocal_root.vhd", "'0' & x(c_high - 2 downto c_high - c_address)",
      "'0' & x(c_high - 1 downto c_high - c_address + 1)"},
-    {"arithmetic/reciprocal_root.vhd", "product(r.square_x, r.entry_square)",
-     "product(r.table_x, r.entry_square)"},
+    {"arithmetic/reciprocal_root.vhd", "r.square_x * r.entry_square", "r.table_x * r.entry_square"},
     {"arithmetic/reciprocal_root.vhd", "+ root_raise(g_exact)", "+ root_raise(g_exact) - 1"},
     {"arithmetic/reciprocal_root.vhd", "entry & '0' when r.below_one = '1'",
      "entry & '0' when below_one = '1'"},
     // 0 to a power; 1 not quite 1; a stage's exponent for another's; a product's high bits; rounding.
     {"arithmetic/power.vhd", "if r.zeros(5) = '1' then", "if r.zeros(4) = '1' then"},
     {"arithmetic/power.vhd", "r.log_one      <= base(c_fraction);", "r.log_one      <= '0';"},
-    {"arithmetic/power.vhd", "product(r.loss, r.loss_exponent)", "product(r.loss, r.log_exponent)"},
+    {"arithmetic/power.vhd", "r.loss * r.loss_exponent", "r.loss * r.log_exponent"},
     {"arithmetic/power.vhd",
      "if whole(c_whole_bits - 1 downto c_shifts) /= c_zeros(c_whole_bits - 1 downto c_shifts) then",
      "if whole(c_shifts) = '1' then"},
@@ -86,7 +76,7 @@ constexpr Listed c_listed[] = {
     {"illumination/spot_cone.vhd", "t(t'high downto c_weight - 1)", "t(t'high downto c_weight)"},
     {"illumination/spot_cone.vhd", "- (r.square_t & '0')", "- (r.t & '0')"},
     {"illumination/spot_cone.vhd", "- (r.square_t & '0')", "- ('0' & r.square_t)"},
-    {"illumination/spot_cone.vhd", "product(r.over, r.slope)", "product(r.over, unsigned(slope))"},
+    {"illumination/spot_cone.vhd", "r.over * r.slope", "r.over * unsigned(slope)"},
     // A place too many; a word taken while the line stands still; the last word of two.
     {"stream/delay_line.vhd", "if index = c_places - 1 then", "if index = c_places then"},
     {"stream/delay_line.vhd", "elsif enable = '1' then", "else"},
@@ -98,15 +88,15 @@ constexpr Listed c_listed[] = {
     {"stream/stream_register.vhd", "in_valid and free", "in_valid"},
     {"stream/stream_register.vhd", "v.valid := '0'", "v.valid := r.valid"},
     // A word given out twice; a word too many; a claim that a reset leaves.
-    {"stream/stream_queue.vhd", "next_of(r.read)", "r.read"},
-    {"stream/stream_queue.vhd", "if equal(v.claimed, c_most) then", "if equal(r.claimed, c_most) then"},
+    {"stream/stream_queue.vhd", "r.read + 1", "r.read"},
+    {"stream/stream_queue.vhd", "if v.claimed = c_most then", "if r.claimed = c_most then"},
     {"stream/stream_queue.vhd", "v.claimed   := (others => '0')", "v.claimed   := r.claimed"},
     // A carry lost, and one that comes too high; the increment for the start.
     {"interpolation/part_interpolator.vhd", "'0' & unsigned(addend) & carry", "'0' & unsigned(addend) & '0'"},
     {"interpolation/part_interpolator.vhd", "whole(g_bits + 1) xor word(g_bits - 1)", "whole(g_bits)"},
     {"interpolation/part_interpolator.vhd", "addend := start", "addend := increment"},
     // The wrong sign; step wins over load.
-    {"interpolation/line_interpolator.vhd", "sum(r.value, signed(increment))", "r.value - signed(increment)"},
+    {"interpolation/line_interpolator.vhd", "r.value + signed(increment)", "r.value - signed(increment)"},
     {"interpolation/line_interpolator.vhd", "if load = '1' then", "if load = '1' and step = '0' then"},
     // Carry turned round; the span takes the next triangle's step.
     {"interpolation/plane_interpolator.vhd", "de <= de1 when line_carries(part) = '1' else de0",
@@ -149,7 +139,7 @@ constexpr Listed c_listed[] = {
     // A span's end known too late, and where none is; a span of two pixels for one of one.
     {"raster/triangle_walker.vhd", "behind(0) := not r.span.ends", "behind(0) := '1'"},
     {"raster/triangle_walker.vhd", "last := not begins", "last := '0'"},
-    {"raster/triangle_walker.vhd", "if is_zero(r.line.more) then", "if r.line.more = 1 then"},
+    {"raster/triangle_walker.vhd", "if r.line.more = 0 then", "if r.line.more = 1 then"},
     // Of equal depths the last; a polygon on the surface is before it; a pixel shaded twice; a column that
     // the
     // token before has just changed; its change that does not go on with it; columns that a clear leaves; a
@@ -225,11 +215,9 @@ constexpr Listed c_listed[] = {
     // with
     // the position of the next; a triangle let go before the upper halves have it.
     {"shaders/quadratic_shader.vhd", "waiting or walking or coming", "walking or coming"},
-    {"shaders/quadratic_shader.vhd", "\n          fragment_ready => room",
-     "\n          fragment_ready => '1'"},
-    {"shaders/quadratic_shader.vhd", "\n        fragment_ready => room", "\n        fragment_ready => '1'"},
-    {"shaders/quadratic_shader.vhd", "pixel_t'(triangle, y, x) & pixels(1 to c_whole - 1)",
-     "pixel_t'(triangle, y, x) & pixels_t'(1 to c_whole - 1 => (triangle, y, x))"},
+    {"shaders/quadratic_shader.vhd", "fragment_ready => room", "fragment_ready => '1'"},
+    {"shaders/quadratic_shader.vhd", "pixel_t'(triangle, y, x) & pixels(1 to c_parts - 1)",
+     "pixel_t'(triangle, y, x) & pixels_t'(1 to c_parts - 1 => (triangle, y, x))"},
     {"shaders/quadratic_shader.vhd", "out_ready => r.walk_taken", "out_ready => walk_ready"},
     {"shaders/quadratic_shader.vhd", "v.copy_waits and not v.placed", "v.copy_waits"},
     {"shaders/quadratic_shader.vhd", "load  => r.copy(1 + part),\n                start",

@@ -10,8 +10,6 @@ constexpr std::string_view c_size =
     "for who instantiates a shader without a size of its own; `make sim` names the size always";
 constexpr std::string_view c_no_such =
     "behind it only the report that there is no such table, which ends the run";
-constexpr std::string_view c_hardware =
-    "hardware alone: a simulation returns before it; the netlist's frames hold one against the other";
 constexpr std::string_view c_wider =
     "with the formats that there are a triangle's vector is always the wider one";
 
@@ -40,31 +38,6 @@ constexpr KnownGap c_gaps[] = {
     {"tables/function_pkg.vhd", "`not exact and which = c_decay` never false", c_no_such},
     {"shaders/processors_pkg.vhd", "return load_bits(c);", c_wider},
     {"shaders/processors_pkg.vhd", "`load_bits(c) > c_draw_bits` never true", c_wider},
-    {"arithmetic/quick_numeric_pkg.vhd", "return a + b;", c_hardware},
-    {"arithmetic/quick_numeric_pkg.vhd", "return a - b;", c_hardware},
-    {"arithmetic/quick_numeric_pkg.vhd", "return value + 1;", c_hardware},
-    {"arithmetic/quick_numeric_pkg.vhd", "return value - 1;", c_hardware},
-    {"arithmetic/quick_numeric_pkg.vhd", "return a = b;", c_hardware},
-    {"arithmetic/quick_numeric_pkg.vhd", "return value = 0;", c_hardware},
-    {"arithmetic/quick_numeric_pkg.vhd", "return a * b;", c_hardware},
-    {"arithmetic/quick_numeric_pkg.vhd", "return to_integer(value);", c_hardware},
-    {"arithmetic/quick_numeric_pkg.vhd", "whole := (others => '0');", c_hardware},
-    {"arithmetic/quick_numeric_pkg.vhd", "for term in 0 to terms - 1 loop", c_hardware},
-    {"arithmetic/quick_numeric_pkg.vhd",
-     "whole := whole + signed(words_a((term + 1) * c_a_bits - 1 downto term * c_a_bits))", c_hardware},
-    {"arithmetic/quick_numeric_pkg.vhd", "return whole;", c_hardware},
-    {"arithmetic/multiplier.vhd", "`g_gated` never true", c_hardware},
-    {"arithmetic/multiplier.vhd", "`g_gated` never false", c_hardware},
-    {"arithmetic/multiplier.vhd", "`digit(place) = '1'` never true", c_hardware},
-    {"arithmetic/multiplier.vhd", "`digit(place) = '1'` never false", c_hardware},
-    {"arithmetic/multiplier.vhd", "if g_gated then", c_hardware},
-    {"arithmetic/multiplier.vhd", "return digit * word;", c_hardware},
-    {"arithmetic/multiplier.vhd", "result := (others => '0');", c_hardware},
-    {"arithmetic/multiplier.vhd", "for place in digit'range loop", c_hardware},
-    {"arithmetic/multiplier.vhd", "result := shift_left(result, 1);", c_hardware},
-    {"arithmetic/multiplier.vhd", "if digit(place) = '1' then", c_hardware},
-    {"arithmetic/multiplier.vhd", "result := result + word;", c_hardware},
-    {"arithmetic/multiplier.vhd", "return result;", c_hardware},
 };
 
 constexpr std::string_view c_dropped = "a longer slice, whose upper bits `plain_direction` drops";

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- The shading processors' arithmetic, both presets, a result a lane: what GHDL simulates with products by
--- quick_numeric_pkg must be what its netlist computes. And what the way to a simulator says in another way than the RTL.
+-- The shading processors' arithmetic, both presets, one result per lane: what GHDL simulates must be what its netlist
+-- computes. And what the way to a simulator says in another way than the RTL.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -11,7 +11,6 @@ use work.netlist_constructs_pkg.c_stimulus;
 use work.netlist_constructs_pkg.lane;
 use work.netlist_constructs_pkg.lanes_t;
 use work.shading_pkg.all;
-use work.quick_numeric_pkg.all;
 
 entity netlist_shading is
   port (
@@ -173,8 +172,8 @@ begin
   lanes(17) <= lane(std_logic_vector(held(unsigned(a), 12)) & std_logic_vector(held(unsigned(b(19 downto 0)), 18))
     & std_logic_vector(round_half_up(unsigned(a(20 downto 0)), 7)));
   lanes(18) <= lane(std_logic_vector(round_half_up(signed(b(40 downto 0)), 13)));
-  lanes(19) <= lane(std_logic_vector(product(signed(a(29 downto 0)), signed(b(17 downto 0)))));
-  lanes(20) <= lane(std_logic_vector(product(unsigned(b(32 downto 0)), unsigned(a(33 downto 0)))));
+  lanes(19) <= lane(std_logic_vector(signed(a(29 downto 0)) * signed(b(17 downto 0))));
+  lanes(20) <= lane(std_logic_vector(unsigned(b(32 downto 0)) * unsigned(a(33 downto 0))));
 
   lanes(21) <= lane(part_carry & part);
   lanes(22) <= lane(factored);

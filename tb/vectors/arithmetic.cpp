@@ -44,18 +44,6 @@ Status write_saturate(const std::filesystem::path& folder) {
                               std::to_string(ResultBits) + ".txt"));
 }
 
-// A line: a, b; a + b, a - b, a + 1, a - 1, a * b, whether they are equal, whether a is zero.
-Status write_quick_numeric_of(const std::filesystem::path& folder, int bits) {
-  Random random(static_cast<std::uint64_t>(bits));
-  VectorFile file;
-  for (int i = 0; i < 500; ++i) {
-    const std::uint64_t a = i % 10 == 0 ? 0 : random.word(bits), b = i % 10 == 1 ? a : random.word(bits);
-    file.word(a, bits).word(b, bits).word(a + b, bits).word(a - b, bits).word(a + 1, bits).word(a - 1, bits);
-    file.word(a * b, 2 * bits).flag(a == b).flag(a == 0).end_vector();
-  }
-  return file.write(folder / (std::to_string(bits) + ".txt"));
-}
-
 // A line: checked, enable, a, b; product, before the edge. At full speed all products, or random ones; then
 // random ones with pauses.
 Status write_multiplier_of(const std::filesystem::path& folder, int a_bits, int b_bits) {
@@ -201,12 +189,6 @@ Status write_saturating_sum(const std::filesystem::path& folder) {
         Sizes{3, 24, 14, 8}, Sizes{33, 26, 16, 8}, Sizes{33, 32, 16, 8}, Sizes{3, 36, 20, 8}})
     if (auto written = write_sum_of(folder, s.terms, s.term_bits, s.fraction_bits, s.result_bits); !written)
       return written;
-  return Ok{};
-}
-
-Status write_quick_numeric_pkg(const std::filesystem::path& folder) {
-  for (const int bits : {1, 8, 13, 32})
-    if (auto s = write_quick_numeric_of(folder, bits); !s) return s;
   return Ok{};
 }
 

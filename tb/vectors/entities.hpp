@@ -25,7 +25,6 @@ Status write_reciprocal_root(const std::filesystem::path& folder);
 Status write_power(const std::filesystem::path& folder);
 Status write_spot_cone(const std::filesystem::path& folder);
 Status write_delay_line(const std::filesystem::path& folder);
-Status write_quick_numeric_pkg(const std::filesystem::path& folder);
 Status write_shading_pkg(const std::filesystem::path& folder);
 Status write_line_interpolator(const std::filesystem::path& folder);
 Status write_part_interpolator(const std::filesystem::path& folder);

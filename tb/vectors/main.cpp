@@ -31,7 +31,6 @@ int main(int argc, char** argv) {
       std::pair{"power", &write_power},
       std::pair{"spot_cone", &write_spot_cone},
       std::pair{"delay_line", &write_delay_line},
-      std::pair{"quick_numeric_pkg", &write_quick_numeric_pkg},
       std::pair{"shading_pkg", &write_shading_pkg},
       std::pair{"line_interpolator", &write_line_interpolator},
       std::pair{"part_interpolator", &write_part_interpolator},
