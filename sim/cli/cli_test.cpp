@@ -221,8 +221,60 @@ TEST_F(CliTest, CameraInsideTheMeshOrBehindItStillDraws) {
     const Outcome outcome =
         run({"sim", scene, "--out", out(), "--size", "64x48", "--simulator", "verilator"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr(" 0 mismatches"));
+    EXPECT_THAT(outcome.output, HasSubstr(scene == through ? " 0 mismatches" : " nothing compared"));
   }
+}
+
+// A triangle between the centres of pixels, one smaller than 1/16 pixel, and one seen from behind.
+TEST_F(CliTest, ARunThatComparesNothingExitsOne) {
+  const std::string corners = "v 0 0 0\nv {0} 0 0\nv 0 {0} 0\n";
+  write("small.obj", fmt::format(fmt::runtime(corners), "0.1") + "f 1 2 3\n");
+  write("tiny.obj", fmt::format(fmt::runtime(corners), "0.00002") + "f 1 2 3\n");
+  write("averted.obj", fmt::format(fmt::runtime(corners), "1") + "f 1 3 2\n");
+  for (const std::string name : {"small", "tiny", "averted"}) {
+    SCOPED_TRACE(name);
+    const auto scene = write(name + ".toml",
+                             "[camera]\neye = [0.01, 0.013, 4]\ntarget = [0.01, 0.013, 0]\n[[directional]]\n"
+                             "to_light = [0, 0, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nfile = \"" +
+                                 name + ".obj\"\nmaterial = \"m\"\n");
+    const std::vector<std::string> size = {"--size", "8x8", "--simulator", "verilator", "--out", out()};
+    const auto with_size = [&](std::vector<std::string> arguments) {
+      arguments.insert(arguments.end(), size.begin(), size.end());
+      return run(arguments);
+    };
+    const bool in_view = name != "averted";
+    const Outcome drawn[] = {with_size({"sim", scene}), run({"compare", name, "--out", out()}),
+                             with_size({"view", scene, "--frames", "1"})};
+    for (const Outcome& outcome : drawn) {
+      EXPECT_EQ(outcome.exit_code, in_view ? 1 : 0) << outcome.output;
+      EXPECT_THAT(outcome.output, AllOf(HasSubstr("nothing compared"), Not(HasSubstr("0 mismatches"))));
+      if (in_view)
+        EXPECT_THAT(outcome.output,
+                    HasSubstr(name + ": nothing was compared: 1 triangle is in view, but no pixel is drawn; "
+                                     "take a larger --size"));
+      else
+        EXPECT_THAT(outcome.output, Not(HasSubstr("nothing was compared")));
+    }
+    EXPECT_EQ(with_size({"view", scene, "--frames", "1", "--no-compare"}).exit_code, 0);
+    EXPECT_EQ(run({"sim", scene, "--size", "640x480", "--simulator", "verilator", "--out", out()}).exit_code,
+              name == "tiny" ? 1 : 0);
+  }
+
+  // A summary changed by hand: the reference covers pixels, and setup finds no triangle.
+  const auto path = out() / "averted" / "quadratic" / "summary.json";
+  const auto summary = read_file(path);
+  ASSERT_TRUE(summary);
+  auto json = nlohmann::json::parse(*summary);
+  json["accuracy"]["pixels"] = 7;
+  ASSERT_TRUE(write_file(path, json.dump()));
+  const Outcome missed = run({"compare", "averted", "--out", out()});
+  EXPECT_EQ(missed.exit_code, 1);
+  EXPECT_THAT(missed.output, HasSubstr("no triangle in view, but the reference covers 7 pixels"));
+  json["runs"] = nlohmann::json::array();
+  ASSERT_TRUE(write_file(path, json.dump()));
+  const Outcome none = run({"compare", "averted", "--out", out()});
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.output, HasSubstr("nothing was compared: no simulator drew; run `make sim SCENE=averted"));
 }
 
 TEST_F(CliTest, SummaryHoldsWhatTheRunWas) {

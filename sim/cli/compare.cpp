@@ -11,6 +11,7 @@
 #include "sim/compare/stream_comparator.hpp"
 #include "sim/pictures/image.hpp"
 #include "sim/run/result_files.hpp"
+#include "sim/run/simulate.hpp"
 #include "sim/stream_files/trace.hpp"
 #include "sim/stream_files/trace_pair.hpp"
 #include "sim/system/file.hpp"
@@ -42,19 +43,28 @@ Result<std::string> compare_traces(const std::filesystem::path& golden_path,
   return golden->key_name();
 }
 
-// The simulators that a run had, each with its fault, or "": from its summary, which is written last.
-Result<std::map<std::string, std::string>> faults_of(const std::filesystem::path& summary) {
+// What the summary of a run says, which is written last.
+struct LeftSummary {
+  std::map<std::string, std::string> faults;  ///< of each simulator that it had; "": none
+  std::uint64_t in_view = 0;                  ///< triangles
+  std::uint64_t reference_pixels = 0;         ///< that the reference or the golden model covers
+};
+
+Result<LeftSummary> read_summary(const std::filesystem::path& summary) {
   const auto text = read_file(summary);
   if (!text) return text.error();
-  std::map<std::string, std::string> faults;
+  LeftSummary left;
   try {
     const auto json = nlohmann::json::parse(*text);
     for (const auto& run : json.at("runs"))
-      faults[run.at("simulator").get<std::string>()] = run.value("fault", "");
+      left.faults[run.at("simulator").get<std::string>()] = run.value("fault", "");
+    const auto& setup = json.at("setup");
+    left.in_view = setup.at("on_screen").get<std::uint64_t>() + setup.at("degenerate").get<std::uint64_t>();
+    left.reference_pixels = json.at("accuracy").at("pixels").get<std::uint64_t>();
   } catch (const nlohmann::json::exception& error) {
     return bad_input(fmt::format("{}: not a summary: {}", summary.string(), error.what()));
   }
-  return faults;
+  return left;
 }
 
 // What makes the results again.
@@ -66,7 +76,7 @@ std::string make_sim(const std::string& scene, const CompareCommand& command) {
   return text;
 }
 
-// Whether all that a run left of a scene is equal.
+// Whether all that a run left of a scene is equal, and is something.
 Result<bool> compare_scene(const std::string& scene, const CompareCommand& command, Shader shader) {
   if (const std::string name = result_name(scene); name.empty() || name == "." || name == "..")
     return bad_input(fmt::format("'{}' is no scene's name", scene));
@@ -82,13 +92,14 @@ Result<bool> compare_scene(const std::string& scene, const CompareCommand& comma
   if (!lock) return lock.error();
   if (!std::filesystem::exists(files.summary(), error))
     return none("a run here was broken off, or has not come to it yet");
-  const auto faults = faults_of(files.summary());
-  if (!faults) return faults.error();
+  const auto left = read_summary(files.summary());
+  if (!left) return left.error();
 
   bool equal = true;
+  std::uint64_t compared = 0;  // fragments
   for (const std::string simulator : {"ghdl", "verilator", "lanes"}) {
-    const auto fault = faults->find(simulator);
-    if (fault == faults->end()) {
+    const auto fault = left->faults.find(simulator);
+    if (fault == left->faults.end()) {
       if (simulator == "lanes") continue;
       fmt::print("{:<12} {:<10} not compared: it was not asked to draw\n", result_name(scene), simulator);
       continue;
@@ -109,12 +120,21 @@ Result<bool> compare_scene(const std::string& scene, const CompareCommand& comma
     const auto distance = frame_distance(*golden, *rtl);
     if (!distance) return distance.error();
     equal = equal && comparator.mismatches() == 0 && distance->differing == 0;
-    fmt::print("{:<12} {:<10} {} {}x{} {:>9} fragments, {} mismatches; frame: {} of {} pixels differ\n",
+    compared += comparator.golden_count();
+    const std::string mismatches = comparator.golden_count() == 0 && comparator.mismatches() == 0
+                                       ? "nothing compared"
+                                       : fmt::format("{} mismatches", comparator.mismatches());
+    fmt::print("{:<12} {:<10} {} {}x{} {:>9} fragments, {}; frame: {} of {} pixels differ\n",
                result_name(scene), simulator, *key, golden->size.width, golden->size.height,
-               comparator.golden_count(), comparator.mismatches(), distance->differing, distance->pixels);
+               comparator.golden_count(), mismatches, distance->differing, distance->pixels);
     if (comparator.mismatches() != 0) fmt::print(stderr, "{}", comparator.describe(simulator));
   }
-  return equal;
+  if (!equal) return false;
+  const auto nothing = left->faults.empty()
+                           ? "nothing was compared: no simulator drew; run `" + make_sim(scene, command) + "`"
+                           : nothing_compared(compared, left->in_view, left->reference_pixels);
+  if (nothing) say(fmt::format("{}: {}", result_name(scene), *nothing));
+  return !nothing;
 }
 
 int run(const Folders& folders, const CompareCommand& command) {

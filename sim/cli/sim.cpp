@@ -90,7 +90,7 @@ Outcome outcome_of(std::promise<Outcome>& promise) {
   }
 }
 
-// Whether all was equal.
+// Whether all was equal, and something was compared.
 bool print(const Drawn& drawn) {
   for (const auto* notes : {&drawn.notes, &drawn.summary.notes})
     for (const std::string& note : *notes) say(note);
@@ -103,7 +103,9 @@ bool print(const Drawn& drawn) {
     fmt::print(stderr, "{}", run.description);
     for (const auto& path : run.evidence) say("  see " + path.string());
   }
-  return drawn.summary.equal();
+  const auto nothing = drawn.summary.nothing_compared();
+  if (nothing) say(fmt::format("{}: {}", drawn.summary.scene, *nothing));
+  return drawn.summary.equal() && !nothing;
 }
 
 int run(const Folders& folders, const SimOptions& options) {

@@ -256,6 +256,8 @@ class View {
     if (o_.terminal) screen_.leave();
     for (const std::string& note : summary->notes) say(note);
     fmt::print("{}", printable(to_lines(*summary)));
+    const auto nothing = summary->nothing_compared();
+    if (nothing) say(fmt::format("{}: {}", summary->scene, *nothing));
     if (summary->difference) {
       print_difference(*summary);
       video_.reset();
@@ -267,7 +269,7 @@ class View {
       if (Status status = video_->commit(); !status) return status.error();
       fmt::print("{}: {} frames a second\n", printable(o_.video->string()), o_.rate);
     }
-    return !summary->difference.has_value();
+    return !summary->difference.has_value() && !nothing;
   }
 
  private:

@@ -141,8 +141,11 @@ class Simulation {
     if (summary_.fragments == 0)
       note(fmt::format(
           "no triangle covers a pixel ({} back-facing, {} nearer than the near plane, {} outside, {} too "
-          "small): the frame shows nothing of the hardware",
-          n.projection.back_facing, n.projection.behind_near, n.projection.outside, n.projection.degenerate));
+          "small): the frame shows nothing of the hardware{}",
+          n.projection.back_facing, n.projection.behind_near, n.projection.outside, n.projection.degenerate,
+          triangles_in_view(n) != 0 ? ""
+                                    : "; turn the camera to the scene, and give each triangle's corners "
+                                      "counter-clockwise as seen from outside"));
     const bool near_fitted = scene_.camera.near <= 0.0;
     if (n.projection.behind_near != 0 && near_fitted)
       note(fmt::format(
@@ -427,6 +430,24 @@ bool SceneSummary::equal() const {
   return std::ranges::all_of(runs, [](const SimulatorRun& run) { return run.equal(); });
 }
 
+std::optional<std::string> nothing_compared(std::uint64_t fragments, std::uint64_t in_view,
+                                            std::uint64_t reference_pixels) {
+  if (fragments != 0 || (in_view == 0 && reference_pixels == 0)) return std::nullopt;
+  if (in_view == 0)
+    return fmt::format(
+        "nothing was compared: setup finds no triangle in view, but the reference covers {} pixels; please "
+        "report it",
+        reference_pixels);
+  return fmt::format(
+      "nothing was compared: {} triangle{} in view, but no pixel is drawn; take a larger --size "
+      "(make: SIZE), or move the camera closer",
+      in_view, in_view == 1 ? " is" : "s are");
+}
+
+std::optional<std::string> SceneSummary::nothing_compared() const {
+  return halfway::nothing_compared(fragments, triangles_in_view(setup), accuracy.pixels);
+}
+
 Status forget_summary(const ResultFiles& files, const std::function<void()>& on_wait) {
   std::error_code error;
   if (!std::filesystem::exists(files.summary(), error)) return Ok{};
@@ -526,7 +547,10 @@ std::string to_line(const SceneSummary& s) {
           to, "{} cycles{}, {:.3f} a fragment, ", *run.cycles,
           run.parts > 1 ? fmt::format(" in {} parts", run.parts) : "",
           run.fragments == 0 ? 0.0 : static_cast<double>(*run.cycles) / static_cast<double>(run.fragments));
-    fmt::format_to(to, "{} mismatches", run.mismatches);
+    if (run.fragments == 0 && run.equal())
+      line += "nothing compared";
+    else
+      fmt::format_to(to, "{} mismatches", run.mismatches);
     if (run.seconds) fmt::format_to(to, ", {:.2f} s", *run.seconds);
   }
   if (std::isfinite(s.accuracy.psnr_db))

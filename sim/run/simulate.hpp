@@ -49,7 +49,18 @@ struct SceneSummary {
   std::vector<std::string> notes;  ///< what a reader of the figures should know
   double setup_seconds = 0.0, golden_seconds = 0.0, seconds = 0.0;
   bool equal() const;
+  /// None: some fragment was compared, or the scene has none and the reference agrees. Else what was missed
+  /// and what to change.
+  std::optional<std::string> nothing_compared() const;
 };
+
+/// Triangles that are neither seen from behind nor outside the view: on the screen, or too small for it.
+inline std::uint64_t triangles_in_view(const SetupCounts& counts) {
+  return counts.triangles + counts.projection.degenerate;
+}
+/// The same of what a run left: `fragments` compared, triangles in view, pixels that the reference covers.
+std::optional<std::string> nothing_compared(std::uint64_t fragments, std::uint64_t in_view,
+                                            std::uint64_t reference_pixels);
 
 /// Removes the summary that an earlier run left, which says that its results are whole: of a scene that is
 /// yet to be drawn they must not pass for this run's. Waits while another run holds the folder.

@@ -12,11 +12,14 @@
 #include <mutex>
 #include <span>
 
+#include "reference/renderer.hpp"
 #include "scene/camera.hpp"
 #include "scene/turntable.hpp"
+#include "setup/project.hpp"
 #include "setup/spherical_setup.hpp"
 #include "sim/compare/limits.hpp"
 #include "sim/run/scene_stream.hpp"
+#include "sim/run/simulate.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/threads.hpp"
 
@@ -38,7 +41,9 @@ struct DrawnFrame {
   ViewSeconds seconds;
   std::vector<std::string> notes;
   bool covered = false;
-  bool lanes_failed = false;  ///< Verilator drew
+  std::uint64_t in_view = 0;           ///< triangles
+  std::uint64_t reference_pixels = 0;  ///< where no fragment was drawn
+  bool lanes_failed = false;           ///< Verilator drew
   std::optional<ViewDifference> difference;
 };
 
@@ -88,6 +93,7 @@ class Easel {
     }
     drawn.fragments = run.fragments;
     drawn.covered = run.fragments != 0;
+    if (!drawn.covered && s_.compare) drawn.reference_pixels = count_reference_pixels();
     if (!run.equal()) drawn.difference = ViewDifference{number, scene_.camera, std::move(run)};
 
     const double images_start = thread_seconds();
@@ -99,6 +105,11 @@ class Easel {
   const Frame& frame() const { return frame_; }
 
  private:
+  std::uint64_t count_reference_pixels() const {
+    const ReferenceImage reference = render_reference(scene_, Projector(scene_, s_.size, {}).project_all(),
+                                                      {.frame = s_.size, .subpixel_bits = 4});
+    return static_cast<std::uint64_t>(std::ranges::count(reference.mask, 1));
+  }
   Status draw_in_lanes(RtlStream& rtl, DrawnFrame& drawn) {
     fed_ = {};
     if (!s_.compare) {
@@ -144,6 +155,7 @@ class Easel {
       if (Status status = check_shadow_counts(scene_, stream); !status) return status;
       if (Status fed = fed_.add([&] { return feed(batch); }); !fed) return fed;
     }
+    drawn.in_view = triangles_in_view(stream.counts());
     drawn.seconds.setup += stream.setup_seconds();
     drawn.seconds.golden += stream.golden_seconds();
     return check_projection(scene_, stream);
@@ -200,6 +212,8 @@ class Turn {
     summary_.parts += drawn->seconds;
     for (const std::string& note : drawn->notes) add_note(note);
     if (!drawn->covered) ++bare_;
+    summary_.in_view = std::max(summary_.in_view, drawn->in_view);
+    summary_.reference_pixels = std::max(summary_.reference_pixels, drawn->reference_pixels);
     if (drawn->lanes_failed) summary_.lanes_failed.push_back(number);
     ++summary_.frames;
     ++taken_;
@@ -354,11 +368,17 @@ Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
   return summary;
 }
 
+std::optional<std::string> ViewSummary::nothing_compared() const {
+  if (!compared) return std::nullopt;
+  return halfway::nothing_compared(fragments, in_view, reference_pixels);
+}
+
 std::string to_lines(const ViewSummary& s) {
-  const std::string compared = !s.compared    ? "not compared with the golden model"
-                               : s.difference ? fmt::format("{} mismatches in frame {}",
-                                                            s.difference->run.mismatches, s.difference->frame)
-                                              : "0 mismatches";
+  const std::string compared = !s.compared        ? "not compared with the golden model"
+                               : s.difference     ? fmt::format("{} mismatches in frame {}",
+                                                                s.difference->run.mismatches, s.difference->frame)
+                               : s.fragments == 0 ? "nothing compared"
+                                                  : "0 mismatches";
   std::string text = fmt::format(
       "{:<12} {:<10} {:<9} {:>4}x{:<4} {:>4} frame{} of {} triangles, {} fragments | {}: {} | {:.2f} "
       "frames a second, {:.2f} s on {} thread{}\n",

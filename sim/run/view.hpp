@@ -65,6 +65,8 @@ struct ViewSummary {
   std::uint32_t frames = 0;     ///< drawn; all, unless one differs
   std::uint64_t fragments = 0;  ///< of the RTL, in all frames
   bool compared = true;
+  std::uint64_t in_view = 0;                ///< triangles, the most in a frame
+  std::uint64_t reference_pixels = 0;       ///< in frames without a fragment, the most in one
   RtlEngine engine = RtlEngine::verilator;  ///< which drew, but for the frames that follow
   std::vector<std::uint32_t> lanes_failed;  ///< which Verilator drew
   unsigned threads = 1;
@@ -72,6 +74,8 @@ struct ViewSummary {
   ViewSeconds parts;
   std::optional<ViewDifference> difference;
   std::vector<std::string> notes;  ///< what a reader of the figures should know
+  /// As SceneSummary::nothing_compared, of all frames; none where nothing was to be compared.
+  std::optional<std::string> nothing_compared() const;
   double rate() const { return seconds > 0.0 ? frames / seconds : 0.0; }
 };
 
