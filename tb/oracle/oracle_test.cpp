@@ -61,8 +61,8 @@ struct Findings {
 };
 
 Findings compare_picture(const Scene& scene, FrameSize size, const Oracle& oracle) {
-  const ReferenceImage reference = render_reference(scene, Projector(scene, size, {}).project_all(),
-                                                    {.frame = size, .subpixel_bits = 4, .threads = 1});
+  const ReferenceImage reference =
+      render_reference(scene, Projector(scene, size, {}).project_all(), {.frame = size, .subpixel_bits = 4});
   Findings found;
   for (std::uint32_t y = 0; y < size.height; ++y)
     for (std::uint32_t x = 0; x < size.width; ++x) {
