@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tb/oracle/oracle.hpp"
+#include "oracle/oracle.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 //   0.5 + 0.19
 //              steps of the exact one, rounding to whole steps and what formats state for depth_sum.
 // A fault that is put into the oracle must be found by one of them.
-#include "tb/oracle/oracle.hpp"
+#include "oracle/oracle.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

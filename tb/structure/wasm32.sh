@@ -1,0 +1,61 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# wasm32.sh CHECKOUT SCRATCH: checks that the core of model/ compiles for a browser: by clang for WebAssembly, without
+# exceptions, with a standard library that has no threads, no file system and no from_chars of double. Only syntax and
+# types are checked. Then it checks that a file with each of these is refused.
+set -eu
+checkout=$1 scratch=$2
+folders='common frame golden golden_run plan reference scene setup shading'
+compiler=clang++
+
+fail() {
+  echo "$1" >&2
+  exit "${2:-1}"
+}
+command -v $compiler >/dev/null || fail "$compiler: not found; install it with: apt-get install clang" 3
+[ -d /usr/include/wasm32-wasi ] || fail 'wasi-libc: not found; install it with: apt-get install wasi-libc' 3
+[ -d /usr/include/wasm32-wasi/c++/v1 ] || fail 'libc++: not found; install it with: apt-get install libc++-14-dev-wasm32' 3
+
+# Headers of two libraries are taken from /usr/include, and nothing else there: it is another system's.
+rm -rf "$scratch"
+mkdir -p "$scratch/include"
+ln -s /usr/include/glm /usr/include/fmt "$scratch/include"
+
+check() { # FILE: its errors on stdout
+  $compiler --target=wasm32-wasi -std=c++20 -fno-exceptions -fsyntax-only -I "$checkout/model" \
+    -isystem "$scratch/include" "$1" 2>&1
+}
+
+# Each source file, and all headers in one.
+cd "$checkout/model"
+for folder in $folders; do
+  for file in "$folder"/*.hpp; do echo "#include \"$file\""; done
+done | grep -v '_test\.hpp' >"$scratch/headers.cpp"
+wrong=0 count=0
+for file in $(for folder in $folders; do ls "$folder"/*.cpp 2>/dev/null || true; done) "$scratch/headers.cpp"; do
+  case $file in (*_test.cpp) continue ;; esac
+  count=$((count + 1))
+  check "$file" >"$scratch/errors" || { wrong=$((wrong + 1)); grep -E 'error' "$scratch/errors" | head -5; }
+done
+[ $count -gt 30 ] || fail "checked $count files only: where is the core of $checkout/model?"
+
+# refused NAME: the file on stdin must not compile.
+refused() {
+  cat >"$scratch/planted.cpp"
+  ! check "$scratch/planted.cpp" >"$scratch/errors" || fail "$1 in the core of model/ would not be found"
+}
+refused 'an exception' <<'END'
+int f(int x) { if (x < 0) throw x; return x; }
+END
+refused '<thread>' <<'END'
+#include <thread>
+END
+refused '<filesystem>' <<'END'
+#include <filesystem>
+END
+refused 'from_chars of double' <<'END'
+#include <charconv>
+double f(const char* begin, const char* end) { double x = 0; std::from_chars(begin, end, x); return x; }
+END
+[ $wrong -eq 0 ] || fail "$wrong of $count files of the core of model/ do not compile for a browser"
+echo "$count files of the core of model/ compile for wasm32"
