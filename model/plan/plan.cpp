@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan/plan.hpp"
 
-#include "plan/hardware_units.hpp"
 #include "plan/shader_plans.hpp"
 #include "scene/check_numbers.hpp"
 
@@ -16,17 +15,10 @@ PlannedEffect in_hardware(const SceneCalls& calls, Effect effect, std::string ho
   return planned(calls, effect, DoneBy::hardware, std::move(how));
 }
 
-PlannedEffect there_anyway(const SceneCalls& calls, Effect effect, std::string how,
-                           std::map<std::string, int> units) {
+PlannedEffect always_elaborated(const SceneCalls& calls, Effect effect, std::string how) {
   PlannedEffect out = in_hardware(calls, effect, std::move(how));
   out.elaborated = true;
-  out.units = std::move(units);
   return out;
-}
-
-void set_other(PlannedEffect& effect, const HardwareKey& key, const HardwareKey& other) {
-  effect.other = other;
-  effect.units = effect.elaborated ? units_added(other, key) : units_added(key, other);
 }
 
 Result<Plan> plan_scene(const Scene& scene, const PlanRequest& request) {

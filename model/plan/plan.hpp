@@ -2,7 +2,6 @@
 // The plan: which hardware a scene calls for, and why. A pure function of the scene and the shader asked for.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,8 +26,6 @@ struct PlannedEffect {
   bool elaborated = false;
   /// The same hardware with this effect alone put in, or left out; none where it cannot be.
   std::optional<HardwareKey> other;
-  /// Entities that are there for it; where it is not elaborated, those that it would take.
-  std::map<std::string, int> units;
 };
 
 struct Plan {

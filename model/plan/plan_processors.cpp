@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "plan/hardware_units.hpp"
 #include "plan/shader_plans.hpp"
 
 namespace halfway {
@@ -80,9 +79,9 @@ class Planner {
     ProcessorUnits& o = other.processors;
     switch (effect) {
       case Effect::ambient:
-        return there_anyway(calls_, effect, "the first processor", ambient_units(key_));
+        return always_elaborated(calls_, effect, "the first processor");
       case Effect::depth:
-        return there_anyway(calls_, effect, "", depth_units(key_));
+        return always_elaborated(calls_, effect, "");
       case Effect::diffuse:
         o.diffuse = !p.diffuse;
         if (o.lights() == 0) o.directional = 1;
@@ -98,7 +97,6 @@ class Planner {
       case Effect::exponents: {
         PlannedEffect out = in_hardware(effect, "any exponent, a material at a time");
         out.elaborated = p.specular;
-        if (p.specular) out.units = power_units(key_);
         return out;
       }
       case Effect::directional:
@@ -144,7 +142,7 @@ class Planner {
   PlannedEffect in_hardware(Effect effect, std::string how, bool elaborated, const HardwareKey& other) const {
     PlannedEffect out = in_hardware(effect, std::move(how));
     out.elaborated = elaborated;
-    set_other(out, key_, without_idle_units(other));
+    out.other = without_idle_units(other);
     return out;
   }
   PlannedEffect lights_of(Effect effect, LightKind kind, std::string how) const {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan/hardware_units.hpp"
 #include "plan/shader_plans.hpp"
 
 namespace halfway {
@@ -28,15 +27,11 @@ PlannedEffect effect_of(const SceneCalls& calls, Effect effect, const HardwareKe
       out.elaborated = key.channels == 3;
       HardwareKey other = key;
       other.channels = out.elaborated ? 1 : 3;
-      set_other(out, key, other);
+      out.other = other;
       return out;
     }
-    case Effect::depth: {
-      PlannedEffect out = planned(calls, effect, DoneBy::hardware, "");
-      out.elaborated = true;
-      out.units = depth_units(key);
-      return out;
-    }
+    case Effect::depth:
+      return always_elaborated(calls, effect, "");
   }
   return planned(calls, effect, DoneBy::nobody, "not by this shader");
 }

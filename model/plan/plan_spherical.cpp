@@ -6,7 +6,6 @@
 #include <bit>
 
 #include "golden/cosine_tables.hpp"
-#include "plan/hardware_units.hpp"
 #include "plan/shader_plans.hpp"
 #include "shading/bell.hpp"
 
@@ -102,9 +101,9 @@ class Planner {
     SphericalUnits& o = other.spherical;
     switch (effect) {
       case Effect::ambient:
-        return there_anyway(calls_, effect, "its word rounds the colours too", ambient_units(key_));
+        return always_elaborated(calls_, effect, "its word rounds the colours too");
       case Effect::depth:
-        return there_anyway(calls_, effect, "", depth_units(key_));
+        return always_elaborated(calls_, effect, "");
       case Effect::diffuse:
         o.diffuse = !s.diffuse;
         o.lights = std::max(s.lights, 1U);
@@ -164,7 +163,7 @@ class Planner {
   PlannedEffect in_hardware(Effect effect, std::string how, bool elaborated, const HardwareKey& other) const {
     PlannedEffect out = in_hardware(effect, std::move(how));
     out.elaborated = elaborated;
-    set_other(out, key_, without_idle_units(other));
+    out.other = without_idle_units(other);
     return out;
   }
   // A light's slices do not know its kind.

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "golden/cosine_tables.hpp"
-#include "plan/hardware_units.hpp"
 #include "shading/effects.hpp"
 
 namespace halfway {
@@ -129,11 +128,9 @@ TEST(Plan, NamesEveryEffectOnceWithItsReason) {
             EXPECT_THAT(e.why, Not(IsEmpty())) << to_string(e.effect);
             if (e.by == DoneBy::hardware) {
               EXPECT_TRUE(e.elaborated || !e.called_for) << to_string(e.effect);
-              EXPECT_TRUE(!e.units.empty() || !e.elaborated) << to_string(e.effect);
             } else {
               EXPECT_THAT(e.how, Not(IsEmpty())) << to_string(e.effect);
               EXPECT_FALSE(e.elaborated || e.other) << to_string(e.effect);
-              EXPECT_THAT(e.units, IsEmpty()) << to_string(e.effect);
             }
           }
           EXPECT_EQ(effect(plan, Effect::shadow).how, "not by this shader");
@@ -425,15 +422,9 @@ TEST(Plan, OtherKeysDifferInOneEffect) {
   EXPECT_EQ(other(poor, Effect::colour), "spherical_shader-exact-c3-l0");
   // Taking the only light takes its effects along.
   EXPECT_EQ(other(spherical(lit_scene()), Effect::directional), "spherical_shader-exact-c1-l0");
-  using Units = std::map<std::string, int>;
-  EXPECT_EQ(effect(rich, Effect::highlight_colour).units, (Units{{"multiplier", 6}}));
-  EXPECT_EQ(effect(rich, Effect::exponents).units, (Units{{"cosine_rom", 3}, {"parameter_register", 6}}));
-  EXPECT_EQ(effect(planned(lit_scene(), {}), Effect::colour).units.at("quadratic_interpolator"), 2);
   for (const Plan& plan : {rich, poor})
     for (const PlannedEffect& e : plan.effects)
       if (e.other) {
-        EXPECT_EQ(e.units, e.elaborated ? units_added(*e.other, plan.key) : units_added(plan.key, *e.other));
-        EXPECT_THAT(e.units, Not(IsEmpty())) << to_string(e.effect);
         const SphericalUnits& other_units = e.other->spherical;
         EXPECT_EQ(other_units.powers != 0, other_units.specular) << to_string(e.effect);
         EXPECT_EQ(other_units.lights != 0, other_units.records()) << to_string(e.effect);

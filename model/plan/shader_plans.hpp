@@ -17,11 +17,7 @@ PlannedEffect planned(const SceneCalls& calls, Effect effect, DoneBy by, std::st
 
 /// Done by the hardware.
 PlannedEffect in_hardware(const SceneCalls& calls, Effect effect, std::string how);
-/// The same, and elaborated whatever the scene calls for, in these units.
-PlannedEffect there_anyway(const SceneCalls& calls, Effect effect, std::string how,
-                           std::map<std::string, int> units);
-
-/// Makes `other` the key's counterpart, and `units` where they differ.
-void set_other(PlannedEffect& effect, const HardwareKey& key, const HardwareKey& other);
+/// The same, and elaborated whatever the scene calls for.
+PlannedEffect always_elaborated(const SceneCalls& calls, Effect effect, std::string how);
 
 }  // namespace halfway

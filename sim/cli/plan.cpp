@@ -15,12 +15,12 @@
 
 #include "common/printable.hpp"
 #include "common/to_integer.hpp"
-#include "plan/hardware_units.hpp"
 #include "plan/processor_clocks.hpp"
 #include "plan/processor_count.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/costs/cells.hpp"
 #include "sim/costs/simulation_cost.hpp"
+#include "sim/ghdl/hardware_units.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/threads.hpp"
 
@@ -39,7 +39,29 @@ constexpr std::uint64_t c_most_objects = 1000, c_most_rate = 1000;
 
 using CellsByKey = std::map<std::string, Cells>;
 
-std::string units_text(const std::map<std::string, int>& units) {
+// Entities in the netlists of a plan.
+struct PlanUnits {
+  UnitCounts called_for, everything;
+  std::vector<UnitCounts> effects;  // in the plan's order
+};
+
+Result<PlanUnits> count_units(const Plan& plan, UnitCounter& counter) {
+  PlanUnits units;
+  for (const auto& [key, counts] :
+       {std::pair{&plan.called_for, &units.called_for}, {&plan.everything, &units.everything}}) {
+    const auto counted = counter.count(*key);
+    if (!counted) return counted.error();
+    *counts = *counted;
+  }
+  for (const PlannedEffect& effect : plan.effects) {
+    const auto counted = counter.count(plan.key, effect);
+    if (!counted) return counted.error();
+    units.effects.push_back(*counted);
+  }
+  return units;
+}
+
+std::string units_text(const UnitCounts& units) {
   std::string text;
   for (const auto& [unit, count] : units)
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, unit);
@@ -63,16 +85,17 @@ std::string cells_text(const PlannedEffect& effect, const HardwareKey& key, cons
   return text;
 }
 
-void print_effects(const Plan& plan, const CellsByKey& cells) {
+void print_effects(const Plan& plan, const std::optional<PlanUnits>& units, const CellsByKey& cells) {
   fmt::print("{:<23} {:<4} {:<9} {}\n", "effect", "", "done by", "why, and how");
-  for (const PlannedEffect& e : plan.effects) {
+  for (std::size_t i = 0; i < plan.effects.size(); ++i) {
+    const PlannedEffect& e = plan.effects[i];
     const char* by = e.by == DoneBy::hardware ? "hardware" : e.by == DoneBy::host ? "host" : "-";
     const bool done = e.called_for || e.elaborated || e.by == DoneBy::nobody;
     fmt::print("{:<23} {:<4} {:<9} {}{}{}\n", to_string(e.effect), e.called_for ? "yes" : "no", by,
                printable(e.why), done && !e.how.empty() ? "; " : "", done ? e.how : "");
-    if (e.units.empty()) continue;
+    if (!units || units->effects[i].empty()) continue;
     const char* there = !e.elaborated ? "left out: " : e.called_for ? "" : "there all the same: ";
-    fmt::print("{:<38} {}{}{}\n", "", there, units_text(e.units), cells_text(e, plan.key, cells));
+    fmt::print("{:<38} {}{}{}\n", "", there, units_text(units->effects[i]), cells_text(e, plan.key, cells));
   }
 }
 
@@ -90,12 +113,11 @@ void print_counts(const std::string& name, std::uint64_t called_for, std::uint64
             saved(static_cast<double>(called_for), static_cast<double>(everything)));
 }
 
-void print_units(const Plan& plan) {
-  const auto called_for = hardware_units(plan.called_for), everything = hardware_units(plan.everything);
+void print_units(const PlanUnits& units) {
   print_row("units", "as called for", "all effects", "saved");
-  for (const auto& [unit, count] : everything) {
-    const auto it = called_for.find(unit);
-    print_counts("  " + unit, it == called_for.end() ? 0 : static_cast<std::uint64_t>(it->second),
+  for (const auto& [unit, count] : units.everything) {
+    const auto it = units.called_for.find(unit);
+    print_counts("  " + unit, it == units.called_for.end() ? 0 : static_cast<std::uint64_t>(it->second),
                  static_cast<std::uint64_t>(count));
   }
 }
@@ -119,7 +141,7 @@ Result<CellsByKey> count_all(const Plan& plan, const SimulatorFolders& folders, 
   std::mutex mutex;
   CellsByKey cells;
   Status all = for_each_on_threads(threads, keys.size(), [&](std::size_t i) -> Status {
-    const auto counted = counter->count(keys[i]);
+    const auto counted = counter.count(keys[i]);
     if (!counted) return counted.error();
     const std::scoped_lock lock(mutex);
     cells[keys[i].name()] = *counted;
@@ -237,11 +259,19 @@ int run(const Folders& folders, const PlanCommand& command) {
   const auto planned = plan_scene(*scene, draw->plan);
   if (!planned) return report(planned.error());
   const Plan& plan = *planned;
+  const SimulatorFolders simulator_folders{folders.source, folders.cache()};
+  // Without GHDL the plan has no units.
+  auto counter = UnitCounter::open(simulator_folders);
+  std::optional<PlanUnits> units;
+  if (counter) {
+    auto counted = count_units(plan, *counter);
+    if (!counted) return report(counted.error());
+    units = std::move(*counted);
+  }
 
   CellsByKey cells;
   SimulationCost called_for, everything;
   if (command.measure) {
-    const SimulatorFolders simulator_folders{folders.source, folders.cache()};
     Progress progress(scene->name);
     auto counted = count_all(plan, simulator_folders, draw->threads, progress);
     if (!counted) return report(counted.error());
@@ -264,9 +294,12 @@ int run(const Folders& folders, const PlanCommand& command) {
   fmt::print("scene {}, shader {}, preset {}\n  as called for  {}\n  all effects    {}\n\n",
              printable(scene->name), to_string(plan.key.shader), to_string(plan.key.preset),
              plan.called_for.name(), plan.everything.name());
-  print_effects(plan, cells);
+  print_effects(plan, units, cells);
   fmt::print("\n");
-  print_units(plan);
+  if (units)
+    print_units(*units);
+  else
+    fmt::print("units are not counted: {}\n", counter.error().message);
   const bool same = called_for.frame.rgb == everything.frame.rgb &&
                     (hides_more(plan) || called_for.fragments == everything.fragments);
   if (command.measure) print_measured(plan, cells, called_for, everything, same);

@@ -136,7 +136,10 @@ TEST_F(PlanCommand, BadUsageExitsTwo) {
 
 TEST_F(PlanCommand, AMissingToolExitsThree) {
   const Environment nowhere = {{"PATH", (folder_->path() / "empty").string()}};
-  EXPECT_EQ(run({"plan", "matte"}, nowhere).exit_code, 0) << "without --measure no tool is needed";
+  const Outcome without_ghdl = run({"plan", "matte"}, nowhere);
+  EXPECT_EQ(without_ghdl.exit_code, 0) << without_ghdl.output;
+  EXPECT_THAT(without_ghdl.output, HasSubstr("units are not counted: "));
+  EXPECT_THAT(without_ghdl.output, HasSubstr("apt-get install ghdl-llvm"));
   const Outcome outcome = run({"plan", "matte", "--measure"}, nowhere);
   EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("apt-get install yosys"));

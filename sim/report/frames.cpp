@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "plan/plan.hpp"
+#include "sim/ghdl/hardware_units.hpp"
 #include "sim/report/html.hpp"
 #include "sim/report/section.hpp"
 #include "sim/run/result_files.hpp"
@@ -61,22 +63,39 @@ std::string by(const PlannedEffect& effect) {
   return effect.by == DoneBy::hardware ? "hardware" : effect.by == DoneBy::host ? "host" : "nobody";
 }
 
-std::string effects_table(const std::string& scene, const std::vector<std::pair<std::string, Plan>>& plans) {
+// The plan of one frame, and the entities of each of its effects.
+struct FramePlan {
+  std::string shader;
+  Plan plan;
+  std::vector<UnitCounts> units;
+};
+
+Result<FramePlan> frame_plan(const std::string& shader, Plan plan, UnitCounter& counter) {
+  FramePlan result{shader, std::move(plan), {}};
+  for (const PlannedEffect& effect : result.plan.effects) {
+    auto counted = counter.count(result.plan.key, effect);
+    if (!counted) return counted.error();
+    result.units.push_back(std::move(*counted));
+  }
+  return result;
+}
+
+std::string effects_table(const std::string& scene, const std::vector<FramePlan>& plans) {
   std::vector<std::string> head = {"effect", "called for", "why"};
-  for (const auto& [shader, plan] : plans)
+  for (const auto& [shader, plan, effect_units] : plans)
     head.push_back(fmt::format("{}<br><small>{}</small>", escaped(shader), escaped(plan.key.name())));
   std::vector<std::vector<std::string>> rows;
   for (std::size_t e = 0; e < c_effects; ++e) {
-    const PlannedEffect& first = plans.front().second.effects[e];
+    const PlannedEffect& first = plans.front().plan.effects[e];
     std::vector<std::string> row = {to_string(first.effect), first.called_for ? "<strong>yes</strong>" : "no",
                                     escaped(first.why)};
-    for (const auto& [shader, plan] : plans) {
+    for (const auto& [shader, plan, effect_units] : plans) {
       const PlannedEffect& effect = plan.effects[e];
       std::string text = by(effect);
       if ((effect.called_for || effect.elaborated || effect.by == DoneBy::nobody) && !effect.how.empty())
         text += "; " + escaped(effect.how);
       std::string units;
-      for (const auto& [unit, count] : effect.units)
+      for (const auto& [unit, count] : effect_units[e])
         units += fmt::format("{}{}&nbsp;{}", units.empty() ? "" : ", ", count, escaped(unit));
       if (!units.empty())
         text += fmt::format("<br><small>{}{}</small>", effect.elaborated ? "" : "left out: ", units);
@@ -109,8 +128,9 @@ Status add_frames(Page& page) {
   Json frames = Json::array();
   std::vector<std::vector<std::string>> rows;
   std::string effects;
+  std::optional<UnitCounter> counter;
   for (const auto& scene_folder : folders_in(page.settings.results)) {
-    std::vector<std::pair<std::string, Plan>> plans;
+    std::vector<FramePlan> plans;
     const std::string scene_name = scene_folder.filename().string();
     for (const auto& folder : folders_in(scene_folder)) {
       const ResultFiles files{folder};
@@ -157,7 +177,14 @@ Status add_frames(Page& page) {
       if (!scene) continue;  // a mesh from elsewhere: its name alone does not load it
       auto plan = plan_scene(*scene, {.shader = *it, .preset = preset});
       if (!plan) return plan.error();
-      plans.emplace_back(shader, std::move(*plan));
+      if (!counter) {
+        auto opened = UnitCounter::open(page.settings.folders);
+        if (!opened) return opened.error();
+        counter = std::move(*opened);
+      }
+      auto counted = frame_plan(shader, std::move(*plan), *counter);
+      if (!counted) return counted.error();
+      plans.push_back(std::move(*counted));
     }
     if (!plans.empty())
       effects += fmt::format("<details id=\"effects/{0}\"><summary>{0}</summary>\n{1}</details>\n",

@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include "frame/assemble.hpp"
-#include "plan/hardware_units.hpp"
 #include "reference/renderer.hpp"
 #include "setup/spherical_setup.hpp"
 #include "shading/effects.hpp"
@@ -84,6 +83,7 @@ class Simulation {
       ghdl = std::async(std::launch::async, [this, runner = *runner] { return run_ghdl(runner); });
       wait_for_threads_of(ghdl);
     }
+    if (Status status = count_units(); !status) return status.error();
     if (Status status = write_png(files_.frame("golden"), golden_.frame()); !status) return status.error();
     for (auto& [run, frame] : drawn_)
       if (Status status = draw_pictures(run, frame); !status) return status.error();
@@ -128,6 +128,15 @@ class Simulation {
     std::error_code error;
     std::filesystem::remove_all(path, error);
     if (error) return tool_failed(fmt::format("{}: cannot remove: {}", path.string(), error.message()));
+    return Ok{};
+  }
+
+  Status count_units() {
+    auto counter = UnitCounter::open(s_.folders);
+    if (!counter) return counter.error();
+    auto units = counter->count(summary_.plan.key);
+    if (!units) return units.error();
+    summary_.units = std::move(*units);
     return Ok{};
   }
 
@@ -493,7 +502,7 @@ std::string to_json(const SceneSummary& s) {
     runs.push_back(std::move(entry));
   }
   nlohmann::ordered_json units = nlohmann::ordered_json::object();
-  for (const auto& [unit, count] : hardware_units(s.plan.key)) units[unit] = count;
+  for (const auto& [unit, count] : s.units) units[unit] = count;
   const nlohmann::ordered_json json = {
       {"scene", s.scene},
       {"shader", s.shader},

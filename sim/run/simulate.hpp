@@ -15,6 +15,7 @@
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/ghdl/hardware_units.hpp"
 #include "sim/run/result_files.hpp"
 #include "sim/run/rtl_stream.hpp"
 
@@ -40,6 +41,7 @@ struct SceneSummary {
   std::string scene, shader;
   bool all_effects = false;  ///< elaborated, whatever the scene calls for
   Plan plan;
+  UnitCounts units;  ///< entities that are elaborated
   FrameSize size;
   SetupCounts setup;
   std::uint64_t triangles = 0;  ///< of the scene

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/ghdl/hardware_units.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+namespace halfway {
+namespace {
+
+// The longest entity name that the module's name begins with.
+std::string entity_of(std::string_view module, const std::set<std::string>& entities) {
+  std::string entity;
+  for (const std::string& name : entities)
+    if ((module == name || module.starts_with(name + "_")) && name.size() > entity.size()) entity = name;
+  return entity;
+}
+
+bool is_label(std::string_view label, const std::string& name) {
+  return label == name || label.starts_with(name + "_");
+}
+
+// What does an effect that the hardware always has.
+std::vector<std::string> instances_of(Effect effect, Shader shader) {
+  switch (effect) {
+    case Effect::depth:
+      return {"z_interpolator"};
+    case Effect::exponents:
+      return {"power"};
+    case Effect::ambient:
+      // The first processor of the pipeline; in the spherical shader a word for the line and one for the
+      // span.
+      if (shader == Shader::processors) return {"chain_n1"};
+      return {"line_ambient_register", "span_ambient_register"};
+    default:
+      return {};
+  }
+}
+
+UnitCounts difference(UnitCounts counts, const UnitCounts& subtracted) {
+  for (const auto& [unit, count] : subtracted) counts[unit] -= count;
+  std::erase_if(counts, [](const auto& unit) { return unit.second <= 0; });
+  return counts;
+}
+
+}  // namespace
+
+// GHDL writes `module NAME` and, indented by two spaces, `MODULE LABEL (`.
+InstanceTree::InstanceTree(std::string_view netlist, const std::set<std::string>& entities) {
+  std::istringstream lines{std::string(netlist)};
+  std::string module;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string first, second, third;
+    words >> first >> second >> third;
+    if (line.starts_with("module ")) {
+      module = second;
+    } else if (line.starts_with("  ") && third == "(") {
+      const std::string entity = entity_of(first, entities);
+      if (!entity.empty()) instances_[module].push_back({first, entity, second});
+    }
+  }
+}
+
+UnitCounts InstanceTree::count(const std::string& top) const {
+  UnitCounts counts;
+  add(top, counts);
+  return counts;
+}
+
+UnitCounts InstanceTree::count_named(const std::string& top, const std::vector<std::string>& names) const {
+  UnitCounts counts;
+  add_named(top, names, counts);
+  return counts;
+}
+
+void InstanceTree::add(const std::string& module, UnitCounts& counts) const {
+  const auto at = instances_.find(module);
+  if (at == instances_.end()) return;
+  for (const Instance& instance : at->second) {
+    ++counts[instance.entity];
+    add(instance.module, counts);
+  }
+}
+
+void InstanceTree::add_named(const std::string& module, const std::vector<std::string>& names,
+                             UnitCounts& counts) const {
+  const auto at = instances_.find(module);
+  if (at == instances_.end()) return;
+  for (const Instance& instance : at->second) {
+    const bool is_named = std::ranges::any_of(names, [&](const std::string& name) {
+      return instance.entity == name || is_label(instance.label, name);
+    });
+    if (is_named) {
+      ++counts[instance.entity];
+      add(instance.module, counts);
+    } else {
+      add_named(instance.module, names, counts);
+    }
+  }
+}
+
+Result<UnitCounter> UnitCounter::open(const SimulatorFolders& folders) {
+  const auto tool = GhdlTool::find();
+  if (!tool) return tool.error();
+  const auto sources = read_rtl_sources(folders.source);
+  if (!sources) return sources.error();
+  std::set<std::string> entities;
+  for (const VhdlSource& source : *sources) entities.insert(std::filesystem::path(source.name).stem());
+  auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders.cache);
+  if (!library) return library.error();
+  return UnitCounter(std::move(*library), std::move(entities));
+}
+
+Result<InstanceTree> UnitCounter::tree(const HardwareKey& key) const {
+  const auto netlist = library_.synthesize(key.entity(), key.generics());
+  if (!netlist) return netlist.error();
+  return InstanceTree(*netlist, entities_);
+}
+
+Result<UnitCounts> UnitCounter::count(const HardwareKey& key) {
+  if (const auto at = counted_.find(key.name()); at != counted_.end()) return at->second;
+  const auto instances = tree(key);
+  if (!instances) return instances.error();
+  return counted_[key.name()] = instances->count(key.entity());
+}
+
+Result<UnitCounts> UnitCounter::count(const HardwareKey& key, const PlannedEffect& effect) {
+  if (effect.other) {
+    const auto here = count(key), there = count(*effect.other);
+    if (!here) return here;
+    if (!there) return there;
+    return effect.elaborated ? difference(*here, *there) : difference(*there, *here);
+  }
+  if (!effect.elaborated) return UnitCounts{};
+  const auto instances = tree(key);
+  if (!instances) return instances.error();
+  return instances->count_named(key.entity(), instances_of(effect.effect, key.shader));
+}
+
+}  // namespace halfway

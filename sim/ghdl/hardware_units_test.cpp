@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/ghdl/hardware_units.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "plan/plan.hpp"
+#include "sim/scene_files/load_scene.hpp"
+
+namespace halfway {
+namespace {
+
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr const char* kNetlist =
+    "module box_4\n  (input  a);\n  assign b = a;\nendmodule\n"
+    "module pair_9\n  (input  a);\n  box_4 left (\n    .a(a));\n  box_4 right (\n    .a(a));\nendmodule\n"
+    "module top\n  (input  a);\n  pair_9 units_n1_first (\n    .a(a));\n  pair_9 units_n2_first (\n    "
+    ".a(a));\n"
+    "  box_4 units_n10_last (\n    .a(a));\n  big_box_2 single (\n    .a(a));\n  assign c = box_4 (\n  "
+    "wire_4 w (\n"
+    "endmodule\n";
+
+InstanceTree tree() {
+  return {kNetlist, {"box", "big_box", "pair", "top"}};
+}
+
+TEST(InstanceTree, CountsInstancesAtEveryDepth) {
+  EXPECT_EQ(tree().count("top"), (UnitCounts{{"big_box", 1}, {"box", 5}, {"pair", 2}}));
+  EXPECT_EQ(tree().count("pair_9"), (UnitCounts{{"box", 2}}));
+  EXPECT_THAT(tree().count("box_4"), IsEmpty());
+}
+
+TEST(InstanceTree, CountsNamedInstancesAndWhatIsBelowThem) {
+  EXPECT_EQ(tree().count_named("top", {"pair"}), (UnitCounts{{"box", 4}, {"pair", 2}}));
+  EXPECT_EQ(tree().count_named("top", {"units_n1"}), (UnitCounts{{"box", 2}, {"pair", 1}}));
+  EXPECT_EQ(tree().count_named("top", {"left", "single"}), (UnitCounts{{"big_box", 1}, {"box", 2}}));
+  EXPECT_THAT(tree().count_named("top", {"none"}), IsEmpty());
+}
+
+Plan plan_of(const std::string& name, Shader shader, Preset preset) {
+  const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
+  EXPECT_TRUE(scene) << scene.error().message;
+  const auto plan = plan_scene(*scene, {.shader = shader, .preset = preset});
+  EXPECT_TRUE(plan) << plan.error().message;
+  return *plan;
+}
+
+const PlannedEffect& effect(const Plan& plan, Effect effect) {
+  return plan.effects.at(static_cast<std::size_t>(effect));
+}
+
+class HardwareUnits : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const std::filesystem::path source = HALFWAY_SOURCE_DIR;
+    auto counter = UnitCounter::open({source, source / "build" / "cache"});
+    ASSERT_TRUE(counter) << counter.error().message;
+    counter_.emplace(std::move(*counter));
+  }
+  UnitCounts units(const HardwareKey& key) {
+    const auto counts = counter_->count(key);
+    EXPECT_TRUE(counts) << counts.error().message;
+    return counts ? *counts : UnitCounts{};
+  }
+  UnitCounts units(const Plan& plan, Effect of) {
+    const auto counts = counter_->count(plan.key, effect(plan, of));
+    EXPECT_TRUE(counts) << counts.error().message;
+    return counts ? *counts : UnitCounts{};
+  }
+  std::optional<UnitCounter> counter_;
+};
+
+// By hand, from the entities' text.
+TEST_F(HardwareUnits, OfAQuadraticShader) {
+  EXPECT_EQ(units({.shader = Shader::quadratic, .preset = Preset::published, .channels = 1}),
+            (UnitCounts{{"parameter_register", 33},
+                        {"part_interpolator", 14},
+                        {"plane_interpolator", 1},
+                        {"quadratic_interpolator", 1},
+                        {"saturate", 1},
+                        {"slope_walker", 2},
+                        {"stream_queue", 1},
+                        {"stream_register", 1},
+                        {"triangle_walker", 1},
+                        {"z_interpolator", 1}}));
+}
+
+TEST_F(HardwareUnits, OfEffectsOfTheSphericalShader) {
+  const Plan plan = plan_of("matte", Shader::spherical, Preset::exact);
+  EXPECT_EQ(units(plan, Effect::depth), (UnitCounts{{"parameter_register", 8},
+                                                    {"part_interpolator", 4},
+                                                    {"plane_interpolator", 1},
+                                                    {"z_interpolator", 1}}));
+  EXPECT_EQ(units(plan, Effect::ambient), (UnitCounts{{"parameter_register", 2}}));
+  EXPECT_EQ(units(plan, Effect::specular), (UnitCounts{{"angle_address", 1},
+                                                       {"cosine_rom", 1},
+                                                       {"line_interpolator", 1},
+                                                       {"multiplier", 1},
+                                                       {"parameter_register", 3},
+                                                       {"specular_slice", 1}}));
+  EXPECT_THAT(units(plan, Effect::highlight_colour), IsEmpty());
+}
+
+TEST_F(HardwareUnits, OfEffectsOfTheProcessors) {
+  const Plan plan = plan_of("spheres", Shader::processors, Preset::published);
+  const UnitCounts all = units(plan.key), ambient = units(plan, Effect::ambient);
+  EXPECT_EQ(ambient.at("unrolled_shading_processor"), 1);
+  EXPECT_GT(all.at("unrolled_shading_processor"), 2);
+  const UnitCounts powers = units(plan, Effect::exponents);
+  EXPECT_EQ(powers.at("power"), all.at("power"));
+  EXPECT_EQ(powers.at("function_rom"), 2 * powers.at("power"));
+}
+
+TEST_F(HardwareUnits, ContainNothingThatTheSceneDoesNotCallFor) {
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    const auto expect_none = [&](const HardwareKey& key, const std::vector<std::string>& entities) {
+      for (const std::string& entity : entities)
+        EXPECT_FALSE(units(key).contains(entity)) << key.name() << " has a " << entity;
+    };
+    const Plan quadratic = plan_of("matte", Shader::quadratic, preset);
+    EXPECT_EQ(units(quadratic.key).at("quadratic_interpolator"), 1);
+    EXPECT_EQ(units(quadratic, Effect::colour).at("quadratic_interpolator"), 2);
+    Plan spherical = plan_of("matte", Shader::spherical, preset);
+    expect_none(spherical.key, {"specular_slice", "quadratic_interpolator"});
+    EXPECT_TRUE(units(spherical.everything).contains("specular_slice"));
+    // Neither light nor reflection.
+    spherical.key.spherical.lights = 0;
+    spherical.key.spherical.diffuse = false;
+    expect_none(spherical.key,
+                {"specular_slice", "diffuse_slice", "cosine_rom", "angle_address", "multiplier"});
+    for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
+      Plan processors = plan_of("matte", Shader::processors, preset);
+      processors.called_for.processors.form = processors.everything.processors.form = form;
+      const std::vector<std::string> of_effects = {"power", "shadow_counter", "object_stage", "spot_cone"};
+      expect_none(processors.called_for, of_effects);
+      for (const std::string& entity : of_effects)
+        EXPECT_TRUE(units(processors.everything).contains(entity)) << entity;
+      // Version I of the paper has no unit vectors.
+      if (preset == Preset::published)
+        expect_none(processors.called_for,
+                    {"reciprocal_root", "vector_shift", "function_rom", "unit_vector"});
+    }
+  }
+}
+
+// An effect that is elaborated has units; adding one that is not adds units.
+TEST_F(HardwareUnits, BelongToEveryEffectOfTheHardware) {
+  for (const Shader shader : c_shaders)
+    for (const Preset preset : {Preset::exact, Preset::published}) {
+      const Plan plan = plan_of("spheres", shader, preset);
+      for (const PlannedEffect& e : plan.effects) {
+        SCOPED_TRACE(plan.key.name() + ": " + to_string(e.effect));
+        if (e.elaborated || e.other)
+          EXPECT_THAT(units(plan, e.effect), Not(IsEmpty()));
+        else
+          EXPECT_THAT(units(plan, e.effect), IsEmpty());
+      }
+    }
+}
+
+}  // namespace
+}  // namespace halfway
