@@ -2,12 +2,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <optional>
 
 #include "plan/shader_plans.hpp"
+#include "scene/lights.hpp"
 
 namespace halfway {
 namespace {
+
+// The lights of a kind that the pipeline has processors for.
+unsigned& light_units(ProcessorUnits& units, LightKind kind) {
+  switch (kind) {
+    case LightKind::directional:
+      return units.directional;
+    case LightKind::positional:
+      return units.positional;
+    case LightKind::spot:
+      return units.spots;
+  }
+  std::abort();
+}
 
 // The first triangle over which the normal turns; none where each has one normal.
 std::optional<std::size_t> first_curved(const Scene& scene) {
@@ -151,9 +166,7 @@ class Planner {
     ProcessorUnits& o = other.processors;
     // With all effects every light's hardware is a spot's.
     const bool all_spots = o.spots != calls_.count(LightKind::spot);
-    unsigned& of_kind = all_spots || kind == LightKind::spot ? o.spots
-                        : kind == LightKind::positional      ? o.positional
-                                                             : o.directional;
+    unsigned& of_kind = all_spots ? o.spots : light_units(o, kind);
     if (count > 0) {
       of_kind -= count;
       return in_hardware(effect, std::move(how), true, other);
@@ -192,9 +205,8 @@ Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const 
   key.preset = request.preset;
   key.channels = calls[Effect::colour].called_for ? 3 : 1;
   ProcessorUnits& units = key.processors;
-  units.directional = static_cast<unsigned>(calls.count(LightKind::directional));
-  units.positional = static_cast<unsigned>(calls.count(LightKind::positional));
-  units.spots = static_cast<unsigned>(calls.count(LightKind::spot));
+  for (const LightKind kind : c_light_kinds)
+    light_units(units, kind) = static_cast<unsigned>(calls.count(kind));
   units.diffuse = calls[Effect::diffuse].called_for;
   units.specular = calls[Effect::specular].called_for;
   units.normalize = normalize.called_for;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan/processor_clocks.hpp"
 
+#include <cstdlib>
+
 namespace halfway {
 namespace {
 
@@ -28,9 +30,9 @@ bool has(const HardwareKey& key, const ProcessorClocks& row) {
     case LightKind::positional:
       return p.positional > 0;
     case LightKind::spot:
-      break;
+      return p.spots > 0;
   }
-  return p.spots > 0;
+  std::abort();
 }
 
 }  // namespace

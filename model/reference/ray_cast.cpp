@@ -10,6 +10,7 @@
 
 #include "common/to_integer.hpp"
 #include "scene/camera.hpp"
+#include "scene/lights.hpp"
 
 namespace halfway {
 namespace {
@@ -162,7 +163,7 @@ ShadowRays::ShadowRays(const Scene& scene) : scene_(&scene) {
 }
 
 bool ShadowRays::reaches(LightRef light, const glm::dvec3& point_world, std::uint32_t triangle) const {
-  const LightPoint from = light_point(*scene_, light);
+  const LightPoint from = light_of(*scene_, light).point;
   if (is_averted(corners_world(*scene_, scene_->triangles[triangle]), from)) return false;
   const double length = glm::length(from.way_from(point_world));
   if (!(length > touching_distance_)) return true;

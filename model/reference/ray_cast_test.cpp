@@ -121,7 +121,7 @@ TEST(ShadowRays, AConvexSolidNeverShadowsItsLitSide) {
       if (i % 4 == 3) u = v = 0.0;
       const glm::dvec3 point = (1.0 - u - v) * a + u * b + v * c;
       for (const LightRef light : {c_sun, c_lamp}) {
-        const LightPoint from = light_point(scene, light);
+        const LightPoint from = light_of(scene, light).point;
         const glm::dvec3 way = from.way_from(point), normal = glm::cross(b - a, c - a);
         // Edge-on, either is right.
         if (std::abs(glm::dot(way, normal)) < 1e-6 * glm::length(way) * glm::length(normal)) continue;

@@ -126,7 +126,7 @@ TEST(Renderer, InASceneWithShadowsALightGivesNothingWhereItDoesNotReach) {
         const SurfacePoint point = surface_point(t, barycentric_screen(t, 32 * x + 16, 32 * y + 16));
         bool in_doubt = false;
         const auto reaches = [&](LightRef light) {
-          const LightPoint from = light_point(scene, light);
+          const LightPoint from = light_of(scene, light).point;
           const Crossings on_the_way = crossings(corners, point.position_world, from);
           // The point's own triangle is always crossed at 0.
           in_doubt |= std::abs(glm::dot(from.way_from(point.position_world), point.normal_world)) < 1e-6;

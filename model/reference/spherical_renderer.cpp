@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reference/visible_pixels.hpp"
+#include "scene/lights.hpp"
 #include "setup/arc.hpp"
 #include "setup/edge.hpp"
 #include "setup/project.hpp"
@@ -48,13 +49,10 @@ void take_vectors(const Scene& scene, const Material& material, const SurfacePoi
     }
     out.lights.push_back(light);
   };
-  for (const DirectionalLight& light : scene.directional) add(light.to_light_world, 1.0);
-  for (const PositionalLight& light : scene.positional)
-    add(direction(point.position_world, light.position_world), 1.0);
-  for (const SpotLight& light : scene.spots) {
-    const glm::dvec3 to_light = direction(point.position_world, light.position_world);
-    add(to_light, spot_factor(light, -glm::dot(to_light, light.axis_world)));
-  }
+  for_each_light(scene, [&](const Light& light) {
+    const glm::dvec3 to_light = direction_to(light, point.position_world);
+    add(to_light, cone_share(light, to_light));
+  });
 }
 
 double mix(double a, double b, double t) {
@@ -98,9 +96,7 @@ class SphericalShader {
   SphericalShader(const Scene& scene, std::span<const ScreenTriangle> triangles, const RenderOptions& options,
                   const SphericalMethod& method, std::span<const double> scales)
       : scene_(scene), triangles_(triangles), options_(options), method_(method), scales_(scales) {
-    for (const DirectionalLight& light : scene.directional) intensities_.push_back(light.intensity);
-    for (const PositionalLight& light : scene.positional) intensities_.push_back(light.intensity);
-    for (const SpotLight& light : scene.spots) intensities_.push_back(light.intensity);
+    for_each_light(scene, [&](const Light& light) { intensities_.push_back(light.intensity); });
   }
 
   glm::dvec3 operator()(std::uint32_t index, std::uint32_t x, std::uint32_t y) {

@@ -86,7 +86,7 @@ Vectors vectors_at(const Scene& scene, const SurfacePoint& p, std::size_t light)
                    : glm::normalize((light == 3 ? scene.spots[0].position_world
                                                 : scene.positional[light - 1].position_world) -
                                     p.position_world);
-  r.spot = light == 3 ? spot_factor(scene.spots[0], r.l.z) : 1.0;
+  r.spot = light == 3 ? cone_share(*light_of(scene, {LightKind::spot, 0}).cone, r.l.z) : 1.0;
   if (scene.materials[1].brdf == Brdf::phong)
     r.u = 2.0 * glm::dot(r.n, r.l) * r.n - r.l, r.v = r.e;
   else

@@ -9,6 +9,9 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
+
+#include "scene/lights.hpp"
 
 namespace halfway {
 namespace {
@@ -26,20 +29,20 @@ class Checker {
  public:
   explicit Checker(const Scene& scene) : scene_(scene) {}
 
-  void number(const char* of, double value, double least = -c_largest, double greatest = c_largest) {
+  void number(std::string_view of, double value, double least = -c_largest, double greatest = c_largest) {
     if (value >= least && value <= greatest) return;
     fail(std::isfinite(value)
              ? fmt::format("{} is {:g}, but must be {:g} to {:g}", of, value, least, greatest)
              : fmt::format("{} is {}, no finite number", of, value));
   }
-  void vector(const char* of, glm::dvec3 v, double least = -c_largest) {
+  void vector(std::string_view of, glm::dvec3 v, double least = -c_largest) {
     for (int i = 0; i < 3; ++i) number(of, v[i], least);
   }
-  void direction(const char* of, glm::dvec3 v) {
+  void direction(std::string_view of, glm::dvec3 v) {
     vector(of, v);
     if (!is_unit(v)) fail(fmt::format("{} is ({:g}, {:g}, {:g}), not unit", of, v.x, v.y, v.z));
   }
-  void index(const char* of, std::size_t value, std::size_t count) {
+  void index(std::string_view of, std::size_t value, std::size_t count) {
     if (value >= count) fail(fmt::format("{} is {}, but there are {}", of, value, count));
   }
   void fail(std::string what) {
@@ -69,21 +72,18 @@ void check_camera(Checker& check, const Camera& camera) {
 void check_lights(Checker& check, const Scene& scene) {
   check.vector("the ambient light", scene.ambient, 0.0);
   check.vector("the background", scene.background, 0.0);
-  for (const DirectionalLight& light : scene.directional) {
-    check.direction("the way to a directional light", light.to_light_world);
-    check.vector("a directional light's intensity", light.intensity, 0.0);
-  }
-  for (const PositionalLight& light : scene.positional) {
-    check.vector("a positional light's place", light.position_world);
-    check.vector("a positional light's intensity", light.intensity, 0.0);
-  }
-  for (const SpotLight& light : scene.spots) {
-    check.vector("a spot's place", light.position_world);
-    check.direction("a spot's axis", light.axis_world);
-    check.vector("a spot's intensity", light.intensity, 0.0);
-    check.number("the cosine at a spot's edge", light.cos_outer, -1.0, 1.0);
-    check.number("the cosine where a spot is full", light.cos_inner, light.cos_outer, 1.0);
-  }
+  for_each_light(scene, [&](const Light& light) {
+    const std::string name = name_of(light.ref);
+    if (light.point.w == 0.0)
+      check.direction("the direction to " + name, light.point.xyz_world);
+    else
+      check.vector("the position of " + name, light.point.xyz_world);
+    check.vector("the intensity of " + name, light.intensity, 0.0);
+    if (!light.cone) return;
+    check.direction("the axis of " + name, light.cone->axis_world);
+    check.number("the outer cosine of " + name, light.cone->cos_outer, -1.0, 1.0);
+    check.number("the inner cosine of " + name, light.cone->cos_inner, light.cone->cos_outer, 1.0);
+  });
 }
 
 void check_material(Checker& check, const Material& m) {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "scene/lights.hpp"
 #include "shading/shade.hpp"
 
 namespace halfway {
@@ -306,7 +307,7 @@ Missed missed_light(const Material& m, const SampledTriangle& t, const ViewedTri
 struct SpotOnTriangle {
   double greatest, missed;
 };
-SpotOnTriangle spot_on_triangle(const SpotLight& spot, const std::optional<Cone>& to_light,
+SpotOnTriangle spot_on_triangle(const LightCone& spot, const std::optional<Cone>& to_light,
                                 const std::array<glm::dvec3, 6>& to_light_world) {
   if (!to_light) return {1.0, 1.0};
   const double off_axis = angle_between(-to_light->axis, spot.axis_world);
@@ -326,8 +327,8 @@ SpotOnTriangle spot_on_triangle(const SpotLight& spot, const std::optional<Cone>
     angle.take(std::min(c_pi, off_axis + to_light->angle));
     width = 2.0 * to_light->angle;
   }
-  const double greatest = spot_factor(spot, std::cos(angle.least));
-  const double fall = greatest - spot_factor(spot, std::cos(angle.most));
+  const double greatest = cone_share(spot, std::cos(angle.least));
+  const double fall = greatest - cone_share(spot, std::cos(angle.most));
   // Smoothstep's second derivative jumps by 6 over its width's square where it begins and ends.
   const double outer = std::acos(std::clamp(spot.cos_outer, -1.0, 1.0));
   const double inner = std::acos(std::clamp(spot.cos_inner, -1.0, 1.0));
@@ -355,22 +356,25 @@ double missed_highlight_bound(const Scene& scene, const Material& m, const Sampl
       cone_around({t.surface[0].normal_world, t.surface[1].normal_world, t.surface[2].normal_world}),
       cone_to(t, scene.camera.eye_world), directions_to(scene.camera.eye_world)};
   double missed = 0.0;
-  for (const DirectionalLight& d : scene.directional) {
-    LightOnTriangle light{Cone{d.to_light_world, 0.0}, {}, d.intensity};
-    light.to_light_world.fill(d.to_light_world);
-    missed += missed_light(m, t, view, light).steps;
-  }
-  const auto light_at = [&](const glm::dvec3& position_world, const glm::dvec3& intensity) {
-    return LightOnTriangle{cone_to(t, position_world), directions_to(position_world), intensity};
-  };
-  for (const PositionalLight& p : scene.positional)
-    missed += missed_light(m, t, view, light_at(p.position_world, p.intensity)).steps;
-  for (const SpotLight& s : scene.spots) {
-    const LightOnTriangle light = light_at(s.position_world, s.intensity);
-    const SpotOnTriangle spot = spot_on_triangle(s, light.to_light, light.to_light_world);
-    const Missed whole = missed_light(m, t, view, light);
+  for_each_light(scene, [&](const Light& light) {
+    const glm::dvec3& from = light.point.xyz_world;
+    LightOnTriangle on_triangle{{}, {}, light.intensity};
+    if (light.point.w == 0.0) {
+      on_triangle.to_light = Cone{from, 0.0};
+      on_triangle.to_light_world.fill(from);
+    } else {
+      on_triangle.to_light = cone_to(t, from);
+      on_triangle.to_light_world = directions_to(from);
+    }
+    const Missed whole = missed_light(m, t, view, on_triangle);
+    if (!light.cone) {
+      missed += whole.steps;
+      return;
+    }
+    const SpotOnTriangle spot =
+        spot_on_triangle(*light.cone, on_triangle.to_light, on_triangle.to_light_world);
     missed += whole.steps * spot.greatest + whole.greatest * spot.missed;
-  }
+  });
   return missed;
 }
 

@@ -14,6 +14,7 @@
 
 #include "common/to_integer.hpp"
 #include "golden/processors_layout.hpp"
+#include "scene/lights.hpp"
 #include "setup/init_vector.hpp"
 #include "setup/quadratic_fit.hpp"
 #include "setup/shadow_volume.hpp"
@@ -155,8 +156,8 @@ class ProcessorsSetup final : public Setup {
         view_(scene.camera),
         projector_(scene, frame, {.subpixel_bits = 4, .clip_to_frame = false}),
         lights_(reflected_lights(scene)),
-        has_places_(std::any_of(lights_.begin(), lights_.end(),
-                                [](LightRef light) { return light.kind != LightKind::directional; })),
+        has_places_(
+            std::any_of(lights_.begin(), lights_.end(), [&](LightRef light) { return has_place(light); })),
         normalizes_(has_places_ || options.normalize) {
     set_scales();
     for (const Material& m : scene.materials) materials_.push_back(material_words(m));
@@ -182,7 +183,7 @@ class ProcessorsSetup final : public Setup {
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       InitVector light = request(words, Command::define, counts, static_cast<int>(i) + 1);
       put_light(light, i);
-      put_colour(light, intensity(scene_, lights_[i]));
+      put_colour(light, light_of(scene_, lights_[i]).intensity);
     }
   }
 
@@ -250,7 +251,7 @@ class ProcessorsSetup final : public Setup {
     }
     double farthest = extent;
     for (const LightRef light : lights_) {
-      if (light.kind == LightKind::directional) continue;
+      if (!has_place(light)) continue;
       const double distance = largest_component(place_view(light));
       if (distance <= c_farthest_light * extent) farthest = std::max(farthest, distance);
     }
@@ -258,10 +259,8 @@ class ProcessorsSetup final : public Setup {
     farthest_ = c_farthest_light * extent;
   }
 
-  glm::dvec3 place_view(LightRef light) const {
-    return view_.point(light.kind == LightKind::spot ? scene_.spots[light.index].position_world
-                                                     : scene_.positional[light.index].position_world);
-  }
+  bool has_place(LightRef light) const { return light_of(scene_, light).point.w != 0.0; }
+  glm::dvec3 place_view(LightRef light) const { return view_.point(light_of(scene_, light).point.xyz_world); }
 
   // The power of two that the place comes below 1 with, taken off: none where the format has none, or the
   // light is too far.
@@ -307,17 +306,17 @@ class ProcessorsSetup final : public Setup {
   }
 
   void put_light(InitVector& init, std::size_t number) const {
-    const LightRef light = lights_[number];
+    const Light light = light_of(scene_, lights_[number]);
     const int low = layout_.light_axes_low();
     if (config_.shadows && number < volumes_.size())
       init.put(Axes::around_eye,
                std::min<std::int64_t>(volumes_[number].around_eye, largest(Axes::around_eye)), low);
     glm::dvec3 to_light_view(0.0);
     std::optional<int> shift;
-    if (light.kind == LightKind::directional) {
-      to_light_view = view_.direction(scene_.directional[light.index].to_light_world);
+    if (light.point.w == 0.0) {
+      to_light_view = view_.direction(light.point.xyz_world);
     } else {
-      const glm::dvec3 place = place_view(light);
+      const glm::dvec3 place = view_.point(light.point.xyz_world);
       shift = light_shift(place);
       if (shift)
         put_place(init, place, *shift);
@@ -330,12 +329,11 @@ class ProcessorsSetup final : public Setup {
       put_axis_vector(init, Axis::half,
                       shift ? std::ldexp(1.0, -scale_exponent_) * c_to_eye_view
                             : unit_or_zero(c_to_eye_view + to_light_view));
-    if (light.kind != LightKind::spot) return;
-    const SpotLight& spot = scene_.spots[light.index];
+    if (!light.cone) return;
     init.put(Axes::spot, 1, low);
-    put_axis_vector(init, Axis::axis, view_.direction(spot.axis_world));
-    init.put(Axes::outer, held(spot.cos_outer, Axes::outer), low);
-    const double width = spot.cos_inner - spot.cos_outer;
+    put_axis_vector(init, Axis::axis, view_.direction(light.cone->axis_world));
+    init.put(Axes::outer, held(light.cone->cos_outer, Axes::outer), low);
+    const double width = light.cone->cos_inner - light.cone->cos_outer;
     init.put(Axes::slope, width > 0.0 ? held(1.0 / width, Axes::slope) : largest(Axes::slope), low);
   }
 
@@ -555,12 +553,12 @@ class ProcessorsSetup final : public Setup {
                                      largest_value(c_intensity) / c_white));
     };
     note_light("ambient light", scene_.ambient);
-    for (const LightRef light : lights_) note_light(name_of(light), intensity(scene_, light));
+    for (const LightRef light : lights_) note_light(name_of(light), light_of(scene_, light).intensity);
     const std::vector<bool> worn = worn_materials(scene_);
     for (std::size_t i = 0; i < worn.size(); ++i)
       if (worn[i]) note_material(scene_.materials[i]);
     for (const LightRef light : lights_) {
-      if (light.kind == LightKind::directional) continue;
+      if (!has_place(light)) continue;
       const std::optional<int> shift = light_shift(place_view(light));
       if (!shift)
         notes_.push_back(
@@ -572,12 +570,12 @@ class ProcessorsSetup final : public Setup {
                           "adds to the way to the "
                           "light, was held at {:.4g} times its size",
                           name_of(light), largest_value(Axis::half)));
-      if (light.kind == LightKind::spot) note_cone(light);
+      if (const auto& cone = light_of(scene_, light).cone) note_cone(light, *cone);
     }
   }
 
-  void note_cone(LightRef light) {
-    const double cos_outer = scene_.spots[light.index].cos_outer;
+  void note_cone(LightRef light, const LightCone& cone) {
+    const double cos_outer = cone.cos_outer;
     if (1.0 - cos_outer >= c_least_cone * c_cosine_error) return;
     notes_.push_back(fmt::format(
         "{}: its cone of {:.2g} degrees is so narrow that its light is rough: the cosine of an angle is only "
@@ -612,7 +610,7 @@ class ProcessorsSetup final : public Setup {
     note_reflected(terms[0], "ambient light", scene_.ambient);
     for (const LightRef light : lights_)
       for (const Term& term : {terms[1], terms[2]})
-        note_reflected(term, name_of(light), intensity(scene_, light));
+        note_reflected(term, name_of(light), light_of(scene_, light).intensity);
   }
 
   const Scene& scene_;

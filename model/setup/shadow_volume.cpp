@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "scene/camera.hpp"
+#include "scene/lights.hpp"
 #include "scene/mesh.hpp"
 
 namespace halfway {
@@ -156,7 +157,7 @@ std::vector<ShadowVolumes> make_shadow_volumes(const Scene& scene, std::span<con
   std::vector<ShadowVolumes> result;
   std::vector<bool> averted(scene.triangles.size());
   for (const LightRef& light : lights) {
-    const LightPoint point = light_point(scene, light);
+    const LightPoint point = light_of(scene, light).point;
     ShadowVolumes volumes{.light = light};
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
       averted[t] = is_averted(corners_world(scene, scene.triangles[t]), point);
@@ -179,7 +180,7 @@ std::vector<ShadowVolumes> make_shadow_volumes(const Scene& scene, std::span<con
 
 std::vector<CornersWorld> closed_surface(const Scene& scene, const ShadowVolumes& volumes) {
   std::vector<CornersWorld> surface = volumes.sides;
-  const LightPoint light = light_point(scene, volumes.light);
+  const LightPoint light = light_of(scene, volumes.light).point;
   for (const std::uint32_t t : volumes.averted) {
     const CornersWorld near = corners_world(scene, scene.triangles[t]);
     CornersWorld far;

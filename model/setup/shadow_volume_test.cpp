@@ -17,8 +17,10 @@
 #include "reference/ray_cast.hpp"
 #include "reference/visible_pixels.hpp"
 #include "scene/camera.hpp"
+#include "scene/lights.hpp"
 #include "setup/edge.hpp"
 #include "setup/test/random_solids.hpp"
+#include "shading/effects.hpp"
 #include "sim/scene_files/load_scene.hpp"
 
 namespace halfway {
@@ -70,7 +72,7 @@ void expect_volumes_are_where_no_light_is(const Scene& scene, RandomSolids& rand
   for (const ShadowVolumes& volumes : make_shadow_volumes(scene, lights)) {
     const std::vector<CornersWorld> surface = closed_surface(scene, volumes);
     ASSERT_EQ(unmatched_edges(surface), 0u) << name_of(volumes.light);
-    const LightPoint light = light_point(scene, volumes.light);
+    const LightPoint light = light_of(scene, volumes.light).point;
     for (int i = 0; i < points; ++i) {
       glm::dvec3 point = sphere.centre_world + sphere.radius * random.cube(0.9);
       if (glm::length(point - sphere.centre_world) > sphere.radius) continue;
@@ -270,7 +272,7 @@ void count_and_compare(const Scene& scene, FrameSize frame, Figures& sum) {
       });
     }
     std::vector<char> lit(pixels);
-    const LightPoint from = light_point(scene, lights[light]);
+    const LightPoint from = light_of(scene, lights[light]).point;
     std::vector<char> grazed(pixels);
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
       if (seen[pixel] == c_nothing) continue;
@@ -352,7 +354,7 @@ TEST(ShadowCount, StartsAtAnEyeWithinVolumes) {
     Scene scene = on_a_floor(random, 4);
     // Behind a solid, as the sun or the lamp sees it, and close to a volume's side every other time.
     const LightPoint light =
-        light_point(scene, {round % 2 ? LightKind::directional : LightKind::positional, 0});
+        light_of(scene, {round % 2 ? LightKind::directional : LightKind::positional, 0}).point;
     const glm::dvec3 caster = scene.positions_world[round % 4 < 2 ? 0 : 5];
     scene.camera.eye_world = caster - random.within(0.2, 1.0) * glm::normalize(light.way_from(caster)) +
                              random.within(1e-4, 0.3) * random.unit();

@@ -11,6 +11,7 @@
 
 #include "common/to_integer.hpp"
 #include "golden/triangle_walker.hpp"
+#include "scene/lights.hpp"
 #include "setup/arc.hpp"
 #include "setup/half_triangle.hpp"
 #include "shading/shade.hpp"
@@ -92,7 +93,7 @@ SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const Hardwa
       config_(golden_config(key)),
       lights_(reflected_lights(scene)),
       has_spots_(std::any_of(lights_.begin(), lights_.end(),
-                             [](LightRef light) { return light.kind == LightKind::spot; })),
+                             [&](LightRef light) { return light_of(scene, light).cone.has_value(); })),
       has_records_(key.spherical.records()),
       init_bits_(static_cast<unsigned>(preset_ == Preset::exact
                                            ? golden::SphericalLayout<Exact>(config_).init_bits()
@@ -113,24 +114,11 @@ PointVectors SphericalSetup::vectors_at(const Material& material, const SurfaceP
   glm::dvec3 to_eye = direction(point.position_world, scene_->camera.eye_world);
   if (to_eye == glm::dvec3(0.0)) to_eye = point.normal_world;
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    const LightRef ref = lights_[i];
+    const Light source = light_of(*scene_, lights_[i]);
     LightVectors& light = out.light[i];
     light = {};
-    light.spot = 1.0;
-    switch (ref.kind) {
-      case LightKind::directional:
-        light.to_light = scene_->directional[ref.index].to_light_world;
-        break;
-      case LightKind::positional:
-        light.to_light = direction(point.position_world, scene_->positional[ref.index].position_world);
-        break;
-      case LightKind::spot: {
-        const SpotLight& spot = scene_->spots[ref.index];
-        light.to_light = direction(point.position_world, spot.position_world);
-        light.spot = spot_factor(spot, -glm::dot(light.to_light, spot.axis_world));
-        break;
-      }
-    }
+    light.to_light = direction_to(source, point.position_world);
+    light.spot = cone_share(source, light.to_light);
     if (!config_.specular || !has_specular(material) || !is_there(light.to_light)) continue;
     if (material.brdf == Brdf::phong) {
       light.u = 2.0 * glm::dot(out.normal, light.to_light) * out.normal - light.to_light;
@@ -235,7 +223,7 @@ void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     const LightArcs& arcs = span.light[i];
     const int light = static_cast<int>(i);
-    const glm::dvec3 steps = 255.0 * full * arcs.spot * intensity(*scene_, lights_[i]);
+    const glm::dvec3 steps = 255.0 * full * arcs.spot * light_of(*scene_, lights_[i]).intensity;
     if (at.has_diffuse_part() && (diffuse || specular)) {
       using At = typename P::diffuse_header_at;
       const int low = at.diffuse_low(light);
@@ -270,7 +258,7 @@ double SphericalSetup::interpolation_error(const Material& material, const SpanA
     if (!(cosine > 0.0)) continue;
     const double highlight =
         has_specular(material) ? highlight_power(arcs.specular.at(t), material.exponent) : 0.0;
-    sum += arcs.spot * intensity(*scene_, lights_[i]) *
+    sum += arcs.spot * light_of(*scene_, lights_[i]).intensity *
            (cosine * material.diffuse * material.colour +
             highlight * material.specular * material.specular_colour);
   }
@@ -552,15 +540,13 @@ class SphericalSetup::ExactTriangle {
     if (has_specular(material_))
       add_turn(c.position_world - setup_.scene_->camera.eye_world, c.position_ahead);
     for (const LightRef ref : setup_.lights_) {
-      if (ref.kind == LightKind::directional) {
-        const glm::dvec3 to_light = setup_.scene_->directional[ref.index].to_light_world;
+      const Light light = light_of(*setup_.scene_, ref);
+      if (light.point.w == 0.0) {
+        const glm::dvec3& to_light = light.point.xyz_world;
         add_about(-glm::dot(c.normal_world, to_light) / glm::dot(c.normal_ahead, to_light));
         continue;
       }
-      const bool is_spot = ref.kind == LightKind::spot;
-      const glm::dvec3 light_world = is_spot ? setup_.scene_->spots[ref.index].position_world
-                                             : setup_.scene_->positional[ref.index].position_world;
-      const glm::dvec3 from_light = c.position_world - light_world;
+      const glm::dvec3 from_light = c.position_world - light.point.xyz_world;
       add_turn(from_light, c.position_ahead);
       // N.L = 0.
       for (const double s :
@@ -568,12 +554,12 @@ class SphericalSetup::ExactTriangle {
                  glm::dot(c.normal_ahead, from_light) + glm::dot(c.normal_world, c.position_ahead),
                  glm::dot(c.normal_world, from_light)))
         add_about(s);
-      if (is_spot) add_places_of_spot(setup_.scene_->spots[ref.index], from_light, c, steps, places);
+      if (light.cone) add_places_of_spot(*light.cone, from_light, c, steps, places);
     }
   }
 
   // From one place to the next where a spot's light changes its course, wherever it shines between them.
-  void add_places_of_spot(const SpotLight& spot, glm::dvec3 from_light, const Chord& c, std::int64_t steps,
+  void add_places_of_spot(const LightCone& spot, glm::dvec3 from_light, const Chord& c, std::int64_t steps,
                           std::vector<std::int64_t>& places) const {
     const glm::dvec3 ahead = c.position_ahead;
     const double along = glm::dot(from_light, spot.axis_world),
@@ -591,7 +577,7 @@ class SphericalSetup::ExactTriangle {
     std::sort(turns.begin(), turns.end());
     for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
       const glm::dvec3 there = from_light + 0.5 * (turns[i] + turns[i + 1]) * ahead;
-      if (spot_factor(spot, glm::dot(there, spot.axis_world) / glm::length(there)) == 0.0) continue;
+      if (cone_share(spot, glm::dot(there, spot.axis_world) / glm::length(there)) == 0.0) continue;
       const auto pixels = static_cast<double>(steps);
       const double from = std::floor(c.on_screen(turns[i]) * pixels),
                    to = std::ceil(c.on_screen(turns[i + 1]) * pixels),

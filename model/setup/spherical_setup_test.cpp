@@ -238,7 +238,7 @@ class Specification {
     return (span.first + steps * span.step) * arc.sweep - arc.phase;
   }
   Real strength(const LightOnSpan& on, std::size_t light, int c) const {
-    return 255 * on.spot * intensity(scene_, lights_[light])[c];
+    return 255 * on.spot * light_of(scene_, lights_[light]).intensity[c];
   }
   // Factors are held where the table's largest entry stands for 1.
   static constexpr Real c_limit = c_exact ? 65535 : 1023;

@@ -13,30 +13,6 @@ bool is_black(glm::dvec3 colour) {
   return colour == glm::dvec3(0.0);
 }
 
-const char* kind_name(LightKind kind) {
-  switch (kind) {
-    case LightKind::directional:
-      return "directional";
-    case LightKind::positional:
-      return "positional";
-    case LightKind::spot:
-      break;
-  }
-  return "spot";
-}
-
-std::size_t count_of(const Scene& scene, LightKind kind) {
-  switch (kind) {
-    case LightKind::directional:
-      return scene.directional.size();
-    case LightKind::positional:
-      return scene.positional.size();
-    case LightKind::spot:
-      break;
-  }
-  return scene.spots.size();
-}
-
 // Materials in use.
 using Worn = std::vector<const Material*>;
 
@@ -71,7 +47,7 @@ bool is_coloured(const Material& m) {
 
 std::string first_coloured_light(const Scene& scene) {
   for (const LightRef light : shining_lights(scene))
-    if (!is_grey(intensity(scene, light))) return name_of(light) + " is coloured";
+    if (!is_grey(light_of(scene, light).intensity)) return name_of(light) + " is coloured";
   return {};
 }
 
@@ -128,8 +104,8 @@ Call call_exponents(const Worn& worn, const Call& specular) {
 }
 
 Call call_lights(const Scene& scene, LightKind kind, const SceneCalls& calls) {
-  const std::size_t all = count_of(scene, kind), count = calls.count(kind);
-  if (all == 0) return {false, fmt::format("the scene has no {} light", kind_name(kind))};
+  const std::size_t all = light_count(scene, kind), count = calls.count(kind);
+  if (all == 0) return {false, fmt::format("the scene has no {} light", to_string(kind))};
   if (count > 0) return {true, fmt::format("{} of {} lights", count, calls.lights.size())};
   const std::vector<LightRef> shining = shining_lights(scene);
   const bool shine = std::any_of(shining.begin(), shining.end(), [&](LightRef l) { return l.kind == kind; });
@@ -138,27 +114,11 @@ Call call_lights(const Scene& scene, LightKind kind, const SceneCalls& calls) {
 
 }  // namespace
 
-glm::dvec3 intensity(const Scene& scene, LightRef light) {
-  switch (light.kind) {
-    case LightKind::directional:
-      return scene.directional[light.index].intensity;
-    case LightKind::positional:
-      return scene.positional[light.index].intensity;
-    case LightKind::spot:
-      break;
-  }
-  return scene.spots[light.index].intensity;
-}
-
-std::string name_of(LightRef light) {
-  return fmt::format("{} light {}", kind_name(light.kind), light.index + 1);
-}
-
 std::vector<LightRef> shining_lights(const Scene& scene) {
   std::vector<LightRef> lights;
-  for (const LightKind kind : {LightKind::directional, LightKind::positional, LightKind::spot})
-    for (std::size_t i = 0; i < count_of(scene, kind); ++i)
-      if (const LightRef light{kind, i}; !is_black(intensity(scene, light))) lights.push_back(light);
+  for_each_light(scene, [&](const Light& light) {
+    if (!is_black(light.intensity)) lights.push_back(light.ref);
+  });
   return lights;
 }
 

@@ -10,21 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "scene/lights.hpp"
 #include "scene/scene.hpp"
 
 namespace halfway {
-
-enum class LightKind { directional, positional, spot };
-
-struct LightRef {
-  LightKind kind;
-  std::size_t index;  ///< into the scene's list of that kind
-  friend bool operator==(const LightRef&, const LightRef&) = default;
-};
-
-glm::dvec3 intensity(const Scene& scene, LightRef light);
-/// Such as "positional light 2".
-std::string name_of(LightRef light);
 
 /// Lights of an intensity other than 0: directional ones, positional ones, spots, each in the scene's order.
 std::vector<LightRef> shining_lights(const Scene& scene);

@@ -36,18 +36,6 @@ struct PassedEdge {
 
 }  // namespace
 
-LightPoint light_point(const Scene& scene, LightRef light) {
-  switch (light.kind) {
-    case LightKind::directional:
-      return {scene.directional[light.index].to_light_world, 0.0};
-    case LightKind::positional:
-      return {scene.positional[light.index].position_world, 1.0};
-    case LightKind::spot:
-      break;
-  }
-  return {scene.spots[light.index].position_world, 1.0};
-}
-
 bool is_averted(const CornersWorld& corners_world, const LightPoint& light) {
   const auto& [a, b, c] = corners_world;
   return glm::dot(light.way_from(a), glm::cross(b - a, c - a)) < 0.0;

@@ -9,8 +9,8 @@
 #include <array>
 #include <glm/vec3.hpp>
 
+#include "scene/lights.hpp"
 #include "scene/scene.hpp"
-#include "shading/effects.hpp"
 
 namespace halfway {
 
@@ -20,17 +20,6 @@ inline CornersWorld corners_world(const Scene& scene, const SceneTriangle& trian
   return {scene.positions_world[triangle.position[0]], scene.positions_world[triangle.position[1]],
           scene.positions_world[triangle.position[2]]};
 }
-
-/// Where light comes from, in homogeneous coordinates.
-struct LightPoint {
-  glm::dvec3 xyz_world;  ///< a unit direction where w = 0
-  double w;              ///< 0 for a directional light, 1 for one with a place
-
-  /// Towards the light: as far as it is, or unit.
-  glm::dvec3 way_from(const glm::dvec3& point_world) const { return xyz_world - w * point_world; }
-};
-
-LightPoint light_point(const Scene& scene, LightRef light);
 
 /// Does the triangle turn its outside away from the light? One that is edge-on does not.
 bool is_averted(const CornersWorld& corners_world, const LightPoint& light);

@@ -32,9 +32,9 @@ TEST(LightRay, TakesEachKindOfLight) {
   scene.positional = {{{3, 4, 5}, {}}};
   scene.spots = {{{6, 7, 8}, {0, 1, 0}, 0.9, 0.8, {}}};
   const glm::dvec3 point(1, 1, 1);
-  EXPECT_EQ(light_point(scene, {LightKind::directional, 1}).way_from(point), glm::dvec3(0, 0, -1));
-  EXPECT_EQ(light_point(scene, {LightKind::positional, 0}).way_from(point), glm::dvec3(2, 3, 4));
-  EXPECT_EQ(light_point(scene, {LightKind::spot, 0}).way_from(point), glm::dvec3(5, 6, 7));
+  EXPECT_EQ(light_of(scene, {LightKind::directional, 1}).point.way_from(point), glm::dvec3(0, 0, -1));
+  EXPECT_EQ(light_of(scene, {LightKind::positional, 0}).point.way_from(point), glm::dvec3(2, 3, 4));
+  EXPECT_EQ(light_of(scene, {LightKind::spot, 0}).point.way_from(point), glm::dvec3(5, 6, 7));
 }
 
 TEST(LightRay, AvertedIsWhatLooksAway) {

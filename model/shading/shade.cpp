@@ -16,12 +16,6 @@ double bounded(double v, double limit) {
 
 }  // namespace
 
-glm::dvec3 direction(glm::dvec3 from, glm::dvec3 to) {
-  const glm::dvec3 v = to - from;
-  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  return largest > 0 && std::isfinite(largest) ? glm::normalize(v / largest) : glm::dvec3(0.0);
-}
-
 double highlight_power(double base, double exponent) {
   return base > 0 ? std::pow(std::min(base, 1.0), exponent) : 0.0;
 }
@@ -68,13 +62,6 @@ double specular_factor(const Material& material, glm::dvec3 normal, glm::dvec3 t
                  c_largest_specular);
 }
 
-double spot_factor(const SpotLight& light, double cos_to_axis) {
-  if (cos_to_axis >= light.cos_inner) return 1.0;
-  if (!(cos_to_axis > light.cos_outer)) return 0.0;
-  const double t = (cos_to_axis - light.cos_outer) / (light.cos_inner - light.cos_outer);
-  return t * t * (3.0 - 2.0 * t);
-}
-
 glm::dvec3 radiance(const Scene& scene, const Material& material, glm::dvec3 position_world,
                     glm::dvec3 normal_world, const LightFilter& reaches) {
   const glm::dvec3 to_eye = [&] {
@@ -85,26 +72,14 @@ glm::dvec3 radiance(const Scene& scene, const Material& material, glm::dvec3 pos
   const glm::dvec3 specular_colour = material.specular * material.specular_colour;
 
   glm::dvec3 sum = scene.ambient * (material.ambient * material.colour);
-  const auto add = [&](LightRef light, glm::dvec3 intensity, glm::dvec3 to_light) {
-    const double n_dot_l = glm::dot(normal_world, to_light);
-    if (!(n_dot_l > 0) || (reaches && !reaches(light))) return;
-    sum += intensity * (n_dot_l * diffuse_colour +
-                        specular_factor(material, normal_world, to_light, to_eye) * specular_colour);
-  };
-  for (std::size_t i = 0; i < scene.directional.size(); ++i) {
-    const DirectionalLight& light = scene.directional[i];
-    add({LightKind::directional, i}, light.intensity, light.to_light_world);
-  }
-  for (std::size_t i = 0; i < scene.positional.size(); ++i) {
-    const PositionalLight& light = scene.positional[i];
-    add({LightKind::positional, i}, light.intensity, direction(position_world, light.position_world));
-  }
-  for (std::size_t i = 0; i < scene.spots.size(); ++i) {
-    const SpotLight& light = scene.spots[i];
-    const glm::dvec3 to_light = direction(position_world, light.position_world);
-    const double factor = spot_factor(light, -glm::dot(to_light, light.axis_world));
-    if (factor > 0) add({LightKind::spot, i}, factor * light.intensity, to_light);
-  }
+  for_each_light(scene, [&](const Light& light) {
+    const glm::dvec3 to_light = direction_to(light, position_world);
+    const double share = cone_share(light, to_light), n_dot_l = glm::dot(normal_world, to_light);
+    if (!(share > 0) || !(n_dot_l > 0) || (reaches && !reaches(light.ref))) return;
+    sum += share * light.intensity *
+           (n_dot_l * diffuse_colour +
+            specular_factor(material, normal_world, to_light, to_eye) * specular_colour);
+  });
   for (int i = 0; i < 3; ++i) sum[i] = bounded(sum[i], c_largest_radiance);
   return sum;
 }

@@ -5,8 +5,8 @@
 #include <functional>
 #include <glm/vec3.hpp>
 
+#include "scene/lights.hpp"
 #include "scene/scene.hpp"
-#include "shading/effects.hpp"
 
 namespace halfway {
 
@@ -38,14 +38,8 @@ double cook_torrance_geometry(double n_dot_l, double n_dot_v, double length2_l_p
 /// c_largest_specular.
 double specular_factor(const Material& material, glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye);
 
-/// Smoothstep from 0 at cos_outer to 1 at cos_inner; a step where they are equal.
-double spot_factor(const SpotLight& light, double cos_to_axis);
-
 /// Whether a light reaches the point in question; without a function every one does.
 using LightFilter = std::function<bool(LightRef)>;
-
-/// Unit vector from one point to another, zero where they coincide.
-glm::dvec3 direction(glm::dvec3 from, glm::dvec3 to);
 
 /// Radiance towards the eye: I_a k_a colour, and from each light I (k_d colour max(N.L, 0) + k_s
 /// specular_colour specular). Linear, not clamped to 1; finite and >= 0. `normal_world` is unit. A light at

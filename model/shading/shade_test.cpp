@@ -190,17 +190,15 @@ TEST(Shade, BeckmannIsAProjectedDensity) {
 }
 
 TEST(Shade, SpotFallsSmoothlyFromInnerToOuter) {
-  SpotLight light;
-  light.cos_inner = 0.75;
-  light.cos_outer = 0.25;
-  EXPECT_EQ(spot_factor(light, 0.75), 1.0);
-  EXPECT_EQ(spot_factor(light, 0.5), 0.5);
-  EXPECT_EQ(spot_factor(light, 0.375), 0.15625);  // 3/16 - 2/64
-  EXPECT_EQ(spot_factor(light, 0.25), 0.0);
-  EXPECT_EQ(spot_factor(light, -1.0), 0.0);
+  LightCone light{.axis_world = {0, 0, 1}, .cos_inner = 0.75, .cos_outer = 0.25};
+  EXPECT_EQ(cone_share(light, 0.75), 1.0);
+  EXPECT_EQ(cone_share(light, 0.5), 0.5);
+  EXPECT_EQ(cone_share(light, 0.375), 0.15625);  // 3/16 - 2/64
+  EXPECT_EQ(cone_share(light, 0.25), 0.0);
+  EXPECT_EQ(cone_share(light, -1.0), 0.0);
   light.cos_outer = 0.75;
-  EXPECT_EQ(spot_factor(light, 0.75), 1.0);
-  EXPECT_EQ(spot_factor(light, std::nextafter(0.75, 0.0)), 0.0);
+  EXPECT_EQ(cone_share(light, 0.75), 1.0);
+  EXPECT_EQ(cone_share(light, std::nextafter(0.75, 0.0)), 0.0);
 }
 
 TEST(Shade, RadianceSumsTheTermsOfEachLight) {

@@ -25,6 +25,7 @@
 
 #include "frame/frame.hpp"
 #include "scene/camera.hpp"
+#include "scene/lights.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/seconds.hpp"
@@ -99,11 +100,18 @@ Result<GLuint> make_shader(GLenum kind, const std::string& text) {
 class Picture {
  public:
   static Result<Picture> make(const Scene& scene, FrameSize size) {
-    if (!scene.spots.empty() || scene.shadows) return bad_input("no spots and no shadows here");
+    if (scene.shadows) return bad_input("OpenGL draws no shadows here: take a scene without them");
+    std::size_t lights = 0;
+    Status drawn = Ok{};
+    for_each_light(scene, [&](const Light& light) {
+      ++lights;
+      if (light.cone)
+        drawn = bad_input(fmt::format("{}: OpenGL draws no cone here: leave it out", name_of(light.ref)));
+    });
+    if (!drawn) return drawn.error();
     for (const Material& m : scene.materials)
       if (m.brdf != Brdf::blinn) return bad_input(fmt::format("material '{}': Blinn's alone here", m.name));
     Picture picture(scene, size);
-    const std::size_t lights = scene.directional.size() + scene.positional.size();
     const auto vertex = make_shader(GL_VERTEX_SHADER, c_vertex_shader);
     if (!vertex) return vertex.error();
     const auto fragment =
@@ -185,14 +193,12 @@ class Picture {
 
   void set_lights() const {
     int i = 0;
-    const auto add = [&](glm::dvec3 at, float w, glm::dvec3 intensity) {
-      const glm::vec3 l(at);
-      glUniform4f(glGetUniformLocation(program_, fmt::format("light[{}]", i).c_str()), l.x, l.y, l.z, w);
-      set(fmt::format("intensity[{}]", i++).c_str(), intensity);
-    };
-    for (const DirectionalLight& light : scene_->directional)
-      add(light.to_light_world, 0.0F, light.intensity);
-    for (const PositionalLight& light : scene_->positional) add(light.position_world, 1.0F, light.intensity);
+    for_each_light(*scene_, [&](const Light& light) {
+      const glm::vec3 from(light.point.xyz_world);
+      glUniform4f(glGetUniformLocation(program_, fmt::format("light[{}]", i).c_str()), from.x, from.y, from.z,
+                  static_cast<float>(light.point.w));
+      set(fmt::format("intensity[{}]", i++).c_str(), light.intensity);
+    });
   }
 
   void load_triangles() {

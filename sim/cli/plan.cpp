@@ -141,7 +141,7 @@ Result<CellsByKey> count_all(const Plan& plan, const SimulatorFolders& folders, 
   std::mutex mutex;
   CellsByKey cells;
   Status all = for_each_on_threads(threads, keys.size(), [&](std::size_t i) -> Status {
-    const auto counted = counter.count(keys[i]);
+    const auto counted = counter->count(keys[i]);
     if (!counted) return counted.error();
     const std::scoped_lock lock(mutex);
     cells[keys[i].name()] = *counted;

@@ -13,6 +13,7 @@
 #include "common/to_integer.hpp"
 #include "reference/spherical_renderer.hpp"
 #include "scene/builtin_meshes.hpp"
+#include "scene/lights.hpp"
 #include "setup/arc.hpp"
 #include "shading/bell.hpp"
 #include "shading/shade.hpp"
@@ -622,10 +623,9 @@ double largest_scheme_angle(const Scene& scene, FrameSize size) {
             {largest, scheme_angle({n[0], n[1]}, {l0, l1}),
              scheme_angle({n[0], n[1]}, {glm::normalize(l0 + to_eye[0]), glm::normalize(l1 + to_eye[1])})});
       };
-      for (const DirectionalLight& light : scene.directional) add(light.to_light_world, light.to_light_world);
-      for (const PositionalLight& light : scene.positional)
-        add(direction(ends[0]->position_world, light.position_world),
-            direction(ends[1]->position_world, light.position_world));
+      for_each_light(scene, [&](const Light& light) {
+        add(direction_to(light, ends[0]->position_world), direction_to(light, ends[1]->position_world));
+      });
     }
   return largest;
 }

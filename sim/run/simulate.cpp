@@ -12,6 +12,7 @@
 
 #include "frame/assemble.hpp"
 #include "reference/renderer.hpp"
+#include "scene/lights.hpp"
 #include "setup/spherical_setup.hpp"
 #include "shading/effects.hpp"
 #include "sim/compare/limits.hpp"
@@ -181,7 +182,7 @@ class Simulation {
       const Material& m = scene_.materials[i];
       if (!worn[i]) continue;
       for (const LightRef light : reflected_lights(scene_)) {
-        const glm::dvec3 in = intensity(scene_, light);
+        const glm::dvec3 in = light_of(scene_, light).intensity;
         for (int c = 0; c < 3; ++c)
           brightest = std::max(brightest,
                                in[c] * std::max(m.diffuse * m.colour[c], m.specular * m.specular_colour[c]));

@@ -22,6 +22,7 @@
 #include "common/to_integer.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
+#include "scene/lights.hpp"
 #include "scene/mesh.hpp"
 #include "sim/scene_files/load_mesh.hpp"
 #include "sim/system/file.hpp"
@@ -283,7 +284,7 @@ class SceneReader {
     if (scene_.triangles.empty()) {
       throw BadScene(bad_input(file_ + ": the scene has no mesh; add a [[mesh]]"));
     }
-    if (scene_.directional.empty() && scene_.positional.empty() && scene_.spots.empty()) {
+    if (light_count(scene_) == 0) {
       scene_.notes.push_back(file_ + ": no light; only the ambient term is drawn");
     }
     if (fit.has_value()) scene_.camera = fit->camera(scene_);

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "scene/lights.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/pictures/image.hpp"
 #include "sim/pictures/image_library.hpp"
@@ -100,22 +101,14 @@ std::string scene_hash(const Scene& scene) {
   for (const glm::dvec3& v : {c.eye_world, c.target_world, c.up_world, scene.ambient, scene.background})
     add_vector(hash, v);
   add_numbers(hash, {c.vertical_fov_degrees, c.near, c.far, scene.shadows ? 1.0 : 0.0});
-  for (const DirectionalLight& light : scene.directional) {
-    add_vector(hash, light.to_light_world);
+  for_each_light(scene, [&](const Light& light) {
+    hash.add(to_string(light.ref.kind));
+    add_vector(hash, light.point.xyz_world);
     add_vector(hash, light.intensity);
-  }
-  hash.add("positional");
-  for (const PositionalLight& light : scene.positional) {
-    add_vector(hash, light.position_world);
-    add_vector(hash, light.intensity);
-  }
-  hash.add("spots");
-  for (const SpotLight& light : scene.spots) {
-    add_vector(hash, light.position_world);
-    add_vector(hash, light.axis_world);
-    add_numbers(hash, {light.cos_inner, light.cos_outer});
-    add_vector(hash, light.intensity);
-  }
+    if (!light.cone) return;
+    add_vector(hash, light.cone->axis_world);
+    add_numbers(hash, {light.cone->cos_inner, light.cone->cos_outer});
+  });
   hash.add("materials");
   for (const Material& m : scene.materials) {
     add_vector(hash, m.colour);

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/lights.hpp"
 #include "sim/pictures/image_library.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
@@ -102,6 +103,20 @@ TEST(SceneHash, ChangesWithEveryNumberThatAPictureDependsOn) {
   changes.emplace_back("corner", [](Scene& s) { s.triangles.back().position[2] ^= 1U; });
   changes.emplace_back("corner's normal", [](Scene& s) { s.triangles.back().normal[2] ^= 1U; });
   changes.emplace_back("material of a triangle", [](Scene& s) { s.triangles.back().material ^= 1U; });
+  for (const LightKind kind : c_light_kinds)
+    changes.emplace_back(to_string(kind), [kind](Scene& s) {
+      switch (kind) {
+        case LightKind::directional:
+          s.directional.emplace_back();
+          break;
+        case LightKind::positional:
+          s.positional.emplace_back();
+          break;
+        case LightKind::spot:
+          s.spots.emplace_back();
+          break;
+      }
+    });
   changes.emplace_back("a light less", [](Scene& s) { s.positional.pop_back(); });
   changes.emplace_back("a spot less", [](Scene& s) { s.spots.pop_back(); });
   changes.emplace_back("a material less", [](Scene& s) { s.materials.pop_back(); });

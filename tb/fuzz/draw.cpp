@@ -14,6 +14,7 @@
 #include "reference/renderer.hpp"
 #include "reference/spherical_renderer.hpp"
 #include "scene/camera.hpp"
+#include "scene/lights.hpp"
 #include "sim/run/scene_stream.hpp"
 
 namespace halfway::fuzz {
@@ -78,14 +79,16 @@ void demand_fit(const Scene& scene) {
     demand(std::isfinite(m.exponent) && m.exponent >= 1.0, "exponent at least 1");
     demand(m.roughness > 0.0 && m.roughness <= 1.0 && m.reflectance <= 1.0, "roughness and reflectance");
   }
-  for (const DirectionalLight& light : scene.directional)
-    demand(is_unit(light.to_light_world) && is_colour(light.intensity), "directional light");
-  for (const PositionalLight& light : scene.positional)
-    demand(is_finite(light.position_world) && is_colour(light.intensity), "positional light");
-  for (const SpotLight& light : scene.spots)
-    demand(is_finite(light.position_world) && is_unit(light.axis_world) && is_colour(light.intensity) &&
-               light.cos_outer <= light.cos_inner && light.cos_inner <= 1.0 && light.cos_outer >= -1e-9,
-           "spot light");
+  for_each_light(scene, [](const Light& light) {
+    const bool from_fit =
+        light.point.w == 0.0 ? is_unit(light.point.xyz_world) : is_finite(light.point.xyz_world);
+    demand(from_fit && is_colour(light.intensity), to_string(light.ref.kind));
+    if (!light.cone) return;
+    const LightCone& cone = *light.cone;
+    demand(is_unit(cone.axis_world) && cone.cos_outer <= cone.cos_inner && cone.cos_inner <= 1.0 &&
+               cone.cos_outer >= -1e-9,
+           "cone");
+  });
   for (const glm::dvec3& position : scene.positions_world) demand(is_finite(position), "positions finite");
   for (const glm::dvec3& normal : scene.normals_world) demand(is_unit(normal), "unit normals");
   for (const SceneTriangle& triangle : scene.triangles) {

@@ -24,6 +24,7 @@
 #include "reference/ray_cast.hpp"
 #include "reference/renderer.hpp"
 #include "scene/check_numbers.hpp"
+#include "scene/lights.hpp"
 #include "setup/init_vector.hpp"
 #include "setup/test/gmp_numbers.hpp"
 #include "setup/test/random_scenes.hpp"
@@ -461,7 +462,7 @@ void extremes_in_the_reference(Trial& trial) {
       for (std::size_t corner = 9; corner < 12; ++corner) scene.positions_world[corner][axis] = value;
       scene.directional.push_back({random.unit(), glm::dvec3(1.0)});
       const ShadowRays rays(scene);
-      const LightPoint light = light_point(scene, {LightKind::directional, 0});
+      const LightPoint light = light_of(scene, {LightKind::directional, 0}).point;
       for (int i = 0; i < trial.rounds(10, 1000); ++i) {
         const LightRay ray(2.0 * random.cube(), light);
         const bool blocked = std::ranges::any_of(scene.triangles, [&](const SceneTriangle& t) {

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "scene/lights.hpp"
 #include "setup/test/random_scenes.hpp"
 #include "shading/shade.hpp"
 #include "stability/hard_case.hpp"
@@ -82,11 +83,10 @@ double radiance_error(const Scene& scene, const Material& m, const LongVec& posi
     error += (long double)std::max({intensity.x, intensity.y, intensity.z}) *
              ((long double)m.diffuse * 5 * c_epsilon + (long double)m.specular * highlight);
   };
-  for (const DirectionalLight& light : scene.directional) add(LongVec(light.to_light_world), light.intensity);
-  for (const PositionalLight& light : scene.positional)
-    add(glm::normalize(LongVec(light.position_world) - position), light.intensity);
-  for (const SpotLight& light : scene.spots)
-    add(glm::normalize(LongVec(light.position_world) - position), light.intensity);
+  for_each_light(scene, [&](const Light& light) {
+    const LongVec from(light.point.xyz_world);
+    add(light.point.w == 0.0 ? from : glm::normalize(from - position), light.intensity);
+  });
   const LongVec sum = radiance(scene, m, position, normal);
   return static_cast<double>(255 * (error + 8 * c_epsilon * std::max({sum.x, sum.y, sum.z})));
 }
@@ -333,14 +333,14 @@ void spots_without_an_edge(Trial& trial) {
                  cosine = random.one_in(3)   ? inner
                           : random.one_in(2) ? outer
                                              : random.within(-1.0, 1.0);
-    const SpotLight spot{.cos_inner = inner, .cos_outer = outer};
+    const LightCone cone{.axis_world = {0, 0, 1}, .cos_inner = inner, .cos_outer = outer};
     const long double t = inner > outer ? ((long double)cosine - outer) / ((long double)inner - outer) : 0.0L;
     const long double truth = cosine >= inner ? 1.0L : cosine <= outer ? 0.0L : t * t * (3 - 2 * t);
     const auto where = [&] { return fmt::format("cosine {} between {} and {}", cosine, outer, inner); };
     // Two differences, a quotient, and the polynomial, whose slope is 3/2 at most: 8 roundings.
     const double printed = std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
     const auto off = [&](double share) { return or_infinity(std::fabs(share - truth)); };
-    trial.both(off(spot_factor(spot, cosine)), off(printed * printed * (3 - 2 * printed)), 8 * c_epsilon,
+    trial.both(off(cone_share(cone, cosine)), off(printed * printed * (3 - 2 * printed)), 8 * c_epsilon,
                where);
   }
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "scene/camera.hpp"
+#include "scene/lights.hpp"
 #include "scene/scene.hpp"
 #include "setup/init_vector.hpp"
 #include "setup/screen_triangle.hpp"
@@ -134,15 +135,15 @@ class ShadingBound {
     return out;
   }
 
-  void add_light(Promise& promise, const Material& m, const Surface& s, LightRef light) const {
-    const LongVec in(intensity(scene_, light));
+  void add_light(Promise& promise, const Material& m, const Surface& s, LightRef ref) const {
+    const Light light = light_of(scene_, ref);
+    const LongVec in(light.intensity);
     LongVec to_light(0.0L);
     long double light_error = c_direction;
-    if (light.kind == LightKind::directional) {
-      to_light = LongVec(scene_.directional[light.index].to_light_world);
+    if (light.point.w == 0.0) {
+      to_light = LongVec(light.point.xyz_world);
     } else {
-      const LongVec place(light.kind == LightKind::spot ? scene_.spots[light.index].position_world
-                                                        : scene_.positional[light.index].position_world);
+      const LongVec place(light.point.xyz_world);
       const LongVec way = place - s.position;
       const long double distance = glm::length(way),
                         from_eye = glm::length(place - LongVec(scene_.camera.eye_world));
@@ -155,9 +156,9 @@ class ShadingBound {
     const Interval lambert = about(n_dot_l, s.normal_error + light_error + c_cosine);
     long double share = 1.0L;
     Interval share_range{1.0L, 1.0L};
-    if (light.kind == LightKind::spot)
-      share_of(scene_.spots[light.index], -glm::dot(to_light, LongVec(scene_.spots[light.index].axis_world)),
-               light_error + c_direction, share, share_range);
+    if (light.cone)
+      share_of(*light.cone, -glm::dot(to_light, LongVec(light.cone->axis_world)), light_error + c_direction,
+               share, share_range);
     const Interval diffuse_range =
         clamped(clamped(lambert, 0.0L, 1.0L) + Interval{-c_half_weight, c_half_weight}, 0.0L, 1.0L);
     const LongVec half = to_light + s.to_eye;
@@ -200,7 +201,7 @@ class ShadingBound {
 
   // spot_cone.vhd: t^2 (3 - 2 t), off by 3.5 2^-16; and more for the steepest; one over the width is
   // rounded to 2^-6, and held at 2^18.
-  static void share_of(const SpotLight& spot, long double cosine, long double error, long double& share,
+  static void share_of(const LightCone& spot, long double cosine, long double error, long double& share,
                        Interval& range) {
     const auto smooth = [](long double t) {
       t = std::clamp(t, 0.0L, 1.0L);

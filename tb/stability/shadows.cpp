@@ -11,6 +11,7 @@
 #include "golden/word.hpp"
 #include "golden_run/golden_run.hpp"
 #include "scene/builtin_meshes.hpp"
+#include "scene/lights.hpp"
 #include "setup/init_vector.hpp"
 #include "setup/project.hpp"
 #include "setup/shadow_volume.hpp"
@@ -41,7 +42,7 @@ class Rays {
       : scene_(scene), corners_(all_corners(scene)), lights_(reflected_lights(scene)) {}
 
   LongVec way_to(std::size_t light, const LongVec& point) const {
-    const LightPoint from = light_point(scene_, lights_[light]);
+    const LightPoint from = light_of(scene_, lights_[light]).point;
     return LongVec(from.xyz_world) - (long double)from.w * point;
   }
   long double grazing(std::size_t light, const LongVec& point, std::uint32_t triangle) const {
@@ -51,7 +52,7 @@ class Rays {
   }
 
   bool reaches(std::size_t light, const LongVec& point, std::uint32_t triangle) const {
-    const LightPoint from = light_point(scene_, lights_[light]);
+    const LightPoint from = light_of(scene_, lights_[light]).point;
     const LongVec way = way_to(light, point);
     if (slope(triangle, way) < 0.0L) return false;
     for (std::uint32_t t = 0; t < corners_.size(); ++t)
@@ -291,7 +292,8 @@ void shared_edges(Trial& trial) {
 
 void within_volumes(Trial& trial) {
   cast_on_floors(trial, 8, [](RandomSolids& random, Scene& scene, int i) {
-    const LightPoint light = light_point(scene, {i % 2 ? LightKind::directional : LightKind::positional, 0});
+    const LightPoint light =
+        light_of(scene, {i % 2 ? LightKind::directional : LightKind::positional, 0}).point;
     const glm::dvec3 caster = scene.positions_world[i % 4 < 2 ? 0 : 5];
     scene.camera.eye_world = caster - random.within(0.2, 1.0) * glm::normalize(light.way_from(caster)) +
                              random.within(1e-4, 0.3) * random.unit();

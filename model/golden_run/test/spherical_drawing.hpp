@@ -13,6 +13,7 @@
 
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
+#include "scene/lights.hpp"
 #include "setup/spherical_setup.hpp"
 #include "shading/effects.hpp"
 #include "tables/cosine.hpp"
@@ -91,7 +92,7 @@ inline double promised_steps(const Scene& scene, const HardwareKey& key, double 
     const Bell bell = fitted_bell(exponent);
     double steps = threshold + 0.5 + 0x1p-9;
     for (const LightRef light : shining_lights(scene)) {
-      const glm::dvec3 in = intensity(scene, light);
+      const glm::dvec3 in = light_of(scene, light).intensity;
       steps +=
           255.0 * std::max({in.x, in.y, in.z}) *
               ((has_diffuse(m) ? m.diffuse * error(1) : 0.0) +
