@@ -124,8 +124,6 @@ int run(const Folders& folders, const SimOptions& options) {
   settings.ghdl = simulators->ghdl;
   settings.verilator = simulators->verilator;
   settings.lanes = simulators->lanes;
-  if (settings.lanes && settings.stall_seed != 0)
-    return report(bad_input("--simulator lanes: they know no stalls; leave --stalls out"));
   std::vector<std::string> scenes = options.scenes;
   if (scenes.empty()) {
     auto builtin = builtin_scenes(folders);

@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-#define HALFWAY_LANES_VERSION 2
+#define HALFWAY_LANES_VERSION 3
 
 /* Whole triangles, drawn by one lane from idle to idle. */
 typedef struct {
@@ -39,7 +39,8 @@ const HalfwayFragment* halfway_lanes_take(void* lanes, uint32_t lane, size_t cou
 uint64_t halfway_lanes_cycles(const void* lanes);
 uint32_t halfway_lanes_count(void);
 uint32_t halfway_lanes_version(void);
-void* halfway_lanes_create(uint32_t owner, uint64_t idle_limit);
+/* `stall_seed`: of the random stalls of a library built with HALFWAY_STALLS; else unused. */
+void* halfway_lanes_create(uint32_t owner, uint64_t idle_limit, uint32_t stall_seed);
 void halfway_lanes_destroy(void* lanes);
 
 #ifdef __cplusplus

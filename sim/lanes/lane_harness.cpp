@@ -23,9 +23,69 @@ constexpr std::size_t kBlock = 256;  // clocks between two looks at the room for
 constexpr std::size_t kKeptRoom = std::size_t{1} << 21;
 constexpr int kResetClocks = 4, kLateClocks = 8;  // as in sim/verilator/harness.cpp
 
+#ifdef HALFWAY_STALLS
+// Random stalls of both streams, each lane for itself: a vector is offered late and then stays, a fragment
+// waits. What waits must not change.
+class Stalls {
+ public:
+  explicit Stalls(std::uint32_t seed) : random_(seed * 2654435761u | 1u) {}
+
+  /// Before the edge: sets what this clock offers and accepts.
+  void drive(Inputs& in, std::uint32_t waiting) {
+    offered_ = (offered_ | (next_random() >> 16)) & waiting;
+    ready_ = next_random() >> 16;
+    in.init_valid = to_mask(offered_);
+    in.fragment_ready = to_mask(ready_);
+  }
+  std::uint32_t offered() const { return offered_; }
+  std::uint32_t ready() const { return ready_; }
+  void taken(std::uint32_t lanes) { offered_ &= ~lanes; }
+
+  /// After the edge: the lanes whose waiting fragment changed.
+  std::uint32_t changed(const Outputs& out) {
+    const std::uint32_t valid = to_bits(out.fragment_valid);
+    const M same = equal(out.fragment_triangle, held_.fragment_triangle) &
+                   equal(out.fragment_z, held_.fragment_z) & equal(out.fragment_y, held_.fragment_y) &
+                   equal(out.fragment_x, held_.fragment_x) & equal(out.fragment_red, held_.fragment_red) &
+                   equal(out.fragment_green, held_.fragment_green) &
+                   equal(out.fragment_blue, held_.fragment_blue);
+    const std::uint32_t changed = holding_ & ~(valid & to_bits(same));
+    held_ = out;
+    holding_ = valid & ~ready_;
+    return changed;
+  }
+
+ private:
+  std::uint32_t next_random() {
+    random_ ^= random_ << 13;
+    random_ ^= random_ >> 17;
+    random_ ^= random_ << 5;
+    return random_;
+  }
+
+  std::uint32_t random_, offered_ = 0, ready_ = 0, holding_ = 0;
+  Outputs held_{};
+};
+#else
+// Full speed: `fragment_ready` is a constant of the generated text.
+class Stalls {
+ public:
+  explicit Stalls(std::uint32_t) {}
+  void drive(Inputs& in, std::uint32_t waiting) { in.init_valid = to_mask(offered_ = waiting); }
+  std::uint32_t offered() const { return offered_; }
+  static std::uint32_t ready() { return ~0u; }
+  static void taken(std::uint32_t) {}
+  static std::uint32_t changed(const Outputs&) { return 0; }
+
+ private:
+  std::uint32_t offered_ = 0;
+};
+#endif
+
 class Lanes {
  public:
-  Lanes(std::uint32_t owner, std::uint64_t idle_limit) : owner_(owner), idle_limit_(idle_limit) {
+  Lanes(std::uint32_t owner, std::uint64_t idle_limit, std::uint32_t stall_seed)
+      : owner_(owner), idle_limit_(idle_limit), stalls_(stall_seed + owner) {
     Outputs out;
     for (int i = 0; i < kResetClocks; ++i) reset_step(state_, in_, out);
   }
@@ -141,9 +201,10 @@ class Lanes {
 
   void offer(unsigned i) {
     const Lane& lane = lanes_[i];
-    const std::uint32_t bit = 1u << i, others = to_bits(in_.init_valid) & ~bit;
-    in_.init_valid = to_mask(lane.vectors == 0 ? others : others | bit);
+    const std::uint32_t bit = 1u << i;
+    waiting_ &= ~bit;
     if (lane.vectors == 0) return;
+    waiting_ |= bit;
     set_init_data(in_, i, lane.words);
   }
 
@@ -177,18 +238,21 @@ class Lanes {
     std::size_t clock = 0;
     while (clock < kBlock && goes()) {
       Outputs out;
-      const std::uint32_t offered = to_bits(in_.init_valid);
+      const std::uint32_t offered = waiting_;
+      stalls_.drive(in_, waiting_);
       step(state_, in_, out);
-      const std::uint32_t take = offered & to_bits(out.init_ready), drawn = to_bits(out.fragment_valid);
+      const std::uint32_t take = stalls_.offered() & to_bits(out.init_ready);
+      const std::uint32_t valid = to_bits(out.fragment_valid), drawn = valid & stalls_.ready();
+      stalls_.taken(take);
       write(out, clock++);
       // Most lanes have a fragment in most clocks: only where there is none the place does not move.
       for (std::uint32_t none = active_ & ~drawn; none != 0; none &= none - 1)
         --lanes_[std::countr_zero(none)].next;
       moved |= take | drawn;
-      faults_ |= to_bits(out.fault);
+      faults_ |= to_bits(out.fault) | stalls_.changed(out);
       cycles_ += static_cast<unsigned>(std::popcount(active_));
       if (take != 0) taken(take);
-      const std::uint32_t idle = active_ & ~(offered | drawn | to_bits(out.busy));
+      const std::uint32_t idle = active_ & ~(offered | valid | to_bits(out.busy));
       if (idle != 0) ended(idle, clock);
     }
     for (std::uint32_t left = active_; left != 0; left &= left - 1)
@@ -210,6 +274,8 @@ class Lanes {
   const HalfwayBatch* batch_ = nullptr;
   std::uint32_t owner_;
   std::uint64_t idle_limit_, cycles_ = 0;
+  Stalls stalls_;
+  std::uint32_t waiting_ = 0;  // lanes with a vector that is not taken
 };
 
 }  // namespace
@@ -233,8 +299,8 @@ HALFWAY_EXPORT uint32_t halfway_lanes_count(void) {
 HALFWAY_EXPORT uint32_t halfway_lanes_version(void) {
   return HALFWAY_LANES_VERSION;
 }
-HALFWAY_EXPORT void* halfway_lanes_create(uint32_t owner, uint64_t idle_limit) {
-  return new Lanes(owner, idle_limit);
+HALFWAY_EXPORT void* halfway_lanes_create(uint32_t owner, uint64_t idle_limit, uint32_t stall_seed) {
+  return new Lanes(owner, idle_limit, stall_seed);
 }
 HALFWAY_EXPORT void halfway_lanes_destroy(void* lanes) {
   delete static_cast<Lanes*>(lanes);

@@ -59,7 +59,7 @@ struct LaneSimulator::State : Hardware {
 
   void create_lanes() {
     for (unsigned i = 0; i < std::max(options.threads, 1U); ++i)
-      threads.push_back(create(i, std::max<std::uint64_t>(options.idle_limit, 1)));
+      threads.push_back(create(i, std::max<std::uint64_t>(options.idle_limit, 1), options.stall_seed));
   }
   void destroy_lanes() {
     for (void* thread : threads) {
@@ -241,16 +241,23 @@ Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const Simulato
   const unsigned init_bits = port_bits(*netlist, key.entity(), "init_data");
   if (init_bits == 0)
     return tool_failed(fmt::format("{}: the netlist has no module with the port init_data", key.name()));
-  const LaneBuild build{.name = key.name(),
+  const bool stalls = options.stall_seed != 0;
+  std::map<std::string, bool> fixed;
+  std::vector<std::string> definitions = {fmt::format("HALFWAY_INIT_BITS={}", init_bits)};
+  if (stalls)
+    definitions.emplace_back("HALFWAY_STALLS=1");
+  else
+    fixed["fragment_ready"] = true;
+  const LaneBuild build{.name = key.name() + (stalls ? "-stalls" : ""),
                         .netlist = std::move(*netlist),
                         .top = key.entity(),
-                        .ports = {.fixed = {{"fragment_ready", true}},
+                        .ports = {.fixed = fixed,
                                   .outputs = {"init_ready", "fragment_valid", "fragment_triangle",
                                               "fragment_y", "fragment_x", "fragment_z", "fragment_red",
                                               "fragment_green", "fragment_blue", "busy", "fault"}},
                         .harness = folders.source / "sim/lanes/lane_harness.cpp",
                         .source = folders.source,
-                        .definitions = {fmt::format("HALFWAY_INIT_BITS={}", init_bits)},
+                        .definitions = definitions,
                         .fast = options.fast,
                         .compiler = options.compiler};
   auto library = open_lanes(build, folders.cache);
@@ -297,11 +304,24 @@ Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t
                                  init_words.size(), s.init_bits));
   if (s.drawing) s.replace_lanes();
   s.drawing = true;
+  // Count the vectors of the parts: a part that is lost here is missed by no comparison of parts.
+  std::size_t counted = 0;
+  bool in_order = true;
+  const OnDrawn count = [&](std::span<const std::uint32_t> words, std::span<const Fragment> fragments) {
+    in_order = in_order && words.data() == init_words.data() + counted;
+    counted += words.size();
+    on_drawn(words, fragments);
+  };
   Passage passage(s, init_words, max_fragments);
   while (passage.add_parts()) {
     if (Status drawn = passage.draw(); !drawn) return drawn;
-    if (Status taken = passage.hand_on(on_drawn); !taken) return taken;
+    if (Status taken = passage.hand_on(count); !taken) return taken;
   }
+  if (!in_order || counted != init_words.size())
+    return Error{ExitCode::differs,
+                 fmt::format("{} in lanes: {} init vectors in, parts of {} out{}; please report it",
+                             s.key.name(), init_words.size() / s.vector_words(), counted / s.vector_words(),
+                             in_order ? "" : ", in another order")};
   s.drawing = false;
   return Ok{};
 }

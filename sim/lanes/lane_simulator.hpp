@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A shader's RTL in lanes: many copies of the hardware in one vector of the processor, each with triangles of
-// its own. The same fragments as from VerilatorSimulator, several times as fast; no stalls, probes or waves.
+// its own. The same fragments as from VerilatorSimulator, several times as fast; no probes or waves.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +23,8 @@ struct LaneOptions {
   std::uint64_t idle_limit = 100'000;  ///< cycles in which nothing moves in a lane: a hang
   /// Fragments a thread that wait for a part in front of theirs, from which on no part is begun.
   std::size_t most_waiting = std::size_t{1} << 21;
+  std::uint32_t stall_seed =
+      0;                   ///< 0: full speed; else both streams stall at random, in each lane for itself
   bool fast = true;        ///< worth a long compilation
   std::string compiler{};  ///< empty: clang++ where it is installed, else g++
 };
@@ -51,8 +53,9 @@ class LaneSimulator {
   /// Draws whole triangles from idle to idle, and hands on their fragments part by part in the order of a
   /// single stream, whatever the number of lanes and threads; this thread calls `on_drawn`. More than
   /// `max_fragments` is an error, and so are more than the vectors cover, and some. A fault of the hardware
-  /// (a hang) has the exit code `differs`; some parts may have been handed on then. After an error the next
-  /// call begins with lanes just reset. More vectors in a call are faster: thousands.
+  /// (a hang) has the exit code `differs`, and so has a part of the vectors that was not handed on, or not in
+  /// its place; some parts may have been handed on then. After an error the next call begins with lanes just
+  /// reset. More vectors in a call are faster: thousands.
   ///
   /// Lanes go on from part to part and wait for one another at a call's end alone, and where `most_waiting`
   /// fragments wait. Memory does not grow with a call's vectors: a thread's lanes hold that many and a part

@@ -106,6 +106,19 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
   }
 }
 
+TEST_P(ShadersInLanes, DrawTheSameWithRandomStalls) {
+  for (const std::uint32_t seed : {1U, 7U}) {
+    auto lanes = LaneSimulator::open(key_, kFolders, {.threads = 2, .stall_seed = seed, .fast = false});
+    ASSERT_TRUE(lanes) << lanes.error().message;
+    std::vector<Fragment> drawn;
+    const Status ran = lanes->run(words_, words_.size() / words_per_vector_, drawn, kMost);
+    ASSERT_TRUE(ran) << ran.error().message;
+    EXPECT_TRUE(drawn == expected_) << "seed " << seed;
+    // Half of all fragments wait a clock or more.
+    EXPECT_GT(lanes->cycles(), 2 * drawn.size());
+  }
+}
+
 TEST_P(ShadersInLanes, WaitForWhatIsInFrontOrGoOn) {
   for (const std::size_t most_waiting : {std::size_t{0}, std::size_t{200}, kMost}) {
     for (const unsigned threads : {1U, 2U}) {

@@ -243,8 +243,9 @@ class Simulation {
       if (const auto possible = use_lanes(RtlEngine::lanes, summary_.plan.key, 0.0); !possible)
         return possible.error();
       s_.on_progress(fmt::format("building {} in lanes", key), -1.0);
-      auto opened = LaneSimulator::open(summary_.plan.key, s_.folders,
-                                        {.threads = s_.threads, .idle_limit = c_idle_limit});
+      auto opened = LaneSimulator::open(
+          summary_.plan.key, s_.folders,
+          {.threads = s_.threads, .idle_limit = c_idle_limit, .stall_seed = s_.stall_seed});
       if (!opened) return opened.error();
       lanes.emplace(std::move(*opened));
       auto trace = TraceWriter::open(files_.trace("lanes"), key);

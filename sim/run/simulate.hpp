@@ -27,7 +27,7 @@ struct SimulateSettings {
   SetupOptions setup;
   unsigned threads = 1;
   bool ghdl = true, verilator = true;
-  bool lanes = false;            ///< too; they tell no cycles, and know no stalls
+  bool lanes = false;            ///< too; they report no cycles
   std::uint32_t stall_seed = 0;  ///< not 0: both streams stall at random
   std::filesystem::path out;
   SimulatorFolders folders;

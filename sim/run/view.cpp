@@ -76,20 +76,21 @@ class Easel {
       return status.error();
     SimulatorRun run = finish(rtl, drawn, to_string(lanes_ ? RtlEngine::lanes : RtlEngine::verilator));
     if (lanes_ && !run.equal()) {
-      // Verilator tells it better: the cycle of a fault, and what was drawn before.
+      // Verilator reports more: the cycle of a fault, and the fragments before it.
       const SimulatorRun in_lanes = std::move(run);
       drawn.lanes_failed = true;
       rtl.clear();
       if (Status status = draw_in_verilator(rtl, drawn); !status) return status.error();
       run = finish(rtl, drawn, to_string(RtlEngine::verilator));
-      if (run.equal() && in_lanes.mismatches != 0)
-        return tool_failed(fmt::format(
-            "{}: frame {}: {} fragments differ in lanes, and none in Verilator; please report it, and take "
-            "--simulator verilator",
-            scene_.name, number, in_lanes.mismatches));
-      if (run.equal())
-        drawn.notes.push_back(fmt::format(
-            "frame {}: {}; Verilator drew it, without a fault; please report it", number, in_lanes.fault));
+      if (run.equal()) {
+        const std::string difference = in_lanes.mismatches == 0
+                                           ? in_lanes.fault
+                                           : fmt::format("{} fragments differ in lanes", in_lanes.mismatches);
+        return Error{ExitCode::differs,
+                     fmt::format("{}: frame {}: {}; Verilator draws it without a difference. The lanes are "
+                                 "wrong: please report it, and use --simulator verilator",
+                                 scene_.name, number, difference)};
+      }
     }
     drawn.fragments = run.fragments;
     drawn.covered = run.fragments != 0;

@@ -82,11 +82,11 @@ struct ViewSummary {
 /// Draws the scene from `frames` places around its camera's target. Hardware is planned and built once: no
 /// effect depends on the camera. Threads draw whole frames, each on a model of its own, which is not reset
 /// between them; lanes where they pay, see use_lanes(), and can be had: else Verilator, with a note. A frame
-/// that differs in lanes, or in which they end with a fault, is drawn again in Verilator, which tells more:
-/// its cycles, and what was drawn until a fault. Where Verilator finds no fault, a note tells that of lanes;
-/// where it finds no mismatch, those of lanes are an error. Memory is bounded by the threads, by the frame,
-/// and by SceneStream, LaneSimulator and VerilatorFeed, not by the number of frames or of triangles. Ends
-/// after the first frame that differs, which is no error: see ViewSummary::difference.
+/// that differs in lanes, or in which they end with a fault, is drawn again in Verilator, which reports more:
+/// its cycles, and the fragments before a fault. If Verilator finds no difference, the lanes are wrong: an
+/// error with the exit code `differs`. Memory is bounded by the threads, by the frame, and by SceneStream,
+/// LaneSimulator and VerilatorFeed, not by the number of frames or of triangles. Ends after the first frame
+/// that differs, which is no error: see ViewSummary::difference.
 Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings);
 
 /// Two lines: frames a second, mismatches; the parts of a frame's time.
