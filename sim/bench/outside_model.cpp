@@ -46,11 +46,10 @@ Result<OutsideModel> OutsideModel::open(OutsideTool tool, const HardwareKey& key
       fmt::format("-DHALFWAY_INIT_BITS={}", port_bits(*netlist, key.entity(), "init_data"));
   Command translate, compile;
   if (verilated) {
-    // Warnings of the netlist that GHDL's way of printing state machines brings.
-    translate.arguments = {
-        "verilator", "--cc",       "--exe",        "--build",    "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE",
-        "--prefix",  "Vshader",    "--top-module", key.entity(), "-CFLAGS",      bits,
-        "netlist.v", "harness.cpp"};
+    // The warnings that sim/verilator waives, too.
+    translate.arguments = {"verilator",           "--cc",           "--exe",    "--build",   "-Wno-COMBDLY",
+                           "-Wno-CASEINCOMPLETE", "-Wno-UNOPTFLAT", "--prefix", "Vshader",   "--top-module",
+                           key.entity(),          "-CFLAGS",        bits,       "netlist.v", "harness.cpp"};
   } else {
     translate.arguments = {
         "yosys", "-q", "-p",
