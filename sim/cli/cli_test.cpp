@@ -221,7 +221,7 @@ TEST_F(CliTest, CameraInsideTheMeshOrBehindItStillDraws) {
     const Outcome outcome =
         run({"sim", scene, "--out", out(), "--size", "64x48", "--simulator", "verilator"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr(scene == through ? " 0 mismatches" : " nothing compared"));
+    EXPECT_THAT(outcome.output, HasSubstr(" nothing compared"));
   }
 }
 

@@ -49,7 +49,7 @@ std::string told_commit(const std::filesystem::path& source) {
 }  // namespace
 
 Result<Report> write_report(const ReportSettings& settings) {
-  const std::filesystem::path here = settings.folders.source / "model" / "report";
+  const std::filesystem::path here = settings.folders.source / "sim" / "report";
   if (const auto folder = settings.page.parent_path(); !folder.empty())
     if (Status made = make_folders(folder); !made) return made.error();
   const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());

@@ -132,7 +132,9 @@ class Simulation {
     return Ok{};
   }
 
+  // Count the hardware's entities, where any hardware is simulated.
   Status count_units() {
+    if (!s_.ghdl && !s_.verilator && !s_.lanes) return Ok{};
     auto counter = UnitCounter::open(s_.folders);
     if (!counter) return counter.error();
     auto units = counter->count(summary_.plan.key);
