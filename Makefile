@@ -207,7 +207,7 @@ fuzz: setup ## libFuzzer on every kind of input (SECONDS each; TARGET: one alone
 kills: build ## the long form of the tests with kill -9: 60 moments in place of a few
 	@tb/robustness/kill.sh build/halfway build/halfway_generator . build/tb/kills 60
 
-mutate: configure ## small faults in the RTL, which the tests must find, and what those tests reach
+mutate: configure ## thousands of small faults in the hardware, which the tests must find
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_mutants halfway_vectors
 	@build/tb/halfway_vectors all build/tb/vectors
 	@build/tb/halfway_mutants --jobs "$(jobs)" --page tb/mutants/README.md . build/tb/vectors build/tb/mutants

@@ -18,7 +18,7 @@ struct OtherPage {
 constexpr std::array c_pages = {
     OtherPage{"stability", "Hard cases", "tb/stability/README.md", "make stability"},
     OtherPage{"proofs", "Proofs", "tb/proofs/README.md", "make prove"},
-    OtherPage{"mutants", "Mutants and coverage", "tb/mutants/README.md", "make mutate"},
+    OtherPage{"mutants", "Mutants", "tb/mutants/README.md", "make mutate"},
     OtherPage{"bounds", "Bounds", "tb/bounds/README.md", "make bounds"},
     OtherPage{"synthesis", "Synthesis", "tb/synth/README.md", "make synth"},
     OtherPage{"bench", "Speed of simulation", "sim/bench/README.md", "make bench"},

@@ -35,22 +35,24 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors : vectors_t;
-    variable word    : std_logic_vector(terms'range);
+    variable vectors             : vectors_t;
+    variable checked, enable_now : std_logic;
+    variable terms_now           : std_logic_vector(terms'range);
   begin
     vectors.open_file(g_folder & "/" & to_string(g_terms) & "_" & to_string(g_term_bits) & "_"
       & to_string(g_fraction_bits) & "_" & to_string(g_result_bits) & ".txt");
+    vectors.expect_vector("the latency");
+    if vectors.read_number /= 1 then
+      vectors.fail("the latency is not that of the hardware, 1");
+    end if;
     while vectors.next_vector loop
-      vectors.read_word(word);
-      terms  <= word;
-      enable <= '1';
+      vectors.read_flag(checked);
+      vectors.read_flag(enable_now);
+      vectors.read_word(terms_now);
+      enable <= enable_now;
+      terms  <= terms_now;
       wait until rising_edge(clk);
-      -- It stands still without enable.
-      terms  <= not word;
-      enable <= '0';
-      wait until rising_edge(clk);
-      wait until falling_edge(clk);
-      vectors.check_word("result of " & to_hstring(word), result);
+      vectors.check_word_if(checked, "result", result);
     end loop;
     finished <= true;
     wait;

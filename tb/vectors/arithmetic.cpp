@@ -7,6 +7,7 @@
 #include "golden/saturating_sum.hpp"
 #include "sim/stream_files/vector_file.hpp"
 #include "vectors/entities.hpp"
+#include "vectors/pipeline.hpp"
 #include "vectors/random.hpp"
 
 namespace halfway::vectors {
@@ -112,7 +113,8 @@ Status write_angle_address(const std::filesystem::path& folder, int address_bits
 Status write_sum_of(const std::filesystem::path& folder, int terms, int term_bits, int fraction_bits,
                     int result_bits) {
   Random random(static_cast<std::uint64_t>(terms * term_bits));
-  VectorFile file;
+  Random enables(static_cast<std::uint64_t>(terms));
+  Pipeline pipeline(1);
   std::vector<std::uint64_t> values(static_cast<std::size_t>(terms));
   const auto add = [&] {
     golden::SaturatingSum sum;
@@ -122,8 +124,10 @@ Status write_sum_of(const std::filesystem::path& folder, int terms, int term_bit
       sum.add(value);
       golden::set_bits(flat, {"term", i * term_bits, term_bits, false, 0}, value);
     }
-    file.words_of(flat, terms * term_bits);
-    file.word(sum.result(fraction_bits, result_bits), result_bits).end_vector();
+    Flat inputs;
+    inputs.words = flat;
+    inputs.bits = terms * term_bits;
+    pipeline.clock(!enables.one_in(4), {inputs}, Flat(sum.result(fraction_bits, result_bits), result_bits));
   };
   if (terms * term_bits <= 16) {
     for (std::uint64_t all = 0; all < std::uint64_t{1} << terms * term_bits; ++all) {
@@ -147,7 +151,7 @@ Status write_sum_of(const std::filesystem::path& folder, int terms, int term_bit
       add();
     }
   }
-  return file.write(folder / fmt::format("{}_{}_{}_{}.txt", terms, term_bits, fraction_bits, result_bits));
+  return pipeline.write(folder / fmt::format("{}_{}_{}_{}.txt", terms, term_bits, fraction_bits, result_bits));
 }
 
 }  // namespace

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What designs.toml says: the netlists that get faults, and which columns of which vector files drive and
+// check their ports.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/result.hpp"
+
+namespace halfway::mutants {
+
+/// A valid/ready stream, or strobes without `ready`, with the vector files that drive or check it.
+struct Stream {
+  std::string port;     ///< <port>_valid and <port>_ready, or a strobe
+  std::string file;     ///< a set's name and this name a file
+  std::string columns;  ///< names of ports, in the order of the file's words
+  bool prompt = false;  ///< at full speed every vector is taken at once
+};
+
+struct Design {
+  std::string entity;
+  std::string name;  ///< <entity>.<variant>
+  std::vector<std::pair<std::string, std::string>> generics;
+  std::vector<std::string> sets;  ///< of vector files, with the entity's folder
+  unsigned faults = 0;
+  std::string rows;   ///< columns of files with one line per clock; empty: streams
+  unsigned skip = 0;  ///< lines at the start of each file that are no vectors
+  Stream input;
+  std::vector<Stream> outputs;
+  std::string stalled;  ///< a ready input without a stream
+  bool reset = false;   ///< before each pass, since the vectors start from that state
+  bool quick = false;   ///< part of the quick form
+};
+
+Result<std::vector<Design>> read_designs(const std::filesystem::path& file);
+
+/// Why no vector finds the faults of a VHDL line.
+struct Survivor {
+  std::string file, text, reason;  ///< `text` is part of the line
+};
+Result<std::vector<Survivor>> read_survivors(const std::filesystem::path& file);
+
+}  // namespace halfway::mutants

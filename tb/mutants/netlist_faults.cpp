@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mutants/netlist_faults.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <regex>
+#include <sstream>
+
+#include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
+#include "sim/verilator/netlist.hpp"
+#include "sim/verilator/verilated_library.hpp"
+
+namespace halfway::mutants {
+namespace {
+
+constexpr const char* c_install_yosys = "apt-get install yosys";
+constexpr std::chrono::seconds c_yosys_time{600};
+constexpr std::chrono::seconds c_reduction_time{20};  // of one fault, before the proof
+
+// {0}: top, {1}: faults, {2}: seed. Faults are made in what remains after optimization: in logic that no
+// output depends on, or that is constant, a fault would have no effect.
+constexpr const char* c_mutate =
+    "read_verilog netlist.v\n"
+    "hierarchy -top {0}\n"
+    "proc\nflatten\nopt -full\nwreduce\nopt_dff\nopt_clean -purge\nmemory -nomap\nopt_clean -purge\n"
+    "mutate -list {1} -seed {2} -ctrl mutsel 16 1 -o faults.ys\n"
+    "script faults.ys\n"
+    "opt_clean\n"
+    "write_verilog -noattr mutated.v\n";
+
+// Widths are implied in the Verilog that Yosys writes.
+constexpr const char* c_lint = "/* verilator lint_off WIDTH */\n";
+
+Status run_in(const std::filesystem::path& folder, std::vector<std::string> arguments,
+              const std::string& what) {
+  const auto end =
+      run_process({.arguments = std::move(arguments), .working_folder = folder, .timeout = c_yosys_time},
+                  c_install_yosys);
+  if (!end) return end.error();
+  if (!end->succeeded()) return tool_failed(fmt::format("{}: {}: {}", what, end->how(), end->output));
+  return Ok{};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The word that follows " -name " in a line of Yosys's list.
+std::string option(const std::string& line, const std::string& name) {
+  const auto at = line.find(" -" + name + " ");
+  if (at == std::string::npos) return {};
+  const auto begin = at + name.size() + 3;
+  return line.substr(begin, line.find(' ', begin) - begin);
+}
+
+Fault read_fault(const std::string& line, const std::vector<std::string>& netlist_lines,
+                 const std::vector<std::string>& places) {
+  Fault fault{option(line, "mode"),
+              option(line, "port"),
+              fmt::format("{}[{}]", option(line, "wire"), option(line, "wirebit")),
+              {}};
+  // Of the statement itself, or of the instance that it is in.
+  static const std::regex source(R"( -src netlist\.v:(\d+)\.)");
+  for (auto at = std::sregex_iterator(line.begin(), line.end(), source); at != std::sregex_iterator(); ++at) {
+    const std::size_t number = std::stoul((*at)[1]) - 1;
+    if (number >= places.size() || places[number].empty()) continue;
+    const std::string& text = netlist_lines[number];
+    if (fault.place.empty() || text.starts_with("  assign ") || text.starts_with("  always "))
+      fault.place = places[number];
+  }
+  return fault;
+}
+
+/// Both netlists with the same inputs, one without a fault and one with fault `select`. What they write into
+/// a memory counts as well, since the memory is mapped to registers.
+std::string miter(const FaultyNetlist& netlist) {
+  std::string header, gold, gate, differences;
+  std::string declared = "  input [15:0] select;\n  output differs;\n";
+  for (const FaultyNetlist::Port& port : netlist.ports) {
+    const std::string range = fmt::format("[{}:0]", port.bits - 1);
+    if (port.is_input) {
+      header += port.name + ", ";
+      declared += fmt::format("  input {} {};\n", range, port.name);
+      gold += fmt::format(".{0}({0}), ", port.name);
+      gate += fmt::format(".{0}({0}), ", port.name);
+    } else {
+      declared += fmt::format("  wire {0} {1}_gold, {1}_gate;\n", range, port.name);
+      gold += fmt::format(".{0}({0}_gold), ", port.name);
+      gate += fmt::format(".{0}({0}_gate), ", port.name);
+      differences += fmt::format(" | (|({0}_gold ^ {0}_gate))", port.name);
+    }
+  }
+  return fmt::format(
+      "module miter({0}select, differs);\n{1}  {2} gold({3}.mutsel(16'd0));\n  {2} "
+      "gate({4}.mutsel(select));\n"
+      "  assign differs = 1'b0{5};\nendmodule\n",
+      header, declared, netlist.top, gold, gate, differences);
+}
+
+/// The and-gates of the miter with the input `select` at `number`: from AIGER's text to its binary form,
+/// which ABC reads.
+std::string select_fault(const std::string& text, std::uint32_t number) {
+  std::istringstream in(text);
+  std::string word;
+  std::uint32_t most = 0, inputs = 0, latches = 0, outputs = 0, gates = 0;
+  in >> word >> most >> inputs >> latches >> outputs >> gates;
+  std::vector<std::uint32_t> to(2 * (most + 1));
+  for (std::uint32_t literal = 0; literal < to.size(); ++literal) to[literal] = literal;
+  struct Gate {
+    std::uint32_t output, a, b;
+  };
+  std::vector<std::uint32_t> input(inputs), next(latches), output(outputs);
+  std::vector<Gate> gate(gates);
+  for (auto& literal : input) in >> literal;
+  for (auto& literal : next) in >> word >> literal;
+  for (auto& literal : output) in >> literal;
+  for (auto& one : gate) in >> one.output >> one.a >> one.b;
+  // Symbols: "i12 select[3]".
+  for (std::string name; in >> word >> name && word != "c";)
+    if (word.starts_with('i') && name.starts_with("select")) {
+      const auto bracket = name.find('[');
+      const unsigned bit =
+          bracket == std::string::npos ? 0 : static_cast<unsigned>(std::stoul(name.substr(bracket + 1)));
+      const std::uint32_t literal = input[std::stoul(word.substr(1))];
+      to[literal] = number >> bit & 1U;
+      to[literal + 1] = to[literal] ^ 1U;
+    }
+  std::string result = fmt::format("aig {} {} {} {} {}\n", most, inputs, latches, outputs, gates);
+  for (const auto literal : next) result += fmt::format("{}\n", to[literal]);
+  for (const auto literal : output) result += fmt::format("{}\n", to[literal]);
+  const auto add_difference = [&](std::uint32_t difference) {
+    for (; difference >= 0x80; difference >>= 7) result += static_cast<char>(difference | 0x80);
+    result += static_cast<char>(difference);
+  };
+  for (const Gate& one : gate) {
+    const std::uint32_t high = std::max(to[one.a], to[one.b]), low = std::min(to[one.a], to[one.b]);
+    add_difference(one.output - high);
+    add_difference(high - low);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> vhdl_places(const std::string& printed) {
+  static const std::regex place(R"(/\* (\S+\.vhd):(\d+):\d+ )");
+  static const std::regex comment(R"(/\*.*?\*/|//.*)");
+  std::vector<std::string> places;
+  std::string last;
+  for (const std::string& line : lines_of(printed)) {
+    if (std::smatch found; std::regex_search(line, found, place)) {
+      const std::string file = found[1];
+      last = fmt::format("{}:{}", file.substr(file.starts_with("rtl/") ? 4 : 0), found[2].str());
+    }
+    // The mended netlist has no line of comments alone.
+    if (std::regex_replace(line, comment, "").find_first_not_of(" \t\r") == std::string::npos) continue;
+    places.push_back(last);
+    // A comment is about the next statement, which ends with a semicolon.
+    if (line.find(';') != std::string::npos && !line.starts_with("    ")) last.clear();
+  }
+  return places;
+}
+
+Result<FaultyNetlist> make_faulty_netlist(const Design& design, const GhdlLibrary& library,
+                                          const std::filesystem::path& scratch, unsigned seed) {
+  const auto printed = library.synthesize(design.entity, design.generics);
+  if (!printed) return printed.error();
+  const auto text = mend_netlist(*printed);
+  if (!text) return text.error();
+  FaultyNetlist netlist{scratch / design.name, design.entity, {}, {}};
+  const std::string script = fmt::format(c_mutate, design.entity, design.faults, seed);
+  // Keep what an earlier run made of the same netlist.
+  const std::string key = ContentHash().add(*text).add(script).add(c_lint).hex();
+  const auto kept = read_file(netlist.folder / "key");
+  if (!kept || *kept != key) {
+    if (auto s = make_folders(netlist.folder); !s) return s.error();
+    if (auto s = write_file(netlist.folder / "netlist.v", *text); !s) return s.error();
+    if (auto s = write_file(netlist.folder / "mutate.ys", script); !s) return s.error();
+    if (auto s = run_in(netlist.folder, {"yosys", "-q", "mutate.ys"}, design.name); !s) return s.error();
+    if (auto s = write_file(netlist.folder / "key", key); !s) return s.error();
+  }
+  const auto list = read_file(netlist.folder / "faults.ys");
+  if (!list) return list.error();
+  const auto netlist_lines = lines_of(*text);
+  const auto places = vhdl_places(*printed);
+  if (places.size() != netlist_lines.size())
+    return tool_failed(fmt::format("{}: {} lines of the netlist have {} places; correct vhdl_places",
+                                   design.name, netlist_lines.size(), places.size()));
+  for (const std::string& line : lines_of(*list))
+    netlist.faults.push_back(read_fault(line, netlist_lines, places));
+  const auto mutated = read_file(netlist.folder / "mutated.v");
+  if (!mutated) return mutated.error();
+  static const std::regex declaration(R"(^  (input|output) (?:\[(\d+):0\] )?(\w+);$)");
+  for (const std::string& line : lines_of(*mutated))
+    if (std::smatch found; std::regex_match(line, found, declaration) && found[3] != "mutsel")
+      netlist.ports.push_back({found[3],
+                               found[2].matched ? static_cast<std::uint32_t>(std::stoul(found[2])) + 1 : 1,
+                               found[1] == "input"});
+  return netlist;
+}
+
+Result<CompiledNetlist> compile(const Design& design, const FaultyNetlist& netlist,
+                                const std::filesystem::path& source, const std::filesystem::path& scratch) {
+  const auto mutated = read_file(netlist.folder / "mutated.v");
+  if (!mutated) return mutated.error();
+  std::string ports = "PORT(mutsel,16,1)";
+  for (const FaultyNetlist::Port& port : netlist.ports)
+    ports += fmt::format("PORT({},{},{})", port.name, port.bits, port.is_input ? 1 : 0);
+  const auto library = open_verilated({.name = design.name,
+                                       .netlist = c_lint + *mutated,
+                                       .top = design.entity,
+                                       .harness = source / "tb/mutants/model_harness.cpp",
+                                       .include_folder = source,
+                                       .harness_headers = {source / "tb/mutants/model_harness.hpp"},
+                                       .definitions = {"MUTANT_PORTS=" + ports},
+                                       .fast = false,
+                                       .compiler = {}},
+                                      scratch);
+  if (!library) return library.error();
+  return CompiledNetlist::open(*library);
+}
+
+Result<std::vector<bool>> prove_equivalent(const FaultyNetlist& netlist,
+                                           const std::vector<std::uint32_t>& numbers,
+                                           std::chrono::seconds time) {
+  std::vector<bool> proved(numbers.size());
+  if (numbers.empty()) return proved;
+  if (auto s = write_file(netlist.folder / "miter.v", miter(netlist)); !s) return s.error();
+  const std::string script =
+      "read_verilog mutated.v miter.v\nhierarchy -top miter\nproc\nflatten\nopt -full\nmemory_map\n"
+      "setundef -undriven -zero\nsetundef -init -zero\nopt -full\nasync2sync\ntechmap\nopt\ndffunmap\n"
+      "opt_clean\naigmap\nopt_clean\nwrite_aiger -ascii -symbols -zinit miter.aag\n";
+  if (auto s = write_file(netlist.folder / "miter.ys", script); !s) return s.error();
+  if (auto s = run_in(netlist.folder, {"yosys", "-q", "miter.ys"}, "miter of " + netlist.top); !s)
+    return s.error();
+  const auto gates = read_file(netlist.folder / "miter.aag");
+  if (!gates) return gates.error();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (auto s = write_file(netlist.folder / "fault.aig", select_fault(*gates, numbers[i])); !s)
+      return s.error();
+    const auto end = run_process(
+        {.arguments = {"yosys-abc", "-c",
+                       fmt::format("read_aiger fault.aig; &get -n; &scorr; &put; pdr -T {}", time.count())},
+         .working_folder = netlist.folder,
+         .timeout = c_reduction_time + time},
+        c_install_yosys);
+    if (!end) return end.error();
+    proved[i] = end->succeeded() && end->output.find("Property proved.") != std::string::npos;
+  }
+  return proved;
+}
+
+}  // namespace halfway::mutants

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Replays a design's vectors on its compiled netlist and names the first output that differs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/result.hpp"
+#include "mutants/design.hpp"
+#include "mutants/model_harness.hpp"
+#include "sim/system/shared_library.hpp"
+
+namespace halfway::mutants {
+
+/// The bits of a port, lowest byte first.
+using Word = std::vector<std::uint8_t>;
+
+/// One vector file: a row of words for each line.
+struct VectorFile {
+  std::string name;
+  std::vector<std::vector<Word>> rows;
+};
+
+/// Reads a file in the format of tb/vectors/vector_file.hpp. A column "name/3" joins three words.
+Result<VectorFile> read_vectors(const std::filesystem::path& file, const std::string& columns, unsigned skip);
+
+/// The vector files of a design, read once for all its faults.
+struct DesignVectors {
+  struct Set {
+    std::string name;
+    std::vector<VectorFile> files;  ///< rows: one; streams: of the inputs, then of the outputs
+  };
+  std::vector<Set> sets;
+};
+Result<DesignVectors> read_design_vectors(const Design& design, const std::filesystem::path& folder);
+
+/// The compiled netlist of a design with all its faults.
+class CompiledNetlist {
+ public:
+  static Result<CompiledNetlist> open(SharedLibrary library);
+
+  void* (*create)() = nullptr;
+  void (*destroy)(void*) = nullptr;
+  void (*eval)(void*) = nullptr;
+  std::uint32_t (*ports)(void*, ModelPort*) = nullptr;
+
+ private:
+  explicit CompiledNetlist(SharedLibrary library) : library_(std::move(library)) {}
+  SharedLibrary library_;
+};
+
+/// The first difference that the vectors show with fault number `fault` (0: no fault); none where all is
+/// equal.
+std::optional<std::string> replay(const Design& design, const DesignVectors& vectors,
+                                  const CompiledNetlist& netlist, std::uint32_t fault);
+
+}  // namespace halfway::mutants
