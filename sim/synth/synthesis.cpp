@@ -13,6 +13,7 @@
 
 #include "sim/synth/global_buffers.hpp"
 #include "sim/synth/ice40_cells.hpp"
+#include "sim/synth/nameless_netlist.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
 #include "sim/verilator/netlist.hpp"
@@ -332,8 +333,7 @@ Result<Packing> read_packing(std::string_view said) {
 Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design) {
   const auto text = netlist_of(library, design);
   if (!text) return text.error();
-  // As those that are pinned were made.
-  return ContentHash().add("netlist 1").add("flow 2").add(design.entity).add(*text).hex();
+  return ContentHash().add("netlist 2").add("flow 2").add(design.entity).add(nameless(*text)).hex();
 }
 
 std::string flow_hash() {

@@ -75,8 +75,8 @@ std::string does_not_fit(const Ice40Cells& cells);
 /// From what nextpnr says of a device's utilisation.
 Result<Packing> read_packing(std::string_view said);
 
-/// Of what GHDL and mend_netlist make of a design: of one hash is the same hardware, whatever its name, and
-/// of one flow_hash the same clock.
+/// The hash of a design's netlist by GHDL and mend_netlist, as nameless leaves it. Designs of
+/// one hash are the same hardware, whatever their name; with one flow_hash they have the same clock.
 Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design);
 
 /// Of what a clock hangs on beside the netlist and the tools' versions: the scripts for Yosys, the wrapper,
