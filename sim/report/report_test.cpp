@@ -43,8 +43,8 @@ TEST_F(ReportCommand, SaysWhatIsMissingAndWhatMakesIt) {
   // What comes with the checkout is there: pages as tables, diagrams as drawings, and no mark left.
   EXPECT_THAT(page(),
               AllOf(HasSubstr("<summary>Proofs</summary>"), HasSubstr("<summary>Hard cases</summary>"),
-                    HasSubstr("<summary>Mutants</summary>"),
-                    HasSubstr(">unrolled_shading_processor: "), Not(HasSubstr("{{"))));
+                    HasSubstr("<summary>Mutants</summary>"), HasSubstr(">unrolled_shading_processor: "),
+                    Not(HasSubstr("{{"))));
   const auto commit =
       run_process({.arguments = {"git", "-C", HALFWAY_SOURCE_DIR, "describe", "--always", "--tags"}}, "");
   if (commit && commit->succeeded()) {

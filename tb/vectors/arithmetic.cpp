@@ -151,7 +151,8 @@ Status write_sum_of(const std::filesystem::path& folder, int terms, int term_bit
       add();
     }
   }
-  return pipeline.write(folder / fmt::format("{}_{}_{}_{}.txt", terms, term_bits, fraction_bits, result_bits));
+  return pipeline.write(folder /
+                        fmt::format("{}_{}_{}_{}.txt", terms, term_bits, fraction_bits, result_bits));
 }
 
 }  // namespace
