@@ -8,8 +8,8 @@
 
 #include "plan/plan.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/ghdl/vcd.hpp"
 #include "sim/report/plot.hpp"
-#include "sim/report/vcd.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/stream_files/init_file.hpp"

@@ -10,7 +10,7 @@
 
 #include "common/result.hpp"
 
-namespace halfway::report {
+namespace halfway {
 
 struct SampledSignals {
   std::size_t edges = 0;
@@ -23,4 +23,4 @@ struct SampledSignals {
 Result<SampledSignals> sample_vcd(const std::filesystem::path& file, const std::string& clock,
                                   const std::vector<std::string>& paths, std::size_t most_edges);
 
-}  // namespace halfway::report
+}  // namespace halfway

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/report/vcd.hpp"
+#include "sim/ghdl/vcd.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "sim/system/file.hpp"
 
-namespace halfway::report {
+namespace halfway {
 namespace {
 
 std::vector<std::string> words_of(std::string_view line) {
@@ -83,4 +83,4 @@ Result<SampledSignals> sample_vcd(const std::filesystem::path& file, const std::
   return sampled;
 }
 
-}  // namespace halfway::report
+}  // namespace halfway

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/report/vcd.hpp"
+#include "sim/ghdl/vcd.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sim/system/file.hpp"
 
-namespace halfway::report {
+namespace halfway {
 namespace {
 
 using ::testing::ElementsAre;
@@ -42,4 +42,4 @@ TEST_F(VcdTest, TellsASignalThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace halfway::report
+}  // namespace halfway
