@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `halfway figures`: the papers' figures and numbers, drawn and measured anew.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -22,20 +23,18 @@ struct FiguresCommand {
   unsigned threads = 0;
 };
 
-Result<std::vector<figures::Figure>> chosen(const std::vector<std::string>& only) {
-  std::vector<figures::Figure> all = figures::all_figures();
-  if (only.empty()) return all;
-  std::vector<figures::Figure> some;
-  for (const std::string& name : only) {
-    const std::size_t before = some.size();
-    for (const figures::Figure& f : all)
-      if (f.id.starts_with(name)) some.push_back(f);
-    if (some.size() > before) continue;
-    std::string names;
-    for (const figures::Figure& f : all) names += (names.empty() ? "" : ", ") + f.id;
-    return bad_input(fmt::format("'{}' is no figure; take the beginning of one of {}", name, names));
-  }
-  return some;
+std::vector<figures::Figure> chosen(std::vector<figures::Figure> all, const std::vector<std::string>& only) {
+  std::vector<std::string> names;
+  for (const figures::Figure& f : all) names.push_back(f.id);
+  for (const std::string& name : only)
+    if (std::ranges::none_of(names, [&](const std::string& id) { return id.starts_with(name); }))
+      throw Failure{bad_input(
+          fmt::format("'{}' is no figure; take the beginning of one of {}", name, fmt::join(names, ", ")))};
+  if (!only.empty())
+    std::erase_if(all, [&](const figures::Figure& f) {
+      return std::ranges::none_of(only, [&](const std::string& name) { return f.id.starts_with(name); });
+    });
+  return all;
 }
 
 int report_all(const std::vector<std::string>& wrong, const char* what_to_do) {
@@ -47,77 +46,70 @@ int report_all(const std::vector<std::string>& wrong, const char* what_to_do) {
 
 constexpr const char* c_data = "figures.json";
 
-Status write_texts(const std::filesystem::path& folder, const std::vector<figures::Entry>& entries) {
-  if (Status written = write_file(folder / c_data, figures::to_json(entries)); !written) return written;
-  return write_file(folder / "README.md", figures::to_page(entries));
+void write_texts(const Folders& folders, const std::filesystem::path& folder,
+                 const std::vector<figures::Entry>& entries) {
+  must(write_file(folder / c_data, figures::to_json(entries)));
+  must(write_file(folder / "README.md", must(figures::to_page(entries, folders.source))));
 }
 
-Status copy_into(const std::filesystem::path& folder, const std::filesystem::path& from,
-                 const std::vector<figures::Figure>& figures, const std::vector<figures::Entry>& entries) {
-  if (Status made = make_folders(folder); !made) return made;
+void copy_into(const Folders& folders, const std::filesystem::path& folder, const std::filesystem::path& from,
+               const std::vector<figures::Entry>& entries) {
+  must(make_folders(folder));
   for (const figures::Entry& e : entries)
-    for (const figures::Picture& p : e.pictures) {
-      const auto content = read_file(from / p.file);
-      if (!content) return content.error();
-      if (Status written = write_file(folder / p.file, *content); !written) return written;
-    }
-  std::vector<figures::Entry> page;
-  if (const auto before = read_file(folder / c_data)) {
-    auto read = figures::entries_of(*before, (folder / c_data).string());
-    if (read) page = std::move(*read);
-  }
-  return write_texts(folder, figures::with_times_of(page, figures, entries));
+    for (const figures::Picture& p : e.pictures)
+      must(write_file(folder / p.file, must(read_file(from / p.file))));
+  std::map<std::string, figures::Measurements> page;
+  if (const auto before = read_file(folder / c_data))
+    if (const auto read = figures::measurements_of(*before, (folder / c_data).string())) page = *read;
+  write_texts(folders, folder, figures::completed(entries, page));
 }
 
-int run(const Folders& folders, const FiguresCommand& command) {
+std::vector<figures::Entry> draw(const std::vector<figures::Figure>& some, figures::Context& context) {
+  must(make_folders(context.out));
+  std::vector<figures::Entry> entries;
+  Progress progress("figures");
+  context.on_progress = [&](const std::string& what) { progress.show(what); };
+  for (const figures::Figure& figure : some) entries.push_back(must(figures::drawn(figure, context)));
+  return entries;
+}
+
+int run(const Folders& folders, const FiguresCommand& command) try {
   if (command.check && !command.only.empty())
     return report(bad_input("--check: looks at all figures; leave their names out"));
-  const auto some = chosen(command.only);
-  if (!some) return report(some.error());
+  const auto some = chosen(must(figures::all_figures(folders.source)), command.only);
   figures::Context context{
       .folders = {folders.source, folders.cache()},
       .out = command.out,
       .quick = command.check,
       .threads = command.threads != 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency())};
-  if (Status made = make_folders(context.out); !made) return report(made.error());
-  std::vector<figures::Entry> entries;
-  {
-    Progress progress("figures");
-    context.on_progress = [&](const std::string& what) { progress.show(what); };
-    for (const figures::Figure& figure : *some) {
-      auto entry = figures::drawn(figure, context);
-      if (!entry) {
-        progress.clear();
-        return report(entry.error());
-      }
-      entries.push_back(std::move(*entry));
-    }
-  }
+  const std::vector<figures::Entry> entries = draw(some, context);
   if (command.check) {
     std::vector<std::string> notes;
-    const auto wrong = figures::stale(*some, folders.source / "sim" / "figures", entries, context.out, notes);
-    if (!wrong) return report(wrong.error());
+    const auto wrong =
+        must(figures::stale(entries, folders.source / "sim" / "figures", context.out, folders.source, notes));
     for (const std::string& note : notes) say(note);
-    return report_all(*wrong, "sim/figures: run make figures");
+    return report_all(wrong, "sim/figures: run make figures");
   }
-  const std::vector<std::string> wrong = figures::faults(*some, entries);
-  std::size_t rows = 0, agreeing = 0;
+  const std::vector<std::string> wrong = figures::faults(entries);
+  std::ptrdiff_t rows = 0, agreeing = 0;
   for (const figures::Entry& e : entries)
     for (const figures::Row& r : e.rows) {
-      fmt::print("{:<20} {}: published {}, measured {}: {}\n", e.id, r.what, r.published, r.measured,
-                 r.agrees ? fmt::format("agrees ({})", r.criterion)
-                          : fmt::format("differs ({}): {}", r.criterion, r.reason));
+      const std::string criterion = r.claim.criterion.text();
+      fmt::print("{:<20} {}: published {}, measured {}: {}\n", e.figure.id, r.claim.what, r.claim.published,
+                 r.measured.text,
+                 r.agrees() ? fmt::format("agrees ({})", criterion)
+                            : fmt::format("differs ({}): {}", criterion, r.reason()));
       ++rows;
-      agreeing += r.agrees ? 1 : 0;
+      agreeing += r.agrees() ? 1 : 0;
     }
-  if (Status written = write_texts(context.out, entries); !written) return report(written.error());
+  write_texts(folders, context.out, entries);
   fmt::print("{}: {} figures, {} rows, {} agree, {} differ\n", context.out.string(), entries.size(), rows,
              agreeing, rows - agreeing);
-  if (!wrong.empty()) return report_all(wrong, "the claims in sim/figures do not say what was measured");
-  if (!command.page.empty())
-    if (Status copied = copy_into(command.page, context.out, *some, entries); !copied)
-      return report(copied.error());
+  if (!wrong.empty()) return report_all(wrong, "sim/figures/claims.toml does not say what was measured");
+  if (!command.page.empty()) copy_into(folders, command.page, context.out, entries);
   return static_cast<int>(ExitCode::equal);
+} catch (const Failure& failure) {
+  return report(failure.error);
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST_F(FiguresCommand, ACheckFindsANumberThatIsNotMeasured) {
   EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
   EXPECT_THAT(outcome.output,
               AllOf(HasSubstr("is 2.7583 there, measured 2.7582"),
-                    HasSubstr("README.md is not the page of figures.json"), HasSubstr("run make figures")));
+                    HasSubstr("figures.json is not as it is written"), HasSubstr("run make figures")));
 }
 
 }  // namespace

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/figures/check.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "sim/figures/plot.hpp"
 #include "sim/pictures/image.hpp"
@@ -12,101 +10,72 @@
 namespace halfway::figures {
 namespace {
 
-const Row* row_of(const Entry& entry, const std::string& what) {
-  const auto found = std::ranges::find(entry.rows, what, &Row::what);
-  return found == entry.rows.end() ? nullptr : &*found;
+using Json = nlohmann::ordered_json;
+
+// The names of what a JSON pointer leads to: "spherical-05: 'a for n = 5': ".
+std::string place_of(const Json& entries, const std::string& path) {
+  std::string place;
+  for (Json::json_pointer at(path); !at.empty(); at.pop_back()) {
+    if (!entries.contains(at) || !entries.at(at).is_object()) continue;
+    const Json& object = entries.at(at);
+    if (object.contains("what")) place = fmt::format("'{}': {}", object["what"].get<std::string>(), place);
+    if (object.contains("id")) place = fmt::format("{}: {}", object["id"].get<std::string>(), place);
+  }
+  return place;
 }
 
-Status compare_pictures(const std::filesystem::path& committed, const std::filesystem::path& drawn,
-                        std::vector<std::string>& wrong, std::vector<std::string>& notes) {
+std::string text_of(const Json& entries, const std::string& path) {
+  const Json::json_pointer at(path);
+  if (!entries.contains(at)) return "nothing";
+  return entries.at(at).is_string() ? entries.at(at).get<std::string>() : entries.at(at).dump();
+}
+
+void compare_pictures(const std::filesystem::path& committed, const std::filesystem::path& drawn,
+                      std::vector<std::string>& wrong, std::vector<std::string>& notes) {
   const std::string name = committed.filename().string();
+  bool same = false;
   if (committed.extension() == ".png") {
-    const auto a = read_png(committed), b = read_png(drawn);
-    if (!a) return a.error();
-    if (!b) return b.error();
-    if (a->size.width != b->size.width || a->size.height != b->size.height || a->rgb != b->rgb)
-      wrong.push_back(fmt::format("{} is not what is drawn", name));
-    return Ok{};
+    const Frame a = must(read_png(committed)), b = must(read_png(drawn));
+    same = a.size.width == b.size.width && a.size.height == b.size.height && a.rgb == b.rgb;
+  } else {
+    const std::string a = must(read_file(committed)), b = must(read_file(drawn));
+    same = a == b;
+    if (drawn_by(a) != drawn_by(b)) {
+      notes.push_back(fmt::format("{}: {} there, {} here: not compared", name, drawn_by(a), drawn_by(b)));
+      return;
+    }
   }
-  const auto a = read_file(committed), b = read_file(drawn);
-  if (!a) return a.error();
-  if (!b) return b.error();
-  if (*a == *b) return Ok{};
-  if (drawn_by(*a) == drawn_by(*b))
-    wrong.push_back(fmt::format("{} is not what is drawn", name));
-  else
-    notes.push_back(fmt::format("{}: {} there, {} here: not compared", name, drawn_by(*a), drawn_by(*b)));
-  return Ok{};
+  if (!same) wrong.push_back(fmt::format("{} is not what is drawn", name));
 }
 
 }  // namespace
 
-std::vector<std::string> faults(std::span<const Figure> figures, std::span<const Entry> entries) {
-  std::vector<std::string> wrong;
-  for (const Entry& entry : entries) {
-    const auto figure = std::ranges::find(figures, entry.id, &Figure::id);
-    if (figure == figures.end()) {
-      wrong.push_back(fmt::format("{}: no figure has this name", entry.id));
-      continue;
-    }
-    for (const Row& row : entry.rows) {
-      const auto claim = std::ranges::find(figure->claims, row.what, &Claim::what);
-      if (claim == figure->claims.end()) {
-        wrong.push_back(fmt::format("{}: '{}' is no claim of it", entry.id, row.what));
-        continue;
-      }
-      for (const std::string& fault : faults(*claim, row)) wrong.push_back(entry.id + ": " + fault);
-    }
-    for (const std::string* text : {&entry.number, &entry.caption, &entry.shows})
-      if (text->empty())
-        wrong.push_back(fmt::format("{}: it lacks its number, its caption or what it shows", entry.id));
-  }
-  return wrong;
-}
-
-Result<std::vector<std::string>> stale(std::span<const Figure> figures, const std::filesystem::path& folder,
-                                       std::span<const Entry> drawn,
+Result<std::vector<std::string>> stale(std::span<const Entry> drawn, const std::filesystem::path& folder,
                                        const std::filesystem::path& drawn_folder,
-                                       std::vector<std::string>& notes) {
-  const std::filesystem::path json_file = folder / "figures.json", page_file = folder / "README.md";
-  const auto json = read_file(json_file), page = read_file(page_file);
-  if (!json) return json.error();
-  if (!page) return page.error();
-  const auto committed = entries_of(*json, json_file.string());
-  if (!committed) return committed.error();
-  std::vector<std::string> wrong = faults(figures, *committed);
-  if (to_page(*committed) != *page) wrong.push_back("README.md is not the page of figures.json");
-  if (to_json(*committed) != *json) wrong.push_back("figures.json is not as it is written");
-  for (const Figure& figure : figures) {
-    const auto entry = std::ranges::find(*committed, figure.id, &Entry::id);
-    const auto here = std::ranges::find(drawn, figure.id, &Entry::id);
-    if (entry == committed->end() || here == drawn.end()) {
-      wrong.push_back(fmt::format("{}: it is missing", figure.id));
-      continue;
+                                       const std::filesystem::path& source,
+                                       std::vector<std::string>& notes) try {
+  const std::filesystem::path json_file = folder / "figures.json";
+  const std::string json = must(read_file(json_file)), page = must(read_file(folder / "README.md"));
+  const auto entries =
+      completed({drawn.begin(), drawn.end()}, must(measurements_of(json, json_file.string())));
+  std::vector<std::string> wrong = faults(entries);
+  if (must(to_page(entries, source)) != page) wrong.push_back("README.md is not the page of figures.json");
+  if (to_json(entries) != json) {
+    wrong.push_back("figures.json is not as it is written");
+    const Json there = Json::parse(json), now = Json::parse(to_json(entries));
+    for (const auto& difference : Json::diff(there, now)) {
+      const std::string path = difference["path"];
+      wrong.push_back(fmt::format("{}{} is {} there, measured {}", place_of(there, path),
+                                  path.substr(path.rfind('/') + 1), text_of(there, path),
+                                  text_of(now, path)));
     }
-    if (entry->paper != here->paper || entry->number != here->number || entry->caption != here->caption ||
-        entry->shows != here->shows)
-      wrong.push_back(fmt::format("{}: its caption is another", figure.id));
-    for (const Claim& claim : figure.claims) {
-      const Row *there = row_of(*entry, claim.what), *now = row_of(*here, claim.what);
-      if (there == nullptr)
-        wrong.push_back(fmt::format("{}: '{}' has no row", figure.id, claim.what));
-      else if (now != nullptr && now->measured != there->measured)
-        wrong.push_back(fmt::format("{}: '{}' is {} there, measured {}", figure.id, claim.what,
-                                    there->measured, now->measured));
-    }
-    const auto same = [](const Picture& a, const Picture& b) { return a.file == b.file && a.alt == b.alt; };
-    if (!std::ranges::equal(entry->pictures, here->pictures, same)) {
-      wrong.push_back(fmt::format("{}: its pictures are others", figure.id));
-      continue;
-    }
-    for (const Picture& picture : entry->pictures)
-      if (const Status compared =
-              compare_pictures(folder / picture.file, drawn_folder / picture.file, wrong, notes);
-          !compared)
-        return compared.error();
   }
+  for (const Entry& entry : entries)
+    for (const Picture& picture : entry.pictures)
+      compare_pictures(folder / picture.file, drawn_folder / picture.file, wrong, notes);
   return wrong;
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 }  // namespace halfway::figures

@@ -12,16 +12,11 @@
 
 namespace halfway::figures {
 
-/// What is wrong with the rows, a sentence each: faults of single ones, rows that are missing, rows of no
-/// claim.
-std::vector<std::string> faults(std::span<const Figure> figures, std::span<const Entry> entries);
-
-/// The page and figures.json in `folder`, and its pictures, beside what was drawn quickly into
-/// `drawn_folder`: a sentence for each that is another. Rows of slow claims stand as they are, but for their
-/// verdicts. Plots of another gnuplot than the one here are not compared; `notes` tells.
-Result<std::vector<std::string>> stale(std::span<const Figure> figures, const std::filesystem::path& folder,
-                                       std::span<const Entry> drawn,
+/// Compares the page, figures.json and the pictures in `folder` with what was drawn into `drawn_folder`: a
+/// sentence for each difference. Rows that were not measured are taken from figures.json, but for their
+/// verdicts. Plots of another gnuplot than this machine's are not compared, which `notes` says.
+Result<std::vector<std::string>> stale(std::span<const Entry> drawn, const std::filesystem::path& folder,
                                        const std::filesystem::path& drawn_folder,
-                                       std::vector<std::string>& notes);
+                                       const std::filesystem::path& source, std::vector<std::string>& notes);
 
 }  // namespace halfway::figures

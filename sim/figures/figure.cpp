@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/figures/figure.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-namespace halfway::figures {
+#include "sim/pages/template.hpp"
 
+namespace halfway::figures {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 // 0.00005, but 1e-09.
 std::string plain(double value) {
@@ -20,6 +21,27 @@ std::string plain(double value) {
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text;
+}
+
+Json json_of(const Row& row) {
+  const auto& [claim, measured] = row;
+  return {{"what", claim.what},
+          {"published", claim.published},
+          {"measured", measured.text},
+          {"value", measured.value},  // null where it is no number
+          {"criterion", claim.criterion.text()},
+          {"verdict", row.agrees() ? "agrees" : "differs"},
+          {"reason", row.reason()},
+          {"slow", claim.slow}};
+}
+
+Json json_of(const Entry& entry) {
+  Json pictures = Json::array(), rows = Json::array();
+  for (const Picture& p : entry.pictures) pictures.push_back({{"file", p.file}, {"alt", p.alt}});
+  for (const Row& row : entry.rows) rows.push_back(json_of(row));
+  const Figure& f = entry.figure;
+  return {{"id", f.id},       {"paper", f.paper()},   {"number", f.number}, {"caption", f.caption},
+          {"shows", f.shows}, {"pictures", pictures}, {"rows", rows}};
 }
 
 }  // namespace
@@ -52,136 +74,139 @@ std::string Criterion::text() const {
   return "the same";
 }
 
-Criterion the_same() {
-  return {Criterion::Kind::same};
-}
-Criterion within(double published, double tolerance, std::string unit) {
-  return {Criterion::Kind::within, published, tolerance, std::move(unit)};
-}
-Criterion at_most(double limit, std::string unit) {
-  return {Criterion::Kind::at_most, limit, 0.0, std::move(unit)};
-}
-Criterion at_least(double limit, std::string unit) {
-  return {Criterion::Kind::at_least, limit, 0.0, std::move(unit)};
+bool Row::agrees() const {
+  return claim.criterion.kind == Criterion::Kind::same ? measured.text == claim.published
+                                                       : claim.criterion.holds(measured.value);
 }
 
-std::vector<Figure> all_figures() {
-  std::vector<Figure> all;
-  for (const auto& family : {spherical_figures(), quadratic_figures(), processors_figures()})
-    all.insert(all.end(), family.begin(), family.end());
-  return all;
-}
-
-Row judged(const Claim& claim, const Measured& measured) {
-  Row row{claim.what, claim.published, measured.text, measured.value, claim.criterion.text(), false,
-          {},         claim.slow};
-  row.agrees = claim.criterion.kind == Criterion::Kind::same ? measured.text == claim.published
-                                                             : claim.criterion.holds(measured.value);
-  if (!row.agrees) row.reason = claim.why_not;
-  return row;
+const std::string& Row::reason() const {
+  static const std::string none;
+  return agrees() ? none : claim.why_not;
 }
 
 Result<Entry> drawn(const Figure& figure, const Context& context) {
-  context.on_progress(fmt::format("{}, {}", figure.paper, figure.number));
+  context.on_progress(fmt::format("{}, {}", figure.paper(), figure.number));
   Drawing drawing;
-  if (const Status status = figure.draw(context, drawing); !status) return status.error();
-  Entry entry{figure.id, figure.paper, figure.number, figure.caption, figure.shows, drawing.pictures, {}};
+  try {
+    figure.draw(context, drawing);
+  } catch (const Failure& failure) {
+    return failure.error;
+  }
+  Entry entry{figure, drawing.pictures, {}};
   for (const Claim& claim : figure.claims) {
     if (context.quick && claim.slow) continue;
-    const auto found = drawing.measured.find(claim.what);
-    if (found == drawing.measured.end())
+    const auto found = drawing.measured.extract(claim.what);
+    if (found.empty())
       return tool_failed(fmt::format("{}: nothing was measured for '{}'", figure.id, claim.what));
-    entry.rows.push_back(judged(claim, found->second));
-    drawing.measured.erase(found);
+    entry.rows.push_back({claim, found.mapped()});
   }
-  for (const auto& [what, measured] : drawing.measured) {
-    const bool known =
-        std::ranges::any_of(figure.claims, [&, &what = what](const Claim& c) { return c.what == what; });
-    if (!known)
+  for (const auto& [what, measured] : drawing.measured)
+    if (std::ranges::find(figure.claims, what, &Claim::what) == figure.claims.end())
       return tool_failed(fmt::format("{}: '{}' was measured, which no claim names", figure.id, what));
-  }
   return entry;
 }
 
-std::vector<std::string> faults(const Claim& claim, const Row& row) {
+std::vector<std::string> faults(std::span<const Entry> entries) {
   std::vector<std::string> found;
-  for (const auto& [name, cell] :
-       {std::pair{"what", &row.what}, std::pair{"published", &row.published},
-        std::pair{"measured", &row.measured}, std::pair{"criterion", &row.criterion}})
-    if (cell->empty()) found.push_back(fmt::format("'{}': its cell '{}' is empty", claim.what, name));
-  const std::string sides =
-      fmt::format("published {}, measured {} ({})", row.published, row.measured, row.criterion);
-  if (!row.agrees && row.reason.empty())
-    found.push_back(fmt::format("'{}' differs, and no reason is known: {}", claim.what, sides));
-  // What is of this machine's processor may agree on one, and not on another.
-  if (row.agrees && !claim.why_not.empty() && !claim.timed)
-    found.push_back(fmt::format("'{}' agrees, though a reason why not is given: {}", claim.what, sides));
-  const Row again = judged(claim, {row.measured, row.value});
-  if (again.published != row.published || again.criterion != row.criterion || again.agrees != row.agrees ||
-      again.reason != row.reason || again.slow != row.slow)
-    found.push_back(fmt::format("'{}': its verdict does not follow from it", claim.what));
+  for (const auto& [figure, pictures, rows] : entries) {
+    for (const std::string* text : {&figure.number, &figure.caption, &figure.shows})
+      if (text->empty())
+        found.push_back(fmt::format("{}: it lacks its number, its caption or what it shows", figure.id));
+    for (const Claim& claim : figure.claims) {
+      const auto say = [&](const std::string& what) {
+        found.push_back(fmt::format("{}: '{}'{}", figure.id, claim.what, what));
+      };
+      const auto row = std::ranges::find(rows, claim.what, [](const Row& r) { return r.claim.what; });
+      if (row == rows.end()) {
+        say(" has no row");
+        continue;
+      }
+      if (claim.what.empty() || claim.published.empty() || row->measured.text.empty())
+        say(": a cell is empty");
+      const std::string sides = fmt::format("published {}, measured {} ({})", claim.published,
+                                            row->measured.text, claim.criterion.text());
+      if (!row->agrees() && claim.why_not.empty()) say(" differs, and no reason is known: " + sides);
+      // A processor's time may agree on one machine, and not on another.
+      if (row->agrees() && !claim.why_not.empty() && !claim.timed)
+        say(" agrees, though a reason why not is given: " + sides);
+    }
+  }
   return found;
 }
 
-std::vector<Entry> with_times_of(std::span<const Entry> page, std::span<const Figure> figures,
-                                 std::vector<Entry> drawn) {
+std::vector<Entry> completed(std::vector<Entry> drawn, const std::map<std::string, Measurements>& page) {
   for (Entry& entry : drawn) {
-    const auto there = std::ranges::find(page, entry.id, &Entry::id);
-    const auto figure = std::ranges::find(figures, entry.id, &Figure::id);
-    if (there == page.end() || figure == figures.end()) continue;
-    for (const Claim& claim : figure->claims) {
-      const auto row = std::ranges::find(entry.rows, claim.what, &Row::what);
-      const auto before = std::ranges::find(there->rows, claim.what, &Row::what);
-      if (!claim.timed || row == entry.rows.end() || before == there->rows.end()) continue;
-      Row kept = judged(claim, {before->measured, before->value});
-      if (kept.agrees == row->agrees) *row = std::move(kept);
+    const auto before = page.find(entry.figure.id);
+    if (before == page.end()) continue;
+    std::vector<Row> rows;
+    for (const Claim& claim : entry.figure.claims) {
+      const auto now = std::ranges::find(entry.rows, claim.what, [](const Row& r) { return r.claim.what; });
+      const auto there = before->second.find(claim.what);
+      const bool known = there != before->second.end();
+      const bool measured = now != entry.rows.end();
+      if (known && (!measured || (claim.timed && Row{claim, there->second}.agrees() == now->agrees())))
+        rows.push_back({claim, there->second});
+      else if (measured)
+        rows.push_back(*now);
     }
+    entry.rows = std::move(rows);
   }
   return drawn;
 }
 
 std::string to_json(std::span<const Entry> entries) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const Entry& e : entries) {
-    nlohmann::ordered_json pictures = nlohmann::ordered_json::array(), rows = nlohmann::ordered_json::array();
-    for (const Picture& p : e.pictures) pictures.push_back({{"file", p.file}, {"alt", p.alt}});
-    for (const Row& r : e.rows) {
-      nlohmann::ordered_json row = {{"what", r.what}, {"published", r.published}, {"measured", r.measured}};
-      row["value"] = std::isfinite(r.value) ? nlohmann::ordered_json(r.value) : nlohmann::ordered_json();
-      row["criterion"] = r.criterion;
-      row["verdict"] = r.agrees ? "agrees" : "differs";
-      row["reason"] = r.reason;
-      row["slow"] = r.slow;
-      rows.push_back(std::move(row));
-    }
-    all.push_back({{"id", e.id},
-                   {"paper", e.paper},
-                   {"number", e.number},
-                   {"caption", e.caption},
-                   {"shows", e.shows},
-                   {"pictures", std::move(pictures)},
-                   {"rows", std::move(rows)}});
-  }
+  Json all = Json::array();
+  for (const Entry& entry : entries) all.push_back(json_of(entry));
   return all.dump(1) + '\n';
 }
 
-Result<std::vector<Entry>> entries_of(std::string_view json, const std::string& file) {
+Result<std::map<std::string, Measurements>> measurements_of(const std::string& json,
+                                                            const std::string& file) {
   try {
-    std::vector<Entry> entries;
-    for (const auto& e : nlohmann::json::parse(json)) {
-      Entry entry{e.at("id"), e.at("paper"), e.at("number"), e.at("caption"), e.at("shows"), {}, {}};
-      for (const auto& p : e.at("pictures")) entry.pictures.push_back({p.at("file"), p.at("alt")});
-      for (const auto& r : e.at("rows"))
-        entry.rows.push_back(
-            {r.at("what"), r.at("published"), r.at("measured"),
-             r.at("value").is_null() ? std::numeric_limits<double>::quiet_NaN() : r.at("value").get<double>(),
-             r.at("criterion"), r.at("verdict") == "agrees", r.at("reason"), r.at("slow")});
-      entries.push_back(std::move(entry));
-    }
-    return entries;
-  } catch (const nlohmann::json::exception& bad) {
+    std::map<std::string, Measurements> all;
+    for (const auto& e : Json::parse(json))
+      for (const auto& r : e.at("rows")) {
+        Measured measured{.text = r.at("measured")};
+        if (!r.at("value").is_null()) measured.value = r.at("value");
+        all[e.at("id")][r.at("what")] = measured;
+      }
+    return all;
+  } catch (const Json::exception& bad) {
     return bad_input(fmt::format("{}: {}; run make figures", file, bad.what()));
   }
+}
+
+Result<std::string> to_page(std::span<const Entry> entries, const std::filesystem::path& source) {
+  Json figures = Json::array(), papers = Json::array();
+  std::int64_t count = 0, agreeing = 0;
+  for (const Entry& entry : entries) {
+    Json figure = json_of(entry);
+    const std::string heading = fmt::format("{}, {}", entry.figure.paper(), entry.figure.number);
+    std::string anchor = heading;
+    std::erase(anchor, ',');
+    std::ranges::replace(anchor, ' ', '-');
+    figure.update({{"heading", heading}, {"anchor", anchor}});
+    for (Json& row : figure["rows"]) {
+      row["agrees"] = row["verdict"] == "agrees";
+      agreeing += row["verdict"] == "agrees" ? 1 : 0;
+      ++count;
+    }
+    figures.push_back(std::move(figure));
+  }
+  for (const auto& [name, title] :
+       {std::pair{"spherical", "Hardware Implementation of Phong Shading using Spherical Interpolation"},
+        {"quadratic", "Quadratic Shading and its Hardware Implementation"},
+        {"processors", "Real Time Phong Shading (Claussen's shading processors)"}}) {
+    Json paper = {{"name", name}, {"title", title}, {"figures", Json::array()}};
+    for (const Json& figure : figures)
+      if (figure["paper"] == name) paper["figures"].push_back(figure);
+    papers.push_back(std::move(paper));
+  }
+  return filled_template(source / "sim/figures/page.md.mustache", {{"rows_in_all", count},
+                                                                   {"agreeing", agreeing},
+                                                                   {"differing", count - agreeing},
+                                                                   {"papers", papers},
+                                                                   {"figures", figures}});
 }
 
 }  // namespace halfway::figures

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the papers print, and what this project's own runs give in its place: a figure's claims, its pictures,
-// and a verdict that follows from what was measured.
+// What the papers print, and what this project's own runs measure instead: a figure's claims (claims.toml),
+// its pictures, and a verdict that follows from what was measured.
 #pragma once
+
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <functional>
@@ -14,14 +16,15 @@
 
 #include "common/result.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::figures {
 
-/// What is drawn by, and where to.
+/// Tools and folders for drawing.
 struct Context {
   SimulatorFolders folders;
   std::filesystem::path out;  ///< takes the pictures
-  /// The golden model draws in place of the RTL, and nothing slow is measured.
+  /// The golden model draws instead of the RTL, and nothing slow is measured.
   bool quick = false;
   unsigned threads = 1;
   std::function<void(const std::string& what)> on_progress = [](const std::string&) {};
@@ -32,7 +35,7 @@ struct Context {
 /// When what was measured agrees with what was published.
 struct Criterion {
   enum class Kind { same, within, at_most, at_least };
-  Kind kind;
+  Kind kind = Kind::same;
   double value = 0.0;      ///< published, or the limit
   double tolerance = 0.0;  ///< of `within`
   std::string unit{};
@@ -41,25 +44,25 @@ struct Criterion {
   /// "± 0.005", "at most 2/255": as the page says it.
   std::string text() const;
 };
-/// The same text.
-Criterion the_same();
-Criterion within(double published, double tolerance, std::string unit = "");
-Criterion at_most(double limit, std::string unit = "");
-Criterion at_least(double limit, std::string unit = "");
 
 struct Measured {
   std::string text;
   double value = std::numeric_limits<double>::quiet_NaN();  ///< what a criterion but `same` looks at
 };
 
-/// A number or a statement of the paper.
+/// A number with its text, such as measured(0.5, "{:.2f} of {}", 3).
+template <class... More>
+Measured measured(double value, fmt::format_string<double, const More&...> text, const More&... more) {
+  return {fmt::format(text, double(value), more...), value};
+}
+
+/// A number or a statement of the paper: an entry of claims.toml, which says more about each field.
 struct Claim {
   std::string what;
-  std::string published;  ///< the number, or the statement in our words
-  Criterion criterion;
-  std::string why_not{};  ///< it is known to differ, and this is why; empty: it must agree
-  bool slow = false;      ///< not measured where Context::quick is set
-  bool timed = false;     ///< of this machine's processor: another value in each run
+  std::string published;
+  Criterion criterion{};
+  std::string why_not{};
+  bool slow = false, timed = false;
 };
 
 struct Picture {
@@ -68,65 +71,71 @@ struct Picture {
 };
 
 /// What was measured of a figure's claims, by Claim::what, and what was drawn.
+using Measurements = std::map<std::string, Measured>;
 struct Drawing {
-  std::map<std::string, Measured> measured;
+  Measurements measured;
   std::vector<Picture> pictures;
 };
 
+/// Draws a figure; throws Failure.
+using Draw = std::function<void(const Context&, Drawing&)>;
+
 struct Figure {
   std::string id;       ///< spherical-05; its pictures' names begin with it
-  std::string paper;    ///< spherical, quadratic or processors
   std::string number;   ///< "figure 5", "table 1", "section 6"
   std::string caption;  ///< the facts of the published caption
-  std::string shows;    ///< what ours shows, by what it was drawn
+  std::string shows;    ///< what ours shows, and how it was drawn
   std::vector<Claim> claims;
-  std::function<Status(const Context&, Drawing&)> draw;
+  Draw draw;
+
+  std::string paper() const { return id.substr(0, id.find('-')); }
 };
 
-// A family each, in a file of its name.
-std::vector<Figure> spherical_figures();
-std::vector<Figure> quadratic_figures();
-std::vector<Figure> processors_figures();
-/// All, in the papers' order.
-std::vector<Figure> all_figures();
+// By the figures' ids; a paper each, in a file of its name.
+std::map<std::string, Draw> spherical_drawings();
+std::map<std::string, Draw> quadratic_drawings();
+std::map<std::string, Draw> processors_drawings();
 
-/// A claim held against what was measured.
+/// All figures, in the order of claims.toml.
+Result<std::vector<Figure>> all_figures(const std::filesystem::path& source);
+/// Of the text of a claims.toml.
+Result<std::vector<Figure>> read_figures(const std::string& toml, const std::string& file,
+                                         std::map<std::string, Draw> drawings);
+
+/// A claim compared with what was measured.
 struct Row {
-  std::string what, published, measured;
-  double value;  ///< Measured::value
-  std::string criterion;
-  bool agrees;
-  std::string reason;  ///< why not; empty where it agrees
-  bool slow;
+  Claim claim;
+  Measured measured;
+
+  bool agrees() const;
+  const std::string& reason() const;  ///< why not; empty where it agrees
 };
-Row judged(const Claim& claim, const Measured& measured);
 
 /// A figure with its rows.
 struct Entry {
-  std::string id, paper, number, caption, shows;
+  Figure figure;
   std::vector<Picture> pictures;
   std::vector<Row> rows;
 };
 
-/// Draws and judges one. With Context::quick the rows of slow claims are left out.
+/// Draws and measures one. With Context::quick the rows of slow claims are missing.
 Result<Entry> drawn(const Figure& figure, const Context& context);
 
-/// What is wrong with a row beside its claim, a sentence each: an empty cell, a difference that nobody knows
-/// a reason of, a reason for a difference that is none.
-std::vector<std::string> faults(const Claim& claim, const Row& row);
+/// What is wrong with the rows, a sentence each: a claim without a row, an empty cell, a difference without a
+/// reason, a reason without a difference.
+std::vector<std::string> faults(std::span<const Entry> entries);
 
-/// figures.json, and back: a list of figures, each with id, paper, number, caption, shows, pictures (file,
-/// alt) and rows (what, published, measured, value or null, criterion, verdict "agrees" or "differs", reason,
-/// slow).
+/// figures.json: a list of figures, each with id, paper, number, caption, shows, pictures (file, alt) and
+/// rows (what, published, measured, value or null, criterion, verdict "agrees" or "differs", reason, slow).
 std::string to_json(std::span<const Entry> entries);
-Result<std::vector<Entry>> entries_of(std::string_view json, const std::string& file);
+/// What a figures.json has, by figure.
+Result<std::map<std::string, Measurements>> measurements_of(const std::string& json, const std::string& file);
 
-/// What was drawn, for a page that is there: of claims that are timed what stands in `page` stays as long as
-/// its verdict does.
-std::vector<Entry> with_times_of(std::span<const Entry> page, std::span<const Figure> figures,
-                                 std::vector<Entry> drawn);
+/// What was drawn, for a page that has these measurements: rows of claims that were not measured now are
+/// taken from it, and those of timed claims as long as the verdict is the same.
+std::vector<Entry> completed(std::vector<Entry> drawn, const std::map<std::string, Measurements>& page);
 
 /// The page: the table of published against measured, then the pictures.
-std::string to_page(std::span<const Entry> entries);
+Result<std::string> to_page(std::span<const Entry> entries, const std::filesystem::path& source);
 
 }  // namespace halfway::figures

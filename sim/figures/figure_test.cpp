@@ -22,67 +22,103 @@ namespace halfway::figures {
 namespace {
 
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const std::filesystem::path c_folder = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "figures";
+using Kind = Criterion::Kind;
+
+const std::filesystem::path c_source = HALFWAY_SOURCE_DIR, c_folder = c_source / "sim" / "figures";
 
 TEST(Figures, ACriterionHoldsUpToItsLimit) {
-  EXPECT_TRUE(within(1.45, 0.005).holds(1.4502));
-  EXPECT_FALSE(within(1.46, 0.005).holds(1.4502));
-  EXPECT_TRUE(within(60, 0).holds(60));
-  EXPECT_FALSE(within(60, 0).holds(59));
-  EXPECT_TRUE(at_most(2).holds(2));
-  EXPECT_FALSE(at_most(2).holds(2.5));
-  EXPECT_TRUE(at_least(8).holds(8));
-  EXPECT_FALSE(at_least(8).holds(7));
-  for (const Criterion& c : {within(0, 1e9), at_most(1e9), at_least(-1e9), the_same()})
+  const auto holds = [](Criterion criterion, double value) { return criterion.holds(value); };
+  EXPECT_TRUE(holds({Kind::within, 1.45, 0.005}, 1.4502));
+  EXPECT_FALSE(holds({Kind::within, 1.46, 0.005}, 1.4502));
+  EXPECT_TRUE(holds({Kind::within, 60}, 60));
+  EXPECT_FALSE(holds({Kind::within, 60}, 59));
+  EXPECT_TRUE(holds({Kind::at_most, 2}, 2));
+  EXPECT_FALSE(holds({Kind::at_most, 2}, 2.5));
+  EXPECT_TRUE(holds({Kind::at_least, 8}, 8));
+  EXPECT_FALSE(holds({Kind::at_least, 8}, 7));
+  for (const Criterion& c :
+       {Criterion{Kind::within, 0, 1e9}, {Kind::at_most, 1e9}, {Kind::at_least, -1e9}, {}})
     EXPECT_FALSE(c.holds(NAN));
-  EXPECT_EQ(within(1.45, 0.00005).text(), "± 0.00005");
-  EXPECT_EQ(within(60, 0, " ns").text(), "exactly");
-  EXPECT_EQ(at_most(2, "/255").text(), "at most 2/255");
-  EXPECT_EQ(at_least(1e-9).text(), "at least 1e-09");
+  EXPECT_EQ((Criterion{Kind::within, 1.45, 0.00005}.text()), "± 0.00005");
+  EXPECT_EQ((Criterion{Kind::within, 60, 0, " ns"}.text()), "exactly");
+  EXPECT_EQ((Criterion{Kind::at_most, 2, 0, "/255"}.text()), "at most 2/255");
+  EXPECT_EQ((Criterion{Kind::at_least, 1e-9}.text()), "at least 1e-09");
+}
+
+const Claim c_plain{"a", "60", {Kind::within, 60}};
+
+std::vector<std::string> faults_of(const Claim& claim, const Measured& measured) {
+  const Figure figure{"x-1", "figure 1", "a caption", "a drawing", {claim}, {}};
+  return faults(std::array{Entry{figure, {}, {{claim, measured}}}});
 }
 
 TEST(Figures, AVerdictNeedsAReasonWhereItDiffersAndNoneWhereItAgrees) {
-  const Claim plain{"a", "60", within(60, 0)}, excused{"a", "60", within(60, 0), "rounded"};
+  Claim excused = c_plain;
+  excused.why_not = "rounded";
   const Measured same{"60", 60}, other{"59", 59};
-  EXPECT_THAT(faults(plain, judged(plain, same)), IsEmpty());
-  EXPECT_THAT(faults(plain, judged(plain, other)), Contains(HasSubstr("differs, and no reason is known")));
-  EXPECT_THAT(faults(excused, judged(excused, other)), IsEmpty());
-  EXPECT_EQ(judged(excused, other).reason, "rounded");
-  EXPECT_THAT(faults(excused, judged(excused, same)), Contains(HasSubstr("agrees, though")));
-  Claim timed = excused;
-  timed.timed = true;  // and so of another machine
-  EXPECT_THAT(faults(timed, judged(timed, same)), IsEmpty());
-  const Claim words{"a", "06AF", the_same()};
-  EXPECT_TRUE(judged(words, {"06AF"}).agrees);
-  EXPECT_FALSE(judged(words, {"06AE"}).agrees);
+  EXPECT_THAT(faults_of(c_plain, same), IsEmpty());
+  EXPECT_THAT(faults_of(c_plain, other), Contains(HasSubstr("differs, and no reason is known")));
+  EXPECT_THAT(faults_of(excused, other), IsEmpty());
+  EXPECT_EQ((Row{excused, other}.reason()), "rounded");
+  EXPECT_EQ((Row{excused, same}.reason()), "");
+  EXPECT_THAT(faults_of(excused, same), Contains(HasSubstr("agrees, though")));
+  excused.timed = true;  // and so of another machine
+  EXPECT_THAT(faults_of(excused, same), IsEmpty());
+  const Claim words{"a", "06AF"};
+  EXPECT_TRUE((Row{words, {"06AF"}}.agrees()));
+  EXPECT_FALSE((Row{words, {"06AE"}}.agrees()));
+  EXPECT_THAT(faults_of(c_plain, {"", 60}), Contains(HasSubstr("a cell is empty")));
 }
 
-TEST(Figures, ARowThatDoesNotFollowOrIsEmptyIsFound) {
-  const Claim claim{"a", "60", within(60, 0)};
-  Row row = judged(claim, {"60", 60});
-  row.value = 59;
-  EXPECT_THAT(faults(claim, row), Contains(HasSubstr("does not follow")));
-  row = judged(claim, {"60", 60});
-  row.published = "61";
-  EXPECT_THAT(faults(claim, row), Contains(HasSubstr("does not follow")));
-  EXPECT_THAT(faults(claim, judged(claim, {"", 60})), Contains(HasSubstr("'measured' is empty")));
+TEST(Figures, AClaimsFileIsReadStrictly) {
+  const std::string head =
+      "[[figure]]\nid = \"x-1\"\nnumber = \"figure 1\"\ncaption = \"c\"\nshows = \"s\"\n";
+  const auto read = [&](const std::string& claim) {
+    return read_figures(head + "claims = [\n" + claim + "]\n", "c.toml", {{"x-1", {}}});
+  };
+  const std::string names = "{ what = \"a\", published = \"b\"";
+  const auto good =
+      read(names + ", at_most = 2, unit = \"/255\", slow = true, why_not = \"so\" },\n" + names + "},\n");
+  ASSERT_TRUE(good) << good.error().message;
+  const Claim& claim = good->front().claims.front();
+  EXPECT_EQ(claim.criterion.text(), "at most 2/255");
+  EXPECT_EQ(claim.why_not, "so");
+  EXPECT_TRUE(claim.slow && !claim.timed);
+  EXPECT_EQ(good->front().claims.back().criterion.text(), "the same");
+  EXPECT_EQ(good->front().paper(), "x");
+  const auto fault = [&](const std::string& claim_text) {
+    const auto bad = read(claim_text);
+    return bad ? std::string("none") : bad.error().message;
+  };
+  EXPECT_EQ(fault("{ what = \"a\" }"), "c.toml:7: 'published' is missing");
+  EXPECT_EQ(fault("\n" + names + ", atmost = 2 }"), "c.toml:8: unknown key 'atmost'");
+  EXPECT_EQ(fault(names + ", slow = \"yes\" }"), "c.toml:7: 'slow' has another type");
+  EXPECT_EQ(fault(names + ", value = 1, at_least = 1 }"),
+            "c.toml:7: takes one of value, at_most and at_least");
+  EXPECT_THAT(fault(names), testing::StartsWith("c.toml:7: "));
+  const std::string text = head + "claims = []\n";
+  EXPECT_FALSE(read_figures(text, "c.toml", {}));
+  EXPECT_FALSE(read_figures(text, "c.toml", {{"x-1", {}}, {"x-2", {}}}));
+}
+
+std::vector<Figure> figures() {
+  auto all = all_figures(c_source);
+  EXPECT_TRUE(all) << all.error().message;
+  return *all;
 }
 
 // What the papers print and the project draws again.
 TEST(Figures, EveryFigureIsThereWithItsClaims) {
   std::set<std::string> ids;
-  for (const Figure& f : all_figures()) {
+  for (const Figure& f : figures()) {
     EXPECT_TRUE(ids.insert(f.id).second) << f.id;
-    EXPECT_TRUE(f.id.starts_with(f.paper + "-")) << f.id;
     EXPECT_FALSE(f.claims.empty()) << f.id;
     std::set<std::string> names;
-    for (const Claim& c : f.claims) {
-      EXPECT_TRUE(names.insert(c.what).second) << f.id << ": " << c.what;
-      EXPECT_FALSE(c.published.empty()) << f.id << ": " << c.what;
-    }
+    for (const Claim& c : f.claims) EXPECT_TRUE(names.insert(c.what).second) << f.id << ": " << c.what;
   }
   for (const char* id : {"spherical-05", "spherical-09", "spherical-10", "spherical-table-1", "spherical-11",
                          "spherical-14", "spherical-15", "spherical-16", "spherical-17", "quadratic-07",
@@ -91,98 +127,96 @@ TEST(Figures, EveryFigureIsThereWithItsClaims) {
     EXPECT_TRUE(ids.contains(id)) << id;
 }
 
+std::map<std::string, Measurements> measurements(const std::string& json) {
+  const auto read = measurements_of(json, "x.json");
+  EXPECT_TRUE(read) << read.error().message;
+  return *read;
+}
+
+// The committed figures, as the program reads them.
 std::vector<Entry> committed() {
   const auto json = read_file(c_folder / "figures.json");
   EXPECT_TRUE(json) << json.error().message;
-  const auto entries = entries_of(*json, "figures.json");
-  EXPECT_TRUE(entries) << entries.error().message;
-  return *entries;
+  std::vector<Entry> entries;
+  for (const Figure& figure : figures()) entries.push_back({figure, {}, {}});
+  return completed(entries, measurements(*json));
 }
 
 // The published number of each row, changed: no verdict stays what it is.
 TEST(Figures, EveryVerdictCanGoTheOtherWay) {
-  const std::vector<Figure> all = all_figures();
   int rows = 0;
   for (const Entry& entry : committed())
-    for (const Row& row : entry.rows) {
-      SCOPED_TRACE(entry.id + ": " + row.what);
-      const auto figure = std::ranges::find(all, entry.id, &Figure::id);
-      ASSERT_NE(figure, all.end());
-      const auto claim = std::ranges::find(figure->claims, row.what, &Claim::what);
-      ASSERT_NE(claim, figure->claims.end());
-      const Measured measured{row.measured, row.value};
-      ASSERT_EQ(judged(*claim, measured).agrees, row.agrees);
-      Claim other = *claim;
+    for (const auto& [claim, measured] : entry.rows) {
+      SCOPED_TRACE(entry.figure.id + ": " + claim.what);
+      const bool agrees = Row{claim, measured}.agrees();
+      Claim other = claim;
       Criterion& c = other.criterion;
       switch (c.kind) {
-        case Criterion::Kind::same:
-          other.published = row.agrees ? row.measured + "0" : row.measured;
+        case Kind::same:
+          other.published = agrees ? measured.text + "0" : measured.text;
           break;
-        case Criterion::Kind::within:
-          c.value = row.agrees ? row.value + 2 * c.tolerance + 1 : row.value;
+        case Kind::within:
+          c.value = agrees ? measured.value + 2 * c.tolerance + 1 : measured.value;
           break;
-        case Criterion::Kind::at_most:
-          c.value = row.agrees ? row.value - 1 : row.value;
+        case Kind::at_most:
+          c.value = agrees ? measured.value - 1 : measured.value;
           break;
-        case Criterion::Kind::at_least:
-          c.value = row.agrees ? row.value + 1 : row.value;
+        case Kind::at_least:
+          c.value = agrees ? measured.value + 1 : measured.value;
           break;
       }
-      EXPECT_NE(judged(other, measured).agrees, row.agrees);
-      if (other.timed && !row.agrees)
-        EXPECT_THAT(faults(other, judged(other, measured)), IsEmpty());
+      EXPECT_NE((Row{other, measured}.agrees()), agrees);
+      if (other.timed && !agrees)
+        EXPECT_THAT(faults_of(other, measured), IsEmpty());
       else
-        EXPECT_THAT(faults(other, judged(other, measured)),
-                    Contains(HasSubstr(row.agrees ? "differs, and no reason" : "agrees, though")));
+        EXPECT_THAT(faults_of(other, measured),
+                    Contains(HasSubstr(agrees ? "differs, and no reason" : "agrees, though")));
       ++rows;
     }
   EXPECT_GT(rows, 80);
 }
 
 TEST(Figures, TheTableHasNoEmptyCell) {
-  const std::string page = to_page(committed());
-  const std::string table = page.substr(0, page.find("\n## The figures"));
+  const auto page = to_page(committed(), c_source);
+  ASSERT_TRUE(page) << page.error().message;
+  const std::string table = page->substr(0, page->find("\n## The figures"));
   EXPECT_THAT(table, testing::Not(HasSubstr("|  |")));
   EXPECT_THAT(table, testing::Not(HasSubstr(": |")));
   EXPECT_THAT(table, testing::Not(HasSubstr("nan")));
 }
 
-TEST(Figures, JsonComesBack) {
-  const Entry entry{"x-1",
-                    "x",
-                    "figure 1",
-                    "of \"x\"",
-                    "x",
-                    {{"x-1.png", "a picture"}},
-                    {{"a", "1", "1.1", 1.1, "± 0.2", true, "", false},
-                     {"b", "1", "two", NAN, "the same", false, "why", true}}};
-  const std::string json = to_json(std::array{entry});
-  const auto back = entries_of(json, "x.json");
-  ASSERT_TRUE(back) << back.error().message;
-  EXPECT_EQ(to_json(*back), json);
-  EXPECT_EQ(to_page(*back), to_page(std::array{entry}));
-  const auto bad = entries_of("[{\"id\": 1}]", "x.json");
+TEST(Figures, MeasurementsComeBackFromJson) {
+  const Claim number{"a", "1", {Kind::within, 1, 0.2}},
+      text{.what = "b", .published = "1", .why_not = "why", .slow = true};
+  const Figure figure{"x-1", "figure 1", "of \"x\"", "x", {number, text}, {}};
+  const Entry whole{figure, {{"x-1.png", "a picture"}}, {{number, {"1.1", 1.1}}, {text, {"two"}}}};
+  Entry none = whole;
+  none.rows.clear();
+  const std::string json = to_json(std::array{whole});
+  EXPECT_THAT(json, HasSubstr("\"value\": null"));
+  EXPECT_EQ(to_json(completed({none}, measurements(json))), json);
+  const auto bad = measurements_of("[{\"id\": 1}]", "x.json");
   ASSERT_FALSE(bad);
   EXPECT_THAT(bad.error().message, HasSubstr("x.json: "));
 }
 
 TEST(Figures, TimesStayOnAPageUntilTheirVerdictChanges) {
-  const Claim time{
-      .what = "time", .published = "1", .criterion = within(1, 0.1), .why_not = "slow", .timed = true};
-  const Claim count{.what = "count", .published = "2", .criterion = within(2, 1)};
-  const std::vector<Figure> figures = {{.id = "x-1", .claims = {time, count}}};
-  const auto entry = [&](const Measured& of_time) {
-    return Entry{.id = "x-1", .rows = {judged(time, of_time), judged(count, {"2.5", 2.5})}};
+  const Claim time{.what = "time",
+                   .published = "1",
+                   .criterion = {Kind::within, 1, 0.1},
+                   .why_not = "slow",
+                   .timed = true};
+  const Claim count{"count", "2", {Kind::within, 2, 1}};
+  const auto entry = [&](const Measured& of_time, const Measured& of_count = {"2.5", 2.5}) {
+    return Entry{{.id = "x-1", .claims = {time, count}}, {}, {{time, of_time}, {count, of_count}}};
   };
-  Entry before = entry({"1.01", 1.01});
-  before.rows[1] = judged(count, {"2", 2});
+  const std::string before = to_json(std::array{entry({"1.01", 1.01}, {"2", 2})});
   const auto page = [&](const Measured& of_time) {
-    return to_json(with_times_of(std::array{before}, figures, {entry(of_time)}));
+    return to_json(completed({entry(of_time)}, measurements(before)));
   };
   EXPECT_EQ(page({"1.05", 1.05}), to_json(std::array{entry({"1.01", 1.01})}));
   EXPECT_EQ(page({"1.2", 1.2}), to_json(std::array{entry({"1.2", 1.2})}));
-  before.id = "x-2";
-  EXPECT_EQ(page({"1.05", 1.05}), to_json(std::array{entry({"1.05", 1.05})}));
+  EXPECT_EQ(to_json(completed({entry({"1.05", 1.05})}, {})), to_json(std::array{entry({"1.05", 1.05})}));
 }
 
 // A folder with one figure, and what is drawn again beside it.
@@ -195,20 +229,18 @@ class Stale : public testing::Test {
     there_ = scratch_->path() / "there", here_ = scratch_->path() / "here";
     ASSERT_TRUE(make_folders(there_));
     ASSERT_TRUE(make_folders(here_));
-    figures_ = {{"x-1",
-                 "spherical",
-                 "figure 1",
-                 "a caption",
-                 "a drawing",
-                 {{"quick", "60", within(60, 0)},
-                  {.what = "slow", .published = "1", .criterion = within(1, 0.1), .slow = true}},
-                 [](const Context& context, Drawing& out) -> Status {
-                   out.measured["quick"] = {"60", 60};
-                   if (!context.quick) out.measured["slow"] = {"1.05", 1.05};
-                   return save_picture(context, "x-1", Frame({4, 4}), "black", out);
-                 }}};
-    const auto whole = drawn(figures_[0], {.out = there_}),
-               quick = drawn(figures_[0], {.out = here_, .quick = true});
+    figure_ = {"x-1",
+               "figure 1",
+               "a caption",
+               "a drawing",
+               {{"quick", "60", {Kind::within, 60}},
+                {.what = "slow", .published = "1", .criterion = {Kind::within, 1, 0.1}, .slow = true}},
+               [](const Context& context, Drawing& out) {
+                 out.measured["quick"] = measured(60, "{}");
+                 if (!context.quick) out.measured["slow"] = measured(1.05, "{}");
+                 save_picture(context, "x-1", Frame({4, 4}), "black", out);
+               }};
+    const auto whole = drawn(figure_, {.out = there_}), quick = drawn(figure_, {.out = here_, .quick = true});
     ASSERT_TRUE(whole) << whole.error().message;
     ASSERT_TRUE(quick) << quick.error().message;
     whole_ = {*whole}, quick_ = {*quick};
@@ -216,18 +248,18 @@ class Stale : public testing::Test {
   }
   void write(const std::vector<Entry>& entries) {
     ASSERT_TRUE(write_file(there_ / "figures.json", to_json(entries)));
-    ASSERT_TRUE(write_file(there_ / "README.md", to_page(entries)));
+    ASSERT_TRUE(write_file(there_ / "README.md", *to_page(entries, c_source)));
   }
   std::vector<std::string> found() {
     std::vector<std::string> notes;
-    const auto wrong = stale(figures_, there_, quick_, here_, notes);
+    const auto wrong = stale(quick_, there_, here_, c_source, notes);
     EXPECT_TRUE(wrong) << wrong.error().message;
     return wrong ? *wrong : std::vector<std::string>{};
   }
 
   std::optional<TemporaryFolder> scratch_;
   std::filesystem::path there_, here_;
-  std::vector<Figure> figures_;
+  Figure figure_;
   std::vector<Entry> whole_, quick_;
 };
 
@@ -236,54 +268,61 @@ TEST_F(Stale, NothingIsWrongWithWhatWasJustWritten) {
 }
 
 TEST_F(Stale, AnotherPageIsFound) {
-  ASSERT_TRUE(write_file(there_ / "README.md", to_page(whole_) + "\nand more\n"));
-  EXPECT_THAT(found(), Contains(HasSubstr("README.md is not the page")));
+  ASSERT_TRUE(write_file(there_ / "README.md", *to_page(whole_, c_source) + "\nand more\n"));
+  EXPECT_THAT(found(), ElementsAre(HasSubstr("README.md is not the page")));
 }
 
 TEST_F(Stale, AnotherMeasurementIsFound) {
-  whole_[0].rows[0].measured = "60.0";
+  whole_[0].rows[0].measured.text = "60.0";
   write(whole_);
-  EXPECT_THAT(found(), Contains(HasSubstr("'quick' is 60.0 there, measured 60")));
+  EXPECT_THAT(found(), Contains("x-1: 'quick': measured is 60.0 there, measured 60"));
 }
 
 TEST_F(Stale, ASlowRowsVerdictMustFollow) {
-  whole_[0].rows[1].value = 1.2;
+  whole_[0].rows[1].measured.value = 1.2;
   write(whole_);
-  EXPECT_THAT(found(), Contains(HasSubstr("'slow': its verdict does not follow")));
+  EXPECT_THAT(found(), Contains(HasSubstr("'slow' differs, and no reason is known")));
+  whole_[0].rows[1].claim.criterion.value = 1.2;  // a page that calls it equal all the same
+  write(whole_);
+  EXPECT_THAT(found(), Contains("x-1: 'slow': verdict is agrees there, measured differs"));
 }
 
 TEST_F(Stale, AMissingRowIsFound) {
   whole_[0].rows.pop_back();
   write(whole_);
-  EXPECT_THAT(found(), Contains(HasSubstr("'slow' has no row")));
+  EXPECT_THAT(found(), Contains("x-1: 'slow' has no row"));
 }
 
 TEST_F(Stale, AnotherPictureIsFound) {
   Frame frame({4, 4});
   frame.rgb[5] = 1;
   Drawing ignored;
-  ASSERT_TRUE(save_picture({.out = there_}, "x-1", frame, "", ignored));
-  EXPECT_THAT(found(), Contains(HasSubstr("x-1.png is not what is drawn")));
+  save_picture({.out = there_}, "x-1", frame, "", ignored);
+  EXPECT_THAT(found(), ElementsAre("x-1.png is not what is drawn"));
 }
 
 TEST_F(Stale, AnotherCaptionIsFound) {
-  whole_[0].caption = "another";
+  whole_[0].figure.caption = "another";
   write(whole_);
-  EXPECT_THAT(found(), Contains(HasSubstr("its caption is another")));
+  EXPECT_THAT(found(), Contains("x-1: caption is another there, measured a caption"));
 }
 
 TEST_F(Stale, AFigureThatIsMissingIsFound) {
   write({});
-  EXPECT_THAT(found(), Contains(HasSubstr("x-1: it is missing")));
+  EXPECT_THAT(found(), Contains("x-1: 'slow' has no row"));
 }
 
 TEST_F(Stale, AClaimThatNothingWasMeasuredForIsAnError) {
-  figures_[0].claims.push_back({"forgotten", "1", within(1, 0)});
-  const auto entry = drawn(figures_[0], {.out = here_, .quick = true});
+  figure_.claims.push_back({"forgotten", "1", {Kind::within, 1}});
+  const auto entry = drawn(figure_, {.out = here_, .quick = true});
   ASSERT_FALSE(entry);
   EXPECT_THAT(entry.error().message, HasSubstr("nothing was measured for 'forgotten'"));
-  figures_[0].claims = {{"other", "60", within(60, 0)}};
-  EXPECT_FALSE(drawn(figures_[0], {.out = here_, .quick = true}));
+  figure_.claims = {{"other", "60", {Kind::within, 60}}};
+  EXPECT_FALSE(drawn(figure_, {.out = here_, .quick = true}));
+  figure_.draw = [](const Context&, Drawing&) { must(Status(tool_failed("broke"))); };
+  const auto broken = drawn(figure_, {.out = here_, .quick = true});
+  ASSERT_FALSE(broken);
+  EXPECT_EQ(broken.error().message, "broke");
 }
 
 TEST(SixPointFit, GoesThroughTheSixPointsByOneDivision) {

@@ -56,10 +56,9 @@ Scene hen_scene() {
   return scene;
 }
 
-Result<Scene> teapot_scene(const Context& context) {
-  auto scene = load_scene("teapot", context.scenes());
-  if (!scene) return scene;
-  scene->background = glm::dvec3(0.0);
+Scene teapot_scene(const Context& context) {
+  Scene scene = must(load_scene("teapot", context.scenes()));
+  scene.background = glm::dvec3(0.0);
   return scene;
 }
 
@@ -73,28 +72,24 @@ Software draw_in_software(const Scene& scene, FrameSize size, unsigned threads) 
   return software;
 }
 
-Result<Hardware> draw_in_hardware(const Context& context, const Scene& scene, FrameSize size,
-                                  const PlanRequest& request, const SetupOptions& options) {
-  const auto plan = plan_scene(scene, request);
-  if (!plan) return plan.error();
-  Hardware drawn{.key = plan->key};
+Hardware draw_in_hardware(const Context& context, const Scene& scene, FrameSize size,
+                          const PlanRequest& request, const SetupOptions& options) {
+  Hardware drawn{.key = must(plan_scene(scene, request)).key};
   if (context.quick) {
-    const std::unique_ptr<Setup> setup = make_setup(scene, size, plan->key, options);
-    SceneStream stream(*setup, plan->key, context.threads);
+    const std::unique_ptr<Setup> setup = make_setup(scene, size, drawn.key, options);
+    SceneStream stream(*setup, drawn.key, context.threads);
     FrameAssembler assembler(size, scene.background);
-    for (Batch batch; stream.next(batch);)
-      if (const Status added = assembler.add(batch.golden); !added) return added.error();
+    for (Batch batch; stream.next(batch);) must(assembler.add(batch.golden));
     drawn.frame = assembler.frame();
     drawn.fragments = assembler.fragments();
     drawn.counts = stream.counts();
     return drawn;
   }
-  auto by_rtl = draw_in_verilator(scene, size, plan->key, options, context.folders, context.threads);
-  if (!by_rtl) return by_rtl.error();
-  drawn.frame = std::move(by_rtl->frame);
-  drawn.fragments = by_rtl->fragments;
-  drawn.cycles = by_rtl->cycles;
-  drawn.counts = by_rtl->counts;
+  auto by_rtl = must(draw_in_verilator(scene, size, drawn.key, options, context.folders, context.threads));
+  drawn.frame = std::move(by_rtl.frame);
+  drawn.fragments = by_rtl.fragments;
+  drawn.cycles = by_rtl.cycles;
+  drawn.counts = by_rtl.counts;
   return drawn;
 }
 
@@ -142,10 +137,10 @@ Frame sheet(std::span<const Frame> frames, std::uint32_t columns) {
   return whole;
 }
 
-Status save_picture(const Context& context, const std::string& name, const Frame& frame, std::string alt,
-                    Drawing& drawing) {
+void save_picture(const Context& context, const std::string& name, const Frame& frame, std::string alt,
+                  Drawing& drawing) {
   drawing.pictures.push_back({name + ".png", std::move(alt)});
-  return write_png(context.out / (name + ".png"), frame);
+  must(write_png(context.out / (name + ".png"), frame));
 }
 
 FrameDistance distance(const Frame& frame, const Frame& other, std::span<const std::uint8_t> mask) {
@@ -157,17 +152,11 @@ Measured Likeness::measured() const {
           seen_percent};
 }
 
-Result<Likeness> likeness(const Frame& frame, const Frame& other, std::span<const std::uint8_t> mask) {
-  const auto seen = perceived_pixels(frame, other);
-  if (!seen) return seen.error();
+Likeness likeness(const Frame& frame, const Frame& other, std::span<const std::uint8_t> mask) {
+  const auto seen = must(perceived_pixels(frame, other));
   Likeness alike{.distance = distance(frame, other, mask)};
-  alike.seen_percent = 100.0 * static_cast<double>(*seen) / static_cast<double>(alike.distance.pixels);
+  alike.seen_percent = 100.0 * static_cast<double>(seen) / static_cast<double>(alike.distance.pixels);
   return alike;
-}
-
-Claim looks_alike(std::string what, std::string published, std::string why_not) {
-  return {std::move(what), std::move(published), at_most(c_alike_percent, " % seen to differ"),
-          std::move(why_not), true};
 }
 
 std::string shown(const FrameDistance& d) {

@@ -28,7 +28,7 @@ Scene sphere_scene(std::uint32_t slices, std::uint32_t stacks, double exponent);
 
 /// The papers' chicken is not to be had: ours, and the teapot.
 Scene hen_scene();
-Result<Scene> teapot_scene(const Context& context);
+Scene teapot_scene(const Context& context);
 
 /// A scene's triangles, its Phong shading per pixel, and Gouraud's, at one size.
 struct Software {
@@ -44,10 +44,10 @@ struct Hardware {
   HardwareKey key;
   SetupCounts counts;
 };
-/// By the RTL in Verilator, each fragment compared with the golden model's: a difference is an error. With
+/// By the RTL in Verilator, each fragment compared with the golden model's: a difference throws Failure. With
 /// Context::quick by the golden model alone.
-Result<Hardware> draw_in_hardware(const Context& context, const Scene& scene, FrameSize size,
-                                  const PlanRequest& plan, const SetupOptions& options = {});
+Hardware draw_in_hardware(const Context& context, const Scene& scene, FrameSize size, const PlanRequest& plan,
+                          const SetupOptions& options = {});
 
 /// The mesh's edges, hidden ones left out.
 Frame draw_mesh(const Scene& scene, FrameSize size, unsigned threads);
@@ -56,8 +56,8 @@ Frame draw_mesh(const Scene& scene, FrameSize size, unsigned threads);
 Frame sheet(std::span<const Frame> frames, std::uint32_t columns);
 
 /// Writes NAME.png into the context's folder and notes it in the drawing.
-Status save_picture(const Context& context, const std::string& name, const Frame& frame, std::string alt,
-                    Drawing& drawing);
+void save_picture(const Context& context, const std::string& name, const Frame& frame, std::string alt,
+                  Drawing& drawing);
 
 /// Over the pixels of the mask; the sizes must agree.
 FrameDistance distance(const Frame& frame, const Frame& other, std::span<const std::uint8_t> mask);
@@ -75,13 +75,6 @@ struct Likeness {
   /// "0.02 % of the pixels seen to differ; 31/255 at most, 51.9 dB"
   Measured measured() const;
 };
-Result<Likeness> likeness(const Frame& frame, const Frame& other, std::span<const std::uint8_t> mask);
-/// Two pictures look the same where no more of their pixels are seen to differ.
-inline constexpr double c_alike_percent = 0.1;
-/// The claim that they do: slow, for what an eye sees takes a second a picture to tell.
-Claim looks_alike(std::string what, std::string published, std::string why_not = "");
-
-/// Pixels as far apart as this many steps of 255 are seen to differ; up to c_close they count as alike.
-inline constexpr double c_visible = 8.0;
+Likeness likeness(const Frame& frame, const Frame& other, std::span<const std::uint8_t> mask);
 
 }  // namespace halfway::figures

@@ -40,12 +40,12 @@ void prune(pugi::xml_node node) {
 }
 
 // gnuplot 5.4 cannot be told what a picture's title and description are.
-Result<std::string> described(const std::string& svg, const Plot& plot) {
+std::string described(const std::string& svg, const Plot& plot) {
   pugi::xml_document document;
   const auto parsed = document.load_string(svg.c_str(), pugi::parse_default | pugi::parse_declaration);
   pugi::xml_node root = document.child("svg"), desc = root.child("desc");
   if (!parsed || !desc)
-    return tool_failed(fmt::format("gnuplot's SVG cannot be read: {}", parsed.description()));
+    throw Failure{tool_failed(fmt::format("gnuplot's SVG cannot be read: {}", parsed.description()))};
   std::string produced = desc.text().get();
   produced.erase(produced.find_last_not_of(' ') + 1);
   root.prepend_attribute("role") = "img";
@@ -71,29 +71,23 @@ std::string data_block(const std::string& name, std::span<const std::vector<doub
   return text + "EOD\n";
 }
 
-Status draw_plot(const Context& context, const std::string& name, const Plot& plot, Drawing& drawing) {
+void draw_plot(const Context& context, const std::string& name, const Plot& plot, Drawing& drawing) {
   const std::filesystem::path script = context.out / (name + ".gnuplot"),
                               raw = context.out / (name + ".raw.svg"), file = context.out / (name + ".svg");
-  const std::string text = fmt::format(
-      "set terminal svg size {},{} dynamic enhanced font 'sans-serif,13' background '#ffffff'\nset output "
-      "'{}'\n{}{}",
-      plot.size.width, plot.size.height, raw.filename().string(), c_style, plot.script);
-  if (Status written = write_file(script, text); !written) return written;
-  const auto end = run_process({.arguments = {"gnuplot", script.filename().string()},
-                                .working_folder = context.out,
-                                .environment = {{"LC_ALL", "C.UTF-8"}}},
-                               c_install_gnuplot);
-  if (!end) return end.error();
-  if (!end->succeeded() || !end->output.empty())
-    return tool_failed(fmt::format("{}: gnuplot: {}: {}", script.string(), end->how(), end->output));
-  const auto svg = read_file(raw);
-  if (!svg) return svg.error();
+  must(write_file(
+      script, fmt::format("set terminal svg size {},{} dynamic enhanced font 'sans-serif,13' background "
+                          "'#ffffff'\nset output '{}'\n{}{}",
+                          plot.size.width, plot.size.height, raw.filename().string(), c_style, plot.script)));
+  const ProcessEnd end = must(run_process({.arguments = {"gnuplot", script.filename().string()},
+                                           .working_folder = context.out,
+                                           .environment = {{"LC_ALL", "C.UTF-8"}}},
+                                          c_install_gnuplot));
+  if (!end.succeeded() || !end.output.empty())
+    throw Failure{tool_failed(fmt::format("{}: gnuplot: {}: {}", script.string(), end.how(), end.output))};
+  must(write_file(file, described(must(read_file(raw)), plot)));
   std::error_code ignored;
   std::filesystem::remove(raw, ignored);
   drawing.pictures.push_back({name + ".svg", plot.title});
-  const auto finished = described(*svg, plot);
-  if (!finished) return finished.error();
-  return write_file(file, *finished);
 }
 
 std::string drawn_by(std::string_view svg) {

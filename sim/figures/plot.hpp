@@ -22,9 +22,9 @@ struct Plot {
 /// "$name << EOD", rows of numbers, "EOD".
 std::string data_block(const std::string& name, std::span<const std::vector<double>> rows);
 
-/// Writes NAME.svg into the context's folder, its script beside it, and notes it in the drawing. tool_failed
-/// where there is no gnuplot.
-Status draw_plot(const Context& context, const std::string& name, const Plot& plot, Drawing& drawing);
+/// Writes NAME.svg into the context's folder, its script beside it, and notes it in the drawing. Throws
+/// Failure where there is no gnuplot.
+void draw_plot(const Context& context, const std::string& name, const Plot& plot, Drawing& drawing);
 
 /// Which gnuplot drew an SVG: two versions do not write the same bytes.
 std::string drawn_by(std::string_view svg);

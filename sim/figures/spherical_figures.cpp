@@ -30,7 +30,6 @@ namespace halfway::figures {
 namespace {
 
 constexpr double c_half_pi = std::numbers::pi / 2;
-constexpr const char* c_paper = "spherical";
 
 double squared_cosine(double scale, double x) {
   const double ax = scale * std::abs(x);
@@ -76,43 +75,21 @@ std::string curve_list(const std::string& block, const std::string& title, std::
 
 // ---- Figure 5 ----
 
-struct AgainstSmooth {
-  FrameDistance gouraud, phong;  // of the coarse sphere against the smooth one
-};
-
-Status draw_figure_5(const Context& context, Drawing& out) {
+void draw_figure_5(const Context& context, Drawing& out) {
   constexpr FrameSize c_size{240, 180};
   const Scene coarse = sphere_scene(12, 8, 20.0);
   Scene smooth = sphere_scene(256, 128, 20.0);
   smooth.camera = coarse.camera;
   const Software drawn = draw_in_software(coarse, c_size, context.threads);
   const Frame truth = draw_in_software(smooth, c_size, context.threads).phong.frame;
-  const AgainstSmooth against{distance(drawn.gouraud.frame, truth, drawn.phong.mask),
-                              distance(drawn.phong.frame, truth, drawn.phong.mask)};
+  const FrameDistance gouraud = distance(drawn.gouraud.frame, truth, drawn.phong.mask),
+                      phong = distance(drawn.phong.frame, truth, drawn.phong.mask);
   out.measured["Gouraud shading: how far from the smooth sphere"] = {
-      fmt::format("{}, rms {:.1f}", shown(against.gouraud), against.gouraud.rms),
-      static_cast<double>(against.gouraud.max_lsb)};
-  out.measured["Phong shading: its rms error as a part of Gouraud's"] = {
-      fmt::format("{:.2f} ({}, rms {:.1f})", against.phong.rms / against.gouraud.rms, shown(against.phong),
-                  against.phong.rms),
-      against.phong.rms / against.gouraud.rms};
-  return save_picture(context, "spherical-05", sheet(std::array{drawn.gouraud.frame, drawn.phong.frame}, 2),
-                      "A coarse sphere by Gouraud shading, with a broken highlight, and by Phong shading",
-                      out);
-}
-
-Figure figure_5() {
-  return {
-      "spherical-05",
-      c_paper,
-      "figure 5",
-      "linear interpolation, Gouraud shading (left), beside non-linear interpolation, Phong shading (right). "
-      "Figure 3 of the quadratic paper is the same.",
-      "a sphere of 168 triangles, exponent 20, by the reference renderer; the smooth sphere has 65 024.",
-      {{"Gouraud shading: how far from the smooth sphere", "severe artifacts at highlights",
-        at_least(c_visible, "/255")},
-       {"Phong shading: its rms error as a part of Gouraud's", "the artifacts are gone", at_most(0.5)}},
-      draw_figure_5};
+      fmt::format("{}, rms {:.1f}", shown(gouraud), gouraud.rms), static_cast<double>(gouraud.max_lsb)};
+  out.measured["Phong shading: its rms error as a part of Gouraud's"] =
+      measured(phong.rms / gouraud.rms, "{:.2f} ({}, rms {:.1f})", shown(phong), phong.rms);
+  save_picture(context, "spherical-05", sheet(std::array{drawn.gouraud.frame, drawn.phong.frame}, 2),
+               "A coarse sphere by Gouraud shading, with a broken highlight, and by Phong shading", out);
 }
 
 // ---- Figures 9 and 10, table 1 ----
@@ -125,19 +102,16 @@ double half_width(double exponent) {
   return std::acos(std::pow(0.5, 1.0 / exponent));
 }
 
-Status draw_figure_9(const Context& context, Drawing& out) {
-  for (std::size_t i = 0; i < c_figure_9_scales.size(); ++i) {
-    const double scale = published_scale(c_figure_9_exponents[i]);
-    out.measured[fmt::format("the caption's a for n = {}", c_figure_9_exponents[i])] = {
-        fmt::format("{:.4f}", scale), scale};
-  }
+void draw_figure_9(const Context& context, Drawing& out) {
+  for (const double n : std::span(c_figure_9_exponents).first<c_figure_9_scales.size()>())
+    out.measured[fmt::format("the caption's a for n = {}", n)] = measured(published_scale(n), "{:.4f}");
   double largest = 0.0;
   for (const double n : c_figure_9_exponents)
     largest = std::max(largest, largest_over_angles([&](double x) {
                          const double to = half_width(500.0) / half_width(n);
                          return std::abs(power_of_cosine(n, x) - power_of_cosine(500.0, x * to));
                        }));
-  out.measured["bells brought to one width: how far apart"] = {fmt::format("{:.3f}", largest), largest};
+  out.measured["bells brought to one width: how far apart"] = measured(largest, "{:.3f}");
   const std::string script =
       data_block("left", curves(c_figure_9_exponents, power_of_cosine)) +
       data_block("right", curves(c_figure_9_scales, squared_cosine)) +
@@ -145,28 +119,11 @@ Status draw_figure_9(const Context& context, Drawing& out) {
       "set xlabel 'angle x in degrees'\nset key top right\nset title 'cosⁿ x'\nplot " +
       curve_list("left", "n", c_figure_9_exponents) + "\nset title 'cos² ax'\nplot " +
       curve_list("right", "a", c_figure_9_scales) + "\nunset multiplot\n";
-  return draw_plot(context, "spherical-09",
-                   {.size = {860, 330},
-                    .title = "The bells of cosⁿ x for five exponents, and of cos² ax for three scales",
-                    .script = script},
-                   out);
-}
-
-Figure figure_9() {
-  Figure figure{
-      "spherical-09",
-      c_paper,
-      "figure 9",
-      "the bells of cosⁿ x, n = 5, 10, 20, 50, 500 (left), and of cos² ax, a = 1.45, 1.98, 2.76 (right).",
-      "the illumination model's power, and cos² ax.",
-      {},
-      draw_figure_9};
-  for (std::size_t i = 0; i < c_figure_9_scales.size(); ++i)
-    figure.claims.push_back({fmt::format("the caption's a for n = {}", c_figure_9_exponents[i]),
-                             fmt::format("{}", c_figure_9_scales[i]), within(c_figure_9_scales[i], 0.005)});
-  figure.claims.push_back({"bells brought to one width: how far apart",
-                           "about the same shape, but for the abscissa's scale", at_most(0.05)});
-  return figure;
+  draw_plot(context, "spherical-09",
+            {.size = {860, 330},
+             .title = "The bells of cosⁿ x for five exponents, and of cos² ax for three scales",
+             .script = script},
+            out);
 }
 
 struct TableRow {
@@ -187,35 +144,17 @@ double weighted_integral(double scale) {
   return sum * step / 3.0;
 }
 
-Status draw_table_1(const Context&, Drawing& out) {
+void draw_table_1(const Context&, Drawing& out) {
   double largest = 0.0;
   for (const auto& [exponent, scale] : c_table_1) {
-    out.measured[fmt::format("a for n = {}", exponent)] = {fmt::format("{:.4f}", published_scale(exponent)),
-                                                           published_scale(exponent)};
+    out.measured[fmt::format("a for n = {}", exponent)] = measured(published_scale(exponent), "{:.4f}");
     largest = std::max(largest, std::abs(weighted_integral(scale) * (exponent + 1.0) - 1.0));
   }
-  out.measured["both sides of equation 20, by the printed a"] = {
-      fmt::format("equal within {:.1g} of themselves", largest), largest};
-  return Ok{};
+  out.measured["both sides of equation 20, by the printed a"] =
+      measured(largest, "equal within {:.1g} of themselves");
 }
 
-Figure table_1() {
-  Figure figure{"spherical-table-1",
-                c_paper,
-                "table 1",
-                "a for n = 2, 5, 10, 20, 50, 100, 500.",
-                "the root of 1/(n+1) = (2a²(1 − cos(π/2a)) − 1)/(4a² − 1), as setup finds it; the integrals "
-                "numerically.",
-                {},
-                draw_table_1};
-  for (const auto& [exponent, scale] : c_table_1)
-    figure.claims.push_back(
-        {fmt::format("a for n = {}", exponent), fmt::format("{:.4f}", scale), within(scale, 0.00005)});
-  figure.claims.push_back({"both sides of equation 20, by the printed a", "equal", at_most(1e-4)});
-  return figure;
-}
-
-Status draw_figure_10(const Context& context, Drawing& out) {
+void draw_figure_10(const Context& context, Drawing& out) {
   constexpr std::array c_exponents{5.0, 10.0, 20.0, 50.0};
   double narrowest = 1.0, widest = 10.0, farthest = 0.0, far_exponent = 0.0, fitted = 0.0;
   for (const auto& [n, printed] : c_table_1) {
@@ -235,14 +174,12 @@ Status draw_figure_10(const Context& context, Drawing& out) {
     if (far > farthest) farthest = far, far_exponent = n;
     fitted = std::max(fitted, fit_error(n, fitted_bell(n)));
   }
-  out.measured["curvature at the centre, cos² ax as a part of cosⁿ x's, n = 5 to 500"] = {
-      fmt::format("{:.2f}", narrowest), narrowest};
-  out.measured["reach above 1/255, cosⁿ x as a multiple of cos² ax's"] = {fmt::format("{:.2f}", widest),
-                                                                          widest};
-  out.measured["largest difference of the two, n = 5 to 500"] = {
-      fmt::format("{:.1f}/255 (n = {}); by the bells of preset exact {:.1f}/255", 255.0 * farthest,
-                  far_exponent, 255.0 * fitted),
-      255.0 * farthest};
+  out.measured["curvature at the centre, cos² ax as a part of cosⁿ x's, n = 5 to 500"] =
+      measured(narrowest, "{:.2f}");
+  out.measured["reach above 1/255, cosⁿ x as a multiple of cos² ax's"] = measured(widest, "{:.2f}");
+  out.measured["largest difference of the two, n = 5 to 500"] =
+      measured(255.0 * farthest, "{:.1f}/255 (n = {}); by the bells of preset exact {:.1f}/255", far_exponent,
+               255.0 * fitted);
   std::string plots;
   for (std::size_t i = 0; i < c_exponents.size(); ++i) {
     const double n = c_exponents[i], a = published_scale(n);
@@ -263,27 +200,8 @@ Status draw_figure_10(const Context& context, Drawing& out) {
         "$bells{0} using 1:3 with lines linetype 2 dashtype 2 title 'cos² ax'\n",
         i, c_exponents[i], published_scale(c_exponents[i]));
   plots += "unset multiplot\n";
-  return draw_plot(
-      context, "spherical-10",
-      {.size = {860, 520}, .title = "cosⁿ x and the cos² ax that stands for it", .script = plots}, out);
-}
-
-Figure figure_10() {
-  return {"spherical-10",
-          c_paper,
-          "figure 10",
-          "cosⁿ x approximated by cos² ax.",
-          "both curves, exponents 5, 10, 20, 50, over the angle in degrees.",
-          {{"curvature at the centre, cos² ax as a part of cosⁿ x's, n = 5 to 500",
-            "the centres of cosⁿ are smaller (section 6)", at_most(1.0)},
-           {"reach above 1/255, cosⁿ x as a multiple of cos² ax's",
-            "the halos of cosⁿ are bigger (section 6)", at_least(1.0)},
-           {"largest difference of the two, n = 5 to 500", "the quality is quite good",
-            at_most(c_visible, "/255"),
-            "with equal integrals the flanks are up to so far apart; a least largest error takes other "
-            "powers of the "
-            "cosine, and a gain. In pictures little of it is seen (figures 14 and 16)"}},
-          draw_figure_10};
+  draw_plot(context, "spherical-10",
+            {.size = {860, 520}, .title = "cosⁿ x and the cos² ax that stands for it", .script = plots}, out);
 }
 
 // ---- Figure 11 ----
@@ -296,7 +214,7 @@ double entry_at(const tables::CosineTable& table, double x) {
   return table.entries[cell] / (std::ldexp(1.0, table.data_bits) - 1.0);
 }
 
-Status draw_figure_11(const Context& context, Drawing& out) {
+void draw_figure_11(const Context& context, Drawing& out) {
   std::array<double, c_figure_11_bits.size()> error{};
   std::string blocks;
   for (std::size_t i = 0; i < c_figure_11_bits.size(); ++i) {
@@ -311,16 +229,14 @@ Status draw_figure_11(const Context& context, Drawing& out) {
     }
     blocks += data_block(fmt::format("table{}", i), rows);
     if (bits == 6)
-      out.measured["bits of the ROM, 6 address and 6 data bits"] = {fmt::format("{}", table.bits()),
-                                                                    static_cast<double>(table.bits())};
+      out.measured["bits of the ROM, 6 address and 6 data bits"] =
+          measured(static_cast<double>(table.bits()), "{}");
   }
-  out.measured["largest error by 6 and 6 bits as a part of that by 4 and 4"] = {
-      fmt::format("{:.2f} ({:.1f}/255 of {:.1f}/255)", error[1] / error[0], 255 * error[1], 255 * error[0]),
-      error[1] / error[0]};
+  out.measured["largest error by 6 and 6 bits as a part of that by 4 and 4"] =
+      measured(error[1] / error[0], "{:.2f} ({:.1f}/255 of {:.1f}/255)", 255 * error[1], 255 * error[0]);
   const double ours = tables::table_error(tables::cosine_table(true, 2, 9, 8));
-  out.measured["largest error by 6 and 6 bits"] = {
-      fmt::format("{:.1f}/255; by the 9 and 8 of preset exact {:.1f}/255", 255 * error[1], 255 * ours),
-      255 * error[1]};
+  out.measured["largest error by 6 and 6 bits"] =
+      measured(255 * error[1], "{:.1f}/255; by the 9 and 8 of preset exact {:.1f}/255", 255 * ours);
   const std::string script =
       blocks +
       "set multiplot layout 1,2\nset xrange [0:90]\nset xtics 15\nset xlabel 'angle in degrees'\n"
@@ -332,72 +248,56 @@ Status draw_figure_11(const Context& context, Drawing& out) {
       "plot $table0 using 1:3 with lines linetype 2 title '4 and 4', $table1 using 1:3 with lines linetype 1 "
       "title "
       "'6 and 6'\nunset multiplot\n";
-  return draw_plot(context, "spherical-11",
-                   {.size = {860, 330},
-                    .title = "cos² and its tables of 4 and of 6 address and data bits, and their errors",
-                    .script = script},
-                   out);
-}
-
-Figure figure_11() {
-  return {
-      "spherical-11",
-      c_paper,
-      "figure 11",
-      "cos² beside tables of several address and data bits, and the errors of these; the scan does not show "
-      "which sizes beside 4 and 6.",
-      "the tables that `make tables` writes for preset published, 4/4 and 6/6; half of the period.",
-      {{"bits of the ROM, 6 address and 6 data bits", "384", within(384, 0)},
-       {"largest error by 6 and 6 bits as a part of that by 4 and 4", "much smaller", at_most(0.5)},
-       {"largest error by 6 and 6 bits", "six bits are accurate enough", at_most(c_close, "/255"),
-        "the 64 entries hold the whole period, so that 32 are left for either flank: half a cell where cos² "
-        "is "
-        "steepest and half a step of the data are seen in smooth shading"}},
-      draw_figure_11};
+  draw_plot(context, "spherical-11",
+            {.size = {860, 330},
+             .title = "cos² and its tables of 4 and of 6 address and data bits, and their errors",
+             .script = script},
+            out);
 }
 
 // ---- Figures 14 and 15 ----
 
-Result<Scene> smooth_highlights(const Context& context) {
-  auto scene = load_scene("highlights", context.scenes());
-  if (!scene) return scene;
+Scene smooth_highlights(const Context& context) {
+  Scene scene = must(load_scene("highlights", context.scenes()));
   const Mesh sphere = make_uv_sphere(96, 64, 1.2);
-  scene->positions_world.clear();
-  scene->normals_world.clear();
-  scene->triangles.clear();
+  scene.positions_world.clear();
+  scene.normals_world.clear();
+  scene.triangles.clear();
   for (std::uint32_t i = 0; i < 3; ++i) {
-    const auto first = static_cast<std::uint32_t>(scene->positions_world.size());
+    const auto first = static_cast<std::uint32_t>(scene.positions_world.size());
     for (const glm::dvec3& p : sphere.positions)
-      scene->positions_world.push_back(p + glm::dvec3(2.5 * (i - 1.0), 0.0, 0.0));
-    scene->normals_world.insert(scene->normals_world.end(), sphere.normals.begin(), sphere.normals.end());
+      scene.positions_world.push_back(p + glm::dvec3(2.5 * (i - 1.0), 0.0, 0.0));
+    scene.normals_world.insert(scene.normals_world.end(), sphere.normals.begin(), sphere.normals.end());
     for (SceneTriangle t : sphere.triangles) {
       for (int corner = 0; corner < 3; ++corner) t.position[corner] += first, t.normal[corner] += first;
       t.material = i;
-      scene->triangles.push_back(t);
+      scene.triangles.push_back(t);
     }
   }
   return scene;
 }
 
-Frame by_curve(const Scene& scene, FrameSize size, HighlightCurve curve, unsigned threads) {
+// By spherical interpolation in double.
+Frame interpolated(const Scene& scene, FrameSize size, SpanEnds ends, HighlightCurve curve,
+                   unsigned threads) {
   const auto triangles = Projector(scene, size, {.subpixel_bits = 4}).project_all();
   return render_spherical(scene, triangles,
                           {.frame = size, .subpixel_bits = 4, .workers = on_threads(threads)},
-                          {.ends = SpanEnds::on_surface, .curve = curve})
+                          {.ends = ends, .curve = curve})
       .frame;
 }
 
-Status draw_figure_14(const Context& context, Drawing& out) {
+void draw_figure_14(const Context& context, Drawing& out) {
   constexpr FrameSize c_size{378, 126};
-  auto scene = smooth_highlights(context);
-  if (!scene) return scene.error();
-  scene->camera.vertical_fov_degrees = 17.5;
-  const Frame power = by_curve(*scene, c_size, HighlightCurve::power, context.threads);
-  const Frame squared = by_curve(*scene, c_size, HighlightCurve::squared_cosine, context.threads);
+  Scene scene = smooth_highlights(context);
+  scene.camera.vertical_fov_degrees = 17.5;
+  const auto by = [&](HighlightCurve curve) {
+    return interpolated(scene, c_size, SpanEnds::on_surface, curve, context.threads);
+  };
+  const Frame power = by(HighlightCurve::power), squared = by(HighlightCurve::squared_cosine);
   // The highlights alone, each as bright as can be.
-  for (Material& m : scene->materials) m.ambient = m.diffuse = 0.0, m.specular = 1.0;
-  const std::array bells{by_curve(*scene, c_size, HighlightCurve::power, context.threads),
-                         by_curve(*scene, c_size, HighlightCurve::squared_cosine, context.threads)};
+  for (Material& m : scene.materials) m.ambient = m.diffuse = 0.0, m.specular = 1.0;
+  const std::array bells{by(HighlightCurve::power), by(HighlightCurve::squared_cosine)};
   const auto count = [&](const Frame& frame, std::uint32_t third, int least) {
     int pixels = 0;
     for (std::uint32_t y = 0; y < c_size.height; ++y)
@@ -422,21 +322,8 @@ Status draw_figure_14(const Context& context, Drawing& out) {
   out.measured["centres (pixels of 230/255 and more), likewise"] = {centres, largest_centre};
   const FrameDistance apart = distance(power, squared, {});
   out.measured["the two pictures"] = {shown(apart), static_cast<double>(apart.max_lsb)};
-  return save_picture(context, "spherical-14", sheet(std::array{power, squared}, 1),
-                      "Spheres of exponents 5, 10 and 20: highlights by cosⁿ above, by cos² ax below", out);
-}
-
-Figure figure_14() {
-  return {
-      "spherical-14",
-      c_paper,
-      "figure 14",
-      "spheres of exponents 5, 10 and 20, highlights by cosⁿ x (left) and by cos² ax (right).",
-      "the same, above and below, by spherical interpolation in double on fine spheres.",
-      {{"halos (pixels of 1/255 and more), cosⁿ as a multiple of cos² ax", "slightly bigger", at_least(1.0)},
-       {"centres (pixels of 230/255 and more), likewise", "smaller", at_most(1.0)},
-       {"the two pictures", "differ a little", at_least(c_close, "/255")}},
-      draw_figure_14};
+  save_picture(context, "spherical-14", sheet(std::array{power, squared}, 1),
+               "Spheres of exponents 5, 10 and 20: highlights by cosⁿ above, by cos² ax below", out);
 }
 
 Frame cut(const Frame& frame, std::uint32_t left, std::uint32_t top, FrameSize size) {
@@ -447,61 +334,35 @@ Frame cut(const Frame& frame, std::uint32_t left, std::uint32_t top, FrameSize s
   return part;
 }
 
-Status draw_figure_15(const Context& context, Drawing& out) {
-  const auto scene = load_scene("highlights", context.scenes());
-  if (!scene) return scene.error();
-  const auto triangles = Projector(*scene, c_rings_frame, {.subpixel_bits = 4}).project_all();
-  const Frame without =
-      render_spherical(*scene, triangles,
-                       {.frame = c_rings_frame, .subpixel_bits = 4, .workers = on_threads(context.threads)},
-                       {.ends = SpanEnds::slerped_along_edges, .curve = HighlightCurve::squared_cosine})
-          .frame;
+void draw_figure_15(const Context& context, Drawing& out) {
+  const Scene scene = must(load_scene("highlights", context.scenes()));
+  const Frame without = interpolated(scene, c_rings_frame, SpanEnds::slerped_along_edges,
+                                     HighlightCurve::squared_cosine, context.threads);
   const Rings none = measure_rings(without, without);
   std::vector<Frame> parts;
+  const auto draw = [&](const PlanRequest& plan) {
+    Frame frame = draw_in_hardware(context, scene, c_rings_frame, plan).frame;
+    parts.push_back(cut(frame, 252, 157, {136, 136}));
+    return frame;
+  };
   std::array<Rings, 2> rings;
   for (std::size_t i = 0; i < 2; ++i) {
     const int bits = c_figure_11_bits[i];
-    const auto drawn = draw_in_hardware(
-        context, *scene, c_rings_frame,
-        {.shader = Shader::spherical, .preset = Preset::published, .tables = TableSize{bits, bits}});
-    if (!drawn) return drawn.error();
-    rings[i] = measure_rings(drawn->frame, without);
-    parts.push_back(cut(drawn->frame, 252, 157, {136, 136}));
+    rings[i] = measure_rings(
+        draw({.shader = Shader::spherical, .preset = Preset::published, .tables = TableSize{bits, bits}}),
+        without);
     out.measured[fmt::format("{} bits: largest step between neighbouring pixels at highlights", bits)] = {
         fmt::format("{}/255; without tables {}/255", rings[i].largest_step, none.largest_step),
         static_cast<double>(rings[i].largest_step - none.largest_step)};
   }
-  out.measured["rms error of 6 bits as a part of that of 4"] = {
-      fmt::format("{:.2f} ({:.1f}/255 of {:.1f}/255)", rings[1].rms_error / rings[0].rms_error,
-                  rings[1].rms_error, rings[0].rms_error),
-      rings[1].rms_error / rings[0].rms_error};
-  const auto exact = draw_in_hardware(context, *scene, c_rings_frame, {.shader = Shader::spherical});
-  if (!exact) return exact.error();
-  parts.push_back(cut(exact->frame, 252, 157, {136, 136}));
-  return save_picture(
-      context, "spherical-15", sheet(parts, 3),
-      "A coarse sphere by tables of 4 bits, with rings around its highlight, by tables of 6 bits, "
-      "with faint ones, and by preset exact, without",
-      out);
-}
-
-Figure figure_15() {
-  return {"spherical-15",
-          c_paper,
-          "figure 15",
-          "coarse spheres by this method, 4 bits (left) and 6 bits (right).",
-          "the middle sphere of `highlights`, 168 triangles, exponent 10, by the RTL: tables of 4 address "
-          "and 4 data "
-          "bits, of 6 and 6, and preset exact, 9 and 8.",
-          {{"4 bits: largest step between neighbouring pixels at highlights", "rings are seen",
-            at_least(c_visible, "/255 above that without tables")},
-           {"6 bits: largest step between neighbouring pixels at highlights", "the rings have gone",
-            at_most(c_close, "/255 above that without tables"),
-            "63 levels of the data and 32 addresses a flank are fainter rings, not none: it takes 9 address "
-            "and 8 "
-            "data bits"},
-           {"rms error of 6 bits as a part of that of 4", "much smaller", at_most(0.5)}},
-          draw_figure_15};
+  out.measured["rms error of 6 bits as a part of that of 4"] =
+      measured(rings[1].rms_error / rings[0].rms_error, "{:.2f} ({:.1f}/255 of {:.1f}/255)",
+               rings[1].rms_error, rings[0].rms_error);
+  draw({.shader = Shader::spherical});
+  save_picture(context, "spherical-15", sheet(parts, 3),
+               "A coarse sphere by tables of 4 bits, with rings around its highlight, by tables of 6 bits, "
+               "with faint ones, and by preset exact, without",
+               out);
 }
 
 // ---- Figure 16 ----
@@ -512,77 +373,39 @@ constexpr std::array c_figure_16_ways{"the method in double against Phong shadin
                                       "the published hardware against Phong shading",
                                       "preset exact against Phong shading"};
 
-Status draw_figure_16(const Context& context, Drawing& out) {
-  auto teapot = teapot_scene(context);
-  if (!teapot) return teapot.error();
+void draw_figure_16(const Context& context, Drawing& out) {
   std::vector<Frame> pictures;
-  for (const auto& [name, scene] : {std::pair{"hen", hen_scene()}, std::pair{"teapot", std::move(*teapot)}}) {
+  for (const auto& [name, scene] : {std::pair{"hen", hen_scene()}, {"teapot", teapot_scene(context)}})
     for (const FrameSize size : {c_compared_size, c_mesh_size}) {
-      if (context.quick && size.width == c_compared_size.width) continue;
-      const Software software = draw_in_software(scene, size, context.threads);
-      std::vector<Frame> drawn{draw_mesh(scene, size, context.threads), software.phong.frame};
+      const bool compared = size.width == c_compared_size.width;
+      if (context.quick && compared) continue;
+      const ReferenceImage phong = draw_in_software(scene, size, context.threads).phong;
       const auto by = [&, &scene = scene](HighlightCurve curve) {
-        return render_spherical(scene, software.triangles,
-                                {.frame = size, .subpixel_bits = 4, .workers = on_threads(context.threads)},
-                                {.ends = SpanEnds::slerped_along_edges, .curve = curve})
-            .frame;
+        return interpolated(scene, size, SpanEnds::slerped_along_edges, curve, context.threads);
       };
-      drawn.push_back(by(HighlightCurve::squared_cosine));
-      for (const Preset preset : {Preset::published, Preset::exact}) {
-        const auto hardware =
-            draw_in_hardware(context, scene, size, {.shader = Shader::spherical, .preset = preset});
-        if (!hardware) return hardware.error();
-        drawn.push_back(hardware->frame);
-      }
-      if (size.width == c_mesh_size.width) {
+      std::vector<Frame> drawn{draw_mesh(scene, size, context.threads), phong.frame,
+                               by(HighlightCurve::squared_cosine)};
+      for (const Preset preset : {Preset::published, Preset::exact})
+        drawn.push_back(
+            draw_in_hardware(context, scene, size, {.shader = Shader::spherical, .preset = preset}).frame);
+      if (!compared) {
         pictures.insert(pictures.end(), drawn.begin(), drawn.end());
         continue;
       }
       for (std::size_t i = 0; i < c_figure_16_ways.size(); ++i) {
-        const auto alike = likeness(drawn[2 + i], software.phong.frame, software.phong.mask);
-        if (!alike) return alike.error();
-        Measured measured = alike->measured();
+        Measured alike = likeness(drawn[2 + i], phong.frame, phong.mask).measured();
         if (i == 0) {
-          const auto power = likeness(by(HighlightCurve::power), software.phong.frame, software.phong.mask);
-          if (!power) return power.error();
-          measured.text += fmt::format("; with cosⁿ itself {:.2f} % and {}/255", power->seen_percent,
-                                       power->distance.max_lsb);
+          const Likeness power = likeness(by(HighlightCurve::power), phong.frame, phong.mask);
+          alike.text += fmt::format("; with cosⁿ itself {:.2f} % and {}/255", power.seen_percent,
+                                    power.distance.max_lsb);
         }
-        out.measured[fmt::format("{}: {}", name, c_figure_16_ways[i])] = measured;
+        out.measured[fmt::format("{}: {}", name, c_figure_16_ways[i])] = alike;
       }
     }
-  }
-  return save_picture(
-      context, "spherical-16", sheet(pictures, 5),
-      "A hen and the teapot: mesh, Phong shading, the published method in double, the published "
-      "hardware with ghost highlights, and preset exact",
-      out);
-}
-
-Figure figure_16() {
-  Figure figure{
-      "spherical-16",
-      c_paper,
-      "figure 16",
-      "the mesh of a chicken (left), its image by classical Phong shading (middle) and by this method "
-      "(right). The mesh was not published.",
-      "a hen of our own and the teapot: mesh, per-pixel Phong shading, the published method in double "
-      "(slerp along the edges, cos² ax), then the RTL in presets published and exact.",
-      {},
-      draw_figure_16};
-  for (const char* name : {"hen", "teapot"}) {
-    const std::array why_not{name == std::string_view("hen")
-                                 ? "not the curve: vectors turned along a triangle's edges and then "
-                                   "along its lines are not the surface's where it bends sharply"
-                                 : "",
-                             "the 12-bit angle wraps: past the bell's end the table begins anew, a ghost "
-                             "highlight; the images of the paper are its software's",
-                             ""};
-    for (std::size_t i = 0; i < c_figure_16_ways.size(); ++i)
-      figure.claims.push_back(looks_alike(fmt::format("{}: {}", name, c_figure_16_ways[i]),
-                                          "looks like Phong shading", why_not[i]));
-  }
-  return figure;
+  save_picture(context, "spherical-16", sheet(pictures, 5),
+               "A hen and the teapot: mesh, Phong shading, the published method in double, the published "
+               "hardware with ghost highlights, and preset exact",
+               out);
 }
 
 // ---- Sections 3.2 and 6: one vector fixed, or both interpolated ----
@@ -681,19 +504,17 @@ EquationErrors equation_errors() {
   return errors;
 }
 
-Status draw_schemes(const Context& context, Drawing& out) {
+void draw_schemes(const Context& context, Drawing& out) {
   constexpr FrameSize c_size{320, 240};
   double angle = 0.0;
   unsigned largest = 0;
   for (const char* name : {"spheres", "highlights", "teapot", "lights"}) {
-    const auto scene = load_scene(name, context.scenes());
-    if (!scene) return scene.error();
-    angle = std::max(angle, largest_scheme_angle(*scene, c_size));
-    largest = std::max(largest, between_schemes(*scene, c_size, context.threads).max_lsb);
+    const Scene scene = must(load_scene(name, context.scenes()));
+    angle = std::max(angle, largest_scheme_angle(scene, c_size));
+    largest = std::max(largest, between_schemes(scene, c_size, context.threads).max_lsb);
   }
-  out.measured["built-in scenes: largest difference of the pictures"] = {
-      fmt::format("{}/255; the angles differ by up to {:.2f}°", largest, angle),
-      static_cast<double>(largest)};
+  out.measured["built-in scenes: largest difference of the pictures"] =
+      measured(largest, "{}/255; the angles differ by up to {:.2f}°", angle);
   const Scene close = close_light_scene();
   const FrameDistance apart = between_schemes(close, c_size, context.threads);
   out.measured["a sphere of 36 triangles close to a light: the pictures"] = {
@@ -701,12 +522,11 @@ Status draw_schemes(const Context& context, Drawing& out) {
                   largest_scheme_angle(close, c_size)),
       static_cast<double>(apart.max_lsb)};
   const EquationErrors errors = equation_errors();
-  out.measured["equation 15, last line, as printed"] = {
-      fmt::format("off the vectors' cosine by up to {:.2f}", errors.printed_15), errors.printed_15};
+  out.measured["equation 15, last line, as printed"] =
+      measured(errors.printed_15, "off the vectors' cosine by up to {:.2f}");
   // Rounding alone, which a compiler may do otherwise: the page says a bound.
   constexpr double c_rounding = 1e-13;
-  const double from_16 = std::max(errors.from_16, c_rounding);
-  out.measured["equations 16 and 17"] = {fmt::format("equal within {:.0e}", from_16), from_16};
+  out.measured["equations 16 and 17"] = measured(std::max(errors.from_16, c_rounding), "equal within {:.0e}");
 
   // Both turn by the same angle, in planes that stand on one another.
   std::vector<std::vector<double>> rows;
@@ -717,7 +537,7 @@ Status draw_schemes(const Context& context, Drawing& out) {
                     scheme_angle({{0, 0, 1}, {s, 0, c}}, {{0, 0, 1}, {-s, 0, c}}),
                     scheme_angle({{0.6, 0, 0.8}, {0.6 * c, 0.6 * s, 0.8}}, {{0, 0, 1}, {0, s, c}})});
   }
-  return draw_plot(
+  draw_plot(
       context, "spherical-schemes",
       {.size = {640, 330},
        .title = "How far the angle between two turning vectors differs where one is held fixed",
@@ -731,29 +551,14 @@ Status draw_schemes(const Context& context, Drawing& out) {
       out);
 }
 
-Figure schemes() {
-  return {
-      "spherical-schemes",
-      c_paper,
-      "section 6",
-      "text: interpolating two vectors at once, and one with the other held fixed, are visually "
-      "indistinguishable; equations 15 to 17 give the angle.",
-      "both in double; the plot has the angle's difference over how far the vectors turn between two ends.",
-      {{"built-in scenes: largest difference of the pictures", "indistinguishable", at_most(c_close, "/255")},
-       {"a sphere of 36 triangles close to a light: the pictures", "indistinguishable",
-        at_most(c_close, "/255"),
-        "vectors that turn far along a line: the one held fixed costs more there than it saves"},
-       {"equation 15, last line, as printed", "the cosine of the angle", at_most(1e-9),
-        "an error of the paper: the second term's sign is turned round"},
-       {"equations 16 and 17", "the cosine of the angle", at_most(1e-9)}},
-      draw_schemes};
-}
-
 }  // namespace
 
-std::vector<Figure> spherical_figures() {
-  return {figure_5(),  figure_9(),  figure_10(), table_1(),   figure_11(),
-          figure_14(), figure_15(), figure_16(), figure_17(), schemes()};
+std::map<std::string, Draw> spherical_drawings() {
+  return {{"spherical-05", draw_figure_5},  {"spherical-09", draw_figure_9},
+          {"spherical-10", draw_figure_10}, {"spherical-table-1", draw_table_1},
+          {"spherical-11", draw_figure_11}, {"spherical-14", draw_figure_14},
+          {"spherical-15", draw_figure_15}, {"spherical-16", draw_figure_16},
+          {"spherical-17", draw_figure_17}, {"spherical-schemes", draw_schemes}};
 }
 
 }  // namespace halfway::figures

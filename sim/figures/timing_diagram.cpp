@@ -12,9 +12,8 @@
 #include <set>
 
 #include "sim/figures/plot.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/figures/testbench.hpp"
 #include "sim/system/file.hpp"
-#include "sim/system/subprocess.hpp"
 
 namespace halfway::figures {
 namespace {
@@ -185,38 +184,18 @@ Result<TimingTrace> timing_trace(std::string_view vcd) {
 
 namespace {
 
-Result<TimingTrace> simulated(const Context& context) {
-  const auto tool = GhdlTool::find();
-  if (!tool) return tool.error();
-  auto rtl = read_rtl_sources(context.folders.source);
-  if (!rtl) return rtl.error();
-  std::vector<VhdlSource> sources;
-  for (VhdlSource& source : *rtl)
-    if (source.name.find("tables/") != std::string::npos && source.name.ends_with("_pkg.vhd"))
-      sources.push_back(std::move(source));
-  for (const char* name :
-       {"tb/tb_pkg.vhd", "tb/timing/interpolator_timing.vhd", "tb/timing/interpolator_timing_tb.vhd"}) {
-    auto source = read_vhdl_source(context.folders.source, name);
-    if (!source) return source.error();
-    sources.push_back(std::move(*source));
-  }
-  const auto library = GhdlLibrary::open(*tool, sources, c_top, context.folders.cache);
-  if (!library) return library.error();
-  auto scratch = TemporaryFolder::make(context.folders.cache);
-  if (!scratch) return scratch.error();
-  const std::filesystem::path vcd = std::filesystem::absolute(scratch->path()) / "trace.vcd";
-  Command command{.arguments = library->run_arguments(c_top), .working_folder = library->folder()};
-  for (const std::string& option :
-       {std::string("-gg_lines=1"), "--vcd=" + vcd.string(), std::string("--ieee-asserts=disable"),
-        std::string("--assert-level=error")})
-    command.arguments.push_back(option);
-  const auto end = run_process(command, kInstallGhdl);
-  if (!end) return end.error();
-  if (!end->succeeded())
-    return Error{ExitCode::differs, fmt::format("{}: {}\n{}", c_top, end->how(), end->output)};
-  const auto text = read_file(vcd);
-  if (!text) return text.error();
-  return timing_trace(*text);
+TimingTrace simulated(const Context& context) {
+  std::vector<VhdlSource> tables = must(read_rtl_sources(context.folders.source));
+  std::erase_if(tables, [](const VhdlSource& source) {
+    return source.name.find("tables/") == std::string::npos || !source.name.ends_with("_pkg.vhd");
+  });
+  const TemporaryFolder scratch = must(TemporaryFolder::make(context.folders.cache));
+  const std::filesystem::path vcd = std::filesystem::absolute(scratch.path()) / "trace.vcd";
+  run_testbench(
+      context, c_top, std::move(tables),
+      {"tb/tb_pkg.vhd", "tb/timing/interpolator_timing.vhd", "tb/timing/interpolator_timing_tb.vhd"},
+      {"-gg_lines=1", "--vcd=" + vcd.string()});
+  return must(timing_trace(must(read_file(vcd))));
 }
 
 template <class Rows, class Line>
@@ -308,59 +287,36 @@ std::string script_of(const TimingTrace& trace) {
 Measured always(const std::vector<double>& times) {
   const auto [least, most] = std::ranges::minmax(times);
   if (least != most) return {fmt::format("{} to {} ns", least, most)};
-  return {fmt::format("{} ns", least), least};
-}
-
-Status draw_figure_17(const Context& context, Drawing& out) {
-  const auto trace = simulated(context);
-  if (!trace) return trace.error();
-  const auto work = [&](const char* signal) {
-    std::vector<double> times;
-    for (const TimingTrace::Work& w : trace->work)
-      if (w.signal == signal) times.push_back(w.until - w.from);
-    return times;
-  };
-  std::vector<double> steps;
-  for (const TimingTrace::Span& s : trace->steps) steps.push_back(s.until - s.from);
-  out.measured["cycle of `step`"] = always(steps);
-  const double frames = std::floor(1e9 / (steps.front() * 1e6));
-  out.measured["frames a second at 1000×1000"] = {
-      fmt::format("{} ({:.2f})", frames, 1e9 / (steps.front() * 1e6)), frames};
-  for (const auto& [what, signal] :
-       {std::pair{"multiplexer", "next_angle"}, {"adder", "sum"}, {"register", "angle"}}) {
-    const std::vector<double> times = work(signal);
-    if (times.empty()) return tool_failed(fmt::format("the timing model's trace has no work of {}", signal));
-    out.measured[what] = always(times);
-  }
-  double together = 0.0;
-  for (const TimingTrace::Span& s : trace->both) together += s.until - s.from;
-  out.measured["both stages at work at once"] = {
-      fmt::format("{} ns in {} pixels", together, trace->pixels.size()), together};
-  return draw_plot(context, "spherical-17",
-                   {.size = {1080, 590},
-                    .title = "Timing of the line interpolator, ROM and multiplier: two stages that overlap",
-                    .words = trace->words,
-                    .script = script_of(*trace)},
-                   out);
+  return measured(least, "{} ns");
 }
 
 }  // namespace
 
-Figure figure_17() {
-  return {"spherical-17",
-          "spherical",
-          "figure 17",
-          "timing diagram of the hardware; delays of an XCV300-6.",
-          "the timing model of the published line interpolator with ROM and multiplier (tb/timing), from its "
-          "trace in "
-          "GHDL: while ROM and multiplier work on a pixel, the adder forms the next one's angle.",
-          {{"cycle of `step`", "60 ns", within(60, 0, " ns")},
-           {"multiplexer", "5 ns", within(5, 0, " ns")},
-           {"adder", "10 ns", within(10, 0, " ns")},
-           {"register", "5 ns", within(5, 0, " ns")},
-           {"both stages at work at once", "the two stages overlap", at_least(1, " ns")},
-           {"frames a second at 1000×1000", "16", within(16, 0)}},
-          draw_figure_17};
+void draw_figure_17(const Context& context, Drawing& out) {
+  const TimingTrace trace = simulated(context);
+  std::vector<double> steps;
+  for (const TimingTrace::Span& s : trace.steps) steps.push_back(s.until - s.from);
+  out.measured["cycle of `step`"] = always(steps);
+  const double rate = 1e9 / (steps.front() * 1e6);
+  out.measured["frames a second at 1000×1000"] = measured(std::floor(rate), "{} ({:.2f})", rate);
+  for (const auto& [what, signal] :
+       {std::pair{"multiplexer", "next_angle"}, {"adder", "sum"}, {"register", "angle"}}) {
+    std::vector<double> times;
+    for (const TimingTrace::Work& w : trace.work)
+      if (w.signal == signal) times.push_back(w.until - w.from);
+    if (times.empty())
+      throw Failure{tool_failed(fmt::format("the timing model's trace has no work of {}", signal))};
+    out.measured[what] = always(times);
+  }
+  double together = 0.0;
+  for (const TimingTrace::Span& s : trace.both) together += s.until - s.from;
+  out.measured["both stages at work at once"] = measured(together, "{} ns in {} pixels", trace.pixels.size());
+  draw_plot(context, "spherical-17",
+            {.size = {1080, 590},
+             .title = "Timing of the line interpolator, ROM and multiplier: two stages that overlap",
+             .words = trace.words,
+             .script = script_of(trace)},
+            out);
 }
 
 }  // namespace halfway::figures

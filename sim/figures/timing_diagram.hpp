@@ -50,6 +50,6 @@ struct TimingTrace {
 /// From a VCD file of interpolator_timing_tb's first line, as GHDL writes it: times in fs.
 Result<TimingTrace> timing_trace(std::string_view vcd);
 
-Figure figure_17();
+void draw_figure_17(const Context& context, Drawing& out);
 
 }  // namespace halfway::figures
