@@ -242,7 +242,7 @@ synth: configure ## cells on two FPGAs, and the clock on one, against what is pi
 
 bench: configure mcode ## speed: other ways to the same picture, growth, small triangles, cores; writes its page
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_bench
-	@build/halfway_bench --jobs "$(jobs)" --page sim/bench/README.md --readme README.md
+	@build/halfway_bench --jobs "$(jobs)" --page sim/bench/README.md
 
 # GHDL's other back end, beside the installed one.
 mcode: setup

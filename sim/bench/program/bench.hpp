@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the parts of halfway_bench share: folders, the repeated measurements, figures as text. Errors are
+// thrown as Failure.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "golden_run/golden_run.hpp"
+#include "scene/scene.hpp"
+#include "sim/bench/workload.hpp"
+#include "sim/system/must.hpp"
+
+namespace halfway {
+
+using Json = nlohmann::ordered_json;
+
+inline const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
+inline const SimulatorFolders c_folders{c_source, c_source / "build" / "cache"};
+inline const std::filesystem::path c_scratch = c_source / "build" / "bench";
+
+Scene builtin(const char* name);
+/// Whether --benchmark_filter lets it through.
+bool is_wanted(const std::string& name);
+
+/// Three digits.
+std::string figure(double value);
+/// "12.3 %"
+std::string percent(double part);
+/// "1 000 000"
+std::string count(std::uint64_t n);
+/// Of at least one.
+double median(std::vector<double> all);
+
+/// The same piece of work, again and again: how fast this core of a shared machine is just now.
+class Pace {
+ public:
+  Pace();
+  const InitBatches& work() const { return work_; }
+  /// Processor seconds.
+  double take();
+
+ private:
+  InitBatches work_;
+  std::unique_ptr<GoldenModel> golden_;
+  std::vector<Fragment> fragments_;
+};
+
+/// Measurements that Google Benchmark repeats in random order, with the statistics that it computes of them.
+class Measurements : public benchmark::ConsoleReporter {
+ public:
+  using Counters = std::map<std::string, double>;
+
+  Measurements() : ConsoleReporter(OO_None) {}
+  /// `go` gives processor seconds as "seconds", and what else it counts.
+  void add(const std::string& name, int repetitions, std::function<Counters()> go);
+  void run() { benchmark::RunSpecifiedBenchmarks(this); }
+
+  bool has(const std::string& name) const { return statistic(name, "mean", "seconds").has_value(); }
+  /// Statistic "mean", "median" or "best" of a counter; none where it was not measured.
+  std::optional<double> statistic(const std::string& name, const std::string& statistic,
+                                  const std::string& counter) const;
+  /// The median of all repetitions, each at the pace of the best moment.
+  std::optional<double> seconds(const std::string& name) const;
+  const Pace& pace() const { return pace_; }
+
+  void ReportRuns(const std::vector<Run>& runs) override;
+
+ private:
+  Pace pace_;
+  double best_pace_ = std::numeric_limits<double>::infinity();
+  std::map<std::tuple<std::string, std::string, std::string>, double> statistics_;
+};
+
+// The sections of the page. Each writes its data into `speed`.
+
+class WayTable {
+ public:
+  WayTable(Measurements& measurements, unsigned jobs);
+  void write(Json& speed) const;
+  /// What several threads gain.
+  void write_cores(Json& speed) const;
+
+ private:
+  struct Column {
+    Scene scene;
+    InitBatches batches, ghdl_batches;
+  };
+  Measurements& measurements_;
+  std::vector<Column> columns_;
+};
+
+class Growth {
+ public:
+  Growth(Measurements& measurements, unsigned jobs);
+  ~Growth();
+  void write(Json& speed) const;
+
+ private:
+  struct Series;
+  Measurements& measurements_;
+  std::vector<Series> series_;
+};
+
+/// Clocks, no time.
+void measure_small_triangles(Json& speed);
+/// `make sim` in a tree without a change: whether nothing was rebuilt.
+bool measure_make(Json& speed);
+/// Frames a second, as `halfway view` prints them.
+void measure_view(Json& speed);
+
+/// Appends rows of the table of cores: work on `batches` by 1 to 4 threads.
+void measure_cores(const char* shader, const InitBatches& batches, Json& rows);
+
+}  // namespace halfway

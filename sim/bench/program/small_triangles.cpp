@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Clocks per fragment where triangles cover few pixels.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/bench/program/bench.hpp"
+
+namespace halfway {
+
+void measure_small_triangles(Json& speed) {
+  constexpr FrameSize c_frame{500, 500};
+  std::vector<std::pair<double, Scene>> scenes;
+  for (const double wanted : {1.25, 3.0, 10.0, 30.0, 100.0}) {
+    // So many pixels for each triangle that covers one.
+    double triangles = 1e5;
+    for (int i = 0; i < 4; ++i) {
+      const InitBatches all = must(make_batches(sphere_scene(static_cast<std::uint64_t>(triangles)), c_frame,
+                                                {.shader = Shader::processors}));
+      triangles *=
+          static_cast<double>(all.golden.size()) / static_cast<double>(count_walk(all).headers) / wanted;
+      triangles = std::clamp(triangles, 100.0, 1e7);
+    }
+    scenes.emplace_back(wanted, sphere_scene(static_cast<std::uint64_t>(triangles)));
+  }
+  for (const Shader shader : {Shader::quadratic, Shader::spherical, Shader::processors})
+    for (const auto& [wanted, scene] : scenes) {
+      const InitBatches all = must(make_batches(scene, c_frame, {.shader = shader}));
+      auto rtl = must(RtlModel::open(all.key, c_folders, false));
+      std::vector<Fragment> drawn;
+      must(rtl.draw(all.words, true, drawn));
+      if (drawn != all.golden) throw Failure{{ExitCode::differs, "small triangles: the RTL differs"}};
+      const WalkCounts walk = count_walk(all);
+      Json row = {to_string(shader), count(scene.triangles.size()),
+                  figure(static_cast<double>(walk.pixels) / static_cast<double>(walk.headers))};
+      for (const std::uint64_t n :
+           {rtl.cycles(), walk.pixels + walk.lost_to_lines + walk.lost_to_headers, walk.lost_to_lines,
+            walk.lost_to_headers, walk.headers,
+            shader == Shader::spherical ? std::uint64_t{all.vectors()} - walk.headers : 0, walk.lines,
+            walk.empty_lines})
+        row.push_back(fmt::format("{:.3f}", static_cast<double>(n) / static_cast<double>(walk.pixels)));
+      fmt::print(stderr, "small triangles: {}, {} pixels each: {} clocks a fragment\n", to_string(shader),
+                 wanted, row[3].get<std::string>());
+      speed["small_triangles"].push_back(row);
+    }
+}
+
+}  // namespace halfway
