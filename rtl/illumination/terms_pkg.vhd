@@ -9,6 +9,7 @@ use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
 use work.shading_pkg.all;
+use work.vector_pkg.all;
 
 package terms_pkg is
 
@@ -23,35 +24,35 @@ package terms_pkg is
 
   function shape (c : config_t; kind, light : natural) return shape_t;
 
-  -- Bits of a component of what is normalized.
-  function normalized_bits (c : config_t; kind, light : natural) return positive;
-
-  -- The part of a token that loads which its light keeps.
-  function light_bits (c : config_t) return positive;
-
-  -- Lowest bit of a token's k of a kind of processor.
-  function coefficient_low (c : config_t; kind, channel : natural) return natural;
-
   function larger (a, b : natural) return natural;
 
-  -- A signed word in more bits.
-  function extended (word : std_logic_vector; bits : positive) return std_logic_vector;
+  -- Bits of what half_vector adds to the direction to the eye, and of the sum.
+  function half_light_bits (exact : boolean) return positive;
 
+  function half_sum_bits (exact : boolean) return positive;
+
+  -- Bits of k I times a weight.
+  function product_bits (exact : boolean) return positive;
+
+  -- Clocks with enable of the steps of a term.
   function unit_vector_latency (exact : boolean) return positive;
 
-  -- Of the unrolled form: how many clocks behind the token's coming something is there.
+  function light_vector_latency (exact, positional : boolean) return natural;
+
+  function half_vector_latency (exact, normalize : boolean) return natural;
+
+  function cosine_power_latency (exact, highlight : boolean) return positive;
+
+  function light_weight_latency (spot : boolean; lead : natural) return natural;
+
+  -- Of the unrolled form: how many clocks after the token was taken a result is there.
   type times_t is record
-    summed   : natural; -- the way to the light, added up
     to_light : natural; -- L
-    halved   : natural; -- what H is made of
-    half     : natural; -- H
-    cosine   : natural; -- all that the dot product with N takes
-    angle    : natural; -- (N.A)
+    cosine   : natural; -- A, and with it all that cosine_power takes
     raised   : natural; -- (N.A)**x
-    factor   : natural; -- of a spot's cone
     weight   : natural; -- what k I is multiplied with
-    term     : natural; -- what is added
-    leave    : natural; -- the token
+    term     : natural; -- k I (N.A)**x
+    leave    : natural; -- the token with the sum
   end record;
 
   function times (c : config_t; kind, light : natural) return times_t;
@@ -74,11 +75,24 @@ package terms_pkg is
   -- A weight times a spot's factor.
   function coned_weight (exact : boolean; product : unsigned) return std_logic_vector;
 
-  -- k times I.
+  -- k times I: rounded, and limited to the largest value.
   function reflected (exact : boolean; product : unsigned) return std_logic_vector;
 
   -- I so far and a term: what is reflected times its weight.
   function brightened (exact : boolean; radiance : std_logic_vector; product : unsigned) return std_logic_vector;
+
+  -- The same of all components of a vector, x lowest, or of all channels.
+  function plain_directions (exact : boolean; vector : std_logic_vector) return std_logic_vector;
+
+  function light_directions (exact : boolean; places : std_logic_vector) return std_logic_vector;
+
+  function offsets (exact : boolean; places, points, shift : std_logic_vector) return std_logic_vector;
+
+  function brightened (exact : boolean; radiances, terms : std_logic_vector; channels : positive)
+    return std_logic_vector;
+
+  -- What is reflected times a weight of 1.
+  function unweighted (exact : boolean; word : std_logic_vector) return std_logic_vector;
 
 end package;
 
@@ -106,36 +120,6 @@ package body terms_pkg is
     return s;
   end function;
 
-  function normalized_bits (c : config_t; kind, light : natural) return positive is
-  begin
-    if kind = c_ambient then
-      return formats(c.exact).vector.bits;
-    elsif c.exact and not shape(c, kind, light).positional then
-      return formats(c.exact).direction.bits + 1;
-    end if;
-    return formats(c.exact).offset.bits;
-  end function;
-
-  function light_bits (c : config_t) return positive is
-  begin
-    return light_axes_bits(c.exact, c_axes) + light_colour_bits(c.exact, c.channels);
-  end function;
-
-  function coefficient_low (c : config_t; kind, channel : natural) return natural is
-  begin
-    if kind = c_ambient then
-      return material_low(c) + ambient_low(c, channel);
-    elsif kind = c_diffuse then
-      return material_low(c) + diffuse_low(c, channel);
-    end if;
-    return material_low(c) + specular_low(c, channel);
-  end function;
-
-  function extended (word : std_logic_vector; bits : positive) return std_logic_vector is
-  begin
-    return std_logic_vector(resize(signed(word), bits));
-  end function;
-
   function larger (a, b : natural) return natural is
   begin
     if a > b then
@@ -144,61 +128,93 @@ package body terms_pkg is
     return b;
   end function;
 
+  function half_light_bits (exact : boolean) return positive is
+  begin
+    if exact then
+      return formats(exact).direction.bits;
+    end if;
+    return formats(exact).offset.bits;
+  end function;
+
+  function half_sum_bits (exact : boolean) return positive is
+  begin
+    if exact then
+      return formats(exact).direction.bits + 1;
+    end if;
+    return formats(exact).offset.bits;
+  end function;
+
+  function product_bits (exact : boolean) return positive is
+  begin
+    return formats(exact).reflected.bits + formats(exact).weight.bits;
+  end function;
+
   function unit_vector_latency (exact : boolean) return positive is
   begin
     return c_vector_shift_latency + c_dot_product_latency + reciprocal_root_latency(exact) + c_vector_multiply_latency
       + 1;
   end function;
 
+  function light_vector_latency (exact, positional : boolean) return natural is
+  begin
+    if not positional then
+      return 0;
+    elsif exact then
+      return c_vector_multiply_latency + 1 + unit_vector_latency(exact);
+    end if;
+    return 1 + unit_vector_latency(exact);
+  end function;
+
+  function half_vector_latency (exact, normalize : boolean) return natural is
+  begin
+    if not normalize then
+      return 0;
+    end if;
+    return 1 + unit_vector_latency(exact);
+  end function;
+
+  function cosine_power_latency (exact, highlight : boolean) return positive is
+  begin
+    if highlight then
+      return c_dot_product_latency + power_latency(exact);
+    end if;
+    return c_dot_product_latency + 1;
+  end function;
+
+  function light_weight_latency (spot : boolean; lead : natural) return natural is
+  begin
+    if not spot then
+      return 0;
+    end if;
+    return larger(c_dot_product_latency + c_spot_cone_latency, lead) - lead + 1;
+  end function;
+
   function times (c : config_t; kind, light : natural) return times_t is
     constant c_shape : shape_t := shape(c, kind, light);
-    constant c_unit  : positive := unit_vector_latency(c.exact);
 
     variable t : times_t := (others => 0);
   begin
     if kind = c_ambient then
       t.weight := c_vector_multiply_latency;
       if c_shape.first or c_shape.second then
-        t.weight := larger(c_unit, t.weight);
+        t.weight := larger(unit_vector_latency(c.exact), t.weight);
       end if;
-      t.term  := t.weight;
-      t.leave := t.term + 1;
-      return t;
-    end if;
-    if c_shape.first then
-      t.summed := 1;
-      if c_shape.far then
-        t.summed := c_vector_multiply_latency + 1;
+      t.term := t.weight;
+    else
+      t.to_light := light_vector_latency(c.exact, c_shape.first);
+      t.cosine   := t.to_light;
+      if kind = c_specular and c.exact then
+        t.cosine := t.to_light + half_vector_latency(c.exact, c_shape.second);
+      elsif kind = c_specular then
+        -- As printed, H does not need L.
+        t.cosine := half_vector_latency(c.exact, c_shape.second);
       end if;
-      t.to_light := t.summed + c_unit;
+      t.raised := t.cosine + cosine_power_latency(c.exact, kind = c_specular);
+      t.weight := t.raised + light_weight_latency(c_shape.spots, t.raised - t.to_light);
+      t.term   := t.weight + c_vector_multiply_latency;
     end if;
-    if c_shape.second then
-      t.halved := 1;
-      if c.exact then
-        t.halved := t.to_light + 1;
-      end if;
-      t.half := t.halved + c_unit;
-    end if;
-    t.cosine := larger(t.to_light, t.half);
-    t.angle  := t.cosine + c_dot_product_latency;
-    t.raised := t.angle + 1;
-    if kind = c_specular then
-      t.raised := t.angle + power_latency(c.exact);
-    end if;
-    t.weight := t.raised;
-    if c_shape.spots then
-      t.factor := t.to_light + c_dot_product_latency + c_spot_cone_latency;
-      t.weight := larger(t.raised, t.factor) + 1;
-    end if;
-    t.term  := t.weight + c_vector_multiply_latency;
     t.leave := t.term + 1;
     return t;
-  end function;
-
-  function low_bits (value : signed; bits : positive) return std_logic_vector is
-    alias word : signed(value'length - 1 downto 0) is value;
-  begin
-    return std_logic_vector(word(bits - 1 downto 0));
   end function;
 
   function plain_direction (exact : boolean; word : signed) return std_logic_vector is
@@ -286,6 +302,64 @@ package body terms_pkg is
   begin
     sum := resize(word(word'high downto c_drop), sum'length) + unsigned(radiance);
     return std_logic_vector(held(sum, radiance'length));
+  end function;
+
+  function plain_directions (exact : boolean; vector : std_logic_vector) return std_logic_vector is
+    constant c_bits : positive := formats(exact).direction.bits;
+
+    variable result : std_logic_vector(c_axes * c_bits - 1 downto 0);
+  begin
+    for axis in 0 to c_axes - 1 loop
+      result((axis + 1) * c_bits - 1 downto axis * c_bits) := plain_direction(exact, axis_of(vector, axis));
+    end loop;
+    return result;
+  end function;
+
+  function light_directions (exact : boolean; places : std_logic_vector) return std_logic_vector is
+    constant c_bits : positive := formats(exact).direction.bits;
+
+    variable result : std_logic_vector(c_axes * c_bits - 1 downto 0);
+  begin
+    for axis in 0 to c_axes - 1 loop
+      result((axis + 1) * c_bits - 1 downto axis * c_bits) :=
+        light_direction(exact, std_logic_vector(axis_of(places, axis)));
+    end loop;
+    return result;
+  end function;
+
+  function offsets (exact : boolean; places, points, shift : std_logic_vector) return std_logic_vector is
+    constant c_bits : positive := formats(exact).offset.bits;
+
+    variable result : std_logic_vector(c_axes * c_bits - 1 downto 0);
+  begin
+    for axis in 0 to c_axes - 1 loop
+      result((axis + 1) * c_bits - 1 downto axis * c_bits) :=
+        offset(exact, axis_of(places, axis), axis_of(points, axis), shift);
+    end loop;
+    return result;
+  end function;
+
+  function brightened (exact : boolean; radiances, terms : std_logic_vector; channels : positive)
+    return std_logic_vector is
+    constant c_bits    : positive := formats(exact).radiance.bits;
+    constant c_product : positive := product_bits(exact);
+    alias radiance     : std_logic_vector(channels * c_bits - 1 downto 0) is radiances;
+    alias term         : std_logic_vector(channels * c_product - 1 downto 0) is terms;
+
+    variable result : std_logic_vector(channels * c_bits - 1 downto 0);
+  begin
+    for channel in 0 to channels - 1 loop
+      result((channel + 1) * c_bits - 1 downto channel * c_bits) :=
+        brightened(exact, radiance((channel + 1) * c_bits - 1 downto channel * c_bits),
+        unsigned(term((channel + 1) * c_product - 1 downto channel * c_product)));
+    end loop;
+    return result;
+  end function;
+
+  function unweighted (exact : boolean; word : std_logic_vector) return std_logic_vector is
+    constant c_zeros : std_logic_vector(formats(exact).weight.bits - 2 downto 0) := (others => '0');
+  begin
+    return '0' & word & c_zeros;
   end function;
 
 end package body;

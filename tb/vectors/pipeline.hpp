@@ -33,23 +33,26 @@ inline Flat flat(const golden::Axes& v, int bits) {
   return all;
 }
 
-/// First line: latency. Then a line a clock: checked, enable, inputs; the result, before the edge.
+/// First line: latency. Then a line per clock: checked, enable, inputs; the result, before the edge.
 class Pipeline {
  public:
-  explicit Pipeline(int latency) : due_(latency) {
+  explicit Pipeline(int latency) : latency_(latency), due_(latency) {
     file_.word(static_cast<std::uint64_t>(latency), 32).end_vector();
   }
   void clock(bool enable, std::initializer_list<Flat> inputs, const Flat& result) {
     file_.flag(due_.full()).flag(enable);
     for (const Flat& input : inputs) file_.words_of(input.words, input.bits);
-    const Flat& shown = due_.full() ? due_.delayed() : result;
+    const Flat& shown = latency_ > 0 && due_.full() ? due_.delayed() : result;
     file_.words_of(shown.words, shown.bits).end_vector();
-    if (enable) due_.step(result);
+    if (enable && latency_ > 0) due_.step(result);
   }
+  /// An input that must stand still while a word is in the stages changes: the words in them do not count.
+  void restart() { due_ = golden::DelayLine<Flat>(latency_); }
   Status write(const std::filesystem::path& path) const { return file_.write(path); }
 
  private:
   VectorFile file_;
+  int latency_;
   golden::DelayLine<Flat> due_;
 };
 

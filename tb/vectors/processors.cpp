@@ -10,6 +10,7 @@
 #include "golden/shading_pipeline.hpp"
 #include "sim/stream_files/vector_file.hpp"
 #include "vectors/entities.hpp"
+#include "vectors/pipeline.hpp"
 #include "vectors/random.hpp"
 
 namespace halfway::vectors {
@@ -222,6 +223,128 @@ Status write_processors(const std::filesystem::path& folder, int tokens) {
   return Ok{};
 }
 
+// What the parts of a processor take: tokens of one configuration, several lights.
+const ProcessorsConfig& part_config() {
+  static const ProcessorsConfig config{3, 1, 1, 1, true, true, true, true};
+  return config;
+}
+constexpr int c_light_tokens = 60, c_lights = 30;
+
+Flat flat(const std::vector<std::uint32_t>& words, int bits) {
+  Flat all;
+  all.words = words;
+  all.bits = bits;
+  return all;
+}
+
+template <class Preset>
+Flat flat(const golden::Terms& terms) {
+  Flat all;
+  for (const std::uint64_t term : terms) all.add(term, Preset::c_reflected_bits + Preset::c_weight_bits);
+  return all;
+}
+
+// A light's words: those of the token that defines it, behind the header.
+template <class Preset>
+Flat light_words(TokenMaker<Preset>& maker, const golden::ShadingLight& light) {
+  using Layout = golden::ProcessorsLayout<Preset>;
+  golden::ShadingToken<Preset> token;
+  token.command = Command::define;
+  token.light = light;
+  const int bits = Layout(part_config()).token_bits();
+  const auto words = maker.words(token, bits);
+  Flat all;
+  const int first = Layout::light_axes_low();
+  const int last = Layout::light_colour_low(part_config().channels);
+  for (int low = first; low < last; low += 16) {
+    const int width = std::min(16, last - low);
+    all.add(golden::get_bits(words, {"", low, width, false, 0}), width);
+  }
+  return all;
+}
+
+// Inputs: light, token; of the token that leaves: terms, N, view vector (published: 0).
+template <class Preset>
+Status write_ambient_term_of(const std::filesystem::path& folder) {
+  constexpr bool c_exact = golden::ProcessorsLayout<Preset>::c_exact;
+  const int bits = golden::ProcessorsLayout<Preset>(part_config()).token_bits();
+  TokenMaker<Preset> maker(part_config(), 5);
+  const golden::AmbientTerm<Preset> twin(part_config());
+  Pipeline pipeline(c_exact ? 8 : 5);
+  golden::ShadingLight light;
+  Flat light_bits;
+  for (int done = 0; done < c_lights * c_light_tokens; ++done) {
+    if (done % c_light_tokens == 0) {
+      light = maker.load(Command::define, 0).light;
+      light_bits = light_words(maker, light);
+      pipeline.restart();
+    }
+    auto token = maker.object();
+    const auto words = maker.words(token, bits);
+    Flat result = flat<Preset>(twin.terms(token, light));
+    twin.ready_vectors(token);
+    for (const Axes& v : {token.normal, c_exact ? token.view : Axes{}})
+      for (const std::int64_t component : v)
+        result.add(static_cast<std::uint64_t>(component), Preset::c_direction_bits);
+    pipeline.clock(done % 3 > 0 || maker.random().one_in(2), {light_bits, flat(words, bits)}, result);
+  }
+  return pipeline.write(folder / fmt::format("{}.txt", Preset::c_name));
+}
+
+// Inputs: light, token; above, terms (0 where the light is not above).
+template <class Preset>
+Status write_light_term_of(const std::filesystem::path& folder, Term term, int light_number, int latency) {
+  const int bits = golden::ProcessorsLayout<Preset>(part_config()).token_bits();
+  TokenMaker<Preset> maker(part_config(), static_cast<std::uint64_t>(latency));
+  const golden::LightTerm<Preset> twin(part_config(), term, light_number);
+  Pipeline pipeline(latency);
+  golden::ShadingLight light;
+  Flat light_bits;
+  for (int done = 0; done < c_lights * c_light_tokens; ++done) {
+    if (done % c_light_tokens == 0) {
+      light = maker.load(Command::define, 0).light;
+      light_bits = light_words(maker, light);
+      pipeline.restart();
+    }
+    const auto token = maker.behind_ambient(maker.object());
+    const auto words = maker.words(token, bits);
+    const auto terms = twin.terms(token, light);
+    Flat result(terms.has_value(), 1);
+    for (const std::uint64_t t : terms.value_or(golden::Terms{}))
+      result.add(t, Preset::c_reflected_bits + Preset::c_weight_bits);
+    pipeline.clock(done % 3 > 0 || maker.random().one_in(2), {light_bits, flat(words, bits)}, result);
+  }
+  return pipeline.write(folder /
+                        fmt::format("{}_{}{}.txt", Preset::c_name, static_cast<int>(term), light_number));
+}
+
+// A line: token; object, changes; after it was taken defined, light (meant where defined), lit (meant where
+// object and defined), fault.
+template <class Preset>
+Status write_light_state_of(const std::filesystem::path& folder) {
+  constexpr int c_tokens = 1500;
+  constexpr std::uint32_t c_light = 2;
+  const int bits = golden::ProcessorsLayout<Preset>(part_config()).token_bits();
+  TokenMaker<Preset> maker(part_config(), 6);
+  golden::LightState<Preset> twin(true, c_light);
+  VectorFile file;
+  for (int done = 0; done < c_tokens + c_too_many; ++done) {
+    const auto token = done < c_tokens ? maker.token(static_cast<int>(c_light)) : maker.opening(c_light);
+    const auto words = maker.words(token, bits);
+    const bool changes =
+        token.light_number == c_light && (token.is_define() || token.command == Command::remove);
+    bool lit = true;
+    if (token.is_object())
+      lit = twin.take_object(golden::ShadingToken<Preset>::decode(part_config(), words));
+    else
+      twin.take(token);
+    const Flat light = light_words(maker, twin.light());
+    file.words_of(words, bits).flag(token.is_object()).flag(changes).flag(twin.defined());
+    file.words_of(light.words, light.bits).flag(lit).flag(twin.fault()).end_vector();
+  }
+  return file.write(folder / fmt::format("{}.txt", Preset::c_name));
+}
+
 // A line: token, comes; the object that comes out (meant where it comes), fault once it has.
 template <class Preset>
 Status write_pipeline(const std::filesystem::path& folder, const ProcessorsConfig& config, bool faults) {
@@ -260,6 +383,32 @@ Status write_pipelines(const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+Status write_ambient_term(const std::filesystem::path& folder) {
+  if (auto s = write_ambient_term_of<Exact>(folder); !s) return s;
+  return write_ambient_term_of<Published>(folder);
+}
+
+Status write_light_term(const std::filesystem::path& folder) {
+  struct Case {
+    Term term;
+    int light, exact, published;  // clocks
+  };
+  // A directional light, a positional one, a spot. tb/illumination/light_term_tb.vhd has the same list.
+  constexpr Case c_cases[] = {{Term::diffuse, 1, 3, 3},   {Term::specular, 1, 17, 4},
+                              {Term::diffuse, 2, 13, 9},  {Term::specular, 2, 27, 10},
+                              {Term::diffuse, 3, 17, 13}, {Term::specular, 3, 28, 13}};
+  for (const Case& c : c_cases) {
+    if (auto s = write_light_term_of<Exact>(folder, c.term, c.light, c.exact); !s) return s;
+    if (auto s = write_light_term_of<Published>(folder, c.term, c.light, c.published); !s) return s;
+  }
+  return Ok{};
+}
+
+Status write_light_state(const std::filesystem::path& folder) {
+  if (auto s = write_light_state_of<Exact>(folder); !s) return s;
+  return write_light_state_of<Published>(folder);
+}
 
 // A line: reset, step, clear, counts, opens, takes, x, and around_eye for the column before, clocks until
 // ready; then before the edge: counted, lit (meant where counted), fault.

@@ -10,6 +10,7 @@
 #include "golden/unit_vector.hpp"
 #include "golden/vector_multiply.hpp"
 #include "golden/vector_shift.hpp"
+#include "vectors/axes.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/pipeline.hpp"
 #include "vectors/random.hpp"
@@ -18,31 +19,6 @@ namespace halfway::vectors {
 namespace {
 
 using golden::Axes, golden::Exact, golden::Published;
-
-// At full speed first, then with pauses.
-constexpr int c_running = 3000, c_pausing = 1000;
-
-std::int64_t signed_word(Random& random, int bits) {
-  return static_cast<std::int64_t>(random.word(bits) << (64 - bits)) >> (64 - bits);
-}
-
-// Components of one magnitude or of three, none often.
-Axes random_axes(Random& random, int bits) {
-  Axes v;
-  const auto smaller = random.between(0, bits - 1);
-  const bool alike = random.one_in(2);
-  for (std::int64_t& component : v) component = signed_word(random, bits) >> (alike ? smaller : 0);
-  if (random.one_in(8)) v[static_cast<std::size_t>(random.between(0, 2))] = 0;
-  if (random.one_in(50)) v = {};
-  if (random.one_in(50)) v = {-1, 0, -1};
-  return v;
-}
-
-template <class Add>
-void run(Random& random, const Add& add) {
-  for (int i = 0; i < c_running; ++i) add(true);
-  for (int i = 0; i < c_pausing; ++i) add(random.one_in(2));
-}
 
 template <class Preset>
 std::string file_of() {

@@ -1,0 +1,138 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     The ambient processor's steps, one after the other: k_a I_a, and the unit vectors N and V that all
+--             processors after it need.
+--
+--               clock                  1 .. unit_vector_latency
+--               N                      unit_vector             | with normalize; else N in fewer bits
+--               V = -(view ray)        unit_vector
+--               k_a I_a                wait                    reflected_term, in the last clock
+--
+--             A vector that config does not call for has no unit_vector; without both the term takes a clock.
+-- Contract    light stands still while a token is in the stages. normalize belongs to the token that leaves.
+-- Formats     token, light: token_pkg; delayed: the token that leaves; terms: reflected_term; normal, view: direction,
+--             three components, x lowest
+-- Latency     times of terms_pkg: term
+-- Throughput  1 token per clock
+-- Source      processors paper, equation 1, figure 2 and section 3.2: the first processor also normalizes N
+-- Golden twin model/golden/ambient_term.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.formats_pkg.all;
+use work.processors_pkg.all;
+use work.shading_pkg.all;
+use work.terms_pkg.all;
+use work.token_pkg.all;
+use work.vector_pkg.all;
+
+entity ambient_term is
+  generic (
+    g_config : config_t
+  );
+  port (
+    clk     : in  std_logic;
+    reset   : in  std_logic;
+    enable  : in  std_logic;
+    light   : in  std_logic_vector(light_bits(g_config) - 1 downto 0);
+    token   : in  std_logic_vector(token_bits(g_config) - 1 downto 0);
+    delayed : in  std_logic_vector(token_bits(g_config) - 1 downto 0);
+    terms   : out std_logic_vector(g_config.channels * product_bits(g_config.exact) - 1 downto 0);
+    normal  : out std_logic_vector(c_axes * formats(g_config.exact).direction.bits - 1 downto 0);
+    view    : out std_logic_vector(c_axes * formats(g_config.exact).direction.bits - 1 downto 0)
+  );
+end entity;
+
+architecture rtl of ambient_term is
+
+  constant c_exact   : boolean   := g_config.exact;
+  constant c_formats : formats_t := formats(c_exact);
+  constant c_at      : times_t   := times(g_config, c_ambient, 0);
+
+  subtype directions_t is std_logic_vector(normal'range);
+
+  signal plain        : directions_t; -- N as it is, in fewer bits
+  signal coefficients : std_logic_vector(g_config.channels * c_formats.coefficient.bits - 1 downto 0);
+
+begin
+
+  plain <= plain_directions(c_exact, normal_of(g_config, delayed));
+
+  normals : if g_config.normalize generate
+
+    signal unit : directions_t;
+
+    begin
+
+      unit_normal : entity work.unit_vector
+        generic map (
+          g_exact       => c_exact,
+          g_vector_bits => c_formats.vector.bits
+          )
+        port map (
+          clk        => clk,
+          reset      => reset,
+          enable     => enable,
+          components => normal_of(g_config, token),
+          unit       => unit
+          );
+
+      normal <= unit when delayed(pixel_header(c_exact).normalize.low) = '1' else plain;
+
+  else generate
+
+    normal <= plain;
+
+  end generate;
+
+  views : if has_view(g_config) generate
+
+    unit_view : entity work.unit_vector
+      generic map (
+        g_exact       => c_exact,
+        g_vector_bits => c_formats.vector.bits
+        )
+      port map (
+        clk        => clk,
+        reset      => reset,
+        enable     => enable,
+        components => negated(place_of(g_config, token)),
+        unit       => view
+        );
+
+  else generate
+
+    view <= (others => '0');
+
+  end generate;
+
+  align_coefficients : entity work.delay_line
+    generic map (
+      g_bits  => coefficients'length,
+      g_depth => c_at.weight - c_vector_multiply_latency
+      )
+    port map (
+      clk     => clk,
+      reset   => reset,
+      enable  => enable,
+      word    => coefficients_of(g_config, c_ambient, token),
+      delayed => coefficients
+      );
+
+  reflect : entity work.reflected_term
+    generic map (
+      g_exact    => c_exact,
+      g_channels => g_config.channels,
+      g_weighted => false
+      )
+    port map (
+      clk          => clk,
+      enable       => enable,
+      coefficients => coefficients,
+      intensities  => intensities_of(g_config, light),
+      weight       => (others => '0'),
+      terms        => terms
+      );
+
+end architecture;

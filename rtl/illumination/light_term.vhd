@@ -1,0 +1,278 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     The diffuse or the specular term of one light, a unit for every step of the paper's datapath:
+--
+--               token --> light_vector --> half_vector --> cosine_power --> light_weight --> reflected_term --> terms
+--                P            L               H             (N.A)**x         cone of a spot    k I weight
+--                             |                               ^                   ^
+--                             +---- A = L (diffuse) ----------+                   |
+--                             +---------------------------------------------------+
+--
+--             Each step takes the result of the step before it as it comes; delay lines bring what else it takes (V, N,
+--             exponent, k) from the token. Clocks after the token's, from times of terms_pkg, for a light that can be
+--             what the column says (directional: a constant L, no step; diffuse: no H):
+--
+--               published   directional        positional         spot
+--                           diffuse specular   diffuse specular   diffuse specular
+--               L           0       -          6       -          6       6
+--               H           -       0          -       6          -       6
+--               (N.A)**x    2       3          8       9          8       9
+--               weight      2       3          8       9          12      12
+--               terms       3       4          9       10         13      13
+--
+--               exact       directional        positional         spot
+--                           diffuse specular   diffuse specular   diffuse specular
+--               L           0       0          10      10         10      10
+--               H           -       9          -       19         -       19
+--               (N.A)**x    2       16         12      26         12      26
+--               weight      2       16         12      26         16      27
+--               terms       3       17         13      27         17      28
+--
+--             Preset exact has no highlight below the light's horizon: `above` is '1' where N.L > 0.
+-- Contract    light stands still while a token is in the stages
+-- Formats     token, light: token_pkg; terms: reflected_term
+-- Latency     times of terms_pkg: term
+-- Throughput  1 token per clock
+-- Source      processors paper, equations 2, 3 and 5, figures 1 and 2; ours: spots, perspective, horizon
+-- Golden twin model/golden/light_term.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.formats_pkg.all;
+use work.processors_pkg.all;
+use work.shading_pkg.all;
+use work.terms_pkg.all;
+use work.token_pkg.all;
+
+entity light_term is
+  generic (
+    g_config : config_t;
+    g_kind   : natural range c_diffuse to c_specular;
+    g_light  : positive
+  );
+  port (
+    clk    : in  std_logic;
+    reset  : in  std_logic;
+    enable : in  std_logic;
+    light  : in  std_logic_vector(light_bits(g_config) - 1 downto 0);
+    token  : in  std_logic_vector(token_bits(g_config) - 1 downto 0);
+    terms  : out std_logic_vector(g_config.channels * product_bits(g_config.exact) - 1 downto 0);
+    above  : out std_logic -- with terms: the light is above the horizon, or the preset does not ask
+  );
+end entity;
+
+architecture rtl of light_term is
+
+  constant c_exact   : boolean             := g_config.exact;
+  constant c_formats : formats_t           := formats(c_exact);
+  constant c_shape   : shape_t             := shape(g_config, g_kind, g_light);
+  constant c_at      : times_t             := times(g_config, g_kind, g_light);
+  constant c_header  : light_axes_header_t := light_axes_header(c_exact);
+
+  subtype directions_t is std_logic_vector(c_axes * c_formats.direction.bits - 1 downto 0);
+  subtype weight_t is std_logic_vector(c_formats.weight.bits - 1 downto 0);
+  subtype exponent_t is std_logic_vector(c_formats.exponent.bits - 1 downto 0);
+
+  signal positional   : std_logic;    -- the light has a place
+  signal spot         : std_logic;    -- and a cone
+  signal to_light     : directions_t; -- L
+  signal direction    : directions_t; -- A: L, or H of a highlight
+  signal aligned      : std_logic_vector(directions_t'length + exponent_t'length - 1 downto 0);
+  signal normal       : directions_t; -- N, aligned with A
+  signal exponent     : exponent_t;   -- aligned with A
+  signal cosine       : weight_t;     -- (N.A)**x
+  signal weight       : weight_t;
+  signal coefficients : std_logic_vector(g_config.channels * c_formats.coefficient.bits - 1 downto 0);
+
+begin
+
+  positional <= light(c_header.positional.low) when c_shape.positional else '0';
+  spot       <= light(c_header.spot.low) when c_shape.spots else '0';
+
+  light_vector : entity work.light_vector
+    generic map (
+      g_exact      => c_exact,
+      g_positional => c_shape.first
+      )
+    port map (
+      clk        => clk,
+      reset      => reset,
+      enable     => enable,
+      positional => positional,
+      place      => light_place(c_exact, light),
+      shift      => light_shift(c_exact, light),
+      point      => place_of(g_config, token),
+      distance   => distance_of(g_config, token),
+      to_light   => to_light
+      );
+
+  highlight : if g_kind = c_specular generate
+
+    signal way    : std_logic_vector(c_axes * half_light_bits(c_exact) - 1 downto 0); -- L, or P_p - P as printed
+    signal to_eye : directions_t;                                                     -- V, or E as printed
+
+    begin
+
+      halfway : if c_exact generate
+
+        signal vectors     : std_logic_vector(2 * to_eye'length - 1 downto 0);
+        signal normal_now  : directions_t; -- N, aligned with L
+        signal horizon_dot : std_logic_vector(2 * c_formats.direction.bits downto 0);
+        signal above_now   : std_logic;
+
+        begin
+
+          way <= to_light;
+
+          align_vectors : entity work.delay_line
+            generic map (
+              g_bits  => vectors'length,
+              g_depth => c_at.to_light
+              )
+            port map (
+              clk     => clk,
+              reset   => reset,
+              enable  => enable,
+              word    => view_of(g_config, token) & direction_of(g_config, token),
+              delayed => vectors
+              );
+
+          to_eye     <= vectors(vectors'high downto to_eye'length);
+          normal_now <= vectors(normal_now'range);
+
+          horizon : entity work.dot_product
+            generic map (
+              g_bits => c_formats.direction.bits
+              )
+            port map (
+              clk    => clk,
+              enable => enable,
+              a      => normal_now,
+              b      => to_light,
+              sum    => horizon_dot
+              );
+
+          above_now <= is_positive(signed(horizon_dot));
+
+          align_horizon : entity work.delay_line
+            generic map (
+              g_bits  => 1,
+              g_depth => c_at.term - c_at.to_light - c_dot_product_latency
+              )
+            port map (
+              clk        => clk,
+              reset      => reset,
+              enable     => enable,
+              word(0)    => above_now,
+              delayed(0) => above
+              );
+
+      else generate
+
+        way    <= offsets(c_exact, light_place(c_exact, light), place_of(g_config, token), light_shift(c_exact, light));
+        to_eye <= light_half(c_exact, light);
+        above  <= '1';
+
+      end generate;
+
+      half_vector : entity work.half_vector
+        generic map (
+          g_exact     => c_exact,
+          g_normalize => c_shape.second
+          )
+        port map (
+          clk        => clk,
+          reset      => reset,
+          enable     => enable,
+          positional => positional,
+          to_light   => way,
+          to_eye     => to_eye,
+          half       => direction
+          );
+
+  else generate
+
+    direction <= to_light;
+    above     <= '1';
+
+  end generate;
+
+  align_angle : entity work.delay_line
+    generic map (
+      g_bits  => aligned'length,
+      g_depth => c_at.cosine
+      )
+    port map (
+      clk     => clk,
+      reset   => reset,
+      enable  => enable,
+      word    => direction_of(g_config, token) & exponent_of(g_config, token),
+      delayed => aligned
+      );
+
+  normal   <= aligned(aligned'high downto exponent'length);
+  exponent <= aligned(exponent'range);
+
+  cosine_power : entity work.cosine_power
+    generic map (
+      g_exact     => c_exact,
+      g_highlight => g_kind = c_specular
+      )
+    port map (
+      clk       => clk,
+      reset     => reset,
+      enable    => enable,
+      normal    => normal,
+      direction => direction,
+      exponent  => exponent,
+      result    => cosine
+      );
+
+  light_weight : entity work.light_weight
+    generic map (
+      g_exact => c_exact,
+      g_spot  => c_shape.spots,
+      g_lead  => c_at.raised - c_at.to_light
+      )
+    port map (
+      clk      => clk,
+      reset    => reset,
+      enable   => enable,
+      spot     => spot,
+      axis     => light_axis(c_exact, light),
+      outer    => field_of(light, c_header.outer),
+      slope    => field_of(light, c_header.slope),
+      to_light => to_light,
+      cosine   => cosine,
+      weight   => weight
+      );
+
+  align_coefficients : entity work.delay_line
+    generic map (
+      g_bits  => coefficients'length,
+      g_depth => c_at.weight - c_vector_multiply_latency
+      )
+    port map (
+      clk     => clk,
+      reset   => reset,
+      enable  => enable,
+      word    => coefficients_of(g_config, g_kind, token),
+      delayed => coefficients
+      );
+
+  reflected_term : entity work.reflected_term
+    generic map (
+      g_exact    => c_exact,
+      g_channels => g_config.channels
+      )
+    port map (
+      clk          => clk,
+      enable       => enable,
+      coefficients => coefficients,
+      intensities  => intensities_of(g_config, light),
+      weight       => weight,
+      terms        => terms
+      );
+
+end architecture;
