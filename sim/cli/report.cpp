@@ -6,6 +6,7 @@
 
 #include "sim/cli/options.hpp"
 #include "sim/report/front.hpp"
+#include "sim/system/csv.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/page_part.hpp"
 
@@ -21,14 +22,14 @@ struct ReportCommand {
   std::string readme;  ///< with it: the page whose part "front" it writes
 };
 
-Status tell_front(const report::Table& front, const std::string& readme) {
+Status tell_front(const Table& front, const std::string& readme) {
   const auto words = report::readme_front(front);
   if (!words) return words.error();
   return rewrite_page(readme, [&](const std::string& page) { return with_page_part(page, "front", *words); });
 }
 
 int write_front(const ReportCommand& command) {
-  const auto study = report::read_csv(std::filesystem::path(command.study) / "study.csv");
+  const auto study = read_csv(std::filesystem::path(command.study) / "study.csv");
   if (!study) return report(study.error());
   const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
   if (!scratch) return report(scratch.error());

@@ -2,15 +2,15 @@
 #include "sim/costs/savings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <mutex>
-#include <string_view>
 
 #include "sim/costs/simulation_cost.hpp"
 #include "sim/scene_files/load_scene.hpp"
-#include "sim/system/file.hpp"
+#include "sim/system/csv.hpp"
 #include "sim/system/page_part.hpp"
 #include "sim/system/threads.hpp"
 
@@ -28,24 +28,29 @@ constexpr std::array c_cases = {
     SavingsCase{"spheres", "", Shader::processors, Preset::published},
 };
 
-constexpr const char* c_head =
-    "scene,shader,preset,effects,hardware,luts,flip_flops,memory_bits,multipliers,cycles\n";
-
+// Numbers by their columns' names.
 template <class Cost, class Visit>
 void for_each_number(Cost& cost, const Visit& visit) {
-  for (auto* number : {&cost.luts, &cost.flip_flops, &cost.memory_bits, &cost.multipliers, &cost.cycles})
-    visit(*number);
+  visit("luts", cost.luts);
+  visit("flip_flops", cost.flip_flops);
+  visit("memory_bits", cost.memory_bits);
+  visit("multipliers", cost.multipliers);
+  visit("cycles", cost.cycles);
 }
 
-std::string label(const SavingsCase& which, bool all) {
-  return fmt::format("{},{},{},{}", which.scene, to_string(which.shader), to_string(which.preset),
-                     all ? "all effects" : "called for");
+// The first values of a line.
+std::vector<std::string> label(const SavingsCase& which, bool all) {
+  return {which.scene, to_string(which.shader), to_string(which.preset), all ? "all effects" : "called for"};
 }
 
-std::string line_of(const SavingsCase& which, bool all, const HardwareCost& cost) {
-  std::string line = label(which, all) + "," + cost.key;
-  for_each_number(cost, [&](std::uint64_t number) { line += fmt::format(",{}", number); });
-  return line + "\n";
+Table table_of(const SavingsCase& which, bool all, const HardwareCost& cost) {
+  Table table{{"scene", "shader", "preset", "effects", "hardware"}, {label(which, all)}};
+  table.rows[0].push_back(cost.key);
+  for_each_number(cost, [&](const char* name, std::uint64_t number) {
+    table.columns.emplace_back(name);
+    table.rows[0].push_back(std::to_string(number));
+  });
+  return table;
 }
 
 Result<HardwareCost> measure(const SavingsCase& which, bool all, const SimulatorFolders& folders) {
@@ -68,31 +73,10 @@ Result<HardwareCost> measure(const SavingsCase& which, bool all, const Simulator
                       cells->memory_bits, cells->multipliers, frame->cycles};
 }
 
-Result<HardwareCost> read_cost(std::string_view line, const std::string& begin) {
-  const auto wrong = [&] {
-    return bad_input("wants a line '" + begin + ",…'; write it anew with make savings");
-  };
-  if (!line.starts_with(begin + ",")) return wrong();
-  line.remove_prefix(begin.size() + 1);
-  HardwareCost cost;
-  cost.key = line.substr(0, line.find(','));
-  line.remove_prefix(cost.key.size());
-  bool right = true;
-  for_each_number(cost, [&](std::uint64_t& number) {
-    if (!line.starts_with(',')) right = false;
-    if (!right) return;
-    const auto [end, error] = std::from_chars(line.data() + 1, line.data() + line.size(), number);
-    right = error == std::errc();
-    line.remove_prefix(static_cast<std::size_t>(end - line.data()));
-  });
-  if (!right || !line.empty()) return wrong();
-  return cost;
-}
-
 // 58298 as "58 298".
 std::string spaced(std::uint64_t number) {
   std::string text = std::to_string(number);
-  for (std::size_t at = text.size(); at > 3 && text.size() > 4;) text.insert(at -= 3, " ");
+  for (std::size_t at = text.size(); at > 3 && text.size() > 4;) text.insert(at -= 3, 1, ' ');
   return text;
 }
 
@@ -128,7 +112,8 @@ Result<std::vector<Savings>> measure_savings(const SimulatorFolders& folders, un
     auto cost = measure(c_cases[which], all, folders);
     if (!cost) return cost.error();
     const std::scoped_lock lock(mutex);
-    on_line(fmt::format("[{}/{}] {}", ++done, jobs, line_of(c_cases[which], all, *cost)));
+    on_line(fmt::format("[{}/{}] {}\n", ++done, jobs,
+                        fmt::join(table_of(c_cases[which], all, *cost).rows[0], ",")));
     (all ? savings[which].everything : savings[which].called_for) = std::move(*cost);
     return Ok{};
   });
@@ -137,30 +122,36 @@ Result<std::vector<Savings>> measure_savings(const SimulatorFolders& folders, un
 }
 
 std::string to_csv(std::span<const Savings> savings) {
-  std::string text = c_head;
+  Table table;
   for (std::size_t i = 0; i < savings.size(); ++i)
-    for (const bool all : {false, true})
-      text += line_of(c_cases[i], all, all ? savings[i].everything : savings[i].called_for);
-  return text;
+    for (const bool all : {false, true}) {
+      Table line = table_of(c_cases[i], all, all ? savings[i].everything : savings[i].called_for);
+      table.columns = std::move(line.columns);
+      table.rows.push_back(std::move(line.rows[0]));
+    }
+  return to_csv(table);
 }
 
 Result<std::vector<Savings>> read_savings(const std::filesystem::path& csv) {
-  auto reader = LineReader::open(csv);
-  if (!reader) return reader.error();
+  const auto table = read_csv(csv);
+  if (!table) return table.error();
   std::vector<Savings> savings(c_cases.size());
-  std::string_view line;
-  const auto next = [&] {
-    line = {};
-    return reader->next(line) != LineReader::Next::failed;
-  };
-  if (!next()) return reader->error();
-  for (std::size_t i = 0; i < savings.size(); ++i)
-    for (const bool all : {false, true}) {
-      if (!next()) return reader->error();
-      auto read = read_cost(line, label(c_cases[i], all));
-      if (!read) return reader->at(read.error().message);
-      (all ? savings[i].everything : savings[i].called_for) = std::move(*read);
-    }
+  for (std::size_t row = 0; row < 2 * savings.size(); ++row) {
+    const bool all = row % 2 != 0;
+    const std::vector<std::string> begin = label(c_cases[row / 2], all);
+    HardwareCost& cost = all ? savings[row / 2].everything : savings[row / 2].called_for;
+    bool right =
+        row < table->rows.size() && std::ranges::mismatch(begin, table->rows[row]).in1 == begin.end();
+    for_each_number(cost, [&](const char* name, std::uint64_t& number) {
+      const auto value = right ? table->number(row, name) : std::nullopt;
+      right = value.has_value();
+      if (right) number = static_cast<std::uint64_t>(*value);
+    });
+    if (!right)
+      return bad_input(fmt::format("{}:{}: wants a line '{},…'; write it anew with make savings",
+                                   csv.string(), row + 2, fmt::join(begin, ",")));
+    cost.key = table->text(row, "hardware");
+  }
   return savings;
 }
 

@@ -9,7 +9,7 @@
 
 #include "common/result.hpp"
 #include "sim/report/plot.hpp"
-#include "sim/report/table.hpp"
+#include "sim/system/csv.hpp"
 
 namespace halfway::report {
 

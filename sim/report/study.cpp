@@ -13,11 +13,11 @@
 #include "sim/report/html.hpp"
 #include "sim/report/plot.hpp"
 #include "sim/report/section.hpp"
-#include "sim/report/table.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/study/design_point.hpp"
 #include "sim/study/hardware.hpp"
 #include "sim/study/record.hpp"
+#include "sim/system/csv.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway::report {

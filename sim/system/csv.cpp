@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/report/table.hpp"
+#include "sim/system/csv.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "sim/system/file.hpp"
 
-namespace halfway::report {
+namespace halfway {
 namespace {
 
 // The values of one line; none where a quote does not end.
@@ -91,4 +91,4 @@ std::string to_csv(const Table& table) {
   return text;
 }
 
-}  // namespace halfway::report
+}  // namespace halfway

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A CSV file as rows of named values, such as a study writes.
+// A CSV file as rows of named values.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 #include "common/result.hpp"
 
-namespace halfway::report {
+namespace halfway {
 
 struct Table {
   std::vector<std::string> columns;
@@ -27,4 +27,4 @@ Result<Table> read_csv(const std::filesystem::path& path);
 /// What `read_csv` reads as the same table.
 std::string to_csv(const Table& table);
 
-}  // namespace halfway::report
+}  // namespace halfway

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/report/table.hpp"
+#include "sim/system/csv.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sim/system/file.hpp"
 
-namespace halfway::report {
+namespace halfway {
 namespace {
 
 using ::testing::HasSubstr;
@@ -49,4 +49,4 @@ TEST_F(TableTest, TellsTheLineThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace halfway::report
+}  // namespace halfway
