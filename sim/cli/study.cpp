@@ -187,11 +187,10 @@ Status run_on_slurm(study::StudySettings settings, const Folders& folders, const
 int conclude(const StudyPlan& plan, const study::Study& made, const study::HardwareTable& hardware,
              study::Clock clock) {
   const std::vector<study::Market> markets = study::markets_of(made.records, hardware, clock);
-  const auto csv = study::to_csv(made.provenance, made.records, hardware, markets);
-  if (!csv) return report(csv.error());
+  const std::string csv = study::to_csv(made.provenance, made.records, hardware, markets);
   const std::filesystem::path table =
       plan.settings.out / (plan.demand.any() ? c_question_table : c_study_table);
-  if (Status written = write_file(table, *csv); !written) return report(written.error());
+  if (Status written = write_file(table, csv); !written) return report(written.error());
   fmt::print("{}: {} points, {} measured anew\n", table.string(), made.records.size(), made.measured);
   if (plan.demand.any() && markets.empty()) {
     fmt::print("nothing meets it: none of the points is hardware\n");
@@ -201,11 +200,10 @@ int conclude(const StudyPlan& plan, const study::Study& made, const study::Hardw
   const auto main = std::ranges::max_element(markets, {}, [](const auto& m) { return m.offers.size(); });
   bool met = true;
   for (auto market = markets.begin(); market != markets.end(); ++market) {
-    const auto answer = study::answer(market->offers, plan.demand);
-    if (!answer) return report(answer.error());
+    const study::Answer answer = study::answer(market->offers, plan.demand);
     if (plan.demand.any() || market == main)
-      fmt::print("{}", study::to_text(*market, *answer, plan.demand, made.records));
-    met = met && (!plan.demand.any() || answer->cheapest);
+      fmt::print("{}", study::to_text(*market, answer, plan.demand, made.records));
+    met = met && (!plan.demand.any() || answer.cheapest);
   }
   if (!plan.demand.any()) fmt::print("make report draws it\n");
   return static_cast<int>(met ? ExitCode::equal : ExitCode::differs);

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <span>
 
+#include "sim/study/front.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway::report {
@@ -66,13 +68,12 @@ std::string picture_of(const Table& table, std::size_t row) {
 }
 
 std::vector<std::pair<double, double>> lower_left(const std::vector<PlotPoint>& points) {
-  std::vector<std::pair<double, double>> sorted, front;
+  std::vector<study::Costs> costs;
   for (const PlotPoint& point : points)
-    if (!point.aside) sorted.emplace_back(point.x, point.y);
-  std::ranges::sort(sorted);
-  for (const auto& point : sorted)
-    if (front.empty() || point.second < front.back().second) front.push_back(point);
-  return front;
+    if (!point.aside) costs.push_back({point.x, point.y});
+  std::set<std::pair<double, double>> front;
+  for (const std::size_t at : study::front_of(costs)) front.emplace(costs[at][0], costs[at][1]);
+  return {front.begin(), front.end()};
 }
 
 std::string commonest_picture(const Table& study) {

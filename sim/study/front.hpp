@@ -4,10 +4,7 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
-
-#include "common/result.hpp"
 
 namespace halfway::study {
 
@@ -21,9 +18,5 @@ bool beats(const Costs& a, const Costs& b);
 /// Numbers of the points that no other beats, in the points' order. Points with equal costs stand together,
 /// on the front or off it.
 std::vector<std::size_t> front_of(std::span<const Costs> points);
-
-/// Whether `front` is the front: no point on it is beaten, and each point off it is beaten by one on it. Else
-/// an error (exit code `differs`) that names the point that is wrong.
-Status check_front(std::span<const Costs> points, std::span<const std::size_t> front);
 
 }  // namespace halfway::study

@@ -282,7 +282,7 @@ std::vector<Costs> costs_of(std::span<const Offer> offers) {
   return costs;
 }
 
-Result<Answer> answer(std::span<const Offer> offers, const Demand& demand) {
+Answer answer(std::span<const Offer> offers, const Demand& demand) {
   const Scales scales = scales_of(offers);
   const auto price = [&](const Offer& o) { return price_of(o, scales); };
   const auto errors = [&](const Offer& o) { return errors_of(o, demand); };
@@ -291,9 +291,7 @@ Result<Answer> answer(std::span<const Offer> offers, const Demand& demand) {
   const auto any = [](const Offer&) { return true; };
 
   Answer found;
-  const std::vector<Costs> costs = costs_of(offers);
-  found.front = front_of(costs);
-  if (Status checked = check_front(costs, found.front); !checked) return checked.error();
+  found.front = front_of(costs_of(offers));
   std::ranges::stable_sort(found.front, {}, [&](std::size_t at) { return cheapest_first(offers[at]); });
 
   found.cheapest = least(offers, cheapest_first,

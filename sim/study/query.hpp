@@ -79,8 +79,8 @@ struct Answer {
 
 /// Cheaper is what has fewer cells; where they are equal or not known, what is faster; then what asks less of
 /// the host. More accurate is what has the smaller largest error, or where PSNR alone is demanded, the higher
-/// PSNR. The front is checked: an error (exit code `differs`) if it is none.
-Result<Answer> answer(std::span<const Offer> offers, const Demand& demand);
+/// PSNR.
+Answer answer(std::span<const Offer> offers, const Demand& demand);
 
 /// In words; every figure is the offers'. Where nothing is demanded: the front alone.
 std::string to_text(const Market& market, const Answer& answer, const Demand& demand,

@@ -13,7 +13,7 @@ namespace halfway::study {
 
 /// One line a point, the names of the columns first. Columns are told in sim/studies/README.md; what is not
 /// known is empty. Whether a point is on its picture's front is worked out here, from `markets`.
-Result<std::string> to_csv(const Provenance& provenance, std::span<const Record> records,
-                           const HardwareTable& hardware, std::span<const Market> markets);
+std::string to_csv(const Provenance& provenance, std::span<const Record> records,
+                   const HardwareTable& hardware, std::span<const Market> markets);
 
 }  // namespace halfway::study
