@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames that sim left, what their runs say, and the effects that each scene calls for.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
-#include <set>
 
 #include "plan/plan.hpp"
 #include "sim/ghdl/hardware_units.hpp"
@@ -17,13 +18,9 @@
 namespace halfway::report {
 namespace {
 
-struct Layer {
-  const char* file;
-  const char* name;
-};
-constexpr std::array c_layers = {Layer{"reference", "reference"}, Layer{"golden", "golden model"},
-                                 Layer{"ghdl", "RTL in GHDL"}, Layer{"verilator", "RTL in Verilator"},
-                                 Layer{"diff", "difference"}};
+constexpr std::array c_layers = {std::pair{"reference", "reference"}, std::pair{"golden", "golden model"},
+                                 std::pair{"ghdl", "RTL in GHDL"}, std::pair{"verilator", "RTL in Verilator"},
+                                 std::pair{"diff", "difference"}};
 
 // Folders in a folder, by name.
 std::vector<std::filesystem::path> folders_in(const std::filesystem::path& folder) {
@@ -52,86 +49,74 @@ struct Images {
   }
 };
 
-// A simulator's figure of the runs; "–" where it did not run, or could not tell.
-std::string told(const Json& runs, const char* simulator, const char* figure) {
+// A simulator's figure of the runs; "–" where it did not run, or could not measure it.
+std::string figure(const Json& runs, const char* simulator, const char* name) {
   for (const Json& run : runs)
-    if (run.value("simulator", "") == simulator && !run.at(figure).is_null()) return run.at(figure).dump();
+    if (run.value("simulator", "") == simulator && !run.at(name).is_null()) return run.at(name).dump();
   return "–";
 }
 
-std::string by(const PlannedEffect& effect) {
-  return effect.by == DoneBy::hardware ? "hardware" : effect.by == DoneBy::host ? "host" : "nobody";
+// A run as the table shows it.
+Json run_of(const std::string& scene, const std::string& shader, const Json& summary) {
+  Json run = {{"scene", scene}, {"shader", shader}};
+  for (const char* key : {"preset", "width", "height", "triangles", "fragments"}) run[key] = summary.at(key);
+  for (const char* simulator : {"ghdl", "verilator"})
+    for (const char* name : {"cycles", "mismatches"})
+      run[simulator][name] = figure(summary.at("runs"), simulator, name);
+  run["psnr_db"] = number(summary.at("accuracy").at("psnr_db"), "{:.1f}");
+  run["max_lsb"] = number(summary.at("accuracy").at("max_lsb"), "{:.0f}");
+  run["key"] = summary.at("hardware").at("key");
+  return run;
 }
 
-// The plan of one frame, and the entities of each of its effects.
-struct FramePlan {
-  std::string shader;
-  Plan plan;
-  std::vector<UnitCounts> units;
-};
-
-Result<FramePlan> frame_plan(const std::string& shader, Plan plan, UnitCounter& counter) {
-  FramePlan result{shader, std::move(plan), {}};
-  for (const PlannedEffect& effect : result.plan.effects) {
-    auto counted = counter.count(result.plan.key, effect);
-    if (!counted) return counted.error();
-    result.units.push_back(std::move(*counted));
-  }
-  return result;
-}
-
-std::string effects_table(const std::string& scene, const std::vector<FramePlan>& plans) {
-  std::vector<std::string> head = {"effect", "called for", "why"};
-  for (const auto& [shader, plan, effect_units] : plans)
-    head.push_back(fmt::format("{}<br><small>{}</small>", escaped(shader), escaped(plan.key.name())));
-  std::vector<std::vector<std::string>> rows;
+// What the plan says of each effect, and the entities of it, as a column of the scene's table.
+Status add_plan(Json& table, const std::string& shader, const Plan& plan, UnitCounter& counter) {
+  table["plans"].push_back({{"shader", shader}, {"key", plan.key.name()}});
   for (std::size_t e = 0; e < c_effects; ++e) {
-    const PlannedEffect& first = plans.front().plan.effects[e];
-    std::vector<std::string> row = {to_string(first.effect), first.called_for ? "<strong>yes</strong>" : "no",
-                                    escaped(first.why)};
-    for (const auto& [shader, plan, effect_units] : plans) {
-      const PlannedEffect& effect = plan.effects[e];
-      std::string text = by(effect);
-      if ((effect.called_for || effect.elaborated || effect.by == DoneBy::nobody) && !effect.how.empty())
-        text += "; " + escaped(effect.how);
-      std::string units;
-      for (const auto& [unit, count] : effect_units[e])
-        units += fmt::format("{}{}&nbsp;{}", units.empty() ? "" : ", ", count, escaped(unit));
-      if (!units.empty())
-        text += fmt::format("<br><small>{}{}</small>", effect.elaborated ? "" : "left out: ", units);
-      row.push_back(std::move(text));
-    }
-    rows.push_back(std::move(row));
+    const PlannedEffect& effect = plan.effects[e];
+    Json& row = table["rows"][e];
+    if (row.is_null())
+      row = {{"effect", to_string(effect.effect)}, {"called_for", effect.called_for}, {"why", effect.why}};
+    const auto counted = counter.count(plan.key, effect);
+    if (!counted) return counted.error();
+    std::vector<std::string> units;
+    for (const auto& [unit, count] : *counted) units.push_back(fmt::format("{}\u00a0{}", count, unit));
+    std::string text = effect.by == DoneBy::hardware ? "hardware"
+                       : effect.by == DoneBy::host   ? "host"
+                                                     : "nobody";
+    if ((effect.called_for || effect.elaborated || effect.by == DoneBy::nobody) && !effect.how.empty())
+      text += "; " + effect.how;
+    row["by"].push_back({{"text", text}, {"units", nullptr}});
+    if (!units.empty())
+      row["by"].back()["units"] =
+          (effect.elaborated ? "" : "left out: ") + fmt::format("{}", fmt::join(units, ", "));
   }
-  return table("Effects of " + scene, head, rows);
+  return Ok{};
 }
 
-// Scenes that a shader has no frame of, a run of which did not end among them.
-std::string gaps(Page& page) {
-  std::string html;
+// Scenes that a shader has no frame of, those of a broken-off run among them.
+void add_gaps(Page& page, Json& missing) {
   for (const Shader shader : c_shaders) {
-    std::string scenes;
+    std::vector<std::string> scenes;
     for (const std::string& scene : page.settings.scenes)
       if (!std::filesystem::exists(ResultFiles{page.settings.results / scene / to_string(shader)}.summary()))
-        scenes += (scenes.empty() ? "" : ", ") + scene;
+        scenes.push_back(scene);
     if (!scenes.empty())
-      html +=
-          page.lacks(fmt::format("Frames by the shader {} of {}", to_string(shader), scenes), "make report");
+      missing.push_back(
+          page.lacks(fmt::format("Frames by the shader {} of {}", to_string(shader), fmt::join(scenes, ", ")),
+                     "make report"));
   }
-  return html;
 }
 
 }  // namespace
 
 Status add_frames(Page& page) {
   Images images;
-  Json frames = Json::array();
-  std::vector<std::vector<std::string>> rows;
-  std::string effects;
+  Json frames = Json::array(), runs = Json::array(), effects = Json::array();
   std::optional<UnitCounter> counter;
   for (const auto& scene_folder : folders_in(page.settings.results)) {
-    std::vector<FramePlan> plans;
     const std::string scene_name = scene_folder.filename().string();
+    Json table;
     for (const auto& folder : folders_in(scene_folder)) {
       const ResultFiles files{folder};
       if (!std::filesystem::exists(files.summary())) continue;  // a run that did not end
@@ -140,72 +125,52 @@ Status add_frames(Page& page) {
       if (!text) return text.error();
       const Json summary = Json::parse(*text, nullptr, false);
       const std::string shader = folder.filename().string();
-      Json frame = {{"scene", scene_name}, {"shader", shader}, {"layers", Json::array()}};
       try {
-        frame["width"] = summary.at("width");
-        frame["height"] = summary.at("height");
-        frame["preset"] = summary.at("preset");
-        const Json& accuracy = summary.at("accuracy");
-        rows.push_back(
-            {fmt::format("<a href=\"#frame/{0}/{1}\">{0}</a>", escaped(scene_name), escaped(shader)),
-             escaped(shader), escaped(summary.at("preset").get<std::string>()),
-             fmt::format("{}×{}", summary.at("width").dump(), summary.at("height").dump()),
-             summary.at("triangles").dump(), summary.at("fragments").dump(),
-             told(summary.at("runs"), "ghdl", "cycles"), told(summary.at("runs"), "verilator", "cycles"),
-             told(summary.at("runs"), "ghdl", "mismatches"),
-             told(summary.at("runs"), "verilator", "mismatches"), number(accuracy.at("psnr_db"), "{:.1f}"),
-             number(accuracy.at("max_lsb"), "{:.0f}"),
-             fmt::format("<small class=\"key\">{}</small>",
-                         escaped(summary.at("hardware").at("key").get<std::string>()))});
+        runs.push_back(run_of(scene_name, shader, summary));
       } catch (const Json::exception& bad) {
         return bad_input(fmt::format("{}: {}; run make sim again", files.summary().string(), bad.what()));
       }
-      for (const Layer& layer : c_layers) {
-        if (!std::filesystem::exists(files.frame(layer.file))) continue;
-        const auto image = images.add(files.frame(layer.file));
+      Json layers = Json::array();
+      for (const auto& [file, name] : c_layers) {
+        if (!std::filesystem::exists(files.frame(file))) continue;
+        const auto image = images.add(files.frame(file));
         if (!image) return image.error();
-        frame["layers"].push_back({{"id", layer.file}, {"name", layer.name}, {"image", *image}});
+        layers.push_back({{"id", file}, {"name", name}, {"image", *image}});
       }
-      frames.push_back(std::move(frame));
+      frames.push_back({{"scene", scene_name}, {"shader", shader}, {"layers", std::move(layers)}});
       ++page.report.frames;
-      const auto is_called = [&](Shader s) { return shader == to_string(s); };
-      const auto it = std::ranges::find_if(c_shaders, is_called);
+      const auto it = std::ranges::find_if(c_shaders, [&](Shader s) { return shader == to_string(s); });
+      if (it == c_shaders.end())
+        continue;  // with all effects: the shader's own frame shows what is called for
       const auto preset =
           summary["preset"] == to_string(Preset::published) ? Preset::published : Preset::exact;
-      if (it == c_shaders.end()) continue;  // with all effects: what is called for is told beside it
       const auto scene = load_scene(scene_name, page.settings.folders.source / "sim" / "scenes");
       if (!scene) continue;  // a mesh from elsewhere: its name alone does not load it
-      auto plan = plan_scene(*scene, {.shader = *it, .preset = preset});
+      const auto plan = plan_scene(*scene, {.shader = *it, .preset = preset});
       if (!plan) return plan.error();
       if (!counter) {
         auto opened = UnitCounter::open(page.settings.folders);
         if (!opened) return opened.error();
         counter = std::move(*opened);
       }
-      auto counted = frame_plan(shader, std::move(*plan), *counter);
-      if (!counted) return counted.error();
-      plans.push_back(std::move(*counted));
+      if (Status added = add_plan(table, shader, *plan, *counter); !added) return added;
     }
-    if (!plans.empty())
-      effects += fmt::format("<details id=\"effects/{0}\"><summary>{0}</summary>\n{1}</details>\n",
-                             escaped(scene_name), effects_table(scene_name, plans));
+    if (table.is_null()) continue;
+    table["scene"] = scene_name;
+    effects.push_back(std::move(table));
   }
   page.data["images"] = std::move(images.uris);
   page.data["frames"] = std::move(frames);
-  if (rows.empty()) {
-    page.parts["frames"] = page.lacks("Frames", "make sim");
-    page.parts["effects"] = page.lacks("Effects", "make sim");
-    return Ok{};
+  Json no_frames = Json::array(), no_effects = Json::array();
+  if (runs.empty()) {
+    no_frames.push_back(page.lacks("Frames", "make sim"));
+    no_effects.push_back(page.lacks("Effects", "make sim"));
+  } else {
+    add_gaps(page, no_frames);
   }
-  page.parts["frames"] =
-      "<div id=\"frame-viewer\" class=\"viewer\"></div>\n" +
-      table(
-          "Runs: every fragment of the RTL against the golden model's, and the frame against the reference",
-          {"scene", "shader", "preset", "size", "triangles", "fragments", "clocks, GHDL", "clocks, Verilator",
-           "mismatches, GHDL", "mismatches, Verilator", "PSNR, dB", "largest error, /255", "hardware"},
-          rows) +
-      gaps(page);
-  page.parts["effects"] = std::move(effects);
+  page.view["frames"] = {{"table", nullptr}, {"missing", std::move(no_frames)}};
+  if (!runs.empty()) page.view["frames"]["table"]["runs"] = std::move(runs);
+  page.view["effects"] = {{"scenes", std::move(effects)}, {"missing", std::move(no_effects)}};
   return Ok{};
 }
 

@@ -40,7 +40,7 @@ Status add_hardware(Page& page) {
   const std::filesystem::path rtl = page.settings.folders.source / "rtl";
   const auto text = read_file(rtl / "README.md");
   if (!text) return text.error();
-  std::string& html = page.parts["hardware"];
+  Json& shaders = page.view["hardware"] = Json::array();
   for (const ShaderPart& part : c_parts) {
     const std::string name = to_string(part.shader);
     const auto diagram = read_file(rtl / "diagrams" / (name + ".svg"));
@@ -50,10 +50,11 @@ Status add_hardware(Page& page) {
     if (!svg) return svg.error();
     const auto words = under(*text, part.heading, rtl / "README.md");
     if (!words) return words.error();
-    html += fmt::format(
-        "<h3 id=\"hardware/{}\">{}</h3>\n<div class=\"scroll diagram\" role=\"region\" tabindex=\"0\" "
-        "aria-label=\"{} as blocks\">{}</div>\n{}",
-        name, part.title, part.title, *svg, from_markdown(*words, part.title));
+    Json& shader = shaders.emplace_back(Json{{"name", name},
+                                             {"title", part.title},
+                                             {"diagram", *svg},
+                                             {"words", from_markdown(*words, part.title)},
+                                             {"timing", nullptr}});
     if (!page.settings.timing) continue;
     page.settings.on_progress("timing: " + name);
     const auto timing = draw_shader_timing(part.shader, page.settings.folders);
@@ -62,22 +63,15 @@ Status add_hardware(Page& page) {
       page.report.notes.push_back(fmt::format("no timing diagram of {}: {}", name, timing.error().message));
       continue;
     }
-    std::string drawn;
+    shader["timing"] = {{"key", timing->key}, {"fragments", timing->words}, {"svgs", Json::array()}};
     for (std::size_t n = 0; n < timing->svgs.size(); ++n) {
       const std::string label = n == 0 ? fmt::format("The first clocks of two small triangles in {}: {}",
                                                      timing->key, timing->words)
                                        : "The clocks that follow";
-      const auto row = inline_svg(timing->svgs[n], fmt::format("{}-timing-{}-", name, n), label);
+      auto row = inline_svg(timing->svgs[n], fmt::format("{}-timing-{}-", name, n), label);
       if (!row) return row.error();
-      drawn += *row;
+      shader["timing"]["svgs"].push_back(std::move(*row));
     }
-    html += fmt::format(
-        "<figure class=\"timing\" id=\"timing/{}\"><div class=\"scroll\" role=\"region\" tabindex=\"0\" "
-        "aria-label=\"{}: timing diagram\">{}</div><figcaption>Two small triangles in <code>{}</code>, "
-        "traced in "
-        "GHDL: clock 0 takes the first init vector. What a signal holds before each edge; "
-        "{}.</figcaption></figure>\n",
-        name, part.title, drawn, escaped(timing->key), escaped(timing->words));
   }
   return Ok{};
 }

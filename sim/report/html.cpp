@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <kainjow/mustache.hpp>
 #include <memory>
 #include <pugixml.hpp>
 #include <sstream>
@@ -54,31 +55,10 @@ void adapt(cmark_node* document) {
 
 }  // namespace
 
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += c;
-  }
-  return safe;
-}
-
-std::string base64(std::string_view bytes) {
-  return OIIO::Strutil::base64_encode({bytes.data(), bytes.size()});
-}
-
 Result<std::string> data_uri(const std::filesystem::path& file, std::string_view media_type) {
   const auto bytes = read_file(file);
   if (!bytes) return bytes.error();
-  return fmt::format("data:{};base64,{}", media_type, base64(*bytes));
+  return fmt::format("data:{};base64,{}", media_type, OIIO::Strutil::base64_encode(*bytes));
 }
 
 std::string script_safe(std::string json) {
@@ -99,7 +79,7 @@ std::string from_markdown(std::string_view markdown, std::string_view name) {
   std::string text = html.get();
   replace_all(text, "<table>",
               fmt::format(R"(<div class="scroll" role="region" aria-label="{}: table" tabindex="0"><table>)",
-                          escaped(name)));
+                          kainjow::mustache::html_escape(std::string(name))));
   replace_all(text, "</table>", "</table></div>");
   return text;
 }
@@ -110,30 +90,23 @@ Result<std::string> inline_svg(const std::string& svg, const std::string& prefix
   const auto parsed = document.load_string(svg.c_str(), pugi::parse_default | pugi::parse_ws_pcdata);
   pugi::xml_node root = document.child("svg");
   if (!parsed || !root) return bad_input(prefix + ": is no SVG: " + parsed.description());
-  struct Renamer : pugi::xml_tree_walker {
-    const std::string& prefix;
-    explicit Renamer(const std::string& p) : prefix(p) {}
-    bool for_each(pugi::xml_node& node) override {
-      for (pugi::xml_attribute attribute : node.attributes()) {
-        const std::string_view key = attribute.name();
-        std::string value = attribute.value();
-        if (key == "id")
-          value = prefix + value;
-        else if (key.ends_with("href") && value.starts_with('#') && !value.starts_with("#point-"))
-          value = "#" + prefix + value.substr(1);
-        else
-          replace_all(value, "url(#", "url(#" + prefix);
-        // Black and white are the page's ink and paper.
-        if (value == "black" || value == "#000000" || value == "rgb(  0,   0,   0)")
-          value = "currentColor";
-        else if (value == "white" || value == "#ffffff" || value == "rgb(255, 255, 255)")
-          value = "none";
-        if (value != attribute.value()) attribute.set_value(value.c_str());
-      }
-      return true;
-    }
-  } renamer(prefix);
-  root.traverse(renamer);
+  for (const pugi::xpath_node& found : root.select_nodes("descendant-or-self::*/@*")) {
+    pugi::xml_attribute attribute = found.attribute();
+    const std::string_view key = attribute.name();
+    std::string value = attribute.value();
+    if (key == "id")
+      value = prefix + value;
+    else if (key.ends_with("href") && value.starts_with('#') && !value.starts_with("#point-"))
+      value = "#" + prefix + value.substr(1);
+    else
+      replace_all(value, "url(#", "url(#" + prefix);
+    // Black and white are the page's ink and paper.
+    if (value == "black" || value == "#000000" || value == "rgb(  0,   0,   0)")
+      value = "currentColor";
+    else if (value == "white" || value == "#ffffff" || value == "rgb(255, 255, 255)")
+      value = "none";
+    attribute.set_value(value.c_str());
+  }
   // A viewBox keeps the proportions; the page says how wide, and knows how wide it was drawn.
   if (!root.attribute("viewBox"))
     root.append_attribute("viewBox") =
@@ -141,10 +114,7 @@ Result<std::string> inline_svg(const std::string& svg, const std::string& prefix
   double width = 0.0;
   if (std::sscanf(root.attribute("viewBox").value(), "%*f %*f %lf", &width) == 1)
     root.append_attribute("style") = fmt::format("--width: {}px", width).c_str();
-  root.remove_attribute("width");
-  root.remove_attribute("height");
-  root.remove_attribute("role");
-  root.remove_attribute("aria-label");
+  for (const char* name : {"width", "height", "role", "aria-label"}) root.remove_attribute(name);
   root.append_attribute("role") = role;
   root.append_attribute("aria-label") = label.c_str();
   // Titles are tooltips, of what the label says already.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pieces of HTML: text made safe, files as data, Markdown.
+// Pieces of HTML: files as data, Markdown, SVG.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,8 @@
 
 namespace halfway::report {
 
-/// The text as HTML shows it, also between double quotes.
-std::string escaped(std::string_view text);
-
 /// The file as a `data:` URI.
 Result<std::string> data_uri(const std::filesystem::path& file, std::string_view media_type);
-std::string base64(std::string_view bytes);
 
 /// JSON as it may stand in a `script`: nothing in it can end that element.
 std::string script_safe(std::string json);

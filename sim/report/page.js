@@ -459,23 +459,7 @@ function unfold() {
   target.scrollIntoView();
 }
 
-/// Paper shows what is folded, too.
-function unfoldForPrint() {
-  let folded = [];
-  addEventListener("beforeprint", () => {
-    for (const details of document.querySelectorAll("details:not([open])")) {
-      details.open = true;
-      folded.push(details);
-    }
-  });
-  addEventListener("afterprint", () => {
-    for (const details of folded) details.open = false;
-    folded = [];
-  });
-}
-
 makeFrames();
 makePoints();
-unfoldForPrint();
 addEventListener("hashchange", unfold);
 unfold();

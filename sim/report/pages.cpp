@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pages that other commands write, as parts of this one.
-#include <fmt/format.h>
-
 #include "sim/report/html.hpp"
 #include "sim/report/section.hpp"
 #include "sim/system/file.hpp"
@@ -27,17 +25,18 @@ constexpr std::array c_pages = {
 }  // namespace
 
 Status add_pages(Page& page) {
-  std::string& html = page.parts["pages"];
+  Json& pages = page.view["pages"] = Json::array();
   for (const OtherPage& other : c_pages) {
     const std::filesystem::path file = page.settings.folders.source / other.file;
     if (!std::filesystem::exists(file)) continue;
     page.settings.on_progress(other.file);
     const auto text = read_file(file);
     if (!text) return text.error();
-    html += fmt::format(
-        "<details id=\"{0}\"><summary>{1}</summary>\n<p><code>{2}</code> writes this page, "
-        "<code>{3}</code>.</p>\n{4}</details>\n",
-        other.id, other.title, other.command, other.file, from_markdown(*text, other.title));
+    pages.push_back({{"id", other.id},
+                     {"title", other.title},
+                     {"command", other.command},
+                     {"file", other.file},
+                     {"html", from_markdown(*text, other.title)}});
   }
   return Ok{};
 }

@@ -99,12 +99,6 @@ struct Axis {
   }
 };
 
-std::string to_text(const pugi::xml_document& document) {
-  std::ostringstream out;
-  document.print(out, "", pugi::format_raw);
-  return out.str();
-}
-
 }  // namespace
 
 PointLook look_of(std::size_t series) {
@@ -113,11 +107,9 @@ PointLook look_of(std::size_t series) {
 
 Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scratch) {
   Axis x, y;
-  std::size_t count = 0;  // of series
   for (const PlotPoint& point : plot.points) {
     x.add(point.x);
     y.add(point.y);
-    count = std::max(count, point.series + 1);
   }
   for (const PlotLevel& level : plot.levels) y.add(level.y);
   x.close();
@@ -142,75 +134,58 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
         "set arrow from graph 0, first {0} to graph 1, first {0} nohead dashtype 3 linecolor rgb \"{1}\"\n"
         "set label {2} at graph 1, first {0} right offset 0, 0.5 textcolor rgb \"{1}\"\n",
         y.place(level.y), "#767676", quoted(level.name));
-  // The front first: what lies above takes the pointer.
-  std::string blocks = "$front << END\n",
-              curves = "plot $front using 1:2 with steps linecolor rgb \"black\" dashtype 2 notitle";
+  // The front first: what lies above takes the pointer. Marks follow each other by series.
+  std::vector<PlotPoint> points = plot.points;
+  std::ranges::stable_sort(points, {}, &PlotPoint::series);
+  std::string blocks = "$front << END\n";
   for (const auto& [at_x, at_y] : plot.front) blocks += fmt::format("{} {}\n", x.place(at_x), y.place(at_y));
-  blocks += plot.front.empty() ? "NaN NaN\nEND\n" : "END\n";
+  blocks += plot.front.empty() ? "NaN NaN\nEND\n$points << END\n" : "END\n$points << END\n";
   std::string legend;
-  for (std::size_t s = 0; s < count; ++s) {
-    blocks += fmt::format("$series{} << END\n", s);
-    const std::size_t before = blocks.size();
-    for (const PlotPoint& point : plot.points)
-      if (point.series == s) blocks += fmt::format("{} {}\n", x.place(point.x), y.place(point.y));
-    if (blocks.size() == before) blocks += "NaN NaN\n";
-    blocks += "END\n";
-    const PointLook look = look_of(s);
-    const std::string drawn =
-        fmt::format("with points pointtype {} pointsize 0.8 linecolor rgb \"{}\"", look.shape, look.colour);
-    curves += fmt::format(", $series{} using 1:2 {} notitle", s, drawn);
-    // The legend's mark is a curve of its own: a curve has as many marks as it has points.
-    if (s < plot.legend.size() && blocks.find("NaN", before) == std::string::npos)
-      legend += fmt::format(", NaN {} title {}", drawn, quoted(plot.legend[s]));
+  for (std::size_t at = 0; at < points.size(); ++at) {
+    const auto& [point_x, point_y, series, number, name, aside] = points[at];
+    const PointLook look = look_of(series);
+    blocks += fmt::format("{} {} {} 0x{}\n", x.place(point_x), y.place(point_y), look.shape, look.colour + 1);
+    if (series < plot.legend.size() && (at == 0 || points[at - 1].series != series))
+      legend += fmt::format(", NaN with points pointtype {} pointsize 0.8 linecolor rgb \"{}\" title {}",
+                            look.shape, look.colour, quoted(plot.legend[series]));
   }
-  const auto svg = run_gnuplot(script + blocks + curves + legend + "\n", scratch);
+  const auto svg = run_gnuplot(
+      script + blocks +
+          "END\nplot $front using 1:2 with steps linecolor rgb \"black\" dashtype 2 notitle, $points using "
+          "1:2:3:4 with points pointtype variable pointsize 0.8 linecolor rgb variable notitle" +
+          legend + "\n",
+      scratch);
   if (!svg) return svg.error();
 
   pugi::xml_document document;
   if (const auto parsed = document.load_string(svg->c_str(), pugi::parse_default | pugi::parse_ws_pcdata);
       !parsed)
     return tool_failed(std::string("gnuplot: wrote SVG that cannot be read: ") + parsed.description());
-  for (std::size_t s = 0; s < count; ++s) {
-    const std::string id = fmt::format("gnuplot_plot_{}", s + 2);  // behind the front
-    const pugi::xml_node curve =
-        document.find_node([&](const pugi::xml_node& node) { return id == node.attribute("id").value(); });
-    std::vector<pugi::xml_node> marks;
-    struct Finder : pugi::xml_tree_walker {
-      std::vector<pugi::xml_node>& found;
-      explicit Finder(std::vector<pugi::xml_node>& f) : found(f) {}
-      bool for_each(pugi::xml_node& node) override {
-        if (std::string_view(node.name()) == "use") found.push_back(node);
-        return true;
-      }
-    } finder(marks);
-    pugi::xml_node(curve).traverse(finder);
-    curve&& pugi::xml_node(curve).remove_child("title");
-    std::size_t at = 0;
-    for (const PlotPoint& point : plot.points) {
-      if (point.series != s) continue;
-      if (at == marks.size())
-        return tool_failed(fmt::format("gnuplot: drew {} points of series {}, not all", at, s));
-      const pugi::xml_node mark = marks[at++];
-      pugi::xml_node link = mark.parent().insert_child_before("a", mark);
-      link.append_attribute("href") = fmt::format("#point-{}", point.number).c_str();
-      link.append_attribute("aria-label") = point.name.c_str();
-      if (point.aside) link.append_attribute("class") = "aside";
-      link.append_child("title").text() = point.name.c_str();
-      // A finger needs more than a dot; gnuplot's transform is a translation and the mark's scale.
-      const std::string transform = mark.attribute("transform").value();
-      pugi::xml_node around = link.append_child("circle");
-      around.append_attribute("r") = "8";
-      around.append_attribute("fill") = "none";
-      around.append_attribute("stroke") = "none";
-      around.append_attribute("transform") = transform.substr(0, transform.find(')') + 1).c_str();
-      link.append_copy(mark);
-      mark.parent().remove_child(mark);
-    }
-    if (at != marks.size())
-      return tool_failed(
-          fmt::format("gnuplot: drew {} marks for {} points of series {}", marks.size(), at, s));
+  // Titles of curves would be tooltips.
+  for (const pugi::xpath_node& title : document.select_nodes("//g/title"))
+    title.parent().remove_child(title.node());
+  const pugi::xpath_node_set marks = document.select_nodes("//g[@id='gnuplot_plot_2']//use");
+  if (marks.size() != points.size())
+    return tool_failed(fmt::format("gnuplot: drew {} marks for {} points", marks.size(), points.size()));
+  for (std::size_t at = 0; at < points.size(); ++at) {
+    const pugi::xml_node mark = marks[at].node();
+    pugi::xml_node link = mark.parent().insert_child_before("a", mark);
+    link.append_attribute("href") = fmt::format("#point-{}", points[at].number).c_str();
+    link.append_attribute("aria-label") = points[at].name.c_str();
+    if (points[at].aside) link.append_attribute("class") = "aside";
+    link.append_child("title").text() = points[at].name.c_str();
+    // A finger needs more than a dot; gnuplot's transform is a translation and the mark's scale.
+    const std::string transform = mark.attribute("transform").value();
+    pugi::xml_node around = link.append_child("circle");
+    around.append_attribute("r") = "8";
+    around.append_attribute("fill") = "none";
+    around.append_attribute("stroke") = "none";
+    around.append_attribute("transform") = transform.substr(0, transform.find(')') + 1).c_str();
+    link.append_move(mark);
   }
-  return to_text(document);
+  std::ostringstream out;
+  document.print(out, "", pugi::format_raw);
+  return out.str();
 }
 
 Result<std::string> draw_timing(const std::vector<Lane>& lanes, std::uint64_t first_cycle,
@@ -260,19 +235,12 @@ Result<std::string> draw_timing(const std::vector<Lane>& lanes, std::uint64_t fi
         return tics;
       }(),
       cycles, static_cast<double>(lanes.size()) + 0.6);
-  const auto svg =
-      run_gnuplot(script + labels + wires + "END\n" + boxes + "END\n" + texts + "END\n" +
-                      "plot $boxes using 1:2:3:4:5:6 with boxxyerror fillstyle transparent solid 0.18 border "
-                      "linecolor rgb \"#0072b2\" fillcolor rgb \"#0072b2\", $wires using 1:2 with lines "
-                      "linewidth 1.6 linecolor rgb \"#2a9d5c\", "
-                      "$texts using 1:2:3 with labels font \",11\"\n",
-                  scratch);
-  if (!svg) return svg.error();
-  pugi::xml_document document;
-  if (const auto parsed = document.load_string(svg->c_str(), pugi::parse_default | pugi::parse_ws_pcdata);
-      !parsed)
-    return tool_failed(std::string("gnuplot: wrote SVG that cannot be read: ") + parsed.description());
-  return to_text(document);
+  return run_gnuplot(script + labels + wires + "END\n" + boxes + "END\n" + texts + "END\n" +
+                         "plot $boxes using 1:2:3:4:5:6 with boxxyerror fillstyle transparent solid 0.18 "
+                         "border linecolor rgb \"#0072b2\" fillcolor rgb \"#0072b2\", $wires using 1:2 with "
+                         "lines linewidth 1.6 linecolor rgb \"#2a9d5c\", "
+                         "$texts using 1:2:3 with labels font \",11\"\n",
+                     scratch);
 }
 
 }  // namespace halfway::report

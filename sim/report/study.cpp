@@ -2,6 +2,7 @@
 // Accuracy against time: the points of a study, as plots whose points open.
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -118,28 +119,23 @@ std::string told(const Table& table, std::size_t row, const char* column) {
   return value ? shown(*value) : text;
 }
 
-// The same in a table's cell.
-std::string cell(const Table& table, std::size_t row, const char* column) {
-  const std::string text = told(table, row, column);
-  return text.empty() ? "–" : escaped(text);
-}
-
 bool has_any(const Table& table, const char* column) {
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     if (table.number(row, column)) return true;
   return false;
 }
 
-// What a plot does not show.
-std::string missing_note(const std::map<std::string, std::size_t>& missing, const std::string& why) {
-  if (missing.empty()) return "";
+// What a plot does not show, and why: an entry of its list `missing`.
+void add_missing(Json& plot, const std::map<std::string, std::size_t>& missing, const char* why) {
+  if (missing.empty()) return;
   std::size_t count = 0;
-  std::string names;
+  std::vector<std::string> names;
   for (const auto& [name, points] : missing) {
     count += points;
-    names += fmt::format("{}{} of {}", names.empty() ? "" : "; ", points, escaped(name));
+    names.push_back(fmt::format("{} of {}", points, name));
   }
-  return fmt::format(" <small>(not here, as {}: {}; in all {})</small>", why, names, count);
+  plot["missing"].push_back(
+      {{"why", why}, {"points", fmt::format("{}", fmt::join(names, "; "))}, {"count", count}});
 }
 
 // In words; of any of its rows.
@@ -150,66 +146,66 @@ std::string told_picture(const Table& table, std::size_t row) {
                      table.text(row, "height"));
 }
 
-// The space in the checkout that all points are of, the smallest, and how much of it they are.
-std::string told_space(const Page& page, const Table& points) {
+// Which study it is: another may lie where `make study` leaves its own. `points` and `space`: the smallest
+// space in the checkout that has all its points, and how much of it they are.
+Json study_of(const Page& page, const Table& points, const std::filesystem::path& file) {
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(file, error);
+  const auto seconds = std::chrono::time_point_cast<std::chrono::seconds>(
+      std::filesystem::file_time_type::clock::to_sys(written));
   std::set<std::string> names;
   for (std::size_t row = 0; row < points.rows.size(); ++row) names.insert(points.text(row, "point"));
-  std::string told = fmt::format("{} points, of no space in <code>sim/studies</code>", names.size());
+  Json of = {{"scene", points.text(0, "scene")},
+             {"hash", points.text(0, "scene_hash")},
+             {"points", fmt::format("{} points, of no space in", names.size())},
+             {"space", "sim/studies"},
+             {"date", fmt::format("{:%Y-%m-%d}", fmt::gmtime(seconds))},
+             {"tools", points.text(0, "tools")}};
   std::size_t least = 0;
-  std::error_code error;
   for (const auto& entry :
        std::filesystem::directory_iterator(page.settings.folders.source / "sim/studies", error)) {
     if (entry.path().extension() != ".toml") continue;
     const auto space = study::read_space(entry.path());
     if (!space) continue;  // a scene
     const auto has = [&](const std::string& name) {
-      return std::ranges::any_of(*space, [&](const study::DesignPoint& p) { return p.name() == name; });
+      return std::ranges::find(*space, name, &study::DesignPoint::name) != space->end();
     };
     if ((least != 0 && space->size() >= least) || !std::ranges::all_of(names, has)) continue;
     least = space->size();
-    told = fmt::format("{} of the {} points of <code>sim/studies/{}</code>", names.size(), least,
-                       escaped(entry.path().filename().string()));
+    of["points"] = fmt::format("{} of the {} points of", names.size(), least);
+    of["space"] = "sim/studies/" + entry.path().filename().string();
   }
-  return told;
+  return of;
 }
 
-// Which study it is: another may lie where `make study` leaves its own.
-std::string told_study(Page& page, const Table& points, const std::filesystem::path& file) {
-  if (points.rows.empty()) return "";
-  const std::string &scene = points.text(0, "scene"), &hash = points.text(0, "scene_hash");
-  std::error_code error;
-  const auto written = std::filesystem::last_write_time(file, error);
-  const auto seconds = std::chrono::time_point_cast<std::chrono::seconds>(
-      std::filesystem::file_time_type::clock::to_sys(written));
-  std::string html = fmt::format(
-      "<p id=\"study/of\">The scene <strong>{}</strong> (hash <code>{}</code>), {}, in a table of "
-      "{:%Y-%m-%d}; "
-      "{}.</p>\n",
-      escaped(scene), escaped(hash), told_space(page, points), fmt::gmtime(seconds),
-      escaped(points.text(0, "tools")));
+// Where it is not the usual study: that it is not.
+Json unusual(Page& page, const Table& points) {
   const std::filesystem::path& source = page.settings.folders.source;
   const auto usual = load_scene((source / "sim/studies/sphere.toml").string(), source / "sim/scenes");
-  if (usual && study::scene_hash(*usual) != hash) {
-    const std::string note =
-        fmt::format("The study is of the scene {}, not of sim/studies/sphere.toml as it now is", scene);
-    page.report.notes.push_back(note + "; make study measures that");
-    html +=
-        fmt::format("<p class=\"missing\">{}; <code>make study</code> measures that.</p>\n", escaped(note));
-  }
-  return html;
+  if (!usual || study::scene_hash(*usual) == points.text(0, "scene_hash")) return nullptr;
+  const std::string note = fmt::format(
+      "The study is of the scene {}, not of sim/studies/sphere.toml as it now is", points.text(0, "scene"));
+  page.report.notes.push_back(note + "; make study measures that");
+  return note;
 }
 
 }  // namespace
 
 Status add_study(Page& page) {
   const std::filesystem::path file = page.settings.study / "study.csv";
-  page.data["points"] = Json::array();
+  Json& all = page.data["points"] = Json::array();
+  Json& view = page.view["study"] = {
+      {"missing", Json::array()}, {"of", nullptr}, {"unusual", nullptr}, {"plots", nullptr}};
   if (!std::filesystem::exists(file)) {
-    page.parts["study"] = page.lacks("Accuracy against time", "make study");
+    view["missing"].push_back(page.lacks("Accuracy against time", "make study"));
     return Ok{};
   }
   const auto points = read_csv(file);
   if (!points) return points.error();
+  if (!points->rows.empty()) {
+    view["of"] = study_of(page, *points, file);
+    view["unusual"] = unusual(page, *points);
+  }
 
   std::vector<std::string> series;
   std::set<std::string> hardware_series;
@@ -220,29 +216,25 @@ Status add_study(Page& page) {
     const std::string of = series_of(*points, row);
     if (std::ranges::find(series, of) == series.end()) series.push_back(of);
     if (in_hardware(*points, row)) hardware_series.insert(of);
-    Json told_of = Json::array();
+    Json& point = all.emplace_back(Json{{"name", points->text(row, "point")}, {"told", Json::array()}});
     for (const auto& [column, words] : c_told)
       if (const std::string value = told(*points, row, column); !value.empty())
-        told_of.push_back({words, value});
-    Json point = {{"name", points->text(row, "point")}, {"told", std::move(told_of)}};
+        point["told"].push_back(Json::array({words, value}));
     const std::filesystem::path picture =
         page.settings.study / "points" / (points->text(row, "record") + ".png");
     if (std::filesystem::exists(picture)) {
-      auto uri = data_uri(picture, "image/png");
+      const auto uri = data_uri(picture, "image/png");
       if (!uri) return uri.error();
-      point["image"] = std::move(*uri);
-      point["width"] = points->number(row, "width").value_or(0);
-      point["height"] = points->number(row, "height").value_or(0);
+      point["image"] = *uri;
     }
-    page.data["points"].push_back(std::move(point));
     ++page.report.points;
   }
   for (std::size_t row = 0; row < points->rows.size(); ++row)
     if (const auto reference = phong.find(picture_of(*points, row)); reference != phong.end())
-      page.data["points"][row]["reference"] = reference->second;
+      all[row]["reference"] = reference->second;
 
   const std::string picture = commonest_picture(*points);
-  std::string html, first;  // the first plot's prefix: marks of the legend are its
+  Json drawn = Json::array();
   const bool timed = has_any(*points, c_time.column);
   for (const Axes& axes : c_axes) {
     const bool of_time = axes.x.column == c_time.column;
@@ -273,67 +265,51 @@ Status add_study(Page& page) {
                              picture_of(*points, row) != picture});
     }
     if (plot.points.empty()) continue;
-    if (first.empty()) first = axes.id;
     page.settings.on_progress(fmt::format("plot: {}", axes.id));
     plot.front = lower_left(plot.points);
-    const auto drawn = draw_plot(plot, page.scratch);
-    if (!drawn) return drawn.error();
+    const auto raw = draw_plot(plot, page.scratch);
+    if (!raw) return raw.error();
     const std::string title = fmt::format("{}, against {}", axes.y.words, along.words);
     const auto svg =
-        inline_svg(*drawn, fmt::format("{}-", axes.id),
+        inline_svg(*raw, fmt::format("{}-", axes.id),
                    fmt::format("{}; {} points, each a link", title, plot.points.size()), "group");
     if (!svg) return svg.error();
-    html += fmt::format(
-        "<figure class=\"plot\" id=\"plot/{}\"><figcaption>{}{}</figcaption><div class=\"scroll\">{}</div>"
-        "</figure>\n",
-        axes.id, title,
-        missing_note(missing, along.column == c_time.column
-                                  ? "no clock of their hardware is known, which <code>make study "
-                                    "PLACE=1</code> finds"
-                                  : "this was not measured of them") +
-            missing_note(too_large, "the device has no room for their hardware"),
-        *svg);
+    Json& of = drawn.emplace_back(
+        Json{{"id", axes.id}, {"title", title}, {"svg", *svg}, {"missing", Json::array()}});
+    add_missing(of, missing,
+                along.column == c_time.column
+                    ? "no clock of their hardware is known, which <code>make study PLACE=1</code> finds"
+                    : "this was not measured of them");
+    add_missing(of, too_large, "the device has no room for their hardware");
   }
-  std::string legend;
+  Json legend = Json::array(), columns = Json::array(), rows = Json::array();
   for (std::size_t s = 0; s < series.size(); ++s) {
     if (!hardware_series.contains(series[s])) continue;  // a line across
     const PointLook look = look_of(s);
-    legend += fmt::format(
-        "<li><svg viewBox=\"-8 -8 16 16\" fill=\"none\" aria-hidden=\"true\"><use href=\"#{}-gpPt{}\" "
-        "transform=\"scale(4.5)\" "
-        "color=\"{}\"/></svg> {}</li>\n",
-        first, look.shape - 1, look.colour, escaped(series[s]));
+    legend.push_back({{"shape", look.shape - 1}, {"colour", look.colour}, {"name", series[s]}});
   }
-  std::string pictures = "The dashed line joins the designs that no other beats in both.";
-  std::size_t of = 0, others = 0;  // a row of the picture; how many there are of others
-  for (std::size_t row = 0; row < points->rows.size(); ++row)
+  for (const auto& [column, words] : c_columns) columns.push_back(words);
+  bool others = false;
+  std::size_t of = 0;  // a row of the picture
+  for (std::size_t row = 0; row < points->rows.size(); ++row) {
     if (picture_of(*points, row) == picture)
       of = row;
     else
-      ++others;
-  if (others > 0)
-    pictures = fmt::format(
-        "Faint points drew other pictures than that of {}. Of it, the dashed line joins the designs that no "
-        "other beats in both.",
-        told_picture(*points, of));
-  pictures +=
-      " A dotted line is software, which has no clocks: how far it errs. 0 has a place of its own on either "
-      "axis.";
-  html = told_study(page, *points, file) +
-         fmt::format(
-             "<ul class=\"legend\" aria-label=\"Legend\">\n{}</ul>\n<p>{}</p>\n<div class=\"plots\">\n{}",
-             legend, pictures, html);
-  html += "</div>\n<details><summary>All points as a table</summary>\n";
-  std::vector<std::vector<std::string>> rows;
-  std::vector<std::string> head = {"point"};
-  for (const auto& [column, words] : c_columns) head.emplace_back(words);
-  for (std::size_t row = 0; row < points->rows.size(); ++row) {
-    auto& cells = rows.emplace_back();
-    cells.push_back(fmt::format("<a href=\"#point-{}\">{}</a>", row, escaped(points->text(row, "point"))));
-    for (const auto& [column, words] : c_columns) cells.push_back(cell(*points, row, column));
+      others = true;
+    Json cells = Json::array();
+    for (const auto& [column, words] : c_columns) {
+      const std::string text = told(*points, row, column);
+      cells.push_back(text.empty() ? "–" : text);
+    }
+    rows.push_back({{"number", row}, {"name", points->text(row, "point")}, {"cells", std::move(cells)}});
   }
-  html += table("Points of the study", head, rows);
-  page.parts["study"] = html + "</details>\n";
+  view["plots"] = {{"first", drawn.empty() ? Json() : drawn[0]["id"]},  // the legend's marks are its
+                   {"legend", std::move(legend)},
+                   {"picture", nullptr},
+                   {"drawn", std::move(drawn)},
+                   {"columns", std::move(columns)},
+                   {"rows", std::move(rows)}};
+  if (others) view["plots"]["picture"] = told_picture(*points, of);
   const auto front = write_front(*points, page.settings.page.parent_path(), page.scratch);
   if (!front) return front.error();
   return Ok{};
