@@ -3,11 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <string_view>
 
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
@@ -16,10 +12,11 @@
 namespace halfway {
 namespace {
 
+using Json = nlohmann::json;
+
 constexpr std::chrono::minutes kSynthesisTimeout{60};
 constexpr const char* kFigures = "cells.json";
 constexpr const char* kMultipliers = "multipliers.json";
-constexpr const char* kShapes = "multipliers.il";
 
 // Stands for $mul, and is left alone by what makes LUTs.
 constexpr const char* kMultiplier = "multiplier_cell";
@@ -41,41 +38,13 @@ Result<std::string> run_yosys(Command command, const std::string& doing) {
 }
 
 // A figure of the whole design in what Yosys's stat wrote.
-Result<nlohmann::json> read_design(const std::filesystem::path& path) {
+Result<Json> read_design(const std::filesystem::path& path) {
   const auto text = read_file(path);
   if (!text) return tool_failed(text.error().message);
-  const auto json = nlohmann::json::parse(*text, nullptr, false);
-  auto design = json.is_object() ? json.value("design", nlohmann::json()) : nlohmann::json();
-  if (design.is_object() && design.value("num_cells_by_type", nlohmann::json()).is_object()) return design;
+  const auto json = Json::parse(*text, nullptr, false);
+  auto design = json.is_object() ? json.value("design", Json()) : Json();
+  if (design.is_object() && design.value("num_cells_by_type", Json()).is_object()) return design;
   return tool_failed(fmt::format("{}: not what Yosys's stat writes; delete it and try again", path.string()));
-}
-
-// With the widths of what they give: $mul_48.
-Status read_multipliers(const std::filesystem::path& path, Cells& cells) {
-  const auto design = read_design(path);
-  if (!design) return design.error();
-  constexpr std::string_view c_prefix = "$mul_";
-  for (const auto& [type, count] : (*design)["num_cells_by_type"].items()) {
-    if (!type.starts_with(c_prefix)) continue;
-    const auto n = count.get<std::uint64_t>();
-    cells.multipliers += n;
-    cells.product_bits += n * std::stoul(type.substr(c_prefix.size()));
-  }
-  return Ok{};
-}
-
-// A signal as `dump` writes it, in its parts, the highest first.
-std::vector<std::string> parts_of(std::string_view signal) {
-  std::vector<std::string> parts;
-  std::istringstream words{std::string(signal)};
-  for (std::string word; words >> word;) {
-    if (word == "{" || word == "}") continue;
-    if (word.starts_with('[') && !parts.empty())
-      parts.back() += ' ' + word;
-    else
-      parts.push_back(word);
-  }
-  return parts;
 }
 
 // How many of the highest bits repeat the one below them; as many as are zeros where it is not signed.
@@ -83,51 +52,14 @@ struct Extension {
   unsigned bits = 0;
   bool is_sign = false;
 };
-Extension extension_of(const std::vector<std::string>& parts) {
-  Extension found;
-  const std::string& first = parts.front();
-  if (const std::size_t quote = first.find('\''); quote != std::string::npos) {
-    const std::string_view digits = std::string_view(first).substr(quote + 1);
-    if (digits.find_first_not_of('0') == std::string_view::npos)
-      found.bits = static_cast<unsigned>(digits.size());
-    return found;
-  }
-  std::size_t same = 1;
-  while (same < parts.size() && parts[same] == first) ++same;
-  // `x [5] x [5] x [5:0]`: bit 5 is there three times.
-  const std::size_t close = first.rfind(']');
-  const bool goes_on = same < parts.size() && close != std::string::npos &&
-                       parts[same].starts_with(first.substr(0, close) + ':');
-  found.bits = static_cast<unsigned>(goes_on ? same : same - 1);
-  found.is_sign = found.bits > 0;
-  return found;
-}
-
-Result<Cells> read_cells(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / kFigures;
-  const auto design = read_design(path);
-  if (!design) return design.error();
-  Cells cells;
-  cells.memory_bits = design->value("num_memory_bits", std::uint64_t{0});
-  std::uint64_t multipliers = 0;
-  for (const auto& [type, count] : (*design)["num_cells_by_type"].items()) {
-    if (type == "$lut")
-      cells.luts += count.get<std::uint64_t>();
-    else if (type == kMultiplier)
-      multipliers += count.get<std::uint64_t>();
-    else if (type.find("DFF") != std::string::npos)
-      cells.flip_flops += count.get<std::uint64_t>();
-    else if (type.starts_with("$memrd") || type.starts_with("$memwr"))
-      continue;  // ports of what memory_bits counts
-    else         // a latch, say: never in a right netlist, and not to be passed over
-      return tool_failed(fmt::format("{}: cells of type {}, neither LUT nor flip-flop", path.string(), type));
-  }
-  if (multipliers > 0)
-    if (Status status = read_multipliers(folder / kMultipliers, cells); !status) return status.error();
-  if (multipliers != cells.multipliers)
-    return tool_failed(fmt::format("{}: {} multipliers, {} with a width: delete it and try again",
-                                   path.string(), multipliers, cells.multipliers));
-  return cells;
+// `word`: numbers of wires, and constants as texts; the lowest bit first.
+Extension extension_of(const Json& word) {
+  const Json& top = word.back();
+  unsigned same = 1;
+  while (same < word.size() && word[word.size() - 1 - same] == top) ++same;
+  if (top == "0") return {same, false};
+  if (top.is_string()) return {};
+  return {same - 1, same > 1};
 }
 
 // As `synth` has it, but for memory that is written: that stays memory.
@@ -141,8 +73,7 @@ std::string yosys_script(const HardwareKey& key) {
         "-nosdff; "
         "wreduce; opt_clean; chtype -set {0} t:$mul; synth -lut 4 -top {1} -run coarse:fine",
         kMultiplier, top);
-    multipliers = fmt::format("; dump -o {} t:{}; chtype -set $mul t:{}; tee -q -o {} stat -json -width",
-                              kShapes, kMultiplier, kMultiplier, kMultipliers);
+    multipliers = fmt::format("; json -o {} t:{}", kMultipliers, kMultiplier);
   }
   return fmt::format(
       "read_verilog netlist.v; {}; opt -fast -full; memory_map -rom-only; opt -full; techmap; opt -fast; "
@@ -152,50 +83,37 @@ std::string yosys_script(const HardwareKey& key) {
 
 }  // namespace
 
-Result<std::vector<MultiplierShape>> read_multiplier_shapes(std::string_view dump, std::string_view type) {
+Result<std::vector<MultiplierShape>> read_multiplier_shapes(const std::string& netlist,
+                                                            const std::string& type) {
   std::vector<MultiplierShape> shapes;
   const auto wrong = [&](const std::string& what) {
     return tool_failed(fmt::format("multiplier {}: {}", shapes.size() + 1, what));
   };
-  const std::string begin = fmt::format("cell \\{} ", type);
-  std::istringstream lines{std::string(dump)};
-  MultiplierShape shape;
-  std::map<std::string, std::string> connected;
-  std::map<std::string, unsigned> parameters;
-  bool within = false;
-  for (std::string line; std::getline(lines, line);) {
-    line.erase(0, std::min(line.find_first_not_of(' '), line.size()));
-    if (line.starts_with(begin)) {
-      within = true;
-      connected.clear();
-      parameters.clear();
-    } else if (within && line.starts_with("parameter \\")) {
-      std::istringstream words(line.substr(std::string_view("parameter \\").size()));
-      std::string name;
-      unsigned value = 0;
-      if (!(words >> name >> value)) return wrong("'" + line + "' is no number");
-      parameters[name] = value;
-    } else if (within && line.starts_with("connect \\")) {
-      const std::size_t name = std::string_view("connect \\").size(), space = line.find(' ', name);
-      if (space == std::string::npos) return wrong("'" + line + "' connects nothing");
-      connected[line.substr(name, space - name)] = line.substr(space + 1);
-    } else if (within && line == "end") {
-      within = false;
-      const std::vector<std::string> a = parts_of(connected["A"]), b = parts_of(connected["B"]);
-      shape = {.product_bits = parameters["Y_WIDTH"]};
-      if (a.empty() || b.empty() || shape.product_bits == 0) return wrong("an operand or a width is missing");
-      Extension a_more = extension_of(a), b_more = extension_of(b);
-      if (a_more.bits >= parameters["A_WIDTH"] || b_more.bits >= parameters["B_WIDTH"])
-        return wrong("an operand is no wider than its sign");
-      shape.is_signed = parameters["A_SIGNED"] != 0 || a_more.is_sign || b_more.is_sign;
-      // Zeros before a word beside a signed one: one of them is its sign.
-      for (Extension* more : {&a_more, &b_more})
-        if (shape.is_signed && !more->is_sign && more->bits > 0) --more->bits;
-      shape.square = a == b;
-      shape.a_bits = parameters["A_WIDTH"] - a_more.bits;
-      shape.b_bits = parameters["B_WIDTH"] - b_more.bits;
-      shapes.push_back(shape);
-    }
+  try {
+    const Json design = Json::parse(netlist);
+    for (const Json& module : design.at("modules"))
+      for (const Json& cell : module.at("cells")) {
+        if (cell.at("type") != type) continue;
+        const Json &words = cell.at("connections"), &a = words.at("A"), &b = words.at("B");
+        if (a.empty() || b.empty() || words.at("Y").empty())
+          return wrong("an operand or the product is missing");
+        Extension a_more = extension_of(a), b_more = extension_of(b);
+        if (a_more.bits >= a.size() || b_more.bits >= b.size())
+          return wrong("an operand is no wider than its sign");
+        const auto is_signed = [&](const char* name) {
+          return cell.at("parameters").at(name).get<std::string>().ends_with('1');
+        };
+        MultiplierShape shape{.square = a == b, .product_bits = static_cast<unsigned>(words.at("Y").size())};
+        shape.is_signed = is_signed("A_SIGNED") || is_signed("B_SIGNED") || a_more.is_sign || b_more.is_sign;
+        // Zeros before a word beside a signed one: one of them is its sign.
+        for (Extension* more : {&a_more, &b_more})
+          if (shape.is_signed && !more->is_sign && more->bits > 0) --more->bits;
+        shape.a_bits = static_cast<unsigned>(a.size()) - a_more.bits;
+        shape.b_bits = static_cast<unsigned>(b.size()) - b_more.bits;
+        shapes.push_back(shape);
+      }
+  } catch (const Json::exception& bad) {
+    return wrong(bad.what());
   }
   return shapes;
 }
@@ -218,41 +136,64 @@ Result<Cells> CellCounter::count(const HardwareKey& key) const {
   if (!netlist) return netlist.error();
   const auto mended = mend_netlist(*netlist);
   if (!mended) return mended.error();
-  const std::string script = yosys_script(key);
+  return figures<Cells>(key.name(), yosys_script(key),
+                        {{"netlist.v", *mended}, {fmt::format("{}.v", kMultiplier), kMultiplierModel}},
+                        [this](const std::filesystem::path& folder) { return read(folder); });
+}
 
+template <class Figures, class Read>
+Result<Figures> CellCounter::figures(const std::string& name, const std::string& script, const Files& files,
+                                     const Read& read) const {
   ContentHash hash;
-  hash.add("cells 4").add(version_).add(script).add(kMultiplierModel).add(*mended);
-  const std::filesystem::path folder = cache_ / fmt::format("{}-{}", key.name(), hash.hex());
-  if (!std::filesystem::exists(folder)) {
-    auto fresh = TemporaryFolder::make(cache_);
-    if (!fresh) return fresh.error();
-    if (Status written = write_file(fresh->path() / "netlist.v", *mended); !written) return written.error();
-    if (Status written = write_file(fresh->path() / fmt::format("{}.v", kMultiplier), kMultiplierModel);
-        !written)
-      return written.error();
-    const auto done =
-        run_yosys({.arguments = {"yosys", "-q", "-p", script}, .working_folder = fresh->path()}, key.name());
-    if (!done) return done.error();
-    if (const auto cells = read(fresh->path()); !cells) return cells.error();
-    if (Status moved = fresh->move_to(folder); !moved) return moved.error();
-  }
-  return read(folder);
+  hash.add("cells 5").add(version_).add(script);
+  for (const auto& [file, text] : files) hash.add(text);
+  const std::filesystem::path folder = cache_ / fmt::format("{}-{}", name, hash.hex());
+  if (std::filesystem::exists(folder)) return read(folder);
+  auto fresh = TemporaryFolder::make(cache_);
+  if (!fresh) return fresh.error();
+  for (const auto& [file, text] : files)
+    if (Status written = write_file(fresh->path() / file, text); !written) return written.error();
+  const auto done =
+      run_yosys({.arguments = {"yosys", "-q", "-p", script}, .working_folder = fresh->path()}, name);
+  if (!done) return done.error();
+  const auto found = read(fresh->path());
+  if (!found) return found;
+  if (Status moved = fresh->move_to(folder); !moved) return moved.error();
+  return found;
 }
 
 Result<Cells> CellCounter::read(const std::filesystem::path& folder) const {
-  auto cells = read_cells(folder);
-  if (!cells || cells->multipliers == 0) return cells;
-  const auto dump = read_file(folder / kShapes);
-  if (!dump) return tool_failed(dump.error().message);
-  const auto shapes = read_multiplier_shapes(*dump, kMultiplier);
-  if (!shapes) return tool_failed(fmt::format("{}: {}", (folder / kShapes).string(), shapes.error().message));
-  if (shapes->size() != cells->multipliers)
-    return tool_failed(fmt::format("{}: {} multipliers, not {}: delete it and try again",
-                                   (folder / kShapes).string(), shapes->size(), cells->multipliers));
+  const std::filesystem::path path = folder / kFigures;
+  const auto design = read_design(path);
+  if (!design) return design.error();
+  Cells cells;
+  cells.memory_bits = design->value("num_memory_bits", std::uint64_t{0});
+  for (const auto& [type, count] : (*design)["num_cells_by_type"].items()) {
+    if (type == "$lut")
+      cells.luts += count.get<std::uint64_t>();
+    else if (type == kMultiplier)
+      cells.multipliers += count.get<std::uint64_t>();
+    else if (type.find("DFF") != std::string::npos)
+      cells.flip_flops += count.get<std::uint64_t>();
+    else if (type.starts_with("$memrd") || type.starts_with("$memwr"))
+      continue;  // ports of what memory_bits counts
+    else         // a latch, say: never in a right netlist, and not to be passed over
+      return tool_failed(fmt::format("{}: cells of type {}, neither LUT nor flip-flop", path.string(), type));
+  }
+  if (cells.multipliers == 0) return cells;
+  const std::filesystem::path netlist = folder / kMultipliers;
+  const auto text = read_file(netlist);
+  if (!text) return tool_failed(text.error().message);
+  const auto shapes = read_multiplier_shapes(*text, kMultiplier);
+  if (!shapes) return tool_failed(fmt::format("{}: {}", netlist.string(), shapes.error().message));
+  if (shapes->size() != cells.multipliers)
+    return tool_failed(fmt::format("{}: {} multipliers, not {}: delete it and try again", netlist.string(),
+                                   shapes->size(), cells.multipliers));
   for (const MultiplierShape& shape : *shapes) {
+    cells.product_bits += shape.product_bits;
     const auto luts = luts_of(shape);
     if (!luts) return luts.error();
-    cells->multiplier_luts += *luts;
+    cells.multiplier_luts += *luts;
   }
   return cells;
 }
@@ -265,23 +206,13 @@ Result<std::uint64_t> CellCounter::luts_of(const MultiplierShape& shape) const {
       sign, shape.a_bits - 1, shape.b_bits - 1, shape.product_bits - 1, shape.square ? "a" : "b");
   const std::string script = fmt::format(
       "read_verilog multiplier.v; synth_ice40 -device hx -top multiplier; tee -q -o {} stat -json", kFigures);
-  ContentHash hash;
-  hash.add("multiplier 1").add(version_).add(script).add(model);
-  const std::filesystem::path folder =
-      cache_ / fmt::format("multiplier-{}x{}-{}", shape.a_bits, shape.b_bits, hash.hex());
-  if (!std::filesystem::exists(folder)) {
-    auto fresh = TemporaryFolder::make(cache_);
-    if (!fresh) return fresh.error();
-    if (Status written = write_file(fresh->path() / "multiplier.v", model); !written) return written.error();
-    const auto done = run_yosys({.arguments = {"yosys", "-q", "-p", script}, .working_folder = fresh->path()},
-                                "multiplier");
-    if (!done) return done.error();
-    if (const auto design = read_design(fresh->path() / kFigures); !design) return design.error();
-    if (Status moved = fresh->move_to(folder); !moved) return moved.error();
-  }
-  const auto design = read_design(folder / kFigures);
-  if (!design) return design.error();
-  return (*design)["num_cells_by_type"].value("SB_LUT4", std::uint64_t{0});
+  return figures<std::uint64_t>(fmt::format("multiplier-{}x{}", shape.a_bits, shape.b_bits), script,
+                                {{"multiplier.v", model}},
+                                [](const std::filesystem::path& folder) -> Result<std::uint64_t> {
+                                  const auto design = read_design(folder / kFigures);
+                                  if (!design) return design.error();
+                                  return (*design)["num_cells_by_type"].value("SB_LUT4", std::uint64_t{0});
+                                });
 }
 
 }  // namespace halfway

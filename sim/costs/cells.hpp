@@ -5,7 +5,7 @@
 #include <compare>
 #include <cstdint>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/result.hpp"
@@ -35,8 +35,9 @@ struct MultiplierShape {
   friend auto operator<=>(const MultiplierShape&, const MultiplierShape&) = default;
 };
 
-/// Of the cells of this type in what Yosys's `dump` wrote, in its order.
-Result<std::vector<MultiplierShape>> read_multiplier_shapes(std::string_view dump, std::string_view type);
+/// Of the cells of this type in a netlist as Yosys writes it as JSON, in its order.
+Result<std::vector<MultiplierShape>> read_multiplier_shapes(const std::string& netlist,
+                                                            const std::string& type);
 
 class CellCounter {
  public:
@@ -51,6 +52,12 @@ class CellCounter {
  private:
   CellCounter(std::string version, GhdlLibrary library, std::filesystem::path cache)
       : version_(std::move(version)), library_(std::move(library)), cache_(std::move(cache)) {}
+  /// By name, text.
+  using Files = std::vector<std::pair<std::string, std::string>>;
+  /// What `read` finds in the folder that Yosys's script leaves of the files; kept in the cache.
+  template <class Figures, class Read>
+  Result<Figures> figures(const std::string& name, const std::string& script, const Files& files,
+                          const Read& read) const;
   Result<Cells> read(const std::filesystem::path& folder) const;
   Result<std::uint64_t> luts_of(const MultiplierShape& shape) const;
   std::string version_;

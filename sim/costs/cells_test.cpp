@@ -18,12 +18,6 @@ using ::testing::HasSubstr;
 
 class CellsTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
-    folders_ = {HALFWAY_SOURCE_DIR, folder_->path() / "cache"};
-  }
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
 
   /// A program that stands for Yosys, before the others in PATH.
@@ -49,8 +43,8 @@ class CellsTest : public ::testing::Test {
 
   const std::string path_ = std::getenv("PATH");
   const HardwareKey grey_{.channels = 1}, coloured_{.channels = 3};
-  std::optional<TemporaryFolder> folder_;
-  SimulatorFolders folders_;
+  const Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  SimulatorFolders folders_{HALFWAY_SOURCE_DIR, folder_->path() / "cache"};
 };
 
 TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
@@ -135,35 +129,35 @@ TEST_F(CellsTest, MultipliersOfTheShadingProcessorsAreNoLuts) {
   EXPECT_LT(lit->luts, 4000U);
 }
 
-// As Yosys's `dump` writes them: words with copies of their signs, with zeros before them, as they are.
+// Words as Yosys's JSON has them, the lowest bit first: with copies of their signs, with zeros before them,
+// as they are.
 TEST(MultiplierShapes, AreWithoutCopiesOfSigns) {
-  const auto cell = [](const std::string& a, const std::string& b, int a_bits, int b_bits) {
-    return fmt::format(
-        "  attribute \\src \"netlist.v:1.2-3.4\"\n  cell \\mul $name$1\n    parameter \\A_SIGNED 0\n    "
-        "parameter "
-        "\\A_WIDTH {}\n    parameter \\B_SIGNED 0\n    parameter \\B_WIDTH {}\n    parameter \\Y_WIDTH 12\n  "
-        "  "
-        "connect \\A {}\n    connect \\B {}\n    connect \\Y \\y\n  end\n",
-        a_bits, b_bits, a, b);
+  const auto netlist = [](const std::string& a, const std::string& b) {
+    const std::string cell = fmt::format(
+        R"({{"type": "mul", "parameters": {{"A_SIGNED": "0", "B_SIGNED": "0"}},
+             "connections": {{"A": [{}], "B": [{}], "Y": [90, 91, 92]}}}})",
+        a, b);
+    return fmt::format(R"({{"modules": {{"top": {{"cells": {{"one": {0}, "two": {0}}}}}}}}})", cell);
   };
-  const auto shape = [&](const std::string& a, const std::string& b, int a_bits, int b_bits) {
-    const auto shapes = read_multiplier_shapes(cell(a, b, a_bits, b_bits), "mul");
+  const auto shape = [&](const std::string& a, const std::string& b) {
+    const auto shapes = read_multiplier_shapes(netlist(a, b), "mul");
     EXPECT_TRUE(shapes) << shapes.error().message;
-    return shapes && shapes->size() == 1 ? shapes->front() : MultiplierShape{};
+    return shapes && shapes->size() == 2 && shapes->front() == shapes->back() ? shapes->front()
+                                                                              : MultiplierShape{};
   };
-  EXPECT_EQ(shape("\\u [7:0]", "\\v", 8, 4), (MultiplierShape{false, false, 8, 4, 12}));
-  EXPECT_EQ(shape("\\u [7:0]", "\\u [7:0]", 8, 8), (MultiplierShape{false, true, 8, 8, 12}));
-  EXPECT_EQ(shape("{ \\u [5] \\u [5] \\u [5:2] }", "{ \\v [3] \\v [3] \\v [3] \\v [3:0] }", 6, 7),
-            (MultiplierShape{true, false, 4, 4, 12}));
-  EXPECT_EQ(shape("{ \\u [5] \\u [5] \\w }", "\\v", 6, 7), (MultiplierShape{true, false, 5, 7, 12}));
-  EXPECT_EQ(shape("{ 3'000 \\u [4:0] }", "\\v", 8, 7), (MultiplierShape{false, false, 5, 7, 12}));
+  EXPECT_EQ(shape("1, 2, 3, 4", "11, 12"), (MultiplierShape{false, false, 4, 2, 3}));
+  EXPECT_EQ(shape("1, 2, 3, 4", "1, 2, 3, 4"), (MultiplierShape{false, true, 4, 4, 3}));
+  EXPECT_EQ(shape("1, 2, 3, 3, 3", "11, 12, 12"), (MultiplierShape{true, false, 3, 2, 3}));
+  EXPECT_EQ(shape("1, 2, 3, 3, 3", "11, 12"), (MultiplierShape{true, false, 3, 2, 3}));
+  EXPECT_EQ(shape(R"(1, 2, "0", "0", "0")", "11, 12"), (MultiplierShape{false, false, 2, 2, 3}));
+  EXPECT_EQ(shape(R"(1, 2, "1", "1")", "11, 12"), (MultiplierShape{false, false, 4, 2, 3}));
   // Beside a signed word one of the zeros is its sign.
-  EXPECT_EQ(shape("{ 3'000 \\u [4:0] }", "{ \\v [3] \\v [3:0] }", 8, 5),
-            (MultiplierShape{true, false, 6, 4, 12}));
-  EXPECT_EQ(read_multiplier_shapes(cell("\\u", "\\v", 3, 3) + cell("\\u", "\\v", 3, 3), "mul")->size(), 2U);
-  EXPECT_TRUE(read_multiplier_shapes(cell("\\u", "\\v", 3, 3), "other")->empty());
-  EXPECT_FALSE(read_multiplier_shapes(cell("", "\\v", 3, 3), "mul"));
-  EXPECT_FALSE(read_multiplier_shapes(cell("8'00000000", "\\v", 8, 3), "mul"));
+  EXPECT_EQ(shape(R"(1, 2, "0", "0", "0")", "11, 12, 12"), (MultiplierShape{true, false, 3, 2, 3}));
+  EXPECT_TRUE(read_multiplier_shapes(netlist("1", "11"), "other")->empty());
+  for (const char* damaged : {"", R"("0", "0")"})
+    EXPECT_FALSE(read_multiplier_shapes(netlist(damaged, "1"), "mul"));
+  EXPECT_FALSE(read_multiplier_shapes("{}", "mul"));
+  EXPECT_FALSE(read_multiplier_shapes("nonsense", "mul"));
 }
 
 // What Yosys might leave, and what then is said; nothing of it stays in the cache.
@@ -180,9 +174,8 @@ TEST_F(CellsTest, WhatIsNoCountOfLutsAndFlipFlopsIsRefused) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {stat("\"$lut\": 12, \"$_DLATCH_P_\": 1"), "$_DLATCH_P_"},
       {stat("\"$lut\": 12, \"multiplier_cell\": 1"), "multipliers.json"},
-      {stat("\"multiplier_cell\": 2") + "[ $# = 1 ] || echo '{\"design\": {\"num_cells_by_type\": "
-                                        "{\"$mul_48\": 1}}}' >multipliers.json",
-       "2 multipliers, 1 with a width"},
+      {stat("\"multiplier_cell\": 2") + "[ $# = 1 ] || echo '{\"modules\": {}}' >multipliers.json",
+       "0 multipliers, not 2"},
       {"[ $# = 1 ] || echo nonsense >cells.json", "not what Yosys's stat writes"},
       {"[ $# = 1 ] || echo '{}' >cells.json", "not what Yosys's stat writes"},
       {"exit 0", "cells.json"},
