@@ -1,27 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chromium without a window, driven by its DevTools protocol over a pair of pipes: no port, no driver.
+// Chromium without a window, driven by its DevTools protocol over a pair of sockets: no port, no driver.
 #pragma once
 
 #include <fcntl.h>
-#include <fmt/format.h>
-#include <poll.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway::report {
@@ -39,53 +36,34 @@ class HeadlessBrowser {
   }
 
   explicit HeadlessBrowser(const std::filesystem::path& scratch) {
-    // Its descriptors 3 and 4 are the pipes: ends of ours that lie there already would be closed by the copy.
-    std::array<int, 2> to_it{}, from_it{};
-    if (pipe2(to_it.data(), O_CLOEXEC) != 0 || pipe2(from_it.data(), O_CLOEXEC) != 0)
-      throw std::runtime_error("pipe2 failed");
-    const int its_input = fcntl(to_it[0], F_DUPFD_CLOEXEC, 10);
-    const int its_output = fcntl(from_it[1], F_DUPFD_CLOEXEC, 10);
-    close(to_it[0]);
-    close(from_it[1]);
-    write_ = to_it[1];
-    read_ = from_it[0];
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, its_input, 3);
-    posix_spawn_file_actions_adddup2(&actions, its_output, 4);
-    posix_spawn_file_actions_addopen(&actions, 2, (scratch / "browser.log").c_str(), O_WRONLY | O_CREAT,
-                                     0644);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    std::vector<std::string> arguments = {program(),
-                                          "--headless",
-                                          "--no-sandbox",
-                                          "--disable-gpu",
-                                          "--disable-dev-shm-usage",
-                                          "--disable-background-networking",
-                                          "--disable-component-update",
-                                          "--no-first-run",
-                                          "--user-data-dir=" + (scratch / "profile").string(),
-                                          "--remote-debugging-pipe",
-                                          "about:blank"};
-    std::vector<char*> words;
-    for (std::string& word : arguments) words.push_back(word.data());
-    words.push_back(nullptr);
-    const int error = posix_spawnp(&process_, words[0], &actions, &attributes, words.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-    close(its_input);
-    close(its_output);
-    if (error != 0) throw std::runtime_error("cannot start " + arguments[0]);
+    std::array<int, 2> ends{};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+      throw std::runtime_error("socketpair failed");
+    const timeval longest{.tv_sec = 60};
+    setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
+    const std::string name = program(), profile = "--user-data-dir=" + (scratch / "profile").string(),
+                      log = scratch / "browser.log";
+    process_ = fork();
+    if (process_ == 0) {
+      setpgid(0, 0);
+      const int end = fcntl(ends[1], F_DUPFD, 10);  // 3 and 4 may be ends themselves
+      dup2(::open(log.c_str(), O_WRONLY | O_CREAT, 0644), 2);
+      dup2(end, 3);
+      dup2(end, 4);
+      execlp(name.c_str(), name.c_str(), "--headless", "--no-sandbox", "--disable-gpu",
+             "--disable-dev-shm-usage", "--disable-background-networking", "--disable-component-update",
+             "--no-first-run", profile.c_str(), "--remote-debugging-pipe", "about:blank", nullptr);
+      _exit(127);
+    }
+    close(ends[1]);
+    stream_ = fdopen(ends[0], "r");
     const Json target = send("Target.createTarget", {{"url", "about:blank"}});
     session_ =
         send("Target.attachToTarget", {{"targetId", target["targetId"]}, {"flatten", true}})["sessionId"];
     for (const char* domain : {"Page", "Runtime", "Log", "Network"}) send(std::string(domain) + ".enable");
   }
   ~HeadlessBrowser() {
-    close(write_);
-    close(read_);
+    std::fclose(stream_);
     if (process_ > 0) {
       kill(-process_, SIGKILL);  // its own process group: it and what it started
       waitpid(process_, nullptr, 0);
@@ -99,11 +77,8 @@ class HeadlessBrowser {
     Json command = {{"id", ++last_}, {"method", method}, {"params", std::move(params)}};
     if (!session_.empty()) command["sessionId"] = session_;
     const std::string text = command.dump() + '\0';
-    for (std::size_t at = 0; at < text.size();) {
-      const ssize_t count = write(write_, text.data() + at, text.size() - at);
-      if (count <= 0) throw std::runtime_error("the browser went away");
-      at += static_cast<std::size_t>(count);
-    }
+    if (::send(fileno(stream_), text.data(), text.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(text.size()))
+      throw std::runtime_error("the browser does not listen");
     for (;;) {
       Json message = receive();
       if (message.value("id", 0) != last_) {
@@ -182,21 +157,12 @@ class HeadlessBrowser {
 
  private:
   Json receive() {
-    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    for (;;) {
-      if (const std::size_t end = buffer_.find('\0'); end != std::string::npos) {
-        const std::string message = buffer_.substr(0, end);
-        buffer_.erase(0, end + 1);
-        return Json::parse(message);
-      }
-      pollfd ready{read_, POLLIN, 0};
-      if (std::chrono::steady_clock::now() > until) throw std::runtime_error("the browser does not answer");
-      if (poll(&ready, 1, 1000) <= 0) continue;
-      std::array<char, 1 << 16> bytes{};
-      const ssize_t count = read(read_, bytes.data(), bytes.size());
-      if (count <= 0) throw std::runtime_error("the browser went away");
-      buffer_.append(bytes.data(), static_cast<std::size_t>(count));
-    }
+    char* message = nullptr;
+    std::size_t room = 0;
+    const ssize_t count = getdelim(&message, &room, '\0', stream_);
+    const std::unique_ptr<char, decltype(&std::free)> owner(message, std::free);
+    if (count <= 0) throw std::runtime_error("the browser does not answer");
+    return Json::parse(message);
   }
   void note(const Json& message) {
     const std::string method = message.value("method", "");
@@ -214,9 +180,9 @@ class HeadlessBrowser {
   }
 
   pid_t process_ = -1;
-  int write_ = -1, read_ = -1;
+  std::FILE* stream_ = nullptr;
   int last_ = 0;
-  std::string session_, buffer_;
+  std::string session_;
 };
 
 }  // namespace halfway::report
