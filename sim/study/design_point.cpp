@@ -25,7 +25,7 @@ struct BadSpace {
   Error error;
 };
 
-// What is read off one sweep: a list for each of its keys.
+// One sweep of the file.
 class Sweep {
  public:
   Sweep(const toml::table& table, std::string file) : table_(table), file_(std::move(file)) {}
@@ -42,71 +42,58 @@ class Sweep {
         fail(key.str(), fmt::format("is no key here; those are {}", fmt::join(keys, ", ")));
   }
 
-  // The values under a key, one or a list of them; `otherwise` where there is none.
-  template <class Value, class Read>
-  std::vector<Value> list(std::string_view key, std::vector<Value> otherwise, const Read& read) const {
+  // Each point with each of the values under a key, one or a list of them; where there is none, the points as
+  // they are. `set` takes a value into a point.
+  template <class Set>
+  void multiply(std::vector<DesignPoint>& points, std::string_view key, const Set& set) const {
     const toml::node* node = table_.get(key);
-    if (node == nullptr) return otherwise;
-    std::vector<Value> values;
-    if (const toml::array* array = node->as_array()) {
-      for (const toml::node& item : *array) values.push_back(read(item));
-    } else {
-      values.push_back(read(*node));
-    }
+    if (node == nullptr) return;
+    const toml::array one{*node};
+    const toml::array& values = node->is_array() ? *node->as_array() : one;
     if (values.empty()) fail(key, "is an empty list");
-    return values;
+    std::vector<DesignPoint> product;
+    for (const DesignPoint& point : points)
+      for (const toml::node& value : values) set(product.emplace_back(point), value);
+    points = std::move(product);
   }
 
-  std::vector<double> numbers(std::string_view key, std::vector<double> otherwise, double least,
-                              double largest) const {
-    return list<double>(key, std::move(otherwise), [&](const toml::node& node) {
-      const auto value = node.value<double>();
-      if (!value || !(*value >= least && *value <= largest))
-        fail(key, fmt::format("takes numbers from {:g} to {:g}", least, largest));
-      return *value;
-    });
+  double number(std::string_view key, const toml::node& node, double least, double largest) const {
+    const auto value = node.value<double>();
+    if (!value || !(*value >= least && *value <= largest))
+      fail(key, fmt::format("takes numbers from {:g} to {:g}", least, largest));
+    return *value;
   }
 
-  std::vector<FrameSize> sizes(std::string_view key, FrameSize otherwise, std::uint32_t least) const {
-    return list<FrameSize>(key, {otherwise}, [&](const toml::node& node) {
-      const auto size = parse_frame_size(node.value<std::string>().value_or(""));
-      if (!size || std::min(size->width, size->height) < least ||
-          std::max(size->width, size->height) > c_max_frame_side)
-        fail(key, fmt::format("takes WIDTHxHEIGHT in pixels, such as 640x480, each {} to {}", least,
-                              c_max_frame_side));
-      return *size;
-    });
+  int whole(std::string_view key, const toml::node& node, int least, int largest) const {
+    const double value = number(key, node, least, largest);
+    if (to_integer<int>(value) != value) fail(key, "takes whole numbers");
+    return to_integer<int>(value);
   }
 
+  FrameSize size(std::string_view key, const toml::node& node, std::uint32_t least) const {
+    const auto size = parse_frame_size(node.value<std::string>().value_or(""));
+    if (!size || std::min(size->width, size->height) < least ||
+        std::max(size->width, size->height) > c_max_frame_side)
+      fail(key, fmt::format("takes WIDTHxHEIGHT in pixels, such as 640x480, each {} to {}", least,
+                            c_max_frame_side));
+    return *size;
+  }
+
+  // One of these by its name.
   template <class Value>
-  std::vector<Value> names(std::string_view key, std::vector<Value> otherwise,
-                           const std::vector<std::pair<std::string_view, Value>>& known) const {
-    return list<Value>(key, std::move(otherwise), [&](const toml::node& node) {
-      const auto text = node.value<std::string>();
-      for (const auto& [name, value] : known)
-        if (text == name) return value;
-      std::vector<std::string_view> all;
-      for (const auto& [name, value] : known) all.push_back(name);
-      fail(key, fmt::format("takes {}", fmt::join(all, ", ")));
-    });
+  Value name(std::string_view key, const toml::node& node, const std::vector<Value>& known) const {
+    std::vector<std::string> all;
+    for (const Value value : known) {
+      if (node.value<std::string>() == to_string(value)) return value;
+      all.emplace_back(to_string(value));
+    }
+    fail(key, fmt::format("takes {}", fmt::join(all, ", ")));
   }
 
  private:
   const toml::table& table_;
   std::string file_;
 };
-
-// A product of lists, point by point.
-template <class Value, class Set>
-void multiply(std::vector<DesignPoint>& points, const std::vector<Value>& values, const Set& set) {
-  std::vector<DesignPoint> product;
-  for (const DesignPoint& point : points)
-    for (const Value& value : values) {
-      product.push_back(point);
-      set(product.back(), value);
-    }
-  points = std::move(product);
-}
 
 bool is_processors(Method method) {
   return method == Method::processors_1 || method == Method::processors_2;
@@ -115,54 +102,50 @@ bool is_processors(Method method) {
 std::vector<DesignPoint> points_of(const Sweep& sweep) {
   sweep.allow({"method", "preset", "address_bits", "data_bits", "angle_bits", "fraction_bits", "seed_bits",
                "newton", "form", "threshold", "tessellation", "exponent", "size", "tile"});
-  std::vector<std::pair<std::string_view, Method>> methods;
-  for (std::size_t i = 0; i < c_method_names.size(); ++i)
-    methods.emplace_back(c_method_names[i], static_cast<Method>(i));
   std::vector<DesignPoint> points(1);
-  multiply(points, sweep.sizes("size", DesignPoint{}.size, 1),
-           [](DesignPoint& p, FrameSize size) { p.size = size; });
-  multiply(points, sweep.sizes("tile", DesignPoint{}.tile, c_least_tile),
-           [](DesignPoint& p, FrameSize tile) { p.tile = tile; });
-  multiply(points, sweep.numbers("tessellation", {1.0}, 0.05, 100.0),
-           [](DesignPoint& p, double factor) { p.tessellation = factor; });
-  // NaN: the scene's own.
-  multiply(points, sweep.numbers("exponent", {std::nan("")}, 1.0, 1e6), [](DesignPoint& p, double exponent) {
-    if (!std::isnan(exponent)) p.exponent = exponent;
-  });
-  multiply(points, sweep.names<Method>("method", {}, methods),
-           [](DesignPoint& p, Method method) { p.method = method; });
-  if (points.empty()) sweep.fail("method", "is missing");
-  multiply(points,
-           sweep.names<Preset>("preset", {Preset::exact},
-                               {{"exact", Preset::exact}, {"published", Preset::published}}),
-           [](DesignPoint& p, Preset preset) { p.preset = preset; });
-  const auto bits = [&](const char* key, int least, int most) {
-    std::vector<int> whole;
-    for (const double value : sweep.numbers(key, {0.0}, least, most)) {
-      whole.push_back(to_integer<int>(value));
-      if (whole.back() != value) sweep.fail(key, "takes whole numbers");
-    }
-    return whole;
+  const auto multiply = [&](std::string_view key, const auto& set) { sweep.multiply(points, key, set); };
+  const auto numbers = [&](std::string_view key, double least, double largest, const auto& set) {
+    multiply(key, [&](DesignPoint& p, const toml::node& node) {
+      set(p, sweep.number(key, node, least, largest));
+    });
   };
-  multiply(points,
-           bits("address_bits", tables::c_smallest_cosine_size.address_bits,
-                tables::c_largest_cosine_size.address_bits),
-           [&](DesignPoint& p, int address) {
-             if (address > 0) p.tables = TableSize{address, 0};
-           });
-  multiply(
-      points,
-      bits("data_bits", tables::c_smallest_cosine_size.data_bits, tables::c_largest_cosine_size.data_bits),
-      [&](DesignPoint& p, int data) {
-        if ((data > 0) != p.tables.has_value()) sweep.fail("data_bits", "goes with address_bits alone");
-        if (p.tables) p.tables->data_bits = data;
-      });
+  const auto lengths = [&](std::string_view key, int least, int largest, const auto& set) {
+    multiply(key,
+             [&](DesignPoint& p, const toml::node& node) { set(p, sweep.whole(key, node, least, largest)); });
+  };
+  multiply("size", [&](DesignPoint& p, const toml::node& node) { p.size = sweep.size("size", node, 1); });
+  multiply("tile",
+           [&](DesignPoint& p, const toml::node& node) { p.tile = sweep.size("tile", node, c_least_tile); });
+  numbers("tessellation", 0.05, 100.0, [](DesignPoint& p, double factor) { p.tessellation = factor; });
+  numbers("exponent", 1.0, 1e6, [](DesignPoint& p, double exponent) { p.exponent = exponent; });
+  bool has_method = false;
+  multiply("method", [&](DesignPoint& p, const toml::node& node) {
+    std::vector<Method> methods;
+    for (std::size_t i = 0; i < c_method_names.size(); ++i) methods.push_back(static_cast<Method>(i));
+    p.method = sweep.name("method", node, methods);
+    has_method = true;
+  });
+  if (!has_method) sweep.fail("method", "is missing");
+  multiply("preset", [&](DesignPoint& p, const toml::node& node) {
+    p.preset = sweep.name<Preset>("preset", node, {Preset::exact, Preset::published});
+  });
+  constexpr tables::CosineSize c_least = tables::c_smallest_cosine_size,
+                               c_most = tables::c_largest_cosine_size;
+  lengths("address_bits", c_least.address_bits, c_most.address_bits, [](DesignPoint& p, int address) {
+    p.tables = TableSize{address, 0};
+  });
+  lengths("data_bits", c_least.data_bits, c_most.data_bits, [&](DesignPoint& p, int data) {
+    if (!p.tables) sweep.fail("data_bits", "goes with address_bits alone");
+    p.tables->data_bits = data;
+  });
+  if (std::ranges::any_of(points, [](const DesignPoint& p) { return p.tables && p.tables->data_bits == 0; }))
+    sweep.fail("data_bits", "goes with address_bits alone");
   // A word length means something in some methods alone, and the preset's own is no other.
-  const auto length = [&](const char* key, tables::Range range, bool (*has)(Method),
+  const auto length = [&](std::string_view key, tables::Range range, bool (*has)(Method),
                           std::optional<int> tables::WordLengths::*word, int exact, int published) {
-    multiply(points, bits(key, range.least, range.most), [&](DesignPoint& p, int value) {
+    lengths(key, range.least, range.most, [&](DesignPoint& p, int value) {
       const int own = p.preset == Preset::exact ? exact : published;
-      if (value != 0 && value != own && has(p.method)) p.words.*word = value;
+      if (value != own && has(p.method)) p.words.*word = value;
     });
   };
   length(
@@ -176,37 +159,28 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
       golden::Published::c_intensity_fraction_bits);
   length("seed_bits", tables::c_seed_range, is_processors, &tables::WordLengths::seed_bits,
          golden::Exact::c_root_entry_fraction_bits, golden::Published::c_root_entry_fraction_bits);
-  multiply(points,
-           sweep.list<std::optional<bool>>("newton", {std::nullopt},
-                                           [&](const toml::node& node) {
-                                             const auto value = node.value_exact<bool>();
-                                             if (!value) sweep.fail("newton", "takes true or false");
-                                             return value;
-                                           }),
-           [&](DesignPoint& p, std::optional<bool> newton) {
-             if (!newton || !is_processors(p.method)) return;
-             // A square of published is no longer than the table's entry is good for.
-             if (*newton && p.preset == Preset::published)
-               sweep.fail("newton", "goes with preset exact alone");
-             if (*newton != (p.preset == Preset::exact)) p.words.newton = newton;
-           });
+  multiply("newton", [&](DesignPoint& p, const toml::node& node) {
+    const auto newton = node.value_exact<bool>();
+    if (!newton) sweep.fail("newton", "takes true or false");
+    if (!is_processors(p.method)) return;
+    // A square of published is no longer than the table's entry is good for.
+    if (*newton && p.preset == Preset::published) sweep.fail("newton", "goes with preset exact alone");
+    if (*newton != (p.preset == Preset::exact)) p.words.newton = newton;
+  });
   for (const DesignPoint& p : points)
     if (p.method == Method::spherical && p.words.angle_bits) {
       const int address = p.tables ? p.tables->address_bits : p.preset == Preset::exact ? 9 : 6;
       if (*p.words.angle_bits < address)
         sweep.fail("angle_bits", fmt::format("must be {} at least, the table's address", address));
     }
-  multiply(
-      points,
-      sweep.names<ProcessorForm>("form", {ProcessorForm::unrolled},
-                                 {{"folded", ProcessorForm::folded}, {"unrolled", ProcessorForm::unrolled}}),
-      [](DesignPoint& p, ProcessorForm form) { p.form = form; });
+  multiply("form", [&](DesignPoint& p, const toml::node& node) {
+    p.form = sweep.name<ProcessorForm>("form", node, {ProcessorForm::folded, ProcessorForm::unrolled});
+  });
   // Version I takes N as it is interpolated; in preset exact that is N/w.
   std::erase_if(points, [](const DesignPoint& p) {
     return p.method == Method::processors_1 && p.preset == Preset::exact;
   });
-  multiply(points, sweep.numbers("threshold", {DesignPoint{}.threshold}, 0.01, 255.0),
-           [](DesignPoint& p, double threshold) { p.threshold = threshold; });
+  numbers("threshold", 0.01, 255.0, [](DesignPoint& p, double threshold) { p.threshold = threshold; });
   return points;
 }
 

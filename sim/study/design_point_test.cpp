@@ -16,11 +16,6 @@ using ::testing::HasSubstr;
 
 class SpaceTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
-  }
   Result<std::vector<DesignPoint>> read(const std::string& text) const {
     const std::filesystem::path path = folder_->path() / "space.toml";
     if (const Status written = write_file(path, text); !written) return written.error();
@@ -30,7 +25,7 @@ class SpaceTest : public ::testing::Test {
     const auto points = read(text);
     return points ? "" : points.error().message;
   }
-  std::optional<TemporaryFolder> folder_;
+  const Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
 };
 
 TEST_F(SpaceTest, IsTheProductOfEachSweepsLists) {

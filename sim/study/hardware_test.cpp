@@ -50,9 +50,6 @@ echo '{"utilization": {"ICESTORM_LC": {"used": 40, "available": 7680}}, "critica
 class HardwareFiguresTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    auto folder = TemporaryFolder::make(fs::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
     folders_ = {folder_->path() / "source", folder_->path() / "cache"};
     // Where clocks are pinned is its own.
     for (const char* name : {"tb/synth", "sim/studies"}) ASSERT_TRUE(make_folders(folders_.source / name));
@@ -111,7 +108,7 @@ class HardwareFiguresTest : public ::testing::Test {
   const std::string path_ = std::getenv("PATH");
   const std::string scene_ = c_source / "sim/studies/sphere.toml";
   const DesignPoint point_{.method = Method::quadratic, .preset = Preset::published, .size = {160, 120}};
-  std::optional<TemporaryFolder> folder_;
+  const Result<TemporaryFolder> folder_ = TemporaryFolder::make(fs::temp_directory_path());
   SimulatorFolders folders_;
   HardwareKey key_;
   std::vector<Record> records_;

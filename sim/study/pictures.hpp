@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
-#include <exception>
 #include <functional>
-#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -49,8 +47,8 @@ Result<Scene> drawn_scene(const std::string& scene, const std::filesystem::path&
 
 Reference render(const Subject& subject, FrameSize frame, const std::optional<Tile>& tile = {});
 
-/// Things by name, each made once for all who share it, and kept while it is likely to be asked for. Threads
-/// may ask at once.
+/// Things by name, each made once for all who share it, and kept while it is likely to be needed again.
+/// Threads may call it at once.
 template <class Value>
 class Shelf {
  public:
@@ -59,32 +57,27 @@ class Shelf {
   /// `make` gives a Result<Shared>.
   template <class Make>
   Result<Shared> of(const std::string& name, const Make& make) {
-    std::promise<Result<Shared>> promise;
-    Made made;
-    bool mine = false;
+    std::shared_ptr<Thing> thing;
     {
       const std::scoped_lock lock(mutex_);
-      const auto found = std::ranges::find(kept_, name, &std::pair<std::string, Made>::first);
-      mine = found == kept_.end();
-      made = mine ? promise.get_future().share() : found->second;
-      if (mine) kept_.emplace_back(name, made);
+      const auto found =
+          std::ranges::find(kept_, name, &std::pair<std::string, std::shared_ptr<Thing>>::first);
+      thing = found == kept_.end() ? std::make_shared<Thing>() : found->second;
+      if (found == kept_.end()) kept_.emplace_back(name, thing);
       if (kept_.size() > c_most_kept) kept_.pop_front();
     }
-    if (mine) {
-      try {
-        promise.set_value(make());
-      } catch (...) {
-        promise.set_exception(std::current_exception());
-      }
-    }
-    return made.get();
+    std::call_once(thing->once, [&] { thing->made = make(); });
+    return *thing->made;
   }
 
  private:
   static constexpr std::size_t c_most_kept = 8;
-  using Made = std::shared_future<Result<Shared>>;
+  struct Thing {
+    std::once_flag once;
+    std::optional<Result<Shared>> made;
+  };
   std::mutex mutex_;
-  std::deque<std::pair<std::string, Made>> kept_;
+  std::deque<std::pair<std::string, std::shared_ptr<Thing>>> kept_;
 };
 
 /// Those of a scene.

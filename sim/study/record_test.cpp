@@ -35,71 +35,42 @@ Scene scene_of_everything() {
 }
 
 TEST(SceneHash, ChangesWithEveryNumberThatAPictureDependsOn) {
+  constexpr double c_tiny = 1e-12;
   using Change = std::function<void(Scene&)>;
   std::vector<std::pair<std::string, Change>> changes;
-  const auto number = [&](const std::string& name, const auto& of) {
-    changes.emplace_back(name, [of](Scene& s) { of(s) += 1e-12; });
-  };
-  const auto vector = [&](const std::string& name, const auto& of) {
+  const auto vector = [&](const std::string& name, const auto& change) {
     for (int i = 0; i < 3; ++i)
-      changes.emplace_back(name + std::to_string(i), [of, i](Scene& s) { of(s)[i] += 1e-12; });
+      changes.emplace_back(name + std::to_string(i), [change, i](Scene& s) { change(s, i); });
   };
-  vector(
-      "eye", [](Scene & s) -> auto& { return s.camera.eye_world; });
-  vector(
-      "target", [](Scene & s) -> auto& { return s.camera.target_world; });
-  vector(
-      "up", [](Scene & s) -> auto& { return s.camera.up_world; });
-  number(
-      "fov", [](Scene & s) -> auto& { return s.camera.vertical_fov_degrees; });
-  number(
-      "near", [](Scene & s) -> auto& { return s.camera.near; });
-  number(
-      "far", [](Scene & s) -> auto& { return s.camera.far; });
-  vector(
-      "ambient", [](Scene & s) -> auto& { return s.ambient; });
-  vector(
-      "background", [](Scene & s) -> auto& { return s.background; });
+  vector("eye", [](Scene& s, int i) { s.camera.eye_world[i] += c_tiny; });
+  vector("target", [](Scene& s, int i) { s.camera.target_world[i] += c_tiny; });
+  vector("up", [](Scene& s, int i) { s.camera.up_world[i] += c_tiny; });
+  changes.emplace_back("fov", [](Scene& s) { s.camera.vertical_fov_degrees += c_tiny; });
+  changes.emplace_back("near", [](Scene& s) { s.camera.near += c_tiny; });
+  changes.emplace_back("far", [](Scene& s) { s.camera.far += c_tiny; });
+  vector("ambient", [](Scene& s, int i) { s.ambient[i] += c_tiny; });
+  vector("background", [](Scene& s, int i) { s.background[i] += c_tiny; });
   changes.emplace_back("shadows", [](Scene& s) { s.shadows = !s.shadows; });
-  vector(
-      "to light", [](Scene & s) -> auto& { return s.directional[0].to_light_world; });
-  vector(
-      "directional", [](Scene & s) -> auto& { return s.directional[0].intensity; });
-  vector(
-      "position of a light", [](Scene & s) -> auto& { return s.positional[1].position_world; });
-  vector(
-      "positional", [](Scene & s) -> auto& { return s.positional[1].intensity; });
-  vector(
-      "position of a spot", [](Scene & s) -> auto& { return s.spots[1].position_world; });
-  vector(
-      "axis", [](Scene & s) -> auto& { return s.spots[1].axis_world; });
-  number(
-      "inner", [](Scene & s) -> auto& { return s.spots[1].cos_inner; });
-  number(
-      "outer", [](Scene & s) -> auto& { return s.spots[1].cos_outer; });
-  vector(
-      "spot", [](Scene & s) -> auto& { return s.spots[1].intensity; });
+  vector("to light", [](Scene& s, int i) { s.directional[0].to_light_world[i] += c_tiny; });
+  vector("directional", [](Scene& s, int i) { s.directional[0].intensity[i] += c_tiny; });
+  vector("position of a light", [](Scene& s, int i) { s.positional[1].position_world[i] += c_tiny; });
+  vector("positional", [](Scene& s, int i) { s.positional[1].intensity[i] += c_tiny; });
+  vector("position of a spot", [](Scene& s, int i) { s.spots[1].position_world[i] += c_tiny; });
+  vector("axis", [](Scene& s, int i) { s.spots[1].axis_world[i] += c_tiny; });
+  changes.emplace_back("inner", [](Scene& s) { s.spots[1].cos_inner += c_tiny; });
+  changes.emplace_back("outer", [](Scene& s) { s.spots[1].cos_outer += c_tiny; });
+  vector("spot", [](Scene& s, int i) { s.spots[1].intensity[i] += c_tiny; });
   changes.emplace_back("brdf", [](Scene& s) { s.materials[1].brdf = Brdf::phong; });
-  vector(
-      "colour", [](Scene & s) -> auto& { return s.materials[1].colour; });
-  vector(
-      "specular colour", [](Scene & s) -> auto& { return s.materials[1].specular_colour; });
-  number(
-      "k_a", [](Scene & s) -> auto& { return s.materials[1].ambient; });
-  number(
-      "k_d", [](Scene & s) -> auto& { return s.materials[1].diffuse; });
-  number(
-      "k_s", [](Scene & s) -> auto& { return s.materials[1].specular; });
-  number(
-      "exponent", [](Scene & s) -> auto& { return s.materials[1].exponent; });
-  number(
-      "roughness", [](Scene & s) -> auto& { return s.materials[1].roughness; });
-  number(
-      "reflectance", [](Scene & s) -> auto& { return s.materials[1].reflectance; });
-  vector(
-      "vertex", [](Scene & s) -> auto& { return s.positions_world.back(); });
-  vector(
-      "normal", [](Scene & s) -> auto& { return s.normals_world.back(); });
+  vector("colour", [](Scene& s, int i) { s.materials[1].colour[i] += c_tiny; });
+  vector("specular colour", [](Scene& s, int i) { s.materials[1].specular_colour[i] += c_tiny; });
+  changes.emplace_back("k_a", [](Scene& s) { s.materials[1].ambient += c_tiny; });
+  changes.emplace_back("k_d", [](Scene& s) { s.materials[1].diffuse += c_tiny; });
+  changes.emplace_back("k_s", [](Scene& s) { s.materials[1].specular += c_tiny; });
+  changes.emplace_back("exponent", [](Scene& s) { s.materials[1].exponent += c_tiny; });
+  changes.emplace_back("roughness", [](Scene& s) { s.materials[1].roughness += c_tiny; });
+  changes.emplace_back("reflectance", [](Scene& s) { s.materials[1].reflectance += c_tiny; });
+  vector("vertex", [](Scene& s, int i) { s.positions_world.back()[i] += c_tiny; });
+  vector("normal", [](Scene& s, int i) { s.normals_world.back()[i] += c_tiny; });
   changes.emplace_back("corner", [](Scene& s) { s.triangles.back().position[2] ^= 1U; });
   changes.emplace_back("corner's normal", [](Scene& s) { s.triangles.back().normal[2] ^= 1U; });
   changes.emplace_back("material of a triangle", [](Scene& s) { s.triangles.back().material ^= 1U; });
@@ -134,12 +105,7 @@ TEST(SceneHash, ChangesWithEveryNumberThatAPictureDependsOn) {
 
 class RecordsTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
-  }
-  std::optional<TemporaryFolder> folder_;
+  const Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
 };
 
 TEST_F(RecordsTest, AreFoundByWhatTheyWereMeasuredWithAlone) {

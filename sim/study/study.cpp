@@ -80,8 +80,7 @@ class Bench {
   // A tile is of no use any more where its points are there.
   bool is_done(const Piece& piece) const {
     const DesignPoint& point = point_of(piece);
-    if (piece.kind == PieceKind::tile && tiles_.has_drawing(point, piece.tile)) return true;
-    if (piece.kind == PieceKind::reference_tile && tiles_.has_reference(point, piece.tile)) return true;
+    if (!is_point(piece) && tiles_.has(point, piece.kind, piece.tile)) return true;
     return std::ranges::all_of(std::span(settings_.points).subspan(piece.point, piece.points),
                                [&](const DesignPoint& each) {
                                  const auto found = kept_.find(each);

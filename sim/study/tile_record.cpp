@@ -26,13 +26,10 @@ constexpr const char* c_masks = "-mask.png";  // red: covered, green: in a highl
 constexpr const char* c_figures = ".json";    // written last
 constexpr std::array c_endings = {c_colours, c_masks, c_figures};
 
-// Whose figures they are, with the number of the tile.
-constexpr const char* c_tile = "tile";
-Json reference_label(const DesignPoint& point) {
-  return {{"picture", point.picture()}};
-}
-Json drawing_label(const DesignPoint& point) {
-  return {{"point", point.name()}};
+// Whose figures they are.
+Json label(const DesignPoint& point, PieceKind kind, std::size_t tile) {
+  if (kind == PieceKind::reference_tile) return {{"picture", point.picture()}, {"tile", tile}};
+  return {{"point", point.name()}, {"tile", tile}};
 }
 
 // With their names. Those of all tiles add up to the frame's.
@@ -97,57 +94,46 @@ Result<TileFiles> read_files(const std::filesystem::path& stem, FrameSize size, 
 
 }  // namespace
 
-std::string TileRecords::reference_name(const DesignPoint& point) const {
-  return record_name(provenance_, "reference, " + point.picture());
-}
-std::string TileRecords::drawing_name(const DesignPoint& point) const {
-  return record_name(provenance_, point);
-}
-
-std::filesystem::path TileRecords::file(const std::string& name, std::size_t tile, const char* ending) const {
-  return folder_ / fmt::format("{}-tile-{}{}", name, tile, ending);
+std::filesystem::path TileRecords::file(const DesignPoint& point, PieceKind kind, std::size_t tile,
+                                        const char* ending) const {
+  const std::string name = kind == PieceKind::reference_tile ? "reference, " + point.picture() : point.name();
+  return folder_ / fmt::format("{}-tile-{}{}", record_name(provenance_, name), tile, ending);
 }
 
-bool TileRecords::has(const std::string& name, std::size_t tile) const {
-  return std::ranges::all_of(
-      c_endings, [&](const char* ending) { return std::filesystem::exists(file(name, tile, ending)); });
-}
-
-bool TileRecords::has_reference(const DesignPoint& point, std::size_t tile) const {
-  return has(reference_name(point), tile);
-}
-bool TileRecords::has_drawing(const DesignPoint& point, std::size_t tile) const {
-  return has(drawing_name(point), tile);
+bool TileRecords::has(const DesignPoint& point, PieceKind kind, std::size_t tile) const {
+  return std::ranges::all_of(c_endings, [&](const char* ending) {
+    return std::filesystem::exists(file(point, kind, tile, ending));
+  });
 }
 
 void TileRecords::remove_drawing(const DesignPoint& point) const {
   std::error_code ignored;
   for (std::size_t tile = 0; tile < point.tiles().size(); ++tile)
     for (const char* ending : c_endings)
-      std::filesystem::remove(file(drawing_name(point), tile, ending), ignored);
+      std::filesystem::remove(file(point, PieceKind::tile, tile, ending), ignored);
 }
 
 bool TileRecords::complete(const DesignPoint& point) const {
   for (std::size_t tile = 0; tile < point.tiles().size(); ++tile)
-    if (!has_reference(point, tile) || (is_drawn(point.method) && !has_drawing(point, tile))) return false;
+    if (!has(point, PieceKind::reference_tile, tile) ||
+        (is_drawn(point.method) && !has(point, PieceKind::tile, tile)))
+      return false;
   return true;
 }
 
 Status TileRecords::add_reference(const DesignPoint& point, std::size_t tile,
                                   const Reference& reference) const {
   const auto& [frame, mask] = reference.image;
-  Json json = reference_label(point);
-  json[c_tile] = tile;
-  return add_files(file(reference_name(point), tile, ""), frame,
-                   to_picture(frame.size, mask, reference.highlight), std::move(json));
+  return add_files(file(point, PieceKind::reference_tile, tile, ""), frame,
+                   to_picture(frame.size, mask, reference.highlight),
+                   label(point, PieceKind::reference_tile, tile));
 }
 
 Status TileRecords::add_drawing(const DesignPoint& point, std::size_t tile, const Drawing& drawing) const {
-  Json json = drawing_label(point);
-  json[c_tile] = tile;
+  Json json = label(point, PieceKind::tile, tile);
   json["hardware"] = drawing.hardware;
   for_each_count(drawing, [&](const char* name, std::uint64_t count) { json[name] = count; });
-  return add_files(file(drawing_name(point), tile, ""), drawing.frame,
+  return add_files(file(point, PieceKind::tile, tile, ""), drawing.frame,
                    to_picture(drawing.frame.size, drawing.mask, {}), std::move(json));
 }
 
@@ -156,17 +142,18 @@ struct TileRecords::Whole {
   std::vector<Json> figures{};  // by tile
 };
 
-Result<TileRecords::Whole> TileRecords::put_together(const DesignPoint& point, const std::string& name,
-                                                     Json label, const Redraw& redraw) const {
+Result<TileRecords::Whole> TileRecords::put_together(const DesignPoint& point, PieceKind kind,
+                                                     const Redraw& redraw) const {
   Whole whole{Frame(point.size), Frame(point.size)};
   const std::vector<Tile> tiles = point.tiles();
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    const std::filesystem::path stem = file(name, i, "");
-    label[c_tile] = i;
-    auto files = read_files(stem, tiles[i].size, label);
+    const auto read = [&] {
+      return read_files(file(point, kind, i, ""), tiles[i].size, label(point, kind, i));
+    };
+    auto files = read();
     if (files && !files->damaged.empty()) {
       if (Status drawn = redraw(i, files->damaged); !drawn) return drawn.error();
-      files = read_files(stem, tiles[i].size, label);
+      files = read();
       if (files && !files->damaged.empty())
         return tool_failed(files->damaged.string() + ": damaged as soon as it is written; try another disk");
     }
@@ -179,13 +166,13 @@ Result<TileRecords::Whole> TileRecords::put_together(const DesignPoint& point, c
 }
 
 Result<Reference> TileRecords::reference(const DesignPoint& point, const Redraw& redraw) const {
-  auto whole = put_together(point, reference_name(point), reference_label(point), redraw);
+  auto whole = put_together(point, PieceKind::reference_tile, redraw);
   if (!whole) return whole.error();
   return Reference{{std::move(whole->colours), mask_of(whole->masks, 0)}, mask_of(whole->masks, 1)};
 }
 
 Result<Drawing> TileRecords::drawing(const DesignPoint& point, const Redraw& redraw) const {
-  auto whole = put_together(point, drawing_name(point), drawing_label(point), redraw);
+  auto whole = put_together(point, PieceKind::tile, redraw);
   if (!whole) return whole.error();
   Drawing drawing{.frame = std::move(whole->colours)};
   if (in_hardware(point.method)) drawing.mask = mask_of(whole->masks, 0);

@@ -7,13 +7,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 
 #include "common/result.hpp"
 #include "sim/study/measure.hpp"
 #include "sim/study/pictures.hpp"
+#include "sim/study/pieces.hpp"
 #include "sim/study/record.hpp"
 
 namespace halfway::study {
@@ -24,11 +24,10 @@ class TileRecords {
   TileRecords(std::filesystem::path folder, Provenance provenance)
       : folder_(std::move(folder)), provenance_(std::move(provenance)) {}
 
-  /// A tile of the reference, which points of one picture share; by its number in DesignPoint::tiles.
-  bool has_reference(const DesignPoint& point, std::size_t tile) const;
+  /// A tile by its number in DesignPoint::tiles: reference_tile, which points of one picture share, or tile,
+  /// of the point's own drawing.
+  bool has(const DesignPoint& point, PieceKind kind, std::size_t tile) const;
   Status add_reference(const DesignPoint& point, std::size_t tile, const Reference& reference) const;
-  /// A tile of the point's own drawing.
-  bool has_drawing(const DesignPoint& point, std::size_t tile) const;
   Status add_drawing(const DesignPoint& point, std::size_t tile, const Drawing& drawing) const;
 
   /// Of a point that is put together: nobody else reads them.
@@ -44,14 +43,10 @@ class TileRecords {
   Result<Drawing> drawing(const DesignPoint& point, const Redraw& redraw) const;
 
  private:
-  std::string reference_name(const DesignPoint& point) const;
-  std::string drawing_name(const DesignPoint& point) const;
-  bool has(const std::string& name, std::size_t tile) const;
   struct Whole;
-  /// Of all tiles whose files are called so and have this label.
-  Result<Whole> put_together(const DesignPoint& point, const std::string& name, nlohmann::ordered_json label,
-                             const Redraw& redraw) const;
-  std::filesystem::path file(const std::string& name, std::size_t tile, const char* ending) const;
+  Result<Whole> put_together(const DesignPoint& point, PieceKind kind, const Redraw& redraw) const;
+  std::filesystem::path file(const DesignPoint& point, PieceKind kind, std::size_t tile,
+                             const char* ending) const;
 
   std::filesystem::path folder_;
   Provenance provenance_;
