@@ -26,6 +26,11 @@ interpolation/z_interpolator.vhd
 interpolation/quadratic_interpolator.vhd
 raster/edge_walker.vhd
 raster/slope_walker.vhd
+raster/line_pkg.vhd
+raster/line_counter.vhd
+raster/edge_pair.vhd
+raster/line_stage.vhd
+raster/span_stage.vhd
 raster/triangle_walker.vhd
 raster/object_stage.vhd
 illumination/diffuse_slice.vhd

@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     An edge by its real slope, line by line: a line_interpolator's whole part. The fraction runs a line ahead, so
---             that what it carries into the next step is a register and no sum is longer than a part.
---             g_complement: x comes as its complement, each bit a register's, so that who subtracts it need only add.
--- Contract    load = '1' stays until step is; where both are, the edge is taken
+-- Purpose     An edge by its real slope, line by line: the whole part of a sum of slopes. The fraction is summed one line
+--             ahead of x. Its carry into the next step is a register, so no sum is longer than the longer of both parts.
+--             g_complement: x is the complement, so that its reader subtracts it without an inverter in front of the sum.
+-- Contract    load stays '1' until step is; where both are '1', the edge is loaded
 -- Formats     formats_pkg, preset published: edge_x, and x span_x; sums wrap
 -- Latency     1 clock from a step to x
--- Throughput  1 line a clock
--- Error       none of its own; k steps carry k times the slope's rounding
--- Source      quadratic paper, section 5 and figure 6 (X counter); ours
+-- Throughput  1 line per clock
+-- Error       none of its own; k steps add k times the slope's rounding error
+-- Source      quadratic paper, section 5 and figure 6 (X counter); the split of the sum is ours
 -- Golden twin model/golden/slope_walker.hpp
 
 library ieee;
@@ -22,7 +22,7 @@ entity slope_walker is
   );
   port (
     clk        : in  std_logic;
-    load       : in  std_logic; -- take another edge in place of the next step
+    load       : in  std_logic; -- the next step loads an edge
     load_x     : in  std_logic_vector(c_published_formats.edge_x.bits - 1 downto 0);
     load_slope : in  std_logic_vector(c_published_formats.edge_x.bits - 1 downto 0);
     step       : in  std_logic;
@@ -48,8 +48,8 @@ architecture rtl of slope_walker is
 
   signal r, r_next : reg_t;
 
-  -- As x, whole and carry stand in their registers: the complement of a sum is the sum of complements and of the carry's.
-  function held (word : std_logic_vector) return span_x_t is
+  -- The form in which x, whole and carry are stored: the complement of a sum is the sum of the complements, the carry's too.
+  function stored (word : std_logic_vector) return span_x_t is
   begin
     if g_complement then
       return unsigned(not word);
@@ -71,25 +71,29 @@ begin
     variable next_carry     : std_logic;
     variable next_x         : unsigned(span_x_t'length downto 0);
   begin
-    v      := r;
-    next_x := (r.x & '1') + (r.whole & r.carry); -- one sum takes the carry
+    v := r;
 
-    -- Chosen in front of the sum: a load has its own first step.
+    -- Add the slope's whole part and the carry, in one sum.
+    next_x := (r.x & '1') + (r.whole & r.carry);
+
+    -- Add the fractions for the line after the next; a load has its own first step.
     fraction := r.fraction;
     part     := r.part;
     if load = '1' then
       fraction := unsigned(load_x(c_fraction - 1 downto 0));
       part     := unsigned(load_slope(c_fraction - 1 downto 0));
     end if;
-    -- The highest bit cancels: so a cell of the sum's own, and none behind it, gives what is carried.
+    -- The carry, from the sum's highest cell itself: no lookup table follows the carry chain.
     next_fraction := (fraction(fraction_t'high) & fraction) + ('0' & part);
     next_carry    := next_fraction(c_fraction) xor fraction(fraction_t'high);
 
-    -- What the steps add is taken while load waits for its step: no sum of the edge before is wanted then.
+    -- Load the slope, already while load waits for its step: the edge before needs no more sums.
     if load = '1' then
-      v.whole := held(load_slope(c_high downto c_fraction));
+      v.whole := stored(load_slope(c_high downto c_fraction));
       v.part  := unsigned(load_slope(c_fraction - 1 downto 0));
     end if;
+
+    -- Go to the next line.
     if step = '1' then
       v.x        := next_x(next_x'high downto 1);
       v.fraction := next_fraction(c_fraction - 1 downto 0);
@@ -98,7 +102,7 @@ begin
         v.carry := not next_carry;
       end if;
       if load = '1' then
-        v.x := held(load_x(c_high downto c_fraction));
+        v.x := stored(load_x(c_high downto c_fraction));
       end if;
     end if;
     r_next <= v;

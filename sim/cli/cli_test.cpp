@@ -691,7 +691,7 @@ TEST_F(WrongTable, AFlippedBitOfAnUnusedRomIsCaught) {
 // GHDL's testbench ends a run that draws on and on, and knows no cycles then.
 using RunawayRtl = WrongRtl;
 TEST_F(RunawayRtl, HasNoCyclesThatNobodyCounted) {
-  ASSERT_NO_FATAL_FAILURE(change("raster/triangle_walker.vhd", "", "pixels + behind;", "pixels;"));
+  ASSERT_NO_FATAL_FAILURE(change("raster/span_stage.vhd", "", "r.remaining - 1;", "r.remaining;"));
   const Outcome drawn = sim("quadratic", "ghdl");
   EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
   EXPECT_THAT(drawn.output,
@@ -716,8 +716,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Fault{"saturate_off_by_a_bit", "quadratic", "arithmetic/saturate.vhd",
                             "value(c_result_high downto g_fraction_bits)",
                             "value(c_result_high + 1 downto g_fraction_bits + 1)", "fragment stage"},
-                      Fault{"span_one_pixel_short", "quadratic", "raster/triangle_walker.vhd",
-                            "if r.line.more = 0 then", "if r.line.more <= 1 then", "triangle_walker"},
+                      Fault{"span_one_pixel_short", "quadratic", "raster/span_stage.vhd",
+                            "flag(line.remaining = 0)", "flag(line.remaining <= 1)", "triangle_walker"},
                       Fault{"angle_not_folded", "spherical", "arithmetic/angle_address.vhd",
                             "not angle when angle(c_sign) = '1' else angle", "angle", "sample stage"},
                       Fault{"product_of_the_wrong_operand", "spherical", "arithmetic/multiplier.vhd",

@@ -77,12 +77,16 @@ class HardwareUnits : public ::testing::Test {
 // By hand, from the entities' text.
 TEST_F(HardwareUnits, OfAQuadraticShader) {
   EXPECT_EQ(units({.shader = Shader::quadratic, .preset = Preset::published, .channels = 1}),
-            (UnitCounts{{"parameter_register", 33},
+            (UnitCounts{{"edge_pair", 1},
+                        {"line_counter", 1},
+                        {"line_stage", 1},
+                        {"parameter_register", 33},
                         {"part_interpolator", 14},
                         {"plane_interpolator", 1},
                         {"quadratic_interpolator", 1},
                         {"saturate", 1},
                         {"slope_walker", 2},
+                        {"span_stage", 1},
                         {"stream_queue", 1},
                         {"stream_register", 1},
                         {"triangle_walker", 1},

@@ -91,6 +91,10 @@ std::vector<ListedDesign> all_designs() {
     add("quadratic_interpolator", {is_exact, halves}, true);
     if (exact) add("edge_walker", {}, true);
     if (!exact) add("slope_walker", {}, true);
+    add("line_counter", {is_exact}, true);
+    add("edge_pair", {is_exact}, true);
+    if (exact) add("line_stage", {}, true);
+    if (exact) add("span_stage", {}, true);
     add("triangle_walker", {is_exact}, true);
     add("saturate",
         {{"g_value_bits", of("intensity")},

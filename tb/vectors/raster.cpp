@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "golden/edge_pair.hpp"
 #include "golden/edge_walker.hpp"
+#include "golden/line_counter.hpp"
 #include "golden/object_stage.hpp"
 #include "golden/slope_walker.hpp"
 #include "sim/stream_files/vector_file.hpp"
@@ -114,6 +116,96 @@ Status write_walker(const std::filesystem::path& folder) {
   }
   return Ok{};
 }
+
+// A line: reset, init_valid, init, advance; init_ready, step, load, section_change, valid, first, triangle, y, before the
+// clock's edge.
+template <class Preset>
+Status write_counter(const std::filesystem::path& folder) {
+  Random random(61);
+  VectorFile file;
+  for (const Mix mix : {Mix::dense, Mix::mixed}) {
+    golden::LineCounter<Preset> twin;
+    bool valid = false, first = false, offered = false;
+    const std::vector<InitVector> triangles = walker_triangles<Preset>(random, mix);
+    std::size_t taken = 0;
+    for (int clock = 0; taken < triangles.size() || valid; ++clock) {
+      const bool full_speed = clock / 500 % 2 == 0;
+      // A triangle of all 2**bits lines, of the mixed ones, is counted to its end.
+      const bool reset = mix == Mix::dense && random.one_in(200);
+      const bool advance = full_speed || random.one_in(2);
+      offered = taken < triangles.size() && (offered || full_speed || random.one_in(3));
+      const bool step = advance || !valid, load = !valid || twin.last();
+      const bool take = offered && step && load && !(valid && first);
+      file.flag(reset).flag(offered);
+      file.words_of(offered ? triangles[taken] : random_vector(random, Preset::c_init_header_bits),
+                    Preset::c_init_header_bits);
+      file.flag(advance).flag(take).flag(step).flag(load).flag(twin.section_last()).flag(valid).flag(first);
+      file.word(twin.triangle(), Preset::c_triangle_bits).word(twin.y(), Preset::c_pixel_y_bits);
+      file.end_vector();
+      if (take) {
+        twin.load(triangles[taken++]);
+        offered = false;
+      } else if (step && !load) {
+        twin.step();
+      }
+      if (step) valid = take || !load;
+      if (step) first = take;
+      if (reset) valid = first = false;
+    }
+  }
+  return file.write(folder / (std::string(Preset::c_name) + ".txt"));
+}
+
+// A line: checked, load, init, section_change, step; empty, start, stop, remaining, backward, carry, before the clock's
+// edge. Where load or section_change waits for its step, init need not be the one that is loaded.
+template <class Preset>
+Status write_pair(const std::filesystem::path& folder) {
+  Random random(62);
+  VectorFile file;
+  golden::EdgePair<Preset> twin;
+  bool checked = false;
+  const auto clock = [&](bool load, const InitVector& init, bool section_change, bool step) {
+    file.flag(checked).flag(load).words_of(init, Preset::c_init_header_bits).flag(section_change).flag(step);
+    file.flag(twin.empty()).word(twin.start()).word(twin.stop());
+    file.word(twin.pixels() - 1, Preset::c_span_x_bits).flag(twin.backward()).flag(twin.carry()).end_vector();
+  };
+  const auto garbage = [&] { return random_vector(random, Preset::c_init_header_bits); };
+  for (const Mix mix : {Mix::dense, Mix::mixed})
+    for (const InitVector& init : walker_triangles<Preset>(random, mix)) {
+      while (random.one_in(3)) clock(true, garbage(), random.one_in(2), false);
+      clock(true, init, random.one_in(2), true);
+      twin.load(init);
+      checked = true;
+      golden::LineCounter<Preset> lines;
+      lines.load(init);
+      // Not all lines of the greatest triangles.
+      for (int line = 0; !lines.last() && line < 600; ++line) {
+        const bool section_change = lines.section_last();
+        while (random.one_in(4)) clock(false, garbage(), section_change, false);
+        clock(false, garbage(), section_change, true);
+        twin.step(section_change);
+        lines.step();
+      }
+    }
+  return file.write(folder / (std::string(Preset::c_name) + ".txt"));
+}
+
+// A walked line with words of all kinds, as line_pkg has it.
+struct LineRecord {
+  std::uint64_t triangle, y, start, stop, remaining;
+  bool empty, backward, carry;
+
+  static LineRecord any(Random& random) {
+    const auto x = [&] { return random.word(Exact::c_span_x_bits); };
+    return {random.word(Exact::c_triangle_bits), random.word(Exact::c_pixel_y_bits), x(), x(), x(),
+            random.one_in(3), random.one_in(2), random.one_in(2)};
+  }
+  void add_to(VectorFile& file) const {
+    file.word(triangle, Exact::c_triangle_bits).word(y, Exact::c_pixel_y_bits);
+    for (const std::uint64_t word : {start, stop, remaining}) file.word(word, Exact::c_span_x_bits);
+    file.flag(empty).flag(backward).flag(carry);
+  }
+};
 
 // In: clear, token; out: the tokens that leave.
 template <class Preset>
@@ -228,6 +320,86 @@ Status write_slope_walker(const std::filesystem::path& folder) {
     }
   }
   return file.write(folder / "edges.txt");
+}
+
+Status write_line_counter(const std::filesystem::path& folder) {
+  if (auto s = write_counter<Exact>(folder); !s) return s;
+  return write_counter<Published>(folder);
+}
+
+Status write_edge_pair(const std::filesystem::path& folder) {
+  if (auto s = write_pair<Exact>(folder); !s) return s;
+  return write_pair<Published>(folder);
+}
+
+// A line: reset, enable, in_valid, in_line, line_ready, span_last_next; advance, step, span_load, valid, line, before
+// the clock's edge.
+Status write_line_stage(const std::filesystem::path& folder) {
+  Random random(63);
+  VectorFile file;
+  bool valid = false, span_last = true;
+  LineRecord line{};
+  for (int clock = 0; clock < 4000; ++clock) {
+    const bool full_speed = clock / 500 % 2 == 0;
+    const auto often = [&] { return full_speed || !random.one_in(3); };
+    const bool reset = random.one_in(100), enable = often(), in_valid = often(), line_ready = often();
+    const bool span_last_next = random.one_in(2);
+    const LineRecord in_line = LineRecord::any(random);
+    const bool step = valid && enable && line_ready && (span_last || line.empty);
+    const bool advance = enable && (step || !valid);
+    file.flag(reset).flag(enable).flag(in_valid);
+    in_line.add_to(file);
+    file.flag(line_ready).flag(span_last_next);
+    file.flag(advance).flag(step).flag(step && !line.empty).flag(valid);
+    LineRecord held = line;
+    held.empty = !valid || line.empty;
+    held.add_to(file);
+    file.end_vector();
+    if (advance) {
+      valid = in_valid;
+      line = in_line;
+    }
+    if (reset) valid = false;
+    span_last = span_last_next;
+  }
+  return file.write(folder / "lines.txt");
+}
+
+// A line: reset, enable, load, line; last_next, valid, triangle, y, x, before the clock's edge. Spans of up to six pixels,
+// and a few of any length.
+Status write_span_stage(const std::filesystem::path& folder) {
+  Random random(64);
+  VectorFile file;
+  LineRecord line{};
+  std::uint64_t drawn = 0;  // pixels of the line before this one
+  bool valid = false;
+  const auto last = [&] { return !valid || drawn == line.remaining; };
+  for (int clock = 0; clock < 20000; ++clock) {
+    const bool full_speed = clock / 500 % 2 == 0;
+    const bool reset = random.one_in(200), enable = full_speed || random.one_in(2);
+    LineRecord next = LineRecord::any(random);
+    next.empty = false;
+    if (!random.one_in(50)) next.remaining = static_cast<std::uint64_t>(random.between(0, 5));
+    const bool load = enable && last() && (full_speed || random.one_in(2));
+    const LineRecord shown = line;
+    const std::uint64_t x = line.backward ? line.start - drawn : line.start + drawn;
+    const bool shown_valid = valid;
+    if (enable) {
+      valid = !last();
+      ++drawn;
+    }
+    if (load) {
+      valid = true;
+      line = next;
+      drawn = 0;
+    }
+    if (reset) valid = false;
+    file.flag(reset).flag(enable).flag(load);
+    next.add_to(file);
+    file.flag(last()).flag(shown_valid).word(shown.triangle, Exact::c_triangle_bits);
+    file.word(shown.y, Exact::c_pixel_y_bits).word(x, Exact::c_span_x_bits).end_vector();
+  }
+  return file.write(folder / "spans.txt");
 }
 
 Status write_object_stage(const std::filesystem::path& folder) {

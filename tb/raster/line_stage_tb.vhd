@@ -1,0 +1,102 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- Random lines, empty ones among them, at full speed and with random stalls, with resets: every clock against the
+-- contract in the entity's header (tb/vectors/raster.cpp).
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use work.line_pkg.all;
+use work.tb_pkg.all;
+
+entity line_stage_tb is
+  generic (
+    g_folder : string := "line_stage"
+  );
+end entity;
+
+architecture sim of line_stage_tb is
+  signal clk            : std_logic := '0';
+  signal reset          : std_logic := '1';
+  signal enable         : std_logic := '0';
+  signal in_valid       : std_logic := '0';
+  signal in_line        : line_t;
+  signal line_ready     : std_logic := '0';
+  signal span_last_next : std_logic := '0';
+  signal advance        : std_logic;
+  signal step           : std_logic;
+  signal span_load      : std_logic;
+  signal valid          : std_logic;
+  signal line           : line_t;
+  signal finished       : boolean := false;
+begin
+  dut : entity work.line_stage
+    port map (
+      clk            => clk,
+      reset          => reset,
+      enable         => enable,
+      in_valid       => in_valid,
+      in_line        => in_line,
+      line_ready     => line_ready,
+      span_last_next => span_last_next,
+      advance        => advance,
+      step           => step,
+      span_load      => span_load,
+      valid          => valid,
+      line           => line);
+
+  clk <= not clk after c_half_period when not finished;
+
+  run : process is
+    variable vectors  : vectors_t;
+    variable flag     : std_logic;
+    variable triangle : triangle_t;
+    variable y        : std_logic_vector(pixel_y_t'range);
+    variable x        : std_logic_vector(span_x_t'range);
+  begin
+    vectors.open_file(g_folder & "/lines.txt");
+    wait until rising_edge(clk);
+    while vectors.next_vector loop
+      vectors.read_flag(flag);
+      reset <= flag;
+      vectors.read_flag(flag);
+      enable <= flag;
+      vectors.read_flag(flag);
+      in_valid <= flag;
+      vectors.read_word(triangle);
+      in_line.triangle <= triangle;
+      vectors.read_word(y);
+      in_line.y <= unsigned(y);
+      vectors.read_word(x);
+      in_line.start <= signed(x);
+      vectors.read_word(x);
+      in_line.stop <= signed(x);
+      vectors.read_word(x);
+      in_line.remaining <= unsigned(x);
+      vectors.read_flag(flag);
+      in_line.empty <= flag;
+      vectors.read_flag(flag);
+      in_line.backward <= flag;
+      vectors.read_flag(flag);
+      in_line.carry <= flag;
+      vectors.read_flag(flag);
+      line_ready <= flag;
+      vectors.read_flag(flag);
+      span_last_next <= flag;
+      wait until rising_edge(clk);
+      vectors.check_flag("advance", advance);
+      vectors.check_flag("step", step);
+      vectors.check_flag("span_load", span_load);
+      vectors.check_flag("valid", valid);
+      vectors.check_word_if(valid, "line.triangle", line.triangle);
+      vectors.check_word_if(valid, "line.y", std_logic_vector(line.y));
+      vectors.check_word_if(valid, "line.start", std_logic_vector(line.start));
+      vectors.check_word_if(valid, "line.stop", std_logic_vector(line.stop));
+      vectors.check_word_if(valid, "line.remaining", std_logic_vector(line.remaining));
+      vectors.check_flag("line.empty", line.empty);
+      vectors.check_flag_if(valid, "line.backward", line.backward);
+      vectors.check_flag_if(valid, "line.carry", line.carry);
+    end loop;
+    finished <= true;
+    report "line_stage_tb: passed" severity note;
+    wait;
+  end process;
+end architecture;
