@@ -6,7 +6,7 @@
 --             upper bits of the word, which goes round where the table does.
 -- Formats     formats_pkg: angle
 -- Latency     0 (combinational)
--- Throughput  1 address a clock
+-- Throughput  1 address per clock
 -- Error       none: an address is its cell of the angle, exactly
 -- Source      spherical paper, section 5: the upper bits of the line interpolator address the ROM; in_range is ours
 -- Golden twin model/golden/angle_address.hpp

@@ -3,7 +3,7 @@
 -- Purpose     Dot product of two vectors of three.
 -- Formats     a, b: components of g_bits, signed, x lowest; sum: signed, twice as many bits and one
 -- Latency     1 clock with enable (shading_pkg)
--- Throughput  1 vector a clock
+-- Throughput  1 vector per clock
 -- Error       none
 -- Source      processors paper, figures 1 and 2
 -- Golden twin model/golden/dot_product.hpp

@@ -6,7 +6,7 @@
 --             before
 -- Formats     a: g_a_bits, b: g_b_bits, product: as many as both together
 -- Latency     3 clocks from operands with enable to their product
--- Throughput  1 product a clock
+-- Throughput  1 product per clock
 -- Error       none
 -- Source      spherical paper, figure 12
 -- Golden twin model/golden/multiplier.hpp

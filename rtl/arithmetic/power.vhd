@@ -5,7 +5,7 @@
 --             Preset exact interpolates in both tables; preset published takes a cell's middle, and 1 for base 1.
 -- Formats     base: direction's fraction bits and a whole one, 0 to 1; exponent: format exponent; result: weight
 -- Latency     power_latency of shading_pkg, clocks with enable: 6, in preset published 2
--- Throughput  1 a clock
+-- Throughput  1 per clock
 -- Error       exact 2**-15 + exponent * 2**-23; published, of 255: 2.0 at exponent 1, 9.8 at 10, 45 at 50, 83 at 100,
 --             because a cell of the logarithm is 1/64 wide
 -- Source      processors paper, section 3 (the power by a table); logarithms are ours: a table of all exponents is not

@@ -5,7 +5,7 @@
 --             Newton step, y = T (3 - x T**2) / 2. Below 1 it is twice that of 4 square.
 -- Formats     square: format square, 1/4 to 4 (0 gives a number, too); reciprocal: format root and a whole bit more
 -- Latency     reciprocal_root_latency of shading_pkg, clocks with enable: 4, in preset published 1
--- Throughput  1 a clock
+-- Throughput  1 per clock
 -- Error       relative: 2**-19.7 exact, 2**-6.89 published; a unit vector is as long within 2**-19.5, or 2**-6.86
 -- Source      processors paper, section 3 (1/sqrt by a table); the Newton step is ours
 -- Golden twin model/golden/reciprocal_root.hpp

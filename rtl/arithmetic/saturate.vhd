@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     A signed fixed-point value to an unsigned whole number of fewer bits: below zero gives zero, above the
---             largest gives the largest, in between the fraction is dropped. The 0.5 that makes this rounding stands
---             in the start value.
+-- Purpose     Converts a signed fixed-point value to an unsigned integer of fewer bits: values below zero give zero, values
+--             above the largest result give the largest, all others lose their fraction. The start value contains
+--             the 0.5 that turns this into rounding.
 -- Formats     value: signed, g_value_bits with g_fraction_bits of fraction; result: unsigned, g_result_bits
 -- Latency     0 (combinational)
--- Throughput  1 result a clock
+-- Throughput  1 result per clock
 -- Error       [0, 1) below the value inside the range
 -- Source      quadratic paper, section 5 (the 0.5 in the start value)
 -- Golden twin model/golden/saturate.hpp
@@ -36,7 +36,7 @@ architecture rtl of saturate is
 begin
 
   assert g_value_bits >= g_fraction_bits + g_result_bits + 2
-    report "saturate: " & integer'image(g_value_bits) & " bits hold no bit above the result's "
+    report "saturate: " & integer'image(g_value_bits) & " bits have no bit above the result's "
     & integer'image(g_result_bits) & " and the fraction's " & integer'image(g_fraction_bits)
     severity failure;
 

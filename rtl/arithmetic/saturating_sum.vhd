@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Sum of unsigned fixed-point terms to a whole number of fewer bits: the sum is as wide as all terms at
---             their largest ask for, so it never wraps; its fraction is dropped, and above the largest result it
---             gives the largest. The 0.5 that makes this rounding stands in one of the terms.
--- Contract    result stands still without enable
+-- Purpose     Sum of unsigned fixed-point terms, as an integer of fewer bits. The sum is wide enough for all terms at their
+--             largest, so it never wraps. Its fraction is dropped; sums above the largest result give the largest.
+--             One of the terms contains the 0.5 that turns this into rounding.
+-- Contract    result does not change without enable
 -- Formats     terms: g_terms of g_term_bits each, g_fraction_bits of them fraction, the first lowest; result: unsigned,
 --             g_result_bits
 -- Latency     1 clock from terms with enable to their result
--- Throughput  1 result a clock
+-- Throughput  1 result per clock
 -- Error       [0, 1) below the sum inside the range
 -- Source      spherical paper, figure 12 (the adders of red, green and blue)
 -- Golden twin model/golden/saturating_sum.hpp
@@ -33,7 +33,7 @@ end entity;
 
 architecture rtl of saturating_sum is
 
-  -- Of g_terms times the largest term: 2**bits >= g_terms.
+  -- Bits that g_terms terms add to the width of one: 2**bits >= g_terms.
   function carry_bits return natural is
     variable bits : natural := 0;
   begin
@@ -57,7 +57,7 @@ begin
 
   registers : process (clk)
     variable v    : unsigned(c_sum_bits - 1 downto 0);
-    variable high : std_logic; -- a term has its highest bit
+    variable high : std_logic; -- the highest bit of any term is set
   begin
     if rising_edge(clk) then
       if enable = '1' then
@@ -65,7 +65,8 @@ begin
         for i in 1 to g_terms - 1 loop
           v := v + resize(unsigned(terms((i + 1) * g_term_bits - 1 downto i * g_term_bits)), c_sum_bits);
         end loop;
-        -- Where none has, nothing carries so far. As that is said, a cell of the sum's own gives its highest bit.
+        -- Clear the sum's highest bit if no term has its highest bit set: it is zero then, and so the sum's highest cell is
+        -- a lookup table with its carry.
         high := '0';
         for i in 0 to g_terms - 1 loop
           high := high or terms((i + 1) * g_term_bits - 1);

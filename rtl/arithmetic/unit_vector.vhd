@@ -4,7 +4,7 @@
 --             product, rounding.
 -- Formats     components: of g_vector_bits each, signed, of any scale, x lowest; unit: format direction
 -- Latency     unit_vector_latency of terms_pkg, clocks with enable
--- Throughput  1 vector a clock
+-- Throughput  1 vector per clock
 -- Error       its length: see reciprocal_root; its direction: 2**-20.7 exact, 2**-13.2 published, see direction in
 --             formats_pkg
 -- Source      processors paper, figure 2

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Each component of a vector of three times one of another: a vector by a scalar, a colour by a colour.
--- Formats     a: components of g_a_bits, b: of g_b_bits, products: of as many as both together; signed, x lowest
+-- Purpose     Multiplies two vectors of three component by component: a vector by a scalar, a colour by a colour.
+-- Formats     a: components of g_a_bits, b: of g_b_bits, products: of g_a_bits + g_b_bits; signed, x lowest
 -- Latency     1 clock with enable (shading_pkg)
--- Throughput  1 vector a clock
+-- Throughput  1 vector per clock
 -- Error       none
 -- Source      processors paper, figures 1 and 2
 -- Golden twin model/golden/vector_multiply.hpp

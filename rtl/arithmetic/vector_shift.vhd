@@ -1,12 +1,13 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Shifts the three components of a vector left alike as far as none loses its sign, so that the largest
---             lies from 1/2 to 1: what a normalization is spared of lengths other than that. A zero vector stays one.
+-- Purpose     Block shift: shifts the three components of a vector left by the same number of bits, as far as no component
+--             loses its sign. The largest component is then from 1/2 to 1, so a normalization need not handle
+--             other lengths. A zero vector stays zero.
 -- Formats     components: of g_vector_bits each, signed, of any scale, x lowest; shifted: of g_result_bits, signed, all
 --             bits but the sign fraction
 -- Latency     1 clock with enable (shading_pkg)
--- Throughput  1 vector a clock
--- Error       (-1, 0] of the result's last bit: what does not fit is dropped
+-- Throughput  1 vector per clock
+-- Error       (-1, 0] of the result's last bit: lower bits are dropped
 -- Source      ours: the processors paper names no word lengths
 -- Golden twin model/golden/vector_shift.hpp
 
@@ -52,7 +53,7 @@ architecture rtl of vector_shift is
     variable moving : word_t := c_zeros;
     variable result : result_t := (others => '0');
   begin
-    -- A bit set: there some component differs from its sign. The lowest ends the search.
+    -- Mark the bits in which some component differs from its sign. The lowest bit is always marked: it ends the search.
     for axis in words'range loop
       words(axis) := flat((axis + 1) * g_vector_bits - 1 downto axis * g_vector_bits);
       signs       := (others => words(axis)(c_high));

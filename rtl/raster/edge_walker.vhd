@@ -1,15 +1,16 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     An edge, exactly: the first pixel whose centre is at or right of it, line by line, by integer quotient and
---             remainder. With dx/dy = quotient + remainder/divisor, a step adds the quotient, and one pixel more where
---             the error, the pixel's distance right of the edge in 1/divisor pixels, is less than the remainder.
---             The error runs a line ahead of x, less the remainder, so that the carry of the next step is a register and
---             the error takes one sum: its sign is what the comparison would say.
--- Contract    load = '1' stays until step is; where both are, the edge is taken
+-- Purpose     An exact edge, line by line: the first pixel whose centre is on the edge or right of it, by integer quotient
+--             and remainder. With dx/dy = quotient + remainder/divisor, a step adds the quotient, and one more pixel (the
+--             carry) if the error is less than the remainder. The error is the pixel's distance from the edge in
+--             1/divisor pixels.
+--             The register `reduced` is the error of the next line minus the remainder: its sign is the result of that
+--             comparison, and the carry of the next step is a register.
+-- Contract    load stays '1' until step is; where both are '1', the edge is loaded
 -- Formats     formats_pkg: x and quotient span_x; error, remainder and divisor edge_error
 -- Latency     1 clock from a step to x and carry
--- Throughput  1 line a clock
--- Error       none; x never leaves the edge
+-- Throughput  1 line per clock
+-- Error       none
 -- Source      Bresenham; the quadratic paper steps a rounded slope instead (preset published)
 -- Golden twin model/golden/edge_walker.hpp
 
@@ -21,16 +22,16 @@ use work.formats_pkg.all;
 entity edge_walker is
   port (
     clk            : in  std_logic;
-    load           : in  std_logic; -- take another edge in place of the next step
+    load           : in  std_logic; -- the next step loads an edge
     load_x         : in  std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
     load_quotient  : in  std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
     load_remainder : in  std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
     load_divisor   : in  std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
     load_error     : in  std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0); -- after the first step
     load_carry     : in  std_logic;                                                      -- of the first step
-    step           : in  std_logic;
+    step           : in  std_logic; -- go to the next line
     x              : out std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
-    carry          : out std_logic -- the next step goes one pixel further than the quotient
+    carry          : out std_logic -- the next step is one pixel longer than the quotient
   );
 end entity;
 
@@ -45,7 +46,7 @@ architecture rtl of edge_walker is
     quotient  : span_x_t;
     remainder : error_t;
     rise      : error_t; -- divisor - remainder
-    reduced   : reduced_t; -- the error less the remainder; where no step was taken, the error
+    reduced   : reduced_t; -- the error minus the remainder; before the first step, the error
     carry     : std_logic;
   end record;
 
@@ -60,22 +61,27 @@ begin
     variable increment    : reduced_t;
     variable next_reduced : unsigned(reduced_t'length downto 0);
   begin
-    v      := r;
-    below  := r.reduced(r.reduced'high);
-    next_x := (r.x & '1') + (r.quotient & r.carry); -- one sum takes the carry
+    v := r;
 
+    -- Add the quotient and the carry, in one sum.
+    next_x := (r.x & '1') + (r.quotient & r.carry);
+
+    -- Subtract the remainder from the error; add the divisor if the error is less than it.
+    below     := r.reduced(r.reduced'high);
     increment := '1' & not r.remainder;
     if below = '1' then
       increment := '0' & r.rise;
     end if;
     next_reduced := (r.reduced & '1') + (increment & not below);
 
-    -- What the steps add is taken while load waits for its step: no sum of the edge before is wanted then.
+    -- Load the increments, already while load waits for its step: the edge before needs no more sums.
     if load = '1' then
       v.quotient  := signed(load_quotient);
       v.remainder := unsigned(load_remainder);
       v.rise      := unsigned(load_divisor) - unsigned(load_remainder);
     end if;
+
+    -- Go to the next line.
     if step = '1' then
       v.x       := next_x(next_x'high downto 1);
       v.reduced := next_reduced(next_reduced'high downto 1);

@@ -1,19 +1,20 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Finds which object is nearest at each pixel of a line before any is shaded. A line comes in three rounds of
---             tokens, told by their command:
---               depth     of all objects: the nearest z of each column is kept, of equal ones the first, with its
---                         triangle. None leaves the stage.
---               shadow    a shadow polygon leaves where an object is there and the polygon is nearer, strictly
---               any other of all objects again: the one leaves whose z and triangle are the kept ones, and takes them
---                         away, so that each pixel is shaded once, and no column is left for the next line
--- Contract    valid/ready; tokens leave in order and stand still while they wait. clear, only where idle = '1' and
---             in_valid = '0', takes all columns away; it, and reset, keep in_ready and idle at '0' for a clock a column up to the last kept one,
---             after reset for all. busy: a token is held; idle: neither that, nor are columns being taken away.
--- Formats     formats_pkg: pixel (the token's header); of the rest nothing is read
+-- Purpose     Finds the nearest object at each pixel of a line before any object is shaded. The tokens of a line come in
+--             three rounds, distinguished by their command:
+--               depth     all objects: the stage stores the nearest z of each column with its triangle, the first one if
+--                         several are equal, and drops the token
+--               shadow    shadow polygons: passed on where an object is stored and the polygon is strictly nearer
+--               any other all objects again: passed on where z and triangle are the stored ones. This clears the column,
+--                         so each pixel is shaded once and no column stays occupied for the next line.
+-- Contract    valid/ready; tokens leave in order and do not change while they wait. clear is '1' only where idle = '1' and
+--             in_valid = '0'; it clears all columns. After clear, in_ready and idle are '0' for one clock per column up to
+--             the last stored one; after reset, for one clock per column of all.
+--             busy: the stage holds a token. idle: it holds none, and no columns are being cleared.
+-- Formats     formats_pkg: pixel (the token's header); the other bits are not read
 -- Latency     1 clock
--- Throughput  1 token a clock, whatever columns follow each other
--- Source      processors paper, section 3.3: shadow polygons count where they lie before the object
+-- Throughput  1 token per clock, for any order of columns
+-- Source      processors paper, section 3.3: shadow polygons count where they are nearer than the object
 -- Golden twin model/golden/object_stage.hpp
 
 library ieee;
@@ -25,7 +26,7 @@ use work.processors_pkg.all;
 entity object_stage is
   generic (
     g_exact : boolean := true;
-    g_bits  : positive -- of a token
+    g_bits  : positive -- bits of a token
   );
   port (
     clk       : in  std_logic;
@@ -50,7 +51,7 @@ architecture rtl of object_stage is
   subtype command_t is std_logic_vector(c_formats.command.bits - 1 downto 0);
   subtype column_t is unsigned(c_formats.pixel_x.bits - 1 downto 0);
 
-  -- Of an entry, from the top: whether an object is there, its depth, its triangle.
+  -- An entry, from its highest bit: whether it holds an object, the depth, the triangle.
   constant c_entry_bits : positive := 1 + c_formats.depth.bits + c_formats.triangle.bits;
 
   subtype entry_t is std_logic_vector(c_entry_bits - 1 downto 0);
@@ -64,9 +65,9 @@ architecture rtl of object_stage is
 
   type reg_t is record
     clearing  : std_logic;
-    last      : column_t; -- kept last of all, or where clearing stands
+    last      : column_t; -- the highest column that was stored; while clearing, the column to clear
     valid     : std_logic;
-    forwarded : std_logic; -- the token before has changed this column: it is not in the memory yet
+    forwarded : std_logic; -- the token before changed this column: use `forward`, the memory is not yet written
     forward   : entry_t;
   end record;
 
@@ -83,7 +84,7 @@ architecture rtl of object_stage is
   signal passes, keeps     : std_logic;
   signal takes_away        : std_logic;
   signal free, take        : std_logic;
-  signal changes           : std_logic; -- the token's column, as it leaves
+  signal changes           : std_logic; -- write the token's column
   signal changed           : entry_t;
   signal write_enable      : std_logic;
   signal write_at          : column_t;
@@ -124,7 +125,7 @@ begin
   free     <= not r.valid or not passes or out_ready;
   in_ready <= free and not r.clearing;
   take     <= in_valid and free and not r.clearing;
-  -- While the token waits its column is written again, the same.
+  -- While the token waits, its column is written again with the same entry.
   changes <= r.valid and (keeps or takes_away);
 
   combinational : process (all)
@@ -182,7 +183,7 @@ begin
   write_at     <= r.last when r.clearing = '1' else column;
   written      <= c_nothing when r.clearing = '1' else changed;
 
-  -- A variable: GHDL would keep a signal's history for every bit.
+  -- A variable, because GHDL keeps a driver for every bit of a signal.
   memory : process (clk)
     type memory_t is array (2 ** column_t'length - 1 downto 0) of entry_t;
 

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     A word again g_depth clocks later: what goes beside a pipeline. A circular buffer of g_depth - 1 words and
---             a register, so that a clock writes one word, however deep the line is.
--- Contract    until g_depth words were taken `delayed` is anything; reset need not hold while enable is '1'
--- Formats     g_bits of anything
+-- Purpose     Delays a word by g_depth clocks, for words that accompany a pipeline. A circular buffer of g_depth - 1 words
+--             and a register, so that each clock writes one word at any depth.
+-- Contract    until g_depth words have been taken, `delayed` is undefined
+-- Formats     g_bits of any format
 -- Latency     g_depth clocks with enable
--- Throughput  1 word a clock
+-- Throughput  1 word per clock
 -- Source      ours: the papers have no pipeline as deep
 -- Golden twin model/golden/delay_line.hpp
 
@@ -16,7 +16,7 @@ use ieee.numeric_std.all;
 entity delay_line is
   generic (
     g_bits  : positive;
-    g_depth : natural -- 0: the word itself
+    g_depth : natural -- 0: no delay
   );
   port (
     clk     : in  std_logic;
@@ -79,7 +79,7 @@ begin
 
     subtype index_t is unsigned(index_bits - 1 downto 0);
 
-    -- A power of two of them: an index never leaves the array.
+    -- A power of two words: every index is in the array.
     type memory_t is array (2 ** index_bits - 1 downto 0) of word_t;
 
     signal index : index_t;
@@ -100,7 +100,7 @@ begin
         end if;
       end process;
 
-      -- A variable: GHDL need not keep a driver for each bit of it.
+      -- A variable, because GHDL keeps a driver for every bit of a signal.
       buffered : process (clk)
         variable memory : memory_t;
       begin

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Holds words that stay as they are while a triangle or a line is drawn.
--- Formats     g_bits of anything
+-- Purpose     Holds words that do not change while a triangle or a line is drawn.
+-- Formats     g_bits of any format
 -- Latency     1 clock from load to value
--- Throughput  1 load a clock
--- Error       none: the words are held as they are
--- Source      none: the papers leave out what holds their parameters
+-- Throughput  1 load per clock
+-- Error       none
+-- Source      ours: the papers do not show registers of parameters
 -- Golden twin model/golden/parameter_register.hpp
 
 library ieee;
@@ -27,8 +27,8 @@ architecture rtl of parameter_register is
 
 begin
 
-  -- Nothing to compute: the one clocked process is all. Its enable keeps wide words from costing a simulator anything in
-  -- the clocks in which they stand still, and so does the port that is the register itself.
+  -- One clocked process with an enable, and the port is the register: wide words then cost a simulator nothing in
+  -- clocks without a load.
   registers : process (clk)
   begin
     if rising_edge(clk) then

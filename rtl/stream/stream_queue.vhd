@@ -1,16 +1,16 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The end of a pipeline that never stalls: places for all words that are on their way, so that whoever begins
---             one need only look at a register, `room`.
--- Contract    A word is claimed where claim and room are both '1' at a rising edge; claim is '0' where room is. It comes
---             later, in any clock behind that one: in_valid = '1', and it is taken. Words come in the order of their
---             claims. One leaves where out_valid and out_ready are both '1'; out_data does not change while
---             out_valid = '1' and out_ready = '0'. holds: words are claimed, or in the queue.
--- Formats     g_bits of anything
+-- Purpose     The end of a pipeline that never stalls: a place for every word that is in the pipeline. The start of the
+--             pipeline claims a place for each word, and stalls by one register, `room`.
+-- Contract    A place is claimed where claim = '1' at a rising edge; claim is '1' only where room is. Its word comes in a
+--             later clock: in_valid = '1'. Words come in the order of their claims. A word leaves where out_valid and
+--             out_ready are both '1'; out_data does not change while out_valid = '1' and out_ready = '0'. holds: a
+--             place is claimed or a word is in the queue.
+-- Formats     g_bits of any format
 -- Latency     2 clocks from in_valid to out_valid
--- Throughput  1 word a clock, where a word comes 2**g_index_bits - 4 clocks after its claim or sooner
--- Error       none: words come out as they went in, each once, in their order
--- Source      ours: the papers have no receiver that waits
+-- Throughput  1 word per clock, if each word comes at most 2**g_index_bits - 4 clocks after its claim
+-- Error       none: each word comes out once, unchanged, in order
+-- Source      ours: in the papers the receiver never stalls
 -- Golden twin model/golden/stream_queue.hpp
 
 library ieee;
@@ -20,7 +20,7 @@ use ieee.numeric_std.all;
 entity stream_queue is
   generic (
     g_bits       : positive;
-    g_index_bits : positive := 3 -- 2**g_index_bits - 1 words may be claimed at once
+    g_index_bits : positive := 3 -- at most 2**g_index_bits - 1 places are claimed
   );
   port (
     clk       : in  std_logic;
@@ -38,7 +38,7 @@ end entity;
 
 architecture rtl of stream_queue is
 
-  constant c_words_bits : positive := 64; -- Verilator copies so many as one word
+  constant c_words_bits : positive := 64; -- Verilator copies so many bits as one word
   constant c_words      : positive := (g_bits + c_words_bits - 1) / c_words_bits; -- elaboration only
 
   subtype index_t is unsigned(g_index_bits - 1 downto 0);
@@ -46,10 +46,10 @@ architecture rtl of stream_queue is
   constant c_most : index_t := (others => '1');
 
   type reg_t is record
-    claimed   : index_t; -- words claimed and not given out
+    claimed   : index_t; -- places claimed
     room      : std_logic;
-    stored    : std_logic; -- a word lies in memory: a register, so that no comparison is behind who takes the words
-    single    : std_logic; -- and no other
+    stored    : std_logic; -- a word is in the memory; a register instead of a comparison of the indices, for the clock
+    single    : std_logic; -- exactly one word is in the memory
     write     : index_t;
     read      : index_t;
     second    : index_t; -- read + 2
@@ -58,8 +58,8 @@ architecture rtl of stream_queue is
 
   signal r, r_next : reg_t;
 
-  signal advance : std_logic; -- a word goes from memory to the output
-  signal reads   : std_logic; -- the same, by the indices
+  signal advance : std_logic; -- a word moves from the memory to the output
+  signal reads   : std_logic; -- the same, from the indices
   signal leaves  : std_logic;
 
 begin
@@ -67,12 +67,12 @@ begin
   advance <= r.stored and (out_ready or not r.out_valid);
   leaves  <= r.out_valid and out_ready;
 
-  -- So a synthesizer sees that no place is read while it is written; else it brings registers for that.
+  -- This form shows a synthesizer that no place is read while it is written; otherwise it adds registers for that case.
   reads <= (out_ready or not r.out_valid) when not (r.write = r.read) else '0';
 
   combinational : process (all)
     variable v   : reg_t;
-    variable two : std_logic; -- words lie in memory, where any do
+    variable two : std_logic; -- two words are in the memory, if any is
   begin
     v := r;
     if claim = '1' and leaves = '0' then
@@ -134,7 +134,7 @@ begin
 
     begin
 
-      -- A variable: GHDL need not keep a driver for each bit of it.
+      -- A variable, because GHDL keeps a driver for every bit of a signal.
       places : process (clk)
         variable memory : memory_t;
       begin

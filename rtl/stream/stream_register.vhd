@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     One place of a valid/ready stream: the buffer in front of the walker, so that the next init vector
---             waits while this triangle is drawn, and the register behind the shader.
+-- Purpose     One place of a valid/ready stream: the buffer before the walker, which holds the next init vector while a
+--             triangle is drawn, and the output register of a shader.
 -- Contract    A word moves where valid and ready are both '1' at a rising edge. out_data does not change while
---             out_valid = '1' and out_ready = '0'. in_ready follows out_ready in the same clock.
--- Formats     g_bits of anything
+--             out_valid = '1' and out_ready = '0'. in_ready depends on out_ready in the same clock.
+-- Formats     g_bits of any format
 -- Latency     1 clock
--- Throughput  1 word a clock
--- Error       none: words come out as they went in, each once, in their order
+-- Throughput  1 word per clock
+-- Error       none: each word comes out once, unchanged, in order
 -- Source      quadratic paper, section 5 (the next triangle is initialized while this one is drawn); valid/ready is
 --             ours
 -- Golden twin model/golden/stream_register.hpp
@@ -18,7 +18,7 @@ use ieee.std_logic_1164.all;
 entity stream_register is
   generic (
     g_bits  : positive;
-    g_eager : boolean := false -- while it is free it takes what is offered, valid or not: the enable does not wait for that
+    g_eager : boolean := false -- load whenever the place is free, valid or not: the enable does not depend on in_valid
   );
   port (
     clk       : in  std_logic;
@@ -52,7 +52,7 @@ begin
     variable v : reg_t;
   begin
     v := r;
-    v.valid := in_valid or not free; -- what is not free holds a word
+    v.valid := in_valid or not free; -- a place that is not free holds a word
     if reset = '1' then
       v.valid := '0';
     end if;

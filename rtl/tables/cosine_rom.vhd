@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     A table of a power of the cosine, read a clock later. Preset exact: entry k stands for
---             cos(pi/2 * (k + 1/2) / 2**address_bits) ** power, the half of the bell from its top on. Preset published:
---             the address is signed and goes round: cos**2 over half bells, or cos over whole ones, negative ones zero.
+-- Purpose     A table of a power of the cosine. Preset exact: entry k is
+--             cos(pi/2 * (k + 1/2) / 2**address_bits) ** power, half of the bell, from its top on. Preset published: the
+--             address is signed and wraps: cos**2 over half bells, or cos over whole ones, with negative values zero.
 -- Formats     sample: unsigned, of 2**g_data_bits - 1; table: cosine_pkg
 -- Latency     1 clock from an address with enable to its sample
--- Throughput  1 sample a clock
+-- Throughput  1 sample per clock
 -- Error       half a step of the sample, and half a cell of the angle where the power is steepest: see cosine_pkg
 -- Source      spherical paper, section 5 and figure 11
 -- Golden twin model/golden/cosine_rom.hpp
@@ -32,7 +32,7 @@ end entity;
 
 architecture rtl of cosine_rom is
 
-  -- Downwards: GHDL's netlist reads an upward array by subtracting the address from its last.
+  -- A descending range: for an ascending one GHDL's netlist subtracts the address from the last index.
   type rom_t is array (2 ** g_address_bits - 1 downto 0) of std_logic_vector(g_data_bits - 1 downto 0);
 
   type reg_t is record

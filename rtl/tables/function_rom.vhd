@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     A table of 1/sqrt(x), log2(x) or 2**-x, read a clock later. Where the function is interpolated the sample
---             is the function at its cell's beginning, and above it the slope: by how much it differs at the cell's
---             end. Else it is the function at its cell's middle.
+-- Purpose     A table of 1/sqrt(x), log2(x) or 2**-x. If the function is interpolated, a sample is the value at the start of
+--             its cell and, above it, the slope: the difference to the value at the cell's end. Otherwise a sample
+--             is the value at the middle of its cell.
 -- Formats     sample: slope_bits above value_bits, both unsigned; function_pkg
 -- Latency     1 clock from an address with enable to its sample
--- Throughput  1 sample a clock
+-- Throughput  1 sample per clock
 -- Error       half a step of the value where it stands; over its cell: see function_pkg
 -- Source      processors paper, figures 1 and 2: its tables of x**m and of 1/sqrt(x)
 -- Golden twin model/golden/function_rom.hpp
@@ -35,7 +35,7 @@ architecture rtl of function_rom is
 
   subtype sample_t is std_logic_vector(sample_bits(g_exact, g_which) - 1 downto 0);
 
-  -- Downwards: GHDL's netlist reads an upward array by subtracting the address from its last.
+  -- A descending range: for an ascending one GHDL's netlist subtracts the address from the last index.
   type rom_t is array (2 ** c_format.address_bits - 1 downto 0) of sample_t;
 
   function entries return rom_t is
