@@ -13,6 +13,7 @@
 
 #include "page/page.hpp"
 #include "registry.hpp"
+#include "sim/pages/template.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway::bounds {
@@ -179,7 +180,7 @@ class TableBounds : public testing::TestWithParam<Table> {
   void check(bool quick) {
     const Rows rows = with_context(quick, GetParam().rows);
     EXPECT_FALSE(rows.empty());
-    RecordProperty(std::string(page::c_table), page::table(GetParam().columns, rows));
+    RecordProperty(std::string(page::c_table), markdown_table(GetParam().columns, rows));
   }
 };
 

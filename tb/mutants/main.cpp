@@ -16,6 +16,7 @@
 #include "mutants/replay.hpp"
 #include "mutants/source_faults.hpp"
 #include "page/page.hpp"
+#include "sim/pages/template.hpp"
 #include "sim/program/program.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/threads.hpp"
@@ -291,13 +292,13 @@ class Run {
         {"Netlist faults", fmt::format("{}\n{}\nOf the {} faults that are not proved equivalent, the vectors "
                                        "find {:.1f} %. Seconds are "
                                        "those of a run with {} jobs.\n\n{}",
-                                       what_was_run(), page::table(columns, rows), possible,
+                                       what_was_run(), markdown_table(columns, rows), possible,
                                        100.0 * static_cast<double>(all.count(End::found)) /
                                            static_cast<double>(std::max<std::size_t>(possible, 1)),
-                                       options_.jobs, page::table(kind_columns, kind_rows))},
+                                       options_.jobs, markdown_table(kind_columns, kind_rows))},
         {"Source faults", fmt::format("Of {} faults in sources and vector files, the testbenches find {}.\n",
                                       sources_, sources_ - missed_.size())},
-        {"Survivors", page::table(survivor_columns, survivor_rows)}};
+        {"Survivors", markdown_table(survivor_columns, survivor_rows)}};
     return page::write_sections(options_.page, sections);
   }
 

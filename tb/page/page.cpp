@@ -2,11 +2,11 @@
 #include "page/page.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <pugixml.hpp>
 
+#include "sim/pages/template.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway::page {
@@ -40,14 +40,6 @@ std::string fault_of(const pugi::xml_node& test, const std::vector<std::string>&
 }
 
 }  // namespace
-
-std::string table(std::span<const std::string> columns, std::span<const std::vector<std::string>> rows) {
-  std::string text = fmt::format("| {} |\n|", fmt::join(columns, " | "));
-  for (std::size_t i = 0; i < columns.size(); ++i) text += " --- |";
-  text += '\n';
-  for (const std::vector<std::string>& row : rows) text += fmt::format("| {} |\n", fmt::join(row, " | "));
-  return text;
-}
 
 std::string with_sections(std::string_view text, std::span<const Section> sections) {
   std::string page(text);
@@ -88,8 +80,8 @@ Result<std::vector<Section>> read_results(std::string_view file, const std::stri
     }
     if (columns.empty()) continue;
     const bool is_whole = columns == std::vector<std::string>{std::string(c_table)};
-    sections.push_back(
-        {heading_of(suite.attribute("name").value()), is_whole ? joined(rows) : table(columns, rows)});
+    sections.push_back({heading_of(suite.attribute("name").value()),
+                        is_whole ? joined(rows) : markdown_table(columns, rows)});
   }
   if (sections.empty()) return bad_input(fmt::format("{}: no test records a property", file));
   return sections;

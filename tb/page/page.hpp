@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pages of evidence: Markdown files whose sections are written from results, and the tables in them.
+// Pages of evidence: Markdown files whose sections are written from results.
 #pragma once
 
 #include <filesystem>
@@ -16,9 +16,6 @@ struct Section {
   std::string heading{};  ///< without the ##
   std::string body{};     ///< ends with a line's end
 };
-
-/// The rows as a Markdown table.
-std::string table(std::span<const std::string> columns, std::span<const std::vector<std::string>> rows);
 
 /// The text with these sections in it. A section replaces the one with the same heading, or is appended.
 std::string with_sections(std::string_view text, std::span<const Section> sections);

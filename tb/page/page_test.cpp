@@ -36,10 +36,7 @@ TEST(Results, BecomeATableForEachSuite) {
 }
 
 TEST(Results, MayBeAWholeTable) {
-  const std::string columns[] = {"a", "b"};
-  const std::vector<std::string> rows[] = {{"1", "2"}};
-  const std::string body = table(columns, rows);
-  EXPECT_EQ(body, "| a | b |\n| --- | --- |\n| 1 | 2 |\n");
+  const std::string body = "| a | b |\n| --- | --- |\n| 1 | 2 |\n";
   std::string escaped;  // as GoogleTest writes it
   for (const char c : body) escaped += c == '\n' ? std::string("&#x0A;") : std::string(1, c);
   const auto sections = read_results("r.xml", results(result("x", "<property name=\"" + std::string(c_table) +

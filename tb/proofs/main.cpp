@@ -15,6 +15,7 @@
 #include "page/page.hpp"
 #include "proof_files.hpp"
 #include "prover.hpp"
+#include "sim/pages/template.hpp"
 #include "sim/program/program.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/threads.hpp"
@@ -170,7 +171,7 @@ std::string table_of(const std::vector<Proof>& proofs, const std::vector<Outcome
                                             "clocks",   "seconds", "faults refuted"};
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < proofs.size(); ++i) rows.push_back(row_of(proofs[i], outcomes[i]));
-  return page::table(columns, rows);
+  return markdown_table(columns, rows);
 }
 
 // ---- The program

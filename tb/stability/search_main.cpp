@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "page/page.hpp"
+#include "sim/pages/template.hpp"
 #include "sim/program/program.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/seconds.hpp"
@@ -158,16 +159,17 @@ Status report(const Search& search, const Options& options, const Found& found) 
 
 std::string section_body(const Search& search, const Options& options, const Tally& tally, double seconds,
                          double processor_seconds) {
-  std::string body = fmt::format(
+  const std::vector<std::string> columns = {"quantity", "inputs", "worst", "of"};
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [quantity, worst] : tally.worst)
+    rows.push_back({quantity, std::to_string(worst.count), fmt::format("{:.3g}", worst.figure),
+                    fmt::format("{:.3g}", worst.bound)});
+  return fmt::format(
       "{}\n\n`make search` with seed {}: {} inputs and {} fragments through the golden model against the "
       "specification, {} inputs and {} fragments through the RTL (Verilator) against the golden model; "
-      "{:.0f} s, {:.0f} s of a processor.\n\n"
-      "| quantity | inputs | worst | of |\n| --- | --- | --- | --- |\n",
+      "{:.0f} s, {:.0f} s of a processor.\n\n{}",
       search.about(), options.seed, tally.inputs, tally.fragments, tally.rtl_inputs, tally.rtl_fragments,
-      seconds, processor_seconds);
-  for (const auto& [quantity, worst] : tally.worst)
-    body += fmt::format("| {} | {} | {:.3g} | {:.3g} |\n", quantity, worst.count, worst.figure, worst.bound);
-  return body;
+      seconds, processor_seconds, markdown_table(columns, rows));
 }
 
 ExitCode run_search(const Search& search, const Options& options, std::uint64_t count,
