@@ -30,6 +30,25 @@ namespace {
 
 constexpr const char* c_mesa_program = "build/halfway_mesa";
 
+struct Name {
+  const char *short_name, *title;
+};
+const Name& name_of(Way way) {
+  static constexpr std::array<Name, c_ways.size()> c_names = {
+      {{"lanes_compared", "RTL in lanes, every field compared with the golden model drawn on the same core"},
+       {"lanes", "RTL in lanes alone"},
+       {"verilator_compared", "RTL in Verilator as built here, compared likewise"},
+       {"verilator", "RTL in Verilator as built here, alone"},
+       {"verilator_as_it_comes", "RTL in Verilator as it comes, alone"},
+       {"cxxrtl", "RTL in CXXRTL, alone"},
+       {"ghdl_llvm", "RTL in GHDL, llvm"},
+       {"ghdl_mcode", "RTL in GHDL, mcode"},
+       {"golden", "golden model alone"},
+       {"reference", "Phong shading per pixel in double, the reference renderer"},
+       {"mesa", "Phong shading per pixel by OpenGL on Mesa's llvmpipe"}}};
+  return c_names.at(static_cast<std::size_t>(way));
+}
+
 Error wrong(Way way, const HardwareKey& key) {
   return {ExitCode::differs,
           fmt::format("{}, {}: not the golden model's fragments", to_string(way), key.name())};
@@ -140,46 +159,11 @@ std::vector<std::uint8_t> inside(const std::vector<std::uint8_t>& mask, FrameSiz
 }  // namespace
 
 std::string to_string(Way way) {
-  switch (way) {
-    case Way::lanes_compared:
-      return "RTL in lanes, every field compared with the golden model drawn on the same core";
-    case Way::lanes:
-      return "RTL in lanes alone";
-    case Way::verilator_compared:
-      return "RTL in Verilator as built here, compared likewise";
-    case Way::verilator:
-      return "RTL in Verilator as built here, alone";
-    case Way::verilator_as_it_comes:
-      return "RTL in Verilator as it comes, alone";
-    case Way::cxxrtl:
-      return "RTL in CXXRTL, alone";
-    case Way::ghdl_llvm:
-      return "RTL in GHDL, llvm";
-    case Way::ghdl_mcode:
-      return "RTL in GHDL, mcode";
-    case Way::golden:
-      return "golden model alone";
-    case Way::reference:
-      return "Phong shading per pixel in double, the reference renderer";
-    case Way::mesa:
-      break;
-  }
-  return "Phong shading per pixel by OpenGL on Mesa's llvmpipe";
+  return name_of(way).title;
 }
 
 std::string short_name(Way way) {
-  constexpr std::array c_names = {"lanes_compared",
-                                  "lanes",
-                                  "verilator_compared",
-                                  "verilator",
-                                  "verilator_as_it_comes",
-                                  "cxxrtl",
-                                  "ghdl_llvm",
-                                  "ghdl_mcode",
-                                  "golden",
-                                  "reference",
-                                  "mesa"};
-  return c_names[static_cast<std::size_t>(way)];
+  return name_of(way).short_name;
 }
 
 std::string lacking(Way way, const SimulatorFolders& folders) {

@@ -27,17 +27,11 @@ enum class Way {
   reference,
   mesa,
 };
-inline constexpr std::array c_ways = {Way::lanes_compared,
-                                      Way::lanes,
-                                      Way::verilator_compared,
-                                      Way::verilator,
-                                      Way::verilator_as_it_comes,
-                                      Way::cxxrtl,
-                                      Way::ghdl_llvm,
-                                      Way::ghdl_mcode,
-                                      Way::golden,
-                                      Way::reference,
-                                      Way::mesa};
+inline constexpr auto c_ways = [] {
+  std::array<Way, static_cast<std::size_t>(Way::mesa) + 1> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Way>(i);
+  return all;
+}();
 /// As the tables call it.
 std::string to_string(Way way);
 /// As a benchmark's name.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <set>
 
 #include "common/to_integer.hpp"
 
@@ -28,20 +27,16 @@ Rings measure_rings(const Frame& frame, const Frame& without_tables) {
       for (int x = sphere * c_third + c_radius; x < (sphere + 1) * c_third - c_radius; ++x)
         if (blue(without_tables, x, y) > blue(without_tables, peak_x, peak_y) || peak_x == 0)
           peak_x = x, peak_y = y;
-    std::set<int> levels;
     for (int dy = -c_radius; dy <= c_radius; ++dy) {
       const int y = peak_y + dy, half = to_integer<int>(std::sqrt(c_radius * c_radius - dy * dy));
       for (int x = peak_x - half; x <= peak_x + half; ++x) {
         rings.largest_step =
             std::max(rings.largest_step, std::abs(blue(frame, x + 1, y) - blue(frame, x, y)));
         const int error = std::abs(blue(frame, x, y) - blue(without_tables, x, y));
-        rings.largest_error = std::max(rings.largest_error, error);
         squares += error * error;
         ++count;
-        if (dy == 0) levels.insert(blue(frame, x, y));
       }
     }
-    rings.levels += static_cast<int>(levels.size());
   }
   rings.rms_error = std::sqrt(squares / count);
   return rings;

@@ -10,9 +10,7 @@ namespace halfway::figures {
 /// the wrapping angle gets there.
 struct Rings {
   int largest_step = 0;    ///< between neighbours on a line, of 255
-  int largest_error = 0;   ///< against the same interpolation without tables
-  double rms_error = 0.0;  ///< likewise
-  int levels = 0;          ///< different values on the lines through the highlights' centres
+  double rms_error = 0.0;  ///< against the same interpolation without tables
 };
 
 /// Both of the scene `highlights`, of c_rings_frame: one by tables, one without.
