@@ -2,6 +2,7 @@
 // The program, run by tests as a user runs it, in a folder of the test's own.
 #pragma once
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -15,6 +16,12 @@
 #include "sim/system/subprocess.hpp"
 
 namespace halfway {
+
+/// An outcome with this exit code, whose output matches.
+MATCHER_P2(Ends, code, output, "") {
+  *result_listener << "exit code " << arg.exit_code << ", output:\n" << arg.output;
+  return arg.exit_code == code && ::testing::ExplainMatchResult(output, arg.output, result_listener);
+}
 
 class CommandTest : public ::testing::Test {
  protected:

@@ -31,17 +31,15 @@ TEST_F(FiguresCommand, WritesThePageAndItsDataOfWhatIsAskedFor) {
 }
 
 TEST_F(FiguresCommand, RefusesWhatItDoesNotKnow) {
-  const Outcome unknown = run({"figures", "spherical-8"});
-  EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_THAT(unknown.output, AllOf(HasSubstr("'spherical-8' is no figure"), HasSubstr("spherical-16")));
+  EXPECT_THAT(run({"figures", "spherical-8"}),
+              Ends(2, AllOf(HasSubstr("'spherical-8' is no figure"), HasSubstr("spherical-16"))));
   EXPECT_EQ(run({"figures", "--check", "--page", "there"}).exit_code, 2);
   EXPECT_EQ(run({"figures", "--check", "spherical"}).exit_code, 2);
 }
 
 TEST_F(FiguresCommand, SaysWhatBringsGnuplot) {
-  const Outcome outcome = run({"figures", "spherical-09"}, {{"PATH", folder_->path().string()}});
-  EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_THAT(outcome.output, HasSubstr("gnuplot: not found; install it with: apt-get install gnuplot-nox"));
+  EXPECT_THAT(run({"figures", "spherical-09"}, {{"PATH", folder_->path().string()}}),
+              Ends(3, HasSubstr("gnuplot: not found; install it with: apt-get install gnuplot-nox")));
 }
 
 // A checkout whose committed table says something else.
@@ -61,11 +59,10 @@ TEST_F(FiguresCommand, ACheckFindsANumberThatIsNotMeasured) {
   ASSERT_NE(at, std::string::npos);
   text->replace(at, measured.size(), "\"measured\": \"2.7583\"");
   ASSERT_TRUE(write_file(json, *text));
-  const Outcome outcome = run({"--source", source.string(), "figures", "--check", "--threads", "2"});
-  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
-  EXPECT_THAT(outcome.output,
-              AllOf(HasSubstr("is 2.7583 there, measured 2.7582"),
-                    HasSubstr("figures.json is not as it is written"), HasSubstr("run make figures")));
+  EXPECT_THAT(
+      run({"--source", source.string(), "figures", "--check", "--threads", "2"}),
+      Ends(1, AllOf(HasSubstr("is 2.7583 there, measured 2.7582"),
+                    HasSubstr("figures.json is not as it is written"), HasSubstr("run make figures"))));
 }
 
 }  // namespace

@@ -29,25 +29,21 @@ TEST_F(LanesCommand, SimDrawsTheSameAndTellsNoCycles) {
     const auto summary = read_file(folder / "summary.json");
     ASSERT_TRUE(summary);
     EXPECT_THAT(*summary, ContainsRegex("\"simulator\": \"lanes\",\n *\"cycles\": null"));
-    const Outcome compared = run({"compare", "matte", "--out", "out"});
-    EXPECT_EQ(compared.exit_code, 0) << compared.output;
-    EXPECT_THAT(compared.output,
-                ContainsRegex("lanes +[a-z0-9_-]+ 64x48 +[1-9][0-9]* fragments, 0 mismatch"));
+    EXPECT_THAT(run({"compare", "matte", "--out", "out"}),
+                Ends(0, ContainsRegex("lanes +[a-z0-9_-]+ 64x48 +[1-9][0-9]* fragments, 0 mismatch")));
   }
 }
 
 TEST_F(LanesCommand, SimDrawsTheSameWithStalls) {
-  const Outcome drawn =
-      run({"sim", "matte", "--size", "64x48", "--simulator", "lanes", "--stalls", "3", "--out", "out"});
-  EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
-  EXPECT_THAT(drawn.output, ContainsRegex("[1-9][0-9]* fragments \\| lanes: 0 mismatches, "));
+  EXPECT_THAT(
+      run({"sim", "matte", "--size", "64x48", "--simulator", "lanes", "--stalls", "3", "--out", "out"}),
+      Ends(0, ContainsRegex("[1-9][0-9]* fragments \\| lanes: 0 mismatches, ")));
 }
 
 TEST_F(LanesCommand, WhatTheyDoNotKnowIsBadInput) {
-  const Outcome processors = run(
-      {"sim", "matte", "--simulator", "lanes", "--shader", "processors", "--size", "64x48", "--out", "out"});
-  EXPECT_EQ(processors.exit_code, 2) << processors.output;
-  EXPECT_THAT(processors.output, HasSubstr("no lanes for this hardware"));
+  EXPECT_THAT(run({"sim", "matte", "--simulator", "lanes", "--shader", "processors", "--size", "64x48",
+                   "--out", "out"}),
+              Ends(2, HasSubstr("no lanes for this hardware")));
 }
 
 }  // namespace

@@ -100,10 +100,9 @@ TEST_F(PlanCommand, Table5OfTheProcessorsThatAreThere) {
   ASSERT_NE(at, std::string::npos) << "mend this test";
   std::string changed = *spheres;
   ASSERT_TRUE(write_file(folder_->path() / "phong.toml", changed.insert(at, "\nbrdf = \"phong\"")));
-  const Outcome phong = run({"plan", "phong.toml", "--rate", "30"});
-  EXPECT_EQ(phong.exit_code, 0) << phong.output;
-  EXPECT_THAT(phong.output,
-              AllOf(HasSubstr("P = 0 positional ones"), HasSubstr("is phong"), Not(HasSubstr("all alike"))));
+  EXPECT_THAT(
+      run({"plan", "phong.toml", "--rate", "30"}),
+      Ends(0, AllOf(HasSubstr("P = 0 positional ones"), HasSubstr("is phong"), Not(HasSubstr("all alike")))));
 }
 
 TEST_F(PlanCommand, BadUsageExitsTwo) {
@@ -127,11 +126,7 @@ TEST_F(PlanCommand, BadUsageExitsTwo) {
       {{"plan", "matte", "--measure", "--simulator", "modelsim"}, "is not a simulator"},
       {{"sim", "matte", "--simulator", "modelsim"}, "is not a simulator"},
   };
-  for (const auto& [arguments, expected] : cases) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr(expected));
-  }
+  for (const auto& [arguments, expected] : cases) EXPECT_THAT(run(arguments), Ends(2, HasSubstr(expected)));
 }
 
 TEST_F(PlanCommand, AMissingToolExitsThree) {
@@ -140,9 +135,7 @@ TEST_F(PlanCommand, AMissingToolExitsThree) {
   EXPECT_EQ(without_ghdl.exit_code, 0) << without_ghdl.output;
   EXPECT_THAT(without_ghdl.output, HasSubstr("units are not counted: "));
   EXPECT_THAT(without_ghdl.output, HasSubstr("apt-get install ghdl-llvm"));
-  const Outcome outcome = run({"plan", "matte", "--measure"}, nowhere);
-  EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("apt-get install yosys"));
+  EXPECT_THAT(run({"plan", "matte", "--measure"}, nowhere), Ends(3, HasSubstr("apt-get install yosys")));
 }
 
 TEST_F(PlanCommand, MeasuresCellsCyclesAndSeconds) {
@@ -177,13 +170,12 @@ TEST_F(PlanCommand, MeasuresCellsCyclesAndSeconds) {
 TEST_F(PlanCommand, MeasuresShadingProcessors) {
   const std::vector<std::string> arguments = {"plan",   "matte", "--shader",    "processors", "--measure",
                                               "--size", "64x48", "--simulator", "verilator"};
-  const Outcome outcome = run(arguments, path_with_yosys());
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output,
-              AllOf(HasSubstr("the two frames are equal bit for bit, 791 and 768 fragments, of which the "
+  EXPECT_THAT(
+      run(arguments, path_with_yosys()),
+      Ends(0, AllOf(HasSubstr("the two frames are equal bit for bit, 791 and 768 fragments, of which the "
                               "object stage leaves out the hidden ones\n"),
                     ContainsRegex("\nspecular +no +hardware +every k_s is 0\n +left out: .*1 power"),
-                    ContainsRegex("\n  power +0 +1 +100 %\n")));
+                    ContainsRegex("\n  power +0 +1 +100 %\n"))));
 }
 
 // RTL whose fault only hardware with all effects has: factors of zero that are not.
@@ -198,11 +190,10 @@ TEST_F(PlanCommand, MeasuringTellsFramesThatDiffer) {
   std::string changed = *text;
   changed.replace(at, from.size(), "start => not part(part'high downto c_factors_low)");
   ASSERT_TRUE(write_file(slice, changed));
-  const Outcome outcome = run({"--source", copy, "plan", "matte", "--shader", "spherical", "--measure",
-                               "--size", "64x48", "--simulator", "verilator"},
-                              path_with_yosys());
-  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("the two frames DIFFER"), Not(HasSubstr("seconds in GHDL"))));
+  EXPECT_THAT(run({"--source", copy, "plan", "matte", "--shader", "spherical", "--measure", "--size", "64x48",
+                   "--simulator", "verilator"},
+                  path_with_yosys()),
+              Ends(1, AllOf(HasSubstr("the two frames DIFFER"), Not(HasSubstr("seconds in GHDL")))));
 }
 
 TEST_F(PlanCommand, AllEffectsDrawTheSamePicture) {

@@ -43,44 +43,35 @@ TEST_F(StudyCommandTest, RefusesWhatIsNoQuestion) {
       {{"--part", "3/3"}, "--part: '3/3'"},
       {{"--executor", "slurm", "--parts", "0"}, "--parts: takes 1 or more"},
       {{"no-such-scene"}, "no-such-scene"}};
-  for (const auto& [arguments, message] : cases) {
-    const Outcome outcome = study(arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr(message));
-  }
+  for (const auto& [arguments, message] : cases) EXPECT_THAT(study(arguments), Ends(2, HasSubstr(message)));
   EXPECT_FALSE(std::filesystem::exists(folder_->path() / "out/study.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder_->path() / "out/question.csv"));
 }
 
 TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
-  const Outcome met = study({"--error", "3"});
-  EXPECT_EQ(met.exit_code, 0) << met.output;
-  EXPECT_THAT(met.output,
-              AllOf(HasSubstr("3 points, 3 measured anew"), HasSubstr("160x120: largest error at most 3/255"),
+  EXPECT_THAT(
+      study({"--error", "3"}),
+      Ends(0, AllOf(HasSubstr("3 points, 3 measured anew"), HasSubstr("160x120: largest error at most 3/255"),
                     HasSubstr("cheapest       adaptive exact, threshold 2: largest error"),
                     HasSubstr("cheaper        quadratic exact: largest error"),
-                    HasSubstr("more accurate  nothing is")));
-  const Outcome missed = study({"--error", "3", "--psnr", "99"});
-  EXPECT_EQ(missed.exit_code, 1) << missed.output;
-  EXPECT_THAT(missed.output, AllOf(HasSubstr("3 points, 0 measured anew"),
-                                   HasSubstr("none of 2 points of hardware meets it"),
-                                   HasSubstr("most accurate  adaptive exact")));
+                    HasSubstr("more accurate  nothing is"))));
+  EXPECT_THAT(study({"--error", "3", "--psnr", "99"}),
+              Ends(1, AllOf(HasSubstr("3 points, 0 measured anew"),
+                            HasSubstr("none of 2 points of hardware meets it"),
+                            HasSubstr("most accurate  adaptive exact"))));
   // In three channels, which are pinned to have no room.
-  const Outcome timed = study({"spheres", "--time", "1s"});
-  EXPECT_EQ(timed.exit_code, 1) << timed.output;
-  EXPECT_THAT(timed.output, HasSubstr("2 points have no clock: the device has no room for them"));
-  const Outcome fast = study({"--time", "1s", "--clock", "50"});
-  EXPECT_EQ(fast.exit_code, 0) << fast.output;
-  EXPECT_THAT(fast.output, AllOf(HasSubstr("cheapest       quadratic exact"), HasSubstr("us)"),
-                                 Not(HasSubstr("no clock"))));
+  EXPECT_THAT(study({"spheres", "--time", "1s"}),
+              Ends(1, HasSubstr("2 points have no clock: the device has no room for them")));
+  EXPECT_THAT(study({"--time", "1s", "--clock", "50"}),
+              Ends(0, AllOf(HasSubstr("cheapest       quadratic exact"), HasSubstr("us)"),
+                            Not(HasSubstr("no clock")))));
 }
 
 TEST_F(StudyCommandTest, SoftwareAloneMeetsNoDemand) {
   ASSERT_TRUE(write_file(folder_->path() / "software.toml",
                          "[[sweep]]\nmethod = [\"phong\", \"gouraud\"]\nsize = \"80x60\"\n"));
-  const Outcome asked = run({"study", "--space", "software.toml", "--out", "out", "--error", "200"});
-  EXPECT_EQ(asked.exit_code, 1) << asked.output;
-  EXPECT_THAT(asked.output, HasSubstr("nothing meets it: none of the points is hardware"));
+  EXPECT_THAT(run({"study", "--space", "software.toml", "--out", "out", "--error", "200"}),
+              Ends(1, HasSubstr("nothing meets it: none of the points is hardware")));
   const Outcome made = run({"study", "--space", "software.toml", "--out", "out"});
   EXPECT_EQ(made.exit_code, 0) << made.output;
 }
@@ -90,24 +81,18 @@ TEST_F(StudyCommandTest, EndsWithTheFrontOfItsMainPicture) {
   ASSERT_TRUE(write_file(folder_->path() / "two.toml",
                          "[[sweep]]\nmethod = \"quadratic\"\nsize = \"80x60\"\n"
                          "[[sweep]]\nmethod = [\"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
-  const Outcome made = run({"study", "--space", "two.toml", "--out", "out"});
-  EXPECT_EQ(made.exit_code, 0) << made.output;
-  EXPECT_THAT(made.output,
-              AllOf(HasSubstr("160x120\n  front          2 of 2 points"), HasSubstr("  quadratic exact\n"),
-                    HasSubstr("  adaptive exact, threshold 2\n"), HasSubstr("make report draws it"),
-                    Not(HasSubstr("80x60\n"))));
+  EXPECT_THAT(run({"study", "--space", "two.toml", "--out", "out"}),
+              Ends(0, AllOf(HasSubstr("160x120\n  front          2 of 2 points"),
+                            HasSubstr("  quadratic exact\n"), HasSubstr("  adaptive exact, threshold 2\n"),
+                            HasSubstr("make report draws it"), Not(HasSubstr("80x60\n")))));
 }
 
 // The table that the report shows is the study's; the question's has its points, from the same records.
 TEST_F(StudyCommandTest, AQuestionLeavesTheStudysTable) {
   const std::filesystem::path out = folder_->path() / "out";
-  const Outcome asked_first = study({"--error", "3"});
-  EXPECT_EQ(asked_first.exit_code, 0) << asked_first.output;
-  EXPECT_THAT(asked_first.output, HasSubstr("out/question.csv: 3 points, 3 measured anew"));
+  EXPECT_THAT(study({"--error", "3"}), Ends(0, HasSubstr("out/question.csv: 3 points, 3 measured anew")));
   EXPECT_FALSE(std::filesystem::exists(out / "study.csv"));
-  const Outcome made = study({});
-  EXPECT_EQ(made.exit_code, 0) << made.output;
-  EXPECT_THAT(made.output, HasSubstr("out/study.csv: 3 points, 0 measured anew"));
+  EXPECT_THAT(study({}), Ends(0, HasSubstr("out/study.csv: 3 points, 0 measured anew")));
   const auto table = read_file(out / "study.csv"), same = read_file(out / "question.csv");
   ASSERT_TRUE(table && same);
   EXPECT_EQ(*table, *same);
@@ -132,11 +117,9 @@ TEST_F(StudyCommandTest, WhatTasksFindDamagedIsTold) {
   ASSERT_TRUE(write_file(frame, *bytes));
   study::put_slurm(folder_->path());
   const std::string path = folder_->path().string() + ":" + std::getenv("PATH");
-  const Outcome outcome = study({"--executor", "slurm"}, {{"PATH", path}});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output,
-              AllOf(HasSubstr(frame.filename().string() + ": damaged; the point is measured anew\n"),
-                    HasSubstr("3 points, 0 measured anew")));
+  EXPECT_THAT(study({"--executor", "slurm"}, {{"PATH", path}}),
+              Ends(0, AllOf(HasSubstr(frame.filename().string() + ": damaged; the point is measured anew\n"),
+                            HasSubstr("3 points, 0 measured anew"))));
 }
 
 }  // namespace

@@ -166,12 +166,10 @@ TEST_F(ViewCommand, LoadsTheImageLibraryBeforeItDraws) {
 }
 
 TEST_F(ViewCommand, LanesThatCannotBeHadAreBadInput) {
-  const Outcome other = view({"matte", "--simulator", "ghdl"});
-  EXPECT_EQ(other.exit_code, 2) << other.output;
-  EXPECT_THAT(other.output, HasSubstr("--simulator: 'ghdl' is none of auto, verilator and lanes"));
-  const Outcome processors = view({"matte", "--shader", "processors", "--simulator", "lanes"});
-  EXPECT_EQ(processors.exit_code, 2) << processors.output;
-  EXPECT_THAT(processors.output, HasSubstr("no lanes for this hardware"));
+  EXPECT_THAT(view({"matte", "--simulator", "ghdl"}),
+              Ends(2, HasSubstr("--simulator: 'ghdl' is none of auto, verilator and lanes")));
+  EXPECT_THAT(view({"matte", "--shader", "processors", "--simulator", "lanes"}),
+              Ends(2, HasSubstr("no lanes for this hardware")));
 }
 
 TEST_F(ViewCommand, ReplacesOlderFramesAndNothingElse) {
@@ -208,11 +206,7 @@ TEST_F(ViewCommand, BadUsageExitsTwoAndSaysWhatToDo) {
       {{"matte", "--out", "/proc/sys"}, "/proc/sys"},
       {{"matte", "--out", "file/out"}, "file/out"}};
   ASSERT_TRUE(write_file(at("file"), "not a folder"));
-  for (const auto& [arguments, expected] : cases) {
-    const Outcome outcome = view(arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr(expected));
-  }
+  for (const auto& [arguments, expected] : cases) EXPECT_THAT(view(arguments), Ends(2, HasSubstr(expected)));
   EXPECT_THAT(names("."), ElementsAre("file"));
   const Outcome unwritable = view({"matte", "--video", "/proc/sys/turn.mp4"}, path_with_ffmpeg(c_copy));
   EXPECT_EQ(unwritable.exit_code, 2) << unwritable.output;
@@ -234,10 +228,8 @@ TEST_F(ViewCommand, AVideoIsEachFrameInItsOrder) {
 
 TEST_F(ViewCommand, NoFfmpegExitsThreeBeforeAnythingIsDrawn) {
   ASSERT_TRUE(make_folders(at("empty")));
-  const Outcome drawn =
-      view({"matte", "--video", "turn.mp4", "--out", "turn"}, {{"PATH", at("empty").string()}});
-  EXPECT_EQ(drawn.exit_code, 3) << drawn.output;
-  EXPECT_THAT(drawn.output, HasSubstr("apt-get install ffmpeg"));
+  EXPECT_THAT(view({"matte", "--video", "turn.mp4", "--out", "turn"}, {{"PATH", at("empty").string()}}),
+              Ends(3, HasSubstr("apt-get install ffmpeg")));
   EXPECT_THAT(names("."), ElementsAre("empty"));
 }
 
@@ -246,11 +238,9 @@ TEST_F(ViewCommand, AVideoThatFailsLeavesNoHalf) {
   ASSERT_TRUE(write_file(at("films/turn.mp4"), "old"));
   for (const std::string& script :
        {std::string("echo no such encoder; exit 1\n"), c_copy + "echo no such encoder; exit 1\n"}) {
-    const Outcome drawn =
-        view({"matte", "--frames", "3", "--video", "films/turn.mp4"}, path_with_ffmpeg(script));
-    EXPECT_EQ(drawn.exit_code, 3) << drawn.output;
-    EXPECT_THAT(drawn.output, AllOf(HasSubstr("films/turn.mp4: ffmpeg could not make it (exit status 1)"),
-                                    HasSubstr("no such encoder")));
+    EXPECT_THAT(view({"matte", "--frames", "3", "--video", "films/turn.mp4"}, path_with_ffmpeg(script)),
+                Ends(3, AllOf(HasSubstr("films/turn.mp4: ffmpeg could not make it (exit status 1)"),
+                              HasSubstr("no such encoder"))));
     EXPECT_EQ(bytes("films/turn.mp4"), "old");
     EXPECT_THAT(names("films"), ElementsAre("turn.mp4"));
   }
@@ -343,29 +333,26 @@ TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
   write_averted();
   // Lanes leave it to Verilator to tell.
   for (const std::string simulator : {"verilator", "lanes"}) {
-    const Outcome drawn =
+    EXPECT_THAT(
         run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30", "--threads", "3",
              "--simulator", simulator, "--out", "turn", "--video", "turn.mp4"},
-            path_with_ffmpeg(c_copy));
-    EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
-    EXPECT_THAT(
-        drawn.output,
-        AllOf(HasSubstr("averted: frame 2: verilator differs from the golden model\n"),
-              ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, [a-z]+: golden [0-9]+, Verilator"),
-              HasSubstr("of the scene with eye = [0.3, 0.3, 3] in [camera]"),
-              ContainsRegex("3 frames of 1 triangles.*" + simulator +
-                            (simulator == "lanes" ? ", verilator in frame 2" : "") +
-                            ": [1-9][0-9]* mismatches in frame 2 "),
-              HasSubstr("2 of 3 frames show no triangle")));
+            path_with_ffmpeg(c_copy)),
+        Ends(1,
+             AllOf(HasSubstr("averted: frame 2: verilator differs from the golden model\n"),
+                   ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, [a-z]+: golden [0-9]+, Verilator"),
+                   HasSubstr("of the scene with eye = [0.3, 0.3, 3] in [camera]"),
+                   ContainsRegex("3 frames of 1 triangles.*" + simulator +
+                                 (simulator == "lanes" ? ", verilator in frame 2" : "") +
+                                 ": [1-9][0-9]* mismatches in frame 2 "),
+                   HasSubstr("2 of 3 frames show no triangle"))));
     EXPECT_FALSE(std::filesystem::exists(at("turn.mp4")));
   }
 
   // Nothing is asked of the golden model, and nothing said of it.
-  const Outcome blind = run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30",
-                             "--no-compare", "--out", "turn"});
-  EXPECT_EQ(blind.exit_code, 0) << blind.output;
-  EXPECT_THAT(blind.output, AllOf(HasSubstr("verilator: not compared with the golden model"),
-                                  Not(HasSubstr("mismatches")), Not(HasSubstr("golden model 0"))));
+  EXPECT_THAT(run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30",
+                   "--no-compare", "--out", "turn"}),
+              Ends(0, AllOf(HasSubstr("verilator: not compared with the golden model"),
+                            Not(HasSubstr("mismatches")), Not(HasSubstr("golden model 0")))));
 }
 
 // Lanes that stop in the middle of frame 0's triangles: Verilator draws the frame without a fault.
@@ -379,11 +366,9 @@ TEST_F(ViewCommand, AFaultOfLanesAloneIsAnError) {
                                           "320x240",   "--frames", "3",     "--simulator", "lanes",
                                           "--threads", "1",        "--out", "turn"};
     if (!compare) arguments.push_back("--no-compare");
-    const Outcome drawn = run(arguments);
-    EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
-    EXPECT_THAT(drawn.output,
-                ContainsRegex("matte: frame 0: [^\n]* in lanes: hang: [^\n]*; Verilator draws it "
-                              "without a difference. The lanes are wrong"));
+    EXPECT_THAT(run(arguments),
+                Ends(1, ContainsRegex("matte: frame 0: [^\n]* in lanes: hang: [^\n]*; Verilator draws it "
+                                      "without a difference. The lanes are wrong")));
   }
 }
 
@@ -391,9 +376,8 @@ TEST_F(ViewCommand, AFaultOfLanesAloneIsAnError) {
 TEST_F(ViewCommand, WhereLanesCannotBeHadVerilatorDraws) {
   const std::filesystem::path copy = copy_checkout();
   ASSERT_TRUE(write_file(copy / "sim/lanes/lane_harness.cpp", "#error spoilt\n"));
-  const Outcome asked = run({"--source", copy, "view", "matte", "--size", "64x48", "--simulator", "lanes"});
-  EXPECT_EQ(asked.exit_code, 3) << asked.output;
-  EXPECT_THAT(asked.output, HasSubstr("spoilt"));
+  EXPECT_THAT(run({"--source", copy, "view", "matte", "--size", "64x48", "--simulator", "lanes"}),
+              Ends(3, HasSubstr("spoilt")));
 #ifdef __x86_64__
   write_averted();
   const Outcome drawn = run({"--source", copy, "view", "averted.toml", "--size", "2048x2048", "--frames",
@@ -432,9 +416,7 @@ TEST_F(ViewCommand, MemoryDoesNotGrowWithTheMesh) {
                                             "--size",    "1000x1000",   "--simulator", simulator,
                                             "--threads", "1",           "--out",       "turn"};
       if (!compare) arguments.push_back("--no-compare");
-      const Outcome drawn = run(arguments);
-      EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
-      EXPECT_THAT(drawn.output, ContainsRegex(" 5[0-9]{7} fragments"));
+      EXPECT_THAT(run(arguments), Ends(0, ContainsRegex(" 5[0-9]{7} fragments")));
       frames.push_back(frame("turn/frame_0000.png").rgb);
       EXPECT_EQ(frames.back(), frames.front()) << simulator << compare;
       // The most of any program so far, in KiB.
