@@ -28,11 +28,9 @@ entity frame_tb is
     g_normalize          : boolean  := true;
     g_shadows            : boolean  := false;
     g_unrolled           : boolean  := true;
-    g_probe              : boolean  := false;
 
     g_init_file     : string   := "init.txt";
     g_trace_file    : string   := "trace.txt";
-    g_probe_file    : string   := "";            -- where g_probe: lines of cycle and probe, a character a bit
     g_max_fragments : natural  := natural'high;  -- more than these is a failure
     g_idle_limit    : positive := 100_000;       -- cycles in which nothing moves: a hang
     g_stall_seed    : natural  := 0              -- 0: full speed
@@ -40,12 +38,7 @@ entity frame_tb is
 end entity;
 
 architecture sim of frame_tb is
-  constant c_init_bits  : positive := work.formats_pkg.init_bits(g_exact, g_channels);
-  constant c_probe_bits : positive := work.formats_pkg.probe_bits(g_exact, g_channels);
-
-  -- The probe's lowest bits: what the stages do in this cycle.
-  subtype events_t is std_logic_vector(3 downto 0);
-  constant c_no_event : events_t := (others => '0');
+  constant c_init_bits : positive := work.formats_pkg.init_bits(g_exact, g_channels);
 
   constant c_late_cycles : positive := 8; -- for a fault
 
@@ -65,7 +58,6 @@ architecture sim of frame_tb is
   signal fragment_blue     : std_logic_vector(7 downto 0);
   signal busy              : std_logic;
   signal fault             : std_logic;
-  signal probe             : std_logic_vector(c_probe_bits - 1 downto 0);
   signal finished          : boolean := false;
 
   -- A line by these costs what textio's write and hread take for one digit.
@@ -160,7 +152,7 @@ architecture sim of frame_tb is
   end function;
 begin
   dut : entity work.quadratic_shader
-    generic map (g_exact => g_exact, g_channels => g_channels, g_probe => g_probe)
+    generic map (g_exact => g_exact, g_channels => g_channels)
     port map (
       clk               => clk,
       reset             => reset,
@@ -177,8 +169,7 @@ begin
       fragment_green    => fragment_green,
       fragment_blue     => fragment_blue,
       busy              => busy,
-      fault             => fault,
-      probe             => probe);
+      fault             => fault);
 
   clock : process is
   begin
@@ -194,7 +185,6 @@ begin
   run : process is
     file init_file  : text;
     file trace_file : text;
-    file probe_file : text;
 
     variable status      : file_open_status;
     variable text_in     : line;
@@ -311,12 +301,6 @@ begin
     if not good or number /= c_init_bits then
       report g_init_file & ": its vectors are not of " & to_string(c_init_bits) & " bits" severity failure;
     end if;
-    if g_probe and g_probe_file'length > 0 then
-      file_open(status, probe_file, g_probe_file, write_mode);
-      if status /= open_ok then
-        report g_probe_file & ": cannot write" severity failure;
-      end if;
-    end if;
 
     reset <= '1';
     for i in 1 to 4 loop
@@ -379,16 +363,6 @@ begin
       end if;
       holding := fragment_valid = '1' and fragment_ready = '0';
 
-      if g_probe and g_probe_file'length > 0 and started and probe(events_t'range) /= c_no_event then
-        if is_x(probe(events_t'range)) then
-          report "metavalue in the probe's events in cycle " & to_string(cycle) severity failure;
-        end if;
-        write(text_out, cycle);
-        write(text_out, ' ');
-        write(text_out, to_string(probe)); -- bit by bit: some may not have a value yet
-        writeline(probe_file, text_out);
-      end if;
-
       if moved then
         last_cycle := cycle;
         idle       := 0;
@@ -425,9 +399,6 @@ begin
     writeline(trace_file, text_out);
     file_close(trace_file);
     file_close(init_file);
-    if g_probe and g_probe_file'length > 0 then
-      file_close(probe_file);
-    end if;
     finished <= true;
     wait;
   end process;

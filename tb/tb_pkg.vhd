@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- What the testbenches share: files of vectors (tb/vectors/vector_file.hpp gives the format), the comparison that ends
--- a run with vector number, got and expected, random stalls, a shader's probe.
+-- a run with vector number, got and expected, random stalls.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -10,15 +10,6 @@ use work.formats_pkg.all;
 package tb_pkg is
 
   constant c_half_period : time := 5 ns;
-
-  -- A form of an interpolator: parts of a word, outputs for a probe, clocks after the plain form.
-  type interpolator_form_t is record
-    parts  : positive;
-    probe  : boolean;
-    behind : natural;
-  end record;
-
-  type interpolator_forms_t is array (natural range <>) of interpolator_form_t;
 
   -- A file of vectors, read one by one.
   type vectors_t is protected
@@ -31,10 +22,9 @@ package tb_pkg is
     -- The next word of this vector.
     procedure read_word (word : out std_logic_vector);
     procedure read_flag (flag : out std_logic);
-    -- The next word of this vector is what `got` must be; of a wider one only the bits set in `mask` count.
+    -- The next word of this vector is what `got` must be.
     procedure check_word (name : in string; got : in std_logic_vector);
-    procedure check_word (name : in string; got, mask : in std_logic_vector);
-    -- As the two above, where `checked` is '1'; else the word is passed over.
+    -- As above, where `checked` is '1'; else the word is passed over.
     procedure check_word_if (checked : in std_logic; name : in string; got : in std_logic_vector);
     procedure check_flag (name : in string; got : in std_logic);
     procedure check_flag_if (checked : in std_logic; name : in string; got : in std_logic);
@@ -56,12 +46,6 @@ package tb_pkg is
 
   -- True for one value of `random` in 2**exponent.
   function chance (random : unsigned(7 downto 0); exponent : natural range 0 to 8) return boolean;
-
-  -- Sets in `mask` the bits of a field whose block begins at `low`; of all fields of the line stage, or of the span
-  -- stage, that the header of a shader's probe has, their event included.
-  procedure add_field (variable mask : inout std_logic_vector; field : in slice_t; low : in natural := 0);
-  procedure add_line_fields (variable mask : inout std_logic_vector; exact : in boolean);
-  procedure add_span_fields (variable mask : inout std_logic_vector; exact : in boolean);
 
 end package;
 
@@ -171,30 +155,18 @@ package body tb_pkg is
       return to_hstring(word);
     end function;
 
-    procedure compare (name : in string; got, expected, mask : in std_logic_vector) is
-    begin
-      if (got and mask) /= (expected and mask) then
-        fail(name & " is " & to_text(got and mask) & ", expected " & to_text(expected and mask));
-      end if;
-    end procedure;
-
-    procedure check_word (name : in string; got, mask : in std_logic_vector) is
+    procedure check_word_if (checked : in std_logic; name : in string; got : in std_logic_vector) is
       variable expected : std_logic_vector(got'range);
     begin
       read_word(expected);
-      compare(name, got, expected, mask);
+      if checked = '1' and got /= expected then
+        fail(name & " is " & to_text(got) & ", expected " & to_text(expected));
+      end if;
     end procedure;
 
     procedure check_word (name : in string; got : in std_logic_vector) is
-      variable all_bits : std_logic_vector(got'range) := (others => '1');
     begin
-      check_word(name, got, all_bits);
-    end procedure;
-
-    procedure check_word_if (checked : in std_logic; name : in string; got : in std_logic_vector) is
-      variable mask : std_logic_vector(got'range) := (others => checked);
-    begin
-      check_word(name, got, mask);
+      check_word_if('1', name, got);
     end procedure;
 
     procedure check_flag_if (checked : in std_logic; name : in string; got : in std_logic) is
@@ -259,32 +231,5 @@ package body tb_pkg is
   begin
     return to_integer(random) mod 2 ** exponent = 0;
   end function;
-
-  procedure add_field (variable mask : inout std_logic_vector; field : in slice_t; low : in natural := 0) is
-  begin
-    for i in field.low to field.high loop
-      mask(low + i) := '1';
-    end loop;
-  end procedure;
-
-  procedure add_line_fields (variable mask : inout std_logic_vector; exact : in boolean) is
-    constant c_header : probe_header_t := probe_header(exact);
-  begin
-    add_field(mask, c_header.line_event);
-    add_field(mask, c_header.line_y);
-    add_field(mask, c_header.line_start);
-    add_field(mask, c_header.line_stop);
-    add_field(mask, c_header.line_carry);
-    add_field(mask, c_header.line_z);
-  end procedure;
-
-  procedure add_span_fields (variable mask : inout std_logic_vector; exact : in boolean) is
-    constant c_header : probe_header_t := probe_header(exact);
-  begin
-    add_field(mask, c_header.span_event);
-    add_field(mask, c_header.span_y);
-    add_field(mask, c_header.span_x);
-    add_field(mask, c_header.span_z);
-  end procedure;
 
 end package body;

@@ -10,20 +10,6 @@ const char* boolean(bool value) {
   return value ? "true" : "false";
 }
 
-// A call of the package function that gives a port's width.
-std::string width(const HardwareKey& key, const char* function) {
-  if (key.shader == Shader::quadratic)
-    return fmt::format("work.formats_pkg.{}(g_exact, g_channels)", function);
-  if (key.shader == Shader::processors)
-    return fmt::format(
-        "work.processors_pkg.{}(work.processors_pkg.config(g_exact, g_channels, g_directional, g_positional, "
-        "g_spots, g_diffuse, g_specular, g_normalize, g_shadows))",
-        function);
-  return fmt::format(
-      "work.spherical_pkg.{}(g_exact, g_channels, g_lights, g_diffuse, g_specular, g_highlight_channels)",
-      function);
-}
-
 }  // namespace
 
 std::string HardwareKey::entity() const {
@@ -52,15 +38,21 @@ std::vector<std::pair<std::string, std::string>> HardwareKey::generics() const {
     list.emplace_back("g_shadows", boolean(processors.shadows));
     list.emplace_back("g_unrolled", boolean(processors.form == ProcessorForm::unrolled));
   }
-  list.emplace_back("g_probe", boolean(probe));
   return list;
 }
 
 std::string HardwareKey::vhdl_init_bits() const {
-  return width(*this, "init_bits");
-}
-std::string HardwareKey::vhdl_probe_bits() const {
-  return width(*this, "probe_bits");
+  switch (shader) {
+    case Shader::quadratic:
+      return "work.formats_pkg.init_bits(g_exact, g_channels)";
+    case Shader::spherical:
+      return "work.spherical_pkg.init_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular, "
+             "g_highlight_channels)";
+    case Shader::processors:
+      return "work.processors_pkg.init_bits(work.processors_pkg.config(g_exact, g_channels, g_directional, "
+             "g_positional, g_spots, g_diffuse, g_specular, g_normalize, g_shadows))";
+  }
+  return {};
 }
 
 std::string HardwareKey::name() const {
@@ -89,7 +81,7 @@ std::string HardwareKey::name() const {
     text += fmt::format("-{}", to_string(p.form));
   }
   if (words.any()) text += "-" + words.name();
-  return text + (probe ? "-probe" : "");
+  return text;
 }
 
 golden::SphericalConfig golden_config(const HardwareKey& key) {

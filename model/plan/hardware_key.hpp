@@ -75,7 +75,6 @@ struct HardwareKey {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
   unsigned channels = 3;      ///< 1 where every colour of the scene is grey
-  bool probe = false;         ///< brings the stages' registers out, for `halfway why` and the register tests
   SphericalUnits spherical;   ///< of the spherical shader
   ProcessorUnits processors;  ///< of the shading processors
   /// Other word lengths than the preset's. Setup and golden model of such a key are compiled for it: the
@@ -86,9 +85,8 @@ struct HardwareKey {
   std::string entity() const;
   /// Generics of the top entity, as `-g` takes them, in a fixed order.
   std::vector<std::pair<std::string, std::string>> generics() const;
-  /// The widths of the top's ports init_data and probe, as VHDL expressions of its generics.
+  /// The width of the top's port init_data, as a VHDL expression of its generics.
   std::string vhdl_init_bits() const;
-  std::string vhdl_probe_bits() const;
   /// Such as quadratic_shader-exact-c3; names the cached build.
   std::string name() const;
 };

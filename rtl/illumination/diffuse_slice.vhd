@@ -5,13 +5,13 @@
 --               span stage     angle, by a line_interpolator; lit where it is not behind the light's horizon
 --               sample stage   the cosine_rom's sample, in_range and factors beside it
 --               product stage  factor * sample, zero where not in_range
---             g_channels = 0: no factor and no table, only the horizon, which ends the light's highlight too; sample
---             and products, as many bits as one, are zero.
+--             g_channels = 0: no factor and no table, only the horizon, which ends the light's highlight too; products, as
+--             many bits as one, are zero.
 -- Contract    span_load takes the light's part of the line record; span_step hands the pixel to the sample stage and
 --             goes to the next one; sample_step hands the pixel from there to the product stage.
--- Formats     formats_pkg: angle in units of half a bell (preset published: of a whole one), factor; sample: unsigned,
---             of 2**g_data_bits - 1; product: factor's bits and g_data_bits together
--- Latency     1 clock from span_load to angle and lit, 1 from span_step to sample, 3 from sample_step to products
+-- Formats     formats_pkg: angle in units of half a bell (preset published: of a whole one), factor; product:
+--             factor's bits and g_data_bits together
+-- Latency     1 clock from span_load to lit, 1 from span_step to the sample stage, 3 from sample_step to products
 -- Throughput  1 pixel a clock
 -- Error       angle: see formats_pkg; sample: see cosine_rom
 -- Source      spherical paper, section 5 and figure 12 (diffuse part)
@@ -35,9 +35,6 @@ entity diffuse_slice is
     span_step   : in  std_logic;                                                        -- go to the next pixel
     sample_step : in  std_logic;
     lit         : out std_logic; -- preset published: always '1'
-    angle       : out std_logic_vector(formats(g_exact).angle.bits - 1 downto 0);
-    in_range    : out std_logic;
-    sample      : out std_logic_vector(g_data_bits - 1 downto 0);
     products    : out std_logic_vector((g_channels + boolean'pos(g_channels = 0))
       * (formats(g_exact).factor.bits + g_data_bits) - 1 downto 0)
   );
@@ -50,10 +47,11 @@ architecture rtl of diffuse_slice is
   constant c_factors_low  : positive         := diffuse_channel_low(g_exact, 0);
   constant c_factors_bits : natural          := part'length - c_factors_low;
 
-  signal slope             : std_logic_vector(c_angle_bits - 1 downto 0);
-  signal address           : std_logic_vector(g_address_bits - 1 downto 0);
-  signal carried_in        : std_logic_vector(c_factors_bits downto 0); -- in_range lowest
-  signal carried           : std_logic_vector(carried_in'range);
+  signal slope, angle : std_logic_vector(c_angle_bits - 1 downto 0);
+  signal address      : std_logic_vector(g_address_bits - 1 downto 0);
+  signal carried_in   : std_logic_vector(c_factors_bits downto 0); -- in_range lowest
+  signal carried      : std_logic_vector(carried_in'range);
+  signal in_range     : std_logic;
 
 begin
 
@@ -112,7 +110,7 @@ begin
     constant c_channel_bits : positive := diffuse_channel_low(g_exact, 1) - c_factors_low;
     constant c_product_bits : positive := formats(g_exact).factor.bits + g_data_bits;
 
-    signal gated : std_logic_vector(sample'range);
+    signal sample, gated : std_logic_vector(g_data_bits - 1 downto 0);
 
     begin
 
@@ -169,7 +167,6 @@ begin
 
   else generate
 
-    sample   <= (others => '0');
     products <= (others => '0');
 
   end generate;

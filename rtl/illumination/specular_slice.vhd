@@ -10,9 +10,9 @@
 --             stage and goes to the next one; sample_step hands the pixel from there to the product stage.
 --             Bit i of g_powers: the table of cosine to the power 2**i is there. With one table there is nothing to
 --             select, and the record's power is not read; else the sample of a power without a table is zero.
--- Formats     formats_pkg: angle, power, factor; sample: unsigned, of 2**g_data_bits - 1; product: factor's bits and
---             g_data_bits together
--- Latency     1 clock from span_load to angle, 1 from span_step to sample, 3 from sample_step to products
+-- Formats     formats_pkg: angle, power, factor; product: factor's bits and g_data_bits together
+-- Latency     1 clock from span_load to the span stage, 1 from span_step to the sample stage, 3 from sample_step to
+--             products
 -- Throughput  1 pixel a clock
 -- Error       angle: see formats_pkg; sample: see cosine_rom
 -- Source      spherical paper, section 5 and figure 12 (specular part): cosine squared alone, and no end to the
@@ -39,9 +39,6 @@ entity specular_slice is
     span_step   : in  std_logic;                                                         -- go to the next pixel
     sample_step : in  std_logic;
     lit         : in  std_logic; -- at the span stage: not behind the light's horizon
-    angle       : out std_logic_vector(formats(g_exact).angle.bits - 1 downto 0);
-    in_range    : out std_logic;
-    sample      : out std_logic_vector(g_data_bits - 1 downto 0);
     products    : out std_logic_vector(g_channels * (formats(g_exact).factor.bits + g_data_bits) - 1 downto 0)
   );
 end entity;
@@ -86,15 +83,18 @@ architecture rtl of specular_slice is
   constant c_product_bits : positive          := formats(g_exact).factor.bits + g_data_bits;
   constant c_factor       : slice_t           := specular_channel(g_exact).factor;
 
-  type samples_t is array (0 to c_largest_power) of std_logic_vector(sample'range);
+  subtype sample_t is std_logic_vector(g_data_bits - 1 downto 0);
 
-  signal slope      : std_logic_vector(c_angle_bits - 1 downto 0);
-  signal address    : std_logic_vector(g_address_bits - 1 downto 0);
-  signal near       : std_logic; -- not past the bell's ends
-  signal carried_in : std_logic_vector(c_factors_bits downto 0); -- in_range lowest
-  signal carried    : std_logic_vector(carried_in'range);
-  signal samples    : samples_t;
-  signal gated      : std_logic_vector(sample'range);
+  type samples_t is array (0 to c_largest_power) of sample_t;
+
+  signal slope, angle  : std_logic_vector(c_angle_bits - 1 downto 0);
+  signal address       : std_logic_vector(g_address_bits - 1 downto 0);
+  signal near          : std_logic; -- not past the bell's ends
+  signal carried_in    : std_logic_vector(c_factors_bits downto 0); -- in_range lowest
+  signal carried       : std_logic_vector(carried_in'range);
+  signal in_range      : std_logic;
+  signal samples       : samples_t;
+  signal sample, gated : sample_t;
 
 begin
 

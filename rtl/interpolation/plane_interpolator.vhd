@@ -23,8 +23,7 @@ entity plane_interpolator is
   generic (
     g_bits    : positive;
     g_carries : boolean  := true; -- false: edges step by a real slope, and de1 does not exist
-    g_parts   : positive := 1;    -- of a word, each a clock behind the one below it
-    g_probe   : boolean  := true   -- give line_value; it is zero without
+    g_parts   : positive := 1     -- of a word, each a clock behind the one below it
   );
   port (
     clk        : in  std_logic;
@@ -34,7 +33,6 @@ entity plane_interpolator is
     line_carry : in  std_logic; -- that step goes a pixel further
     span_load  : in  std_logic; -- begin the line
     span_step  : in  std_logic; -- go to the next pixel
-    line_value : out std_logic_vector(g_bits - 1 downto 0);
     value      : out std_logic_vector(g_bits - 1 downto 0)
   );
 end entity;
@@ -45,6 +43,9 @@ architecture rtl of plane_interpolator is
   subtype strobe_t is std_logic_vector(g_parts - 1 downto 0);
 
   signal line_loads, line_steps, line_carries, span_loads, span_steps : strobe_t;
+
+  -- Along the edge and along the line, each part a clock behind the one below it.
+  signal edge_value, span_value : std_logic_vector(g_bits - 1 downto 0);
 
   -- From part to part.
   signal edge_carries, span_carries : std_logic_vector(g_parts downto 0);
@@ -82,8 +83,7 @@ begin
 
     subtype part_t is std_logic_vector(c_part_bits - 1 downto 0);
 
-    signal dx, de0, de, span_dx    : part_t;
-    signal part_value, pixel_value : part_t; -- along the edge, along the line
+    signal dx, de0, de, span_dx : part_t;
 
     begin
 
@@ -145,7 +145,7 @@ begin
           step      => line_steps(part),
           increment => de,
           carry_in  => edge_carries(part),
-          value     => part_value,
+          value     => edge_value(c_high downto c_low),
           carry_out => edge_carries(part + 1)
           );
 
@@ -168,42 +168,15 @@ begin
         port map (
           clk       => clk,
           load      => span_loads(part),
-          start     => part_value,
+          start     => edge_value(c_high downto c_low),
           step      => span_steps(part),
           increment => span_dx,
           carry_in  => span_carries(part),
-          value     => pixel_value,
+          value     => span_value(c_high downto c_low),
           carry_out => span_carries(part + 1)
           );
 
         -- A lower part waits for the upper ones.
-      line_waits : if not g_probe generate
-
-        line_value(c_high downto c_low) <= (others => '0');
-
-      elsif part < g_parts - 1 generate
-
-        type waits_t is array (1 to g_parts - 1 - part) of part_t;
-
-        signal waits : waits_t;
-
-        begin
-
-          registers : process (clk)
-          begin
-            if rising_edge(clk) then
-              waits <= waits_t'(part_value & waits(1 to waits_t'high - 1));
-            end if;
-          end process;
-
-          line_value(c_high downto c_low) <= waits(waits_t'high);
-
-      else generate
-
-        line_value(c_high downto c_low) <= part_value;
-
-      end generate;
-
       span_waits : if part < g_parts - 1 generate
 
         type waits_t is array (1 to g_parts - 1 - part) of part_t;
@@ -215,7 +188,7 @@ begin
           registers : process (clk)
           begin
             if rising_edge(clk) then
-              waits <= waits_t'(pixel_value & waits(1 to waits_t'high - 1));
+              waits <= waits_t'(span_value(c_high downto c_low) & waits(1 to waits_t'high - 1));
             end if;
           end process;
 
@@ -223,7 +196,7 @@ begin
 
       else generate
 
-        value(c_high downto c_low) <= pixel_value;
+        value(c_high downto c_low) <= span_value(c_high downto c_low);
 
       end generate;
 

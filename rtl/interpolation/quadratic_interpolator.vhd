@@ -22,8 +22,7 @@ use work.formats_pkg.all;
 entity quadratic_interpolator is
   generic (
     g_exact : boolean  := true;
-    g_parts : positive := 1;    -- of a word, each a clock behind the one below it
-    g_probe : boolean  := true   -- give the outputs beside value; they are zero without
+    g_parts : positive := 1     -- of a word, each a clock behind the one below it
   );
   port (
     clk        : in  std_logic;
@@ -33,12 +32,7 @@ entity quadratic_interpolator is
     line_carry : in  std_logic; -- that step goes a pixel further
     span_load  : in  std_logic; -- begin the line
     span_step  : in  std_logic; -- go to the next pixel
-    line_value : out std_logic_vector(formats(g_exact).intensity.bits - 1 downto 0);
-    line_dx    : out std_logic_vector(formats(g_exact).intensity.bits - 1 downto 0);
-    line_de0   : out std_logic_vector(formats(g_exact).intensity.bits - 1 downto 0);
-    line_de1   : out std_logic_vector(formats(g_exact).intensity.bits - 1 downto 0); -- zero in preset published
-    value      : out std_logic_vector(formats(g_exact).intensity.bits - 1 downto 0);
-    dx         : out std_logic_vector(formats(g_exact).intensity.bits - 1 downto 0)
+    value      : out std_logic_vector(formats(g_exact).intensity.bits - 1 downto 0)
   );
 end entity;
 
@@ -52,12 +46,15 @@ architecture rtl of quadratic_interpolator is
 
   signal line_loads, line_steps, line_carries, span_loads, span_steps : strobe_t;
 
-  -- The sums, and what each carries from part to part.
-  type sum_t is (edge_value, edge_dx, edge_de0, edge_de1, span_value, span_dx);
+  -- The sums along the edge and along the line, each part a clock behind the one below it.
+  signal edge_value, edge_dx, edge_de0, edge_de1 : std_logic_vector(c_bits - 1 downto 0);
+  signal span_value, span_dx                     : std_logic_vector(c_bits - 1 downto 0);
 
-  type carries_t is array (sum_t) of std_logic_vector(g_parts downto 0);
+  -- What each carries from part to part.
+  subtype carries_t is std_logic_vector(g_parts downto 0);
 
-  signal carries : carries_t;
+  signal edge_value_carries, edge_dx_carries, edge_de0_carries, edge_de1_carries : carries_t;
+  signal span_value_carries, span_dx_carries                                     : carries_t;
 
 begin
 
@@ -82,9 +79,12 @@ begin
 
   end generate;
 
-  lowest : for sum in sum_t generate
-    carries(sum)(0) <= '0';
-  end generate;
+  edge_value_carries(0) <= '0';
+  edge_dx_carries(0)    <= '0';
+  edge_de0_carries(0)   <= '0';
+  edge_de1_carries(0)   <= '0';
+  span_value_carries(0) <= '0';
+  span_dx_carries(0)    <= '0';
 
   parts : for part in 0 to g_parts - 1 generate
 
@@ -100,9 +100,6 @@ begin
 
     -- What the next step along the edge adds.
     signal value_step, dx_step, de0_step : part_t;
-
-    signal part_value, part_dx, part_de0, part_de1 : part_t; -- along the edge
-    signal pixel_value, pixel_dx                   : part_t; -- along the line
 
     begin
 
@@ -189,21 +186,21 @@ begin
               start     => init(c_init.de1.low + c_high downto c_init.de1.low + c_low),
               step      => line_steps(part),
               increment => de1_step,
-              carry_in  => carries(edge_de1)(part),
-              value     => part_de1,
-              carry_out => carries(edge_de1)(part + 1)
+              carry_in  => edge_de1_carries(part),
+              value     => edge_de1(c_high downto c_low),
+              carry_out => edge_de1_carries(part + 1)
               );
 
-          value_step <= part_de1 when line_carries(part) = '1' else part_de0;
+          value_step <= edge_de1(c_high downto c_low) when line_carries(part) = '1' else edge_de0(c_high downto c_low);
           dx_step    <= dxe1 when line_carries(part) = '1' else dxe0;
           de0_step   <= de0e1 when line_carries(part) = '1' else de0e0;
           de1_step   <= de1e1 when line_carries(part) = '1' else de0e1;
 
       else generate
 
-        part_de1                    <= (others => '0');
-        carries(edge_de1)(part + 1) <= '0';
-        value_step                  <= part_de0;
+        edge_de1(c_high downto c_low)                    <= (others => '0');
+        edge_de1_carries(part + 1) <= '0';
+        value_step                  <= edge_de0(c_high downto c_low);
         dx_step                     <= dxe0;
         de0_step                    <= de0e0;
 
@@ -219,9 +216,9 @@ begin
           start     => init(c_init.value.low + c_high downto c_init.value.low + c_low),
           step      => line_steps(part),
           increment => value_step,
-          carry_in  => carries(edge_value)(part),
-          value     => part_value,
-          carry_out => carries(edge_value)(part + 1)
+          carry_in  => edge_value_carries(part),
+          value     => edge_value(c_high downto c_low),
+          carry_out => edge_value_carries(part + 1)
           );
 
       dx_along_edge : entity work.part_interpolator
@@ -234,9 +231,9 @@ begin
           start     => init(c_init.dx.low + c_high downto c_init.dx.low + c_low),
           step      => line_steps(part),
           increment => dx_step,
-          carry_in  => carries(edge_dx)(part),
-          value     => part_dx,
-          carry_out => carries(edge_dx)(part + 1)
+          carry_in  => edge_dx_carries(part),
+          value     => edge_dx(c_high downto c_low),
+          carry_out => edge_dx_carries(part + 1)
           );
 
       de0_along_edge : entity work.part_interpolator
@@ -249,9 +246,9 @@ begin
           start     => init(c_init.de0.low + c_high downto c_init.de0.low + c_low),
           step      => line_steps(part),
           increment => de0_step,
-          carry_in  => carries(edge_de0)(part),
-          value     => part_de0,
-          carry_out => carries(edge_de0)(part + 1)
+          carry_in  => edge_de0_carries(part),
+          value     => edge_de0(c_high downto c_low),
+          carry_out => edge_de0_carries(part + 1)
           );
 
         -- The line stage may hold the next triangle already, so the span keeps its own second difference.
@@ -273,12 +270,12 @@ begin
         port map (
           clk       => clk,
           load      => span_loads(part),
-          start     => part_value,
+          start     => edge_value(c_high downto c_low),
           step      => span_steps(part),
-          increment => pixel_dx,
-          carry_in  => carries(span_value)(part),
-          value     => pixel_value,
-          carry_out => carries(span_value)(part + 1)
+          increment => span_dx(c_high downto c_low),
+          carry_in  => span_value_carries(part),
+          value     => span_value(c_high downto c_low),
+          carry_out => span_value_carries(part + 1)
           );
 
       dx_along_line : entity work.part_interpolator
@@ -288,81 +285,15 @@ begin
         port map (
           clk       => clk,
           load      => span_loads(part),
-          start     => part_dx,
+          start     => edge_dx(c_high downto c_low),
           step      => span_steps(part),
           increment => span_dxx,
-          carry_in  => carries(span_dx)(part),
-          value     => pixel_dx,
-          carry_out => carries(span_dx)(part + 1)
+          carry_in  => span_dx_carries(part),
+          value     => span_dx(c_high downto c_low),
+          carry_out => span_dx_carries(part + 1)
           );
 
         -- A lower part waits for the upper ones.
-      edge_differences : if not g_probe generate
-
-        line_dx(c_high downto c_low)  <= (others => '0');
-        line_de0(c_high downto c_low) <= (others => '0');
-        line_de1(c_high downto c_low) <= (others => '0');
-
-      elsif part < g_parts - 1 generate
-
-        type waits_t is array (1 to g_parts - 1 - part) of part_t;
-
-        signal line_dx_waits, line_de0_waits, line_de1_waits : waits_t;
-
-        begin
-
-          registers : process (clk)
-          begin
-            if rising_edge(clk) then
-              line_dx_waits  <= waits_t'(part_dx & line_dx_waits(1 to waits_t'high - 1));
-              line_de0_waits <= waits_t'(part_de0 & line_de0_waits(1 to waits_t'high - 1));
-              line_de1_waits <= waits_t'(part_de1 & line_de1_waits(1 to waits_t'high - 1));
-            end if;
-          end process;
-
-          line_dx(c_high downto c_low)  <= line_dx_waits(waits_t'high);
-          line_de0(c_high downto c_low) <= line_de0_waits(waits_t'high);
-          line_de1(c_high downto c_low) <= line_de1_waits(waits_t'high);
-
-      else generate
-
-        line_dx(c_high downto c_low)  <= part_dx;
-        line_de0(c_high downto c_low) <= part_de0;
-        line_de1(c_high downto c_low) <= part_de1;
-
-      end generate;
-
-      differences : if not g_probe generate
-
-        line_value(c_high downto c_low) <= (others => '0');
-        dx(c_high downto c_low)         <= (others => '0');
-
-      elsif part < g_parts - 1 generate
-
-        type waits_t is array (1 to g_parts - 1 - part) of part_t;
-
-        signal line_value_waits, dx_waits : waits_t;
-
-        begin
-
-          registers : process (clk)
-          begin
-            if rising_edge(clk) then
-              line_value_waits <= waits_t'(part_value & line_value_waits(1 to waits_t'high - 1));
-              dx_waits         <= waits_t'(pixel_dx & dx_waits(1 to waits_t'high - 1));
-            end if;
-          end process;
-
-          line_value(c_high downto c_low) <= line_value_waits(waits_t'high);
-          dx(c_high downto c_low)         <= dx_waits(waits_t'high);
-
-      else generate
-
-        line_value(c_high downto c_low) <= part_value;
-        dx(c_high downto c_low)         <= pixel_dx;
-
-      end generate;
-
       values : if part < g_parts - 1 generate
 
         type waits_t is array (1 to g_parts - 1 - part) of part_t;
@@ -374,7 +305,7 @@ begin
           registers : process (clk)
           begin
             if rising_edge(clk) then
-              value_waits <= waits_t'(pixel_value & value_waits(1 to waits_t'high - 1));
+              value_waits <= waits_t'(span_value(c_high downto c_low) & value_waits(1 to waits_t'high - 1));
             end if;
           end process;
 
@@ -382,7 +313,7 @@ begin
 
       else generate
 
-        value(c_high downto c_low) <= pixel_value;
+        value(c_high downto c_low) <= span_value(c_high downto c_low);
 
       end generate;
 

@@ -17,8 +17,7 @@ use work.formats_pkg.all;
 entity z_interpolator is
   generic (
     g_exact : boolean  := true; -- false: edges step by a real slope, and de1 does not exist
-    g_parts : positive := 1;    -- of a word, each a clock behind the one below it
-    g_probe : boolean  := true   -- give line_value; it is zero without
+    g_parts : positive := 1     -- of a word, each a clock behind the one below it
   );
   port (
     clk        : in  std_logic;
@@ -28,7 +27,6 @@ entity z_interpolator is
     line_carry : in  std_logic;                                                   -- that step goes a pixel further
     span_load  : in  std_logic;                                                   -- begin the line
     span_step  : in  std_logic;                                                   -- go to the next pixel
-    line_value : out std_logic_vector(formats(g_exact).depth_sum.bits - 1 downto 0);
     value      : out std_logic_vector(formats(g_exact).depth_sum.bits - 1 downto 0)
   );
 end entity;
@@ -47,8 +45,7 @@ begin
     generic map (
       g_bits    => c_bits,
       g_carries => g_exact,
-      g_parts   => g_parts,
-      g_probe   => g_probe
+      g_parts   => g_parts
       )
     port map (
       clk        => clk,
@@ -58,7 +55,6 @@ begin
       line_carry => line_carry,
       span_load  => span_load,
       span_step  => span_step,
-      line_value => line_value,
       value      => value
       );
 

@@ -114,14 +114,6 @@ package processors_pkg is
 
   function token_bits (c : config_t) return positive;
 
-  -- The probe: the walk's (that of preset exact in either), the planes' values as vectors, and of each processor the
-  -- object that leaves it (processor_probe).
-  function probe_plane_low (c : config_t; plane : natural) return natural;
-
-  function probe_processor_low (c : config_t; processor : natural) return natural;
-
-  function probe_bits (c : config_t) return positive;
-
 end package;
 
 package body processors_pkg is
@@ -274,21 +266,6 @@ package body processors_pkg is
       return load_bits(c);
     end if;
     return c_pixel_bits;
-  end function;
-
-  function probe_plane_low (c : config_t; plane : natural) return natural is
-  begin
-    return probe_channel_low(true, 0) + plane * formats(c.exact).vector.bits;
-  end function;
-
-  function probe_processor_low (c : config_t; processor : natural) return natural is
-  begin
-    return probe_plane_low(c, planes(c)) + processor * processor_probe_bits(c.exact, c.channels);
-  end function;
-
-  function probe_bits (c : config_t) return positive is
-  begin
-    return probe_processor_low(c, processors(c));
   end function;
 
 end package body;

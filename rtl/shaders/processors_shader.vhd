@@ -37,8 +37,7 @@ entity processors_shader is
     g_specular    : boolean  := true;
     g_normalize   : boolean  := true;  -- the ambient processor can normalize N
     g_shadows     : boolean  := false;
-    g_unrolled    : boolean  := true;  -- a token a clock; false: a processor as published
-    g_probe       : boolean  := false  -- bring the stages' registers out
+    g_unrolled    : boolean  := true   -- a token a clock; false: a processor as published
   );
   port (
     clk               : in  std_logic;
@@ -57,9 +56,7 @@ entity processors_shader is
     fragment_green    : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     fragment_blue     : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     busy              : out std_logic; -- something is on its way
-    fault             : out std_logic; -- a shadow counter has left its range
-    probe             : out std_logic_vector(probe_bits(config(g_exact, g_channels, g_directional, g_positional, g_spots,
-      g_diffuse, g_specular, g_normalize, g_shadows)) - 1 downto 0)
+    fault             : out std_logic -- a shadow counter has left its range
   );
 end entity;
 
@@ -70,7 +67,6 @@ architecture rtl of processors_shader is
   constant c_formats     : formats_t        := formats(g_exact);
   constant c_request     : request_header_t := request_header(g_exact);
   constant c_pixel       : pixel_header_t   := pixel_header(g_exact);
-  constant c_probe       : probe_header_t   := probe_header(true);
   constant c_walk_bits   : positive         := init_channel_low(true, 0);
   constant c_plane_bits  : positive         := plane_channel_low(g_exact, 0);
   constant c_vector_bits : positive         := c_formats.vector.bits;
@@ -123,10 +119,10 @@ architecture rtl of processors_shader is
   signal line_carry                : std_logic;
   signal span_load, span_step      : std_logic;
   signal line_goes, span_goes      : std_logic; -- a step that is no load, too
-  signal line_y, y                 : std_logic_vector(fragment_y'range);
-  signal line_start, line_stop, x  : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
+  signal y                         : std_logic_vector(fragment_y'range);
+  signal x                         : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
   signal triangle                  : std_logic_vector(fragment_triangle'range);
-  signal line_z, z                 : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
+  signal z                         : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
   signal walking                   : std_logic;
   signal drawn, drawn_ready        : std_logic;
   signal line_request              : request_t;
@@ -147,8 +143,6 @@ architecture rtl of processors_shader is
   signal shaded_valid              : std_logic;
   signal shaded_ready, shaded_step : std_logic;
   signal shaded                    : token_t;
-  signal taps                      : std_logic_vector(processors(c_config) * processor_probe_bits(g_exact, g_channels)
-    - 1 downto 0);
   signal results                   : std_logic_vector(g_channels * c_colour - 1 downto 0);
   signal colours, fragment_colours : std_logic_vector(3 * c_colour - 1 downto 0); -- red lowest
   signal shaded_pixel, out_pixel   : pixel_t;
@@ -207,9 +201,9 @@ begin
       line_carry     => line_carry,
       span_load      => span_load,
       span_step      => span_step,
-      line_y         => line_y,
-      line_start     => line_start,
-      line_stop      => line_stop,
+      line_y         => open,
+      line_start     => open,
+      line_stop      => open,
       fragment_valid => drawn,
       fragment_ready => drawn_ready,
       triangle       => triangle,
@@ -223,8 +217,7 @@ begin
 
   depth : entity work.z_interpolator
     generic map (
-      g_exact => true,
-      g_probe => g_probe
+      g_exact => true
       )
     port map (
       clk        => clk,
@@ -234,7 +227,6 @@ begin
       line_carry => line_carry,
       span_load  => span_load,
       span_step  => span_goes,
-      line_value => line_z,
       value      => z
       );
 
@@ -249,8 +241,7 @@ begin
 
       interpolator : entity work.plane_interpolator
         generic map (
-          g_bits  => c_sum_bits,
-          g_probe => false
+          g_bits => c_sum_bits
           )
         port map (
           clk        => clk,
@@ -260,7 +251,6 @@ begin
           line_carry => line_carry,
           span_load  => span_load,
           span_step  => span_goes,
-          line_value => open,
           value      => value
           );
 
@@ -422,8 +412,7 @@ begin
       g_specular    => g_specular,
       g_normalize   => g_normalize,
       g_shadows     => g_shadows,
-      g_unrolled    => g_unrolled,
-      g_probe       => g_probe
+      g_unrolled    => g_unrolled
       )
     port map (
       clk       => clk,
@@ -434,7 +423,6 @@ begin
       out_valid => shaded_valid,
       out_ready => shaded_ready,
       out_token => shaded,
-      taps      => taps,
       busy      => shading,
       fault     => fault
       );
@@ -525,45 +513,5 @@ begin
 
   fragment_valid <= out_valid;
   busy           <= waiting or walking or objects_busy or shading or out_valid;
-
-  probed : if g_probe generate
-
-    constant c_block_bits : positive                 := processor_probe_bits(g_exact, g_channels);
-    constant c_block      : processor_probe_header_t := processor_probe_header(g_exact);
-    constant c_last       : natural                  := processors(c_config) - 1;
-
-    begin
-
-      -- Of all processors but the last one.
-      any_event : process (all)
-        variable v : std_logic;
-      begin
-        v := '0';
-        for processor in 0 to c_last - 1 loop
-          v := v or taps(processor * c_block_bits + c_block.leaves.low);
-        end loop;
-        probe(c_probe.sample_event.low) <= v;
-      end process;
-
-      probe(c_probe.product_event.low)                             <= taps(c_last * c_block_bits + c_block.leaves.low);
-      probe(c_probe.line_event.low)                                <= span_load;
-      probe(c_probe.span_event.low)                                <= span_step;
-      probe(c_probe.line_y.high downto c_probe.line_y.low)         <= line_y;
-      probe(c_probe.line_start.high downto c_probe.line_start.low) <= line_start;
-      probe(c_probe.line_stop.high downto c_probe.line_stop.low)   <= line_stop;
-      probe(c_probe.line_carry.low)                                <= line_carry;
-      probe(c_probe.line_z.high downto c_probe.line_z.low)         <= line_z;
-      probe(c_probe.span_y.high downto c_probe.span_y.low)         <= y;
-      probe(c_probe.span_x.high downto c_probe.span_x.low)         <= x;
-      probe(c_probe.span_z.high downto c_probe.span_z.low)         <= z;
-
-      probe(probe_plane_low(c_config, 0) + vectors'high downto probe_plane_low(c_config, 0))       <= vectors;
-      probe(probe_processor_low(c_config, 0) + taps'high downto probe_processor_low(c_config, 0)) <= taps;
-
-  else generate
-
-    probe <= (others => '0');
-
-  end generate;
 
 end architecture;

@@ -24,8 +24,7 @@ use work.formats_pkg.all;
 entity quadratic_shader is
   generic (
     g_exact    : boolean  := true;
-    g_channels : positive := 3;
-    g_probe    : boolean  := false -- bring the stages' registers out
+    g_channels : positive := 3
   );
   port (
     clk               : in  std_logic;
@@ -43,19 +42,16 @@ entity quadratic_shader is
     fragment_green    : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     fragment_blue     : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     busy              : out std_logic; -- something is on its way
-    fault             : out std_logic; -- nothing here can go wrong
-    probe             : out std_logic_vector(probe_bits(g_exact, g_channels) - 1 downto 0)
+    fault             : out std_logic -- nothing here can go wrong
   );
 end entity;
 
 architecture rtl of quadratic_shader is
 
-  constant c_formats      : formats_t       := formats(g_exact);
-  constant c_probe        : probe_header_t  := probe_header(g_exact);
-  constant c_part         : probe_channel_t := probe_channel(g_exact);
-  constant c_header_bits  : positive        := init_channel_low(g_exact, 0);
-  constant c_channel_bits : positive        := init_channel_low(g_exact, 1) - c_header_bits;
-  constant c_colour       : positive        := c_formats.colour.bits;
+  constant c_formats      : formats_t := formats(g_exact);
+  constant c_header_bits  : positive  := init_channel_low(g_exact, 0);
+  constant c_channel_bits : positive  := init_channel_low(g_exact, 1) - c_header_bits;
+  constant c_colour       : positive  := c_formats.colour.bits;
 
   -- The interpolators' words: depth's are the header's last.
   constant c_depth_low     : positive := init_header(g_exact).z.low;
@@ -117,10 +113,10 @@ architecture rtl of quadratic_shader is
   signal line_load, line_step          : std_logic;
   signal line_carry                    : std_logic;
   signal span_load, span_step          : std_logic;
-  signal line_y, y                     : std_logic_vector(fragment_y'range);
-  signal line_start, line_stop, x      : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
+  signal y                             : std_logic_vector(fragment_y'range);
+  signal x                             : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
   signal triangle                      : std_logic_vector(fragment_triangle'range);
-  signal line_z, z                     : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
+  signal z                             : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
   signal whole_z                       : std_logic_vector(fragment_z'range);
   signal colours                       : std_logic_vector(3 * c_colour - 1 downto 0); -- red lowest
   signal takes                         : std_logic; -- a vector comes into the buffer
@@ -172,9 +168,9 @@ begin
       line_carry     => line_carry,
       span_load      => span_load,
       span_step      => span_step,
-      line_y         => line_y,
-      line_start     => line_start,
-      line_stop      => line_stop,
+      line_y         => open,
+      line_start     => open,
+      line_stop      => open,
       fragment_valid => open,
       fragment_ready => room,
       triangle       => triangle,
@@ -251,8 +247,7 @@ begin
   depth : entity work.z_interpolator
     generic map (
       g_exact => g_exact,
-      g_parts => c_parts,
-      g_probe => g_probe
+      g_parts => c_parts
       )
     port map (
       clk        => clk,
@@ -262,17 +257,14 @@ begin
       line_carry => r.line_carry,
       span_load  => r.span_load,
       span_step  => r.span_goes,
-      line_value => line_z,
       value      => z
       );
 
   channels : for channel in 0 to g_channels - 1 generate
 
-    constant c_low       : natural := init_channel_low(g_exact, channel);
-    constant c_probe_low : natural := probe_channel_low(g_exact, channel);
+    constant c_low : natural := init_channel_low(g_exact, channel);
 
-    signal line_value, line_dx, line_de0, line_de1 : intensity_t;
-    signal value, dx                               : intensity_t;
+    signal value : intensity_t;
 
     begin
 
@@ -303,8 +295,7 @@ begin
       interpolator : entity work.quadratic_interpolator
         generic map (
           g_exact => g_exact,
-          g_parts => c_parts,
-          g_probe => g_probe
+          g_parts => c_parts
           )
         port map (
           clk        => clk,
@@ -314,12 +305,7 @@ begin
           line_carry => r.line_carry,
           span_load  => r.span_load,
           span_step  => r.span_goes,
-          line_value => line_value,
-          line_dx    => line_dx,
-          line_de0   => line_de0,
-          line_de1   => line_de1,
-          value      => value,
-          dx         => dx
+          value      => value
           );
 
       to_colour : entity work.saturate
@@ -332,20 +318,6 @@ begin
           value  => value,
           result => colours((channel + 1) * c_colour - 1 downto channel * c_colour)
           );
-
-      probed_channel : if g_probe generate
-
-        probe(c_probe_low + c_part.line_value.high downto c_probe_low + c_part.line_value.low) <= line_value;
-        probe(c_probe_low + c_part.line_dx.high downto c_probe_low + c_part.line_dx.low)       <= line_dx;
-        probe(c_probe_low + c_part.line_de0.high downto c_probe_low + c_part.line_de0.low)     <= line_de0;
-        probe(c_probe_low + c_part.span_value.high downto c_probe_low + c_part.span_value.low) <= value;
-        probe(c_probe_low + c_part.span_dx.high downto c_probe_low + c_part.span_dx.low)       <= dx;
-
-        probed_carry : if g_exact generate
-          probe(c_probe_low + c_part.line_de1.high downto c_probe_low + c_part.line_de1.low) <= line_de1;
-        end generate;
-
-      end generate;
 
   end generate;
 
@@ -390,56 +362,5 @@ begin
 
   busy  <= waiting or walking or coming;
   fault <= '0';
-
-  probed : if g_probe generate
-
-    -- The line that a span begins with, till the interpolators' words are there.
-    type line_t is record
-      begins : std_logic;
-      carry  : std_logic;
-      y      : std_logic_vector(fragment_y'range);
-      start  : span_x_t;
-      stop   : span_x_t;
-    end record;
-
-    type lines_t is array (1 to c_parts) of line_t;
-
-    signal lines : lines_t;
-
-    begin
-
-      beside_lines : process (clk)
-      begin
-        if rising_edge(clk) then
-          lines <= line_t'(span_load, line_carry, line_y, line_start, line_stop) & lines(1 to c_parts - 1);
-          if reset = '1' then
-            for clock in lines_t'range loop
-              lines(clock).begins <= '0';
-            end loop;
-          end if;
-        end if;
-      end process;
-
-      probe(c_probe.line_event.low)                                <= lines(c_parts).begins;
-      probe(c_probe.span_event.low)                                <= r.span_step(c_parts);
-      probe(c_probe.sample_event.low)                              <= '0'; -- stages of another shader
-      probe(c_probe.product_event.low)                             <= '0';
-      probe(c_probe.line_y.high downto c_probe.line_y.low)         <= lines(c_parts).y;
-      probe(c_probe.line_start.high downto c_probe.line_start.low) <= lines(c_parts).start;
-      probe(c_probe.line_stop.high downto c_probe.line_stop.low)   <= lines(c_parts).stop;
-      probe(c_probe.line_z.high downto c_probe.line_z.low)         <= line_z;
-      probe(c_probe.span_y.high downto c_probe.span_y.low)         <= pixels(c_parts).y;
-      probe(c_probe.span_x.high downto c_probe.span_x.low)         <= pixels(c_parts).x;
-      probe(c_probe.span_z.high downto c_probe.span_z.low)         <= z;
-
-      probed_carry : if g_exact generate
-        probe(c_probe.line_carry.low) <= lines(c_parts).carry;
-      end generate;
-
-  else generate
-
-    probe <= (others => '0');
-
-  end generate;
 
 end architecture;

@@ -4,11 +4,10 @@
 --             specular one of light 1, of light 2 and so on, in either form. Only objects come out behind the last.
 -- Contract    A token moves where valid and ready are both '1' at a rising edge; out_token does not change while it
 --             waits. Tokens run in order through all processors; loads and shadow polygons are dropped behind the last.
---             busy: a processor holds a token. fault stays '1': shading_processor. taps, with g_probe: of each
---             processor whether an object leaves it in this clock, its command, and the colour so far.
+--             busy: a processor holds a token. fault stays '1': shading_processor.
 --             Unrolled, out_ready reaches in_ready through every processor without a register between; who needs a
 --             faster clock puts a stream_register between two of them.
--- Formats     processors_pkg; taps: formats_pkg, processor_probe
+-- Formats     processors_pkg
 -- Latency     the sum of the processors'
 -- Throughput  that of the slowest processor; unrolled a token a clock
 -- Source      processors paper, section 3.2: 2 (P + R) + 1 processors
@@ -31,8 +30,7 @@ entity shading_pipeline is
     g_specular    : boolean              := true;
     g_normalize   : boolean              := true;
     g_shadows     : boolean              := false;
-    g_unrolled    : boolean              := true;
-    g_probe       : boolean              := false -- show the objects that leave each processor
+    g_unrolled    : boolean              := true
   );
   port (
     clk       : in  std_logic;
@@ -46,9 +44,7 @@ entity shading_pipeline is
     out_token : out std_logic_vector(token_bits(config(g_exact, g_channels, g_directional, g_positional, g_spots,
       g_diffuse, g_specular, g_normalize, g_shadows)) - 1 downto 0);
     busy      : out std_logic;
-    fault     : out std_logic;
-    taps      : out std_logic_vector(processors(config(g_exact, g_channels, g_directional, g_positional, g_spots,
-      g_diffuse, g_specular, g_normalize, g_shadows)) * processor_probe_bits(g_exact, g_channels) - 1 downto 0)
+    fault     : out std_logic
   );
 end entity;
 
@@ -177,36 +173,5 @@ begin
 
   busy  <= or works;
   fault <= or faults;
-
-  probed : if g_probe generate
-
-    constant c_bits  : positive                  := processor_probe_bits(g_exact, g_channels);
-    constant c_block : processor_probe_header_t  := processor_probe_header(g_exact);
-
-    begin
-
-      tapped : for index in 0 to c_processors - 1 generate
-
-        constant c_low : natural := index * c_bits;
-
-        signal token : std_logic_vector(in_token'range);
-
-        begin
-
-          token <= tokens(index + 1);
-
-          taps(c_low + c_block.leaves.low) <= valid(index + 1) and ready(index + 1) and is_object(token(command_t'range));
-          taps(c_low + c_block.command.high downto c_low + c_block.command.low) <= token(command_t'range);
-          -- The channels follow one another here as there.
-          taps(c_low + c_bits - 1 downto c_low + processor_probe_channel_low(g_exact, 0)) <=
-            token(radiance_low(c_config, g_channels) - 1 downto radiance_low(c_config, 0));
-
-      end generate;
-
-  else generate
-
-    taps <= (others => '0');
-
-  end generate;
 
 end architecture;

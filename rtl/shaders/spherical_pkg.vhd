@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Where a light's parts lie in a line record and in the probe of the spherical shader. A line record holds for every
--- light its diffuse part, then its specular part; the probe the same behind its header.
+-- Where a light's parts lie in a line record of the spherical shader. A line record holds for every light its diffuse
+-- part, then its specular part.
 -- Golden twin model/golden/spherical_layout.hpp
 
 use work.formats_pkg.all;
@@ -19,19 +19,12 @@ package spherical_pkg is
 
   function specular_part_bits (exact, specular : boolean; highlight_channels : positive) return natural;
 
-  function diffuse_part_probe_bits (exact : boolean; channels : positive; diffuse, specular : boolean) return natural;
-
-  function specular_part_probe_bits (exact, specular : boolean; highlight_channels : positive) return natural;
-
   -- 0: no line records follow a triangle's header.
   function record_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
     highlight_channels : positive) return natural;
 
   -- Of a vector: a triangle's header, or a line record.
   function init_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
-    highlight_channels : positive) return positive;
-
-  function probe_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
     highlight_channels : positive) return positive;
 
 end package;
@@ -67,22 +60,6 @@ package body spherical_pkg is
     return 0;
   end function;
 
-  function diffuse_part_probe_bits (exact : boolean; channels : positive; diffuse, specular : boolean) return natural is
-  begin
-    if has_diffuse_part(exact, diffuse, specular) then
-      return diffuse_probe_bits(exact, diffuse_channels(channels, diffuse));
-    end if;
-    return 0;
-  end function;
-
-  function specular_part_probe_bits (exact, specular : boolean; highlight_channels : positive) return natural is
-  begin
-    if specular then
-      return specular_probe_bits(exact, highlight_channels);
-    end if;
-    return 0;
-  end function;
-
   function record_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
     highlight_channels : positive) return natural is
   begin
@@ -99,13 +76,6 @@ package body spherical_pkg is
       return c_record;
     end if;
     return c_header;
-  end function;
-
-  function probe_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
-    highlight_channels : positive) return positive is
-  begin
-    return probe_channel_low(exact, 0) + lights * (diffuse_part_probe_bits(exact, channels, diffuse, specular)
-      + specular_part_probe_bits(exact, specular, highlight_channels));
   end function;
 
 end package body;

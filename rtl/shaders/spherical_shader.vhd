@@ -38,8 +38,7 @@ entity spherical_shader is
     g_highlight_channels : positive := 3;    -- 1: every highlight is grey, one multiplier a light does
     g_powers             : natural  := 2;    -- bit i: the table of cosine to the power 2**i is there
     g_address_bits       : positive := 9;
-    g_data_bits          : positive := 8;
-    g_probe              : boolean  := false -- bring the stages' registers out
+    g_data_bits          : positive := 8
   );
   port (
     clk               : in  std_logic;
@@ -58,26 +57,21 @@ entity spherical_shader is
     fragment_green    : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     fragment_blue     : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     busy              : out std_logic; -- something is on its way
-    fault             : out std_logic; -- nothing here can go wrong
-    probe             : out std_logic_vector(probe_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
-      g_highlight_channels) - 1 downto 0)
+    fault             : out std_logic -- nothing here can go wrong
   );
 end entity;
 
 architecture rtl of spherical_shader is
 
-  constant c_formats     : formats_t      := formats(g_exact);
-  constant c_probe       : probe_header_t := probe_header(g_exact);
-  constant c_header_bits : positive       := init_channel_low(g_exact, 0);
-  constant c_colour      : positive       := c_formats.colour.bits;
+  constant c_formats     : formats_t := formats(g_exact);
+  constant c_header_bits : positive  := init_channel_low(g_exact, 0);
+  constant c_colour      : positive  := c_formats.colour.bits;
 
-  -- The parts of a light in a line record, and in the probe.
+  -- The parts of a light in a line record.
   constant c_diffuse_part     : boolean := has_diffuse_part(g_exact, g_diffuse, g_specular);
   constant c_diffuse_channels : natural := diffuse_channels(g_channels, g_diffuse);
   constant c_diffuse_bits     : natural := diffuse_part_bits(g_exact, g_channels, g_diffuse, g_specular);
   constant c_specular_bits    : natural := specular_part_bits(g_exact, g_specular, g_highlight_channels);
-  constant c_diffuse_probe    : natural := diffuse_part_probe_bits(g_exact, g_channels, g_diffuse, g_specular);
-  constant c_specular_probe   : natural := specular_part_probe_bits(g_exact, g_specular, g_highlight_channels);
   constant c_records          : boolean := record_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
     g_highlight_channels) > 0;
 
@@ -89,10 +83,7 @@ architecture rtl of spherical_shader is
   subtype place_t   is std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length - 1 downto 0);
   subtype depth_t   is std_logic_vector(c_formats.depth.bits - 1 downto 0);
   subtype ambient_t is std_logic_vector(ambient_bits(g_exact, g_channels) - 1 downto 0);
-  subtype probe_t   is std_logic_vector(probe'length - 1 downto 0);
   subtype terms_t   is std_logic_vector(c_terms * c_term_bits - 1 downto 0);
-
-  type probes_t is array (1 to 2) of probe_t;
 
   type terms_of_channels_t is array (0 to g_channels - 1) of terms_t;
 
@@ -105,10 +96,10 @@ architecture rtl of spherical_shader is
   signal header_load                  : std_logic; -- the triangle's words, with line_load or before
   signal line_carry                   : std_logic;
   signal span_load, span_step         : std_logic;
-  signal line_y, y                    : std_logic_vector(fragment_y'range);
-  signal line_start, line_stop, x     : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
+  signal y                            : std_logic_vector(fragment_y'range);
+  signal x                            : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
   signal triangle                     : std_logic_vector(fragment_triangle'range);
-  signal line_z, z                    : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
+  signal z                            : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
   signal walking                      : std_logic;
   signal room, coming                 : std_logic;
   signal pixel_valid                  : std_logic;
@@ -155,7 +146,6 @@ architecture rtl of spherical_shader is
   signal line_ambient, span_ambient   : ambient_t;
   signal pixel, fragment_pixel        : std_logic_vector(place_t'length + depth_t'length + 3 * c_colour - 1 downto 0);
   signal terms                                               : terms_of_channels_t;
-  signal early                                               : probe_t; -- but for depth
   signal results                                             : std_logic_vector(g_channels * c_colour - 1 downto 0);
   signal colours                                             : std_logic_vector(3 * c_colour - 1 downto 0); -- red lowest
 
@@ -206,9 +196,9 @@ begin
       line_carry     => line_carry,
       span_load      => span_load,
       span_step      => span_step,
-      line_y         => line_y,
-      line_start     => line_start,
-      line_stop      => line_stop,
+      line_y         => open,
+      line_start     => open,
+      line_stop      => open,
       fragment_valid => open,
       fragment_ready => room,
       triangle       => triangle,
@@ -275,8 +265,7 @@ begin
   depth : entity work.z_interpolator
     generic map (
       g_exact => g_exact,
-      g_parts => 2,
-      g_probe => g_probe
+      g_parts => 2
       )
     port map (
       clk        => clk,
@@ -286,7 +275,6 @@ begin
       line_carry => r.line_carry,
       span_load  => r.span_load,
       span_step  => r.span_goes,
-      line_value => line_z,
       value      => z
       );
 
@@ -318,8 +306,6 @@ begin
   lights : for light in 0 to g_lights - 1 generate
 
     constant c_low            : natural := light * (c_diffuse_bits + c_specular_bits);
-    constant c_probe_low      : natural := probe_channel_low(g_exact, 0) + light * (c_diffuse_probe + c_specular_probe);
-    constant c_specular_low   : natural := c_probe_low + c_diffuse_probe;
     constant c_diffuse_term   : natural := (1 + light * c_light_terms) * c_term_bits;
     constant c_highlight_term : natural := c_diffuse_term + boolean'pos(g_diffuse) * c_term_bits;
 
@@ -332,12 +318,6 @@ begin
 
       diffuse : if c_diffuse_part generate
 
-        constant c_fields  : diffuse_probe_header_t  := diffuse_probe_header(g_exact);
-        constant c_product : diffuse_probe_channel_t := diffuse_probe_channel(g_exact);
-
-        signal angle    : std_logic_vector(c_formats.angle.bits - 1 downto 0);
-        signal in_range : std_logic;
-        signal sample   : std_logic_vector(g_data_bits - 1 downto 0);
         signal products : std_logic_vector((c_diffuse_channels + boolean'pos(not g_diffuse)) * c_term_bits - 1
           downto 0);
 
@@ -357,9 +337,6 @@ begin
               span_step   => room,
               sample_step => r.filled(c_sampled),
               lit         => lit,
-              angle       => angle,
-              in_range    => in_range,
-              sample      => sample,
               products    => products
               );
 
@@ -367,27 +344,6 @@ begin
 
             terms(channel)(c_diffuse_term + c_term_bits - 1 downto c_diffuse_term) <=
               products((channel + 1) * c_term_bits - 1 downto channel * c_term_bits);
-
-          end generate;
-
-          probed_diffuse : if g_probe generate
-
-            early(c_probe_low + c_fields.angle.high downto c_probe_low + c_fields.angle.low) <= angle;
-            early(c_probe_low + c_fields.in_range.low)                                         <= in_range;
-            early(c_probe_low + c_fields.sample.high downto c_probe_low + c_fields.sample.low) <=
-              std_logic_vector(resize(unsigned(sample), c_formats.sample_word.bits));
-
-            probed_products : for channel in 0 to c_diffuse_channels - 1 generate
-
-              constant c_block : natural := c_probe_low + diffuse_probe_channel_low(g_exact, channel);
-
-              begin
-
-                early(c_block + c_product.product.high downto c_block + c_product.product.low) <=
-                  std_logic_vector(resize(unsigned(products((channel + 1) * c_term_bits - 1 downto channel
-                  * c_term_bits)), c_formats.product_word.bits));
-
-            end generate;
 
           end generate;
 
@@ -399,12 +355,6 @@ begin
 
       specular : if g_specular generate
 
-        constant c_fields  : specular_probe_header_t  := specular_probe_header(g_exact);
-        constant c_product : specular_probe_channel_t := specular_probe_channel(g_exact);
-
-        signal angle    : std_logic_vector(c_formats.angle.bits - 1 downto 0);
-        signal in_range : std_logic;
-        signal sample   : std_logic_vector(g_data_bits - 1 downto 0);
         signal products : std_logic_vector(g_highlight_channels * c_term_bits - 1 downto 0);
 
         begin
@@ -424,9 +374,6 @@ begin
               span_step   => room,
               sample_step => r.filled(c_sampled),
               lit         => lit,
-              angle       => angle,
-              in_range    => in_range,
-              sample      => sample,
               products    => products
               );
 
@@ -439,27 +386,6 @@ begin
 
               terms(channel)(c_highlight_term + c_term_bits - 1 downto c_highlight_term) <=
                 products(c_from + c_term_bits - 1 downto c_from);
-
-          end generate;
-
-          probed_specular : if g_probe generate
-
-            early(c_specular_low + c_fields.angle.high downto c_specular_low + c_fields.angle.low) <= angle;
-            early(c_specular_low + c_fields.in_range.low)                                            <= in_range;
-            early(c_specular_low + c_fields.sample.high downto c_specular_low + c_fields.sample.low) <=
-              std_logic_vector(resize(unsigned(sample), c_formats.sample_word.bits));
-
-            probed_products : for channel in 0 to g_highlight_channels - 1 generate
-
-              constant c_block : natural := c_specular_low + specular_probe_channel_low(g_exact, channel);
-
-              begin
-
-                early(c_block + c_product.product.high downto c_block + c_product.product.low) <=
-                  std_logic_vector(resize(unsigned(products((channel + 1) * c_term_bits - 1 downto channel
-                  * c_term_bits)), c_formats.product_word.bits));
-
-            end generate;
 
           end generate;
 
@@ -537,55 +463,5 @@ begin
 
   busy  <= waiting or walking or coming;
   fault <= '0';
-
-  probed : if g_probe generate
-
-    -- All but depth waits for depth.
-    signal later : probes_t;
-
-    begin
-
-      early(c_probe.line_event.low)                                <= span_load;
-      early(c_probe.span_event.low)                                <= span_step;
-      early(c_probe.sample_event.low)                              <= r.filled(c_sampled);
-      early(c_probe.product_event.low)                             <= r.filled(c_multiplied);
-      early(c_probe.line_y.high downto c_probe.line_y.low)         <= line_y;
-      early(c_probe.line_start.high downto c_probe.line_start.low) <= line_start;
-      early(c_probe.line_stop.high downto c_probe.line_stop.low)   <= line_stop;
-      early(c_probe.line_z.high downto c_probe.line_z.low)         <= (others => '0');
-      early(c_probe.span_y.high downto c_probe.span_y.low)         <= y;
-      early(c_probe.span_x.high downto c_probe.span_x.low)         <= x;
-      early(c_probe.span_z.high downto c_probe.span_z.low)         <= (others => '0');
-
-      probed_carry : if g_exact generate
-        early(c_probe.line_carry.low) <= line_carry;
-      end generate;
-
-      wait_for_depth : process (clk)
-      begin
-        if rising_edge(clk) then
-          later <= early & later(1);
-          if reset = '1' then
-            for clocks in probes_t'range loop
-              later(clocks)(c_probe.product_event.low downto c_probe.line_event.low) <= (others => '0');
-            end loop;
-          end if;
-        end if;
-      end process;
-
-      with_depth : process (all)
-        variable v : probe_t;
-      begin
-        v := later(c_depth);
-        v(c_probe.line_z.high downto c_probe.line_z.low) := line_z;
-        v(c_probe.span_z.high downto c_probe.span_z.low) := z;
-        probe <= v;
-      end process;
-
-  else generate
-
-    probe <= (others => '0');
-
-  end generate;
 
 end architecture;

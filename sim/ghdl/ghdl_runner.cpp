@@ -20,10 +20,8 @@ namespace {
 constexpr const char* kTestbench = "frame_tb";
 constexpr const char* kTestbenchFile = "tb/frame_tb.vhd";
 constexpr std::string_view kTestbenchShader = "entity work.quadratic_shader";
-constexpr std::string_view kTestbenchGenerics =
-    "g_exact => g_exact, g_channels => g_channels, g_probe => g_probe";
+constexpr std::string_view kTestbenchGenerics = "g_exact => g_exact, g_channels => g_channels";
 constexpr std::string_view kTestbenchInitBits = "work.formats_pkg.init_bits(g_exact, g_channels)";
-constexpr std::string_view kTestbenchProbeBits = "work.formats_pkg.probe_bits(g_exact, g_channels)";
 
 /// Removes the file at the end unless it was renamed.
 class ScratchFile {
@@ -86,8 +84,8 @@ std::string reported_failure(const std::string& output) {
 Result<VhdlSource> GhdlRunner::testbench(const HardwareKey& key, const std::filesystem::path& source_folder) {
   auto testbench = read_vhdl_source(source_folder, kTestbenchFile);
   if (!testbench) return testbench.error();
-  // All shaders have the same ports: one testbench, into which the entity, its generics and the ports' widths
-  // are put.
+  // All shaders have the same ports: one testbench, into which the entity, its generics and the width of
+  // init_data are put.
   const auto put = [&](std::string_view what, const std::string& with) -> Status {
     const std::size_t at = testbench->content.find(what);
     if (at == std::string::npos)
@@ -100,7 +98,7 @@ Result<VhdlSource> GhdlRunner::testbench(const HardwareKey& key, const std::file
     generics += fmt::format("{0}{1} => {1}", generics.empty() ? "" : ", ", name);
   for (const Status& status :
        {put(kTestbenchShader, "entity work." + key.entity()), put(kTestbenchGenerics, generics),
-        put(kTestbenchInitBits, key.vhdl_init_bits()), put(kTestbenchProbeBits, key.vhdl_probe_bits())})
+        put(kTestbenchInitBits, key.vhdl_init_bits())})
     if (!status) return status.error();
   return testbench;
 }
@@ -125,11 +123,7 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
   if (options.on_begin) options.on_begin();
   const auto absolute_trace = std::filesystem::absolute(trace_file);
   if (auto made = make_folders(absolute_trace.parent_path()); !made) return made.error();
-  const std::string suffix = fmt::format(".part-{}", ::getpid());
-  ScratchFile trace(absolute_trace.string() + suffix);
-  ScratchFile probes(options.probe_file.empty()
-                         ? std::string()
-                         : std::filesystem::absolute(options.probe_file).string() + suffix);
+  ScratchFile trace(fmt::format("{}.part-{}", absolute_trace.string(), ::getpid()));
 
   Command command{.arguments = library_.run_arguments(kTestbench), .working_folder = library_.folder()};
   const auto generic = [&](std::string_view name, const std::string& value) {
@@ -138,7 +132,6 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
   for (const auto& [name, value] : key_.generics()) generic(name, value);
   generic("g_init_file", std::filesystem::absolute(init_file).string());
   generic("g_trace_file", trace.path().string());
-  if (!options.probe_file.empty()) generic("g_probe_file", probes.path().string());
   generic("g_max_fragments", std::to_string(std::min(options.max_fragments, 0x7fffffffU)));
   generic("g_idle_limit", std::to_string(std::clamp(options.idle_limit, 1U, 0x7fffffffU)));
   generic("g_stall_seed", std::to_string(options.stall_seed & 0x7fffffffU));
@@ -194,11 +187,6 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
   }
   run->seconds = seconds;
   if (auto renamed = trace.rename_to(absolute_trace); !renamed) return renamed.error();
-  if (!options.probe_file.empty()) {
-    if (auto renamed = probes.rename_to(std::filesystem::absolute(options.probe_file)); !renamed) {
-      return renamed.error();
-    }
-  }
   return *run;
 }
 

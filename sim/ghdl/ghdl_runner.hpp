@@ -15,7 +15,6 @@
 namespace halfway {
 
 struct GhdlRunOptions {
-  std::filesystem::path probe_file{};  ///< where the key has probes: lines of `cycle bits`; empty: none
   std::uint32_t max_fragments = 0x7fffffff;
   std::uint32_t idle_limit = 100'000;  ///< cycles in which nothing moves: a hang
   std::uint32_t stall_seed = 0;        ///< 0: full speed; else both streams stall at random

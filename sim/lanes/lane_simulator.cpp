@@ -229,8 +229,7 @@ Status LaneSimulator::Passage::hand_on(const OnDrawn& on_drawn) {
 }
 
 std::string LaneSimulator::refused(const HardwareKey& key) {
-  if (key.shader == Shader::processors) return "its lights and counters outlive a triangle";
-  return key.probe ? "they have no probes" : "";
+  return key.shader == Shader::processors ? "its lights and counters outlive a triangle" : "";
 }
 
 Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,

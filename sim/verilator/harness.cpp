@@ -32,9 +32,7 @@ constexpr std::size_t words_of(std::size_t bits) {
   return (bits + 31) / 32;
 }
 constexpr std::size_t kInitWords = words_of(HALFWAY_INIT_BITS);
-constexpr std::size_t kProbeWords = words_of(HALFWAY_PROBE_BITS);
-constexpr int kLateCycles = 8;               // for a fault, as in tb/frame_tb.vhd
-constexpr std::uint32_t kProbeEvents = 0xf;  // its lowest bits: what the stages do in this cycle
+constexpr int kLateCycles = 8;  // for a fault, as in tb/frame_tb.vhd
 
 // Ports of up to 64 bits are plain integers, wider ones arrays of words.
 template <class Port>
@@ -46,26 +44,6 @@ void write_port(Port& port, const std::uint32_t* words) {
   } else {
     static_assert(sizeof(Port) == 4 * kInitWords);
     std::memcpy(&port[0], words, sizeof(Port));
-  }
-}
-
-template <class Port>
-void read_port(const Port& port, std::uint32_t* words) {
-  if constexpr (std::is_integral_v<Port>) {
-    words[0] = static_cast<std::uint32_t>(port);
-    if constexpr (sizeof(Port) == 8) words[1] = static_cast<std::uint32_t>(port >> 32);
-  } else {
-    static_assert(sizeof(Port) == 4 * kProbeWords);
-    std::memcpy(words, &port[0], sizeof(Port));
-  }
-}
-
-template <class Port>
-std::uint32_t first_word(const Port& port) {
-  if constexpr (std::is_integral_v<Port>) {
-    return static_cast<std::uint32_t>(port);
-  } else {
-    return port[0];
   }
 }
 
@@ -143,9 +121,7 @@ class Model {
 
   int advance(HalfwayStreams& streams, bool drain) {
     const bool stall = options_.stall_seed != 0;
-    const bool probe = options_.on_probe != nullptr;
-    if (kWaves || probe) return stall ? loop<true, true>(streams, drain) : loop<false, true>(streams, drain);
-    return stall ? loop<true, false>(streams, drain) : loop<false, false>(streams, drain);
+    return stall ? loop<true>(streams, drain) : loop<false>(streams, drain);
   }
 
  private:
@@ -209,13 +185,6 @@ class Model {
             0};
   }
 
-  void record(std::uint64_t cycle) {
-    if (options_.on_probe == nullptr || (first_word(shader_->probe) & kProbeEvents) == 0) return;
-    std::uint32_t words[kProbeWords];
-    read_port(shader_->probe, words);
-    options_.on_probe(options_.probe_context, cycle, words);
-  }
-
   void dump([[maybe_unused]] std::uint64_t cycle, [[maybe_unused]] bool clock) {
 #ifdef HALFWAY_WAVES
     if (waves_ == nullptr || cycle < options_.waves_from || cycle >= options_.waves_to) return;
@@ -223,7 +192,7 @@ class Model {
 #endif
   }
 
-  template <bool stall, bool observe>
+  template <bool stall>
   int loop(HalfwayStreams& streams, bool drain) {
     std::uint64_t cycle = cycle_, last_move = last_move_;
     int status = HALFWAY_DONE;
@@ -256,11 +225,8 @@ class Model {
         holding_ = valid && !emit;
       }
       if (emit) streams.fragments[streams.count++] = fragment();
-      if constexpr (observe) {
-        if (started_) {
-          record(cycle);
-          dump(cycle, false);
-        }
+      if constexpr (kWaves) {
+        if (started_) dump(cycle, false);
       }
       if (take || emit) {
         last_move = cycle;
@@ -275,7 +241,7 @@ class Model {
         }
       }
       rising_edge();
-      if constexpr (observe) {
+      if constexpr (kWaves) {
         if (started_) dump(cycle, true);
       }
       ++cycle;
@@ -328,7 +294,7 @@ HALFWAY_EXPORT uint32_t halfway_harness_version(void) {
 }
 
 HALFWAY_EXPORT void* halfway_create(const HalfwayOptions* options) {
-  if (options->init_bits != HALFWAY_INIT_BITS || options->probe_bits != HALFWAY_PROBE_BITS) return nullptr;
+  if (options->init_bits != HALFWAY_INIT_BITS) return nullptr;
   if (options->waves_path != nullptr && !kWaves) return nullptr;
   auto model = std::make_unique<Model>(*options);
   return model->waves_failed() ? nullptr : model.release();

@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-#define HALFWAY_HARNESS_VERSION 2
+#define HALFWAY_HARNESS_VERSION 3
 
 /* Laid out as halfway::Fragment. */
 typedef struct {
@@ -28,13 +28,9 @@ typedef enum {
 } HalfwayStatus;
 
 typedef struct {
-  uint32_t init_bits, probe_bits;
+  uint32_t init_bits;
   uint32_t stall_seed; /* 0: full speed */
   uint64_t idle_limit;
-  /* Where not null: called with each cycle that has a line or span event (probe bits 0 and 1), values as
-     sampled with the rising edge. */
-  void (*on_probe)(void* context, uint64_t cycle, const uint32_t* words);
-  void* probe_context;
   /* Waveforms of the cycles [waves_from, waves_to), in libraries built for it; else null. */
   const char* waves_path;
   uint64_t waves_from, waves_to;
@@ -56,7 +52,7 @@ int halfway_drain(void* model, HalfwayStreams* streams);
 uint64_t halfway_cycles(const void* model);
 
 uint32_t halfway_harness_version(void);
-/* Null where the library was built for other widths, or was not built for waveforms and these are asked for.
+/* Null where the library was built for another width, or was not built for waveforms and these are asked for.
  */
 void* halfway_create(const HalfwayOptions* options);
 void halfway_destroy(void* model);

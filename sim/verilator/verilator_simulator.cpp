@@ -33,8 +33,6 @@ struct VerilatorSimulator::Hardware {
   SharedLibrary library;
   std::string name;
   HalfwayOptions options{};
-  std::size_t probe_words = 0;
-  bool record_probes = false;
   decltype(&halfway_create) create = nullptr;
   decltype(&halfway_run) run = nullptr;
   decltype(&halfway_drain) drain = nullptr;
@@ -51,26 +49,18 @@ struct VerilatorSimulator::State : Hardware {
   }
 
   std::string wave_path;
-  std::vector<ProbeRecord> probes;
   void* model = nullptr;
 };
 
 Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,
                                                     const VerilatorOptions& options) {
-  if (options.record_probes && !key.probe) {
-    return bad_input(
-        fmt::format("{}: this hardware has no probes; ask for a key with probe set", key.name()));
-  }
   // The others are for looking at a few cycles, at every wire.
-  const bool fast = options.wave_file.empty() && !key.probe && options.netlist.empty();
+  const bool fast = options.wave_file.empty() && options.netlist.empty();
   auto netlist = netlist_of(key, folders);
   if (!netlist) return netlist.error();
   const unsigned init_bits = port_bits(*netlist, key.entity(), "init_data");
-  const unsigned probe_bits = port_bits(*netlist, key.entity(), "probe");
-  if (init_bits == 0 || probe_bits == 0) {
-    return tool_failed(
-        fmt::format("{}: the netlist has no module with the ports init_data and probe", key.name()));
-  }
+  if (init_bits == 0)
+    return tool_failed(fmt::format("{}: the netlist has no module with the port init_data", key.name()));
   if (!options.netlist.empty()) *netlist = options.netlist;
   const std::filesystem::path folder = folders.source / "sim/verilator";
   const VerilatedBuild build{
@@ -82,7 +72,6 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
       .include_folder = folders.source,
       .harness_headers = {folder / "harness_api.h"},
       .definitions = {fmt::format("HALFWAY_INIT_BITS={}", init_bits),
-                      fmt::format("HALFWAY_PROBE_BITS={}", probe_bits),
                       options.plain_eval ? "HALFWAY_PLAIN_EVAL=1" : "HALFWAY_DIRECT_EVAL=1"},
       .waves = !options.wave_file.empty(),
       .fast = fast,
@@ -102,12 +91,9 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
     return tool_failed(
         fmt::format("{}: of another version; delete it and try again", hardware.library.file().string()));
   }
-  hardware.probe_words = (probe_bits + 31) / 32;
   hardware.options.init_bits = init_bits;
-  hardware.options.probe_bits = probe_bits;
   hardware.options.stall_seed = options.stall_seed;
   hardware.options.idle_limit = std::max<std::uint64_t>(options.idle_limit, 1);
-  hardware.record_probes = options.record_probes;
   auto state = std::make_shared<State>(std::move(hardware));
   if (!options.wave_file.empty()) {
     const auto absolute = std::filesystem::absolute(options.wave_file);
@@ -121,13 +107,6 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
 }
 
 Result<VerilatorSimulator> VerilatorSimulator::with_model(std::shared_ptr<State> state) {
-  if (state->record_probes) {
-    state->options.probe_context = state.get();
-    state->options.on_probe = [](void* context, std::uint64_t cycle, const std::uint32_t* words) {
-      auto& owner = *static_cast<State*>(context);
-      owner.probes.push_back({cycle, std::vector<std::uint32_t>(words, words + owner.probe_words)});
-    };
-  }
   state->model = state->create(&state->options);
   if (state->model == nullptr) {
     return tool_failed(state->wave_path.empty()
@@ -147,14 +126,8 @@ Result<VerilatorSimulator> VerilatorSimulator::another() const {
 unsigned VerilatorSimulator::init_bits() const {
   return state_->options.init_bits;
 }
-unsigned VerilatorSimulator::probe_bits() const {
-  return state_->options.probe_bits;
-}
 std::uint64_t VerilatorSimulator::cycles() const {
   return state_->cycles(state_->model);
-}
-std::vector<ProbeRecord>& VerilatorSimulator::probes() {
-  return state_->probes;
 }
 
 Status VerilatorSimulator::run(std::span<const std::uint32_t> init_words, std::size_t vector_count,

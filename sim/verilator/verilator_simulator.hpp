@@ -17,16 +17,9 @@
 
 namespace halfway {
 
-/// The probe of one cycle with a line or a span event, as sampled with the rising edge.
-struct ProbeRecord {
-  std::uint64_t cycle;
-  std::vector<std::uint32_t> words;  ///< least significant first
-};
-
 struct VerilatorOptions {
   std::uint32_t stall_seed = 0;  ///< 0: full speed; else both streams stall at random, as in tb/frame_tb.vhd
   std::uint64_t idle_limit = 100'000;  ///< cycles in which nothing moves: a hang
-  bool record_probes = false;          ///< the key must have probes
   std::filesystem::path wave_file{};   ///< FST; empty: none. Another cached build, several times slower
   std::uint64_t waves_from = 0, waves_to = UINT64_MAX;  ///< cycles [from, to)
   std::string compiler{};                               ///< empty: clang++ where it is installed, else g++
@@ -46,7 +39,6 @@ class VerilatorSimulator {
   Result<VerilatorSimulator> another() const;
 
   unsigned init_bits() const;
-  unsigned probe_bits() const;
 
   /// Feeds `vector_count` vectors and returns when the last is taken: its fragments, and more, may come with
   /// the next call. Fragments are appended to `out`; more than `max_fragments` in `out` is an error. A fault
@@ -58,8 +50,6 @@ class VerilatorSimulator {
 
   /// From the first vector taken to the last vector or fragment that moved, both counted, as in a trace.
   std::uint64_t cycles() const;
-  /// What was recorded so far; empty the vector to save memory.
-  std::vector<ProbeRecord>& probes();
 
  private:
   struct Hardware;  // what others of the same share

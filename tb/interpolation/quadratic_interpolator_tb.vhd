@@ -19,13 +19,9 @@ end entity;
 architecture sim of quadratic_interpolator_run is
   constant c_init_bits : positive := init_channel_low(g_exact, 1) - init_channel_low(g_exact, 0);
 
-  type field_t is (line_value, line_dx, line_de0, line_de1, value, dx);
+  constant c_most_parts : positive := 3;
 
-  type words_t is array (field_t) of std_logic_vector(formats(g_exact).intensity.bits - 1 downto 0);
-
-  type outputs_t is array (natural range <>) of words_t;
-
-  constant c_forms : interpolator_forms_t := ((2, true, 1), (3, true, 2), (1, false, 0), (2, false, 1));
+  type values_t is array (natural range <>) of std_logic_vector(formats(g_exact).intensity.bits - 1 downto 0);
 
   signal clk        : std_logic := '0';
   signal init       : std_logic_vector(c_init_bits - 1 downto 0) := (others => '0');
@@ -35,29 +31,11 @@ architecture sim of quadratic_interpolator_run is
   signal span_load  : std_logic := '0';
   signal span_step  : std_logic := '0';
 
-  signal plain   : words_t;
-  signal outputs : outputs_t(c_forms'range);
+  signal values : values_t(1 to c_most_parts); -- of words in so many parts
 begin
-  dut : entity work.quadratic_interpolator
-    generic map (g_exact => g_exact)
-    port map (
-      clk        => clk,
-      init       => init,
-      line_load  => line_load,
-      line_step  => line_step,
-      line_carry => line_carry,
-      span_load  => span_load,
-      span_step  => span_step,
-      line_value => plain(line_value),
-      line_dx    => plain(line_dx),
-      line_de0   => plain(line_de0),
-      line_de1   => plain(line_de1),
-      value      => plain(value),
-      dx         => plain(dx));
-
-  forms : for i in c_forms'range generate
-    form : entity work.quadratic_interpolator
-      generic map (g_exact => g_exact, g_parts => c_forms(i).parts, g_probe => c_forms(i).probe)
+  forms : for parts in values'range generate
+    dut : entity work.quadratic_interpolator
+      generic map (g_exact => g_exact, g_parts => parts)
       port map (
         clk        => clk,
         init       => init,
@@ -66,30 +44,21 @@ begin
         line_carry => line_carry,
         span_load  => span_load,
         span_step  => span_step,
-        line_value => outputs(i)(line_value),
-        line_dx    => outputs(i)(line_dx),
-        line_de0   => outputs(i)(line_de0),
-        line_de1   => outputs(i)(line_de1),
-        value      => outputs(i)(value),
-        dx         => outputs(i)(dx));
+        value      => values(parts));
   end generate;
 
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    constant c_most : positive := 2; -- clocks behind
-
     variable vectors  : vectors_t;
     variable strobe   : std_logic_vector(1 to 5);
-    variable checked  : std_logic_vector(0 to c_most) := (others => '0'); -- now, in the clock before, ...
-    variable before   : outputs_t(0 to c_most);
-    variable expected : std_logic_vector(formats(g_exact).intensity.bits - 1 downto 0);
-    variable compared : std_logic;
+    variable checked  : std_logic_vector(0 to c_most_parts - 1) := (others => '0'); -- now, in the clock before, ...
+    variable before   : values_t(0 to c_most_parts - 1);
     variable words    : std_logic_vector(init'range);
   begin
     vectors.open_file(g_file);
     while vectors.next_vector loop
-      checked(1 to c_most) := checked(0 to c_most - 1);
+      checked(1 to checked'high) := checked(0 to checked'high - 1);
       vectors.read_flag(checked(0));
       vectors.read_word(words);
       for i in strobe'range loop
@@ -98,22 +67,13 @@ begin
       init <= words;
       (line_load, line_step, line_carry, span_load, span_step) <= strobe;
       wait until rising_edge(clk);
-      before := plain & before(0 to c_most - 1);
-      for field in field_t loop
-        vectors.check_word_if(checked(0), field_t'image(field), plain(field));
-        for i in c_forms'range loop
-          expected := before(c_forms(i).behind)(field);
-          compared := checked(c_forms(i).behind);
-          if not c_forms(i).probe and field /= value then
-            expected := (others => '0');
-            compared := '1';
-          end if;
-          if compared = '1' and outputs(i)(field) /= expected then
-            vectors.fail(field_t'image(field) & " in parts: " & to_string(c_forms(i).parts) & ", probe: "
-              & to_string(c_forms(i).probe) & ", is " & to_hstring(outputs(i)(field)) & ", expected " & to_hstring(expected) & ", of "
-              & to_string(c_forms(i).behind) & " clocks before");
-          end if;
-        end loop;
+      vectors.check_word_if(checked(0), "value", values(1));
+      before := values(1) & before(0 to before'high - 1);
+      for parts in 2 to c_most_parts loop
+        if checked(parts - 1) = '1' and values(parts) /= before(parts - 1) then
+          vectors.fail("value in " & to_string(parts) & " parts is " & to_hstring(values(parts)) & ", expected "
+            & to_hstring(before(parts - 1)) & ", that of " & to_string(parts - 1) & " clocks before");
+        end if;
       end loop;
     end loop;
     finished <= true;

@@ -20,7 +20,6 @@ entity processors_shader_run is
     g_normalize   : boolean;
     g_shadows     : boolean;
     g_unrolled    : boolean;
-    g_probe       : boolean;
     g_stem        : string -- of the files' names
   );
   port (
@@ -29,62 +28,9 @@ entity processors_shader_run is
 end entity;
 
 architecture sim of processors_shader_run is
-  constant c_config     : config_t := config(g_exact, g_channels, g_directional, g_positional, g_spots, g_diffuse,
+  constant c_config    : config_t := config(g_exact, g_channels, g_directional, g_positional, g_spots, g_diffuse,
     g_specular, g_normalize, g_shadows);
-  constant c_init_bits  : positive := init_bits(c_config);
-  constant c_probe_bits : positive := probe_bits(c_config);
-
-  constant c_block : processor_probe_header_t  := processor_probe_header(g_exact);
-  constant c_part  : processor_probe_channel_t := processor_probe_channel(g_exact);
-  constant c_first : natural                   := probe_processor_low(c_config, 0);
-  constant c_last  : natural                   := probe_processor_low(c_config, processors(c_config) - 1);
-  -- Of a pipeline of one, that one's is the last.
-  constant c_many  : boolean                   := processors(c_config) > 1;
-
-  subtype probe_t is std_logic_vector(c_probe_bits - 1 downto 0);
-  type    stage_t is (line_stage, span_stage, first_processor, last_processor);
-
-  -- The probe's fields that belong to a stage.
-  function fields_of (stage : stage_t) return probe_t is
-    variable mask : probe_t := (others => '0');
-
-    procedure add_processor (low : natural) is
-    begin
-      add_field(mask, c_block.leaves, low);
-      add_field(mask, c_block.command, low);
-      for channel in 0 to g_channels - 1 loop
-        add_field(mask, c_part.radiance, low + processor_probe_channel_low(g_exact, channel));
-      end loop;
-    end procedure;
-  begin
-    case stage is
-      when line_stage =>
-        add_line_fields(mask, true);
-      when span_stage =>
-        add_span_fields(mask, true);
-        for bit in probe_plane_low(c_config, 0) to c_first - 1 loop
-          mask(bit) := '1';
-        end loop;
-      when first_processor =>
-        if c_many then
-          add_processor(c_first);
-          add_field(mask, probe_header(true).sample_event);
-        end if;
-      when last_processor =>
-        add_processor(c_last);
-        add_field(mask, probe_header(true).product_event);
-    end case;
-    return mask;
-  end function;
-
-  -- Where there is no first processor, an event that never comes.
-  function first_event return natural is
-  begin
-    if c_many then
-      return c_first + c_block.leaves.low;
-    end if;
-    return probe_header(true).sample_event.low;
-  end function;
+  constant c_init_bits : positive := init_bits(c_config);
 
   signal clk               : std_logic;
   signal reset             : std_logic;
@@ -102,7 +48,6 @@ architecture sim of processors_shader_run is
   signal fragment_blue     : std_logic_vector(fragment_red'range);
   signal busy              : std_logic;
   signal fault             : std_logic;
-  signal probe             : probe_t;
 begin
   dut : entity work.processors_shader
     generic map (
@@ -115,8 +60,7 @@ begin
       g_specular    => g_specular,
       g_normalize   => g_normalize,
       g_shadows     => g_shadows,
-      g_unrolled    => g_unrolled,
-      g_probe       => g_probe)
+      g_unrolled    => g_unrolled)
     port map (
       clk               => clk,
       reset             => reset,
@@ -133,18 +77,12 @@ begin
       fragment_green    => fragment_green,
       fragment_blue     => fragment_blue,
       busy              => busy,
-      fault             => fault,
-      probe             => probe);
+      fault             => fault);
 
   checker : entity work.shader_checker
     generic map (
       g_exact      => g_exact,
       g_init_bits  => c_init_bits,
-      g_probe_bits => c_probe_bits,
-      g_probe      => g_probe,
-      g_fields     => fields_of(last_processor) & fields_of(first_processor) & fields_of(span_stage)
-      & fields_of(line_stage),
-      g_events     => (0, 1, first_event, c_last + c_block.leaves.low),
       g_timed      => false,
       g_gapless    => g_unrolled and not g_shadows,
       g_resets     => 10 - 8 * boolean'pos(g_shadows),
@@ -167,7 +105,6 @@ begin
       fragment_blue     => fragment_blue,
       busy              => busy,
       fault             => fault,
-      probe             => probe,
       finished          => finished);
 end architecture;
 
@@ -184,55 +121,55 @@ begin
   directional : entity work.processors_shader_run
     generic map (g_exact => true, g_channels => 3, g_directional => 1, g_positional => 0, g_spots => 0,
       g_diffuse => true, g_specular => true, g_normalize => true, g_shadows => false, g_unrolled => true,
-      g_probe => true, g_stem => g_folder & "/directional_")
+      g_stem => g_folder & "/directional_")
     port map (finished => finished(0));
 
   all_kinds : entity work.processors_shader_run
     generic map (g_exact => true, g_channels => 3, g_directional => 1, g_positional => 1, g_spots => 1,
       g_diffuse => true, g_specular => true, g_normalize => true, g_shadows => false, g_unrolled => true,
-      g_probe => true, g_stem => g_folder & "/all_kinds_")
+      g_stem => g_folder & "/all_kinds_")
     port map (finished => finished(1));
 
   grey : entity work.processors_shader_run
     generic map (g_exact => true, g_channels => 1, g_directional => 2, g_positional => 0, g_spots => 0,
       g_diffuse => true, g_specular => false, g_normalize => false, g_shadows => false, g_unrolled => true,
-      g_probe => true, g_stem => g_folder & "/grey_")
+      g_stem => g_folder & "/grey_")
     port map (finished => finished(2));
 
   no_light : entity work.processors_shader_run
     generic map (g_exact => true, g_channels => 3, g_directional => 0, g_positional => 0, g_spots => 0,
       g_diffuse => false, g_specular => false, g_normalize => true, g_shadows => false, g_unrolled => true,
-      g_probe => true, g_stem => g_folder & "/no_light_")
+      g_stem => g_folder & "/no_light_")
     port map (finished => finished(3));
 
   shadows : entity work.processors_shader_run
     generic map (g_exact => true, g_channels => 3, g_directional => 1, g_positional => 1, g_spots => 0,
       g_diffuse => true, g_specular => true, g_normalize => true, g_shadows => true, g_unrolled => true,
-      g_probe => true, g_stem => g_folder & "/shadows_")
+      g_stem => g_folder & "/shadows_")
     port map (finished => finished(4));
 
   folded : entity work.processors_shader_run
     generic map (g_exact => true, g_channels => 3, g_directional => 0, g_positional => 1, g_spots => 0,
       g_diffuse => true, g_specular => true, g_normalize => true, g_shadows => false, g_unrolled => false,
-      g_probe => true, g_stem => g_folder & "/folded_")
+      g_stem => g_folder & "/folded_")
     port map (finished => finished(5));
 
   published : entity work.processors_shader_run
     generic map (g_exact => false, g_channels => 3, g_directional => 1, g_positional => 1, g_spots => 1,
       g_diffuse => true, g_specular => true, g_normalize => true, g_shadows => false, g_unrolled => false,
-      g_probe => true, g_stem => g_folder & "/published_")
+      g_stem => g_folder & "/published_")
     port map (finished => finished(6));
 
   published_unrolled : entity work.processors_shader_run
     generic map (g_exact => false, g_channels => 1, g_directional => 1, g_positional => 0, g_spots => 0,
       g_diffuse => true, g_specular => true, g_normalize => false, g_shadows => false, g_unrolled => true,
-      g_probe => false, g_stem => g_folder & "/published_unrolled_")
+      g_stem => g_folder & "/published_unrolled_")
     port map (finished => finished(7));
 
   published_shadows : entity work.processors_shader_run
     generic map (g_exact => false, g_channels => 3, g_directional => 0, g_positional => 1, g_spots => 0,
       g_diffuse => false, g_specular => true, g_normalize => true, g_shadows => true, g_unrolled => false,
-      g_probe => false, g_stem => g_folder & "/published_shadows_")
+      g_stem => g_folder & "/published_shadows_")
     port map (finished => finished(8));
 
   done : process is

@@ -10,7 +10,6 @@ entity quadratic_shader_run is
   generic (
     g_exact    : boolean;
     g_channels : positive;
-    g_probe    : boolean;
     g_stem     : string -- of the files' names
   );
   port (
@@ -19,37 +18,6 @@ entity quadratic_shader_run is
 end entity;
 
 architecture sim of quadratic_shader_run is
-  constant c_probe_bits : positive        := probe_bits(g_exact, g_channels);
-  constant c_header     : probe_header_t  := probe_header(g_exact);
-  constant c_channel    : probe_channel_t := probe_channel(g_exact);
-
-  subtype probe_t is std_logic_vector(c_probe_bits - 1 downto 0);
-
-  -- The probe's fields that belong to the line stage, or to the span stage.
-  function fields_of (line_stage : boolean) return probe_t is
-    variable mask : probe_t := (others => '0');
-  begin
-    if line_stage then
-      add_line_fields(mask, g_exact);
-    else
-      add_span_fields(mask, g_exact);
-    end if;
-    for channel in 0 to g_channels - 1 loop
-      if line_stage then
-        add_field(mask, c_channel.line_value, probe_channel_low(g_exact, channel));
-        add_field(mask, c_channel.line_dx, probe_channel_low(g_exact, channel));
-        add_field(mask, c_channel.line_de0, probe_channel_low(g_exact, channel));
-        add_field(mask, c_channel.line_de1, probe_channel_low(g_exact, channel));
-      else
-        add_field(mask, c_channel.span_value, probe_channel_low(g_exact, channel));
-        add_field(mask, c_channel.span_dx, probe_channel_low(g_exact, channel));
-      end if;
-    end loop;
-    return mask;
-  end function;
-
-  constant c_no_fields : probe_t := (others => '0');
-
   signal clk               : std_logic;
   signal reset             : std_logic;
   signal init_valid        : std_logic;
@@ -66,10 +34,9 @@ architecture sim of quadratic_shader_run is
   signal fragment_blue     : std_logic_vector(fragment_red'range);
   signal busy              : std_logic;
   signal fault             : std_logic;
-  signal probe             : probe_t;
 begin
   dut : entity work.quadratic_shader
-    generic map (g_exact => g_exact, g_channels => g_channels, g_probe => g_probe)
+    generic map (g_exact => g_exact, g_channels => g_channels)
     port map (
       clk               => clk,
       reset             => reset,
@@ -86,16 +53,12 @@ begin
       fragment_green    => fragment_green,
       fragment_blue     => fragment_blue,
       busy              => busy,
-      fault             => fault,
-      probe             => probe);
+      fault             => fault);
 
   checker : entity work.shader_checker
     generic map (
       g_exact      => g_exact,
       g_init_bits  => init_data'length,
-      g_probe_bits => c_probe_bits,
-      g_probe      => g_probe,
-      g_fields     => c_no_fields & c_no_fields & fields_of(false) & fields_of(true),
       g_latency    => 8,
       g_gapless    => true,
       g_stem       => g_stem)
@@ -116,7 +79,6 @@ begin
       fragment_blue     => fragment_blue,
       busy              => busy,
       fault             => fault,
-      probe             => probe,
       finished          => finished);
 end architecture;
 
@@ -130,19 +92,19 @@ architecture sim of quadratic_shader_tb is
   signal finished : boolean_vector(0 to 3);
 begin
   exact_colour : entity work.quadratic_shader_run
-    generic map (g_exact => true, g_channels => 3, g_probe => true, g_stem => g_folder & "/exact3_")
+    generic map (g_exact => true, g_channels => 3, g_stem => g_folder & "/exact3_")
     port map (finished => finished(0));
 
   exact_grey : entity work.quadratic_shader_run
-    generic map (g_exact => true, g_channels => 1, g_probe => false, g_stem => g_folder & "/exact1_")
+    generic map (g_exact => true, g_channels => 1, g_stem => g_folder & "/exact1_")
     port map (finished => finished(1));
 
   published_colour : entity work.quadratic_shader_run
-    generic map (g_exact => false, g_channels => 3, g_probe => false, g_stem => g_folder & "/published3_")
+    generic map (g_exact => false, g_channels => 3, g_stem => g_folder & "/published3_")
     port map (finished => finished(2));
 
   published_grey : entity work.quadratic_shader_run
-    generic map (g_exact => false, g_channels => 1, g_probe => true, g_stem => g_folder & "/published1_")
+    generic map (g_exact => false, g_channels => 1, g_stem => g_folder & "/published1_")
     port map (finished => finished(3));
 
   done : process is

@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Drives a shader and checks it, every fragment and every event of its probe, against the golden twin, in order, on two
--- sets: triangles without an empty line ("dense"), and a mix with empty lines and garbage ("mixed"). At full speed
+-- Drives a shader and checks it, every fragment, against the golden twin, in order, on two sets: triangles without an empty line ("dense"), and a mix with empty lines and garbage ("mixed"). At full speed
 -- every init vector is taken and every fragment given out in the very clock that the entity's header promises. Then
 -- with both sides stalling at random, and with resets in the middle.
 library ieee;
@@ -13,12 +12,6 @@ entity shader_checker is
   generic (
     g_exact      : boolean;
     g_init_bits  : positive;
-    g_probe_bits : positive;
-    g_probe      : boolean;
-    -- Of the probe, the fields that an event is about: four times g_probe_bits, the line's lowest. An event without a
-    -- field must not come.
-    g_fields     : std_logic_vector;
-    g_events     : integer_vector(0 to 3) := (0, 1, 2, 3); -- their bits of the probe
     g_timed      : boolean  := true; -- the files give the clocks
     g_latency    : positive := 1;    -- clocks from a triangle's first init vector taken to its first fragment, where timed
     g_gapless    : boolean;          -- between triangles without an empty line no clock is lost, but one after a single pixel
@@ -43,29 +36,12 @@ entity shader_checker is
     fragment_blue     : in     std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     busy              : in     std_logic;
     fault             : in     std_logic;
-    probe             : in     std_logic_vector(g_probe_bits - 1 downto 0);
     finished          : buffer boolean := false
   );
 end entity;
 
 architecture sim of shader_checker is
   constant c_idle_limit : positive := 10_000; -- clocks in which nothing moves: a hang
-
-  subtype probe_t is std_logic_vector(g_probe_bits - 1 downto 0);
-  type    masks_t is array (0 to 3) of probe_t;
-
-  function masks return masks_t is
-    constant c_fields : std_logic_vector(g_fields'length - 1 downto 0) := g_fields;
-
-    variable result : masks_t;
-  begin
-    for event in masks_t'range loop
-      result(event) := c_fields((event + 1) * g_probe_bits - 1 downto event * g_probe_bits);
-    end loop;
-    return result;
-  end function;
-
-  constant c_masks : masks_t := masks;
 
   signal payload : std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length + fragment_z'length
     + 3 * fragment_red'length - 1 downto 0);
@@ -75,8 +51,7 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable inits, fragments                                       : vectors_t;
-    variable line_probes, span_probes, sample_probes, product_probes : vectors_t;
+    variable inits, fragments : vectors_t;
 
     procedure check_flag (name : string; got, expected : std_logic; clock : integer) is
     begin
@@ -84,38 +59,6 @@ begin
         report g_stem & ": clock " & to_string(clock) & ": " & name & " is " & to_string(got) & ", expected "
         & to_string(expected)
         severity failure;
-    end procedure;
-
-    impure function has_event (event : natural) return boolean is
-    begin
-      return g_probe and c_masks(event) /= (probe_t'range => '0');
-    end function;
-
-    procedure open_event (event : natural; variable probes : inout vectors_t; name : string) is
-    begin
-      if has_event(event) then
-        probes.open_file(name & "_probes.txt");
-      end if;
-    end procedure;
-
-    procedure check_event (event : natural; variable probes : inout vectors_t; name : string; clock : integer) is
-    begin
-      if not has_event(event) or probe(g_events(event)) /= '1' then
-        check_flag(name & "_event of the probe", probe(g_events(event)), '0', clock);
-      else
-        probes.expect_vector(name & " event");
-        probes.check_word("probe", probe, c_masks(event));
-      end if;
-    end procedure;
-
-    procedure close_event (event : natural; variable probes : inout vectors_t; name : string; complete : boolean) is
-    begin
-      if has_event(event) then
-        if complete and probes.next_vector then
-          probes.fail("this " & name & " event did not come");
-        end if;
-        probes.close_file;
-      end if;
     end procedure;
 
     -- One pass over a set. Where it stalls, init is offered in one clock of 2**init_pause, and fragments are taken in
@@ -143,10 +86,6 @@ begin
     begin
       inits.open_file(g_stem & set & "_init.txt");
       fragments.open_file(g_stem & set & "_fragments.txt");
-      open_event(0, line_probes, g_stem & set & "_line");
-      open_event(1, span_probes, g_stem & set & "_span");
-      open_event(2, sample_probes, g_stem & set & "_sample");
-      open_event(3, product_probes, g_stem & set & "_product");
       to_come := inits.next_vector;
       inits.read_word(init_now);
       init_clock := inits.read_number;
@@ -223,19 +162,6 @@ begin
         end if;
         waiting := fragment_valid = '1' and fragment_ready = '0';
 
-        if g_probe then
-          check_event(0, line_probes, "line", clock);
-          check_event(1, span_probes, "span", clock);
-          check_event(2, sample_probes, "sample", clock);
-          check_event(3, product_probes, "product", clock);
-          if probe(0) = '1' then
-            idle := 0;
-          end if;
-        else
-          assert probe = (probe'range => '0')
-            report g_stem & ": probe is " & to_hstring(probe) & " though there is none" severity failure;
-        end if;
-
         just_taken := init_valid = '1' and init_ready = '1';
         if just_taken then
           if c_full and g_timed and clock /= init_clock then
@@ -264,10 +190,6 @@ begin
       end if;
       inits.close_file;
       fragments.close_file;
-      close_event(0, line_probes, "line", ticks /= reset_at);
-      close_event(1, span_probes, "span", ticks /= reset_at);
-      close_event(2, sample_probes, "sample", ticks /= reset_at);
-      close_event(3, product_probes, "product", ticks /= reset_at);
 
       if set = "fault" then
         for i in 1 to 8 loop

@@ -18,7 +18,6 @@ entity spherical_shader_run is
     g_powers             : natural  := 2;
     g_address_bits       : positive := 9;
     g_data_bits          : positive := 8;
-    g_probe              : boolean  := false;
     g_stem               : string -- of the files' names
   );
   port (
@@ -27,73 +26,10 @@ entity spherical_shader_run is
 end entity;
 
 architecture sim of spherical_shader_run is
-  constant c_init_bits  : positive := init_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
+  constant c_init_bits : positive := init_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
     g_highlight_channels);
-  constant c_probe_bits : positive := probe_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
-    g_highlight_channels);
-
-  constant c_header          : probe_header_t           := probe_header(g_exact);
-  constant c_diffuse         : diffuse_probe_header_t   := diffuse_probe_header(g_exact);
-  constant c_diffuse_block   : diffuse_probe_channel_t  := diffuse_probe_channel(g_exact);
-  constant c_specular        : specular_probe_header_t  := specular_probe_header(g_exact);
-  constant c_specular_block  : specular_probe_channel_t := specular_probe_channel(g_exact);
-  constant c_diffuse_bits    : natural := diffuse_part_probe_bits(g_exact, g_channels, g_diffuse, g_specular);
-  constant c_specular_bits   : natural := specular_part_probe_bits(g_exact, g_specular, g_highlight_channels);
-
-  subtype probe_t is std_logic_vector(c_probe_bits - 1 downto 0);
-  type    stage_t is (line_stage, span_stage, sample_stage, product_stage);
-
-  -- The probe's fields that belong to a stage.
-  function fields_of (stage : stage_t) return probe_t is
-    variable mask : probe_t := (others => '0');
-    variable low  : natural;
-  begin
-    case stage is
-      when line_stage =>
-        add_line_fields(mask, g_exact);
-      when span_stage =>
-        add_span_fields(mask, g_exact);
-      when sample_stage =>
-        add_field(mask, c_header.sample_event);
-      when product_stage =>
-        add_field(mask, c_header.product_event);
-    end case;
-    for light in 0 to g_lights - 1 loop
-      low := probe_channel_low(g_exact, 0) + light * (c_diffuse_bits + c_specular_bits);
-      if c_diffuse_bits > 0 then
-        case stage is
-          when line_stage =>
-            null;
-          when span_stage =>
-            add_field(mask, c_diffuse.angle, low);
-          when sample_stage =>
-            add_field(mask, c_diffuse.in_range, low);
-            add_field(mask, c_diffuse.sample, low);
-          when product_stage =>
-            for channel in 0 to diffuse_channels(g_channels, g_diffuse) - 1 loop
-              add_field(mask, c_diffuse_block.product, low + diffuse_probe_channel_low(g_exact, channel));
-            end loop;
-        end case;
-      end if;
-      low := low + c_diffuse_bits;
-      if c_specular_bits > 0 then
-        case stage is
-          when line_stage =>
-            null;
-          when span_stage =>
-            add_field(mask, c_specular.angle, low);
-          when sample_stage =>
-            add_field(mask, c_specular.in_range, low);
-            add_field(mask, c_specular.sample, low);
-          when product_stage =>
-            for channel in 0 to g_highlight_channels - 1 loop
-              add_field(mask, c_specular_block.product, low + specular_probe_channel_low(g_exact, channel));
-            end loop;
-        end case;
-      end if;
-    end loop;
-    return mask;
-  end function;
+  constant c_records : boolean := record_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
+    g_highlight_channels) > 0;
 
   signal clk               : std_logic;
   signal reset             : std_logic;
@@ -111,7 +47,6 @@ architecture sim of spherical_shader_run is
   signal fragment_blue     : std_logic_vector(fragment_red'range);
   signal busy              : std_logic;
   signal fault             : std_logic;
-  signal probe             : probe_t;
 begin
   dut : entity work.spherical_shader
     generic map (
@@ -123,8 +58,7 @@ begin
       g_highlight_channels => g_highlight_channels,
       g_powers             => g_powers,
       g_address_bits       => g_address_bits,
-      g_data_bits          => g_data_bits,
-      g_probe              => g_probe)
+      g_data_bits          => g_data_bits)
     port map (
       clk               => clk,
       reset             => reset,
@@ -141,19 +75,14 @@ begin
       fragment_green    => fragment_green,
       fragment_blue     => fragment_blue,
       busy              => busy,
-      fault             => fault,
-      probe             => probe);
+      fault             => fault);
 
   checker : entity work.shader_checker
     generic map (
       g_exact      => g_exact,
       g_init_bits  => c_init_bits,
-      g_probe_bits => c_probe_bits,
-      g_probe      => g_probe,
-      g_fields     => fields_of(product_stage) & fields_of(sample_stage) & fields_of(span_stage)
-      & fields_of(line_stage),
       g_latency    => 11,
-      g_gapless    => c_diffuse_bits + c_specular_bits = 0 or g_lights = 0,
+      g_gapless    => not c_records,
       g_stem       => g_stem)
     port map (
       clk               => clk,
@@ -172,7 +101,6 @@ begin
       fragment_blue     => fragment_blue,
       busy              => busy,
       fault             => fault,
-      probe             => probe,
       finished          => finished);
 end architecture;
 
@@ -187,12 +115,11 @@ architecture sim of spherical_shader_tb is
   signal finished : boolean_vector(0 to 10);
 begin
   white_highlights : entity work.spherical_shader_run
-    generic map (g_probe => true, g_stem => g_folder & "/white_highlights_")
+    generic map (g_stem => g_folder & "/white_highlights_")
     port map (finished => finished(0));
 
   two_lights : entity work.spherical_shader_run
-    generic map (g_lights => 2, g_highlight_channels => 3, g_powers => 22, g_probe => true,
-      g_stem => g_folder & "/two_lights_")
+    generic map (g_lights => 2, g_highlight_channels => 3, g_powers => 22, g_stem => g_folder & "/two_lights_")
     port map (finished => finished(1));
 
   grey : entity work.spherical_shader_run
@@ -200,16 +127,15 @@ begin
     port map (finished => finished(2));
 
   no_light : entity work.spherical_shader_run
-    generic map (g_lights => 0, g_probe => true, g_stem => g_folder & "/no_light_")
+    generic map (g_lights => 0, g_stem => g_folder & "/no_light_")
     port map (finished => finished(3));
 
   highlights : entity work.spherical_shader_run
-    generic map (g_diffuse => false, g_highlight_channels => 3, g_powers => 9, g_probe => true,
-      g_stem => g_folder & "/highlights_")
+    generic map (g_diffuse => false, g_highlight_channels => 3, g_powers => 9, g_stem => g_folder & "/highlights_")
     port map (finished => finished(4));
 
   matte : entity work.spherical_shader_run
-    generic map (g_specular => false, g_probe => true, g_stem => g_folder & "/matte_")
+    generic map (g_specular => false, g_stem => g_folder & "/matte_")
     port map (finished => finished(5));
 
   sixteen_lights : entity work.spherical_shader_run
@@ -217,7 +143,7 @@ begin
     port map (finished => finished(6));
 
   published : entity work.spherical_shader_run
-    generic map (g_exact => false, g_highlight_channels => 3, g_address_bits => 6, g_data_bits => 6, g_probe => true,
+    generic map (g_exact => false, g_highlight_channels => 3, g_address_bits => 6, g_data_bits => 6,
       g_stem => g_folder & "/published_")
     port map (finished => finished(7));
 
@@ -228,7 +154,7 @@ begin
 
   published_highlights : entity work.spherical_shader_run
     generic map (g_exact => false, g_channels => 1, g_diffuse => false, g_address_bits => 6, g_data_bits => 6,
-      g_probe => true, g_stem => g_folder & "/published_highlights_")
+      g_stem => g_folder & "/published_highlights_")
     port map (finished => finished(9));
 
   no_effect : entity work.spherical_shader_run

@@ -31,12 +31,8 @@ Strobes random_strobes(Random& random, int i) {
           flowing || !random.one_in(3)};
 }
 
-/// What the sample stage holds of a pixel, and what the product stage makes of it.
-struct Pixel {
-  bool in_range = false;
-  std::uint32_t sample = 0;
-  std::array<std::uint64_t, 3> products{};
-};
+/// A pixel's products, in the sample stage or behind it.
+using Products = std::array<std::uint64_t, 3>;
 
 struct SliceSize {
   int channels;
@@ -44,37 +40,32 @@ struct SliceSize {
   int address_bits, data_bits;
 };
 
-void add_pixel(VectorFile& file, const Pixel& sampled, const Pixel& multiplied, int channels, int factor_bits,
-               int data_bits) {
-  file.flag(sampled.in_range).word(sampled.sample, data_bits);
-  for (int c = 0; c < channels; ++c)
-    file.word(multiplied.products[static_cast<std::size_t>(c)], factor_bits + data_bits);
+void add_products(VectorFile& file, const Products& products, int channels, int bits) {
+  for (int c = 0; c < channels; ++c) file.word(products[static_cast<std::size_t>(c)], bits);
 }
 
-// A line: checked, part, span_load, span_step, sample_step; lit, angle, in_range, sample, products, before
-// the edge.
+// A line: checked, part, span_load, span_step, sample_step; lit, products, before the edge.
 template <class Preset>
 Status write_diffuse(const std::filesystem::path& folder, const SliceSize& size) {
   const int bits = Preset::c_diffuse_header_bits + size.channels * Preset::c_diffuse_channel_bits;
   Random random(static_cast<std::uint64_t>(bits));
   VectorFile file;
   golden::DiffuseSlice<Preset> twin(size.channels, size.address_bits, size.data_bits);
-  Pixel sampled, quarters, halves, multiplied;
+  Products sampled{}, quarters{}, halves{}, multiplied{};
   for (int i = 0; i < 3000; ++i) {
     InitVector part = random_vector(random, bits);
     put_diffuse_part<Preset>(part, random, size.channels, 1, 0);
     const Strobes s = random_strobes(random, i);
     file.flag(i > c_filling + 1).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
-    file.flag(twin.lit()).word(twin.angle());
-    add_pixel(file, sampled, multiplied, size.channels, Preset::c_factor_bits, size.data_bits);
+    file.flag(twin.lit());
+    add_products(file, multiplied, size.channels, Preset::c_factor_bits + size.data_bits);
     file.end_vector();
     // Each stage takes what the one before held, so the last goes first.
     multiplied = halves;
     halves = quarters;
     if (s.sample_step) quarters = sampled;
     if (s.span_step) {
-      sampled = {twin.lit(), twin.sample(), {}};
-      for (int c = 0; c < size.channels; ++c) sampled.products[static_cast<std::size_t>(c)] = twin.product(c);
+      for (int c = 0; c < size.channels; ++c) sampled[static_cast<std::size_t>(c)] = twin.product(c);
     }
     if (s.span_load)
       twin.span_load(part, 0);
@@ -85,31 +76,28 @@ Status write_diffuse(const std::filesystem::path& folder, const SliceSize& size)
                                          size.data_bits));
 }
 
-// A line: checked, part, span_load, span_step, sample_step, lit; angle, in_range, sample, products, before
-// the edge.
+// A line: checked, part, span_load, span_step, sample_step, lit; products, before the edge.
 template <class Preset>
 Status write_specular(const std::filesystem::path& folder, const SliceSize& size) {
   const int bits = Preset::c_specular_header_bits + size.channels * Preset::c_specular_channel_bits;
   Random random(static_cast<std::uint64_t>(bits));
   VectorFile file;
   golden::SpecularSlice<Preset> twin(size.channels, size.powers, size.address_bits, size.data_bits);
-  Pixel sampled, quarters, halves, multiplied;
+  Products sampled{}, quarters{}, halves{}, multiplied{};
   for (int i = 0; i < 3000; ++i) {
     InitVector part = random_vector(random, bits);
     put_specular_part<Preset>(part, random, size.channels, 1, 0);
     const Strobes s = random_strobes(random, i);
     const bool lit = !random.one_in(5);
     file.flag(i > c_filling + 1).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
-    file.flag(lit).word(twin.angle());
-    add_pixel(file, sampled, multiplied, size.channels, Preset::c_factor_bits, size.data_bits);
+    file.flag(lit);
+    add_products(file, multiplied, size.channels, Preset::c_factor_bits + size.data_bits);
     file.end_vector();
     multiplied = halves;
     halves = quarters;
     if (s.sample_step) quarters = sampled;
     if (s.span_step) {
-      sampled = {twin.in_range(lit), twin.sample(), {}};
-      for (int c = 0; c < size.channels; ++c)
-        sampled.products[static_cast<std::size_t>(c)] = twin.product(c, lit);
+      for (int c = 0; c < size.channels; ++c) sampled[static_cast<std::size_t>(c)] = twin.product(c, lit);
     }
     if (s.span_load)
       twin.span_load(part, 0);

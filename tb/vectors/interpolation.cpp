@@ -90,7 +90,7 @@ void add_strobes(VectorFile& file, const Strobes& s) {
   file.flag(s.line_load).flag(s.line_step).flag(s.line_carry).flag(s.span_load).flag(s.span_step);
 }
 
-// A line: checked, plane, strobes; line_value, value, before the edge.
+// A line: checked, plane, strobes; value, before the edge.
 template <int W, bool Carries>
 Status write_plane(const std::filesystem::path& path) {
   constexpr int c_bits = (Carries ? 4 : 3) * W;
@@ -110,13 +110,13 @@ Status write_plane(const std::filesystem::path& path) {
     held = s.line_load ? c_held : std::max(held - 1, 0);
     file.flag(i > 1).words_of(plane, c_bits);
     add_strobes(file, s);
-    file.word(twin.line_value()).word(twin.value()).end_vector();
+    file.word(twin.value()).end_vector();
     strobe(twin, s, [&] { twin.line_load(words[0], words[1], words[2], words[Carries ? 3 : 2]); });
   }
   return file.write(path);
 }
 
-// A line: checked, init, strobes; line_value, value, before the edge.
+// A line: checked, init, strobes; value, before the edge.
 template <class Preset>
 Status write_z(const std::filesystem::path& folder) {
   using At = typename Preset::init_header_at;
@@ -135,13 +135,13 @@ Status write_z(const std::filesystem::path& folder) {
     held = s.line_load ? c_held : std::max(held - 1, 0);
     file.flag(i > 1).words_of(init, Preset::c_init_header_bits);
     add_strobes(file, s);
-    file.word(twin.line_value()).word(twin.value()).end_vector();
+    file.word(twin.value()).end_vector();
     strobe(twin, s, [&] { twin.line_load(init); });
   }
   return file.write(folder / (std::string(Preset::c_name) + ".txt"));
 }
 
-// A line: checked, init, strobes; line_value, line_dx, line_de0, line_de1, value, dx, before the edge.
+// A line: checked, init, strobes; value, before the edge.
 template <class Preset>
 Status write_quadratic(const std::filesystem::path& folder) {
   Random random(41);
@@ -159,8 +159,7 @@ Status write_quadratic(const std::filesystem::path& folder) {
     held = s.line_load ? c_held : std::max(held - 1, 0);
     file.flag(i > 1).words_of(init, Preset::c_init_channel_bits);
     add_strobes(file, s);
-    file.word(twin.line_value()).word(twin.line_dx()).word(twin.line_de0()).word(twin.line_de1());
-    file.word(twin.value()).word(twin.dx()).end_vector();
+    file.word(twin.value()).end_vector();
     strobe(twin, s, [&] { twin.line_load(init, 0); });
   }
   return file.write(folder / (std::string(Preset::c_name) + ".txt"));

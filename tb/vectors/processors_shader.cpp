@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For each configuration of the processors shader and set of vectors: init, fragments and probes as in
-// shaders.cpp; the clocks stand there for the file's sake, as 0. A set leaves nothing behind: no light, no
+// For each configuration of the processors shader and set of vectors: init and fragments as in shaders.cpp; the clocks stand there for the file's sake, as 0. A set leaves nothing behind: no light, no
 // object.
 #include "golden/processors_shader.hpp"
 
@@ -17,28 +16,27 @@
 namespace halfway::vectors {
 namespace {
 
-using golden::Command, golden::Exact, golden::Field, golden::Published, golden::SpanXWord, golden::set_bits;
+using golden::Command, golden::Exact, golden::Field, golden::Published, golden::set_bits;
 
 // tb/shaders/processors_shader_tb.vhd has the same.
 struct Processors {
   const char* name;
   golden::ProcessorsConfig config;
-  bool probe;
   std::int64_t pixels;
 };
 
 constexpr Processors c_exact_shaders[] = {
-    {"directional", {3, 1, 0, 0, true, true, true, false}, true, 160},
-    {"all_kinds", {3, 1, 1, 1, true, true, true, false}, true, 160},
-    {"grey", {1, 2, 0, 0, true, false, false, false}, true, 160},
-    {"no_light", {3, 0, 0, 0, false, false, true, false}, true, 160},
-    {"shadows", {3, 1, 1, 0, true, true, true, true}, true, 160},
-    {"folded", {3, 0, 1, 0, true, true, true, false}, true, 90},
+    {"directional", {3, 1, 0, 0, true, true, true, false}, 160},
+    {"all_kinds", {3, 1, 1, 1, true, true, true, false}, 160},
+    {"grey", {1, 2, 0, 0, true, false, false, false}, 160},
+    {"no_light", {3, 0, 0, 0, false, false, true, false}, 160},
+    {"shadows", {3, 1, 1, 0, true, true, true, true}, 160},
+    {"folded", {3, 0, 1, 0, true, true, true, false}, 90},
 };
 constexpr Processors c_published_shaders[] = {
-    {"published", {3, 1, 1, 1, true, true, true, false}, true, 90},
-    {"published_unrolled", {1, 1, 0, 0, true, true, false, false}, false, 160},
-    {"published_shadows", {3, 0, 1, 0, false, true, true, true}, false, 90},
+    {"published", {3, 1, 1, 1, true, true, true, false}, 90},
+    {"published_unrolled", {1, 1, 0, 0, true, true, false, false}, 160},
+    {"published_shadows", {3, 0, 1, 0, false, true, true, true}, 90},
 };
 
 template <class Preset>
@@ -120,45 +118,18 @@ class Host {
     const std::string stem = fmt::format("{}_{}", p_.name, set);
     if (fragments_.size() == 0) return tool_failed(stem + ": no fragment");
     if (auto s = inits_.write(folder / (stem + "_init.txt")); !s) return s;
-    if (auto s = fragments_.write(folder / (stem + "_fragments.txt")); !s) return s;
-    constexpr const char* c_events[] = {"line", "span", "sample", "product"};
-    for (std::size_t event = 0; p_.probe && event < probes_.size(); ++event)
-      if (auto s = probes_[event].write(folder / fmt::format("{}_{}_probes.txt", stem, c_events[event])); !s)
-        return s;
-    return Ok{};
+    return fragments_.write(folder / (stem + "_fragments.txt"));
   }
 
  private:
-  // The checker sees the first processor and the last.
-  struct Watch : golden::Unwatched {
-    explicit Watch(Host& h) : host(h) {}
-    Host& host;
-    void add(std::size_t event, const Shader& s, const std::vector<std::uint32_t>& words) {
-      host.probes_[event].words_of(words, s.probe_bits()).end_vector();
-    }
-    void line(const Shader& s) { add(0, s, s.line_probe()); }
-    void span(const Shader& s, SpanXWord x) { add(1, s, s.span_probe(x)); }
-    void processor(const Shader& s, SpanXWord, int number) {
-      const int last = host.p_.config.processors() - 1;
-      if (number == last)
-        add(3, s, s.processor_probe(number));
-      else if (number == 0)
-        add(2, s, s.processor_probe(number));
-    }
-  };
-
   void send(const InitVector& vector) {
     inits_.words_of(vector, layout_.init_bits()).word(0, 32).end_vector();
-    twin_.draw(
-        vector,
-        [&](const Fragment& f) {
-          fragments_.word(f.triangle, Preset::c_triangle_bits).word(f.y, Preset::c_pixel_y_bits);
-          fragments_.word(f.x, Preset::c_pixel_x_bits).word(f.z, Preset::c_depth_bits);
-          for (const std::uint8_t colour : {f.red, f.green, f.blue})
-            fragments_.word(colour, Preset::c_colour_bits);
-          fragments_.word(0, 32).end_vector();
-        },
-        Watch(*this));
+    twin_.draw(vector, [&](const Fragment& f) {
+      fragments_.word(f.triangle, Preset::c_triangle_bits).word(f.y, Preset::c_pixel_y_bits);
+      fragments_.word(f.x, Preset::c_pixel_x_bits).word(f.z, Preset::c_depth_bits);
+      for (const std::uint8_t colour : {f.red, f.green, f.blue}) fragments_.word(colour, Preset::c_colour_bits);
+      fragments_.word(0, 32).end_vector();
+    });
   }
 
   InitVector request(Command command, int light) {
@@ -271,7 +242,6 @@ class Host {
   Shader twin_;
   Random random_;
   VectorFile inits_, fragments_;
-  std::array<VectorFile, 4> probes_;
 };
 
 template <class Preset>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // For each shader and set of triangles: init: the vector, and the clock in which it is taken at full speed;
-// fragments: triangle, y, x, z, red, green, blue, and the clock in which it is given out at full speed;
-// probes: their words in the order of the events.
+// fragments: triangle, y, x, z, red, green, blue, and the clock in which it is given out at full speed.
 #include <fmt/format.h>
 
 #include <array>
@@ -17,7 +16,7 @@
 namespace halfway::vectors {
 namespace {
 
-using golden::Exact, golden::Published, golden::SpanXWord;
+using golden::Exact, golden::Published;
 
 constexpr std::pair<Mix, const char*> c_sets[] = {{Mix::dense, "dense"}, {Mix::mixed, "mixed"}};
 
@@ -79,15 +78,7 @@ Status write_quadratic(const std::filesystem::path& folder) {
   using Shader = golden::QuadraticShader<Preset, Channels>;
   Random random(Shader::c_init_bits);
   for (const auto& [mix, name] : c_sets) {
-    VectorFile inits, fragments, line_probes, span_probes;
-    struct Watch : golden::Unwatched {
-      Watch(VectorFile& l, VectorFile& s) : lines(l), spans(s) {}
-      VectorFile &lines, &spans;
-      void line(const Shader& s) { lines.words_of(s.line_probe(), Shader::c_probe_bits).end_vector(); }
-      void span(const Shader& s, SpanXWord x) {
-        spans.words_of(s.span_probe(x), Shader::c_probe_bits).end_vector();
-      }
-    };
+    VectorFile inits, fragments;
     Shader twin;
     QuadraticClock clock;
     LostClocks losses;
@@ -113,15 +104,11 @@ Status write_quadratic(const std::filesystem::path& folder) {
         may_lose = QuadraticClock::may_lose(pixels);
       }
       auto at = clocks.begin();
-      twin.draw(
-          init, [&](const Fragment& f) { add_fragment<Preset>(fragments, f, *at++); },
-          Watch{line_probes, span_probes});
+      twin.draw(init, [&](const Fragment& f) { add_fragment<Preset>(fragments, f, *at++); });
     }
     const std::string stem = std::string(Preset::c_name) + std::to_string(Channels) + '_' + name;
     if (auto s = inits.write(folder / (stem + "_init.txt")); !s) return s;
     if (auto s = fragments.write(folder / (stem + "_fragments.txt")); !s) return s;
-    if (auto s = line_probes.write(folder / (stem + "_line_probes.txt")); !s) return s;
-    if (auto s = span_probes.write(folder / (stem + "_span_probes.txt")); !s) return s;
   }
   return Ok{};
 }
@@ -130,24 +117,23 @@ Status write_quadratic(const std::filesystem::path& folder) {
 struct Spherical {
   const char* name;
   golden::SphericalConfig config;
-  bool probe;
   std::int64_t pixels;
 };
 
 constexpr Spherical c_exact_shaders[] = {
-    {"white_highlights", {3, 1, true, true, 1, 2, 9, 8}, true, 700},
-    {"two_lights", {3, 2, true, true, 3, 22, 9, 8}, true, 700},
-    {"grey", {1, 1, true, true, 1, 16, 9, 8}, false, 700},
-    {"no_light", {3, 0, true, true, 1, 2, 9, 8}, true, 300},
-    {"highlights", {3, 1, false, true, 3, 9, 9, 8}, true, 700},
-    {"matte", {3, 1, true, false, 1, 2, 9, 8}, true, 500},
-    {"sixteen_lights", {3, 16, true, true, 1, 3, 9, 8}, false, 150},
-    {"no_effect", {3, 2, false, false, 1, 2, 9, 8}, false, 200},
+    {"white_highlights", {3, 1, true, true, 1, 2, 9, 8}, 700},
+    {"two_lights", {3, 2, true, true, 3, 22, 9, 8}, 700},
+    {"grey", {1, 1, true, true, 1, 16, 9, 8}, 700},
+    {"no_light", {3, 0, true, true, 1, 2, 9, 8}, 300},
+    {"highlights", {3, 1, false, true, 3, 9, 9, 8}, 700},
+    {"matte", {3, 1, true, false, 1, 2, 9, 8}, 500},
+    {"sixteen_lights", {3, 16, true, true, 1, 3, 9, 8}, 150},
+    {"no_effect", {3, 2, false, false, 1, 2, 9, 8}, 200},
 };
 constexpr Spherical c_published_shaders[] = {
-    {"published", {3, 1, true, true, 3, 2, 6, 6}, true, 700},
-    {"published_4_4", {3, 2, true, true, 1, 2, 4, 4}, false, 500},
-    {"published_highlights", {1, 1, false, true, 1, 2, 6, 6}, true, 500},
+    {"published", {3, 1, true, true, 3, 2, 6, 6}, 700},
+    {"published_4_4", {3, 2, true, true, 1, 2, 4, 4}, 500},
+    {"published_highlights", {1, 1, false, true, 1, 2, 6, 6}, 500},
 };
 
 template <class Preset>
@@ -167,21 +153,10 @@ InitVector random_record(const golden::SphericalConfig& config, Random& random) 
 template <class Preset>
 Status write_spherical(const std::filesystem::path& folder, const Spherical& spherical) {
   using Shader = golden::SphericalShader<Preset>;
-  struct Watch {
-    std::array<VectorFile, 4>& probes;
-    void add(int event, const Shader& s, const std::vector<std::uint32_t>& words) {
-      probes[static_cast<std::size_t>(event)].words_of(words, s.probe_bits()).end_vector();
-    }
-    void line(const Shader& s) { add(0, s, s.line_probe()); }
-    void span(const Shader& s, SpanXWord x) { add(1, s, s.span_probe(x)); }
-    void sample(const Shader& s, SpanXWord) { add(2, s, s.sample_probe()); }
-    void product(const Shader& s, SpanXWord) { add(3, s, s.product_probe()); }
-  };
   const golden::SphericalLayout<Preset> layout(spherical.config);
-  Random random(static_cast<std::uint64_t>(layout.probe_bits()));
+  Random random(static_cast<std::uint64_t>(layout.init_bits()));
   for (const auto& [mix, name] : c_sets) {
     VectorFile inits, fragments;
-    std::array<VectorFile, 4> probes;
     Shader twin(spherical.config);
     WalkerClock clock(layout.record_bits() != 0);
     std::int64_t taken = 0;
@@ -229,20 +204,11 @@ Status write_spherical(const std::filesystem::path& folder, const Spherical& sph
       last_pixels = lines.back().pixels();
       pixels_before = static_cast<std::int64_t>(clocks.size());
       auto at = clocks.begin();
-      const auto emit = [&](const Fragment& f) { add_fragment<Preset>(fragments, f, *at++); };
-      if (spherical.probe)
-        twin.draw(group, emit, Watch{probes});
-      else
-        twin.draw(group, emit);
+      twin.draw(group, [&](const Fragment& f) { add_fragment<Preset>(fragments, f, *at++); });
     }
     const std::string stem = std::string(spherical.name) + '_' + name;
     if (auto s = inits.write(folder / (stem + "_init.txt")); !s) return s;
     if (auto s = fragments.write(folder / (stem + "_fragments.txt")); !s) return s;
-    if (!spherical.probe) continue;
-    constexpr const char* c_events[] = {"line", "span", "sample", "product"};
-    for (std::size_t event = 0; event < probes.size(); ++event)
-      if (auto s = probes[event].write(folder / fmt::format("{}_{}_probes.txt", stem, c_events[event])); !s)
-        return s;
   }
   return Ok{};
 }
