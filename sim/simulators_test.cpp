@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The two drivers on a small RTL of the test's own, with the shader's ports: both must give the fragments
 // that can be foretold, the same cycles, and see each fault.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -26,7 +25,6 @@ namespace {
 const char* const kPackage = R"(
 package formats_pkg is
   function init_bits(exact : boolean; channels : positive) return positive;
-  function probe_bits(exact : boolean; channels : positive) return positive;
 end package;
 package body formats_pkg is
   function init_bits(exact : boolean; channels : positive) return positive is
@@ -35,10 +33,6 @@ package body formats_pkg is
       return 70 + channels;
     end if;
     return 60;
-  end function;
-  function probe_bits(exact : boolean; channels : positive) return positive is
-  begin
-    return 40;
   end function;
 end package body;
 )";
@@ -51,8 +45,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 entity quadratic_shader is
-  generic (g_exact : boolean := true; g_channels : positive := 3;
-           g_probe : boolean := false);
+  generic (g_exact : boolean := true; g_channels : positive := 3);
   port (
     clk, reset : in std_logic;
     init_valid : in std_logic; init_ready : out std_logic;
@@ -62,8 +55,7 @@ entity quadratic_shader is
     fragment_y, fragment_x : out std_logic_vector(11 downto 0);
     fragment_z : out std_logic_vector(23 downto 0);
     fragment_red, fragment_green, fragment_blue : out std_logic_vector(7 downto 0);
-    busy, fault : out std_logic;
-    probe : out std_logic_vector(probe_bits(g_exact, g_channels) - 1 downto 0));
+    busy, fault : out std_logic);
 end entity;
 architecture rtl of quadratic_shader is
   type reg_t is record
@@ -125,11 +117,6 @@ begin
   fragment_red      <= @RED@;
   fragment_green    <= r.triangle(7 downto 0);
   fragment_blue     <= x"a5";
-  probed : if g_probe generate
-    probe <= r.triangle & "000000" & (r.valid and fragment_ready) & take;
-  else generate
-    probe <= (others => '0');
-  end generate;
 end architecture;
 )";
 
@@ -194,12 +181,11 @@ class Simulators : public testing::Test {
     }
   }
 
-  Result<Trace> ghdl(GhdlRunOptions options = {}) {
+  Result<Trace> ghdl(const GhdlRunOptions& options = {}) {
     const auto init_file = scratch_->path() / "init.txt", trace_file = scratch_->path() / "out/ghdl.trace";
     if (auto written = write_init_file(init_file, key_.name(), init_); !written) return written.error();
     auto runner = GhdlRunner::open(key_, folders_);
     if (!runner) return runner.error();
-    if (key_.probe) options.probe_file = scratch_->path() / "ghdl.probe";
     auto run = runner->run(init_file, trace_file, options);
     if (!run) {
       EXPECT_FALSE(std::filesystem::exists(trace_file));
@@ -227,7 +213,6 @@ class Simulators : public testing::Test {
     }
     if (auto done = simulator->finish(trace.fragments, most); !done) return done.error();
     trace.cycles = simulator->cycles();
-    probes_ = std::move(simulator->probes());
     return trace;
   }
 
@@ -265,7 +250,6 @@ class Simulators : public testing::Test {
   SimulatorFolders folders_;
   InitStream init_;
   std::vector<Fragment> expected_;
-  std::vector<ProbeRecord> probes_;
 };
 
 TEST_F(Simulators, BothGiveTheExpectedFragmentsAndCycles) {
@@ -295,25 +279,6 @@ TEST_F(Simulators, StallsChangeTheCyclesAlikeAndNothingElse) {
       EXPECT_EQ(from_verilator->fragments, expected_);
       EXPECT_EQ(from_verilator->cycles, from_ghdl->cycles);
     }
-  }
-}
-
-TEST_F(Simulators, ProbesAreEqualCycleByCycle) {
-  key_.probe = true;
-  for (const std::uint32_t seed : {0U, 5U}) {
-    ASSERT_TRUE(ghdl({.stall_seed = seed}));
-    ASSERT_TRUE(verilator({.stall_seed = seed, .record_probes = true}));
-    std::string text;
-    for (const ProbeRecord& record : probes_) {
-      text += fmt::format("{} {:08b}{:032b}\n", record.cycle, record.words[1], record.words[0]);
-    }
-    auto written = read_file(scratch_->path() / "ghdl.probe");
-    ASSERT_TRUE(written);
-    // The triangle's register has no value before the first vector; Verilator has only zeros and ones.
-    replace(*written, "U", "0");
-    replace(*written, "X", "0");
-    EXPECT_EQ(*written, text);
-    EXPECT_GE(probes_.size(), expected_.size());
   }
 }
 

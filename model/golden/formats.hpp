@@ -59,10 +59,6 @@ struct Exact {
   //   off by at most 0.19 depth steps: (1 + k) * u / 2
   static constexpr int c_depth_sum_bits = 40;
   static constexpr int c_depth_sum_fraction_bits = 15;
-  // u16.0: a cosine table's entry, of whatever size, for the probe
-  //   at most 4095: 2^12 - 1
-  static constexpr int c_sample_word_bits = 16;
-  static constexpr int c_sample_word_fraction_bits = 0;
   // u3.0: of a vector or token of the shading processors
   //   at most 7
   static constexpr int c_command_bits = 3;
@@ -171,10 +167,6 @@ struct Exact {
   //   off by at most 2^-9 colour steps: u / 2
   static constexpr int c_factor_bits = 24;
   static constexpr int c_factor_fraction_bits = 8;
-  // u40.0: a factor times a table's entry, for the probe
-  //   at most 1099494785025: (2^24 - 1) * (2^16 - 1)
-  static constexpr int c_product_word_bits = 40;
-  static constexpr int c_product_word_fraction_bits = 0;
 
   static constexpr int c_init_header_bits = 480;
   static constexpr std::array<Field, 27> c_init_header = {{
@@ -262,54 +254,6 @@ struct Exact {
     static constexpr const Field& de1e1 = c_init_channel[9];
   };
 
-  static constexpr int c_probe_header_bits = 151;
-  static constexpr std::array<Field, 12> c_probe_header = {{
-      {"line_event", 0, 1, false, 0},
-      {"span_event", 1, 1, false, 0},
-      {"sample_event", 2, 1, false, 0},
-      {"product_event", 3, 1, false, 0},
-      {"line_y", 4, 12, false, 0},
-      {"line_start", 16, 14, true, 0},
-      {"line_stop", 30, 14, true, 0},
-      {"line_carry", 44, 1, false, 0},
-      {"line_z", 45, 40, true, 15},
-      {"span_y", 85, 12, false, 0},
-      {"span_x", 97, 14, true, 0},
-      {"span_z", 111, 40, true, 15},
-  }};
-  struct probe_header_at {
-    static constexpr const Field& line_event = c_probe_header[0];
-    static constexpr const Field& span_event = c_probe_header[1];
-    static constexpr const Field& sample_event = c_probe_header[2];
-    static constexpr const Field& product_event = c_probe_header[3];
-    static constexpr const Field& line_y = c_probe_header[4];
-    static constexpr const Field& line_start = c_probe_header[5];
-    static constexpr const Field& line_stop = c_probe_header[6];
-    static constexpr const Field& line_carry = c_probe_header[7];
-    static constexpr const Field& line_z = c_probe_header[8];
-    static constexpr const Field& span_y = c_probe_header[9];
-    static constexpr const Field& span_x = c_probe_header[10];
-    static constexpr const Field& span_z = c_probe_header[11];
-  };
-
-  static constexpr int c_probe_channel_bits = 240;
-  static constexpr std::array<Field, 6> c_probe_channel = {{
-      {"line_value", 0, 40, true, 28},
-      {"line_dx", 40, 40, true, 28},
-      {"line_de0", 80, 40, true, 28},
-      {"line_de1", 120, 40, true, 28},
-      {"span_value", 160, 40, true, 28},
-      {"span_dx", 200, 40, true, 28},
-  }};
-  struct probe_channel_at {
-    static constexpr const Field& line_value = c_probe_channel[0];
-    static constexpr const Field& line_dx = c_probe_channel[1];
-    static constexpr const Field& line_de0 = c_probe_channel[2];
-    static constexpr const Field& line_de1 = c_probe_channel[3];
-    static constexpr const Field& span_value = c_probe_channel[4];
-    static constexpr const Field& span_dx = c_probe_channel[5];
-  };
-
   static constexpr int c_ambient_header_bits = 0;
 
   static constexpr int c_ambient_channel_bits = 24;
@@ -356,46 +300,6 @@ struct Exact {
   }};
   struct specular_channel_at {
     static constexpr const Field& factor = c_specular_channel[0];
-  };
-
-  static constexpr int c_diffuse_probe_header_bits = 50;
-  static constexpr std::array<Field, 3> c_diffuse_probe_header = {{
-      {"angle", 0, 33, true, 22},
-      {"in_range", 33, 1, false, 0},
-      {"sample", 34, 16, false, 0},
-  }};
-  struct diffuse_probe_header_at {
-    static constexpr const Field& angle = c_diffuse_probe_header[0];
-    static constexpr const Field& in_range = c_diffuse_probe_header[1];
-    static constexpr const Field& sample = c_diffuse_probe_header[2];
-  };
-
-  static constexpr int c_diffuse_probe_channel_bits = 40;
-  static constexpr std::array<Field, 1> c_diffuse_probe_channel = {{
-      {"product", 0, 40, false, 0},
-  }};
-  struct diffuse_probe_channel_at {
-    static constexpr const Field& product = c_diffuse_probe_channel[0];
-  };
-
-  static constexpr int c_specular_probe_header_bits = 50;
-  static constexpr std::array<Field, 3> c_specular_probe_header = {{
-      {"angle", 0, 33, true, 22},
-      {"in_range", 33, 1, false, 0},
-      {"sample", 34, 16, false, 0},
-  }};
-  struct specular_probe_header_at {
-    static constexpr const Field& angle = c_specular_probe_header[0];
-    static constexpr const Field& in_range = c_specular_probe_header[1];
-    static constexpr const Field& sample = c_specular_probe_header[2];
-  };
-
-  static constexpr int c_specular_probe_channel_bits = 40;
-  static constexpr std::array<Field, 1> c_specular_probe_channel = {{
-      {"product", 0, 40, false, 0},
-  }};
-  struct specular_probe_channel_at {
-    static constexpr const Field& product = c_specular_probe_channel[0];
   };
 
   static constexpr int c_request_header_bits = 10;
@@ -491,24 +395,6 @@ struct Exact {
   struct light_colour_channel_at {
     static constexpr const Field& intensity = c_light_colour_channel[0];
   };
-
-  static constexpr int c_processor_probe_header_bits = 4;
-  static constexpr std::array<Field, 2> c_processor_probe_header = {{
-      {"leaves", 0, 1, false, 0},
-      {"command", 1, 3, false, 0},
-  }};
-  struct processor_probe_header_at {
-    static constexpr const Field& leaves = c_processor_probe_header[0];
-    static constexpr const Field& command = c_processor_probe_header[1];
-  };
-
-  static constexpr int c_processor_probe_channel_bits = 22;
-  static constexpr std::array<Field, 1> c_processor_probe_channel = {{
-      {"radiance", 0, 22, false, 12},
-  }};
-  struct processor_probe_channel_at {
-    static constexpr const Field& radiance = c_processor_probe_channel[0];
-  };
 };
 
 struct Published {
@@ -551,10 +437,6 @@ struct Published {
   //   off by at most 0.19 depth steps: (1 + k) * u / 2
   static constexpr int c_depth_sum_bits = 40;
   static constexpr int c_depth_sum_fraction_bits = 15;
-  // u16.0: a cosine table's entry, of whatever size, for the probe
-  //   at most 4095: 2^12 - 1
-  static constexpr int c_sample_word_bits = 16;
-  static constexpr int c_sample_word_fraction_bits = 0;
   // u3.0: of a vector or token of the shading processors
   //   at most 7
   static constexpr int c_command_bits = 3;
@@ -663,10 +545,6 @@ struct Published {
   //   off by at most 2^-9 colour steps: u / 2
   static constexpr int c_factor_bits = 18;
   static constexpr int c_factor_fraction_bits = 8;
-  // u36.0: a factor times a table's entry, for the probe
-  //   at most 17179541505: (2^18 - 1) * (2^16 - 1)
-  static constexpr int c_product_word_bits = 36;
-  static constexpr int c_product_word_fraction_bits = 0;
 
   static constexpr int c_init_header_bits = 305;
   static constexpr std::array<Field, 10> c_init_header = {{
@@ -710,50 +588,6 @@ struct Published {
     static constexpr const Field& dxx = c_init_channel[3];
     static constexpr const Field& dxe0 = c_init_channel[4];
     static constexpr const Field& de0e0 = c_init_channel[5];
-  };
-
-  static constexpr int c_probe_header_bits = 150;
-  static constexpr std::array<Field, 11> c_probe_header = {{
-      {"line_event", 0, 1, false, 0},
-      {"span_event", 1, 1, false, 0},
-      {"sample_event", 2, 1, false, 0},
-      {"product_event", 3, 1, false, 0},
-      {"line_y", 4, 12, false, 0},
-      {"line_start", 16, 14, true, 0},
-      {"line_stop", 30, 14, true, 0},
-      {"line_z", 44, 40, true, 15},
-      {"span_y", 84, 12, false, 0},
-      {"span_x", 96, 14, true, 0},
-      {"span_z", 110, 40, true, 15},
-  }};
-  struct probe_header_at {
-    static constexpr const Field& line_event = c_probe_header[0];
-    static constexpr const Field& span_event = c_probe_header[1];
-    static constexpr const Field& sample_event = c_probe_header[2];
-    static constexpr const Field& product_event = c_probe_header[3];
-    static constexpr const Field& line_y = c_probe_header[4];
-    static constexpr const Field& line_start = c_probe_header[5];
-    static constexpr const Field& line_stop = c_probe_header[6];
-    static constexpr const Field& line_z = c_probe_header[7];
-    static constexpr const Field& span_y = c_probe_header[8];
-    static constexpr const Field& span_x = c_probe_header[9];
-    static constexpr const Field& span_z = c_probe_header[10];
-  };
-
-  static constexpr int c_probe_channel_bits = 160;
-  static constexpr std::array<Field, 5> c_probe_channel = {{
-      {"line_value", 0, 32, true, 20},
-      {"line_dx", 32, 32, true, 20},
-      {"line_de0", 64, 32, true, 20},
-      {"span_value", 96, 32, true, 20},
-      {"span_dx", 128, 32, true, 20},
-  }};
-  struct probe_channel_at {
-    static constexpr const Field& line_value = c_probe_channel[0];
-    static constexpr const Field& line_dx = c_probe_channel[1];
-    static constexpr const Field& line_de0 = c_probe_channel[2];
-    static constexpr const Field& span_value = c_probe_channel[3];
-    static constexpr const Field& span_dx = c_probe_channel[4];
   };
 
   static constexpr int c_ambient_header_bits = 0;
@@ -800,46 +634,6 @@ struct Published {
   }};
   struct specular_channel_at {
     static constexpr const Field& factor = c_specular_channel[0];
-  };
-
-  static constexpr int c_diffuse_probe_header_bits = 29;
-  static constexpr std::array<Field, 3> c_diffuse_probe_header = {{
-      {"angle", 0, 12, true, 11},
-      {"in_range", 12, 1, false, 0},
-      {"sample", 13, 16, false, 0},
-  }};
-  struct diffuse_probe_header_at {
-    static constexpr const Field& angle = c_diffuse_probe_header[0];
-    static constexpr const Field& in_range = c_diffuse_probe_header[1];
-    static constexpr const Field& sample = c_diffuse_probe_header[2];
-  };
-
-  static constexpr int c_diffuse_probe_channel_bits = 36;
-  static constexpr std::array<Field, 1> c_diffuse_probe_channel = {{
-      {"product", 0, 36, false, 0},
-  }};
-  struct diffuse_probe_channel_at {
-    static constexpr const Field& product = c_diffuse_probe_channel[0];
-  };
-
-  static constexpr int c_specular_probe_header_bits = 29;
-  static constexpr std::array<Field, 3> c_specular_probe_header = {{
-      {"angle", 0, 12, true, 11},
-      {"in_range", 12, 1, false, 0},
-      {"sample", 13, 16, false, 0},
-  }};
-  struct specular_probe_header_at {
-    static constexpr const Field& angle = c_specular_probe_header[0];
-    static constexpr const Field& in_range = c_specular_probe_header[1];
-    static constexpr const Field& sample = c_specular_probe_header[2];
-  };
-
-  static constexpr int c_specular_probe_channel_bits = 36;
-  static constexpr std::array<Field, 1> c_specular_probe_channel = {{
-      {"product", 0, 36, false, 0},
-  }};
-  struct specular_probe_channel_at {
-    static constexpr const Field& product = c_specular_probe_channel[0];
   };
 
   static constexpr int c_request_header_bits = 10;
@@ -934,24 +728,6 @@ struct Published {
   }};
   struct light_colour_channel_at {
     static constexpr const Field& intensity = c_light_colour_channel[0];
-  };
-
-  static constexpr int c_processor_probe_header_bits = 4;
-  static constexpr std::array<Field, 2> c_processor_probe_header = {{
-      {"leaves", 0, 1, false, 0},
-      {"command", 1, 3, false, 0},
-  }};
-  struct processor_probe_header_at {
-    static constexpr const Field& leaves = c_processor_probe_header[0];
-    static constexpr const Field& command = c_processor_probe_header[1];
-  };
-
-  static constexpr int c_processor_probe_channel_bits = 8;
-  static constexpr std::array<Field, 1> c_processor_probe_channel = {{
-      {"radiance", 0, 8, false, 0},
-  }};
-  struct processor_probe_channel_at {
-    static constexpr const Field& radiance = c_processor_probe_channel[0];
   };
 };
 

@@ -106,17 +106,6 @@ class ProcessorsLayout {
     return std::max(light_colour_low(c_.channels), radiance_low(c_.channels));
   }
 
-  // The probe: the walk's (that of preset exact in either), the planes' values as vectors, and of each
-  // processor the object that leaves it.
-  static constexpr int probe_plane_low(int plane) {
-    return Exact::c_probe_header_bits + plane * Preset::c_vector_bits;
-  }
-  constexpr int probe_processor_low(int processor) const {
-    return probe_plane_low(planes()) + processor * (Preset::c_processor_probe_header_bits +
-                                                    c_.channels * Preset::c_processor_probe_channel_bits);
-  }
-  constexpr int probe_bits() const { return probe_processor_low(c_.processors()); }
-
  private:
   ProcessorsConfig c_;
 };

@@ -33,16 +33,15 @@ class ProcessorsShader {
   }
 
   int init_bits() const { return layout_.init_bits(); }
-  int probe_bits() const { return layout_.probe_bits(); }
   std::size_t init_words() const { return words_of(init_bits()); }
   /// Each vector stands alone.
   std::size_t group(std::span<const std::uint32_t>) const { return 1; }
   /// A count of shadow volumes went wrong: what came since is worth nothing.
   bool fault() const { return pipeline_.fault(); }
 
-  /// Processes one vector. Calls emit(fragment) for each pixel that leaves the pipeline, and what the RTL's
-  /// probe shows: watch.line(*this) when the span stage loads a line, watch.span(*this, x) at each pixel of
-  /// it, watch.processor(*this, x, number) for each object that leaves a processor.
+  /// Processes one vector. Calls emit(fragment) for each pixel that leaves the pipeline, watch.line(*this)
+  /// when the span stage loads a line, watch.span(*this, x) at each pixel of it, and
+  /// watch.processor(*this, x, number) for each object that leaves a processor.
   template <class Emit, class Watch = Unwatched>
   void draw(std::span<const std::uint32_t> vector, Emit&& emit, Watch&& watch = {}) {
     assert(vector.size() >= init_words());
@@ -76,45 +75,19 @@ class ProcessorsShader {
     return walker;
   }
 
-  /// The stages' registers as the RTL's probe carries them: the line; the pixel that the span stands at; the
-  /// object that has left a processor.
-  std::vector<std::uint32_t> line_probe() const {
-    auto words = probe_words(ProbeAt::line_event);
-    set_bits(words, ProbeAt::line_y, walker_.y());
-    set_bits(words, ProbeAt::line_start, walker_.start().bits());
-    set_bits(words, ProbeAt::line_stop, walker_.stop().bits());
-    set_bits(words, ProbeAt::line_carry, walker_.carry());
-    set_bits(words, ProbeAt::line_z, depth_.line_value().bits());
-    return words;
+  // The registers, for a watch.
+  const ZInterpolator<Exact>& depth() const { return depth_; }
+  /// The plane's top bits: the host has added half a step of what they drop.
+  std::int64_t plane_value(int plane) const {
+    constexpr int c_drop = Preset::c_plane_sum_bits - Preset::c_vector_bits;
+    return planes_[static_cast<std::size_t>(plane)].value().value() >> c_drop;
   }
-  std::vector<std::uint32_t> span_probe(SpanXWord x) const {
-    auto words = probe_words(ProbeAt::span_event);
-    set_bits(words, ProbeAt::span_y, walker_.y());
-    set_bits(words, ProbeAt::span_x, x.bits());
-    set_bits(words, ProbeAt::span_z, depth_.value().bits());
-    for (int p = 0; p < layout_.planes(); ++p)
-      set_bits(words, {"", 0, Preset::c_vector_bits, true, 0}, static_cast<std::uint64_t>(plane_value(p)),
-               layout_.probe_plane_low(p));
-    return words;
-  }
-  std::vector<std::uint32_t> processor_probe(int processor) const {
-    using At = typename Preset::processor_probe_header_at;
-    const bool last = processor == config_.processors() - 1;
-    auto words = probe_words(last ? ProbeAt::product_event : ProbeAt::sample_event);
-    const int low = layout_.probe_processor_low(processor);
-    set_bits(words, At::leaves, 1, low);
-    set_bits(words, At::command, static_cast<std::uint32_t>(token_.command), low);
-    for (int c = 0; c < config_.channels; ++c)
-      set_bits(words, Preset::processor_probe_channel_at::radiance,
-               token_.radiance[static_cast<std::size_t>(c)],
-               low + Preset::c_processor_probe_header_bits + c * Preset::c_processor_probe_channel_bits);
-    return words;
-  }
+  /// The object that has left a processor.
+  const ShadingToken<Preset>& token() const { return token_; }
 
  private:
   using RequestAt = typename Preset::request_header_at;
   using PlaneAt = typename Preset::plane_header_at;
-  using ProbeAt = Exact::probe_header_at;
   using Token = ShadingToken<Preset>;
   using Plane = PlaneInterpolator<Preset::c_plane_sum_bits>;
 
@@ -122,12 +95,6 @@ class ProcessorsShader {
   /// Of the colour before the first processor: what rounds it, where it has a fraction.
   static constexpr std::uint32_t c_half =
       Preset::c_radiance_fraction_bits == 0 ? 0 : 1U << (Preset::c_radiance_fraction_bits - 1);
-
-  std::vector<std::uint32_t> probe_words(const Field& happened) const {
-    std::vector<std::uint32_t> words(words_of(probe_bits()));
-    set_bits(words, happened, 1);
-    return words;
-  }
 
   /// For the processors alone: the vector covers no pixel.
   static bool is_load(Command command) {
@@ -183,12 +150,6 @@ class ProcessorsShader {
   void span_step() {
     depth_.span_step();
     for (auto& plane : planes_) plane.span_step();
-  }
-
-  /// The plane's top bits: the host has added half a step of what they drop.
-  std::int64_t plane_value(int plane) const {
-    constexpr int c_drop = Preset::c_plane_sum_bits - Preset::c_vector_bits;
-    return planes_[static_cast<std::size_t>(plane)].value().value() >> c_drop;
   }
 
   template <class Emit, class Watch>

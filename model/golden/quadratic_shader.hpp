@@ -21,17 +21,13 @@ class QuadraticShader {
 
  public:
   static constexpr int c_init_bits = Preset::c_init_header_bits + Channels * Preset::c_init_channel_bits;
-  static constexpr int c_probe_bits = Preset::c_probe_header_bits + Channels * Preset::c_probe_channel_bits;
   static constexpr std::size_t c_init_words = (c_init_bits + 31) / 32;
   static constexpr int init_bits() { return c_init_bits; }
-  static constexpr int probe_bits() { return c_probe_bits; }
   /// Vectors that make a triangle.
   static constexpr std::size_t group(std::span<const std::uint32_t>) { return 1; }
-  static constexpr std::size_t c_probe_words = (c_probe_bits + 31) / 32;
 
-  /// Draws one init vector of c_init_words words. Calls emit(fragment) for each covered pixel, and what the
-  /// RTL's probe shows: watch.line(*this) when the span stage loads a line, watch.span(*this, x) at each
-  /// pixel.
+  /// Draws one init vector of c_init_words words. Calls emit(fragment) for each covered pixel,
+  /// watch.line(*this) when the span stage loads a line, and watch.span(*this, x) at each pixel.
   template <class Emit, class Watch = Unwatched>
   void draw(std::span<const std::uint32_t> init, Emit&& emit, Watch&& watch = {}) {
     assert(init.size() >= c_init_words);
@@ -49,42 +45,9 @@ class QuadraticShader {
     return walker;
   }
 
-  /// The stages' registers as the RTL's probe carries them.
-  std::array<std::uint32_t, c_probe_words> line_probe() const {
-    using At = typename Preset::probe_header_at;
-    using ChannelAt = typename Preset::probe_channel_at;
-    std::array<std::uint32_t, c_probe_words> words{};
-    set_bits(words, At::line_event, 1);
-    set_bits(words, At::line_y, walker_.y());
-    set_bits(words, At::line_start, walker_.start().bits());
-    set_bits(words, At::line_stop, walker_.stop().bits());
-    if constexpr (std::is_same_v<Preset, Exact>) set_bits(words, At::line_carry, walker_.carry());
-    set_bits(words, At::line_z, depth_.line_value().bits());
-    for (int c = 0; c < Channels; ++c) {
-      const int low = Preset::c_probe_header_bits + c * Preset::c_probe_channel_bits;
-      set_bits(words, ChannelAt::line_value, channel_[c].line_value().bits(), low);
-      set_bits(words, ChannelAt::line_dx, channel_[c].line_dx().bits(), low);
-      set_bits(words, ChannelAt::line_de0, channel_[c].line_de0().bits(), low);
-      if constexpr (std::is_same_v<Preset, Exact>)
-        set_bits(words, ChannelAt::line_de1, channel_[c].line_de1().bits(), low);
-    }
-    return words;
-  }
-  std::array<std::uint32_t, c_probe_words> span_probe(SpanXWord x) const {
-    using At = typename Preset::probe_header_at;
-    using ChannelAt = typename Preset::probe_channel_at;
-    std::array<std::uint32_t, c_probe_words> words{};
-    set_bits(words, At::span_event, 1);
-    set_bits(words, At::span_y, walker_.y());
-    set_bits(words, At::span_x, x.bits());
-    set_bits(words, At::span_z, depth_.value().bits());
-    for (int c = 0; c < Channels; ++c) {
-      const int low = Preset::c_probe_header_bits + c * Preset::c_probe_channel_bits;
-      set_bits(words, ChannelAt::span_value, channel_[c].value().bits(), low);
-      set_bits(words, ChannelAt::span_dx, channel_[c].dx().bits(), low);
-    }
-    return words;
-  }
+  // The registers, for a watch.
+  const ZInterpolator<Preset>& depth() const { return depth_; }
+  const QuadraticInterpolator<Preset>& channel(int c) const { return channel_[static_cast<std::size_t>(c)]; }
 
  private:
   void line_load(std::span<const std::uint32_t> init) {

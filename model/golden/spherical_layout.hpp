@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/shaders/spherical_pkg.vhd: where a light's parts lie in a line record and in the probe.
+// Twin of rtl/shaders/spherical_pkg.vhd: where a light's parts lie in a line record.
 #pragma once
 
 #include <algorithm>
@@ -44,14 +44,6 @@ class SphericalLayout {
   }
   constexpr int init_bits() const { return std::max(ambient_low(config_.channels), record_bits()); }
 
-  constexpr int diffuse_probe_low(int light) const {
-    return Preset::c_probe_header_bits + light * (diffuse_probe_bits() + specular_probe_bits());
-  }
-  constexpr int specular_probe_low(int light) const {
-    return diffuse_probe_low(light) + diffuse_probe_bits();
-  }
-  constexpr int probe_bits() const { return diffuse_probe_low(config_.lights); }
-
  private:
   constexpr int diffuse_bits() const {
     if (!has_diffuse_part()) return 0;
@@ -62,15 +54,6 @@ class SphericalLayout {
     return Preset::c_specular_header_bits + config_.highlight_channels * Preset::c_specular_channel_bits;
   }
   constexpr int light_bits() const { return diffuse_bits() + specular_bits(); }
-  constexpr int diffuse_probe_bits() const {
-    if (!has_diffuse_part()) return 0;
-    return Preset::c_diffuse_probe_header_bits + diffuse_channels() * Preset::c_diffuse_probe_channel_bits;
-  }
-  constexpr int specular_probe_bits() const {
-    if (!config_.specular) return 0;
-    return Preset::c_specular_probe_header_bits +
-           config_.highlight_channels * Preset::c_specular_probe_channel_bits;
-  }
 
   SphericalConfig config_;
 };

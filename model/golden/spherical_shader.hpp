@@ -35,7 +35,6 @@ class SphericalShader {
   }
 
   int init_bits() const { return layout_.init_bits(); }
-  int probe_bits() const { return layout_.probe_bits(); }
   std::size_t init_words() const { return words_of(init_bits()); }
 
   /// Init vectors that the triangle of this header takes: itself, and a line record for every line.
@@ -50,8 +49,7 @@ class SphericalShader {
   }
 
   /// Draws the init vectors of one group, init_words() words each. Calls emit(fragment) for each covered
-  /// pixel, and what the RTL's probe shows: watch.line(*this) when the span stage loads a line, watch.span,
-  /// watch.sample and watch.product(*this, x) at each pixel.
+  /// pixel, watch.line(*this) when the span stage loads a line, and watch.span(*this, x) at each pixel.
   template <class Emit, class Watch = Unwatched>
   void draw(std::span<const std::uint32_t> vectors, Emit&& emit, Watch&& watch = {}) {
     assert(vectors.size() >= init_words() && vectors.size() >= group(vectors) * init_words());
@@ -70,80 +68,14 @@ class SphericalShader {
     return walker;
   }
 
-  /// The stages' registers as the RTL's probe carries them; each of the last three at the pixel that the span
-  /// stands at.
-  std::vector<std::uint32_t> line_probe() const {
-    using At = typename Preset::probe_header_at;
-    auto words = probe_words(At::line_event);
-    set_bits(words, At::line_y, walker_.y());
-    set_bits(words, At::line_start, walker_.start().bits());
-    set_bits(words, At::line_stop, walker_.stop().bits());
-    if constexpr (SphericalLayout<Preset>::c_exact) set_bits(words, At::line_carry, walker_.carry());
-    set_bits(words, At::line_z, depth_.line_value().bits());
-    return words;
-  }
-  std::vector<std::uint32_t> span_probe(SpanXWord x) const {
-    using At = typename Preset::probe_header_at;
-    auto words = probe_words(At::span_event);
-    set_bits(words, At::span_y, walker_.y());
-    set_bits(words, At::span_x, x.bits());
-    set_bits(words, At::span_z, depth_.value().bits());
-    for_each_slice(
-        [&](const auto& slice, int low) {
-          set_bits(words, Preset::diffuse_probe_header_at::angle, slice.angle().bits(), low);
-        },
-        [&](const auto& slice, bool, int low) {
-          set_bits(words, Preset::specular_probe_header_at::angle, slice.angle().bits(), low);
-        });
-    return words;
-  }
-  std::vector<std::uint32_t> sample_probe() const {
-    auto words = probe_words(Preset::probe_header_at::sample_event);
-    for_each_slice(
-        [&](const auto& slice, int low) {
-          set_bits(words, Preset::diffuse_probe_header_at::in_range, slice.lit(), low);
-          set_bits(words, Preset::diffuse_probe_header_at::sample, slice.sample(), low);
-        },
-        [&](const auto& slice, bool lit, int low) {
-          set_bits(words, Preset::specular_probe_header_at::in_range, slice.in_range(lit), low);
-          set_bits(words, Preset::specular_probe_header_at::sample, slice.sample(), low);
-        });
-    return words;
-  }
-  std::vector<std::uint32_t> product_probe() const {
-    auto words = probe_words(Preset::probe_header_at::product_event);
-    for_each_slice(
-        [&](const auto& slice, int low) {
-          for (int c = 0; c < layout_.diffuse_channels(); ++c)
-            set_bits(words, Preset::diffuse_probe_channel_at::product, slice.product(c),
-                     low + Preset::c_diffuse_probe_header_bits + c * Preset::c_diffuse_probe_channel_bits);
-        },
-        [&](const auto& slice, bool lit, int low) {
-          for (int c = 0; c < config_.highlight_channels; ++c)
-            set_bits(words, Preset::specular_probe_channel_at::product, slice.product(c, lit),
-                     low + Preset::c_specular_probe_header_bits + c * Preset::c_specular_probe_channel_bits);
-        });
-    return words;
-  }
+  // The registers, for a watch.
+  const ZInterpolator<Preset>& depth() const { return depth_; }
+  const DiffuseSlice<Preset>& diffuse(std::size_t light) const { return diffuse_[light]; }
+  const SpecularSlice<Preset>& specular(std::size_t light) const { return specular_[light]; }
+  bool lit(std::size_t light) const { return diffuse_.empty() || diffuse_[light].lit(); }
 
  private:
   static constexpr std::size_t words_of(int bits) { return static_cast<std::size_t>(bits + 31) / 32; }
-
-  std::vector<std::uint32_t> probe_words(const Field& happened) const {
-    std::vector<std::uint32_t> words(words_of(probe_bits()));
-    set_bits(words, happened, 1);
-    return words;
-  }
-  bool lit(std::size_t light) const { return diffuse_.empty() || diffuse_[light].lit(); }
-  /// diffuse(slice, low) and specular(slice, lit, low) for every light's parts of the probe.
-  template <class Diffuse, class Specular>
-  void for_each_slice(Diffuse&& diffuse, Specular&& specular) const {
-    for (int l = 0; l < config_.lights; ++l) {
-      const auto light = static_cast<std::size_t>(l);
-      if (!diffuse_.empty()) diffuse(diffuse_[light], layout_.diffuse_probe_low(l));
-      if (!specular_.empty()) specular(specular_[light], lit(light), layout_.specular_probe_low(l));
-    }
-  }
 
   void line_load(std::span<const std::uint32_t> header) {
     walker_.line_load(header);
@@ -178,8 +110,6 @@ class SphericalShader {
     const SpanXWord stop = walker_.stop(), step = walker_.pixel_step();
     for (SpanXWord x = walker_.start(); x != stop; x += step) {
       watch.span(*this, x);
-      watch.sample(*this, x);
-      watch.product(*this, x);
       emit(fragment(x));
       span_step();
     }

@@ -13,20 +13,6 @@
 
 namespace halfway {
 
-/// Stages whose registers a probe shows. Of the processors shader: line, span, then one a processor.
-enum class Stage { line, span, sample, product, first_processor = sample };
-inline Stage processor_stage(int number) {
-  return static_cast<Stage>(static_cast<int>(Stage::first_processor) + number);
-}
-
-/// A stage's registers when it took a line or drew a pixel, laid out as the RTL's `probe` port.
-struct ProbeEvent {
-  Stage stage;
-  std::uint32_t triangle, y, x;  ///< x: the pixel; the line's first for Stage::line
-  std::vector<std::uint32_t> words;
-  std::size_t fragment;  ///< how many fragments were drawn before
-};
-
 class GoldenModel {
  public:
   virtual ~GoldenModel() = default;
@@ -45,13 +31,9 @@ class GoldenModel {
     draw(init_words, drawn_);
     return drawn_;
   }
-  /// The same, and the stages' registers.
-  virtual void draw_probed(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,
-                           std::vector<ProbeEvent>& events) = 0;
   /// A shadow counter of the processors shader has left its range, and the fragments are worth nothing.
   virtual bool fault() const = 0;
   virtual unsigned init_bits() const = 0;
-  virtual unsigned probe_bits() const = 0;
 
  private:
   std::vector<Fragment> drawn_;

@@ -25,33 +25,6 @@ std::span<const std::uint32_t> take_triangle(const Shader& shader,
   return triangle;
 }
 
-/// Appends a ProbeEvent for each register that a shader shows.
-struct ProbeRecorder {
-  std::vector<ProbeEvent>& events;
-  const std::vector<Fragment>& fragments;
-  void line(const auto& shader) { add(shader, Stage::line, shader.walker().start(), shader.line_probe()); }
-  void span(const auto& shader, golden::SpanXWord x) { add(shader, Stage::span, x, shader.span_probe(x)); }
-  void sample(const auto& shader, golden::SpanXWord x) {
-    add(shader, Stage::sample, x, shader.sample_probe());
-  }
-  void product(const auto& shader, golden::SpanXWord x) {
-    add(shader, Stage::product, x, shader.product_probe());
-  }
-  void processor(const auto& shader, golden::SpanXWord x, int number) {
-    add(shader, processor_stage(number), x, shader.processor_probe(number));
-  }
-
- private:
-  void add(const auto& shader, Stage stage, golden::SpanXWord x, const auto& words) {
-    events.push_back({stage,
-                      shader.walker().triangle(),
-                      shader.walker().y(),
-                      static_cast<std::uint32_t>(golden::low_bits(x.bits(), golden::Exact::c_pixel_x_bits)),
-                      {words.begin(), words.end()},
-                      fragments.size()});
-  }
-};
-
 /// The golden model of one shader: QuadraticShader, SphericalShader or ProcessorsShader.
 template <class Shader>
 class ShaderModel final : public GoldenModel {
@@ -82,12 +55,13 @@ class ShaderModel final : public GoldenModel {
     });
     return count;
   }
-  void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) override {
-    draw(init_words, fragments, golden::Unwatched());
-  }
-  void draw_probed(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,
-                   std::vector<ProbeEvent>& events) override {
-    draw(init_words, fragments, ProbeRecorder{events, fragments});
+  // Inline the shader, so that the fields of a fragment go straight to the vector.
+  [[gnu::flatten]] void draw(std::span<const std::uint32_t> init_words,
+                             std::vector<Fragment>& fragments) override {
+    const auto emit = [&](const Fragment& fragment) { fragments.push_back(fragment); };
+    for (auto triangle = take_triangle(shader_, init_words); !triangle.empty();
+         triangle = take_triangle(shader_, init_words))
+      shader_.draw(triangle, emit);
   }
   bool fault() const override {
     if constexpr (requires { shader_.fault(); })
@@ -96,19 +70,8 @@ class ShaderModel final : public GoldenModel {
       return false;
   }
   unsigned init_bits() const override { return static_cast<unsigned>(shader_.init_bits()); }
-  unsigned probe_bits() const override { return static_cast<unsigned>(shader_.probe_bits()); }
 
  private:
-  // Inline the shader, so that the fields of a fragment go straight to the vector.
-  template <class Watch>
-  [[gnu::flatten]] void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments,
-                             Watch watch) {
-    const auto emit = [&](const Fragment& fragment) { fragments.push_back(fragment); };
-    for (auto triangle = take_triangle(shader_, init_words); !triangle.empty();
-         triangle = take_triangle(shader_, init_words))
-      shader_.draw(triangle, emit, watch);
-  }
-
   Shader shader_;
 };
 

@@ -117,7 +117,6 @@ TEST(Plan, NamesEveryEffectOnceWithItsReason) {
           const Plan plan = planned(scene, {.shader = shader, .preset = preset, .all_effects = all_effects});
           EXPECT_EQ(plan.key.shader, shader);
           EXPECT_EQ(plan.key.preset, preset);
-          EXPECT_FALSE(plan.key.probe);
           EXPECT_TRUE(effect(plan, Effect::depth).called_for);
           ASSERT_EQ(plan.effects.size(), c_effects);
           std::set<std::string> names;
@@ -475,26 +474,22 @@ TEST(Plan, AllEffectsAreAllThatTheShaderHas) {
 std::vector<HardwareKey> every_key() {
   std::vector<HardwareKey> keys;
   for (const Preset preset : {Preset::exact, Preset::published})
-    for (const unsigned channels : {1U, 3U})
-      for (const bool probe : {false, true}) {
-        keys.push_back({.preset = preset, .channels = channels, .probe = probe});
-        const auto spherical = [&](const SphericalUnits& units) {
-          keys.push_back({.shader = Shader::spherical,
-                          .preset = preset,
-                          .channels = channels,
-                          .probe = probe,
-                          .spherical = units});
-        };
-        spherical({.tables = {9, 8}});
-        for (const unsigned lights : {1U, 2U, 11U, 16U})
-          for (const TableSize tables : {TableSize{9, 8}, {6, 6}, {8, 9}}) {
-            spherical({.lights = lights, .diffuse = true, .tables = tables});
-            for (const bool diffuse : {false, true})
-              for (unsigned highlight_channels = 1; highlight_channels <= channels; highlight_channels += 2)
-                for (unsigned powers = 1; powers < 32; ++powers)
-                  spherical({lights, diffuse, true, highlight_channels, powers, tables});
-          }
-      }
+    for (const unsigned channels : {1U, 3U}) {
+      keys.push_back({.preset = preset, .channels = channels});
+      const auto spherical = [&](const SphericalUnits& units) {
+        keys.push_back(
+            {.shader = Shader::spherical, .preset = preset, .channels = channels, .spherical = units});
+      };
+      spherical({.tables = {9, 8}});
+      for (const unsigned lights : {1U, 2U, 11U, 16U})
+        for (const TableSize tables : {TableSize{9, 8}, {6, 6}, {8, 9}}) {
+          spherical({.lights = lights, .diffuse = true, .tables = tables});
+          for (const bool diffuse : {false, true})
+            for (unsigned highlight_channels = 1; highlight_channels <= channels; highlight_channels += 2)
+              for (unsigned powers = 1; powers < 32; ++powers)
+                spherical({lights, diffuse, true, highlight_channels, powers, tables});
+        }
+    }
   return keys;
 }
 
@@ -514,7 +509,6 @@ TEST(HardwareKey, GenericsAreTheKey) {
   const HardwareKey key{.shader = Shader::spherical,
                         .preset = Preset::exact,
                         .channels = 3,
-                        .probe = true,
                         .spherical = {.lights = 5,
                                       .diffuse = true,
                                       .specular = true,
@@ -531,10 +525,9 @@ TEST(HardwareKey, GenericsAreTheKey) {
                                                         {"g_highlight_channels", "1"},
                                                         {"g_powers", "18"},
                                                         {"g_address_bits", "10"},
-                                                        {"g_data_bits", "7"},
-                                                        {"g_probe", "true"}}));
+                                                        {"g_data_bits", "7"}}));
   EXPECT_EQ(key.entity(), "spherical_shader");
-  EXPECT_EQ(key.name(), "spherical_shader-exact-c3-l5-d-s1-cos2.16-rom10x7-probe");
+  EXPECT_EQ(key.name(), "spherical_shader-exact-c3-l5-d-s1-cos2.16-rom10x7");
   const golden::SphericalConfig config = golden_config(key);
   EXPECT_EQ(config.lights, 5);
   EXPECT_EQ(config.channels, 3);
@@ -546,8 +539,7 @@ TEST(HardwareKey, GenericsAreTheKey) {
 
   const HardwareKey quadratic{.preset = Preset::published, .channels = 1};
   const auto few = quadratic.generics();
-  EXPECT_EQ(Map(few.begin(), few.end()),
-            (Map{{"g_exact", "false"}, {"g_channels", "1"}, {"g_probe", "false"}}));
+  EXPECT_EQ(Map(few.begin(), few.end()), (Map{{"g_exact", "false"}, {"g_channels", "1"}}));
   EXPECT_EQ(quadratic.name(), "quadratic_shader-published-c1");
 }
 

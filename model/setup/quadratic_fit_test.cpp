@@ -219,16 +219,14 @@ class Comparison {
 
   template <class Shader>
   void line(const Shader& shader) {
-    const auto probe = shader.line_probe();
-    line_start_ = word(probe, Exact::probe_header_at::line_start);
-    const std::int64_t y = word(probe, Exact::probe_header_at::line_y);
+    line_start_ = shader.walker().start().value();
+    const std::int64_t y = shader.walker().y();
     carries_ = line_start_ - walk_.start.pixel - walk_.start.quotient * (y - walk_.y);
   }
 
   template <class Shader>
   void span(const Shader& shader, golden::SpanXWord at) {
-    const auto probe = shader.span_probe(at);
-    const std::int64_t x = at.value(), y = word(probe, Exact::probe_header_at::span_y);
+    const std::int64_t x = at.value(), y = shader.walker().y();
     const Int128 u = centre(x, points_[0].x, unit_bits_), v = centre(y, points_[0].y, unit_bits_);
     // Where the words are those of one quadratic, only how far the pixel is from the start counts, not the
     // way.
@@ -236,8 +234,7 @@ class Comparison {
 
     const Int128 exact = (numerator_[0] * u + numerator_[1] * v + numerator_[3]) * u +
                          (numerator_[2] * v + numerator_[4]) * v + numerator_[5];
-    const std::int64_t value = word(probe, Exact::probe_channel_at::span_value, Exact::c_probe_header_bits) -
-                               (1LL << (c_fraction - 1));
+    const std::int64_t value = shader.channel(0).value().value() - (1LL << (c_fraction - 1));
     const Int128 off = 4 * magnitude(value * squared_ - exact), bound = (2 + 2 * k + k * k) * squared_;
     ASSERT_TRUE(off <= bound) << "pixel " << x << ',' << y << ", k = " << k << ": off by "
                               << static_cast<double>(off) / static_cast<double>(bound) << " of the bound";
@@ -252,7 +249,7 @@ class Comparison {
     exact_colour_ = std::clamp(steps_exact, 0.0, 255.0);
 
     const Int128 depth = plane_[0] * u + plane_[1] * v + plane_[2];
-    const std::int64_t z = word(probe, Exact::probe_header_at::span_z) - (1 << 14);
+    const std::int64_t z = shader.depth().value().value() - (1 << 14);
     const Int128 z_off = 2 * magnitude(z * squared_ - depth),
                  z_bound = (1 + lines + carries_ + std::abs(x - line_start_)) * squared_;
     ASSERT_TRUE(z_off <= z_bound) << "depth of pixel " << x << ',' << y;
@@ -274,13 +271,6 @@ class Comparison {
 
  private:
   static Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
-  template <class Probe>
-  static std::int64_t word(const Probe& probe, const golden::Field& field, int block_low = 0) {
-    const std::uint64_t bits = golden::get_bits(probe, field, block_low);
-    const int unused = 64 - field.bits;
-    return field.is_signed ? static_cast<std::int64_t>(bits << unused) >> unused
-                           : static_cast<std::int64_t>(bits);
-  }
 
   Points points_;
   int unit_bits_;

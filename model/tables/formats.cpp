@@ -50,12 +50,6 @@ std::vector<Format> common_formats() {
        15,
        "first differences, each rounded to half a unit",
        {off_by(0.19, "depth steps", "(1 + k) * u / 2")}},
-      {"sample_word",
-       false,
-       16,
-       0,
-       "a cosine table's entry, of whatever size, for the probe",
-       {at_most(4095, "2^12 - 1")}},
       {"command", false, 3, 0, "of a vector or token of the shading processors", {at_most(7, "7")}},
       {"light", false, 5, 0, "a light's number from 1; 0 is the ambient light", {at_most(16, "lights")}},
       {"shadow_count",
@@ -218,12 +212,6 @@ std::vector<Format> exact_formats() {
        "no "
        "more",
        {off_by(0x1p-9, "colour steps", "u / 2")}},
-      {"product_word",
-       false,
-       40,
-       0,
-       "a factor times a table's entry, for the probe",
-       {at_most(16777215.0 * 65535.0, "(2^24 - 1) * (2^16 - 1)")}},
   };
 }
 
@@ -321,12 +309,6 @@ std::vector<Format> published_formats() {
        "an integer: each term but the ambient one is cut; held at white",
        {off_by(32, "colour steps", "terms * u")}},
       {"factor", false, 10, 8, "colour steps up to 1023", {off_by(0x1p-9, "colour steps", "u / 2")}},
-      {"product_word",
-       false,
-       36,
-       0,
-       "a factor times a table's entry, for the probe",
-       {at_most(262143.0 * 65535.0, "(2^18 - 1) * (2^16 - 1)")}},
   };
 }
 
@@ -348,13 +330,10 @@ const Format& format_of(const PresetFormats& preset, std::string_view name) {
 std::vector<Layout> spherical_layouts(bool exact) {
   std::vector<Field> specular = {{"angle", "angle"}, {"slope", "angle"}};
   if (exact) specular.push_back({"power", "power"});
-  const std::vector<Field> probe = {{"angle", "angle"}, {"in_range", "flag"}, {"sample", "sample_word"}};
   return {
       {"ambient", {}, {{"ambient", "factor"}}},
       {"diffuse", {{"angle", "angle"}, {"slope", "angle"}}, {{"factor", "factor"}}},
       {"specular", specular, {{"factor", "factor"}}},
-      {"diffuse_probe", probe, {{"product", "product_word"}}},
-      {"specular_probe", probe, {{"product", "product_word"}}},
   };
 }
 
@@ -383,7 +362,6 @@ std::vector<Layout> processors_layouts(bool exact) {
        {}},
       {"light_axes", light, axis},
       {"light_colour", {}, {{"intensity", "light_intensity"}}},
-      {"processor_probe", {{"leaves", "flag"}, {"command", "command"}}, {{"radiance", "radiance"}}},
   };
 }
 
@@ -432,25 +410,6 @@ std::vector<Layout> exact_layouts() {
         {"de0e0", "intensity"},
         {"de0e1", "intensity"},
         {"de1e1", "intensity"}}},
-      {"probe",
-       {{"line_event", "flag"},
-        {"span_event", "flag"},
-        {"sample_event", "flag"},
-        {"product_event", "flag"},
-        {"line_y", "pixel_y"},
-        {"line_start", "span_x"},
-        {"line_stop", "span_x"},
-        {"line_carry", "flag"},
-        {"line_z", "depth_sum"},
-        {"span_y", "pixel_y"},
-        {"span_x", "span_x"},
-        {"span_z", "depth_sum"}},
-       {{"line_value", "intensity"},
-        {"line_dx", "intensity"},
-        {"line_de0", "intensity"},
-        {"line_de1", "intensity"},
-        {"span_value", "intensity"},
-        {"span_dx", "intensity"}}},
   };
 }
 
@@ -473,23 +432,6 @@ std::vector<Layout> published_layouts() {
         {"dxx", "intensity"},
         {"dxe0", "intensity"},
         {"de0e0", "intensity"}}},
-      {"probe",
-       {{"line_event", "flag"},
-        {"span_event", "flag"},
-        {"sample_event", "flag"},
-        {"product_event", "flag"},
-        {"line_y", "pixel_y"},
-        {"line_start", "span_x"},
-        {"line_stop", "span_x"},
-        {"line_z", "depth_sum"},
-        {"span_y", "pixel_y"},
-        {"span_x", "span_x"},
-        {"span_z", "depth_sum"}},
-       {{"line_value", "intensity"},
-        {"line_dx", "intensity"},
-        {"line_de0", "intensity"},
-        {"span_value", "intensity"},
-        {"span_dx", "intensity"}}},
   };
 }
 

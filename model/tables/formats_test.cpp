@@ -52,7 +52,7 @@ void expect_layout(const PresetFormats& preset, const std::vector<Field>& fields
 template <class Preset>
 void expect_preset(const PresetFormats& preset) {
   EXPECT_EQ(preset.name, Preset::c_name);
-  ASSERT_EQ(preset.layouts.size(), 13u);
+  ASSERT_EQ(preset.layouts.size(), 9u);
   const auto header = [&](std::size_t layout, const auto& compiled, int bits) {
     expect_layout(preset, preset.layouts[layout].header, compiled, bits);
   };
@@ -61,28 +61,20 @@ void expect_preset(const PresetFormats& preset) {
   };
   header(0, Preset::c_init_header, Preset::c_init_header_bits);
   channel(0, Preset::c_init_channel, Preset::c_init_channel_bits);
-  header(1, Preset::c_probe_header, Preset::c_probe_header_bits);
-  channel(1, Preset::c_probe_channel, Preset::c_probe_channel_bits);
-  EXPECT_TRUE(preset.layouts[2].header.empty() && Preset::c_ambient_header_bits == 0);
-  channel(2, Preset::c_ambient_channel, Preset::c_ambient_channel_bits);
-  header(3, Preset::c_diffuse_header, Preset::c_diffuse_header_bits);
-  channel(3, Preset::c_diffuse_channel, Preset::c_diffuse_channel_bits);
-  header(4, Preset::c_specular_header, Preset::c_specular_header_bits);
-  channel(4, Preset::c_specular_channel, Preset::c_specular_channel_bits);
-  header(5, Preset::c_diffuse_probe_header, Preset::c_diffuse_probe_header_bits);
-  channel(5, Preset::c_diffuse_probe_channel, Preset::c_diffuse_probe_channel_bits);
-  header(6, Preset::c_specular_probe_header, Preset::c_specular_probe_header_bits);
-  channel(6, Preset::c_specular_probe_channel, Preset::c_specular_probe_channel_bits);
-  header(7, Preset::c_request_header, Preset::c_request_header_bits);
-  header(8, Preset::c_plane_header, Preset::c_plane_header_bits);
-  header(9, Preset::c_pixel_header, Preset::c_pixel_header_bits);
-  for (const std::size_t layout : {7, 8, 9}) EXPECT_TRUE(preset.layouts[layout].channel.empty());
-  header(10, Preset::c_light_axes_header, Preset::c_light_axes_header_bits);
-  channel(10, Preset::c_light_axes_channel, Preset::c_light_axes_channel_bits);
-  EXPECT_TRUE(preset.layouts[11].header.empty() && Preset::c_light_colour_header_bits == 0);
-  channel(11, Preset::c_light_colour_channel, Preset::c_light_colour_channel_bits);
-  header(12, Preset::c_processor_probe_header, Preset::c_processor_probe_header_bits);
-  channel(12, Preset::c_processor_probe_channel, Preset::c_processor_probe_channel_bits);
+  EXPECT_TRUE(preset.layouts[1].header.empty() && Preset::c_ambient_header_bits == 0);
+  channel(1, Preset::c_ambient_channel, Preset::c_ambient_channel_bits);
+  header(2, Preset::c_diffuse_header, Preset::c_diffuse_header_bits);
+  channel(2, Preset::c_diffuse_channel, Preset::c_diffuse_channel_bits);
+  header(3, Preset::c_specular_header, Preset::c_specular_header_bits);
+  channel(3, Preset::c_specular_channel, Preset::c_specular_channel_bits);
+  header(4, Preset::c_request_header, Preset::c_request_header_bits);
+  header(5, Preset::c_plane_header, Preset::c_plane_header_bits);
+  header(6, Preset::c_pixel_header, Preset::c_pixel_header_bits);
+  for (const std::size_t layout : {4, 5, 6}) EXPECT_TRUE(preset.layouts[layout].channel.empty());
+  header(7, Preset::c_light_axes_header, Preset::c_light_axes_header_bits);
+  channel(7, Preset::c_light_axes_channel, Preset::c_light_axes_channel_bits);
+  EXPECT_TRUE(preset.layouts[8].header.empty() && Preset::c_light_colour_header_bits == 0);
+  channel(8, Preset::c_light_colour_channel, Preset::c_light_colour_channel_bits);
 }
 
 TEST(Formats, TheCompiledLayoutsHaveNeitherGapsNorOverlaps) {
@@ -129,10 +121,9 @@ TEST(Formats, BoundsSufficeForWhatTheFormatsServe) {
   // Exponent 10^6 by cos^16: the scale is 250, and an arc's angles are within three half bells of it,
   // unscaled.
   EXPECT_LT(3.0 * 251, std::ldexp(1.0, Exact::c_angle_bits - 1 - Exact::c_angle_fraction_bits));
-  // The largest factor times the least entry of 8 bits is white, and a probe holds any product.
+  // The largest factor times the least entry of 8 bits is white.
   EXPECT_GE((1 << Exact::c_factor_bits) - (1 << Exact::c_factor_fraction_bits),
             (255 << 8) << Exact::c_factor_fraction_bits);
-  EXPECT_EQ(Exact::c_product_word_bits, Exact::c_factor_bits + Exact::c_sample_word_bits);
   // What the terms of all processors lose is far from a colour step.
   EXPECT_LT(stated(exact, "radiance"), 0.01);
 }

@@ -31,7 +31,6 @@ package formats_pkg is
     colour : format_t;
     depth : format_t;
     depth_sum : format_t;
-    sample_word : format_t;
     command : format_t;
     light : format_t;
     shadow_count : format_t;
@@ -57,7 +56,6 @@ package formats_pkg is
     reflected : format_t;
     radiance : format_t;
     factor : format_t;
-    product_word : format_t;
   end record;
 
   constant c_exact_formats : formats_t := (
@@ -90,9 +88,6 @@ package formats_pkg is
     -- s24.15: first differences, each rounded to half a unit
     --   off by at most 0.19 depth steps: (1 + k) * u / 2
     depth_sum => (40, 15),
-    -- u16.0: a cosine table's entry, of whatever size, for the probe
-    --   at most 4095: 2^12 - 1
-    sample_word => (16, 0),
     -- u3.0: of a vector or token of the shading processors
     --   at most 7
     command => (3, 0),
@@ -175,10 +170,7 @@ package formats_pkg is
     radiance => (22, 12),
     -- u16.8: colour steps; the largest times the least entry of up to 8 bits is white, so what is brighter needs no more
     --   off by at most 2^-9 colour steps: u / 2
-    factor => (24, 8),
-    -- u40.0: a factor times a table's entry, for the probe
-    --   at most 1099494785025: (2^24 - 1) * (2^16 - 1)
-    product_word => (40, 0)
+    factor => (24, 8)
   );
 
   constant c_published_formats : formats_t := (
@@ -211,9 +203,6 @@ package formats_pkg is
     -- s24.15: first differences, each rounded to half a unit
     --   off by at most 0.19 depth steps: (1 + k) * u / 2
     depth_sum => (40, 15),
-    -- u16.0: a cosine table's entry, of whatever size, for the probe
-    --   at most 4095: 2^12 - 1
-    sample_word => (16, 0),
     -- u3.0: of a vector or token of the shading processors
     --   at most 7
     command => (3, 0),
@@ -296,10 +285,7 @@ package formats_pkg is
     radiance => (8, 0),
     -- u10.8: colour steps up to 1023
     --   off by at most 2^-9 colour steps: u / 2
-    factor => (18, 8),
-    -- u36.0: a factor times a table's entry, for the probe
-    --   at most 17179541505: (2^18 - 1) * (2^16 - 1)
-    product_word => (36, 0)
+    factor => (18, 8)
   );
 
   function formats (exact : boolean) return formats_t;
@@ -453,92 +439,6 @@ package formats_pkg is
 
   function init_bits (exact : boolean; channels : natural) return natural;
 
-  type probe_header_t is record
-    line_event : slice_t;
-    span_event : slice_t;
-    sample_event : slice_t;
-    product_event : slice_t;
-    line_y : slice_t;
-    line_start : slice_t;
-    line_stop : slice_t;
-    line_carry : slice_t;
-    line_z : slice_t;
-    span_y : slice_t;
-    span_x : slice_t;
-    span_z : slice_t;
-  end record;
-
-  constant c_exact_probe_header : probe_header_t := (
-    line_event => (0, 0),
-    span_event => (1, 1),
-    sample_event => (2, 2),
-    product_event => (3, 3),
-    line_y => (15, 4),
-    line_start => (29, 16),
-    line_stop => (43, 30),
-    line_carry => (44, 44),
-    line_z => (84, 45),
-    span_y => (96, 85),
-    span_x => (110, 97),
-    span_z => (150, 111)
-  );
-
-  constant c_published_probe_header : probe_header_t := (
-    line_event => (0, 0),
-    span_event => (1, 1),
-    sample_event => (2, 2),
-    product_event => (3, 3),
-    line_y => (15, 4),
-    line_start => (29, 16),
-    line_stop => (43, 30),
-    line_carry => (-1, 0),
-    line_z => (83, 44),
-    span_y => (95, 84),
-    span_x => (109, 96),
-    span_z => (149, 110)
-  );
-
-  function probe_header (exact : boolean) return probe_header_t;
-
-  constant c_exact_probe_header_bits : natural := 151;
-  constant c_published_probe_header_bits : natural := 150;
-
-  type probe_channel_t is record
-    line_value : slice_t;
-    line_dx : slice_t;
-    line_de0 : slice_t;
-    line_de1 : slice_t;
-    span_value : slice_t;
-    span_dx : slice_t;
-  end record;
-
-  constant c_exact_probe_channel : probe_channel_t := (
-    line_value => (39, 0),
-    line_dx => (79, 40),
-    line_de0 => (119, 80),
-    line_de1 => (159, 120),
-    span_value => (199, 160),
-    span_dx => (239, 200)
-  );
-
-  constant c_published_probe_channel : probe_channel_t := (
-    line_value => (31, 0),
-    line_dx => (63, 32),
-    line_de0 => (95, 64),
-    line_de1 => (-1, 0),
-    span_value => (127, 96),
-    span_dx => (159, 128)
-  );
-
-  function probe_channel (exact : boolean) return probe_channel_t;
-
-  constant c_exact_probe_channel_bits : natural := 240;
-  constant c_published_probe_channel_bits : natural := 160;
-
-  function probe_channel_low (exact : boolean; channel : natural) return natural;
-
-  function probe_bits (exact : boolean; channels : natural) return natural;
-
   constant c_exact_ambient_header_bits : natural := 0;
   constant c_published_ambient_header_bits : natural := 0;
 
@@ -647,94 +547,6 @@ package formats_pkg is
   function specular_channel_low (exact : boolean; channel : natural) return natural;
 
   function specular_bits (exact : boolean; channels : natural) return natural;
-
-  type diffuse_probe_header_t is record
-    angle : slice_t;
-    in_range : slice_t;
-    sample : slice_t;
-  end record;
-
-  constant c_exact_diffuse_probe_header : diffuse_probe_header_t := (
-    angle => (32, 0),
-    in_range => (33, 33),
-    sample => (49, 34)
-  );
-
-  constant c_published_diffuse_probe_header : diffuse_probe_header_t := (
-    angle => (11, 0),
-    in_range => (12, 12),
-    sample => (28, 13)
-  );
-
-  function diffuse_probe_header (exact : boolean) return diffuse_probe_header_t;
-
-  constant c_exact_diffuse_probe_header_bits : natural := 50;
-  constant c_published_diffuse_probe_header_bits : natural := 29;
-
-  type diffuse_probe_channel_t is record
-    product : slice_t;
-  end record;
-
-  constant c_exact_diffuse_probe_channel : diffuse_probe_channel_t := (
-    product => (39, 0)
-  );
-
-  constant c_published_diffuse_probe_channel : diffuse_probe_channel_t := (
-    product => (35, 0)
-  );
-
-  function diffuse_probe_channel (exact : boolean) return diffuse_probe_channel_t;
-
-  constant c_exact_diffuse_probe_channel_bits : natural := 40;
-  constant c_published_diffuse_probe_channel_bits : natural := 36;
-
-  function diffuse_probe_channel_low (exact : boolean; channel : natural) return natural;
-
-  function diffuse_probe_bits (exact : boolean; channels : natural) return natural;
-
-  type specular_probe_header_t is record
-    angle : slice_t;
-    in_range : slice_t;
-    sample : slice_t;
-  end record;
-
-  constant c_exact_specular_probe_header : specular_probe_header_t := (
-    angle => (32, 0),
-    in_range => (33, 33),
-    sample => (49, 34)
-  );
-
-  constant c_published_specular_probe_header : specular_probe_header_t := (
-    angle => (11, 0),
-    in_range => (12, 12),
-    sample => (28, 13)
-  );
-
-  function specular_probe_header (exact : boolean) return specular_probe_header_t;
-
-  constant c_exact_specular_probe_header_bits : natural := 50;
-  constant c_published_specular_probe_header_bits : natural := 29;
-
-  type specular_probe_channel_t is record
-    product : slice_t;
-  end record;
-
-  constant c_exact_specular_probe_channel : specular_probe_channel_t := (
-    product => (39, 0)
-  );
-
-  constant c_published_specular_probe_channel : specular_probe_channel_t := (
-    product => (35, 0)
-  );
-
-  function specular_probe_channel (exact : boolean) return specular_probe_channel_t;
-
-  constant c_exact_specular_probe_channel_bits : natural := 40;
-  constant c_published_specular_probe_channel_bits : natural := 36;
-
-  function specular_probe_channel_low (exact : boolean; channel : natural) return natural;
-
-  function specular_probe_bits (exact : boolean; channels : natural) return natural;
 
   type request_header_t is record
     command : slice_t;
@@ -930,47 +742,6 @@ package formats_pkg is
 
   function light_colour_bits (exact : boolean; channels : natural) return natural;
 
-  type processor_probe_header_t is record
-    leaves : slice_t;
-    command : slice_t;
-  end record;
-
-  constant c_exact_processor_probe_header : processor_probe_header_t := (
-    leaves => (0, 0),
-    command => (3, 1)
-  );
-
-  constant c_published_processor_probe_header : processor_probe_header_t := (
-    leaves => (0, 0),
-    command => (3, 1)
-  );
-
-  function processor_probe_header (exact : boolean) return processor_probe_header_t;
-
-  constant c_exact_processor_probe_header_bits : natural := 4;
-  constant c_published_processor_probe_header_bits : natural := 4;
-
-  type processor_probe_channel_t is record
-    radiance : slice_t;
-  end record;
-
-  constant c_exact_processor_probe_channel : processor_probe_channel_t := (
-    radiance => (21, 0)
-  );
-
-  constant c_published_processor_probe_channel : processor_probe_channel_t := (
-    radiance => (7, 0)
-  );
-
-  function processor_probe_channel (exact : boolean) return processor_probe_channel_t;
-
-  constant c_exact_processor_probe_channel_bits : natural := 22;
-  constant c_published_processor_probe_channel_bits : natural := 8;
-
-  function processor_probe_channel_low (exact : boolean; channel : natural) return natural;
-
-  function processor_probe_bits (exact : boolean; channels : natural) return natural;
-
 end package;
 
 package body formats_pkg is
@@ -1010,35 +781,6 @@ package body formats_pkg is
   function init_bits (exact : boolean; channels : natural) return natural is
   begin
     return init_channel_low(exact, channels);
-  end function;
-
-  function probe_header (exact : boolean) return probe_header_t is
-  begin
-    if exact then
-      return c_exact_probe_header;
-    end if;
-    return c_published_probe_header;
-  end function;
-
-  function probe_channel (exact : boolean) return probe_channel_t is
-  begin
-    if exact then
-      return c_exact_probe_channel;
-    end if;
-    return c_published_probe_channel;
-  end function;
-
-  function probe_channel_low (exact : boolean; channel : natural) return natural is
-  begin
-    if exact then
-      return c_exact_probe_header_bits + channel * c_exact_probe_channel_bits;
-    end if;
-    return c_published_probe_header_bits + channel * c_published_probe_channel_bits;
-  end function;
-
-  function probe_bits (exact : boolean; channels : natural) return natural is
-  begin
-    return probe_channel_low(exact, channels);
   end function;
 
   function ambient_channel (exact : boolean) return ambient_channel_t is
@@ -1118,64 +860,6 @@ package body formats_pkg is
   function specular_bits (exact : boolean; channels : natural) return natural is
   begin
     return specular_channel_low(exact, channels);
-  end function;
-
-  function diffuse_probe_header (exact : boolean) return diffuse_probe_header_t is
-  begin
-    if exact then
-      return c_exact_diffuse_probe_header;
-    end if;
-    return c_published_diffuse_probe_header;
-  end function;
-
-  function diffuse_probe_channel (exact : boolean) return diffuse_probe_channel_t is
-  begin
-    if exact then
-      return c_exact_diffuse_probe_channel;
-    end if;
-    return c_published_diffuse_probe_channel;
-  end function;
-
-  function diffuse_probe_channel_low (exact : boolean; channel : natural) return natural is
-  begin
-    if exact then
-      return c_exact_diffuse_probe_header_bits + channel * c_exact_diffuse_probe_channel_bits;
-    end if;
-    return c_published_diffuse_probe_header_bits + channel * c_published_diffuse_probe_channel_bits;
-  end function;
-
-  function diffuse_probe_bits (exact : boolean; channels : natural) return natural is
-  begin
-    return diffuse_probe_channel_low(exact, channels);
-  end function;
-
-  function specular_probe_header (exact : boolean) return specular_probe_header_t is
-  begin
-    if exact then
-      return c_exact_specular_probe_header;
-    end if;
-    return c_published_specular_probe_header;
-  end function;
-
-  function specular_probe_channel (exact : boolean) return specular_probe_channel_t is
-  begin
-    if exact then
-      return c_exact_specular_probe_channel;
-    end if;
-    return c_published_specular_probe_channel;
-  end function;
-
-  function specular_probe_channel_low (exact : boolean; channel : natural) return natural is
-  begin
-    if exact then
-      return c_exact_specular_probe_header_bits + channel * c_exact_specular_probe_channel_bits;
-    end if;
-    return c_published_specular_probe_header_bits + channel * c_published_specular_probe_channel_bits;
-  end function;
-
-  function specular_probe_bits (exact : boolean; channels : natural) return natural is
-  begin
-    return specular_probe_channel_low(exact, channels);
   end function;
 
   function request_header (exact : boolean) return request_header_t is
@@ -1289,35 +973,6 @@ package body formats_pkg is
   function light_colour_bits (exact : boolean; channels : natural) return natural is
   begin
     return light_colour_channel_low(exact, channels);
-  end function;
-
-  function processor_probe_header (exact : boolean) return processor_probe_header_t is
-  begin
-    if exact then
-      return c_exact_processor_probe_header;
-    end if;
-    return c_published_processor_probe_header;
-  end function;
-
-  function processor_probe_channel (exact : boolean) return processor_probe_channel_t is
-  begin
-    if exact then
-      return c_exact_processor_probe_channel;
-    end if;
-    return c_published_processor_probe_channel;
-  end function;
-
-  function processor_probe_channel_low (exact : boolean; channel : natural) return natural is
-  begin
-    if exact then
-      return c_exact_processor_probe_header_bits + channel * c_exact_processor_probe_channel_bits;
-    end if;
-    return c_published_processor_probe_header_bits + channel * c_published_processor_probe_channel_bits;
-  end function;
-
-  function processor_probe_bits (exact : boolean; channels : natural) return natural is
-  begin
-    return processor_probe_channel_low(exact, channels);
   end function;
 
 end package body;

@@ -73,9 +73,11 @@ void print_stage(const StageState& stage, const Widths& widths) {
   else
     fmt::print("  {} stage: the RTL never came here\n", stage.stage);
   for (const StageValue& v : stage.values) {
-    const bool same = stage.cycle && v.golden == v.rtl;
     fmt::print("    {:<{}} golden {:<{}} RTL {}{}\n", v.name, widths.name, word(v.golden, v), widths.golden,
-               stage.cycle ? word(v.rtl, v) : "-", same ? "" : "   <-- differs");
+               !stage.cycle ? "-"
+               : v.rtl      ? word(*v.rtl, v)
+                            : "no number",
+               v.golden == v.rtl ? "" : "   <-- differs");
   }
 }
 
@@ -123,10 +125,17 @@ int run(const Folders& folders, const WhyCommand& command) {
         d.stage, d.entity, d.cycle, d.triangle, d.y, d.x, d.value, d.golden, d.rtl);
     return static_cast<int>(ExitCode::differs);
   }
-  fmt::print(
-      "\ngolden model and RTL agree at every stage of the whole frame, as Verilator simulates it\n"
-      "(what GHDL alone finds wrong is a register used before it is set: see its waveform)\n");
-  return static_cast<int>(why->fault.empty() ? ExitCode::equal : ExitCode::differs);
+  if (why->frame_difference)
+    fmt::print(
+        "\nin Verilator's frame the first fragment that differs is number {}; in GHDL golden model and RTL "
+        "agree at "
+        "every\nstage of its triangle: what differs is the netlist, or comes from triangles long before\n",
+        why->frame_difference->index);
+  else if (why->fault.empty())
+    fmt::print(
+        "\ngolden model and RTL agree at every stage of these triangles, as GHDL simulates them,\n"
+        "and in every fragment of the frame, as Verilator does\n");
+  return static_cast<int>(why->fault.empty() && !why->frame_difference ? ExitCode::equal : ExitCode::differs);
 }
 
 }  // namespace

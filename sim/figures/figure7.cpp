@@ -5,14 +5,19 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <string_view>
+
+#include "golden/word.hpp"
+#include "sim/run/stages.hpp"
 
 namespace halfway::figures {
 
 using golden::Published;
 
 const HardwareKey& figure7_key() {
-  static const HardwareKey key{.preset = Preset::published, .channels = 1, .probe = true};
+  static const HardwareKey key{.preset = Preset::published, .channels = 1};
   return key;
 }
 
@@ -63,45 +68,52 @@ std::array<std::uint32_t, Figure7Shader::c_init_words> figure7_init(const Figure
   return init;
 }
 
-void Figure7Trace::add(std::span<const std::uint32_t> probe, std::span<const std::uint32_t> unknown,
-                       std::uint64_t clock) {
-  using At = Published::probe_header_at;
-  using ChannelAt = Published::probe_channel_at;
-  const auto read = [&](const golden::Field& field, int low) {
-    if (!unknown.empty() && golden::get_bits(unknown, field, low) != 0) known = false;
-    return static_cast<std::uint32_t>(golden::get_bits(probe, field, low));
+namespace {
+
+// Adds a line or a pixel: words of the stage, of which one may not be known.
+void add(Figure7Trace& trace, const Stage& stage, std::span<const std::optional<std::uint64_t>> words) {
+  const auto word = [&](std::string_view name) {
+    const auto at = std::ranges::find(stage.words, name, &StageWord::name) - stage.words.begin();
+    const auto& value = words[static_cast<std::size_t>(at)];
+    if (!value) trace.known = false;
+    return static_cast<std::uint32_t>(value.value_or(0));
   };
-  const auto channel = [&](const golden::Field& field) {
-    return read(field, Published::c_probe_header_bits);
-  };
-  const auto header = [&](const golden::Field& field) { return read(field, 0); };
-  if (header(At::line_event) != 0) {
-    line["dI_start"].push_back(channel(ChannelAt::line_de0));
-    line["I_start"].push_back(channel(ChannelAt::line_value));
-    line["dI(X_start)"].push_back(channel(ChannelAt::line_dx));
-    line_clock.push_back(clock);
-  }
-  if (header(At::span_event) != 0) {
-    pixel["dI(X,Y)"].push_back(channel(ChannelAt::span_dx));
-    pixel["I(X,Y)"].push_back(channel(ChannelAt::span_value));
-    pixel_x.push_back(header(At::span_x));
-    pixel_y.push_back(header(At::span_y));
-    pixel_clock.push_back(clock);
+  if (stage.name == "line") {
+    trace.line["dI_start"].push_back(word("grey line_de0"));
+    trace.line["I_start"].push_back(word("grey line_value"));
+    trace.line["dI(X_start)"].push_back(word("grey line_dx"));
+  } else if (stage.name == "span") {
+    trace.pixel["dI(X,Y)"].push_back(word("grey span_dx"));
+    trace.pixel["I(X,Y)"].push_back(word("grey span_value"));
+    trace.pixel_x.push_back(word("span_x"));
+    trace.pixel_y.push_back(word("span_y"));
   }
 }
 
+}  // namespace
+
 Figure7Trace golden_figure7(const Figure7& figure) {
-  struct Watch {
-    Figure7Trace* trace;
-    void line(const Figure7Shader& shader) const { trace->add(shader.line_probe(), {}, 0); }
-    void span(const Figure7Shader& shader, golden::SpanXWord x) const {
-      trace->add(shader.span_probe(x), {}, 0);
-    }
-  };
+  const auto stages = make_stages(figure7_key());
   Figure7Trace trace;
-  Figure7Shader shader;
-  shader.draw(
-      figure7_init(figure), [](const Fragment&) {}, Watch{&trace});
+  for (const GoldenEvent& event : stages->draw(figure7_init(figure)))
+    add(trace, stages->stages()[event.stage],
+        std::vector<std::optional<std::uint64_t>>(event.words.begin(), event.words.end()));
+  return trace;
+}
+
+Result<Figure7Trace> rtl_figure7(const Figure7& figure, const SimulatorFolders& folders) {
+  const auto stages = make_stages(figure7_key());
+  const auto init = figure7_init(figure);
+  const auto rtl = trace_stages(figure7_key(), *stages, folders,
+                                {Figure7Shader::c_init_bits, {init.begin(), init.end()}}, c_figure7_pixels);
+  if (!rtl) return rtl.error();
+  if (!rtl->fault.empty()) return Error{ExitCode::differs, rtl->fault};
+  Figure7Trace trace;
+  for (std::size_t stage = 0; stage < rtl->events.size(); ++stage)
+    for (const RtlEvent& event : rtl->events[stage]) {
+      add(trace, stages->stages()[stage], event.words);
+      if (stage < 2) (stage == 0 ? trace.line_clock : trace.pixel_clock).push_back(event.cycle);
+    }
   return trace;
 }
 

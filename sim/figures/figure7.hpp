@@ -12,6 +12,7 @@
 #include "common/result.hpp"
 #include "golden/quadratic_shader.hpp"
 #include "plan/hardware_key.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
 
 namespace halfway::figures {
 
@@ -37,19 +38,19 @@ using Figure7Shader = golden::QuadraticShader<golden::Published, 1>;
 /// Edges of slope 0 and 1 pixel a line, so that line k has k pixels.
 std::array<std::uint32_t, Figure7Shader::c_init_words> figure7_init(const Figure7& figure);
 
-/// Registers of the probe, event by event, as the figure names them; clocks where there are any.
+/// Registers of the line stage and of the span stage, line by line and pixel by pixel, as the figure names
+/// them; clocks where there are any.
 struct Figure7Trace {
   std::map<std::string, TraceWords> line, pixel;
   TraceWords pixel_x, pixel_y;
   std::vector<std::uint64_t> line_clock, pixel_clock;
   bool known = true;  ///< no register read here had a bit without a value
-
-  /// `unknown` has the bits set that the simulator does not know; empty: it knows all.
-  void add(std::span<const std::uint32_t> probe, std::span<const std::uint32_t> unknown, std::uint64_t clock);
 };
 
 /// The golden model's, without clocks.
 Figure7Trace golden_figure7(const Figure7& figure);
+/// The RTL's, in GHDL.
+Result<Figure7Trace> rtl_figure7(const Figure7& figure, const SimulatorFolders& folders);
 
 /// "FFFD1688 FFFD0626", of so many words at most.
 std::string hexadecimal(std::span<const std::uint32_t> words, std::size_t most = SIZE_MAX);

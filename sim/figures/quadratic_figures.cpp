@@ -19,7 +19,6 @@
 #include "sim/figures/six_point_fit.hpp"
 #include "sim/figures/software_shading.hpp"
 #include "sim/scene_files/load_scene.hpp"
-#include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway::figures {
 namespace {
@@ -31,17 +30,6 @@ constexpr std::array<std::pair<const char*, const char*>, 3> c_line_registers = 
     {{"dI_start", "ΔI_start"}, {"I_start", "I_start"}, {"dI(X_start)", "ΔI(X_start)"}}};
 constexpr std::array<std::pair<const char*, const char*>, 2> c_pixel_registers = {
     {{"dI(X,Y)", "ΔI(X,Y)"}, {"I(X,Y)", "I(X,Y)"}}};
-
-Figure7Trace verilated_figure7(const Context& context, const Figure7& figure) {
-  auto simulator = must(VerilatorSimulator::open(figure7_key(), context.folders, {.record_probes = true}));
-  constexpr std::size_t c_most = 1000;
-  std::vector<Fragment> fragments;
-  must(simulator.run(figure7_init(figure), 1, fragments, c_most));
-  must(simulator.finish(fragments, c_most));
-  Figure7Trace trace;
-  for (const ProbeRecord& record : simulator.probes()) trace.add(record.words, {}, record.cycle);
-  return trace;
-}
 
 // A box a word, in the clocks in which the register holds it.
 std::string figure_7_script(const Figure7Trace& trace) {
@@ -93,7 +81,7 @@ void draw_figure_7(const Context& context, Drawing& out) {
   for (const auto& [name, shown] : c_pixel_registers)
     out.measured[shown] = {hexadecimal(golden.pixel.at(name), figure.pixel.at(name).size())};
   if (!context.quick) {
-    const Figure7Trace rtl = verilated_figure7(context, figure);
+    const Figure7Trace rtl = must(rtl_figure7(figure, context.folders));
     std::size_t words = 0, differing = 0;
     const auto compare = [&](const auto& published, const auto& seen) {
       for (const auto& [name, expected] : published)
@@ -106,10 +94,10 @@ void draw_figure_7(const Context& context, Drawing& out) {
     };
     compare(figure.line, rtl.line);
     compare(figure.pixel, rtl.pixel);
-    out.measured["printed words that the RTL's registers do not hold, in Verilator"] =
+    out.measured["printed words that the RTL's registers do not hold, in GHDL"] =
         measured(static_cast<double>(differing), "{} of {}", words);
     const auto clocks = rtl.pixel_clock.empty() ? 0 : rtl.pixel_clock.back() - rtl.pixel_clock.front() + 1;
-    out.measured["clocks for the ten pixels of four lines, in Verilator"] =
+    out.measured["clocks for the ten pixels of four lines, in GHDL"] =
         measured(static_cast<double>(clocks), "{} for {}", rtl.pixel_clock.size());
   }
   draw_plot(

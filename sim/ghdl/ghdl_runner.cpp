@@ -70,6 +70,22 @@ std::optional<GhdlRun> read_trailer(const std::filesystem::path& trace_file) {
   return run;
 }
 
+/// GHDL's file of signals to write. It has no indices: a scope's name stands for all scopes of a loop.
+std::string wave_options(const std::vector<std::string>& signals) {
+  std::string text = "$ version 1.1\n";
+  for (const std::string& signal : signals) {
+    bool index = false;
+    text += '/';
+    for (const char c : signal) {
+      index = index || c == '(';
+      if (!index) text += c;
+      if (c == ')') index = false;
+    }
+    text += '\n';
+  }
+  return text;
+}
+
 /// What the testbench reported, without GHDL's own lines around it; empty where it reported nothing.
 std::string reported_failure(const std::string& output) {
   constexpr std::string_view mark = "(report failure): ";
@@ -144,6 +160,13 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
                              : options.wave_file.extension() == ".vcd" ? "--vcd="
                                                                        : "--wave=";
     command.arguments.push_back(kind + std::filesystem::absolute(options.wave_file).string());
+  }
+  ScratchFile wave_signals(options.wave_signals.empty() ? std::string()
+                                                        : absolute_trace.string() + ".signals");
+  if (!options.wave_signals.empty()) {
+    if (auto written = write_file(wave_signals.path(), wave_options(options.wave_signals)); !written)
+      return written.error();
+    command.arguments.push_back("--read-wave-opt=" + wave_signals.path().string());
   }
   command.timeout = options.timeout;
   if (options.on_progress) {

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "common/result.hpp"
 #include "plan/hardware_key.hpp"
@@ -22,6 +24,9 @@ struct GhdlRunOptions {
   std::function<void(std::uintmax_t trace_bytes)> on_progress{};  ///< with the bytes of trace written so far
   std::function<void()> on_begin{};                               ///< of parts once each, several at a time
   std::filesystem::path wave_file{};                              ///< .ghw, .fst or .vcd; empty: none
+  /// What goes into it, such as frame_tb/dut/walker/x; empty: every signal. Of a generate loop all are
+  /// written.
+  std::vector<std::string> wave_signals{};
 };
 
 struct GhdlRun {

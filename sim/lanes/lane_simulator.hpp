@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A shader's RTL in lanes: many copies of the hardware in one vector of the processor, each with triangles of
-// its own. The same fragments as from VerilatorSimulator, several times as fast; no probes or waves.
+// its own. The same fragments as from VerilatorSimulator, several times as fast; no waves.
 #pragma once
 
 #include <cstddef>
@@ -36,8 +36,8 @@ class LaneSimulator {
 
   /// Builds the lanes, or takes them from the cache, and resets them. What lanes cannot be had for is an
   /// error that says so: who may, as view() in `auto`, takes VerilatorSimulator. Such are the processors
-  /// shader, whose lights and counters outlive a triangle, a key with probes, a netlist with what the
-  /// generator does not know.
+  /// shader, whose lights and counters outlive a triangle, and a netlist with what the generator does not
+  /// know.
   static Result<LaneSimulator> open(const HardwareKey& key, const SimulatorFolders& folders,
                                     const LaneOptions& options = {});
 

@@ -4,16 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
 #include <optional>
-#include <span>
+#include <utility>
 #include <vector>
 
-#include "golden/processors_layout.hpp"
-#include "golden/word.hpp"
 #include "golden_run/golden_run.hpp"
 #include "sim/compare/limits.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/run/vectors_around.hpp"
 #include "sim/stream_files/init_file.hpp"
 #include "sim/system/file.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
@@ -59,67 +57,26 @@ Status run_until(VerilatorSimulator& simulator, const ResultFiles& files, const 
   return Ok{};
 }
 
-// What the shading processors are told once, and what they keep of a line.
-bool is_load(const HardwareKey& key, std::span<const std::uint32_t> vector) {
-  using golden::Command;
-  if (key.shader != Shader::processors) return false;
-  const auto command =
-      static_cast<Command>(golden::get_bits(vector, golden::Exact::request_header_at::command));
-  return command == Command::new_frame || command == Command::define || command == Command::redefine ||
-         command == Command::remove;
-}
-std::optional<std::uint64_t> line_of_objects(const HardwareKey& key, std::span<const std::uint32_t> vector) {
-  if (key.shader != Shader::processors || !key.processors.shadows) return std::nullopt;
-  return golden::get_bits(vector, golden::Exact::init_header_at::y,
-                          golden::ProcessorsLayout<golden::Exact>::walk_low());
-}
-
-// The vectors of the triangles around fragment `index`: two before its own, and two after; of hardware that
-// keeps something from a vector to the next, also what it was told, and all of its line.
+// The vectors of the triangles around fragment `index`.
 Result<InitStream> vectors_around(const HardwareKey& key, const ResultFiles& files, std::uint64_t index) {
-  constexpr std::size_t c_around = 2;
   auto file = InitFileReader::open(files.init(), key.name());
   if (!file) return file.error();
   const std::unique_ptr<GoldenModel> golden = make_golden_model(key);
-  InitStream kept{file->bits(), {}};
-  std::deque<std::size_t> before;  // words of each triangle kept so far
-  std::size_t loads = 0;           // words of what stands before them, and stays
-  std::optional<std::uint64_t> line;
+  VectorsAround kept(key);
   std::uint64_t drawn = 0;
-  for (std::size_t after = 0; after <= c_around;) {
+  while (!kept.complete()) {
     std::vector<std::uint32_t> words;
     const auto begun = file->read(words, 1);
     if (!begun) return begun.error();
     if (*begun == 0) break;
-    if (const std::size_t records = golden->group(words) - 1; records != 0)
-      if (const auto more = file->read(words, records); !more) return more.error();
-    std::vector<Fragment> fragments;
-    golden->draw(words, fragments);
-    if (is_load(key, words)) {
-      kept.words.insert(kept.words.begin() + static_cast<std::ptrdiff_t>(loads), words.begin(), words.end());
-      loads += words.size();
-      continue;
-    }
-    const auto first = kept.words.begin() + static_cast<std::ptrdiff_t>(loads);
-    if (const auto now = line_of_objects(key, words); now != line) {
-      if (after == 0) {
-        kept.words.erase(first, kept.words.end());
-        before.clear();
-      }
-      line = now;
-    }
-    drawn += fragments.size();
-    kept.words.insert(kept.words.end(), words.begin(), words.end());
-    before.push_back(words.size());
-    if (drawn > index) {
-      ++after;
-    } else if (before.size() > c_around && !line) {
-      const auto oldest = kept.words.begin() + static_cast<std::ptrdiff_t>(loads);
-      kept.words.erase(oldest, oldest + static_cast<std::ptrdiff_t>(before.front()));
-      before.pop_front();
-    }
+    const std::size_t vectors = golden->group(words);
+    if (vectors > 1)
+      if (const auto more = file->read(words, vectors - 1); !more) return more.error();
+    const std::uint64_t before = std::exchange(drawn, drawn + golden->draw(words).size());
+    kept.add(words, vectors, before <= index && index < drawn);
   }
-  return kept;
+  kept.finish();
+  return InitStream{file->bits(), kept.words()};
 }
 
 Result<std::filesystem::path> write_ghdl_waveform(const HardwareKey& key, const SimulatorFolders& folders,

@@ -4,483 +4,306 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
+#include <memory>
 #include <span>
-#include <type_traits>
+#include <utility>
 
+#include "golden/processors_layout.hpp"
 #include "golden/spherical_layout.hpp"
 #include "golden/word.hpp"
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
 #include "sim/compare/limits.hpp"
-#include "sim/compare/stream_comparator.hpp"
+#include "sim/run/rtl_stream.hpp"
 #include "sim/run/scene_stream.hpp"
+#include "sim/run/stages.hpp"
+#include "sim/run/vectors_around.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {
 namespace {
-
-// Walks the triangles of every shader.
-constexpr const char* c_walker = "triangle_walker";
 
 // A field of a flat vector, wherever its block lies.
 struct PlacedField {
   std::string name;
   golden::Field field;
   int block_low;
-  Stage stage = Stage::line;  // of the probe's fields: with which event it is valid
-  std::string entity = {};    // whose register it shows, and what gives that its inputs
 };
 
-// A stage of which the probe tells what it does, in the order of Stage.
-struct ProbedStage {
-  std::string name;
-  int event;                // its bit of the probe
-  std::string_view entity;  // that makes it happen
+// What both sides are given: the fields of a triangle's first vector, and of a line's record.
+struct Given {
+  std::vector<PlacedField> init, record;
 };
 
-// What a hardware key's flat vectors hold.
-struct Layouts {
-  std::vector<PlacedField> init, record, probe;
-  std::vector<ProbedStage> stages;
-  unsigned clocks_to_fragment = 1;  ///< from the last stage's event, where nothing waits
-};
-
-std::vector<ProbedStage> walked_stages(std::initializer_list<const char*> names) {
-  std::vector<ProbedStage> stages;
-  for (const char* name : names) stages.push_back({name, static_cast<int>(stages.size()), c_walker});
-  return stages;
-}
-
-std::string channel_name(unsigned channel, unsigned channels) {
-  static constexpr const char* c_colours[] = {"red", "green", "blue"};
-  return channels == 1 ? "grey" : c_colours[channel];
-}
-
-// A register shows what its entity did with what it was given: a fault may lie on either side.
-std::string within(std::string_view entity, std::string_view around) {
-  return fmt::format("{}, or {} around it", entity, around);
-}
-
 template <class P>
-std::string walk_entity(std::string_view field, const HardwareKey& key) {
-  if (field == "line_start" || field == "line_stop" || field == "line_carry")
-    return within(std::is_same_v<P, golden::Exact> ? "edge_walker" : "slope_walker", c_walker);
-  return within(field.ends_with("_z") ? "z_interpolator" : c_walker, key.entity());
-}
-
-template <class P>
-void place_probe_header(Layouts& layouts, const HardwareKey& key) {
-  for (const golden::Field& f : P::c_probe_header)
-    if (!f.name.ends_with("_event"))
-      layouts.probe.push_back({std::string(f.name), f, 0,
-                               f.name.starts_with("line_") ? Stage::line : Stage::span,
-                               walk_entity<P>(f.name, key)});
-}
-
-template <class P>
-Layouts quadratic_layouts(const HardwareKey& key) {
-  const unsigned channels = key.channels;
-  Layouts layouts;
-  layouts.stages = walked_stages({"line", "span"});
-  layouts.clocks_to_fragment = 2;  // a span's pixel goes into the queue
-  for (const golden::Field& f : P::c_init_header) layouts.init.push_back({std::string(f.name), f, 0});
-  place_probe_header<P>(layouts, key);
-  for (unsigned c = 0; c < channels; ++c) {
-    const auto name = [&](const golden::Field& f) {
-      return fmt::format("{} {}", channel_name(c, channels), f.name);
-    };
+Given quadratic_given(const HardwareKey& key) {
+  Given given;
+  for (const golden::Field& f : P::c_init_header) given.init.push_back({std::string(f.name), f, 0});
+  for (unsigned c = 0; c < key.channels; ++c)
     for (const golden::Field& f : P::c_init_channel)
-      layouts.init.push_back(
-          {name(f), f, P::c_init_header_bits + static_cast<int>(c) * P::c_init_channel_bits});
-    for (const golden::Field& f : P::c_probe_channel)
-      layouts.probe.push_back({name(f), f,
-                               P::c_probe_header_bits + static_cast<int>(c) * P::c_probe_channel_bits,
-                               f.name.starts_with("line_") ? Stage::line : Stage::span,
-                               within("quadratic_interpolator", key.entity())});
-  }
-  return layouts;
+      given.init.push_back({fmt::format("{} {}", channel_name(c, key.channels), f.name), f,
+                            P::c_init_header_bits + static_cast<int>(c) * P::c_init_channel_bits});
+  return given;
 }
 
 template <class P>
-Layouts spherical_layouts(const HardwareKey& key) {
+Given spherical_given(const HardwareKey& key) {
   const golden::SphericalConfig config = golden_config(key);
   const golden::SphericalLayout<P> at(config);
-  Layouts layouts;
-  layouts.stages = walked_stages({"line", "span", "sample", "product"});
-  for (const golden::Field& f : P::c_init_header) layouts.init.push_back({std::string(f.name), f, 0});
+  Given given;
+  for (const golden::Field& f : P::c_init_header) given.init.push_back({std::string(f.name), f, 0});
   for (int c = 0; c < config.channels; ++c)
-    layouts.init.push_back({channel_name(static_cast<unsigned>(c), key.channels) + " ambient",
-                            P::ambient_channel_at::ambient, at.ambient_low(c)});
-  place_probe_header<P>(layouts, key);
-  // One slice's part of a record or of the probe: its header's fields, then a word a channel.
-  const auto place = [](std::vector<PlacedField>& fields, std::span<const golden::Field> header,
-                        int header_bits, std::span<const golden::Field> channel, int channel_bits,
-                        int channels, const std::string& slice, int low, std::string_view around) {
-    const auto add = [&](const golden::Field& f, int block_low, const std::string& of) {
-      const Stage stage = f.name == "product"                          ? Stage::product
-                          : f.name == "sample" || f.name == "in_range" ? Stage::sample
-                                                                       : Stage::span;
-      fields.push_back({fmt::format("{} {}{}", slice, of, f.name), f, block_low, stage,
-                        within(stage == Stage::span     ? "line_interpolator"
-                               : f.name == "in_range"   ? "angle_address"
-                               : stage == Stage::sample ? "cosine_rom"
-                                                        : "multiplier",
-                               around)});
-    };
-    for (const golden::Field& f : header) add(f, low, "");
+    given.init.push_back({channel_name(static_cast<unsigned>(c), key.channels) + " ambient",
+                          P::ambient_channel_at::ambient, at.ambient_low(c)});
+  // A slice's part of a record: its header's fields, then a word a channel.
+  const auto place = [&](std::span<const golden::Field> header, int header_bits,
+                         std::span<const golden::Field> channel, int channel_bits, int channels,
+                         const std::string& slice, int low) {
+    for (const golden::Field& f : header)
+      given.record.push_back({fmt::format("{} {}", slice, f.name), f, low});
     for (int c = 0; c < channels; ++c)
       for (const golden::Field& f : channel)
-        add(f, low + header_bits + c * channel_bits,
-            channels == 1 ? "" : channel_name(static_cast<unsigned>(c), 3) + " ");
+        given.record.push_back(
+            {fmt::format("{} {}{}", slice,
+                         channels == 1 ? "" : channel_name(static_cast<unsigned>(c), 3) + " ", f.name),
+             f, low + header_bits + c * channel_bits});
   };
   for (int l = 0; l < config.lights; ++l) {
     const std::string light = fmt::format("light {}", l + 1);
-    if (at.has_diffuse_part()) {
-      place(layouts.record, P::c_diffuse_header, P::c_diffuse_header_bits, P::c_diffuse_channel,
-            P::c_diffuse_channel_bits, at.diffuse_channels(), light + " diffuse", at.diffuse_low(l), "");
-      place(layouts.probe, P::c_diffuse_probe_header, P::c_diffuse_probe_header_bits,
-            P::c_diffuse_probe_channel, P::c_diffuse_probe_channel_bits, at.diffuse_channels(),
-            light + " diffuse", at.diffuse_probe_low(l), "diffuse_slice");
-    }
-    if (config.specular) {
-      place(layouts.record, P::c_specular_header, P::c_specular_header_bits, P::c_specular_channel,
-            P::c_specular_channel_bits, config.highlight_channels, light + " specular", at.specular_low(l),
-            "");
-      place(layouts.probe, P::c_specular_probe_header, P::c_specular_probe_header_bits,
-            P::c_specular_probe_channel, P::c_specular_probe_channel_bits, config.highlight_channels,
-            light + " specular", at.specular_probe_low(l), "specular_slice");
-    }
+    if (at.has_diffuse_part())
+      place(P::c_diffuse_header, P::c_diffuse_header_bits, P::c_diffuse_channel, P::c_diffuse_channel_bits,
+            at.diffuse_channels(), light + " diffuse", at.diffuse_low(l));
+    if (config.specular)
+      place(P::c_specular_header, P::c_specular_header_bits, P::c_specular_channel,
+            P::c_specular_channel_bits, config.highlight_channels, light + " specular", at.specular_low(l));
   }
-  return layouts;
+  return given;
 }
 
 template <class P>
-Layouts processors_layouts(const HardwareKey& key) {
+Given processors_given(const HardwareKey& key) {
   using golden::Field;
   const golden::ProcessorsConfig config = processors_config(key);
   const golden::ProcessorsLayout<P> at(config);
-  const bool folded = key.processors.form == ProcessorForm::folded;
-  const std::string_view processor = folded ? "shading_processor" : "unrolled_shading_processor";
-  Layouts layouts;
-  layouts.stages = walked_stages({"line", "span"});
-  const auto colour = [&](int channel) { return channel_name(static_cast<unsigned>(channel), key.channels); };
-  // What the planes are of.
-  std::vector<std::string> planes;
-  for (const char* axis : {"x", "y", "z"}) planes.push_back(std::string("N ") + axis);
-  if (at.has_place())
-    for (const char* axis : {"x", "y", "z"})
-      planes.push_back(std::string(key.preset == Preset::exact ? "view ray " : "P ") + axis);
-  if (at.has_distance()) planes.emplace_back("1/w");
-
-  for (const Field& f : P::c_request_header) layouts.init.push_back({std::string(f.name), f, 0});
+  Given given;
+  for (const Field& f : P::c_request_header) given.init.push_back({std::string(f.name), f, 0});
   for (const Field& f : golden::Exact::c_init_header)
-    layouts.init.push_back({std::string(f.name), f, at.walk_low()});
+    given.init.push_back({std::string(f.name), f, at.walk_low()});
+  const std::vector<std::string> planes = plane_names(key);
   for (std::size_t p = 0; p < planes.size(); ++p)
     for (const Field& f : P::c_plane_header)
-      layouts.init.push_back({fmt::format("{} {}", planes[p], f.name), f, at.plane_low(static_cast<int>(p))});
+      given.init.push_back({fmt::format("{} {}", planes[p], f.name), f, at.plane_low(static_cast<int>(p))});
   const int material = at.init_material_low();
   if (config.specular)
-    layouts.init.push_back({"exponent",
-                            {"", at.exponent_low(), P::c_exponent_bits, false, P::c_exponent_fraction_bits},
-                            material});
+    given.init.push_back({"exponent",
+                          {"", at.exponent_low(), P::c_exponent_bits, false, P::c_exponent_fraction_bits},
+                          material});
   const auto place_coefficient = [&](const char* name, int low, int channel) {
-    layouts.init.push_back({fmt::format("{} {}", colour(channel), name),
-                            {"", low, P::c_coefficient_bits, false, P::c_coefficient_fraction_bits},
-                            material});
+    given.init.push_back(
+        {fmt::format("{} {}", channel_name(static_cast<unsigned>(channel), key.channels), name),
+         {"", low, P::c_coefficient_bits, false, P::c_coefficient_fraction_bits},
+         material});
   };
   for (int c = 0; c < config.channels; ++c) {
     place_coefficient("k ambient", at.ambient_low(c), c);
     if (config.diffuse) place_coefficient("k diffuse", at.diffuse_low(c), c);
     if (config.specular) place_coefficient("k specular", at.specular_low(c), c);
   }
-
-  place_probe_header<golden::Exact>(layouts, key);
-  for (std::size_t p = 0; p < planes.size(); ++p)
-    layouts.probe.push_back({planes[p],
-                             {"", 0, P::c_vector_bits, true, P::c_vector_fraction_bits},
-                             at.probe_plane_low(static_cast<int>(p)),
-                             Stage::span,
-                             "plane_interpolator"});
-  int number = 0;
-  const auto add_processor = [&](std::string name) {
-    const int low = at.probe_processor_low(number);
-    const Stage stage = processor_stage(number++);
-    using At = typename P::processor_probe_header_at;
-    layouts.stages.push_back({std::move(name), low + At::leaves.low, processor});
-    layouts.probe.push_back({"command", At::command, low, stage, "processors_shader"});
-    for (int c = 0; c < config.channels; ++c)
-      layouts.probe.push_back({colour(c) + " so far", P::processor_probe_channel_at::radiance,
-                               low + P::c_processor_probe_header_bits + c * P::c_processor_probe_channel_bits,
-                               stage, std::string(processor)});
-  };
-  add_processor("ambient");
-  for (int light = 1; light <= config.lights(); ++light) {
-    if (config.diffuse) add_processor(fmt::format("diffuse {}", light));
-    if (config.specular) add_processor(fmt::format("specular {}", light));
-  }
-  return layouts;
+  return given;
 }
 
 template <class P>
-Layouts layouts_of(const HardwareKey& key) {
-  if (key.shader == Shader::processors) return processors_layouts<P>(key);
-  return key.shader == Shader::spherical ? spherical_layouts<P>(key) : quadratic_layouts<P>(key);
+Given given_of(const HardwareKey& key) {
+  if (key.shader == Shader::processors) return processors_given<P>(key);
+  return key.shader == Shader::spherical ? spherical_given<P>(key) : quadratic_given<P>(key);
 }
 
-std::string shown(std::uint64_t word, const PlacedField& f) {
-  const int digits = (f.field.bits + 3) / 4;
-  const std::int64_t value =
-      f.field.is_signed ? static_cast<std::int64_t>(word << (64 - f.field.bits)) >> (64 - f.field.bits)
-                        : static_cast<std::int64_t>(word);
-  if (f.field.fraction_bits == 0) return fmt::format("{:0{}x} ({})", word, digits, value);
-  return fmt::format(
-      "{:0{}x} ({:.6f})", word, digits,
-      static_cast<double>(value) / static_cast<double>(std::uint64_t{1} << f.field.fraction_bits));
+std::vector<StageValue> values_of(const std::vector<PlacedField>& fields,
+                                  std::span<const std::uint32_t> vector) {
+  std::vector<StageValue> values;
+  for (const PlacedField& f : fields) {
+    const std::uint64_t word = golden::get_bits(vector, f.field, f.block_low);
+    values.push_back({f.name, word, word, f.field.bits, f.field.fraction_bits, f.field.is_signed});
+  }
+  return values;
 }
 
-StageValue value_of(const PlacedField& f, std::span<const std::uint32_t> golden,
-                    std::span<const std::uint32_t> rtl) {
-  return {f.name,
-          golden::get_bits(golden, f.field, f.block_low),
-          golden::get_bits(rtl, f.field, f.block_low),
-          f.field.bits,
-          f.field.fraction_bits,
-          f.field.is_signed};
+std::string shown(const std::optional<std::uint64_t>& word, const StageWord& w) {
+  if (!word) return "no number";
+  const std::int64_t value = w.is_signed ? static_cast<std::int64_t>(*word << (64 - w.bits)) >> (64 - w.bits)
+                                         : static_cast<std::int64_t>(*word);
+  const std::string digits = fmt::format("{:0{}x}", *word, (w.bits + 3) / 4);
+  if (w.fraction_bits == 0) return fmt::format("{} ({})", digits, value);
+  return fmt::format("{} ({:.6f})", digits,
+                     static_cast<double>(value) / static_cast<double>(std::uint64_t{1} << w.fraction_bits));
 }
-
-// As c_fragment_fields; the same in both presets.
-constexpr std::array<int, 7> c_fragment_bits = {golden::Exact::c_triangle_bits, golden::Exact::c_pixel_y_bits,
-                                                golden::Exact::c_pixel_x_bits,  golden::Exact::c_depth_bits,
-                                                golden::Exact::c_colour_bits,   golden::Exact::c_colour_bits,
-                                                golden::Exact::c_colour_bits};
 
 class Explainer {
  public:
-  Explainer(const Scene& scene, const WhySettings& settings) : scene_(scene), s_(settings) {}
-
-  Result<WhyReport> run(HardwareKey key) {
+  Explainer(const Scene& scene, const WhySettings& settings, const HardwareKey& key)
+      : scene_(scene),
+        s_(settings),
+        key_(key),
+        setup_(make_setup(scene, settings.size, key, settings.setup)),
+        stages_(make_stages(key)),
+        given_(key.preset == Preset::exact ? given_of<golden::Exact>(key) : given_of<golden::Published>(key)),
+        expected_(stages_->stages().size()) {
     report_.key = key;
-    key.probe = true;
-    layouts_ =
-        key.preset == Preset::exact ? layouts_of<golden::Exact>(key) : layouts_of<golden::Published>(key);
-    expected_.resize(layouts_.stages.size());
-    auto simulator =
-        VerilatorSimulator::open(key, s_.folders, {.idle_limit = c_idle_limit, .record_probes = true});
-    if (!simulator) return simulator.error();
-    const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, report_.key, s_.setup);
-    const std::unique_ptr<GoldenModel> golden = make_golden_model(report_.key);
-    words_per_vector_ = (setup->init_bits() + 31) / 32;
+  }
 
-    SceneStream stream(*setup, report_.key, s_.threads);
-    bool alive = true;
-    for (Batch batch; alive && stream.next(batch);) {
-      s_.on_progress(batch.done);
-      for (auto rest = std::span<const std::uint32_t>(batch.init_words); alive && !rest.empty();) {
-        const std::size_t vectors = golden->group(rest);
-        const auto words = rest.first(vectors * words_per_vector_);
-        rest = rest.subspan(words.size());
-        draw_golden(*golden, words);
-        vector_ += vectors;
-        const std::size_t limit = golden_fragments_.size() + c_surplus;
-        alive = take(simulator->run(words, vectors, rtl_fragments_, limit), *simulator);
-      }
-    }
-    if (alive) take(simulator->finish(rtl_fragments_, golden_fragments_.size() + c_surplus), *simulator);
-    if (tool_error_) return *tool_error_;
-    note_missing();
+  Result<WhyReport> run() {
+    if (Status status = compare_frame(); !status) return status.error();
+    const VectorsAround kept = choose_triangles();
+    for (const VectorsAround::Triangle& triangle : kept.kept()) draw_golden(triangle);
+    if (expected_.back().empty()) return report_;
+    const auto rtl = trace_stages(key_, *stages_, s_.folders, {setup_->init_bits(), kept.words()},
+                                  expected_.back().size());
+    if (!rtl) return rtl.error();
+    if (report_.fault.empty()) report_.fault = rtl->fault;
+    for (std::size_t stage = expected_.size(); stage-- > 0;) check(stage, rtl->events[stage]);
     return report_;
   }
 
  private:
-  static constexpr std::size_t c_surplus = 1000;
-
+  // An event of the golden model, and the pixel's story that it belongs to.
   struct Expected {
-    ProbeEvent event;
-    std::optional<std::size_t> story;  // to fill in
-  };
-  struct ExpectedFragment {
-    Fragment fragment;
+    GoldenEvent event;
     std::optional<std::size_t> story;
   };
 
-  // The golden side of one triangle: what is expected of each stage, and the pixel's stories.
-  void draw_golden(GoldenModel& golden, std::span<const std::uint32_t> words) {
-    std::vector<Fragment> fragments;
-    std::vector<ProbeEvent> events;
-    golden.draw_probed(words, fragments, events);
-    std::optional<std::size_t> story;  // of the pixel whose stages come now
-    // Backwards: whether a span's pixel leaves a fragment is told by those drawn before the next one.
-    std::vector<bool> draws(events.size());
-    std::size_t drawn = fragments.size();
-    for (std::size_t i = events.size(); i-- > 0;) {
-      if (events[i].stage != Stage::span) continue;
-      draws[i] = events[i].fragment != drawn;
-      drawn = events[i].fragment;
+  std::size_t words_per_vector() const { return (setup_->init_bits() + 31) / 32; }
+
+  // The whole frame in Verilator, fragment by fragment.
+  Status compare_frame() {
+    auto simulator = VerilatorSimulator::open(key_, s_.folders, {.idle_limit = c_idle_limit});
+    if (!simulator) return simulator.error();
+    SceneStream stream(*setup_, key_, s_.threads);
+    RtlStream rtl(s_.size, scene_.background);
+    VerilatorFeed feed(*simulator, rtl);
+    for (Batch batch; feed.alive() && stream.next(batch);) {
+      s_.on_progress(batch.done);
+      rtl.add_golden(batch.golden);
+      if (Status status = feed.add(batch.init_words); !status) return status;
+    }
+    if (Status status = feed.finish(); !status) return status;
+    const std::uint64_t golden = rtl.golden_count();
+    const SimulatorRun run = rtl.finish("verilator");
+    report_.fault = run.fault;
+    if (run.first.empty()) return Ok{};
+    report_.frame_difference = run.first.front();
+    // What comes after the last fragment is of the last triangle.
+    if (golden > 0) first_wrong_ = std::min(run.first.front().index, golden - 1);
+    return Ok{};
+  }
+
+  // Those that cover the pixel, and the one with the first fragment that differs.
+  VectorsAround choose_triangles() {
+    const std::unique_ptr<GoldenModel> golden = make_golden_model(key_);
+    VectorsAround kept(key_);
+    SceneStream stream(*setup_, key_, s_.threads, {.golden = false});
+    std::uint64_t drawn = 0;
+    for (Batch batch; stream.next(batch);)
+      for (auto rest = std::span<const std::uint32_t>(batch.init_words); !rest.empty();) {
+        const std::size_t vectors = golden->group(rest);
+        const auto words = rest.first(vectors * words_per_vector());
+        rest = rest.subspan(words.size());
+        const auto fragments = golden->draw(words);
+        const std::uint64_t before = std::exchange(drawn, drawn + fragments.size());
+        const bool covers =
+            std::ranges::any_of(fragments, [&](const Fragment& f) { return is_asked(f.x, f.y); });
+        kept.add(words, vectors, covers || (before <= first_wrong_ && first_wrong_ < drawn));
+      }
+    return kept;
+  }
+
+  bool is_asked(std::uint32_t x, std::uint32_t y) const { return x == s_.x && y == s_.y; }
+
+  // What is expected of each stage, and the pixel's stories, without the RTL's side.
+  void draw_golden(const VectorsAround::Triangle& triangle) {
+    const std::vector<Stage>& stages = stages_->stages();
+    std::vector<GoldenEvent> events = stages_->draw(triangle.words);
+    std::size_t line = 0, pixel = 0;  // events that began this line, this pixel
+    std::vector<std::optional<std::size_t>> story(events.size());
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      const GoldenEvent& event = events[i];
+      if (event.stage == 0) line = i;
+      if (event.stage == 1) pixel = i;
+      if (event.stage + 1 < stages.size() || !is_asked(event.x, event.y)) continue;
+      story[line] = report_.stories.size();
+      for (std::size_t of_pixel = pixel; of_pixel <= i; ++of_pixel) story[of_pixel] = report_.stories.size();
+      report_.stories.push_back(begin_story(triangle, event));
     }
     for (std::size_t i = 0; i < events.size(); ++i) {
-      ProbeEvent& event = events[i];
-      const auto stage = static_cast<std::size_t>(event.stage);
-      Expected expected{std::move(event), std::nullopt};
-      if (expected.event.stage == Stage::line) {
-        line_event_ = expected.event;
-      } else {
-        if (expected.event.stage == Stage::span) {
-          story.reset();
-          if (draws[i]) {
-            ExpectedFragment fragment{fragments[expected.event.fragment], std::nullopt};
-            if (expected.event.x == s_.x && expected.event.y == s_.y) {
-              story = begin_story(words, fragment.fragment);
-              // The line that this pixel is on is the last one expected.
-              expected_[0].back().story = story;
-              show(line_event_, *story);
-              fragment.story = story;
-            }
-            golden_fragments_.push_back(fragment);
-          }
-        }
-        expected.story = story;
-        if (story) show(expected.event, *story);
-      }
-      expected_[stage].push_back(std::move(expected));
+      if (story[i]) show_golden(events[i], report_.stories[*story[i]].stages[events[i].stage]);
+      expected_[events[i].stage].push_back({std::move(events[i]), story[i]});
     }
   }
 
-  std::size_t begin_story(std::span<const std::uint32_t> words, const Fragment& fragment) {
-    PixelStory story;
-    story.vector = vector_;
-    story.triangle = fragment.triangle;
-    for (const PlacedField& f : layouts_.init) story.init.push_back(value_of(f, words, words));
-    if (!layouts_.record.empty()) {
+  PixelStory begin_story(const VectorsAround::Triangle& triangle, const GoldenEvent& fragment) const {
+    const std::span<const std::uint32_t> words = triangle.words;
+    PixelStory story{triangle.first, fragment.triangle, values_of(given_.init, words), {}, {}};
+    if (!given_.record.empty()) {
       const std::size_t line = fragment.y - get_bits(words, golden::Exact::init_header_at::y);
-      const auto record = words.subspan((1 + line) * words_per_vector_, words_per_vector_);
-      for (const PlacedField& f : layouts_.record) story.record.push_back(value_of(f, record, record));
+      story.record =
+          values_of(given_.record, words.subspan((1 + line) * words_per_vector(), words_per_vector()));
     }
-    for (const ProbedStage& stage : layouts_.stages) story.stages.push_back({stage.name, std::nullopt, {}});
-    story.stages.push_back({"fragment", std::nullopt, {}});
-    const auto golden = fields(fragment);
-    for (std::size_t i = 0; i < golden.size(); ++i)
-      story.stages.back().values.push_back(
-          {std::string(c_fragment_fields[i]), golden[i], 0, c_fragment_bits[i], 0, false});
-    report_.stories.push_back(std::move(story));
-    return report_.stories.size() - 1;
+    for (const Stage& stage : stages_->stages()) story.stages.push_back({stage.name, std::nullopt, {}});
+    return story;
   }
 
-  // The golden values of a stage; the RTL's come when it does.
-  void show(const ProbeEvent& event, std::size_t story) {
-    const std::vector<std::uint32_t> none(event.words.size(), 0);
-    for (const PlacedField& f : layouts_.probe)
-      if (f.stage == event.stage)
-        report_.stories[story].stages[static_cast<std::size_t>(event.stage)].values.push_back(
-            value_of(f, event.words, none));
+  void show_golden(const GoldenEvent& event, StageState& state) const {
+    const std::vector<StageWord>& words = stages_->stages()[event.stage].words;
+    for (std::size_t i = 0; i < words.size(); ++i)
+      state.values.push_back({words[i].name, event.words[i], std::nullopt, words[i].bits,
+                              words[i].fraction_bits, words[i].is_signed});
   }
 
-  // What the simulator has drawn since the last call, against what is expected. False once nothing more can
-  // be learnt.
-  bool take(const Status& status, VerilatorSimulator& simulator) {
-    for (const ProbeRecord& record : simulator.probes()) {
-      last_cycle_ = record.cycle;
-      // A later stage holds an earlier pixel.
-      const auto happens = [&](const ProbedStage& stage) {
-        return golden::get_bits(record.words, {"", stage.event, 1, false, 0}) != 0;
-      };
-      for (std::size_t stage = layouts_.stages.size(); stage-- > 0;)
-        if (happens(layouts_.stages[stage])) check(record, stage);
-      if (happens(layouts_.stages.back()))
-        fragment_cycles_.push_back(record.cycle + layouts_.clocks_to_fragment);
+  // A stage's events, one by one.
+  void check(std::size_t stage, const std::vector<RtlEvent>& rtl) {
+    const std::string& name = stages_->stages()[stage].name;
+    const std::string& entity = stages_->stages()[stage].entity;
+    const std::vector<Expected>& golden = expected_[stage];
+    for (std::size_t i = 0; i < std::min(golden.size(), rtl.size()); ++i) compare(golden[i], rtl[i]);
+    if (rtl.size() > golden.size())
+      differ({name, entity, fmt::format("a {} too many", name), rtl[golden.size()].cycle, 0, 0, 0, "nothing",
+              "one"});
+    if (golden.size() > rtl.size()) {
+      const GoldenEvent& missing = golden[rtl.size()].event;
+      differ({name, entity, fmt::format("a {} that never came", name), rtl.empty() ? 0 : rtl.back().cycle + 1,
+              missing.triangle, missing.y, missing.x, "one", "nothing"});
     }
-    simulator.probes().clear();
-    for (const Fragment& f : rtl_fragments_) check_fragment(f);
-    rtl_fragments_.clear();
-    if (status) return true;
-    if (status.error().code == ExitCode::differs)
-      report_.fault = status.error().message;
-    else
-      tool_error_ = status.error();
-    return false;
   }
 
-  void check(const ProbeRecord& record, std::size_t stage) {
-    const std::string& name = layouts_.stages[stage].name;
-    std::deque<Expected>& queue = expected_[stage];
-    if (queue.empty()) {
-      differ({name, std::string(layouts_.stages[stage].entity), fmt::format("a {} too many", name),
-              record.cycle, 0, 0, 0, "nothing", "one"});
-      return;
+  void compare(const Expected& golden, const RtlEvent& rtl) {
+    const Stage& stage = stages_->stages()[golden.event.stage];
+    if (golden.story) {
+      StageState& state = report_.stories[*golden.story].stages[golden.event.stage];
+      state.cycle = rtl.cycle;
+      for (std::size_t i = 0; i < rtl.words.size(); ++i) state.values[i].rtl = rtl.words[i];
     }
-    const Expected expected = std::move(queue.front());
-    queue.pop_front();
-    if (expected.story) {
-      StageState& state = report_.stories[*expected.story].stages[stage];
-      state.cycle = record.cycle;
-      std::size_t i = 0;
-      for (const PlacedField& f : layouts_.probe)
-        if (f.stage == expected.event.stage)
-          state.values[i++] = value_of(f, expected.event.words, record.words);
-    }
-    for (const PlacedField& f : layouts_.probe) {
-      if (f.stage != expected.event.stage) continue;
-      const std::uint64_t golden = golden::get_bits(expected.event.words, f.field, f.block_low);
-      const std::uint64_t rtl = golden::get_bits(record.words, f.field, f.block_low);
-      if (golden == rtl) continue;
-      differ({name, f.entity, f.name, record.cycle, expected.event.triangle, expected.event.y,
-              expected.event.x, shown(golden, f), shown(rtl, f)});
+    for (std::size_t i = 0; i < rtl.words.size(); ++i) {
+      if (rtl.words[i] == golden.event.words[i]) continue;
+      const StageWord& word = stage.words[i];
+      differ({stage.name, word.entity, word.name, rtl.cycle, golden.event.triangle, golden.event.y,
+              golden.event.x, shown(golden.event.words[i], word), shown(rtl.words[i], word)});
       return;
     }
   }
 
-  void check_fragment(const Fragment& rtl) {
-    const std::uint64_t cycle = fragment_cycles_.empty() ? 0 : fragment_cycles_.front();
-    if (!fragment_cycles_.empty()) fragment_cycles_.pop_front();
-    if (golden_fragments_.empty()) return;  // the span stage has said so
-    const ExpectedFragment expected = golden_fragments_.front();
-    golden_fragments_.pop_front();
-    const auto a = fields(expected.fragment), b = fields(rtl);
-    if (expected.story) {
-      StageState& state = report_.stories[*expected.story].stages.back();
-      state.cycle = cycle;
-      for (std::size_t i = 0; i < b.size(); ++i) state.values[i].rtl = b[i];
-    }
-    for (std::size_t i = 0; i < a.size(); ++i)
-      if (a[i] != b[i]) {
-        differ({"fragment",
-                i < 4                                     ? "the register behind the shader"
-                : report_.key.shader != Shader::spherical ? "saturate, or the register behind it"
-                                                          : "saturating_sum, or the register behind it",
-                std::string(c_fragment_fields[i]), cycle, expected.fragment.triangle, expected.fragment.y,
-                expected.fragment.x, std::to_string(a[i]), std::to_string(b[i])});
-        return;
-      }
-  }
-
-  void note_missing() {
-    for (std::size_t stage = 0; stage < expected_.size(); ++stage) {
-      if (expected_[stage].empty()) continue;
-      const ProbeEvent& e = expected_[stage].front().event;
-      const std::string& name = layouts_.stages[stage].name;
-      differ({name, std::string(layouts_.stages[stage].entity), fmt::format("a {} that never came", name),
-              UINT64_MAX, e.triangle, e.y, e.x, "one", "nothing"});
-    }
-    if (report_.first && report_.first->cycle == UINT64_MAX) report_.first->cycle = last_cycle_ + 1;
-  }
-
-  // Keeps the earliest; of equal cycles the earlier stage, which is checked first.
+  // Keeps the earliest; of equal cycles that of the later stage, which holds an earlier pixel.
   void differ(FirstDifference difference) {
     if (!report_.first || difference.cycle < report_.first->cycle) report_.first = std::move(difference);
   }
 
   const Scene& scene_;
   const WhySettings& s_;
+  HardwareKey key_;
+  std::unique_ptr<Setup> setup_;
+  std::unique_ptr<ShaderStages> stages_;
+  Given given_;
+  std::vector<std::vector<Expected>> expected_;  // by stage
   WhyReport report_;
-  Layouts layouts_;
-  std::size_t words_per_vector_ = 0;
-  std::vector<std::deque<Expected>> expected_;  // by stage
-  std::deque<ExpectedFragment> golden_fragments_;
-  std::deque<std::uint64_t> fragment_cycles_;
-  std::vector<Fragment> rtl_fragments_;
-  ProbeEvent line_event_{};
-  std::optional<Error> tool_error_;
-  std::uint64_t vector_ = 0, last_cycle_ = 0;
+  std::uint64_t first_wrong_ = UINT64_MAX;  // fragment of the frame
 };
 
 }  // namespace
@@ -488,7 +311,7 @@ class Explainer {
 Result<WhyReport> explain_pixel(const Scene& scene, const WhySettings& settings) {
   const auto plan = plan_scene(scene, settings.plan);
   if (!plan) return plan.error();
-  return Explainer(scene, settings).run(plan->key);
+  return Explainer(scene, settings, plan->key).run();
 }
 
 }  // namespace halfway

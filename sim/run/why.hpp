@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One pixel's way through the hardware, stage by stage, golden model beside RTL; and where the two part.
+// One pixel's way through the hardware, stage by stage, golden model beside RTL; and where the two part. The
+// frame is compared fragment by fragment in Verilator; the triangles that cover the pixel, and the one with
+// the first fragment that differs, are simulated alone in GHDL, whose trace has every stage's registers.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +15,7 @@
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
+#include "sim/compare/stream_comparator.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
 namespace halfway {
@@ -30,7 +33,8 @@ struct WhySettings {
 /// A register or port, as both sides have it.
 struct StageValue {
   std::string name;
-  std::uint64_t golden = 0, rtl = 0;
+  std::uint64_t golden = 0;
+  std::optional<std::uint64_t> rtl;  ///< nothing where a bit is neither 0 nor 1
   int bits = 0, fraction_bits = 0;
   bool is_signed = false;
 };
@@ -38,7 +42,7 @@ struct StageValue {
 /// What a stage held for the pixel.
 struct StageState {
   std::string stage;                   ///< "line", "span", spherical: "sample", "product"; "fragment"
-  std::optional<std::uint64_t> cycle;  ///< of the RTL; nothing where the RTL never came here
+  std::optional<std::uint64_t> cycle;  ///< of GHDL's run; nothing where the RTL never came here
   std::vector<StageValue> values;
 };
 
@@ -51,7 +55,7 @@ struct PixelStory {
   std::vector<StageState> stages;
 };
 
-/// Where RTL and golden model part for the first time, anywhere in the frame.
+/// Where RTL and golden model part for the first time in GHDL's run.
 struct FirstDifference {
   std::string stage, entity, value;
   std::uint64_t cycle;
@@ -63,7 +67,8 @@ struct WhyReport {
   HardwareKey key;
   std::vector<PixelStory> stories;  ///< in the order drawn; empty where nothing covers the pixel
   std::optional<FirstDifference> first;
-  std::string fault;  ///< a hang or the like; empty: none
+  std::optional<Mismatch> frame_difference;  ///< the first fragment of the frame that differs in Verilator
+  std::string fault;                         ///< a hang or the like; empty: none
 };
 
 Result<WhyReport> explain_pixel(const Scene& scene, const WhySettings& settings);

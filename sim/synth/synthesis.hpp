@@ -85,8 +85,8 @@ Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& desig
 std::string flow_hash();
 
 /// The wrapper around `top` for nextpnr: a flip-flop in front of every input but the clock, and one behind
-/// every output bit that is connected. Input flip-flops are a shift register of at most `most_inputs`; wider
-/// inputs share them. `probe` is left open. Outputs are folded, bit by bit, into a chain of flip-flops: its
+/// every output bit. Input flip-flops are a shift register of at most `most_inputs`; wider inputs share them.
+/// Outputs are folded, bit by bit, into a chain of flip-flops: its
 /// exclusive or goes into the lookup table that every flip-flop's input passes on this family.
 Result<std::string> wrapper(std::string_view netlist, std::string_view top, unsigned most_inputs);
 

@@ -9,10 +9,10 @@ namespace {
 TEST(Netlist, KnowsThePortsWidths) {
   const std::string text =
       "module inner\n  (input  [7:0] init_data,\n   output o);\nendmodule\n"
-      "module top\n  (input  clk,\n   input  [1679:0] init_data,\n   output [868:0] probe);\n  wire [3:0] "
+      "module top\n  (input  clk,\n   input  [1679:0] init_data,\n   output [868:0] data);\n  wire [3:0] "
       "w;\nendmodule\n";
   EXPECT_EQ(port_bits(text, "top", "init_data"), 1680U);
-  EXPECT_EQ(port_bits(text, "top", "probe"), 869U);
+  EXPECT_EQ(port_bits(text, "top", "data"), 869U);
   EXPECT_EQ(port_bits(text, "top", "clk"), 1U);
   EXPECT_EQ(port_bits(text, "inner", "init_data"), 8U);
   EXPECT_EQ(port_bits(text, "top", "w"), 0U);

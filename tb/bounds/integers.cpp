@@ -12,7 +12,6 @@
 #include "registry.hpp"
 #include "setup/project.hpp"
 #include "setup/walk.hpp"
-#include "tables/cosine.hpp"
 
 namespace halfway::bounds {
 namespace {
@@ -96,8 +95,6 @@ std::vector<Check> integer_checks() {
       limit("both", "pixel_y", c_side - 1, "c_max_frame_side"),
       limit("both", "lines", c_side, "c_max_frame_side"),
       {"both", "span_x", "", "triangles about the guard band, walked", largest_pixel},
-      limit("both", "sample_word", std::ldexp(1.0, tables::c_largest_cosine_size.data_bits) - 1,
-            "c_largest_cosine_size", "the probe's field is the same for all sizes"),
       limit("both", "command", static_cast<double>(golden::Command::shadow), "Command::shadow"),
       limit("both", "light", c_most_lights, "c_most_lights"),
       {"both", "shadow_count", "", "the golden counter past its ends", deepest_count},

@@ -21,7 +21,7 @@ namespace {
 using Shader = golden::QuadraticShader<golden::Published, 1>;
 
 // As tb/published's, so that they share a build.
-const HardwareKey c_key{.preset = Preset::published, .channels = 1, .probe = true};
+const HardwareKey c_key{.preset = Preset::published, .channels = 1};
 
 SimulatorFolders folders() {
   return {HALFWAY_SOURCE_DIR, HALFWAY_CACHE_DIR};

@@ -5,7 +5,6 @@
 
 #include <random>
 
-#include "golden/multiplier.hpp"
 #include "golden/saturate.hpp"
 #include "golden/saturating_sum.hpp"
 #include "golden/shading_processor.hpp"
@@ -70,17 +69,6 @@ Finding depth_rounded(const Context&, const tables::PresetFormats&, const tables
     finding.where = fmt::format("a depth of {:.6f}", std::ldexp(double(value), -c_fraction));
   }
   finding.proved = finding.worst;
-  return finding;
-}
-
-template <class P>
-Finding product(const Context&, const tables::PresetFormats&, const tables::Format& format,
-                const tables::Bound&) {
-  const std::uint32_t factor = static_cast<std::uint32_t>(golden::low_bits(~0ULL, P::c_factor_bits)),
-                      sample = static_cast<std::uint32_t>(golden::low_bits(~0ULL, P::c_sample_word_bits));
-  const auto largest = static_cast<double>(golden::multiply(sample, factor));
-  Finding finding{.worst = largest, .where = "the largest factor, an entry of 16 ones", .proved = largest};
-  if (largest >= std::ldexp(1.0, format.integer_bits)) finding.failure = "it is not held";
   return finding;
 }
 
@@ -206,8 +194,6 @@ std::vector<Check> sum_checks() {
       {"both", "colour", "rounded", "every fraction of preset published", colour_rounded},
       {"both", "depth", "", "the program's own limits", depth_range},
       {"both", "depth", "rounded", "every fraction", depth_rounded},
-      {"exact", "product_word", "", "the largest factors", product<Exact>},
-      {"published", "product_word", "", "the largest factors", product<Published>, "34 bits would do"},
       {"exact", "reflected", "", "random k and I by the golden processor", reflected<Exact>},
       {"published", "reflected", "", "random k and I by the golden processor", reflected<Published>},
       {"exact", "radiance", "", "16 lights by the golden processors", radiance<Exact>},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Init vectors: read whole or refused; what was read writes back to what reads the same; and whatever bits a
-// vector holds, the golden model of its hardware draws it and ends, with probes as without.
+// vector holds, the golden model of its hardware draws it and ends.
 #include <algorithm>
 #include <memory>
 #include <vector>
@@ -96,15 +96,10 @@ void draw(const InitStream& stream, const HardwareKey& key) {
     cut_lines(vector, key);
     first += model->group(vector);
   }
-  std::vector<Fragment> fragments, probed;
+  std::vector<Fragment> fragments;
   model->draw(vectors, fragments);
-  std::vector<ProbeEvent> events;
-  make_golden_model(key)->draw_probed(vectors, probed, events);
-  demand(fragments == probed, "the same fragments with probes as without");
   for (const Fragment& f : fragments)
     demand(f.x < 4096 && f.y < 4096 && f.z < 1U << 24, "a fragment's fields fit a trace's");
-  for (const ProbeEvent& event : events)
-    demand(event.words.size() == (model->probe_bits() + 31) / 32, "a probe of another width");
 }
 
 }  // namespace

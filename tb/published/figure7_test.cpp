@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quadratic paper's figure 7, register by register and clock by clock, in the golden model, in GHDL and
-// in Verilator.
+// The quadratic paper's figure 7, register by register in the golden model and, clock by clock, in GHDL; in
+// Verilator fragment by fragment.
 #include "sim/figures/figure7.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "frame/fragment.hpp"
-#include "sim/ghdl/ghdl_runner.hpp"
-#include "sim/stream_files/init_file.hpp"
-#include "sim/system/file.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {
@@ -58,12 +54,11 @@ void expect_figure(const Figure& figure, const Trace& trace) {
   EXPECT_EQ(trace.pixel_y, y);
 }
 
-// One pixel a clock, each line handed over in the clock of the last line's last pixel. The first pixel's
-// words are whole 6 clocks after the vector is taken: buffer, edge stage, line stage, span stage, both
-// halves.
+// One pixel a clock, each line handed over in the clock of the last line's last pixel. The first pixel is in
+// the span stage 4 clocks after the vector is taken: buffer, edge stage, line stage, span stage.
 void expect_clocks(const Trace& trace) {
   std::vector<std::uint64_t> lines, pixels;
-  std::uint64_t clock = 6;
+  std::uint64_t clock = 4;
   for (std::uint64_t k = 1; k <= c_lines; ++k) {
     lines.push_back(clock - 1);
     for (std::uint64_t i = 0; i < k; ++i) pixels.push_back(clock++);
@@ -132,41 +127,15 @@ TEST(figure7, golden_model) {
 
 TEST(figure7, ghdl) {
   const Figure figure = read_figure();
-  auto scratch = TemporaryFolder::make(std::filesystem::path(testing::TempDir()) / "figure7");
-  ASSERT_TRUE(scratch) << scratch.error().message;
-  const auto init = figures::figure7_init(figure);
-  InitStream stream{Shader::c_init_bits, Words(init.begin(), init.end())};
-  const std::filesystem::path init_file = scratch->path() / "init.txt",
-                              probe_file = scratch->path() / "probe.txt";
-  const auto written = write_init_file(init_file, figures::figure7_key().name(), stream);
-  ASSERT_TRUE(written) << written.error().message;
-  const auto runner = GhdlRunner::open(figures::figure7_key(), folders());
-  ASSERT_TRUE(runner) << runner.error().message;
-  const auto run = runner->run(init_file, scratch->path() / "trace.txt", {.probe_file = probe_file});
-  ASSERT_TRUE(run) << run.error().message;
-  EXPECT_EQ(run->fragments, c_pixels);
-
-  Trace trace;
-  std::ifstream in(probe_file);
-  std::uint64_t clock = 6;
-  for (std::string bits; in >> clock >> bits;) {
-    Words words(Shader::c_probe_words), unknown(Shader::c_probe_words);
-    ASSERT_EQ(bits.size(), Shader::c_probe_bits);
-    for (std::size_t i = 0; i < bits.size(); ++i) {
-      const char bit = bits[bits.size() - 1 - i];
-      // Neither 0 nor 1 before the first span: the span's registers.
-      if (bit != '0') (bit == '1' ? words : unknown)[i / 32] |= std::uint32_t{1} << (i % 32);
-    }
-    trace.add(words, unknown, clock);
-  }
-  EXPECT_TRUE(in.eof());
-  expect_figure(figure, trace);
-  expect_clocks(trace);
+  const auto trace = figures::rtl_figure7(figure, folders());
+  ASSERT_TRUE(trace) << trace.error().message;
+  expect_figure(figure, *trace);
+  expect_clocks(*trace);
 }
 
 TEST(figure7, verilator) {
   const Figure figure = read_figure();
-  auto simulator = VerilatorSimulator::open(figures::figure7_key(), folders(), {.record_probes = true});
+  auto simulator = VerilatorSimulator::open(figures::figure7_key(), folders());
   ASSERT_TRUE(simulator) << simulator.error().message;
   std::vector<Fragment> fragments;
   const auto init = figures::figure7_init(figure);
@@ -175,11 +144,6 @@ TEST(figure7, verilator) {
   const auto finished = simulator->finish(fragments, 1000);
   ASSERT_TRUE(finished) << finished.error().message;
   EXPECT_EQ(fragments, golden_fragments(figure));
-
-  Trace trace;
-  for (const ProbeRecord& record : simulator->probes()) trace.add(record.words, {}, record.cycle);
-  expect_figure(figure, trace);
-  expect_clocks(trace);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For each configuration of the processors shader and set of vectors: init and fragments as in shaders.cpp; the clocks stand there for the file's sake, as 0. A set leaves nothing behind: no light, no
-// object.
+// For each configuration of the processors shader and set of vectors: init and fragments as in shaders.cpp;
+// the clocks stand there for the file's sake, as 0. A set leaves nothing behind: no light, no object.
 #include "golden/processors_shader.hpp"
 
 #include <fmt/format.h>
@@ -127,7 +127,8 @@ class Host {
     twin_.draw(vector, [&](const Fragment& f) {
       fragments_.word(f.triangle, Preset::c_triangle_bits).word(f.y, Preset::c_pixel_y_bits);
       fragments_.word(f.x, Preset::c_pixel_x_bits).word(f.z, Preset::c_depth_bits);
-      for (const std::uint8_t colour : {f.red, f.green, f.blue}) fragments_.word(colour, Preset::c_colour_bits);
+      for (const std::uint8_t colour : {f.red, f.green, f.blue})
+        fragments_.word(colour, Preset::c_colour_bits);
       fragments_.word(0, 32).end_vector();
     });
   }

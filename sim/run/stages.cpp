@@ -1,0 +1,465 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/run/stages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "golden_run/shader_model.hpp"
+#include "sim/compare/limits.hpp"
+#include "sim/compare/stream_comparator.hpp"
+#include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/ghdl/vcd.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+using golden::Exact, golden::SpanXWord;
+
+constexpr const char* c_clock = "frame_tb/clk";
+constexpr const char* c_first_valid = "frame_tb/init_valid";
+constexpr const char* c_first_ready = "frame_tb/init_ready";
+
+// A signal of the shader, in the testbench.
+std::string dut(std::string_view path) {
+  return fmt::format("frame_tb/dut/{}", path);
+}
+
+// A register shows what its entity did with what it was given: a fault may lie on either side.
+std::string within(std::string_view entity, std::string_view around) {
+  return fmt::format("{}, or {} around it", entity, around);
+}
+
+// How a word is a number.
+struct Number {
+  int bits = 1, fraction_bits = 0;
+  bool is_signed = false;
+};
+constexpr Number c_flag{};
+
+// The lowest `number.bits` bits from `low` on; nothing where one is neither 0 nor 1. GHDL writes a value in
+// full.
+std::optional<std::uint64_t> number_of(std::string_view value, int low, int bits) {
+  std::uint64_t word = 0;
+  for (int i = bits - 1; i >= 0; --i) {
+    const std::size_t from_right = static_cast<std::size_t>(low + i) + 1;
+    const char bit = from_right > value.size() ? 'U' : value[value.size() - from_right];
+    if (bit != '0' && bit != '1') return std::nullopt;
+    word = word << 1 | (bit == '1' ? 1U : 0U);
+  }
+  return word;
+}
+
+// The table of a shader's stages: what the golden model and what the RTL has for each word.
+template <class GoldenShader>
+class StagesOf : public ShaderStages {
+ public:
+  std::vector<GoldenEvent> draw(std::span<const std::uint32_t> init_words) override {
+    std::vector<GoldenEvent> events;
+    Watch watch{*this, events};
+    const auto emit = [&](const Fragment& f) {
+      const auto words = fields(f);
+      events.push_back({stages_.size() - 1, f.triangle, f.y, f.x, {words.begin(), words.end()}});
+    };
+    for (auto triangle = take_triangle(shader_, init_words); !triangle.empty();
+         triangle = take_triangle(shader_, init_words))
+      shader_.draw(triangle, emit, watch);
+    return events;
+  }
+
+ protected:
+  using Golden = std::function<std::uint64_t(const GoldenShader&, SpanXWord)>;
+
+  template <class... Config>
+  explicit StagesOf(const Config&... config) : shader_(config...) {}
+
+  void begin_stage(Stage stage) {
+    stages_.push_back(std::move(stage));
+    golden_.emplace_back();
+  }
+  void add(std::string name, Number number, std::string entity, Golden golden, Signal signal) {
+    stages_.back().words.push_back({std::move(name), number.bits, number.fraction_bits, number.is_signed,
+                                    std::move(entity), std::move(signal)});
+    golden_.back().push_back(std::move(golden));
+  }
+
+  // Line and span, as every shader has them. The walk is of the preset Walk; `depth_clocks`: from the
+  // walker's strobes to depth's words.
+  template <class Walk>
+  void add_line_stage(const std::string& shader, int depth_clocks) {
+    constexpr bool c_exact = std::is_same_v<Walk, Exact>;
+    const std::string edges = within(c_exact ? "edge_walker" : "slope_walker", "triangle_walker");
+    constexpr Number c_x{Walk::c_span_x_bits, 0, true};
+    begin_stage({"line", "triangle_walker", {dut("span_load")}});
+    add("line_y", {Walk::c_pixel_y_bits}, within("triangle_walker", shader),
+        [](const auto& s, SpanXWord) { return s.walker().y(); }, {dut("walker/line_y")});
+    add("line_start", c_x, edges, [](const auto& s, SpanXWord) { return s.walker().start().bits(); },
+        {dut("walker/line_start")});
+    add("line_stop", c_x, edges, [](const auto& s, SpanXWord) { return s.walker().stop().bits(); },
+        {dut("walker/line_stop")});
+    if constexpr (c_exact)
+      add("line_carry", c_flag, edges, [](const auto& s, SpanXWord) { return s.walker().carry(); },
+          {dut("line_carry")});
+    add("line_z", c_depth<Walk>, within("z_interpolator", shader),
+        [](const auto& s, SpanXWord) { return s.depth().line_value().bits(); },
+        {dut("depth/depth/edge_value"), 0, depth_clocks, depth_clocks > 0});
+  }
+  template <class Walk>
+  void add_span_stage(const std::string& shader, int depth_clocks) {
+    begin_stage({"span", "triangle_walker", {dut("span_step")}});
+    add("span_y", {Walk::c_pixel_y_bits}, within("triangle_walker", shader),
+        [](const auto& s, SpanXWord) { return s.walker().y(); }, {dut("y")});
+    add("span_x", {Walk::c_span_x_bits, 0, true}, within("triangle_walker", shader),
+        [](const auto&, SpanXWord x) { return x.bits(); }, {dut("x")});
+    add("span_z", c_depth<Walk>, within("z_interpolator", shader),
+        [](const auto& s, SpanXWord) { return s.depth().value().bits(); },
+        {dut("depth/depth/span_value"), 0, depth_clocks, depth_clocks > 0});
+  }
+
+  void add_fragment_stage(std::string_view colours) {
+    constexpr std::array<const char*, 7> c_ports = {"triangle", "y", "x", "z", "red", "green", "blue"};
+    constexpr std::array<int, 7> c_bits = {
+        Exact::c_triangle_bits, Exact::c_pixel_y_bits, Exact::c_pixel_x_bits, Exact::c_depth_bits,
+        Exact::c_colour_bits,   Exact::c_colour_bits,  Exact::c_colour_bits};
+    begin_stage({"fragment", "the shader's output", {"frame_tb/fragment_valid", "frame_tb/fragment_ready"}});
+    for (std::size_t i = 0; i < c_ports.size(); ++i)
+      add(std::string(c_fragment_fields[i]), {c_bits[i]},
+          i < 4 ? "the register behind the shader" : fmt::format("{}, or the register behind it", colours),
+          {}, {fmt::format("frame_tb/fragment_{}", c_ports[i])});
+  }
+
+ private:
+  template <class Walk>
+  static constexpr Number c_depth{Walk::c_depth_sum_bits, Walk::c_depth_sum_fraction_bits, true};
+
+  struct Watch {
+    StagesOf& table;
+    std::vector<GoldenEvent>& events;
+    void line(const GoldenShader& shader) { add(shader, 0, shader.walker().start()); }
+    // The registers of all stages that a pixel comes to, but those of processors, each by its own.
+    void span(const GoldenShader& shader, SpanXWord x) {
+      constexpr bool c_alone = requires {
+        shader.token();
+      };
+      const std::size_t end = c_alone ? 2 : table.stages_.size() - 1;
+      for (std::size_t stage = 1; stage < end; ++stage) add(shader, stage, x);
+    }
+    void processor(const GoldenShader& shader, SpanXWord x, int number) {
+      add(shader, 2 + static_cast<std::size_t>(number), x);
+    }
+
+   private:
+    void add(const GoldenShader& shader, std::size_t stage, SpanXWord x) {
+      GoldenEvent event{stage,
+                        shader.walker().triangle(),
+                        shader.walker().y(),
+                        static_cast<std::uint32_t>(golden::low_bits(x.bits(), Exact::c_pixel_x_bits)),
+                        {}};
+      for (const Golden& word : table.golden_[stage]) event.words.push_back(word(shader, x));
+      events.push_back(std::move(event));
+    }
+  };
+
+  GoldenShader shader_;
+  std::vector<std::vector<Golden>> golden_;  // beside the stages' words
+};
+
+// The walker's strobes reach the interpolators through registers, and their words come in halves: a clock
+// after the strobe the lower half, the upper one a clock later.
+template <class P, int Channels>
+class QuadraticStages final : public StagesOf<golden::QuadraticShader<P, Channels>> {
+  using Shader = golden::QuadraticShader<P, Channels>;
+
+ public:
+  QuadraticStages() {
+    const std::string shader = "quadratic_shader";
+    this->template add_line_stage<P>(shader, 1);
+    add_channels({{"line_value", "edge_value", &Interpolator::line_value},
+                  {"line_dx", "edge_dx", &Interpolator::line_dx},
+                  {"line_de0", "edge_de0", &Interpolator::line_de0}});
+    if constexpr (std::is_same_v<P, Exact>) add_channels({{"line_de1", "edge_de1", &Interpolator::line_de1}});
+    this->template add_span_stage<P>(shader, 1);
+    add_channels(
+        {{"span_value", "span_value", &Interpolator::value}, {"span_dx", "span_dx", &Interpolator::dx}});
+    this->add_fragment_stage("saturate");
+  }
+
+ private:
+  using Interpolator = golden::QuadraticInterpolator<P>;
+  struct Shown {
+    const char *name, *signal;
+    typename Interpolator::Value (Interpolator::*golden)() const;
+  };
+  void add_channels(const std::vector<Shown>& words) {
+    for (int c = 0; c < Channels; ++c)
+      for (const Shown& word : words)
+        this->add(
+            fmt::format("{} {}", channel_name(static_cast<unsigned>(c), Channels), word.name),
+            {P::c_intensity_bits, P::c_intensity_fraction_bits, true},
+            within("quadratic_interpolator", "quadratic_shader"),
+            [c, golden = word.golden](const Shader& s, SpanXWord) { return (s.channel(c).*golden)().bits(); },
+            {dut(fmt::format("channels({})/interpolator/{}", c, word.signal)), 0, 1, true});
+  }
+};
+
+// The slices take the walker's strobes themselves. Each stage behind the span is so many clocks after it.
+template <class P>
+class SphericalStages final : public StagesOf<golden::SphericalShader<P>> {
+  using Shader = golden::SphericalShader<P>;
+
+ public:
+  explicit SphericalStages(const golden::SphericalConfig& config)
+      : StagesOf<Shader>(config), config_(config), layout_(config) {
+    const std::string shader = "spherical_shader";
+    this->template add_line_stage<P>(shader, 1);
+    this->template add_span_stage<P>(shader, 1);
+    for_each_slice([&](const Slice& slice, auto golden) {
+      this->add(slice.name + " angle", {P::c_angle_bits, P::c_angle_fraction_bits, true},
+                within("line_interpolator", slice.entity),
+                [golden](const Shader& s, SpanXWord) { return golden(s).angle().bits(); },
+                {slice.path + "angle"});
+    });
+    this->begin_stage({"sample", "triangle_walker", {dut("span_step")}, 1});
+    for_each_slice([&](const Slice& slice, auto golden) {
+      this->add(slice.name + " in_range", c_flag, within("angle_address", slice.entity),
+                [golden, light = slice.light](const Shader& s, SpanXWord) {
+                  if constexpr (requires { golden(s).lit(); })
+                    return golden(s).lit();
+                  else
+                    return golden(s).in_range(s.lit(light));
+                },
+                {slice.path + "in_range"});
+      if (slice.channels > 0)
+        this->add(slice.name + " sample", {config_.data_bits}, within("cosine_rom", slice.entity),
+                  [golden](const Shader& s, SpanXWord) { return golden(s).sample(); },
+                  {slice.path + slice.sample});
+    });
+    this->begin_stage({"product", "triangle_walker", {dut("span_step")}, 4});
+    const int bits = P::c_factor_bits + config_.data_bits;
+    for_each_slice([&](const Slice& slice, auto golden) {
+      for (int c = 0; c < slice.channels; ++c)
+        this->add(fmt::format("{} {}product", slice.name,
+                              slice.channels == 1 ? "" : channel_name(static_cast<unsigned>(c), 3) + " "),
+                  {bits, P::c_factor_fraction_bits + config_.data_bits}, within("multiplier", slice.entity),
+                  [golden, c, light = slice.light](const Shader& s, SpanXWord) {
+                    if constexpr (requires { golden(s).lit(); })
+                      return golden(s).product(c);
+                    else
+                      return golden(s).product(c, s.lit(light));
+                  },
+                  {slice.path + "products", c * bits});
+    });
+    this->add_fragment_stage("saturating_sum");
+  }
+
+ private:
+  struct Slice {
+    std::string name, entity, path, sample;
+    std::size_t light;
+    int channels;
+  };
+  // Calls use(slice, golden), where golden(shader) is the slice's twin, for every light's slices.
+  template <class Use>
+  void for_each_slice(Use&& use) {
+    for (int l = 0; l < config_.lights; ++l) {
+      const auto light = static_cast<std::size_t>(l);
+      if (layout_.has_diffuse_part())
+        use(
+            Slice{fmt::format("light {} diffuse", l + 1), "diffuse_slice",
+                  dut(fmt::format("lights({})/diffuse/slice/", l)), "cosines/sample", light,
+                  layout_.diffuse_channels()},
+            [light](const Shader& s) -> const auto& { return s.diffuse(light); });
+      if (config_.specular)
+        use(
+            Slice{fmt::format("light {} specular", l + 1), "specular_slice",
+                  dut(fmt::format("lights({})/specular/slice/", l)), "sample", light,
+                  config_.highlight_channels},
+            [light](const Shader& s) -> const auto& { return s.specular(light); });
+    }
+  }
+
+  golden::SphericalConfig config_;
+  golden::SphericalLayout<P> layout_;
+};
+
+template <class P>
+std::vector<std::string> names_of(const golden::ProcessorsLayout<P>& layout) {
+  std::vector<std::string> names;
+  const auto add_axes = [&](const char* what) {
+    for (const char* axis : {"x", "y", "z"}) names.push_back(fmt::format("{} {}", what, axis));
+  };
+  add_axes("N");
+  if (layout.has_place()) add_axes(std::is_same_v<P, Exact> ? "view ray" : "P");
+  if (layout.has_distance()) names.emplace_back("1/w");
+  return names;
+}
+
+// All words are in one part. A token is seen where it leaves a processor.
+template <class P>
+class ProcessorsStages final : public StagesOf<golden::ProcessorsShader<P>> {
+  using Shader = golden::ProcessorsShader<P>;
+
+ public:
+  ProcessorsStages(const golden::ProcessorsConfig& config, bool folded)
+      : StagesOf<Shader>(config), config_(config), folded_(folded) {
+    const std::string shader = "processors_shader";
+    this->template add_line_stage<Exact>(shader, 0);
+    this->template add_span_stage<Exact>(shader, 0);
+    const golden::ProcessorsLayout<P> layout(config);
+    const std::vector<std::string> planes = names_of(layout);
+    for (int p = 0; p < layout.planes(); ++p)
+      this->add(planes[static_cast<std::size_t>(p)], {P::c_vector_bits, P::c_vector_fraction_bits, true},
+                "plane_interpolator",
+                [p](const Shader& s, SpanXWord) {
+                  return golden::low_bits(static_cast<std::uint64_t>(s.plane_value(p)), P::c_vector_bits);
+                },
+                {dut("vectors"), p * P::c_vector_bits});
+    add_processor("ambient");
+    for (int light = 1; light <= config.lights(); ++light) {
+      if (config.diffuse) add_processor(fmt::format("diffuse {}", light));
+      if (config.specular) add_processor(fmt::format("specular {}", light));
+    }
+    this->add_fragment_stage("saturate");
+  }
+
+ private:
+  void add_processor(std::string name) {
+    using At = typename P::pixel_header_at;
+    const std::string entity = folded_ ? "shading_processor" : "unrolled_shading_processor";
+    const std::string path = dut(fmt::format("pipeline/chain({})/form/{}/", this->stages_.size() - 2,
+                                             folded_ ? "folded" : "unrolled"));
+    const Signal command{path + "out_token", At::command.low};
+    this->begin_stage({std::move(name), entity, {path + "out_valid", path + "out_ready"}, 0, {}, command});
+    this->add(
+        "command", {At::command.bits}, "processors_shader",
+        [](const Shader& s, SpanXWord) { return static_cast<std::uint64_t>(s.token().command); }, command);
+    const golden::ProcessorsLayout<P> layout(config_);
+    for (int c = 0; c < config_.channels; ++c)
+      this->add(channel_name(static_cast<unsigned>(c), static_cast<unsigned>(config_.channels)) + " so far",
+                {P::c_radiance_bits, P::c_radiance_fraction_bits}, entity,
+                [c](const Shader& s, SpanXWord) { return s.token().radiance[static_cast<std::size_t>(c)]; },
+                {path + "out_token", layout.radiance_low(c)});
+  }
+
+  golden::ProcessorsConfig config_;
+  bool folded_;
+};
+
+template <class P>
+std::unique_ptr<ShaderStages> make(const HardwareKey& key) {
+  switch (key.shader) {
+    case Shader::quadratic:
+      if (key.channels == 1) return std::make_unique<QuadraticStages<P, 1>>();
+      return std::make_unique<QuadraticStages<P, 3>>();
+    case Shader::spherical:
+      return std::make_unique<SphericalStages<P>>(golden_config(key));
+    case Shader::processors:
+      return std::make_unique<ProcessorsStages<P>>(processors_config(key),
+                                                   key.processors.form == ProcessorForm::folded);
+  }
+  return nullptr;
+}
+
+bool is_object(std::uint64_t command) {
+  using golden::Command;
+  return command == static_cast<std::uint64_t>(Command::new_pixel) ||
+         command == static_cast<std::uint64_t>(Command::new_object) ||
+         command == static_cast<std::uint64_t>(Command::new_scanline);
+}
+
+}  // namespace
+
+std::vector<std::string> plane_names(const HardwareKey& key) {
+  const golden::ProcessorsConfig config = processors_config(key);
+  if (key.preset == Preset::exact) return names_of(golden::ProcessorsLayout<Exact>(config));
+  return names_of(golden::ProcessorsLayout<golden::Published>(config));
+}
+
+std::string channel_name(unsigned channel, unsigned channels) {
+  static constexpr const char* c_colours[] = {"red", "green", "blue"};
+  return channels == 1 ? "grey" : c_colours[channel];
+}
+
+std::vector<std::string> ShaderStages::signals() const {
+  std::vector<std::string> paths = {c_clock, c_first_valid, c_first_ready};
+  for (const Stage& stage : stages_) {
+    paths.insert(paths.end(), stage.strobes.begin(), stage.strobes.end());
+    for (const StageWord& word : stage.words) paths.push_back(word.signal.path);
+  }
+  std::ranges::sort(paths);
+  paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
+  return paths;
+}
+
+Result<std::vector<std::vector<RtlEvent>>> ShaderStages::read(const std::filesystem::path& vcd) const {
+  const auto sampled = sample_vcd(vcd, c_clock, signals(), SIZE_MAX);
+  if (!sampled) return sampled.error();
+  const std::size_t edges = sampled->edges;
+  const auto is_one = [&](const std::string& path, std::size_t edge) {
+    return sampled->values.at(path)[edge] == "1";
+  };
+  const auto part = [&](const Signal& signal, std::size_t edge, int low, int bits) {
+    return edge < edges ? number_of(sampled->values.at(signal.path)[edge], low, bits) : std::nullopt;
+  };
+  const auto word_at = [&](const Signal& signal, int bits, std::size_t edge) -> std::optional<std::uint64_t> {
+    if (!signal.skewed) return part(signal, edge, signal.low, bits);
+    const auto lower = part(signal, edge, 0, bits / 2),
+               upper = part(signal, edge + 1, bits / 2, bits - bits / 2);
+    if (!lower || !upper) return std::nullopt;
+    return *upper << bits / 2 | *lower;
+  };
+
+  std::size_t first = 0;
+  while (first < edges && !(is_one(c_first_valid, first) && is_one(c_first_ready, first))) ++first;
+  std::vector<std::vector<RtlEvent>> events(stages_.size());
+  for (std::size_t s = 0; s < stages_.size(); ++s) {
+    const Stage& stage = stages_[s];
+    for (std::size_t edge = first; edge < edges; ++edge) {
+      if (!std::ranges::all_of(stage.strobes, [&](const auto& path) { return is_one(path, edge); })) continue;
+      const std::size_t held = edge + static_cast<std::size_t>(stage.clocks);
+      if (stage.command) {
+        const auto command = word_at(*stage.command, stage.words.front().bits, held);
+        if (command && !is_object(*command)) continue;
+      }
+      RtlEvent event{held - first, {}};
+      for (const StageWord& word : stage.words)
+        event.words.push_back(
+            word_at(word.signal, word.bits, held + static_cast<std::size_t>(word.signal.clocks)));
+      events[s].push_back(std::move(event));
+    }
+  }
+  return events;
+}
+
+std::unique_ptr<ShaderStages> make_stages(const HardwareKey& key) {
+  return key.preset == Preset::exact ? make<Exact>(key) : make<golden::Published>(key);
+}
+
+Result<StageTrace> trace_stages(const HardwareKey& key, const ShaderStages& stages,
+                                const SimulatorFolders& folders, const InitStream& vectors,
+                                std::uint64_t fragments) {
+  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  if (!scratch) return scratch.error();
+  const std::filesystem::path init = scratch->path() / "init.txt", vcd = scratch->path() / "trace.vcd";
+  if (Status written = write_init_file(init, key.name(), vectors); !written) return written.error();
+  const auto runner = GhdlRunner::open(key, folders);
+  if (!runner) return runner.error();
+  GhdlRunOptions options;
+  options.max_fragments = static_cast<std::uint32_t>(fragments + c_most_surplus);
+  options.idle_limit = c_idle_limit;
+  options.wave_file = vcd;
+  options.wave_signals = stages.signals();
+  const auto run = runner->run(init, scratch->path() / "trace", options);
+  if (!run && run.error().code != ExitCode::differs) return run.error();
+  auto events = stages.read(vcd);
+  if (!events) return events.error();
+  return StageTrace{std::move(*events), run ? std::string() : run.error().message};
+}
+
+}  // namespace halfway

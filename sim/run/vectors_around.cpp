@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/run/vectors_around.hpp"
+
+#include <utility>
+
+#include "golden/processors_layout.hpp"
+#include "golden/word.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr std::size_t c_around = 2;
+
+// What the shading processors are told once, and what they keep of a line.
+bool is_load(const HardwareKey& key, std::span<const std::uint32_t> vector) {
+  using golden::Command;
+  if (key.shader != Shader::processors) return false;
+  const auto command =
+      static_cast<Command>(golden::get_bits(vector, golden::Exact::request_header_at::command));
+  return command == Command::new_frame || command == Command::define || command == Command::redefine ||
+         command == Command::remove;
+}
+std::optional<std::uint64_t> line_of_objects(const HardwareKey& key, std::span<const std::uint32_t> vector) {
+  if (key.shader != Shader::processors || !key.processors.shadows) return std::nullopt;
+  return golden::get_bits(vector, golden::Exact::init_header_at::y,
+                          golden::ProcessorsLayout<golden::Exact>::walk_low());
+}
+
+}  // namespace
+
+void VectorsAround::add(std::span<const std::uint32_t> words, std::size_t count, bool wanted) {
+  Triangle triangle{std::exchange(next_, next_ + count), {words.begin(), words.end()}};
+  if (is_load(key_, words)) {
+    kept_.push_back(std::move(triangle));
+    return;
+  }
+  if (const auto line = line_of_objects(key_, words); line != line_) {
+    before_.clear();
+    line_ = line;
+  }
+  if (!wanted && after_ == 0) {
+    before_.push_back(std::move(triangle));
+    if (!line_ && before_.size() > c_around) before_.pop_front();
+    return;
+  }
+  for (Triangle& earlier : before_) kept_.push_back(std::move(earlier));
+  before_.clear();
+  kept_.push_back(std::move(triangle));
+  any_wanted_ = any_wanted_ || wanted;
+  after_ = wanted ? c_around : after_ - 1;
+}
+
+void VectorsAround::finish() {
+  if (any_wanted_) return;
+  for (Triangle& last : before_) kept_.push_back(std::move(last));
+  before_.clear();
+}
+
+std::vector<std::uint32_t> VectorsAround::words() const {
+  std::vector<std::uint32_t> all;
+  for (const Triangle& triangle : kept_) all.insert(all.end(), triangle.words.begin(), triangle.words.end());
+  return all;
+}
+
+}  // namespace halfway
