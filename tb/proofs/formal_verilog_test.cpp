@@ -25,6 +25,14 @@ TEST(FormalVerilog, WritesAssertAndAssumeAsYosysReadsThem) {
   EXPECT_EQ(formal->counts, (PropertyCounts{1, 1}));
 }
 
+TEST(FormalVerilog, ConnectsAFreeSignalToThatInsideTheInstance) {
+  const auto formal = formal_verilog("  assign dut_edge_value = 40'bX; // (signal)\n");
+  ASSERT_TRUE(formal) << formal.error().message;
+  EXPECT_EQ(formal->text,
+            "  (* hierconn *) wire [39:0] \\dut.edge_value ;\n"
+            "  assign dut_edge_value = \\dut.edge_value ;\n");
+}
+
 TEST(FormalVerilog, WritesWideConstantsAsNumbers) {
   const auto formal = formal_verilog("assign a = \"0101\";\nassign b = \"text\";\n");
   ASSERT_TRUE(formal) << formal.error().message;
