@@ -20,7 +20,13 @@ stream/stream_register.vhd
 stream/delay_line.vhd
 stream/stream_queue.vhd
 interpolation/line_interpolator.vhd
+interpolation/skew_pkg.vhd
+interpolation/skewed_strobe.vhd
+interpolation/skewed_register.vhd
+interpolation/skewed_multiplexer.vhd
+interpolation/deskew.vhd
 interpolation/part_interpolator.vhd
+interpolation/skewed_interpolator.vhd
 interpolation/plane_interpolator.vhd
 interpolation/z_interpolator.vhd
 interpolation/quadratic_interpolator.vhd
@@ -60,6 +66,7 @@ illumination/token_register.vhd
 illumination/shading_processor.vhd
 illumination/unrolled_shading_processor.vhd
 shaders/shading_pipeline.vhd
+shaders/word_buffer.vhd
 shaders/quadratic_shader.vhd
 shaders/spherical_pkg.vhd
 shaders/spherical_shader.vhd

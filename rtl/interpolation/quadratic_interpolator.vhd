@@ -1,16 +1,35 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     One colour channel of a quadratic over the triangle, by second-order forward differences. With e0 = (q, 1)
---             and e1 = (q + 1, 1) the two steps of the start edge and x = (+-1, 0) the step of a span:
---               line   value += de0    dx += dxe0    de0 += de0e0    de1 += de0e1    where the remainder does not carry
---                      value += de1    dx += dxe1    de0 += de0e1    de1 += de1e1    where it does
---               pixel  value += dx     dx += dxx
---             In preset published the edge steps by its real slope: e0 = (A, 1), and there is no e1.
--- Contract    line_load and line_step are never both '1', nor span_load and span_step; a part's bits of init's words stand
---             still in the clock of its line_load, a clock behind the part's below it
+-- Purpose     One colour channel of a quadratic over the triangle, by second-order forward differences. edge_x and span_x are
+--             interpolators: registers that start with a word and add what the arrow brings. a | b: b where the edge carries
+--
+--               along the edge, one step per line                along the span, one step per pixel
+--
+--               de0e0 | de0e1 --> edge_de0 --+
+--                                            |--> edge_value --start--> span_value --> deskew --> value
+--               de0e1 | de1e1 --> edge_de1 --+                              ^
+--                                                                           |
+--               dxe0 | dxe1 --------------------> edge_dx -----start--> span_dx
+--                                                                           ^
+--                                                                           |
+--               dxx -------------------------------------------start--> span_dxx, a register
+--
+--             symbol         is the change of   per                                         in the paper
+--             value          -, the intensity   -                                           I(X,Y)
+--             dx             value              pixel of the span, x + 1 or x - 1           dI(X,Y)
+--             de0            value              line where the edge steps by (q, 1)         dI_start
+--             de1            value              line where it carries: by (q + 1, 1)
+--             dxx            dx                 pixel                                       2 T5
+--             dxe0 | dxe1    dx                 line without | with carry                   2 T5 A + T4
+--             de0e0 | de0e1  de0                line without | with carry                   2 (T5 A^2 + T4 A + T3)
+--             de0e1 | de1e1  de1                line without | with carry
+--             In preset published the edge steps by its real slope A, as in the paper, and does not carry: de1 and the
+--             right-hand words do not exist.
+-- Contract    line_load and line_step are never both '1', nor span_load and span_step. The words of init are skewed words
+--             (skew_pkg), part 0 in the clock of line_load
 -- Formats     formats_pkg: intensity; sums wrap, the value at a covered pixel fits
 -- Latency     g_parts clocks from a load or step to its value
--- Throughput  1 line and 1 pixel a clock
+-- Throughput  1 line and 1 pixel per clock
 -- Error       0.15 of a colour step at most in preset exact, 16 in published: see intensity in formats_pkg
 -- Source      quadratic paper, section 5 (the nested loops) and figure 6
 -- Golden twin model/golden/quadratic_interpolator.hpp
@@ -22,15 +41,15 @@ use work.formats_pkg.all;
 entity quadratic_interpolator is
   generic (
     g_exact : boolean  := true;
-    g_parts : positive := 1     -- of a word, each a clock behind the one below it
+    g_parts : positive := 1
   );
   port (
     clk        : in  std_logic;
     init       : in  std_logic_vector(init_channel_low(g_exact, 1) - init_channel_low(g_exact, 0) - 1 downto 0);
-    line_load  : in  std_logic; -- take the channel's part of the init vector
+    line_load  : in  std_logic; -- take the channel's block of the init vector
     line_step  : in  std_logic; -- go to the next line
-    line_carry : in  std_logic; -- that step goes a pixel further
-    span_load  : in  std_logic; -- begin the line
+    line_carry : in  std_logic; -- that step goes one pixel further
+    span_load  : in  std_logic; -- start the span at the edge
     span_step  : in  std_logic; -- go to the next pixel
     value      : out std_logic_vector(formats(g_exact).intensity.bits - 1 downto 0)
   );
@@ -41,282 +60,132 @@ architecture rtl of quadratic_interpolator is
   constant c_bits : positive       := formats(g_exact).intensity.bits;
   constant c_init : init_channel_t := init_channel(g_exact);
 
-  -- The strobes, clock by clock: each part of the words takes them from a register of its own, the lowest first.
-  subtype strobe_t is std_logic_vector(g_parts - 1 downto 0);
+  subtype word_t is std_logic_vector(c_bits - 1 downto 0);
 
-  signal line_loads, line_steps, line_carries, span_loads, span_steps : strobe_t;
+  -- The second differences, constant over the triangle: the block's upper words.
+  signal constants : std_logic_vector(init'high downto c_init.dxx.low);
 
-  -- The sums along the edge and along the line, each part a clock behind the one below it.
-  signal edge_value, edge_dx, edge_de0, edge_de1 : std_logic_vector(c_bits - 1 downto 0);
-  signal span_value, span_dx                     : std_logic_vector(c_bits - 1 downto 0);
-
-  -- What each carries from part to part.
-  subtype carries_t is std_logic_vector(g_parts downto 0);
-
-  signal edge_value_carries, edge_dx_carries, edge_de0_carries, edge_de1_carries : carries_t;
-  signal span_value_carries, span_dx_carries                                     : carries_t;
+  -- Skewed words: the interpolators of the figure, and what is added to those along the edge.
+  signal edge_value, edge_dx, edge_de0, edge_de1 : word_t;
+  signal value_step, dx_step, de0_step           : word_t;
+  signal dxx, dxe0, de0e0                        : word_t;
+  signal span_value, span_dx                     : word_t;
+  signal span_dxx                                : word_t; -- the span's own: the edge may have loaded the next triangle
 
 begin
 
-  line_loads(0)   <= line_load;
-  line_steps(0)   <= line_step;
-  line_carries(0) <= line_carry;
-  span_loads(0)   <= span_load;
-  span_steps(0)   <= span_step;
+  -- Hold the second differences of the triangle.
+  constants_register : entity work.skewed_register
+    generic map (g_bits => c_bits, g_words => constants'length / c_bits, g_parts => g_parts) -- elaboration only
+    port map (clk => clk, load => line_load, start => init(constants'range), value => constants);
 
-  later : if strobe_t'length > 1 generate
+  dxx   <= constants(c_init.dxx.high downto c_init.dxx.low);
+  dxe0  <= constants(c_init.dxe0.high downto c_init.dxe0.low);
+  de0e0 <= constants(c_init.de0e0.high downto c_init.de0e0.low);
 
-    registers : process (clk)
-    begin
-      if rising_edge(clk) then
-        line_loads(strobe_t'high downto 1)   <= line_loads(strobe_t'high - 1 downto 0);
-        line_steps(strobe_t'high downto 1)   <= line_steps(strobe_t'high - 1 downto 0);
-        line_carries(strobe_t'high downto 1) <= line_carries(strobe_t'high - 1 downto 0);
-        span_loads(strobe_t'high downto 1)   <= span_loads(strobe_t'high - 1 downto 0);
-        span_steps(strobe_t'high downto 1)   <= span_steps(strobe_t'high - 1 downto 0);
-      end if;
-    end process;
+  -- Select the edge's step by its carry.
+  carried : if g_exact generate
 
-  end generate;
-
-  edge_value_carries(0) <= '0';
-  edge_dx_carries(0)    <= '0';
-  edge_de0_carries(0)   <= '0';
-  edge_de1_carries(0)   <= '0';
-  span_value_carries(0) <= '0';
-  span_dx_carries(0)    <= '0';
-
-  parts : for part in 0 to g_parts - 1 generate
-
-    constant c_low       : natural  := part * c_bits / g_parts; -- elaboration only
-    constant c_high      : natural  := (part + 1) * c_bits / g_parts - 1; -- elaboration only
-    constant c_part_bits : positive := c_high - c_low + 1;
-
-    subtype part_t is std_logic_vector(c_part_bits - 1 downto 0);
-
-    -- Constant over the triangle, and over the span.
-    signal dxx, dxe0, de0e0 : part_t;
-    signal span_dxx         : part_t;
-
-    -- What the next step along the edge adds.
-    signal value_step, dx_step, de0_step : part_t;
+    signal dxe1, de0e1, de1e1, de1_step : word_t;
 
     begin
 
-      dxx_register : entity work.parameter_register
-        generic map (
-          g_bits => c_part_bits
-          )
-        port map (
-          clk   => clk,
-          load  => line_loads(part),
-          start => init(c_init.dxx.low + c_high downto c_init.dxx.low + c_low),
-          value => dxx
-          );
+      dxe1  <= constants(c_init.dxe1.high downto c_init.dxe1.low);
+      de0e1 <= constants(c_init.de0e1.high downto c_init.de0e1.low);
+      de1e1 <= constants(c_init.de1e1.high downto c_init.de1e1.low);
 
-      dxe0_register : entity work.parameter_register
-        generic map (
-          g_bits => c_part_bits
-          )
-        port map (
-          clk   => clk,
-          load  => line_loads(part),
-          start => init(c_init.dxe0.low + c_high downto c_init.dxe0.low + c_low),
-          value => dxe0
-          );
+      value_multiplexer : entity work.skewed_multiplexer
+        generic map (g_bits => c_bits, g_parts => g_parts)
+        port map (clk => clk, select_b => line_carry, a => edge_de0, b => edge_de1, value => value_step);
 
-      de0e0_register : entity work.parameter_register
-        generic map (
-          g_bits => c_part_bits
-          )
-        port map (
-          clk   => clk,
-          load  => line_loads(part),
-          start => init(c_init.de0e0.low + c_high downto c_init.de0e0.low + c_low),
-          value => de0e0
-          );
+      dx_multiplexer : entity work.skewed_multiplexer
+        generic map (g_bits => c_bits, g_parts => g_parts)
+        port map (clk => clk, select_b => line_carry, a => dxe0, b => dxe1, value => dx_step);
 
-      carried : if g_exact generate
+      de0_multiplexer : entity work.skewed_multiplexer
+        generic map (g_bits => c_bits, g_parts => g_parts)
+        port map (clk => clk, select_b => line_carry, a => de0e0, b => de0e1, value => de0_step);
 
-        signal dxe1, de0e1, de1e1 : part_t;
-        signal de1_step           : part_t;
+      de1_multiplexer : entity work.skewed_multiplexer
+        generic map (g_bits => c_bits, g_parts => g_parts)
+        port map (clk => clk, select_b => line_carry, a => de0e1, b => de1e1, value => de1_step);
 
-        begin
-
-          dxe1_register : entity work.parameter_register
-            generic map (
-              g_bits => c_part_bits
-              )
-            port map (
-              clk   => clk,
-              load  => line_loads(part),
-              start => init(c_init.dxe1.low + c_high downto c_init.dxe1.low + c_low),
-              value => dxe1
-              );
-
-          de0e1_register : entity work.parameter_register
-            generic map (
-              g_bits => c_part_bits
-              )
-            port map (
-              clk   => clk,
-              load  => line_loads(part),
-              start => init(c_init.de0e1.low + c_high downto c_init.de0e1.low + c_low),
-              value => de0e1
-              );
-
-          de1e1_register : entity work.parameter_register
-            generic map (
-              g_bits => c_part_bits
-              )
-            port map (
-              clk   => clk,
-              load  => line_loads(part),
-              start => init(c_init.de1e1.low + c_high downto c_init.de1e1.low + c_low),
-              value => de1e1
-              );
-
-          de1_along_edge : entity work.part_interpolator
-            generic map (
-              g_bits => c_part_bits
-              )
-            port map (
-              clk       => clk,
-              load      => line_loads(part),
-              start     => init(c_init.de1.low + c_high downto c_init.de1.low + c_low),
-              step      => line_steps(part),
-              increment => de1_step,
-              carry_in  => edge_de1_carries(part),
-              value     => edge_de1(c_high downto c_low),
-              carry_out => edge_de1_carries(part + 1)
-              );
-
-          value_step <= edge_de1(c_high downto c_low) when line_carries(part) = '1' else edge_de0(c_high downto c_low);
-          dx_step    <= dxe1 when line_carries(part) = '1' else dxe0;
-          de0_step   <= de0e1 when line_carries(part) = '1' else de0e0;
-          de1_step   <= de1e1 when line_carries(part) = '1' else de0e1;
-
-      else generate
-
-        edge_de1(c_high downto c_low)                    <= (others => '0');
-        edge_de1_carries(part + 1) <= '0';
-        value_step                  <= edge_de0(c_high downto c_low);
-        dx_step                     <= dxe0;
-        de0_step                    <= de0e0;
-
-      end generate;
-
-      value_along_edge : entity work.part_interpolator
-        generic map (
-          g_bits => c_part_bits
-          )
+      de1_along_edge : entity work.skewed_interpolator
+        generic map (g_bits => c_bits, g_parts => g_parts)
         port map (
           clk       => clk,
-          load      => line_loads(part),
-          start     => init(c_init.value.low + c_high downto c_init.value.low + c_low),
-          step      => line_steps(part),
-          increment => value_step,
-          carry_in  => edge_value_carries(part),
-          value     => edge_value(c_high downto c_low),
-          carry_out => edge_value_carries(part + 1)
-          );
+          load      => line_load,
+          start     => init(c_init.de1.high downto c_init.de1.low),
+          step      => line_step,
+          increment => de1_step,
+          value     => edge_de1);
 
-      dx_along_edge : entity work.part_interpolator
-        generic map (
-          g_bits => c_part_bits
-          )
-        port map (
-          clk       => clk,
-          load      => line_loads(part),
-          start     => init(c_init.dx.low + c_high downto c_init.dx.low + c_low),
-          step      => line_steps(part),
-          increment => dx_step,
-          carry_in  => edge_dx_carries(part),
-          value     => edge_dx(c_high downto c_low),
-          carry_out => edge_dx_carries(part + 1)
-          );
+  else generate
 
-      de0_along_edge : entity work.part_interpolator
-        generic map (
-          g_bits => c_part_bits
-          )
-        port map (
-          clk       => clk,
-          load      => line_loads(part),
-          start     => init(c_init.de0.low + c_high downto c_init.de0.low + c_low),
-          step      => line_steps(part),
-          increment => de0_step,
-          carry_in  => edge_de0_carries(part),
-          value     => edge_de0(c_high downto c_low),
-          carry_out => edge_de0_carries(part + 1)
-          );
-
-        -- The line stage may hold the next triangle already, so the span keeps its own second difference.
-      span_dxx_register : entity work.parameter_register
-        generic map (
-          g_bits => c_part_bits
-          )
-        port map (
-          clk   => clk,
-          load  => span_loads(part),
-          start => dxx,
-          value => span_dxx
-          );
-
-      value_along_line : entity work.part_interpolator
-        generic map (
-          g_bits => c_part_bits
-          )
-        port map (
-          clk       => clk,
-          load      => span_loads(part),
-          start     => edge_value(c_high downto c_low),
-          step      => span_steps(part),
-          increment => span_dx(c_high downto c_low),
-          carry_in  => span_value_carries(part),
-          value     => span_value(c_high downto c_low),
-          carry_out => span_value_carries(part + 1)
-          );
-
-      dx_along_line : entity work.part_interpolator
-        generic map (
-          g_bits => c_part_bits
-          )
-        port map (
-          clk       => clk,
-          load      => span_loads(part),
-          start     => edge_dx(c_high downto c_low),
-          step      => span_steps(part),
-          increment => span_dxx,
-          carry_in  => span_dx_carries(part),
-          value     => span_dx(c_high downto c_low),
-          carry_out => span_dx_carries(part + 1)
-          );
-
-        -- A lower part waits for the upper ones.
-      values : if part < g_parts - 1 generate
-
-        type waits_t is array (1 to g_parts - 1 - part) of part_t;
-
-        signal value_waits : waits_t;
-
-        begin
-
-          registers : process (clk)
-          begin
-            if rising_edge(clk) then
-              value_waits <= waits_t'(span_value(c_high downto c_low) & value_waits(1 to waits_t'high - 1));
-            end if;
-          end process;
-
-          value(c_high downto c_low) <= value_waits(waits_t'high);
-
-      else generate
-
-        value(c_high downto c_low) <= span_value(c_high downto c_low);
-
-      end generate;
+    edge_de1   <= (others => '0');
+    value_step <= edge_de0;
+    dx_step    <= dxe0;
+    de0_step   <= de0e0;
 
   end generate;
+
+  -- Step the line's first value and its differences along the edge.
+  de0_along_edge : entity work.skewed_interpolator
+    generic map (g_bits => c_bits, g_parts => g_parts)
+    port map (
+      clk       => clk,
+      load      => line_load,
+      start     => init(c_init.de0.high downto c_init.de0.low),
+      step      => line_step,
+      increment => de0_step,
+      value     => edge_de0);
+
+  value_along_edge : entity work.skewed_interpolator
+    generic map (g_bits => c_bits, g_parts => g_parts)
+    port map (
+      clk       => clk,
+      load      => line_load,
+      start     => init(c_init.value.high downto c_init.value.low),
+      step      => line_step,
+      increment => value_step,
+      value     => edge_value);
+
+  dx_along_edge : entity work.skewed_interpolator
+    generic map (g_bits => c_bits, g_parts => g_parts)
+    port map (
+      clk       => clk,
+      load      => line_load,
+      start     => init(c_init.dx.high downto c_init.dx.low),
+      step      => line_step,
+      increment => dx_step,
+      value     => edge_dx);
+
+  span_dxx_register : entity work.skewed_register
+    generic map (g_bits => c_bits, g_parts => g_parts)
+    port map (clk => clk, load => span_load, start => dxx, value => span_dxx);
+
+  dx_along_span : entity work.skewed_interpolator
+    generic map (g_bits => c_bits, g_parts => g_parts)
+    port map (
+      clk       => clk,
+      load      => span_load,
+      start     => edge_dx,
+      step      => span_step,
+      increment => span_dxx,
+      value     => span_dx);
+
+  value_along_span : entity work.skewed_interpolator
+    generic map (g_bits => c_bits, g_parts => g_parts)
+    port map (
+      clk       => clk,
+      load      => span_load,
+      start     => edge_value,
+      step      => span_step,
+      increment => span_dx,
+      value     => span_value);
+
+  align_value : entity work.deskew
+    generic map (g_bits => c_bits, g_parts => g_parts)
+    port map (clk => clk, skewed => span_value, word => value);
 
 end architecture;

@@ -2,10 +2,10 @@
 --
 -- Purpose     Depth at every pixel: the plane that the header of the init vector holds.
 -- Formats     formats_pkg: depth_sum; sums wrap, the value at a covered pixel fits
--- Contract    line_load and line_step are never both '1', nor span_load and span_step; a part's bits of the plane's
---             words stand still in the clock of its line_load, a clock behind the part's below it
+-- Contract    line_load and line_step are never both '1', nor span_load and span_step. The plane's words are skewed words
+--             (skew_pkg), part 0 in the clock of line_load
 -- Latency     g_parts clocks from a load or step to its value
--- Throughput  1 line and 1 pixel a clock
+-- Throughput  1 line and 1 pixel per clock
 -- Error       0.19 of a depth step at most: see depth_sum in formats_pkg
 -- Source      plane_interpolator; the papers leave depth to the host
 -- Golden twin model/golden/z_interpolator.hpp
@@ -17,15 +17,15 @@ use work.formats_pkg.all;
 entity z_interpolator is
   generic (
     g_exact : boolean  := true; -- false: edges step by a real slope, and de1 does not exist
-    g_parts : positive := 1     -- of a word, each a clock behind the one below it
+    g_parts : positive := 1
   );
   port (
     clk        : in  std_logic;
     init       : in  std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0); -- header of the init vector
     line_load  : in  std_logic;                                                   -- take the init vector
     line_step  : in  std_logic;                                                   -- go to the next line
-    line_carry : in  std_logic;                                                   -- that step goes a pixel further
-    span_load  : in  std_logic;                                                   -- begin the line
+    line_carry : in  std_logic;                                                   -- that step goes one pixel further
+    span_load  : in  std_logic;                                                   -- start the span at the edge
     span_step  : in  std_logic;                                                   -- go to the next pixel
     value      : out std_logic_vector(formats(g_exact).depth_sum.bits - 1 downto 0)
   );

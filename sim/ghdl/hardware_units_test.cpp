@@ -77,7 +77,8 @@ class HardwareUnits : public ::testing::Test {
 // By hand, from the entities' text.
 TEST_F(HardwareUnits, OfAQuadraticShader) {
   EXPECT_EQ(units({.shader = Shader::quadratic, .preset = Preset::published, .channels = 1}),
-            (UnitCounts{{"edge_pair", 1},
+            (UnitCounts{{"deskew", 2},
+                        {"edge_pair", 1},
                         {"line_counter", 1},
                         {"line_stage", 1},
                         {"parameter_register", 33},
@@ -85,19 +86,28 @@ TEST_F(HardwareUnits, OfAQuadraticShader) {
                         {"plane_interpolator", 1},
                         {"quadratic_interpolator", 1},
                         {"saturate", 1},
+                        {"skewed_interpolator", 7},
+                        {"skewed_register", 6},
+                        {"skewed_strobe", 20},
                         {"slope_walker", 2},
                         {"span_stage", 1},
                         {"stream_queue", 1},
                         {"stream_register", 1},
                         {"triangle_walker", 1},
+                        {"word_buffer", 1},
                         {"z_interpolator", 1}}));
 }
 
 TEST_F(HardwareUnits, OfEffectsOfTheSphericalShader) {
   const Plan plan = plan_of("matte", Shader::spherical, Preset::exact);
-  EXPECT_EQ(units(plan, Effect::depth), (UnitCounts{{"parameter_register", 8},
+  EXPECT_EQ(units(plan, Effect::depth), (UnitCounts{{"deskew", 1},
+                                                    {"parameter_register", 8},
                                                     {"part_interpolator", 4},
                                                     {"plane_interpolator", 1},
+                                                    {"skewed_interpolator", 2},
+                                                    {"skewed_multiplexer", 1},
+                                                    {"skewed_register", 2},
+                                                    {"skewed_strobe", 7},
                                                     {"z_interpolator", 1}}));
   EXPECT_EQ(units(plan, Effect::ambient), (UnitCounts{{"parameter_register", 2}}));
   EXPECT_EQ(units(plan, Effect::specular), (UnitCounts{{"angle_address", 1},

@@ -8,7 +8,7 @@ use ieee.numeric_std.all;
 
 package netlist_constructs_pkg is
   constant c_lane     : positive := 80;
-  constant c_lanes    : positive := 40;
+  constant c_lanes    : positive := 42;
   constant c_stimulus : positive := 160;
 
   subtype lane_t is std_logic_vector(c_lane - 1 downto 0);
@@ -271,8 +271,30 @@ architecture rtl of netlist_constructs is
   type terms_t is array (0 to 1) of std_logic_vector(5 * 13 - 1 downto 0);
   type sums_t is array (0 to 1) of unsigned(15 downto 0);
 
+  -- A record as a word.
+  type fields_t is record
+    number : std_logic_vector(c_narrow - 1 downto 0);
+    byte_1 : std_logic_vector(7 downto 0);
+    flag   : std_logic_vector(0 downto 0);
+  end record;
+  subtype word_t is std_logic_vector(c_narrow + 8 downto 0);
+
+  function packed (fields : fields_t) return word_t is
+  begin
+    return fields.flag & fields.byte_1 & fields.number;
+  end function;
+
+  function unpacked (word : word_t) return fields_t is
+    variable fields : fields_t;
+  begin
+    (fields.flag, fields.byte_1, fields.number) := word;
+    return fields;
+  end function;
+
   signal r, r_next : reg_t;
   signal lanes     : lanes_t;
+  signal fields    : fields_t;
+  signal upper     : std_logic_vector(71 downto 29); -- a signal whose lowest bit is not bit 0
   signal a, b      : std_logic_vector(71 downto 0);
   signal control   : std_logic_vector(15 downto 0);
   signal sa, sb    : signed(71 downto 0);
@@ -541,6 +563,12 @@ begin
     end loop;
   end process;
   lanes(39) <= lane(chosen);
+
+  -- A word unpacked by an aggregate, and packed in another order; slices of a range that does not begin at 0.
+  fields <= unpacked(a(word_t'range));
+  lanes(40) <= lane(packed((fields.number, fields.byte_1, fields.flag)) & fields.number & fields.byte_1);
+  upper <= b(upper'range);
+  lanes(41) <= lane(upper(71 downto 60) & upper(40 downto 29));
 
   outputs : for i in lanes'range generate
     response((i + 1) * c_lane - 1 downto i * c_lane) <= lanes(i);

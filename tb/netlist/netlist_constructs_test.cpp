@@ -20,7 +20,7 @@
 namespace halfway {
 namespace {
 
-constexpr unsigned kStimulusBits = 160, kLaneBits = 80, kLanes = 40;
+constexpr unsigned kStimulusBits = 160, kLaneBits = 80, kLanes = 42;
 constexpr unsigned kResponseBits = kLaneBits * kLanes;
 constexpr std::size_t kVectors = 4000;
 

@@ -87,6 +87,13 @@ std::vector<ListedDesign> all_designs() {
     add("part_interpolator", {{"g_bits", std::to_string(std::stoi(of("intensity")) / 2)}}, true);
     add("plane_interpolator", {{"g_bits", of("depth_sum")}, {"g_carries", exact ? "true" : "false"}}, true);
     const std::pair<std::string, std::string> halves = {"g_parts", "2"};
+    const Generics skewed = {{"g_bits", of("intensity")}, halves};
+    add("skewed_interpolator", skewed, true);
+    if (exact) add("skewed_register", skewed, true);
+    if (exact) add("skewed_multiplexer", skewed, true);
+    if (exact) add("skewed_strobe", {halves}, true);
+    if (exact) add("deskew", skewed, true);
+    add("word_buffer", {is_exact, {"g_channels", "1"}}, true);
     add("z_interpolator", {is_exact, halves}, true);
     add("quadratic_interpolator", {is_exact, halves}, true);
     if (exact) add("edge_walker", {}, true);

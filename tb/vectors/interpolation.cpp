@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "golden/line_interpolator.hpp"
+#include "golden/parameter_register.hpp"
 #include "golden/part_interpolator.hpp"
 #include "golden/quadratic_interpolator.hpp"
 #include "golden/z_interpolator.hpp"
 #include "sim/stream_files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
+#include "vectors/skew.hpp"
 
 namespace halfway::vectors {
 namespace {
@@ -52,6 +55,93 @@ Status write_part(const std::filesystem::path& folder) {
       twin.step(increment, carry);
   }
   return file.write(folder / (std::to_string(W) + ".txt"));
+}
+
+// Writes BITS_PARTS.txt. `vector(i)` writes a vector but its first column, `checked`: all parts hold words of
+// the file.
+template <class Vector>
+Status write_skewed(const std::filesystem::path& folder, VectorFile& file, int bits, int parts,
+                    Vector&& vector) {
+  for (int i = 0; i < 3000; ++i) {
+    file.flag(i >= parts);
+    vector(i);
+    file.end_vector();
+  }
+  return file.write(folder / (std::to_string(bits) + "_" + std::to_string(parts) + ".txt"));
+}
+
+// A line: checked, load, start, step, increment; value, before the edge that may load or step.
+template <int W>
+Status write_skewed_interpolator(const std::filesystem::path& folder, int parts) {
+  Random random(W);
+  VectorFile file;
+  golden::LineInterpolator<W> twin;
+  Skew skew_start(W, parts), skew_increment(W, parts), skew_value(W, parts);
+  return write_skewed(folder, file, W, parts, [&](int i) {
+    const bool load = i == 0 || random.one_in(12), step = !load && !random.one_in(5);
+    const auto start = random.word<W>(), increment = random.word<W>();
+    file.flag(load).word(skew_start(start.bits()), W).flag(step).word(skew_increment(increment.bits()), W);
+    file.word(skew_value(twin.value().bits()), W);
+    if (load)
+      twin.load(start);
+    else if (step)
+      twin.step(increment);
+  });
+}
+
+// A line: checked, load, start, value, before the edge that may load; two words side by side.
+Status write_skewed_register(const std::filesystem::path& folder, int bits, int parts) {
+  Random random(static_cast<std::uint64_t>(bits));
+  VectorFile file;
+  golden::ParameterRegister<std::array<std::uint64_t, 2>> twin;
+  std::array<Skew, 2> skew_start{Skew(bits, parts), Skew(bits, parts)}, skew_value = skew_start;
+  return write_skewed(folder, file, bits, parts, [&](int i) {
+    const bool load = i == 0 || random.one_in(3);
+    const std::array start = {random.word(bits), random.word(bits)};
+    const auto skewed = [&](std::array<Skew, 2>& skew, const std::array<std::uint64_t, 2>& words) {
+      return skew[1](words[1]) << bits | skew[0](words[0]);
+    };
+    file.flag(load)
+        .word(skewed(skew_start, start), 2 * bits)
+        .word(skewed(skew_value, twin.value()), 2 * bits);
+    if (load) twin.load(start);
+  });
+}
+
+// A line: checked, select_b, a, b; value, before the edge.
+Status write_skewed_multiplexer(const std::filesystem::path& folder, int bits, int parts) {
+  Random random(static_cast<std::uint64_t>(bits));
+  VectorFile file;
+  Skew skew_a(bits, parts), skew_b(bits, parts), skew_value(bits, parts);
+  return write_skewed(folder, file, bits, parts, [&](int) {
+    const bool select_b = random.one_in(2);
+    const std::uint64_t a = random.word(bits), b = random.word(bits);
+    file.flag(select_b).word(skew_a(a), bits).word(skew_b(b), bits).word(skew_value(select_b ? b : a), bits);
+  });
+}
+
+// A line: checked, strobe; strobes, before the edge. A word of a bit per part: the strobe's.
+Status write_skewed_strobe(const std::filesystem::path& folder, int parts) {
+  Random random(static_cast<std::uint64_t>(parts));
+  VectorFile file;
+  Skew skew(parts, parts);
+  return write_skewed(folder, file, 1, parts, [&](int) {
+    const bool strobe = random.one_in(2);
+    file.flag(strobe).word(skew(strobe ? golden::low_bits(~std::uint64_t{0}, parts) : 0), parts);
+  });
+}
+
+// A line: checked, skewed; word, before the edge.
+Status write_deskew(const std::filesystem::path& folder, int bits, int parts) {
+  Random random(static_cast<std::uint64_t>(bits));
+  VectorFile file;
+  Skew skew(bits, parts);
+  std::vector<std::uint64_t> words(static_cast<std::size_t>(parts));
+  return write_skewed(folder, file, bits, parts, [&](int) {
+    words.insert(words.begin(), random.word(bits));
+    words.pop_back();
+    file.word(skew(words.front()), bits).word(words.back(), bits);
+  });
 }
 
 // What the walker tells the interpolators in one clock.
@@ -177,6 +267,36 @@ Status write_part_interpolator(const std::filesystem::path& folder) {
   if (auto s = write_part<3>(folder); !s) return s;
   if (auto s = write_part<Published::c_intensity_bits / 2>(folder); !s) return s;
   return write_part<Exact::c_intensity_bits / 2>(folder);
+}
+
+Status write_skewed_interpolator(const std::filesystem::path& folder) {
+  if (auto s = write_skewed_interpolator<7>(folder, 3); !s) return s;
+  if (auto s = write_skewed_interpolator<Published::c_intensity_bits>(folder, 1); !s) return s;
+  return write_skewed_interpolator<Exact::c_intensity_bits>(folder, 2);
+}
+
+Status write_skewed_register(const std::filesystem::path& folder) {
+  if (auto s = write_skewed_register(folder, 7, 3); !s) return s;
+  if (auto s = write_skewed_register(folder, 32, 1); !s) return s;
+  return write_skewed_register(folder, 20, 2);
+}
+
+Status write_skewed_multiplexer(const std::filesystem::path& folder) {
+  if (auto s = write_skewed_multiplexer(folder, 7, 3); !s) return s;
+  if (auto s = write_skewed_multiplexer(folder, 32, 1); !s) return s;
+  return write_skewed_multiplexer(folder, 40, 2);
+}
+
+Status write_skewed_strobe(const std::filesystem::path& folder) {
+  if (auto s = write_skewed_strobe(folder, 1); !s) return s;
+  if (auto s = write_skewed_strobe(folder, 2); !s) return s;
+  return write_skewed_strobe(folder, 3);
+}
+
+Status write_deskew(const std::filesystem::path& folder) {
+  if (auto s = write_deskew(folder, 7, 3); !s) return s;
+  if (auto s = write_deskew(folder, 32, 1); !s) return s;
+  return write_deskew(folder, 40, 2);
 }
 
 Status write_plane_interpolator(const std::filesystem::path& folder) {

@@ -1,0 +1,80 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- Words and choices at random, clock by clock: the skewed word that was chosen.
+library ieee;
+use ieee.std_logic_1164.all;
+use work.tb_pkg.all;
+
+entity skewed_multiplexer_run is
+  generic (
+    g_bits   : positive;
+    g_parts  : positive;
+    g_folder : string
+  );
+  port (
+    finished : out boolean := false
+  );
+end entity;
+
+architecture sim of skewed_multiplexer_run is
+  signal clk      : std_logic := '0';
+  signal select_b : std_logic := '0';
+  signal a        : std_logic_vector(g_bits - 1 downto 0) := (others => '0');
+  signal b        : std_logic_vector(g_bits - 1 downto 0) := (others => '0');
+  signal value    : std_logic_vector(g_bits - 1 downto 0);
+begin
+  dut : entity work.skewed_multiplexer
+    generic map (g_bits => g_bits, g_parts => g_parts)
+    port map (clk => clk, select_b => select_b, a => a, b => b, value => value);
+
+  clk <= not clk after c_half_period when not finished;
+
+  run : process is
+    variable vectors               : vectors_t;
+    variable checked, select_b_now : std_logic;
+    variable a_now, b_now          : std_logic_vector(g_bits - 1 downto 0);
+  begin
+    vectors.open_file(g_folder & "/" & to_string(g_bits) & "_" & to_string(g_parts) & ".txt");
+    while vectors.next_vector loop
+      vectors.read_flag(checked);
+      vectors.read_flag(select_b_now);
+      vectors.read_word(a_now);
+      vectors.read_word(b_now);
+      select_b <= select_b_now;
+      a        <= a_now;
+      b        <= b_now;
+      wait until rising_edge(clk);
+      vectors.check_word_if(checked, "value", value);
+    end loop;
+    finished <= true;
+    wait;
+  end process;
+end architecture;
+
+entity skewed_multiplexer_tb is
+  generic (
+    g_folder : string := "skewed_multiplexer"
+  );
+end entity;
+
+architecture sim of skewed_multiplexer_tb is
+  signal finished : boolean_vector(0 to 2);
+begin
+  two_parts : entity work.skewed_multiplexer_run
+    generic map (g_bits => 40, g_parts => 2, g_folder => g_folder)
+    port map (finished => finished(0));
+
+  one_part : entity work.skewed_multiplexer_run
+    generic map (g_bits => 32, g_parts => 1, g_folder => g_folder)
+    port map (finished => finished(1));
+
+  three_parts : entity work.skewed_multiplexer_run
+    generic map (g_bits => 7, g_parts => 3, g_folder => g_folder)
+    port map (finished => finished(2));
+
+  done : process is
+  begin
+    wait until and finished;
+    report "skewed_multiplexer_tb: passed" severity note;
+    wait;
+  end process;
+end architecture;
