@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors as values: what went wrong, where, and how the program ends because of it.
+// Errors as values. An error holds a message and the exit code with which the program ends.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace halfway {
 
-/// How the program ends; the numbers are the process's exit codes.
+/// Exit codes of the process.
 enum class ExitCode { equal = 0, differs = 1, bad_input = 2, tool_failed = 3 };
 
 struct Error {
   ExitCode code = ExitCode::bad_input;
-  std::string message;  ///< "file:line: what, and what to do"
+  std::string message;  ///< "file:line: the fault, and how to mend it"
 };
 
 inline Error bad_input(std::string message) {
@@ -23,7 +23,7 @@ inline Error tool_failed(std::string message) {
   return {ExitCode::tool_failed, std::move(message)};
 }
 
-/// A value or the error that kept it from being made.
+/// A value, or the error because of which there is no value.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one place where a real number becomes an integer: a cast of what does not fit is undefined.
+// All conversions from a real number to an integer use this function. A plain cast is undefined if the value
+// does not fit.
 #pragma once
 
 #include <concepts>
@@ -7,12 +8,12 @@
 
 namespace halfway {
 
-/// Towards zero, held within Integer; 0 for what is no number. tb/stability/conversions.cpp lists the
-/// callers.
+/// Rounds towards zero and clamps to the range of Integer. NaN gives 0. tb/stability/conversions.cpp lists
+/// the callers.
 template <class Integer, std::floating_point Real>
 constexpr Integer to_integer(Real value) {
   using Range = std::numeric_limits<Integer>;
-  // 2^digits: the largest integer itself may not be a Real.
+  // 2^digits. Real cannot represent every Integer, so the largest Integer is not used as the limit.
   constexpr Real c_half = static_cast<Real>(Integer{1} << (Range::digits - 1)), c_end = 2 * c_half;
   if (value >= c_end) return Range::max();
   if (value <= (Range::is_signed ? -c_end : Real{-1})) return Range::min();

@@ -31,7 +31,7 @@ FrameAssembler::FrameAssembler(FrameSize size, const Tile& tile, glm::dvec3 back
 }
 
 void FrameAssembler::clear() {
-  const auto background = background_;  // for the compiler: not a byte of the frame
+  const auto background = background_;  // a copy that no write to the frame can change
   for (auto pixel = frame_.rgb.begin(); pixel != frame_.rgb.end();)
     pixel = std::copy(background.begin(), background.end(), pixel);
   std::fill(z_.begin(), z_.end(), c_empty);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a stream of fragments to a frame: z test and write, the same for golden model and simulators.
+// Assembles a frame from a stream of fragments: z test and write. Golden model and simulators use the same
+// code.
 #pragma once
 
 #include <array>
@@ -21,24 +22,24 @@ class FrameAssembler {
   /// `background` is linear radiance, for pixels without a fragment.
   FrameAssembler(FrameSize size, glm::dvec3 background)
       : FrameAssembler(size, whole_frame(size), background) {}
-  /// Of a frame of this size the tile alone: what falls beside it is left out.
+  /// Assembles one tile of a frame of this size. Fragments outside the tile are counted and discarded.
   FrameAssembler(FrameSize size, const Tile& tile, glm::dvec3 background);
 
-  /// Begins another frame, in the same room: new room would be the system's to find and to clear, page by
-  /// page.
+  /// Starts another frame in the same memory. New memory would have to be allocated and cleared by the
+  /// operating system page by page.
   void clear();
 
-  /// The smaller z keeps a pixel; of equal ones the first to come. Fails at the first fragment that lies
-  /// outside the frame or whose z has more than 24 bits; those before it are in the frame.
+  /// The fragment with the smallest z is kept; of equal z the first. Fails at the first fragment that lies
+  /// outside the frame or whose z has more than 24 bits. The fragments before it are in the frame.
   Status add(std::span<const Fragment> fragments);
 
-  const Frame& frame() const { return frame_; }  ///< or the tile
-  /// 1 where a fragment fell, else 0; one byte a pixel.
+  const Frame& frame() const { return frame_; }  ///< or of the tile
+  /// One byte per pixel: 1 if the pixel has a fragment, else 0.
   std::vector<std::uint8_t> mask() const;
-  /// Depth of each pixel; none without a fragment.
+  /// Depth of a pixel; empty without a fragment.
   std::optional<std::uint32_t> depth(std::uint32_t x, std::uint32_t y) const;
   std::uint64_t fragments() const { return fragments_; }
-  std::uint64_t fragments_inside() const { return fragments_ - beside_; }  ///< the tile
+  std::uint64_t fragments_inside() const { return fragments_ - beside_; }  ///< inside the tile
   std::uint64_t covered_pixels() const { return covered_pixels_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fragment: what the hardware emits for one covered pixel of one triangle.
+// A fragment: the hardware's output for one covered pixel of one triangle.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 namespace halfway {
 
 struct Fragment {
-  std::uint32_t triangle;  ///< number of the scene's triangle
-  std::uint32_t z;         ///< depth, 24 bits, grows with distance
+  std::uint32_t triangle;  ///< number of the triangle in the scene
+  std::uint32_t z;         ///< depth, 24 bits, increases with distance
   std::uint16_t y, x;      ///< pixel, (0, 0) at the frame's top left
   std::uint8_t red, green, blue;
   std::uint8_t reserved = 0;

@@ -14,7 +14,7 @@ struct FrameSize {
   friend bool operator==(const FrameSize&, const FrameSize&) = default;
 };
 
-/// WIDTHxHEIGHT; none where the text is another, whatever the numbers.
+/// Parses WIDTHxHEIGHT. Empty if the text has another form. The numbers' range is not checked.
 std::optional<FrameSize> parse_frame_size(std::string_view text);
 std::string to_string(FrameSize size);
 

@@ -50,7 +50,7 @@ Result<FrameDistance> frame_distance(const Frame& a, const Frame& b, std::span<c
   }
 
   const std::uint64_t channels = 3 * result.pixels;
-  std::uint64_t sum_of_squares = 0, seen = 0;  // 3 * 2^24 channels of 2^16 each: far from the end of 64 bits
+  std::uint64_t sum_of_squares = 0, seen = 0;  // at most 3 * 2^24 channels of 2^16 each: fits 64 bits
   bool percentile_found = false;
   for (unsigned d = 0; d < 256; ++d) {
     const std::uint64_t count = channels_by_distance[d];

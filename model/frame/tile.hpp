@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rectangles that a frame is cut into, and the frame put together of them.
+// Divides a frame into rectangles (tiles), and assembles the frame from them.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct Tile {
 
   bool empty() const { return size.width == 0 || size.height == 0; }
   bool holds(std::uint32_t column, std::uint32_t line) const {
-    return column - x < size.width && line - y < size.height;  // what lies before wraps
+    return column - x < size.width && line - y < size.height;  // smaller coordinates wrap to large values
   }
   friend bool operator==(const Tile&, const Tile&) = default;
 };
@@ -32,7 +32,8 @@ inline bool overlap(const Tile& a, const Tile& b) {
          a.y < b.y + b.size.height && b.y < a.y + a.size.height;
 }
 
-/// Tiles of this size, smaller ones at the right and at the bottom: each pixel lies in one. Line by line.
+/// Tiles of this size, line by line. Those at the right and at the bottom may be smaller. Each pixel lies in
+/// exactly one tile.
 inline std::vector<Tile> tiles_of(FrameSize frame, FrameSize tile) {
   std::vector<Tile> tiles;
   for (std::uint32_t y = 0; y < frame.height; y += tile.height)
@@ -42,7 +43,7 @@ inline std::vector<Tile> tiles_of(FrameSize frame, FrameSize tile) {
   return tiles;
 }
 
-/// Puts a tile's picture, which is as large as the tile, where it belongs in the frame.
+/// Copies a tile's picture, of the tile's size, to its place in the frame.
 inline void put_tile(Frame& frame, const Frame& picture, const Tile& tile) {
   for (std::uint32_t y = 0; y < tile.size.height; ++y)
     std::copy_n(picture.rgb.begin() + static_cast<std::ptrdiff_t>(picture.offset(0, y)),

@@ -14,12 +14,13 @@ namespace halfway {
 
 namespace {
 
-/// Control points, [row along the profile][point around it]. Newell's own space: z up, spout towards +x.
+/// Control points, [row along the profile][point around the axis]. Newell's own space: z up, spout towards
+/// +x.
 using Patch = std::array<std::array<glm::dvec3, 4>, 4>;
 
-/// A circle of the pot's profile. Its quarter runs from +x to -y over four points; `tangent` is how far its
-/// inner two lie along their tangents, as a part of the radius. Newell took 0.56 for 0.5523, a circle's
-/// value.
+/// A circle of the pot's profile. Its quarter runs from +x to -y and has four points. The inner two points
+/// lie on the tangents of the outer two, at the distance `tangent` times the radius. Newell uses 0.56. The
+/// best approximation of a circle is 0.5523.
 struct Circle {
   double radius, z;
   double tangent = 0.56;
@@ -30,7 +31,8 @@ struct Section {
   double x1, z1, x2, z2, half_width;
 };
 
-// Newell's figures. Profiles run from top to bottom, as each patch's outside then is on the same side.
+// Newell's figures. Each profile runs from top to bottom, so that the outside of every patch is on the same
+// side.
 constexpr std::array<Circle, 7> c_lid = {
     {{0.0, 3.15}, {0.8, 3.15, 0.5625}, {0.0, 2.85}, {0.2, 2.7}, {0.4, 2.55}, {1.3, 2.55}, {1.3, 2.4}}};
 constexpr std::array<Circle, 13> c_pot = {{{1.4, 2.4},
@@ -72,8 +74,8 @@ std::array<glm::dvec3, 4> control_row(const Section& section) {
   return {{{x1, 0.0, z1}, {x1, -half_width, z1}, {x2, -half_width, z2}, {x2, 0.0, z2}}};
 }
 
-/// Weights of a cubic's four control points, and of its derivative, at step / steps. At either end they are
-/// exactly 0 and 1, so that patches which share a row of points meet in the same bits.
+/// Weights of a cubic's four control points, and of its derivative, at step / steps. At both ends the weights
+/// are exactly 0 and 1. Patches that share a row of points therefore have bit-identical points there.
 struct Bernstein {
   Bernstein(std::uint32_t step, std::uint32_t steps) {
     const double t = static_cast<double>(step) / steps;
@@ -94,7 +96,8 @@ glm::dvec3 blend(const std::array<double, 4>& weight, const Row& row) {
 
 glm::dvec3 point(const Bernstein& at, const Row& row) {
   glm::dvec3 result = blend(at.value, row);
-  // The weights' sum is 1 but for rounding, which must not blur a pole into several points or bend a rim.
+  // The sum of the weights is 1 except for rounding. Copy equal coordinates, so that rounding cannot split a
+  // pole into several points or bend a rim.
   for (int axis = 0; axis < 3; ++axis) {
     const double first = row[0][axis];
     if (first == row[1][axis] && first == row[2][axis] && first == row[3][axis]) result[axis] = first;
@@ -111,14 +114,14 @@ Row slopes(const Bernstein& across, const Patch& patch) {
           blend(across.slope, patch[3])};
 }
 
-/// Unit normal; (across x along) points out of every patch above.
+/// Unit normal. (across x along) points outwards for every patch above.
 glm::dvec3 patch_normal(const Bernstein& across, const Bernstein& along, const Patch& patch) {
   glm::dvec3 d_across = blend(along.value, slopes(across, patch));
   const glm::dvec3 d_along = blend(along.slope, points(across, patch));
   if (glm::length(d_across) < 1e-9) {
-    // At a pole the row has shrunk to a point. The derivative across it vanishes in proportion to the way
-    // from the pole, so the mixed derivative has its direction (reversed where the row closes instead of
-    // opens).
+    // At a pole the row is a single point and the derivative across it is zero. Close to the pole this
+    // derivative is proportional to the distance from the pole, so the mixed derivative has its direction.
+    // The sign is reversed where the row closes instead of opens.
     const bool opens = along.value[0] == 1.0;
     d_across = (opens ? 1.0 : -1.0) * blend(along.slope, slopes(across, patch));
   }
@@ -177,7 +180,7 @@ class TeapotBuilder {
       index = static_cast<std::uint32_t>(mesh_.positions.size());
       mesh_.positions.push_back(position);
     }
-    // Neighbouring patches are smooth into one another; only rounding tells their normals apart.
+    // Normals of neighbouring patches on a shared edge differ only by rounding. Use one normal for both.
     for (const std::uint32_t other : normals) {
       if (glm::length(mesh_.normals[other] - normal) < 1e-9) return {index, other};
     }
@@ -245,7 +248,8 @@ Mesh make_teapot(std::uint32_t divisions) {
 
 Mesh make_box(const glm::dvec3& size, std::uint32_t divisions) {
   Mesh mesh;
-  // Steps from the lowest corner along x, y and z: faces that meet share the vertices of their edge.
+  // Identify a vertex by its lattice steps from the lowest corner along x, y and z. Faces that meet then
+  // share the vertices of their edge.
   using Lattice = std::array<std::uint32_t, 3>;
   std::map<Lattice, std::uint32_t> known;
   const auto vertex = [&](const Lattice& at) {
@@ -261,7 +265,7 @@ Mesh make_box(const glm::dvec3& size, std::uint32_t divisions) {
   for (std::uint32_t face = 0; face < 6; ++face) {
     const std::uint32_t normal_axis = face / 2;
     const bool is_upper = face % 2 == 1;
-    // Right-handed about the outward normal.
+    // Choose the axes right-handed about the outward normal.
     const std::uint32_t u_axis = (normal_axis + (is_upper ? 1 : 2)) % 3;
     const std::uint32_t v_axis = (normal_axis + (is_upper ? 2 : 1)) % 3;
     glm::dvec3 normal(0.0);

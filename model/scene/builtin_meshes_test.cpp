@@ -17,7 +17,7 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// How often each edge is walked, by direction.
+/// Number of triangles on each directed edge.
 std::map<Edge, int> directed_edges(const Mesh& mesh) {
   std::map<Edge, int> count;
   for (const SceneTriangle& triangle : mesh.triangles) {
@@ -28,7 +28,7 @@ std::map<Edge, int> directed_edges(const Mesh& mesh) {
   return count;
 }
 
-/// Edges without a neighbour; fails where an edge is walked twice in one direction.
+/// Edges with a triangle on one side only. Fails if two triangles have an edge in the same direction.
 std::vector<Edge> open_edges(const Mesh& mesh) {
   const std::map<Edge, int> edges = directed_edges(mesh);
   std::vector<Edge> open;
@@ -99,7 +99,8 @@ TEST(Teapot, HasItsTrianglesAndSize) {
   }
 }
 
-/// The triangles' pieces, joined over edges: the handle touches the pot in a single vertex.
+/// Splits the mesh into pieces whose triangles are connected by edges. A shared vertex alone does not
+/// connect: the handle touches the pot in a single vertex.
 std::vector<Mesh> pieces(const Mesh& mesh) {
   std::map<Edge, std::size_t> triangle_of;
   std::vector<std::size_t> parent(mesh.triangles.size());
@@ -130,7 +131,7 @@ std::vector<Mesh> pieces(const Mesh& mesh) {
 TEST(Teapot, IsWatertightBetweenItsSixRims) {
   for (const std::uint32_t divisions : {2u, 3u, 5u, 8u, 11u}) {
     const Mesh mesh = make_teapot(divisions);
-    // Pot and lid: one rim of four quarters each; handle and spout: two rims of two halves each.
+    // Pot and lid have one rim of four quarters each. Handle and spout have two rims of two halves each.
     EXPECT_EQ(open_edges(mesh).size(), (4u + 4u + 4u + 4u) * divisions);
     EXPECT_EQ(pieces(mesh).size(), 4u);
     for (const Edge& edge : open_edges(mesh)) {
@@ -147,7 +148,7 @@ TEST(Teapot, IsWatertightBetweenItsSixRims) {
 
 TEST(Teapot, EveryPieceFacesOutward) {
   for (Mesh& piece : pieces(make_teapot(6))) {
-    // Caps over the rims make the piece a solid, whose volume is positive if its triangles face out.
+    // Close the rims by caps. The volume of the resulting solid is positive if its triangles face outwards.
     const std::vector<Edge> open = open_edges(piece);
     std::map<std::uint32_t, std::uint32_t> next;
     for (const Edge& edge : open) next[edge.first] = edge.second;
@@ -177,7 +178,7 @@ TEST(Teapot, NormalsAreUnitAndOnTheTrianglesSide) {
 }
 
 TEST(Teapot, NormalsAgreeWithTheFinerMesh) {
-  // With many divisions a face's own normal tends to the surface's.
+  // With many divisions the normal of a face approaches the normal of the surface.
   const Mesh mesh = make_teapot(64);
   for (const SceneTriangle& triangle : mesh.triangles) {
     const glm::dvec3 face = glm::normalize(cross_of(mesh, triangle));
@@ -207,7 +208,7 @@ TEST(Box, IsClosedAndFlatOnItsFaces) {
     EXPECT_TRUE(open_edges(mesh).empty());
     expect_no_position_twice(mesh);
     expect_unit_normals_on_the_outside(mesh);
-    // A lattice's vertices on the surface of a cube of d + 1 a side.
+    // Count the vertices of a lattice on the surface of a cube with d + 1 vertices per edge.
     const std::size_t n = divisions + 1;
     EXPECT_EQ(mesh.positions.size(), n * n * n - (n - 2) * (n - 2) * (n - 2));
     double area = 0.0;
@@ -227,11 +228,11 @@ TEST(OpenEdges, AreThoseWithoutANeighbourAgainstThem) {
   EXPECT_EQ(halfway::open_edges(make_box({1, 2, 3}, 3).triangles), 0u);
   EXPECT_EQ(halfway::open_edges(make_teapot(5).triangles), 16u * 5u);
   Mesh box = make_box({1, 2, 3}, 1);
-  std::swap(box.triangles[4].position[0], box.triangles[4].position[1]);  // its neighbours walk along with it
+  std::swap(box.triangles[4].position[0], box.triangles[4].position[1]);  // now in its neighbours' direction
   EXPECT_EQ(halfway::open_edges(box.triangles), 3u * 2u);
   box.triangles.erase(box.triangles.begin() + 4);
   EXPECT_EQ(halfway::open_edges(box.triangles), 3u);
-  box.triangles.push_back(box.triangles[0]);  // three at an edge
+  box.triangles.push_back(box.triangles[0]);  // three triangles at each of its edges
   EXPECT_EQ(halfway::open_edges(box.triangles), 6u);
   box.triangles = {{{7, 7, 2}, {0, 0, 0}, 0}};
   EXPECT_EQ(halfway::open_edges(box.triangles), 0u);

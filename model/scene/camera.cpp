@@ -11,10 +11,10 @@ namespace halfway {
 
 namespace {
 
-// Below this sine of the angle between up and the viewing axis, rounding would choose the roll.
+// Least sine of the angle between up and the viewing axis. Below it, rounding would determine the roll.
 constexpr double c_min_up_sine = 1e-6;
 constexpr double c_near_part_of_far = 1e-3;
-// Vertices on the sphere itself must stay inside after the rounding of a projection.
+// Margin that keeps vertices on the sphere inside the range despite the rounding of a projection.
 constexpr double c_depth_slack = 1e-3;
 
 }  // namespace
@@ -23,7 +23,7 @@ bool has_view(const Camera& camera) {
   const glm::dvec3 backward = camera.eye_world - camera.target_world;
   const double distance = glm::length(backward);
   const double up_length = glm::length(camera.up_world);
-  // An eye so near its target that the difference is rounding has no direction either.
+  // If the distance from eye to target is of the size of rounding, the view has no direction.
   const double size = std::max(glm::length(camera.eye_world), glm::length(camera.target_world));
   if (!(distance > size * 1e-12) || !(up_length > 0.0)) return false;
   const glm::dvec3 sine = glm::cross(camera.up_world / up_length, backward / distance);
@@ -65,7 +65,8 @@ DepthRange depth_range(const Camera& camera, const BoundingSphere& sphere) {
   double far = camera.far;
   if (far <= 0.0) {
     far = back;
-    // Everything lies behind the eye, or before the near plane: any range shows it rightly, as nothing.
+    // The scene lies entirely behind the eye or in front of the near plane. Any range shows nothing, as it
+    // should.
     if (far <= camera.near) far = camera.near > 0.0 ? 2.0 * camera.near : glm::length(to_centre);
     if (far <= 0.0) far = 1.0;
   }
@@ -82,7 +83,8 @@ Camera fit_camera(const BoundingSphere& sphere, const glm::dvec3& to_eye_world, 
                   double vertical_fov_degrees) {
   const double half_height = std::tan(0.5 * glm::radians(vertical_fov_degrees));
   const double half_width = half_height * c_fit_aspect;
-  // The sphere touches the planes of the nearer pair of sides, so its sine counts, not its tangent.
+  // The sphere touches the planes of the nearer pair of sides, so use the sine of the half angle, not its
+  // tangent.
   const double half_angle = std::atan(std::min(half_height, half_width));
   const double radius = sphere.radius > 0.0 ? sphere.radius : 1.0;
   const double distance = radius * (1.0 + c_fit_margin) / std::sin(half_angle);

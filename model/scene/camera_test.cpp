@@ -57,7 +57,7 @@ TEST(FitCamera, FillsTheNarrowerSideButForTheMargin) {
     }
     EXPECT_LT(top, 1.0);
     EXPECT_LT(side, 1.0);
-    // sin of the angle to the horizon is 1 / 1.05 of the field's.
+    // The sine of the angle to the horizon is 1 / 1.05 times the sine of half the field of view.
     const double horizon = std::asin(std::sin(glm::radians(fov / 2)) / (1.0 + c_fit_margin));
     EXPECT_NEAR(top, std::tan(horizon) / std::tan(glm::radians(fov / 2)), 0.01);
   }

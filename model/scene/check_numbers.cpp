@@ -24,7 +24,7 @@ bool is_unit(glm::dvec3 v) {
   return std::abs(glm::length(v) - 1.0) <= c_not_unit;
 }
 
-// Keeps the first fault.
+// Keeps the first error only.
 class Checker {
  public:
   explicit Checker(const Scene& scene) : scene_(scene) {}

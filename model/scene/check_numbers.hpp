@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What scene.hpp says of a scene's numbers, for scenes that no loader has seen.
+// Checks the ranges that scene.hpp gives for a scene's numbers. For scenes that were not read by a loader.
 #pragma once
 
 #include "common/result.hpp"
@@ -7,9 +7,9 @@
 
 namespace halfway {
 
-/// An error that names the first number that is not finite or not in the range that scene.hpp gives it, the
-/// first direction that is not unit, the first index past its list. A normal may be zero (1e-8 at most): then
-/// the triangle's own stands for it.
+/// The error names the first number that is not finite or out of the range given in scene.hpp, the first
+/// direction that is not a unit vector, or the first index out of range. A normal may be zero (length at most
+/// 1e-8): the triangle's own normal is then used.
 Status check_numbers(const Scene& scene);
 
 }  // namespace halfway

@@ -14,7 +14,7 @@
 namespace halfway {
 namespace {
 
-// The shape: about the distance to its surface, negative inside.
+// The shape: approximate signed distance to its surface, negative inside.
 
 double ellipsoid(glm::dvec3 p, glm::dvec3 centre, glm::dvec3 radii) {
   const glm::dvec3 q = p - centre;
@@ -22,13 +22,13 @@ double ellipsoid(glm::dvec3 p, glm::dvec3 centre, glm::dvec3 radii) {
   return slope > 0.0 ? k * (k - 1.0) / slope : -std::min({radii.x, radii.y, radii.z});
 }
 
-/// A rod with round ends, of another radius at each.
+/// A rod with round ends of different radii.
 double rod(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, double radius_a, double radius_b) {
   const double t = std::clamp(glm::dot(p - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
   return glm::length(p - glm::mix(a, b, t)) - (radius_a + t * (radius_b - radius_a));
 }
 
-/// The nearer of two, flowing into one another within `width`.
+/// Smooth union: the smaller of two distances, blended within `width`.
 double joined(double a, double b, double width) {
   const double h = std::max(width - std::abs(a - b), 0.0) / width;
   return std::min(a, b) - 0.25 * width * h * h;
@@ -64,8 +64,8 @@ glm::dvec3 slope(glm::dvec3 p) {
 
 const glm::dvec3 c_low{-2.0, -1.8, -1.2}, c_high{2.0, 2.0, 1.2};
 
-/// A lattice of cells around the shape: a vertex in each that the surface crosses, a square around each edge
-/// that it crosses (surface nets).
+/// Surface nets: a lattice of cells around the shape. Each cell that the surface crosses has one vertex, each
+/// lattice edge that it crosses one square.
 class Net {
  public:
   explicit Net(std::uint32_t cells) : cells_(cells) {
@@ -104,7 +104,7 @@ class Net {
     return at;
   }
 
-  // The mean of where the cell's edges are crossed, drawn to the surface.
+  // Take the mean of the crossings on the cell's edges and move it onto the surface.
   void add_vertex(Place at) {
     glm::dvec3 sum(0.0);
     int crossings = 0;
@@ -131,7 +131,7 @@ class Net {
     mesh_.normals.push_back(glm::normalize(slope(p)));
   }
 
-  // Around the edge that goes from this place along the axis: the four cells that share it.
+  // Connect the four cells that share the edge from this place along the axis.
   void add_square(Place at, int axis) {
     const bool inside = values_[index(at)] < 0.0;
     if (inside == (values_[index(moved(at, axis))] < 0.0)) return;
@@ -139,7 +139,7 @@ class Net {
     const auto cell = [&](int du, int dv) { return vertex_[index(moved(moved(at, u, -du), v, -dv))]; };
     std::array<std::uint32_t, 4> corner{cell(1, 1), cell(0, 1), cell(0, 0), cell(1, 0)};
     if (!inside) std::swap(corner[1], corner[3]);
-    // Along the shorter diagonal.
+    // Split along the shorter diagonal.
     const auto length = [&](int a, int b) {
       return glm::distance(mesh_.positions[corner[a]], mesh_.positions[corner[b]]);
     };
@@ -152,7 +152,7 @@ class Net {
   std::uint32_t cells_;
   Place count_{};
   std::vector<double> values_;
-  std::vector<std::uint32_t> vertex_;  // by place; of the cells that the surface crosses
+  std::vector<std::uint32_t> vertex_;  // index of the vertex of each cell that the surface crosses
   Mesh mesh_;
 };
 

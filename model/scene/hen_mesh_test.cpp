@@ -18,7 +18,7 @@ TEST(Hen, IsClosedAndFacesOutward) {
     EXPECT_EQ(drop_zero_area(mesh), 0u);
     std::set<std::tuple<double, double, double>> seen;
     for (const glm::dvec3& p : mesh.positions) EXPECT_TRUE(seen.emplace(p.x, p.y, p.z).second);
-    // Its volume is positive: the outside is outside.
+    // The volume is positive if the triangles face outwards.
     double volume = 0.0;
     for (const SceneTriangle& t : mesh.triangles)
       volume += glm::dot(mesh.positions[t.position[0]],
@@ -41,7 +41,7 @@ TEST(Hen, HasTheShapesNormals) {
       averted += glm::dot(face, mesh.normals[normal]) <= 0.0 ? 1 : 0;
     }
   }
-  EXPECT_LT(averted, mesh.triangles.size() / 50);  // in creases alone
+  EXPECT_LT(averted, mesh.triangles.size() / 50);  // only in creases
 }
 
 }  // namespace

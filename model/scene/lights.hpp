@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lights of a scene, of every kind, through one interface: where the light comes from, how bright it is,
-// and which share of it a cone lets through. Everything that walks over lights does it through this header.
+// One interface to the lights of a scene, of every kind: position or direction, intensity and cone. All code
+// that iterates over lights uses this header.
 #pragma once
 
 #include <array>
@@ -16,62 +16,63 @@
 namespace halfway {
 
 /// A new kind needs a list in Scene, an enumerator here, and a case in each switch that the compiler then
-/// names (-Werror=switch): a shader either draws the kind or refuses it.
+/// names (-Werror=switch). A shader either draws the kind or refuses it.
 enum class LightKind { directional, positional, spot };
 inline constexpr std::array c_light_kinds = {LightKind::directional, LightKind::positional, LightKind::spot};
 
-/// Such as "positional".
+/// For example "positional".
 const char* to_string(LightKind kind);
 
-/// Names a light of a scene.
+/// Identifies one light of a scene.
 struct LightRef {
   LightKind kind;
-  std::size_t index;  ///< into the scene's list of that kind
+  std::size_t index;  ///< in the scene's list of that kind
   friend bool operator==(const LightRef&, const LightRef&) = default;
 };
 
-/// Such as "positional light 2".
+/// For example "positional light 2".
 std::string name_of(LightRef light);
 
-/// Where light comes from, in homogeneous coordinates.
+/// Position or direction of a light, in homogeneous coordinates.
 struct LightPoint {
-  glm::dvec3 xyz_world;  ///< a unit direction where w = 0
-  double w;              ///< 0 for a directional light, 1 for one with a position
+  glm::dvec3 xyz_world;  ///< a unit direction if w = 0
+  double w;              ///< 0 for a directional light, 1 for a light with a position
 
-  /// Towards the light: as far as it is, or unit.
+  /// Vector towards the light: of the distance's length if the light has a position, otherwise unit.
   glm::dvec3 way_from(const glm::dvec3& point_world) const { return xyz_world - w * point_world; }
 };
 
-/// The cone of a spot: full inside `cos_inner`, nothing outside `cos_outer`, smoothstep between.
+/// The cone of a spot: full inside `cos_inner`, zero outside `cos_outer`, smoothstep between.
 struct LightCone {
   glm::dvec3 axis_world;  ///< unit, the direction in which the light points
   double cos_inner, cos_outer;
 };
 
-/// One light, whatever its kind.
+/// One light of any kind.
 struct Light {
   LightRef ref;
   LightPoint point;
   glm::dvec3 intensity;
-  std::optional<LightCone> cone;  ///< none: the light shines in every direction
+  std::optional<LightCone> cone;  ///< empty: the light shines in every direction
 };
 
-/// Unit vector from one point to another, zero where they coincide.
+/// Unit vector from one point to another, zero if they coincide.
 glm::dvec3 direction(glm::dvec3 from, glm::dvec3 to);
 
-/// Unit vector from a point to the light; zero where the light is at the very point.
+/// Unit vector from a point to the light, zero if the light is at the point.
 glm::dvec3 direction_to(const Light& light, const glm::dvec3& point_world);
 
-/// Smoothstep from 0 at cos_outer to 1 at cos_inner; a step where they are equal.
+/// Smoothstep from 0 at cos_outer to 1 at cos_inner. A step if they are equal.
 double cone_share(const LightCone& cone, double cos_to_axis);
-/// The share of the light that leaves in the direction opposite to `to_light` (unit): 1 without a cone.
+/// The share of the light emitted in the direction opposite to `to_light` (unit). 1 if the light has no cone.
 double cone_share(const Light& light, const glm::dvec3& to_light);
 
 std::size_t light_count(const Scene& scene, LightKind kind);
 std::size_t light_count(const Scene& scene);
 Light light_of(const Scene& scene, LightRef ref);
 
-/// Calls visit(Light) for every light: kind by kind in the order of c_light_kinds, each in the scene's order.
+/// Calls visit(Light) for every light: by kind in the order of c_light_kinds, within a kind in the scene's
+/// order.
 template <class Visit>
 void for_each_light(const Scene& scene, Visit&& visit) {
   for (const LightKind kind : c_light_kinds)

@@ -32,7 +32,7 @@ struct PositionHash {
   }
 };
 
-// Corner c of triangle t is 3 t + c. Follows a corner to the one that stands for its smooth group.
+// Corner c of triangle t has number 3 t + c. Returns the corner that represents the smooth group of a corner.
 std::uint32_t group_of(std::vector<std::uint32_t>& parent, std::uint32_t corner) {
   while (parent[corner] != corner) {
     parent[corner] = parent[parent[corner]];
@@ -49,7 +49,7 @@ void join_groups(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint3
 
 glm::dvec3 face_normal(const Mesh& mesh, const SceneTriangle& triangle) {
   const glm::dvec3& a = mesh.positions[triangle.position[0]];
-  // Scaled by the longest side first: the squares of very small or large edges would leave the double's
+  // Scale by the longest side first: the squares of very small or very large edges would exceed double's
   // range.
   const glm::dvec3 ab = mesh.positions[triangle.position[1]] - a;
   const glm::dvec3 ac = mesh.positions[triangle.position[2]] - a;
@@ -65,7 +65,7 @@ double corner_angle(const Mesh& mesh, const SceneTriangle& triangle, int corner)
   return std::atan2(glm::length(glm::cross(left, right)), glm::dot(left, right));
 }
 
-// Which corners share a normal.
+// Groups the corners that share a normal.
 std::vector<std::uint32_t> smooth_groups(const Mesh& mesh, const std::vector<glm::dvec3>& face_normals,
                                          double crease_degrees) {
   std::vector<std::uint32_t> parent(3 * mesh.triangles.size());
@@ -134,8 +134,8 @@ void join_positions(Mesh& mesh) {
 void transform(Mesh& mesh, const glm::dmat4& matrix) {
   const glm::dmat3 linear(matrix);
   const double determinant = glm::determinant(linear);
-  // The cofactors are the inverse transpose times the determinant; only its sign matters, lengths are unit
-  // again.
+  // The matrix of cofactors is the inverse transpose times the determinant. Only the determinant's sign
+  // matters, because normals are normalized again.
   const double side = determinant < 0.0 ? -1.0 : 1.0;
   const glm::dmat3 cofactors(side * glm::cross(linear[1], linear[2]), side * glm::cross(linear[2], linear[0]),
                              side * glm::cross(linear[0], linear[1]));
@@ -169,7 +169,7 @@ std::size_t fill_normals(Mesh& mesh, double crease_degrees, bool replace_all) {
     mesh.normals.assign(1, glm::dvec3(0.0));
     for (SceneTriangle& triangle : mesh.triangles) triangle.normal = {0, 0, 0};
   }
-  // A normal of a length far from 1 is rounding noise or a fault of the file: without it is better.
+  // A normal whose length is far from 1 is rounding noise or an error in the file. Treat it as missing.
   for (glm::dvec3& normal : mesh.normals) {
     const double length = glm::length(normal);
     normal = std::isfinite(length) && length > c_min_normal_length ? normal / length : glm::dvec3(0.0);
@@ -204,7 +204,7 @@ std::size_t fill_normals(Mesh& mesh, double crease_degrees, bool replace_all) {
     if (normal >= old_normals || !is_missing(normal)) continue;
     ++filled;
     const double length = glm::length(sum[group[corner]]);
-    if (length <= c_min_normal_length) {  // the faces cancel out, as in two sheets back to back
+    if (length <= c_min_normal_length) {  // the faces cancel, as in two sheets back to back
       normal = add_normal(face_normals[corner / 3]);
       continue;
     }

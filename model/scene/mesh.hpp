@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh on its way into a scene, and what every mesh needs there: joined vertices, area, normals.
+// A mesh before it becomes part of a scene, and the operations that every mesh needs: join vertices, remove
+// triangles of zero area, compute normals.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +14,8 @@
 
 namespace halfway {
 
-/// As in Scene, but in the mesh's own space until `transform` takes it to the world.
-/// A zero normal stands for "none": `fill_normals` computes it.
+/// As in Scene, but in the mesh's own space until `transform` moves it to world space. A zero normal means
+/// "missing": `fill_normals` computes it.
 struct Mesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::dvec3> normals;
@@ -22,24 +23,25 @@ struct Mesh {
   std::vector<Material> materials;
 };
 
-/// Gives vertices of equal coordinates one index, so that triangles that touch also share an index.
+/// Gives vertices with equal coordinates the same index, so that adjacent triangles share indices.
 void join_positions(Mesh& mesh);
 
-/// Moves the mesh by an invertible affine matrix. Normals follow by the inverse transpose; a mirroring matrix
-/// turns the triangles round, so that the outside stays outside.
+/// Transforms the mesh by an invertible affine matrix. Normals are transformed by the inverse transpose. For
+/// a mirroring matrix the order of the corners is reversed, so that the outside stays outside.
 void transform(Mesh& mesh, const glm::dmat4& matrix);
 
-/// Removes triangles whose height is below rounding (1e-12 of their longest edge); returns how many.
+/// Removes triangles whose height is below rounding (1e-12 of their longest edge). Returns their number.
 std::size_t drop_zero_area(Mesh& mesh);
 
-/// Computes normals for every corner whose normal is missing, or for all with `replace_all`; returns how many
-/// corners got one. A normal is the mean of the faces around the vertex, weighted by their angle there. Faces
-/// smooth into one another over an edge where their normals differ by no more than the crease angle; from 180
-/// degrees on, all faces of a vertex do. Needs joined positions and no zero area.
+/// Computes normals for every corner whose normal is missing, or for all corners with `replace_all`. Returns
+/// the number of corners with a new normal. A normal is the mean of the faces around the vertex, weighted by
+/// their angle there. Two faces are smooth across their edge if their normals differ by at most the crease
+/// angle. From 180 degrees on, all faces of a vertex are smooth. Needs joined positions and no triangle of
+/// zero area.
 std::size_t fill_normals(Mesh& mesh, double crease_degrees, bool replace_all);
 
-/// Edges, by position indices, that are not walked as often one way as the other, each as often as it lacks a
-/// neighbour: 0 for a closed mesh.
+/// Number of edges (by position indices) without a matching edge in the opposite direction. An edge counts
+/// once per missing neighbour. 0 for a closed mesh.
 std::size_t open_edges(std::span<const SceneTriangle> triangles);
 
 }  // namespace halfway

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene: what is looked at, from where, in which light. World space, linear radiance, double.
+// A scene: camera, lights, materials and triangles. World space, linear radiance, double.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace halfway {
 
 enum class Brdf { blinn, phong, cook_torrance };
 
-/// Reflection of one surface. The ambient and the diffuse part take `colour`, the specular part
+/// Reflection of one surface. The ambient and the diffuse terms use `colour`, the specular term uses
 /// `specular_colour`.
 struct Material {
   std::string name;
@@ -34,13 +34,13 @@ struct DirectionalLight {
 
 struct PositionalLight {
   glm::dvec3 position_world{0.0};
-  glm::dvec3 intensity{1.0};  ///< without fall-off by distance, as the processors paper has it
+  glm::dvec3 intensity{1.0};  ///< without attenuation by distance, as in the processors paper
 };
 
-/// Full inside `cos_inner`, nothing outside `cos_outer`, smoothstep in the cosine between.
+/// Full inside `cos_inner`, zero outside `cos_outer`, smoothstep in the cosine between.
 struct SpotLight {
   glm::dvec3 position_world{0.0};
-  glm::dvec3 axis_world{0.0, 0.0, -1.0};  ///< unit, the way the light points
+  glm::dvec3 axis_world{0.0, 0.0, -1.0};  ///< unit, the direction in which the light points
   double cos_inner = 0.9;
   double cos_outer = 0.8;  ///< <= cos_inner
   glm::dvec3 intensity{1.0};
@@ -64,11 +64,11 @@ struct Camera {
 };
 
 struct Scene {
-  std::string name;  ///< of the file, without folder and ending; names the output folder
+  std::string name;  ///< of the file, without folder and extension; also names the output folder
   Camera camera;
   glm::dvec3 ambient{0.2};     ///< I_a
-  glm::dvec3 background{0.0};  ///< pixels that no triangle covers
-  bool shadows = false;        ///< do surfaces keep light from one another?
+  glm::dvec3 background{0.0};  ///< of pixels that no triangle covers
+  bool shadows = false;        ///< true: surfaces cast shadows
   std::vector<DirectionalLight> directional;
   std::vector<PositionalLight> positional;
   std::vector<SpotLight> spots;
@@ -76,7 +76,7 @@ struct Scene {
   std::vector<glm::dvec3> positions_world;
   std::vector<glm::dvec3> normals_world;  ///< unit
   std::vector<SceneTriangle> triangles;
-  std::vector<std::string> notes;  ///< what the loader mended or left out, a sentence each; nothing fatal
+  std::vector<std::string> notes;  ///< what the loader corrected or omitted, one sentence each; no errors
 };
 
 inline constexpr std::uint32_t c_max_triangles = 10'000'000;

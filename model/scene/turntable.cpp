@@ -12,7 +12,7 @@ struct Angle {
   double sine, cosine;
 };
 
-// Exact where it is a quarter turn: the eye then lies where a reader of the scene expects it.
+// Multiples of a quarter turn are exact, so that the eye is where a reader of the scene file expects it.
 Angle part_of_turn(std::uint32_t frame, std::uint32_t frames) {
   const std::uint64_t quarters = 4 * std::uint64_t{frame};
   const double rest =

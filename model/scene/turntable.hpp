@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera's way around a scene.
+// A camera that turns around the scene.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace halfway {
 
-/// The camera after `frame` of `frames` steps of one turn around its target, about `up_world` and
-/// counter-clockwise seen from above. Frame 0 is the camera itself, to the last bit.
+/// The camera after step `frame` of `frames` steps of one turn around its target. The axis is `up_world`, the
+/// direction is counter-clockwise seen from above. Frame 0 is bit-identical to the given camera.
 Camera turned(const Camera& camera, std::uint32_t frame, std::uint32_t frames);
 
 }  // namespace halfway

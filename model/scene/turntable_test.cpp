@@ -27,7 +27,7 @@ TEST(Turntable, QuarterTurnsAreExact) {
 }
 
 TEST(Turntable, StepsAreEvenAndKeepHeightAndDistance) {
-  // Up neither of length 1 nor across the view.
+  // Up is neither of length 1 nor perpendicular to the viewing axis.
   const Camera camera{
       .eye_world = {2.0, -1.0, 5.0}, .target_world = {0.5, 0.5, -1.0}, .up_world = {0.3, 2.0, 0.1}};
   const glm::dvec3 axis = glm::normalize(camera.up_world);

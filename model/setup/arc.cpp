@@ -10,7 +10,7 @@ namespace halfway {
 namespace {
 
 constexpr double c_pi = std::numbers::pi;
-// Sine below which two unit vectors are one direction, or opposed: a few roundings of their components.
+// Below this sine two unit vectors are taken as parallel or opposite: a few roundings of their components.
 constexpr double c_no_plane = 1e-15;
 constexpr CosineArc c_dark{0.0, 0.0, 0.0};
 
@@ -18,12 +18,13 @@ bool is_direction(glm::dvec3 v) {
   return std::abs(glm::dot(v, v) - 1.0) < 2e-3;
 }
 
-/// The part of x across the unit vector u.
+/// The component of x perpendicular to the unit vector u.
 glm::dvec3 across(glm::dvec3 x, glm::dvec3 u) {
   return x - glm::dot(x, u) * u;
 }
 
-/// A unit vector across u, always the same one for the same u: from the axis that u is farthest from.
+/// A unit vector perpendicular to u that depends on u alone: derived from the axis with the greatest angle to
+/// u.
 glm::dvec3 any_across(glm::dvec3 u) {
   const glm::dvec3 a{std::abs(u.x), std::abs(u.y), std::abs(u.z)};
   const glm::dvec3 axis = a.x <= a.y && a.x <= a.z ? glm::dvec3(1, 0, 0)
@@ -32,15 +33,16 @@ glm::dvec3 any_across(glm::dvec3 u) {
   return glm::normalize(across(axis, u));
 }
 
-/// How to come from u1 to u2: u(t) = cos(t angle) u1 + sin(t angle) tangent.
+/// The rotation from u1 to u2: u(t) = cos(t angle) u1 + sin(t angle) tangent.
 struct Turn {
   double angle;
-  glm::dvec3 tangent;  ///< unit, across u1
+  glm::dvec3 tangent;  ///< unit, perpendicular to u1
 };
 
 Turn turn_between(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 middle) {
   const double cosine = glm::dot(u1, u2);
-  // u2's part across u1, from the shorter of chord and sum: u2 - u1 (u1.u2) has no digits left near 0 and pi.
+  // The component of u2 perpendicular to u1, from the difference or the sum of the two, whichever is shorter.
+  // u2 - u1 (u1.u2) has no accurate digits close to angles 0 and pi.
   const glm::dvec3 part = across(cosine > 0.0 ? u2 - u1 : u2 + u1, u1);
   const double sine = glm::length(part);
   if (sine > c_no_plane) return {std::atan2(sine, cosine), part / sine};
@@ -82,8 +84,9 @@ CosineArc cosine_arc(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v, const ArcMiddle
 
 CosineArc cosine_arc(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v1, glm::dvec3 v2, const ArcMiddle& middle) {
   if (!is_direction(u1) || !is_direction(u2) || !is_direction(v1) || !is_direction(v2)) return c_dark;
-  // The rotation v1 -> v2 carries the frame (v1, ahead, axis) to (v2, ahead turned, axis): what has the same
-  // coordinates in the first as x in the last is x turned back. Nothing is divided by 1 + cos of the turn.
+  // The rotation v1 -> v2 moves the frame (v1, ahead, axis) to (v2, ahead rotated, axis). Rotate x back: take
+  // its coordinates in the second frame and use them in the first. This avoids a division by 1 + cos of the
+  // angle.
   const Turn v = turn_between(v1, v2, middle.v);
   const glm::dvec3 axis = glm::cross(v1, v.tangent);
   const auto turned_back = [&](glm::dvec3 x, double angle) {

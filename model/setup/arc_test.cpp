@@ -19,18 +19,18 @@ namespace halfway {
 namespace {
 
 constexpr double c_pi = std::numbers::pi;
-constexpr double c_bound = 3e-15;  // arc.hpp's; 1.9e-15 is the most that is seen here
+constexpr double c_bound = 3e-15;  // as in arc.hpp; the largest error seen here is 1.9e-15
 
 double largest_error(const CosineArc& arc, const std::array<double, 9>& expected) {
   double largest = 0.0;
   for (std::size_t i = 0; i < 9; ++i) {
     const double error = std::abs(arc.at(static_cast<double>(i) / 8.0) - expected[i]);
-    if (!(error <= largest)) largest = error;  // NaN stays
+    if (!(error <= largest)) largest = error;  // keeps NaN
   }
   return largest;
 }
 
-/// Angles near 0 by decades.
+/// Angles close to 0, by decades.
 const std::vector<double> c_small{1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8,
                                   1e-7,  1e-6,  1e-5,  1e-4,  1e-3,  1e-2,  0.1,   1.0};
 
@@ -111,14 +111,14 @@ TEST(Arc, OpposedEndsTurnThroughTheMiddle) {
     ASSERT_NEAR(arc.at(1.0), -glm::dot(u1, v), 1e-15);
     const glm::dvec3 half = slerp(u1, -u1, 0.5, middle);
     ASSERT_NEAR(glm::dot(half, through), 1.0, 1e-14);
-    // v turns half round by way of the middle: about the axis across both.
+    // v turns by pi through the middle: about the axis perpendicular to u1 and `through`.
     const glm::dvec3 axis = glm::cross(u1, through), w1 = random.any(), w2 = random.any();
     const CosineArc pair = cosine_arc(w1, w2, u1, -u1, {.v = middle});
     const CosineArc same = cosine_arc(w1, 2.0 * glm::dot(axis, w2) * axis - w2, u1);
     for (double t : {0.0, 0.3, 0.5, 1.0}) {
       ASSERT_NEAR(pair.at(t), same.at(t), 2e-14 / std::sin(pair.sweep)) << t;
     }
-    // u2 is opposed to u1 once v's turn is undone; the middle of u is where it is, not where it is turned to.
+    // u2 is opposite to u1 after v's rotation is undone. The middle of u is given without that rotation.
     const glm::dvec3 v2 = slerp(v, random.any(), 0.4);
     const glm::dvec3 vm = slerp(v, v2, 0.5);
     const auto ahead = [&](glm::dvec3 x, glm::dvec3 to) {
@@ -143,7 +143,7 @@ TEST(Arc, OpposedEndsWithoutAMiddleTakeOneWayForAll) {
     glm::dvec3 u1 = random.any();
     if (i < 6) u1 = glm::dvec3(0.0), u1[i / 2] = i % 2 ? -1.0 : 1.0;
     const glm::dvec3 v = random.any();
-    // The middle may be missing, in line with the ends, or not a number.
+    // The middle may be missing, parallel to the ends, or not a number.
     const std::array<glm::dvec3, 4> middles{glm::dvec3(0.0), u1, -u1,
                                             glm::dvec3(std::numeric_limits<double>::quiet_NaN())};
     for (const glm::dvec3& middle : middles) {
@@ -180,8 +180,8 @@ TEST(Arc, AmplitudeZeroWhereTheVectorIsAcrossThePlane) {
   }
 }
 
-// A^n, the factor of a highlight: no amplitude is above 1, where a great n would make it infinite, and small
-// ones go to 0 without a detour.
+// A^n is the factor of a highlight. No amplitude exceeds 1, because a large n would make it infinite. Powers
+// of small amplitudes underflow to 0.
 TEST(Arc, PowersOfTheAmplitudeUnderflowToZero) {
   Directions random(11);
   int ones = 0, zeros = 0;
@@ -200,8 +200,8 @@ TEST(Arc, PowersOfTheAmplitudeUnderflowToZero) {
   EXPECT_GT(zeros, 1000);
 }
 
-// H = (L + V)/|L + V| is 0/0 where light and eye are opposed: whatever stands for it, no highlight comes of
-// it.
+// H = (L + V)/|L + V| is 0/0 if light and eye are opposite. Whatever value replaces it, the highlight is
+// zero.
 TEST(Arc, HalfwayVectorOfZeroOverZeroGivesNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinity = std::numeric_limits<double>::infinity();
@@ -219,7 +219,7 @@ TEST(Arc, HalfwayVectorOfZeroOverZeroGivesNothing) {
     }
     EXPECT_EQ(slerp(none, n2, 0.5), glm::dvec3(0.0));
     EXPECT_EQ(slerp(n1, none, 0.5), glm::dvec3(0.0));
-    // As a middle it is as good as none.
+    // As a middle it counts as unknown.
     EXPECT_EQ(slerp(n1, -n1, 0.5, none), slerp(n1, -n1, 0.5));
     EXPECT_EQ(cosine_arc(n1, -n1, n2, {none, none}).amplitude, cosine_arc(n1, -n1, n2).amplitude);
   }
@@ -239,7 +239,8 @@ TEST(Arc, OnePixelSpans) {
   }
 }
 
-// Whether a light is above the horizon is read off the angle itself: within +-pi/2 or not, no whole turns.
+// The angle itself decides whether a light is above the horizon: it is within +-pi/2 or not, without
+// multiples of 2 pi.
 TEST(Arc, HighlightBehindTheLightsHorizon) {
   Directions random(13);
   int behind = 0, turned = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One edge of a triangle, exactly: which pixel centres lie to its right, line by line.
-// Reference renderers, setup and coverage tests all take their pixels from here.
+// One edge of a triangle in exact arithmetic: for each line, which pixel centres lie to its right. Reference
+// renderers, setup and coverage tests all use it to determine the covered pixels.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace halfway {
 
-/// Floor division and its remainder in [0, d), d > 0.
+/// Floor division, with remainder in [0, d), d > 0.
 struct FlooredQuotient {
   std::int64_t quotient, remainder;
 };
@@ -24,21 +24,21 @@ constexpr std::int64_t ceil_divide(std::int64_t n, std::int64_t d) {
   return -floor_divide(-n, d).quotient;
 }
 
-/// A point on the screen in 1/2^unit_bits of a pixel; unit_bits travels beside it (4, and one more for each
-/// level of subdivision, so that midpoints stay exact).
+/// A point on the screen in 1/2^unit_bits of a pixel. unit_bits is passed separately: 4, and one more per
+/// level of subdivision, so that midpoints stay exact.
 struct ScreenPoint {
   std::int32_t x, y;
   friend bool operator==(const ScreenPoint&, const ScreenPoint&) = default;
 };
 
-/// First line whose pixel centres are at or below y (top rule: a centre on the edge belongs to what is
-/// below).
+/// First line whose pixel centres are at or below y. Top rule: a centre on the edge belongs to the triangle
+/// below.
 constexpr std::int64_t first_line(std::int32_t y, int unit_bits) {
   return ceil_divide(2 * std::int64_t{y} - (std::int64_t{1} << unit_bits), std::int64_t{2} << unit_bits);
 }
 
-/// An edge walked downwards: for a line y, the first pixel whose centre is at or right of the edge (left
-/// rule).
+/// An edge stepped from top to bottom. For a line y it gives the first pixel whose centre is at or right of
+/// the edge (left rule).
 class Edge {
  public:
   /// top.y < bottom.y
@@ -48,15 +48,15 @@ class Edge {
         dy_(std::int64_t{bottom.y} - top.y),
         top_(top) {}
 
-  /// Walking state on line y: pixel p = ceil(N/D) with D = dy*2^unit_bits, and error = floor((pD -
-  /// N)/2^unit_bits) in [0, dy). One line down takes floor(dx/dy) from p's step and (dx mod dy) off the
-  /// error; a borrow adds a pixel.
+  /// State on line y: pixel p = ceil(N/D) with D = dy*2^unit_bits, and error = floor((pD - N)/2^unit_bits) in
+  /// [0, dy). For the next line, add floor(dx/dy) to p and subtract (dx mod dy) from the error. A borrow adds
+  /// one pixel.
   struct State {
     std::int64_t pixel, error;
   };
   constexpr State at(std::int64_t y) const {
     const std::int64_t unit = std::int64_t{1} << unit_bits_;
-    // x of the edge at the line's centre, less half a pixel, times dy; all doubled to keep the halves whole.
+    // x of the edge at the line's centre minus half a pixel, times dy; doubled to keep all terms integers.
     const std::int64_t centre2 = (2 * y + 1) * unit;
     const std::int64_t n2 =
         (2 * std::int64_t{top_.x} - unit) * dy_ + dx_ * (centre2 - 2 * std::int64_t{top_.y});
@@ -74,7 +74,7 @@ class Edge {
 };
 
 /// Calls span(y, x_begin, x_end) for each line of the frame on which the triangle covers at least one pixel.
-/// The three points may run either way round.
+/// The points may be in either orientation.
 template <class Span>
 void for_each_span(std::array<ScreenPoint, 3> p, int unit_bits, FrameSize frame, Span&& span) {
   if (p[1].y < p[0].y) std::swap(p[0], p[1]);

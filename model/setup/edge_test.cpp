@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// for_each_span and Edge against coverage by edge functions in 128-bit integers.
+// Compares for_each_span and Edge with coverage by edge functions in 128-bit integers.
 #include "setup/edge.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 using Points = std::array<ScreenPoint, 3>;
 using Int128 = __int128;
 
-/// How often each pixel of a frame was covered.
+/// How often each pixel of a frame is covered.
 struct Counts {
   explicit Counts(FrameSize s) : size(s), count(std::size_t{s.width} * s.height) {}
   FrameSize size;
@@ -35,7 +35,7 @@ void add_spans(const Points& p, int unit_bits, Counts& counts) {
   });
 }
 
-/// All in half units, so that pixel centres are whole numbers.
+/// In half units, so that pixel centres are integers.
 bool covers(Points p, int unit_bits, std::uint32_t x, std::uint32_t y) {
   const Int128 centre_x = (2 * Int128{x} + 1) << unit_bits, centre_y = (2 * Int128{y} + 1) << unit_bits;
   const auto side = [&](ScreenPoint from, ScreenPoint to) {
@@ -163,7 +163,7 @@ TEST(Edge, ATriangleOfNoAreaCoversNothing) {
   }
 }
 
-// What the hardware's edge walker does line by line must be what at() says of each line.
+// Stepping line by line, as the hardware's edge walker does, must give the result of at() on each line.
 TEST(Edge, SteppingByQuotientAndRemainderReproducesAt) {
   for (int unit_bits = 4; unit_bits <= 9; ++unit_bits)
     for (Kind kind : c_kinds) {
@@ -202,12 +202,12 @@ TEST(Edge, AJitteredGridCoversEachPixelOnce) {
     std::array<std::array<ScreenPoint, c_cells + 1>, c_cells + 1> grid;
     for (int j = 0; j <= c_cells; ++j)
       for (int i = 0; i <= c_cells; ++i)
-        // Every other round keeps vertices on lattice lines, where ties are.
+        // Every other round keeps the vertices on lattice lines, where ties occur.
         grid[j][i] = {(i * 6 - 6) * c_unit + (round % 2 ? jitter(random) : c_unit / 2),
                       (j * 6 - 6) * c_unit + (round % 2 ? jitter(random) : c_unit / 2)};
     Counts counts(frame);
-    // A triangle split at its edges' midpoints, which take one more bit, must still meet its unsplit
-    // neighbour.
+    // A triangle split at the midpoints of its edges, which need one more bit, must still meet its unsplit
+    // neighbour without gap or overlap.
     const auto draw = [&](ScreenPoint a, ScreenPoint b, ScreenPoint c) {
       if (random() % 2) return add_spans({a, b, c}, 4, counts);
       const auto middle = [](ScreenPoint p, ScreenPoint q) { return ScreenPoint{p.x + q.x, p.y + q.y}; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ExactDivider against GMP's integers.
+// Compares ExactDivider with GMP's integers.
 #include "setup/exact_division.hpp"
 
 #include <gtest/gtest.h>
@@ -22,13 +22,13 @@ constexpr Int128 c_most_divisor = (c_one << 96) - 1;
 class RandomIntegers {
  public:
   explicit RandomIntegers(unsigned seed) : random_(seed) {}
-  /// Of `bits` bits, the highest one set; 0 of 0 bits.
+  /// A number of exactly `bits` bits; 0 for 0 bits.
   Int128 of_bits(int bits) {
     if (bits == 0) return 0;
     const Int128 v = (static_cast<Int128>(random_()) << 64) | random_();
     return (v & ((c_one << (bits - 1)) - 1)) | (c_one << (bits - 1));
   }
-  /// Every size as likely as every other.
+  /// Every size has the same probability.
   Int128 up_to_bits(int bits) { return of_bits(within(0, bits)); }
   int within(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
 

@@ -25,13 +25,13 @@ std::vector<HalfTriangle> half_triangles(const std::array<HalfVertex, 3>& p) {
   std::array<std::size_t, 3> order = {0, 1, 2};
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p[a].y < p[b].y; });
   const std::size_t top = order[0], mid = order[1], bottom = order[2];
-  // Whole numbers: a rounded edge could fall on the wrong side of a vertex that it meets.
+  // Compare products of integers: a rounded edge could be on the wrong side of a vertex that it meets.
   const bool long_left =
       (p[bottom].x - p[top].x) * (p[mid].y - p[top].y) < (p[mid].x - p[top].x) * (p[bottom].y - p[top].y);
   const long double along = (p[bottom].x - p[top].x) / (p[bottom].y - p[top].y);
   const auto add = [&](std::size_t from, std::size_t to) {
     if (p[from].y == p[to].y) return;
-    // The long edge runs past both halves.
+    // The long edge is part of both halves.
     const long double x_long = p[top].x + (p[from].y - p[top].y) * along;
     const long double slope_short = (p[to].x - p[from].x) / (p[to].y - p[from].y);
     HalfTriangle half{to_integer<std::int64_t>(p[from].y),
@@ -63,7 +63,7 @@ void put_header(InitVector& init, std::uint32_t triangle, const HalfTriangle& h,
   init.put(At::triangle, triangle);
   init.put(At::y, h.y);
   init.put(At::upper_lines, h.lines);
-  // The half makes the whole part the nearest pixel.
+  // Add one half: truncation then gives the nearest pixel.
   init.put(At::start_x, wrapped_word(h.x_start + 0.5L, c_x_fraction, c_x_bits));
   init.put(At::start_slope, wrapped_word(h.slope_start, c_x_fraction, c_x_bits));
   init.put(At::upper_x, wrapped_word(h.x_stop + 0.5L, c_x_fraction, c_x_bits));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Preset published: a triangle with whole-pixel vertices as two horizontal-sided halves, whose edges are
-// stepped by a real slope.
+// Preset published: a triangle with integer pixel vertices as two halves with a horizontal side. The edges
+// are stepped by a real slope.
 #pragma once
 
 #include <array>
@@ -12,28 +12,28 @@
 
 namespace halfway {
 
-/// A vertex on the screen in whole pixels, its depth in steps.
+/// A vertex on the screen in whole pixels. Its depth is in depth steps.
 struct HalfVertex {
   long double x, y, z;
 };
 
-/// A corner of a piece of a triangle, in 1/2^level pixels, as the vertex of one: a midpoint between pixels is
-/// rounded, and a T-junction may open (a published fault).
+/// Converts a corner of a piece of a triangle, in 1/2^level pixels, to a vertex. A midpoint between pixels is
+/// rounded, so a T-junction may show a gap (a published fault).
 HalfVertex half_vertex(ScreenPoint corner, int level, double depth_steps);
 
-/// An edge by its ends, upper one first: indices into the triangle's vertices.
+/// An edge by its ends, the upper one first: indices of the triangle's vertices.
 struct HalfEdge {
   std::size_t top, bottom;
 };
 
-/// The lines from one vertex to the next below it, first and last included.
+/// The lines from one vertex to the next lower vertex, both included.
 struct HalfTriangle {
   std::int64_t y, lines;
   HalfEdge start, stop;  ///< left and right
   long double x_start, slope_start, x_stop, slope_stop;
 };
 
-/// None for a triangle of no area; the upper half first.
+/// The upper half first. Empty for a triangle of zero area.
 std::vector<HalfTriangle> half_triangles(const std::array<HalfVertex, 3>& vertices);
 
 /// Twice the area, (x2-x1)(y3-y1) - (y2-y1)(x3-x1).

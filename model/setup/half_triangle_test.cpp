@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Halves of whole-pixel triangles against their edges in rationals, and the golden walk over their headers.
+// Compares the halves of triangles with integer vertices with their edges in rational arithmetic. Runs the
+// golden triangle walker with their headers.
 #include "setup/half_triangle.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ namespace {
 using golden::Published;
 using Triangle = std::array<HalfVertex, 3>;
 
-// Of any size up to the frame's, some flat at the top or the bottom, some of no area.
+// Sizes up to the frame's; some are flat at the top or the bottom, some have zero area.
 class RandomHalves {
  public:
   explicit RandomHalves(unsigned seed) : random_(seed) {}
@@ -40,7 +41,7 @@ class RandomHalves {
   std::mt19937 random_;
 };
 
-// Whole numbers: exact.
+// All terms are integers: exact.
 long double x_times_dy(const Triangle& p, HalfEdge e, std::int64_t y) {
   const HalfVertex &a = p[e.top], &b = p[e.bottom];
   return a.x * (b.y - a.y) + (b.x - a.x) * (static_cast<long double>(y) - a.y);
@@ -80,7 +81,8 @@ TEST(HalfTriangle, HalvesLieBetweenTheTrianglesOwnEdges) {
       ++none;
       continue;
     }
-    // From the top to the bottom without a gap; the middle vertex's line in both.
+    // The halves cover all lines from top to bottom without a gap. Both contain the line of the middle
+    // vertex.
     ASSERT_LE(halves.size(), 2u);
     ASSERT_EQ(halves.front().y, top);
     ASSERT_EQ(halves.back().y + halves.back().lines - 1, bottom);
@@ -101,7 +103,7 @@ TEST(HalfTriangle, HalvesLieBetweenTheTrianglesOwnEdges) {
         ASSERT_GE(p[edge.bottom].y, h.y + h.lines - 1);
       }
       ASSERT_FALSE(h.start.top == h.stop.top && h.start.bottom == h.stop.bottom);
-      // Left and right, exactly: on no line the other way round, and somewhere apart.
+      // Compare left and right exactly: never reversed on any line, and different on at least one.
       bool apart = false;
       for (const std::int64_t y : {h.y, h.y + h.lines - 1}) {
         const long double dy_start = p[h.start.bottom].y - p[h.start.top].y,
@@ -124,8 +126,8 @@ TEST(HalfTriangle, HalvesLieBetweenTheTrianglesOwnEdges) {
   for (const int count : {two, upper, lower, none}) EXPECT_GT(count, 500);
 }
 
-// The golden walk: on each line from the pixel nearest to one edge to the one nearest to the other, up to
-// what the slopes' rounding adds; the depth is the plane's.
+// The golden walk covers each line from the pixel nearest to one edge to the pixel nearest to the other,
+// within the rounding of the slopes. The depth is that of the plane.
 TEST(HalfTriangle, TheHardwareWalksFromEdgeToEdge) {
   RandomHalves random(2);
   double worst_depth = 0.0;
@@ -144,7 +146,7 @@ TEST(HalfTriangle, TheHardwareWalksFromEdgeToEdge) {
       const long double d = twice_area(p);
       for (std::int64_t y = h.y;; ++y, ++lines) {
         ASSERT_EQ(walker.y(), y);
-        // Start and slope are rounded to 2^-19, the slope once a line.
+        // Start and slope are rounded to 2^-19. The slope's rounding accumulates once per line.
         const long double slack = static_cast<long double>(y - h.y + 1) * 0x1p-19L;
         const auto nearest = [&](long double x, std::int64_t pixel) {
           other_pixel += pixel != static_cast<std::int64_t>(std::floor(x + 0.5L));
@@ -154,7 +156,8 @@ TEST(HalfTriangle, TheHardwareWalksFromEdgeToEdge) {
         ASSERT_TRUE(nearest(edge_x(p, h.start, y), first)) << "line " << y << ": " << first;
         ASSERT_TRUE(nearest(edge_x(p, h.stop, y), last)) << "line " << y << ": " << last;
         if (!walker.line_empty() && y % 16 == 0) {
-          // The edge's depth is taken along its real x: the plane there, and a z_dx a pixel.
+          // The depth starts on the edge at its real x, with the plane's value there, and adds z_dx per
+          // pixel.
           depth.span_load();
           for (std::int64_t x = first; x < last; ++x) depth.span_step();
           const long double u = edge_x(p, h.start, y) + static_cast<long double>(last - first) - p[0].x,
@@ -180,7 +183,7 @@ TEST(HalfTriangle, TheHardwareWalksFromEdgeToEdge) {
     }
   }
   EXPECT_GT(lines, 100'000u);
-  EXPECT_LT(100 * other_pixel, lines);  // the slack matters near ties alone
+  EXPECT_LT(100 * other_pixel, lines);  // the slack matters only close to ties
   EXPECT_GT(worst_depth, 0.3);
 }
 

@@ -17,19 +17,20 @@ namespace {
 constexpr double c_steps = 255.0;
 constexpr double c_pi = std::numbers::pi;
 
-// All directions within `angle` of a unit axis. Directions of a convex combination of vectors lie in the cone
-// around the vectors themselves as long as that cone is narrower than a half space.
+// All directions within `angle` of a unit axis. The direction of a convex combination of vectors lies in a
+// cone around these vectors if that cone is narrower than a half space.
 struct Cone {
   glm::dvec3 axis;
   double angle;
 };
 
-// Accurate for small and for opposed vectors alike, where acos of the dot product is not.
+// Accurate for small angles and for opposite vectors. acos of the dot product is not.
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
   return 2.0 * std::atan2(glm::length(a - b), glm::length(a + b));
 }
 
-// The cone around unit vectors; nothing where they point all ways, so that no cone bounds their combinations.
+// The cone around unit vectors. Empty if the vectors point in all directions, so that no cone bounds their
+// combinations.
 std::optional<Cone> cone_around(const std::array<glm::dvec3, 3>& directions) {
   const glm::dvec3 sum = directions[0] + directions[1] + directions[2];
   const double length = glm::length(sum);
@@ -40,24 +41,24 @@ std::optional<Cone> cone_around(const std::array<glm::dvec3, 3>& directions) {
   return cone;
 }
 
-// Parts of a derivative's or a jump's greatest effect that a quadratic through six samples may miss, for a
-// side of one: along an edge x(x - 1/2)(x - 1)/6 is 0.008 at most, times 1.38, the third derivative of
-// exp(-x^2/2); the bend max(0, x - a) is missed by 0.094, the parabola of second derivative 6 that begins at
-// a by 0.094. Rounded up over random triangles, whose insides do a little worse: see
-// highlight_bound_test.cpp.
+// The greatest part of a derivative's or a jump's effect that a quadratic through six samples may miss, for a
+// side of length one. Along an edge x(x - 1/2)(x - 1)/6 is at most 0.008; multiply by 1.38, the third
+// derivative of exp(-x^2/2). The bend max(0, x - a) is missed by up to 0.094, and so is the parabola with
+// second derivative 6 that starts at a. The values are rounded up to hold for random triangles, which have
+// slightly larger errors in their interior: see highlight_bound_test.cpp.
 constexpr double c_third_derivative = 0.009;
 constexpr double c_bend = 0.1;
 constexpr double c_spot_edge = 0.1;
-// N.L has no peak to be missed, and the centroid's sample helps: less will do.
+// N.L has no peak that could be missed, and the sample at the centroid helps: a smaller value is enough.
 constexpr double c_diffuse = 0.85 * c_third_derivative;
-// The mixed terms of the third derivative of f(w(t)), as parts of 1.38: 3 w' w'' with w'' = 8 u, and 0.61
-// w''' with w''' = 96 u^2, u how uneven w is.
+// The mixed terms of the third derivative of f(w(t)), relative to 1.38: 3 w' w'' with w'' = 8 u, and 0.61
+// w''' with w''' = 96 u^2. u is the unevenness of w.
 constexpr double c_second_derivative = 17.4;
 constexpr double c_first_derivative = 42.4;
-// Four flat triangles through six samples: how far a curved field leaves them, as a part of its
-// edges' sag; a third would do for a quadratic one.
+// Greatest distance of a curved field from four flat triangles through six samples, relative to the sag of
+// the edges. A third would be enough for a quadratic field.
 constexpr double c_sag = 0.5;
-// N.L between the samples may go further than at them, by this part of its range.
+// N.L between the samples may exceed its values at the samples by this fraction of its range.
 constexpr double c_overshoot = 0.1;
 
 struct Range {
@@ -73,7 +74,7 @@ double largest(const glm::dvec3& v) {
   return std::max({v.x, v.y, v.z});
 }
 
-// The three vertices' directions to a point.
+// The cone of directions from the three vertices to a point.
 std::optional<Cone> cone_to(const SampledTriangle& t, const glm::dvec3& point_world) {
   std::array<glm::dvec3, 3> d;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -85,16 +86,16 @@ std::optional<Cone> cone_to(const SampledTriangle& t, const glm::dvec3& point_wo
   return cone_around(d);
 }
 
-// How a field of vectors w lies over the triangle, from its values at the six samples: its size in w, and how
-// near it comes to zero.
+// The extent of a field of vectors w over the triangle, from its values at the six samples: its size, and a
+// lower bound of |w|.
 struct Extent {
-  double width;         // twice the longest half edge: no edge is longer, however unevenly it is run through
-  double least;         // of |w|, below it nowhere
-  double uneven = 0.0;  // how far an edge's middle sample lies from the middle, along the edge, at most
+  double width;         // twice the longest half edge: no edge is longer, however unevenly w varies along it
+  double least;         // lower bound of |w|
+  double uneven = 0.0;  // greatest distance, along the edge, of an edge's middle sample from the middle
 };
 
-// Distance of the origin from a triangle in space: from its plane where the foot lies inside, else from an
-// edge.
+// Distance of the origin from a triangle in space: from its plane if the perpendicular foot lies inside,
+// otherwise from the nearest edge.
 double distance_from_origin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const auto to_edge = [](const glm::dvec3& p, const glm::dvec3& q) {
     const glm::dvec3 e = q - p;
@@ -110,7 +111,7 @@ double distance_from_origin(const glm::dvec3& a, const glm::dvec3& b, const glm:
   return inside && length > 0.0 ? std::min(edges, std::abs(glm::dot(a, normal)) / length) : edges;
 }
 
-// Each edge's two vertices and its middle, as numbers of samples.
+// For each edge the samples at its two vertices and at its midpoint.
 constexpr std::array<std::array<std::size_t, 3>, 3> c_edges = {{{0, 1, 3}, {0, 2, 4}, {1, 2, 5}}};
 
 Extent extent(const std::array<glm::dvec3, 6>& w) {
@@ -122,21 +123,21 @@ Extent extent(const std::array<glm::dvec3, 6>& w) {
     const double length = glm::length(along);
     if (length > 0.0) uneven = std::max(uneven, std::abs(glm::dot(off, along)) / length);
   }
-  // Four flat triangles through the samples; a quadratic field leaves them by a third of an edge's sag at
-  // most.
+  // Use four flat triangles through the samples. The distance of a quadratic field from them is at most a
+  // third of an edge's sag.
   const double flat =
       std::min({distance_from_origin(w[0], w[3], w[4]), distance_from_origin(w[3], w[1], w[5]),
                 distance_from_origin(w[4], w[5], w[2]), distance_from_origin(w[3], w[5], w[4])});
   return {2.0 * half_edge, std::max(0.0, flat - c_sag * sag), uneven};
 }
 
-// Beckmann's exp(-tan^2/m^2) falls off as cos^n with n = 2/m^2 near its peak.
+// Close to its peak, Beckmann's exp(-tan^2/m^2) equals cos^n with n = 2/m^2.
 double equivalent_exponent(const Material& m) {
   return m.brdf == Brdf::cook_torrance ? std::max(1.0, 2.0 / (m.roughness * m.roughness)) : m.exponent;
 }
 
-// The greatest third derivative of exp(-x^2/2), which cos^n is near its peak with x = sqrt(n) angle, at any
-// distance from the peak of `x` or more; 1 at the most.
+// The greatest third derivative of exp(-x^2/2) at distances of at least `x` from the peak, relative to its
+// overall maximum. exp(-x^2/2) approximates cos^n close to its peak, with x = sqrt(n) angle.
 double third_derivative_beyond(double x) {
   constexpr double c_greatest = 1.3801;  // at x^2 = 3 - sqrt(6)
   constexpr double c_second = 0.3753;    // at x^2 = 3 + sqrt(6)
@@ -146,7 +147,7 @@ double third_derivative_beyond(double x) {
   return -here / c_greatest;
 }
 
-// The same of the second and the first derivative.
+// The same for the second and the first derivative.
 double second_derivative_beyond(double x) {
   return x * x < 3.0 ? 1.0 : (x * x - 1.0) * std::exp(-0.5 * x * x);
 }
@@ -154,9 +155,9 @@ double first_derivative_beyond(double x) {
   return x < 1.0 ? 1.0 : x * std::exp(0.5 - 0.5 * x * x);
 }
 
-// What a quadratic misses of cos^n over a triangle `e` of angles: a part of the side's cube times the third
-// derivative of f(w(t)), where an uneven w has the second derivative 8 u and, as a projective map, the third
-// 96 u^2/width.
+// Error of a quadratic that approximates cos^n over a triangle `e` of angles: a fraction of the cube of the
+// side times the third derivative of f(w(t)). An uneven w has the second derivative 8 u and, as a projective
+// map, the third derivative 96 u^2/width.
 double smooth_miss(const Extent& e, double exponent) {
   const double root = std::sqrt(exponent), s = e.width * root, x = e.least * root, u = e.uneven * root;
   if (s <= 0.0) return 0.0;
@@ -165,14 +166,14 @@ double smooth_miss(const Extent& e, double exponent) {
           c_first_derivative * u * u / s * first_derivative_beyond(x));
 }
 
-// A bound on the specular factor where the two vectors are at least `angle` apart, `apart` the greatest angle
-// between light and eye, `n_dot_v` the least cosine to the eye.
+// An upper bound of the specular factor if the two vectors differ by at least `angle`. `apart` is the
+// greatest angle between light and eye, `n_dot_v` the least cosine to the eye.
 double factor_bound(const Material& m, double angle, double apart, double n_dot_v) {
   const double cosine = std::cos(std::clamp(angle, 0.0, c_pi / 2));
   if (m.brdf != Brdf::cook_torrance) return highlight_power(cosine, m.exponent);
   const double sine = std::sin(std::clamp(angle, 0.0, c_pi / 2));
-  // The density falls to its one minimum and may rise again towards the horizon. F grows with the angle
-  // between light and halfway vector; the geometry is at most 2/|L+V|^2 and at most 1/(4 N.V).
+  // The density falls to its only minimum and may rise again towards the horizon. F increases with the angle
+  // between light and halfway vector. The geometry term is at most 2/|L+V|^2 and at most 1/(4 N.V).
   const double density =
       std::max(beckmann(cosine, sine * sine, m.roughness), beckmann(0.1, 0.99, m.roughness));
   const double half_cosine = std::cos(std::min(apart, c_pi) / 2.0);
@@ -182,7 +183,7 @@ double factor_bound(const Material& m, double angle, double apart, double n_dot_
 }
 
 struct LightOnTriangle {
-  std::optional<Cone> to_light;              // none where the light is too near for a cone
+  std::optional<Cone> to_light;              // empty if the light is too close for a cone
   std::array<glm::dvec3, 6> to_light_world;  // unit, at the samples
   glm::dvec3 intensity;
 };
@@ -192,12 +193,12 @@ struct ViewedTriangle {
   std::array<glm::dvec3, 6> to_eye_world;  // unit, at the samples
 };
 
-// A field of angles whose cones are wider than this is bounded by them alone: six samples may have missed how
-// it runs.
+// If the cones are wider than this, a field of angles is bounded by the cones alone, because six samples may
+// miss its course.
 constexpr double c_wide = 1.0;
 
-// Reflected light or normal less eye or halfway vector, at the samples: zero at the highlight's peak,
-// elsewhere as long as the chord of the angle between them.
+// Phong: reflected light minus eye. Otherwise: normal minus halfway vector. At the samples. Zero at the peak
+// of the highlight; elsewhere its length is the chord of the angle between the two vectors.
 std::array<glm::dvec3, 6> off_peak(const Material& m, const SampledTriangle& t, const ViewedTriangle& view,
                                    const LightOnTriangle& light) {
   std::array<glm::dvec3, 6> w;
@@ -210,8 +211,8 @@ std::array<glm::dvec3, 6> off_peak(const Material& m, const SampledTriangle& t, 
   return w;
 }
 
-// What six samples may miss of the bends in a highlight of 1 at the most: Cook-Torrance's where masking gives
-// way to shadowing, the others' where cos^n ends, which shows while n is small.
+// The greatest error at bends of a highlight whose maximum is 1. Cook-Torrance bends where masking changes to
+// shadowing. The others bend where cos^n ends, which is visible for small n.
 double missed_bends(const Material& m, const SampledTriangle& t, const ViewedTriangle& view,
                     const LightOnTriangle& light, const std::array<glm::dvec3, 6>& w) {
   Range r;
@@ -229,7 +230,7 @@ double missed_bends(const Material& m, const SampledTriangle& t, const ViewedTri
   return std::min(std::pow(r.most, m.exponent), c_bend * std::pow(r.width(), m.exponent));
 }
 
-// What one light's highlight may hide between the samples, and what it may amount to, in colour steps.
+// Greatest error of one light's highlight between the samples, and its greatest value, in colour steps.
 struct Missed {
   double steps = 0.0, greatest = 0.0;
 };
@@ -245,20 +246,21 @@ Missed missed_specular(const Material& m, const SampledTriangle& t, const Viewed
   const Cone &n = *view.normals, &v = *view.to_eye, &l = *light.to_light;
   const double apart = angle_between(l.axis, v.axis) + l.angle + v.angle;
   const double n_dot_v = std::cos(std::min(c_pi / 2, angle_between(n.axis, v.axis) + n.angle + v.angle));
-  double span, between;  // of the cone around w, and of the axes of what w is the difference of
+  // Opening angle of the cone around w; angle between the axes of the vectors whose difference is w.
+  double span, between;
   if (m.brdf == Brdf::phong) {
     span = 2.0 * n.angle + l.angle + v.angle;
     between = angle_between(2.0 * glm::dot(n.axis, l.axis) * n.axis - l.axis, v.axis);
   } else {
     if (apart >= 0.95 * c_pi) return anything();
-    // H halves the angle between L and V; a turn of V moves H by 1/(2 cos(half the angle)) as much.
+    // H bisects the angle between L and V. A rotation of V moves H by 1/(2 cos(half the angle)) of its angle.
     span = n.angle + (l.angle + v.angle) / (2.0 * std::cos(apart / 2.0));
     between = angle_between(n.axis, glm::normalize(l.axis + v.axis));
   }
   const std::array<glm::dvec3, 6> w = off_peak(m, t, view, light);
   const Extent e = span < c_wide ? extent(w) : Extent{2.0 * span, std::max(0.0, between - span)};
   const double greatest = amplitude * factor_bound(m, e.least, apart, n_dot_v);
-  // At the terminator a highlight ends at once, and Cook-Torrance's at the eye's horizon.
+  // At the terminator a highlight ends abruptly. A Cook-Torrance highlight also does at the eye's horizon.
   if (terminator || (m.brdf == Brdf::cook_torrance && n_dot_v <= 0.0)) return {greatest, greatest};
   const double smooth =
       amplitude * factor_bound(m, 0.0, apart, n_dot_v) * smooth_miss(e, equivalent_exponent(m));
@@ -267,7 +269,7 @@ Missed missed_specular(const Material& m, const SampledTriangle& t, const Viewed
   return {std::min(greatest, smooth + bends), greatest};
 }
 
-// The same with the diffuse part, of a light that shines on all of the triangle.
+// The same including the diffuse term, for a light that shines on the whole triangle.
 Missed missed_light(const Material& m, const SampledTriangle& t, const ViewedTriangle& view,
                     const LightOnTriangle& light) {
   std::array<double, 6> cosine;
@@ -283,7 +285,7 @@ Missed missed_light(const Material& m, const SampledTriangle& t, const ViewedTri
   if (view.normals && light.to_light) {
     const double between = angle_between(view.normals->axis, light.to_light->axis);
     const double around = view.normals->angle + light.to_light->angle;
-    if (between - around > c_pi / 2) return {};  // every normal looks away from the light
+    if (between - around > c_pi / 2) return {};  // all normals face away from the light
     if (around > c_wide) {
       n_dot_l.take(std::cos(std::min(c_pi, between + around)));
       n_dot_l.take(std::cos(std::max(0.0, between - around)));
@@ -291,19 +293,19 @@ Missed missed_light(const Material& m, const SampledTriangle& t, const ViewedTri
     const Extent e = extent(w);
     diffuse *= std::min(1.0, c_diffuse / c_third_derivative * smooth_miss({e.width, 0.0, e.uneven}, 1.0));
   }
-  // Between the samples N.L may go further: as far as its edges bend, and a little.
+  // Between the samples N.L may exceed its sampled range by the sag of the edges and a small margin.
   double slack = c_overshoot * n_dot_l.width();
   for (const auto& [a, b, middle] : c_edges)
     slack += c_sag * std::abs(cosine[middle] - 0.5 * (cosine[a] + cosine[b]));
   const double least = n_dot_l.least - slack, most = n_dot_l.most + slack;
   const bool terminator = least < 0.0 && most > 0.0;
-  // max(0, N.L) bends there.
+  // max(0, N.L) has a bend at the terminator.
   if (terminator) diffuse += amplitude * std::min({most, -least, c_bend * n_dot_l.width()});
   const Missed specular = missed_specular(m, t, view, light, terminator);
   return {diffuse + specular.steps, amplitude * std::max(0.0, n_dot_l.most) + specular.greatest};
 }
 
-// What of a spot's cone falls on the triangle: the most of it, and what six samples may miss of its edge.
+// A spot's cone on the triangle: its greatest share, and the error at its edge that six samples may miss.
 struct SpotOnTriangle {
   double greatest, missed;
 };
@@ -329,7 +331,7 @@ SpotOnTriangle spot_on_triangle(const LightCone& spot, const std::optional<Cone>
   }
   const double greatest = cone_share(spot, std::cos(angle.least));
   const double fall = greatest - cone_share(spot, std::cos(angle.most));
-  // Smoothstep's second derivative jumps by 6 over its width's square where it begins and ends.
+  // The second derivative of smoothstep jumps by 6 over the square of its width at both ends.
   const double outer = std::acos(std::clamp(spot.cos_outer, -1.0, 1.0));
   const double inner = std::acos(std::clamp(spot.cos_inner, -1.0, 1.0));
   const double turn = width / std::max(1e-9, outer - inner);
@@ -341,7 +343,7 @@ SpotOnTriangle spot_on_triangle(const LightCone& spot, const std::optional<Cone>
 double centroid_error(const SampledTriangle& t, const glm::dvec3& centroid_radiance) {
   const auto& r = t.radiance;
   const glm::dvec3 quadratic = (4.0 * (r[3] + r[4] + r[5]) - (r[0] + r[1] + r[2])) / 9.0;
-  // Both over-exposed look alike.
+  // Two over-exposed values look the same.
   return c_steps *
          largest(glm::abs(glm::clamp(quadratic, 0.0, 1.0) - glm::clamp(centroid_radiance, 0.0, 1.0)));
 }

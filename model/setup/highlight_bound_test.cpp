@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The highlight test against the radiance sampled densely: what it lets pass, and what it splits in vain.
+// Compares the highlight test with densely sampled radiance: errors in accepted triangles, and unnecessary
+// splits.
 #include "setup/highlight_bound.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ namespace {
 
 constexpr double c_threshold = 2.0;
 
-/// A triangle of a surface, in barycentrics of a triangle on the screen.
+/// A triangle of a surface, in barycentric coordinates of a triangle on the screen.
 using Corners = std::array<glm::dvec3, 3>;
 constexpr Corners c_whole = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
@@ -54,8 +55,8 @@ double centroid_test(const Case& c, const Corners& corners, const SampledTriangl
   return centroid_error(t, c.radiance_at((corners[0] + corners[1] + corners[2]) / 3.0));
 }
 
-/// Largest error of the quadratic in colour steps, both clamped as the frame clamps them, samples held as
-/// setup holds them. Ends early past `enough`.
+/// Largest error of the quadratic in colour steps. Both values are clamped as in the frame, and samples as in
+/// the setup. Stops when the error exceeds `enough`.
 double dense_error(const Case& c, const Corners& corners, const SampledTriangle& t, int divisions,
                    double enough = 1e9) {
   std::array<glm::dvec3, 6> r = t.radiance;
@@ -79,10 +80,10 @@ double angle(glm::dvec3 a, glm::dvec3 b) {
   return 2.0 * std::atan2(glm::length(a - b), glm::length(a + b));
 }
 
-/// Curved patches, eyes and lights near and far, most of them with a highlight in or beside the patch.
+/// Curved patches, eyes and lights near and far. Most have a highlight in the patch or next to it.
 class RandomCases {
  public:
-  /// `grazing`: positional lights about the horizon of the patch.
+  /// `grazing`: positional lights close to the horizon of the patch.
   explicit RandomCases(unsigned seed, bool grazing = false) : random_(seed), grazing_(grazing) {}
 
   Case next(Brdf brdf) {
@@ -106,7 +107,7 @@ class RandomCases {
     std::array<glm::dvec3, 3> p, slope, n;
     for (glm::dvec3& v : p) v = size * glm::dvec3(within(-1, 1), within(-1, 1), 0);
     if (std::abs(glm::cross(p[1] - p[0], p[2] - p[0]).z) < 0.1 * size * size) return false;
-    // Two curvatures along two axes, spherical, cylindrical or saddle, then leant over.
+    // Two curvatures along two axes (spherical, cylindrical or saddle), then tilted.
     const double first = within(-1, 1), second = chance(0.4) ? first : within(-1, 1),
                  turn = within(0, 3.1416);
     const glm::dvec3 u(std::cos(turn), std::sin(turn), 0), v(-u.y, u.x, 0),
@@ -143,7 +144,7 @@ class RandomCases {
 
     glm::dvec3 b(within(0, 1), within(0, 1), within(0, 1));
     b /= b.x + b.y + b.z;
-    if (chance(0.3)) b += within(-1, 1) * glm::dvec3(0.4, -0.2, -0.2);  // beside the triangle
+    if (chance(0.3)) b += within(-1, 1) * glm::dvec3(0.4, -0.2, -0.2);  // outside the triangle
     const SurfacePoint peak = c.surface(b);
     const glm::dvec3 peak_to_eye = glm::normalize(eye - peak.position_world);
     const glm::dvec3 about =
@@ -179,9 +180,10 @@ class RandomCases {
 
 struct Outcome {
   int cases = 0, followed = 0, passed = 0, split_in_vain = 0;
-  double worst = 0.0;                           // error of what passed, in thresholds
-  int passed_centroid = 0, wrong_centroid = 0;  // the published test alone, and past twice the threshold
-  double worst_centroid = 0.0;                  // in colour steps
+  double worst = 0.0;  // error of accepted triangles, in thresholds
+  // By the published test alone: accepted, and accepted with an error above twice the threshold.
+  int passed_centroid = 0, wrong_centroid = 0;
+  double worst_centroid = 0.0;  // in colour steps
 };
 
 Outcome outcome(Brdf brdf, unsigned seed, int cases, bool grazing = false) {
@@ -210,7 +212,7 @@ Outcome outcome(Brdf brdf, unsigned seed, int cases, bool grazing = false) {
   return o;
 }
 
-// What passes is off by twice the threshold at most; and it is no test that splits everything.
+// Accepted triangles have an error of at most twice the threshold. The test must not split everything.
 TEST(HighlightTest, WhatPassesIsWithinTwiceTheThreshold) {
   for (const Brdf brdf : {Brdf::blinn, Brdf::phong}) {
     const Outcome o = outcome(brdf, 1, 25000);
@@ -222,8 +224,8 @@ TEST(HighlightTest, WhatPassesIsWithinTwiceTheThreshold) {
   }
 }
 
-// Where a light just rises over a patch, all six samples may lie in the dark and a highlight, cut off by the
-// terminator, between them.
+// If a light is just above the horizon of a patch, all six samples may be dark and a highlight, cut off by
+// the terminator, may lie between them.
 TEST(HighlightTest, AHighlightAtTheTerminatorIsNotMissed) {
   for (const Brdf brdf : {Brdf::blinn, Brdf::phong}) {
     const Outcome o = outcome(brdf, 3, 20000, true);
@@ -233,14 +235,14 @@ TEST(HighlightTest, AHighlightAtTheTerminatorIsNotMissed) {
   }
 }
 
-// Grazing Cook-Torrance is held less tightly.
+// The limit for Cook-Torrance at grazing angles is wider.
 TEST(HighlightTest, CookTorrancePassesWithinThreeThresholds) {
   const Outcome o = outcome(Brdf::cook_torrance, 2, 12000);
   EXPECT_LE(o.worst, 3.0);
   EXPECT_LT(o.split_in_vain, 0.35 * o.followed);
 }
 
-// A sphere's triangle whose vertices' normals lie `degrees` apart, far from eye and light.
+// A triangle of a sphere. The normals of its vertices are `degrees` apart; eye and light are far away.
 Case sphere_patch(double degrees, double exponent, glm::dvec3 light_barycentric) {
   Case c;
   const double circumradius = std::asin(2.0 / std::sqrt(3.0) * std::sin(glm::radians(degrees) / 2));
@@ -260,8 +262,8 @@ Case sphere_patch(double degrees, double exponent, glm::dvec3 light_barycentric)
   return c;
 }
 
-// Toolchain figures: triangles that pass the centroid test at 4 steps err by 36 (10 degrees, n = 200) to 255
-// (40 degrees, n = 500).
+// Reference figures: triangles that pass the centroid test at 4 steps have errors of 36 (10 degrees, n = 200)
+// to 255 (40 degrees, n = 500).
 TEST(HighlightTest, ThePublishedTestAloneMissesHighlightsThatThisOneFinds) {
   struct Expected {
     double degrees, exponent, at_least;
@@ -272,7 +274,7 @@ TEST(HighlightTest, ThePublishedTestAloneMissesHighlightsThatThisOneFinds) {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     double worst = 0.0;
     for (int i = 0; i < 1500; ++i) {
-      const glm::dvec2 b(2.0 * unit(random) - 0.5, 2.0 * unit(random) - 0.5);  // in or beside the triangle
+      const glm::dvec2 b(2.0 * unit(random) - 0.5, 2.0 * unit(random) - 0.5);  // in or near the triangle
       const Case c = sphere_patch(degrees, exponent, {b.x, b.y, 1.0 - b.x - b.y});
       const SampledTriangle t = sampled(c, c_whole);
       if (centroid_test(c, c_whole, t) > 4.0) continue;
@@ -289,7 +291,7 @@ TEST(HighlightTest, ThePublishedTestAloneMissesHighlightsThatThisOneFinds) {
   }
 }
 
-/// Leaves of a mesh's subdivision by a test that says which pieces to split.
+/// Leaves of a mesh's subdivision, for a given test that selects the pieces to split.
 struct Leaves {
   std::uint64_t leaves = 0;
   double worst = 0.0;  // error of leaves above the last level
@@ -323,8 +325,8 @@ Leaves subdivided(const Scene& scene, const Test& splits) {
   return leaves;
 }
 
-// Against an oracle that splits only what is off by more than the threshold. Coarse spheres pay for the
-// terminator.
+// Compare with an oracle that splits exactly the pieces whose error exceeds the threshold. Coarse spheres
+// need more splits because of the terminator.
 TEST(HighlightTest, SplitsMeshesNotMuchMoreThanAnOracle) {
   struct Expected {
     const char* name;
@@ -376,7 +378,7 @@ TEST(HighlightTest, SplitsMeshesNotMuchMoreThanAnOracle) {
 TEST(HighlightTest, CentroidErrorIsTheQuadraticsAgainstTheRadiance) {
   SampledTriangle t{};
   for (std::size_t i = 0; i < 6; ++i) t.radiance[i] = glm::dvec3(i < 3 ? 0.2 : 0.5, 0.1, 0.3);
-  // (4 * 1.5 - 0.6)/9 = 0.6, and constants stay what they are.
+  // (4 * 1.5 - 0.6)/9 = 0.6. Constant values stay the same.
   EXPECT_NEAR(centroid_error(t, {0.6, 0.1, 0.3}), 0.0, 1e-12);
   EXPECT_NEAR(centroid_error(t, {0.6, 0.2, 0.3}), 25.5, 1e-12);
   EXPECT_NEAR(centroid_error(t, {0.5, 0.1, 0.1}), 51.0, 1e-12);
@@ -394,7 +396,7 @@ TEST(HighlightTest, NothingIsMissedWithoutLightAndWhereNoneComes) {
   EXPECT_EQ(missed_highlight_bound(c.scene, c.scene.materials[0], t), 0.0);
 }
 
-// Eye or light in the triangle, at a corner, normals all ways: a number, and a large one.
+// Eye or light in the triangle, at a corner, normals in all directions: the bound is a number and large.
 TEST(HighlightTest, DegenerateDirectionsGiveALargeBound) {
   const Case base = sphere_patch(20, 100, {0.3, 0.5, 0.2});
   const SampledTriangle t = sampled(base, c_whole);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Init vectors under construction: words into the fields of a flat vector.
+// Builds init vectors: writes words into the fields of a flat vector.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace halfway {
 
-/// One vector of `bits` bits, zero at first, at the end of a list of words.
+/// Appends one vector of `bits` bits, all zero, to a list of words.
 class InitVector {
  public:
   InitVector(std::vector<std::uint32_t>& words, unsigned bits) {
@@ -26,8 +26,8 @@ class InitVector {
     words.resize(begin + count, 0);
     words_ = std::span(words).subspan(begin, count);
   }
-  /// The value modulo 2^bits of the field, in the block that starts at bit `block_low`: sums wrap, so a start
-  /// word may as well.
+  /// Writes the value modulo 2^bits of the field, in the block that starts at bit `block_low`. The hardware's
+  /// sums wrap, so a start word may wrap too.
   void put(const golden::Field& field, Int128 value, int block_low = 0) {
     golden::set_bits(words_, field, static_cast<std::uint64_t>(value), block_low);
   }
@@ -46,7 +46,7 @@ constexpr std::int64_t half(int fraction_bits) {
   return std::int64_t{1} << (fraction_bits - 1);
 }
 
-/// Word of a real number modulo 2^bits; a sliver's differences may be far past any integer type.
+/// A real number as a word modulo 2^bits. Differences of a sliver may exceed the range of any integer type.
 inline std::int64_t wrapped_word(long double value, int fraction_bits, int bits) {
   const long double modulus = std::ldexp(1.0L, bits);
   return to_integer<std::int64_t>(std::fmod(std::rint(std::ldexp(value, fraction_bits)), modulus));
@@ -54,12 +54,13 @@ inline std::int64_t wrapped_word(long double value, int fraction_bits, int bits)
 
 inline constexpr double c_depth_steps = double((1 << golden::Exact::c_depth_bits) - 1);
 
-/// Depth in [0, 1] in steps, a step clear of either end, so that rounding never wraps the 24 bits.
+/// Converts a depth in [0, 1] to steps. The result is at least one step away from both ends, so that rounding
+/// never wraps the 24 bits.
 inline double depth_steps(double z) {
   return std::clamp(z * c_depth_steps, 1.0, c_depth_steps - 2.0);
 }
 
-/// Of a triangle's vertices, in the unit of depth_sum.
+/// Depths of a triangle's vertices in the unit of depth_sum.
 inline std::array<std::int64_t, 3> fixed_depths(const ScreenTriangle& t) {
   const auto depth = [&](std::size_t i) {
     return fixed(depth_steps(t.vertex[i].z), golden::Exact::c_depth_sum_fraction_bits);
@@ -71,11 +72,11 @@ inline std::array<ScreenPoint, 3> screen_points(const ScreenTriangle& t) {
   return {{{t.vertex[0].x, t.vertex[0].y}, {t.vertex[1].x, t.vertex[1].y}, {t.vertex[2].x, t.vertex[2].y}}};
 }
 
-/// The header of preset exact: triangle, walk and depth; from bit `low` of the vector on.
+/// Writes the header of preset exact from bit `low` of the vector on: triangle, walk and depth.
 void put_header(InitVector& init, std::uint32_t triangle, const Walk& walk, const DepthWords& depth,
                 int low = 0);
 
-/// Where forward differences start on a walk.
+/// The start of the forward differences of a walk.
 inline DifferenceStart difference_start(const Walk& walk) {
   return {walk.start.pixel, walk.y, walk.start.quotient, walk.backward};
 }

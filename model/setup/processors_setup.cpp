@@ -26,16 +26,17 @@ namespace {
 
 using golden::Command, golden::Exact, golden::Published, golden::c_axes;
 
-// A light farther than this many times the surfaces' extent would leave their places no bits: in preset
-// published it is as if at infinity.
+// A light farther away than this multiple of the surfaces' extent would leave no bits for their positions.
+// Preset published treats it as directional.
 constexpr double c_farthest_light = 4096.0;
 
 constexpr double c_white = 255.0;  // colour steps
 
-// A cone of fewer errors of a cosine than this, from its axis to its edge, is noted.
+// A cone is reported in a note if the angle between its axis and its edge is less than this many errors of a
+// cosine.
 constexpr double c_least_cone = 32.0;
 
-// A number format that stands in no block of its own.
+// A number format outside any block.
 constexpr golden::Field word(int bits, int fraction_bits, bool is_signed = false) {
   return {"", 0, bits, is_signed, fraction_bits};
 }
@@ -47,7 +48,7 @@ double largest_value(const golden::Field& f) {
   return std::ldexp(static_cast<double>(largest(f)), -f.fraction_bits);
 }
 
-// Rounded, and held within the format.
+// Rounds and clamps to the format.
 std::int64_t held(double value, const golden::Field& f) {
   const double most = static_cast<double>(largest(f)), least = f.is_signed ? -most - 1.0 : 0.0;
   const double rounded = std::floor(std::ldexp(value, f.fraction_bits) + 0.5);
@@ -61,7 +62,7 @@ double largest_component(glm::dvec3 v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// e such that v is 2^e times 1/2 to 1; 0 where there is no such e.
+// The exponent e for which v = m * 2^e with m in [1/2, 1). 0 if there is none.
 int exponent_of(double v) {
   int e = 0;
   if (std::isfinite(v)) std::frexp(v, &e);
@@ -87,18 +88,18 @@ class ViewSpace {
   ViewBasis basis_;
 };
 
-constexpr glm::dvec3 c_to_eye_view(0.0, 0.0, 1.0);  // published: from everywhere
+constexpr glm::dvec3 c_to_eye_view(0.0, 0.0, 1.0);  // published: the same at all points
 
-// One for each plane and vertex, in units of plane_sum.
+// One value per vertex, in units of plane_sum.
 using PlaneValues = std::array<std::int64_t, 3>;
 constexpr std::size_t c_most_planes = 2 * c_axes + 1;
 
 struct Surface {
   bool normalize;
-  std::array<PlaneValues, c_most_planes> planes;  // as many as the layout has
+  std::array<PlaneValues, c_most_planes> planes;  // the layout's number of planes is used
 };
 
-// Which of some items lie on a line, in the order they were added.
+// Finds the items on a line, in the order in which they were added.
 class ByLine {
  public:
   explicit ByLine(std::uint32_t height) : bands_((height + c_band - 1) / c_band) {}
@@ -106,7 +107,7 @@ class ByLine {
     for (std::int64_t band = first_line / c_band; band <= last_line / c_band; ++band)
       bands_[static_cast<std::size_t>(band)].push_back(item);
   }
-  /// And perhaps others.
+  /// All items on the line. May include others.
   const std::vector<std::uint32_t>& near(std::uint32_t y) const { return bands_[y / c_band]; }
 
  private:
@@ -114,18 +115,18 @@ class ByLine {
   std::vector<std::vector<std::uint32_t>> bands_;
 };
 
-// Where a shadow polygon's depth stands still: before the near plane.
+// A shadow polygon. Its depth is constant if it lies in front of the near plane.
 struct Shadow {
   ShadowPolygon polygon;
   bool before_near;
 };
 
-// How many polygons lie over one another on a line, at most.
+// The greatest number of polygons that overlap on a line.
 class Overlap {
  public:
   explicit Overlap(std::uint32_t width) : change_(width + 2, 0) {}
   void add(const Walk& line) {
-    // Backward spans: [stop + 1, start + 1).
+    // A backward span covers [stop + 1, start + 1).
     const std::int64_t shift = line.backward ? 1 : 0;
     const auto [begin, end] = std::minmax({line.start.pixel + shift, line.upper.pixel + shift});
     ++change_[static_cast<std::size_t>(begin)];
@@ -220,9 +221,9 @@ class ProcessorsSetup final : public Setup {
   static constexpr golden::Field c_coefficient = word(P::c_coefficient_bits, P::c_coefficient_fraction_bits);
   static constexpr golden::Field c_reflected = word(P::c_reflected_bits, P::c_reflected_fraction_bits);
   static constexpr golden::Field c_intensity = P::light_colour_channel_at::intensity;
-  // Of a unit vector's length, and so of a cosine near 1: reciprocal_root.vhd.
+  // Error of a unit vector's length, and so of a cosine close to 1: see reciprocal_root.vhd.
   static constexpr double c_cosine_error = c_exact ? 0x1p-19 : 0x1p-7;
-  // Half a step of vector, which the hardware cuts the planes to.
+  // Half a step of `vector`: the hardware truncates the planes to that format.
   static constexpr std::int64_t c_half_vector =
       half(P::c_plane_sum_fraction_bits - P::c_vector_fraction_bits);
 
@@ -262,8 +263,8 @@ class ProcessorsSetup final : public Setup {
   bool has_place(LightRef light) const { return light_of(scene_, light).point.w != 0.0; }
   glm::dvec3 place_view(LightRef light) const { return view_.point(light_of(scene_, light).point.xyz_world); }
 
-  // The power of two that the place comes below 1 with, taken off: none where the format has none, or the
-  // light is too far.
+  // The exponent of the power of two that scales the place below 1. Empty if the format has none, or if the
+  // light is too far away.
   std::optional<int> light_shift(glm::dvec3 place_view) const {
     const double distance = largest_component(place_view);
     if (distance == 0.0) return 0;
@@ -297,7 +298,7 @@ class ProcessorsSetup final : public Setup {
       init.put(field, held(v[axis], field), layout_.light_axis_low(axis));
   }
 
-  // A unit vector in the place's field.
+  // Writes a unit vector into the field of the place.
   void put_towards(InitVector& init, glm::dvec3 to_light_view) const {
     constexpr int c_below = P::c_light_place_fraction_bits - P::c_direction_fraction_bits;
     for (int axis = 0; axis < c_axes; ++axis)
@@ -416,25 +417,25 @@ class ProcessorsSetup final : public Setup {
     return surface;
   }
 
-  // So that the largest component in view space is 1/2 to 1.
+  // Scales so that the largest component in view space is in [1/2, 1].
   void scale(std::array<glm::dvec3, 3>& normal) const {
     double most = 0.0;
     for (const glm::dvec3& n : normal) most = std::max(most, largest_component(view_.direction(n)));
     for (glm::dvec3& n : normal) n = most > 0.0 ? std::ldexp(1.0, -exponent_of(most)) * n : glm::dvec3(0.0);
   }
 
-  // A vertex beside the frame may lie far past what is drawn, but not past 2^13 times that.
+  // A vertex outside the frame may exceed the drawn range. It is clamped to 2^13 times that range.
   static std::int64_t plane_value(double v) {
     constexpr double c_most = 1 << 15;
     return std::isnan(v) ? 0 : fixed(std::clamp(v, -c_most, c_most), P::c_plane_sum_fraction_bits);
   }
 
-  // The words where the walk starts, or on one of its lines.
+  // Writes the words at the start of a walk, or at one of its lines.
   void put_surface(InitVector& init, const ScreenTriangle& t, const Surface& surface, const Walk& walk,
                    const WalkLine& line) const {
     init.put(Request::normalize, surface.normalize);
     for (int plane = 0; plane < layout_.planes(); ++plane) {
-      // Without a place the planes after N's are not there.
+      // Without positions the layout has only the planes of N.
       const DepthWords words =
           on_line(DepthFit(screen_points(t), subpixel_bits(), surface.planes[static_cast<std::size_t>(plane)])
                       .words(difference_start(walk), c_half_vector),
@@ -453,7 +454,7 @@ class ProcessorsSetup final : public Setup {
     return words;
   }
 
-  // Everything that will be drawn, and the lines it is on.
+  // Collects all triangles and shadow polygons to draw, with their lines.
   void index_lines() {
     std::vector<ScreenTriangle> on_screen;
     triangles_by_line_.emplace(frame_.height);
@@ -489,7 +490,7 @@ class ProcessorsSetup final : public Setup {
     return true;
   }
 
-  // Calls part(walk, line) for what the triangle has on the line.
+  // Calls part(walk, line) for the part of the triangle on the line.
   template <class Part>
   void for_each_part(const ScreenTriangle& t, std::uint32_t y, Part&& part) const {
     for (const Walk& walk : plan_walks(screen_points(t), subpixel_bits(), frame_)) {
@@ -506,7 +507,7 @@ class ProcessorsSetup final : public Setup {
       InitVector init = request(words, Command::depth, counts);
       put_header(init, t.source, line.walk, on_line(depth_words(t, walk), line), layout_.walk_low());
     });
-    if (!any) return;  // shadows fall on nothing
+    if (!any) return;  // no surface to cast a shadow on
     for (const bool opens : {true, false}) append_shadows(y, opens, words, counts);
     for_each_triangle(y, [&](const ScreenTriangle& t, const Walk& walk, const WalkLine& line) {
       InitVector init = request(words, Command::draw, counts);
@@ -619,16 +620,16 @@ class ProcessorsSetup final : public Setup {
   golden::ProcessorsLayout<P> layout_;
   ViewSpace view_;
   Projector projector_;
-  std::vector<LightRef> lights_;  // no more than the key has; any further light of the key stays undefined
+  std::vector<LightRef> lights_;  // at most the key's number; further lights of the key stay undefined
   bool has_places_;
   bool normalizes_;  // published
   // Exact: b is 2^ray_exponent_, a 2^distance_exponent_. Published: the scale is 2^scale_exponent_.
   int ray_exponent_ = 0, distance_exponent_ = 0, scale_exponent_ = 0;
-  double farthest_ = 0.0;  // published: of a light's place
+  double farthest_ = 0.0;  // published: greatest distance of a light's place
   std::vector<MaterialWords> materials_;
   std::vector<std::string> notes_;
 
-  // With shadows.
+  // Used only with shadows.
   std::vector<ScreenTriangle> triangles_;
   std::vector<ShadowVolumes> volumes_;
   std::vector<Shadow> shadows_;

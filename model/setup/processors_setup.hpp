@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Setup of the shading processors: lights as definitions, then triangles as planes of what the processors
-// take for each pixel, and their materials. All in view space: the eye at the origin, looking along -z.
+// Setup of the shading processors. It sends the definitions of the lights first, then the triangles with
+// their materials, as planes of the processors' per-pixel inputs. All in view space: the eye is at the origin
+// and looks along -z.
 //
-// What is linear on the screen, and so comes to a pixel as it is:
-//   exact      N/w, scaled by triangle; the view ray, a point over its w, scaled by b; and a/w. Of a triangle
-//   that
-//              has one normal, that normal, unit.
-//   published  unit N and P, as if they were; P and the lights' places over one scale
-// where w is the distance along the viewing axis, and a, b and the scale are powers of two, one a frame.
+// The per-pixel inputs are linear on the screen:
+//   exact      N/w, scaled per triangle; the view ray, a point divided by its w, scaled by b; and a/w. A
+//              triangle with one normal uses that normal as a unit vector.
+//   published  unit N and P, although they are not linear; P and the places of lights have one common scale.
+// w is the distance along the viewing axis. a, b and the scale are powers of two, one per frame.
 //
-// With shadows the stream goes by lines, so that a pixel's surface is known before shadow polygons pass over
-// it: for each line all triangles for their depths, then all polygons, then all triangles to be shaded. A
-// triangle's part of a line starts from sums of its whole walk's words: each pixel is what it is without.
+// With shadows the stream is ordered by lines, because a pixel's surface must be known before shadow polygons
+// are counted at it. For each line it has all triangles for their depths, then all polygons, then all
+// triangles to be shaded. The part of a triangle on a line starts with sums of the words of the complete
+// walk, so each pixel has the same values as without shadows.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shading processors' setup through their golden model: frames against the reference, triangle by
-// triangle and line by line, scenes that leave the formats, and lights where directions end.
+// Tests the setup of the shading processors through their golden model: frames compared with the reference,
+// triangle order compared with line order, scenes that exceed the formats, and lights at the limits of
+// direction.
 #include "setup/processors_setup.hpp"
 
 #include <fmt/format.h>
@@ -85,7 +86,7 @@ Scene builtin(const std::string& name) {
   return *scene;
 }
 
-// Lights of the kind asked for, over triangles or a mesh.
+// Lights of the given kind over triangles or a mesh.
 Scene random_scene(RandomScenes& random, RandomScenes::Lights kind) {
   Scene scene;
   scene.name = "random";
@@ -135,7 +136,8 @@ Scene ball() {
   return scene;
 }
 
-// Onto the middle of a wall that a narrow cone fills a good part of; inner edge and outer edge in degrees.
+// A spot on the middle of a wall. Its narrow cone fills a large part of the picture. Inner and outer edge in
+// degrees.
 Scene narrow_spot(double inner, double outer) {
   const double radius = 3.0 * std::tan(glm::radians(outer));
   Scene scene;
@@ -153,7 +155,7 @@ Scene narrow_spot(double inner, double outer) {
   return scene;
 }
 
-// From those on whose light is rough by more than tb/stability has it.
+// Limits: angles from which on the light's noise exceeds the value in tb/stability.
 TEST(ProcessorsSetup, NarrowSpotsAreNoted) {
   for (const auto& [preset, angle] : {std::pair{Preset::exact, 0.4}, {Preset::published, 40.0}}) {
     const Scene scene = narrow_spot(0.0, angle);
@@ -164,7 +166,7 @@ TEST(ProcessorsSetup, NarrowSpotsAreNoted) {
   EXPECT_THAT(make_setup(scene, c_frame, key_of(scene), {})->notes(), IsEmpty());
 }
 
-// A flat triangle whose normals are zero has its own.
+// A flat triangle with zero normals uses its own normal.
 TEST(ProcessorsSetup, OneZeroNormalIsTheTrianglesOwn) {
   Scene scene = ball();
   scene.directional = {{glm::normalize(glm::dvec3(0.2, 0.3, 1.0)), glm::dvec3(1.0)}};
@@ -205,7 +207,7 @@ TEST(ProcessorsSetup, WhatIsHeldIsNoted) {
                                    HasSubstr("its exponent 100000 was held at 8192"),
                                    HasSubstr("its k_d times the positional light 1 is 1800 times white"),
                                    HasSubstr("so far away that it was drawn as a directional one")));
-  // The colours that come of it are the largest.
+  // The resulting colours are the largest.
   for (const Preset preset : {Preset::exact, Preset::published})
     for (const Fragment& f : draw(scene, key_of(scene, preset)).fragments)
       if (f.x == c_frame.width / 2 && f.y == c_frame.height / 2) {
@@ -213,7 +215,7 @@ TEST(ProcessorsSetup, WhatIsHeldIsNoted) {
       }
 }
 
-// With hardware for shadows the stream goes by lines; each pixel is shaded as it is without.
+// With hardware for shadows the stream is ordered by lines. Each pixel is shaded as without shadows.
 TEST(ProcessorsSetup, LinesDrawWhatTrianglesDraw) {
   RandomScenes random(3);
   for (const Preset preset : {Preset::exact, Preset::published})
@@ -223,7 +225,7 @@ TEST(ProcessorsSetup, LinesDrawWhatTrianglesDraw) {
       const Drawn triangles = draw(scene, key), lines = draw(scene, with_shadows(key));
       ASSERT_EQ(triangles.frame.rgb, lines.frame.rgb) << to_string(preset) << ", scene " << i;
       EXPECT_FALSE(lines.fault);
-      // Each pixel once.
+      // Each pixel is drawn once.
       EXPECT_LE(lines.fragments.size(), triangles.fragments.size());
       EXPECT_EQ(lines.counts.triangles, triangles.counts.triangles);
       EXPECT_EQ(lines.counts.leaves, triangles.counts.leaves);
@@ -231,7 +233,7 @@ TEST(ProcessorsSetup, LinesDrawWhatTrianglesDraw) {
     }
 }
 
-// Pixels that the frame and the reference, its shadows cast by rays, colour differently.
+// Pixels whose colours differ between the frame and the reference, which casts its shadows by rays.
 struct Agreement {
   std::uint64_t pixels = 0, differ = 0, faults = 0;
 };
@@ -276,8 +278,8 @@ TEST(ProcessorsSetup, ShadowsAreThoseOfRays) {
   expect_rays(sum, 120'000);
 }
 
-// In preset published N turns otherwise between vertices, but shadows fall on the same pixels: where it is
-// dark without a light that would shine.
+// In preset published N varies differently between vertices, but the shadows fall on the same pixels: those
+// that are dark where light would otherwise shine.
 TEST(ProcessorsSetup, ShadowsOfBothPresetsFallOnTheSamePixels) {
   RandomSolids random(10);
   std::uint64_t dark = 0, apart = 0;
@@ -316,13 +318,14 @@ void for_each_vector(const std::vector<std::uint32_t>& words, unsigned bits, Vec
   for (std::size_t i = 0; i < words.size(); i += size) vector(std::span(words).subspan(i, size));
 }
 
-// Line by line: all depths, then shadows, those that open first, then all that is shaded, the same triangles.
+// On each line: all depths, then shadows (opening ones first), then all triangles to shade, the same as in
+// the depth part.
 TEST(ProcessorsSetup, ALineIsDepthsShadowsAndSurfaces) {
   std::uint64_t opening = 0, closing = 0, before_near = 0;
   RandomSolids random(11);
   for (int i = 0; i < 3; ++i) {
     Scene scene = on_a_floor(random, 4);
-    scene.camera.near = 2.0;  // cuts volumes
+    scene.camera.near = 2.0;  // cuts the shadow volumes
     const HardwareKey key = key_of(scene);
     const auto setup = make_setup(scene, c_frame, key, {});
     const int walk = golden::ProcessorsLayout<golden::Exact>::walk_low();
@@ -365,7 +368,7 @@ TEST(ProcessorsSetup, ALineIsDepthsShadowsAndSurfaces) {
   EXPECT_GT(before_near, 10U);
 }
 
-// Of a triangle with one normal N is that, each component rounded once.
+// A triangle with one normal uses it as N, each component rounded once.
 TEST(ProcessorsSetup, AnUnchangingNormalIsRoundedOnce) {
   Scene scene = ball();
   scene.directional = {{.to_light_world = {0.0, 0.0, 1.0}}};
@@ -379,7 +382,7 @@ TEST(ProcessorsSetup, AnUnchangingNormalIsRoundedOnce) {
     if (golden::get_bits(v, Request::command) != static_cast<std::uint32_t>(golden::Command::draw)) return;
     EXPECT_EQ(golden::get_bits(v, Request::normalize), 0U);
     const auto triangle = golden::get_bits(v, Walked::triangle, layout.walk_low());
-    // The camera's axes are the world's.
+    // The camera's axes are the world's axes.
     const glm::dvec3 n = scene.normals_world[scene.triangles[triangle].normal[0]];
     for (int axis = 0; axis < 3; ++axis) {
       const auto word = golden::Word<golden::Exact::c_plane_sum_bits>::from_bits(
@@ -393,7 +396,7 @@ TEST(ProcessorsSetup, AnUnchangingNormalIsRoundedOnce) {
   EXPECT_GT(seen, 100);
 }
 
-// No bit of a place is given away: the farthest, a light's here, is 1/2 to 1.
+// The positions use all bits of their format: the largest coordinate, here a light's, is in [1/2, 1].
 TEST(ProcessorsSetup, PlacesFillTheirFormat) {
   for (const Preset preset : {Preset::exact, Preset::published})
     for (const double distance : {30.0, 500.0}) {
@@ -418,9 +421,9 @@ TEST(ProcessorsSetup, PlacesFillTheirFormat) {
     }
 }
 
-// As published, in double: N goes straight across the screen, and is made unit only where a light has a
-// place; the eye is at infinity; a positional highlight's vector adds a unit one and one of the light's
-// distance.
+// The published model in double: N is linear on the screen, and is normalized only if a light has a place.
+// The eye is at infinity. The vector of a positional highlight is the sum of a unit vector and one of the
+// length of the distance to the light.
 glm::dvec3 published_radiance(const Scene& scene, const ScreenTriangle& t, glm::dvec3 weight) {
   const Material& m = scene.materials[t.material];
   glm::dvec3 n(0.0), p(0.0);
@@ -472,7 +475,7 @@ TEST(ProcessorsSetup, PublishedDrawsWhatIsPublished) {
   }
 }
 
-// Boxes in a row before one another, the light behind them all: each opens a volume.
+// Boxes in a row with the light behind all of them: each box opens a volume.
 TEST(ProcessorsSetup, DeepShadowsAreCounted) {
   Scene scene;
   scene.name = "row";

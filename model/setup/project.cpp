@@ -15,24 +15,24 @@
 namespace halfway {
 namespace {
 
-// Far beyond any scene, and far enough from the largest double that no product below overflows.
+// Larger than any scene, and small enough that no product below overflows.
 constexpr double c_largest_coordinate = 1e100;
 
-// Times the near distance. An edge whose nearer end is farther away than this may pass the eye closely and be
-// cut there with an error of 1/64 pixel or more.
+// In near distances. An edge whose nearer end is farther away may pass close to the eye and be cut there with
+// an error of 1/64 pixel or more.
 constexpr double c_largest_to_cut = 1e13;
 
-// Shorter interpolated normals are rounding noise: their direction means nothing.
+// Interpolated normals shorter than this are rounding noise: their direction is meaningless.
 constexpr double c_shortest_normal = 1e-8;
 
-// Pixels: what rounding to whole ones, and an edge by its rounded slope, may add to a triangle.
+// In pixels: enlargement of a triangle by rounding to whole pixels and by an edge's rounded slope.
 constexpr std::int32_t c_reach_margin = 2;
 
 bool representable(double v) {
   return std::abs(v) <= c_largest_coordinate;
 }  // false for NaN
 
-/// Scales before squaring: edges of 1e-200 have a direction too.
+/// Scales before squaring, so that edges of length 1e-200 have a direction too.
 glm::dvec3 unit_or_zero(glm::dvec3 v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   return largest > 0 && std::isfinite(largest) ? glm::normalize(v / largest) : glm::dvec3(0.0);
@@ -40,7 +40,7 @@ glm::dvec3 unit_or_zero(glm::dvec3 v) {
 
 glm::dvec3 geometric_normal_world(const ScreenTriangle& triangle) {
   const auto& [a, b, c] = triangle.vertex;
-  // Screen order is clockwise seen from outside, y being down: c before b.
+  // Seen from outside the corners are clockwise on the screen, because y points down. Use c before b.
   const glm::dvec3 normal = unit_or_zero(glm::cross(unit_or_zero(c.position_world - a.position_world),
                                                     unit_or_zero(b.position_world - a.position_world)));
   if (normal != glm::dvec3(0.0)) return normal;
@@ -79,8 +79,8 @@ Projector::Projector(const Scene& scene, FrameSize frame, ProjectionOptions opti
   const double top = to_frame ? 0.0 : c_guard_begin, bottom = to_frame ? height : c_guard_end;
   planes_ = {{{1, 0, -left, 0}, {-1, 0, right, 0}, {0, 1, -top, 0}, {0, -1, bottom, 0}}};
 
-  // A vertex that names a pixel must name one of the frame; a point of the plane may lie on the frame's far
-  // side.
+  // A vertex that names a pixel must name a pixel of the frame. A point of the plane may lie on the far
+  // border of the frame.
   const int last = to_frame && options_.subpixel_bits == 0 ? 1 : 0;
   const auto units = [&](double pixels) {
     return to_integer<std::int32_t>(pixels) * (1 << options_.subpixel_bits);
@@ -96,8 +96,8 @@ Projector::ClipVertex Projector::transform(glm::dvec3 position_world, glm::dvec3
           normal_world};
 }
 
-// Both triangles at an edge call this with the same two points, in either order: sort them, so that both get
-// the same bits. From the smaller one, because what is added to it rounds relative to the result.
+// Both triangles at an edge call this with the same two points in either order. Sort them, so that both get
+// the same bits. Start from the smaller point, because the rounding of the sum is relative to the result.
 Projector::ClipVertex Projector::intersect(const ClipVertex& a, const ClipVertex& b, const Plane& plane) {
   const bool in_order = std::tuple(a.magnitude(), a.x, a.y, a.w) < std::tuple(b.magnitude(), b.x, b.y, b.w);
   const ClipVertex& p = in_order ? a : b;
@@ -129,7 +129,7 @@ double Projector::depth(double w) const {
 }
 
 ScreenVertex Projector::snap(const ClipVertex& v, double near) const {
-  const double w = std::max(v.w, near);  // an intersection may fall a rounding short of the near plane
+  const double w = std::max(v.w, near);  // rounding may put an intersection before the near plane
   const double scale = 1 << options_.subpixel_bits;
   const double to_pixel = options_.subpixel_bits == 0 ? 0.5 : 0.0;
   const auto round_into = [&](double pixels, std::int32_t least, std::int32_t greatest) {
@@ -193,7 +193,7 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
                         ProjectionCounts& counts) const {
   const SceneTriangle& source = scene_->triangles[triangle];
   std::vector<ClipVertex> polygon;
-  polygon.reserve(9);  // each of the six planes adds a corner at most
+  polygon.reserve(9);  // each of the six planes adds at most one corner
   for (int i = 0; i < 3; ++i) {
     polygon.push_back(
         transform(scene_->positions_world[source.position[i]], scene_->normals_world[source.normal[i]]));
@@ -201,7 +201,7 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
     ++counts.unrepresentable;
     return;
   }
-  // Its sign, that of the volume eye and triangle span, tells front from back before any division.
+  // The sign of the volume spanned by eye and triangle distinguishes front from back without a division.
   const auto& a = polygon[0];
   const auto& b = polygon[1];
   const auto& c = polygon[2];
@@ -210,8 +210,8 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
 
   const std::vector<ScreenVertex> corner = clip_and_snap(polygon, depth_range_, counts);
   if (corner.empty()) return;
-  // The snapped area decides alone which way a triangle faces: what turned over in snapping is covered by its
-  // neighbours, which moved with it.
+  // The snapped area alone decides the orientation of a triangle. If snapping reversed a triangle, its
+  // neighbours, which share the moved vertices, cover its pixels.
   bool any = false;
   for (std::size_t i = 1; i + 1 < corner.size(); ++i) {
     const ScreenTriangle piece{triangle, source.material, {corner[0], corner[i + 1], corner[i]}};
@@ -265,7 +265,7 @@ void Projector::project_two_sided(const std::array<glm::dvec3, 3>& corners_world
   std::vector<ScreenVertex> corner =
       clip_and_snap(polygon, is_visible ? depth_range_ : DepthRange{c_least_near * near, near}, counts);
   if (corner.empty()) return;
-  if (!is_visible)  // where the near plane cut it, it may be a rounding behind
+  if (!is_visible)  // an intersection with the near plane may be one rounding beyond it
     for (ScreenVertex& v : corner) v.z = 0.0;
   bool any = false;
   for (std::size_t i = 1; i + 1 < corner.size(); ++i) {
@@ -294,7 +294,7 @@ std::vector<ScreenTriangle> Projector::project_all(ProjectionCounts* counts) con
 
 glm::dvec3 barycentric_screen(const ScreenTriangle& triangle, std::int64_t x_half, std::int64_t y_half) {
   const auto& vertex = triangle.vertex;
-  // Twice the area of (point, p, q), doubled by the half units: below 2^46 each, exact.
+  // Twice the area of (point, p, q), doubled because of the half units. Each product is below 2^46: exact.
   const auto area = [&](const ScreenVertex& p, const ScreenVertex& q) {
     return (2 * std::int64_t{p.x} - x_half) * (q.y - p.y) - (2 * std::int64_t{p.y} - y_half) * (q.x - p.x);
   };

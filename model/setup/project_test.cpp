@@ -64,7 +64,7 @@ Scene one_triangle(std::array<glm::dvec3, 3> corners) {
   return scene;
 }
 
-/// An octahedron split `levels` times, its corners on the unit sphere.
+/// An octahedron subdivided `levels` times, with its corners on the unit sphere.
 Scene sphere_scene(int levels, unsigned seed) {
   Scene scene;
   scene.materials.emplace_back();
@@ -99,13 +99,13 @@ Scene sphere_scene(int levels, unsigned seed) {
 }
 
 TEST(Project, AVertexLandsWhereTheCameraPutsIt) {
-  // 90 degrees of height: at distance 5 the frame is 10 high, 64 pixels; x to the right, y turned down.
+  // Vertical field of view 90 degrees: at distance 5 the frame is 10 high, 64 pixels. x points right, y down.
   Scene scene = one_triangle({{{0, 0, 0}, {2.5, 0, 0}, {0, 1.25, 0}}});
   scene.camera.vertical_fov_degrees = 90.0;
   const Projector projector(scene, {96, 64}, {});
   const auto triangles = projector.project_all();
   ASSERT_EQ(triangles.size(), 1u);
-  const auto& [a, b, c] = triangles[0].vertex;  // turned round: y is down
+  const auto& [a, b, c] = triangles[0].vertex;  // reversed order: y points down
   EXPECT_EQ(a.x, 48 * 16);
   EXPECT_EQ(a.y, 32 * 16);
   EXPECT_EQ(b.x, 48 * 16);
@@ -124,7 +124,7 @@ TEST(Project, WithoutSubpixelsAVertexIsThePixelItFallsIn) {
   const auto triangles = projector.project_all();
   ASSERT_EQ(triangles.size(), 1u);
   EXPECT_EQ(triangles[0].vertex[0].x, 0);
-  EXPECT_EQ(triangles[0].vertex[0].y, 63);  // y = 64.0 is the frame's end, its last pixel 63
+  EXPECT_EQ(triangles[0].vertex[0].y, 63);  // y = 64.0 is the end of the frame; its last pixel is 63
   EXPECT_EQ(triangles[0].vertex[1].x, 40);  // 32 + 1.36 * 6.4 = 40.704
   EXPECT_EQ(triangles[0].vertex[1].y, 0);
   EXPECT_EQ(triangles[0].vertex[2].x, 63);
@@ -152,7 +152,7 @@ TEST(Project, CountsWhyNothingIsSeen) {
 }
 
 TEST(Project, ACornerNearInfinityIsCutWhereItShould) {
-  // A band of 45 degrees from the frame's middle up to one of its corners, in the scene and mirrored.
+  // A band of 45 degrees from the middle of the frame up to one of its corners, and its mirror image.
   const FrameSize frame{64, 64};
   for (const bool to_the_left : {false, true}) {
     const double side = to_the_left ? -1.0 : 1.0;
@@ -163,14 +163,14 @@ TEST(Project, ACornerNearInfinityIsCutWhereItShould) {
       const auto triangles = Projector(scene, frame, {.clip_to_frame = clip_to_frame}).project_all();
       const std::vector<int> count = coverage(triangles, frame, 4);
       for (int y = 0; y < 64; ++y)
-        for (int x = 0; x < 64; ++x) {  // from the middle its feet are at -0.625 and 6.375 pixels, snapped
+        for (int x = 0; x < 64; ++x) {  // at the middle line the band covers -0.625 to 6.375 pixels, snapped
           const double from_middle = (x + 0.5 - 32.0) * side - (32.0 - (y + 0.5));
           const bool covered = y < 32 && from_middle > -0.625 && from_middle < 6.375;
           ASSERT_EQ(count[static_cast<std::size_t>(y * 64 + x)], covered ? 1 : 0) << x << ',' << y;
         }
     }
   }
-  // Two such corners: no digits are left to say where the edge between them passes.
+  // With two such corners, no digits remain that determine the position of the edge between them.
   const Scene scene = one_triangle({{{0, 0, 0}, {1e60, 0, 0}, {-1e60, 1e60, 3}}});
   ProjectionCounts counts;
   EXPECT_TRUE(Projector(scene, frame, {}).project_all(&counts).empty());
@@ -219,7 +219,8 @@ TEST(Project, AClosedConvexMeshCoversEachPixelOnceWithoutHoles) {
   }
 }
 
-/// Ground in world y = 0, cells jittered within the plane, `half` units to each side of the origin.
+/// Ground in the world's plane y = 0, cells jittered within the plane, `half` units to each side of the
+/// origin.
 Scene ground_scene(unsigned seed, int cells, double half) {
   Scene scene;
   scene.materials.emplace_back();
@@ -235,7 +236,7 @@ Scene ground_scene(unsigned seed, int cells, double half) {
   for (int j = 0; j < cells; ++j)
     for (int i = 0; i < cells; ++i) {
       const std::uint32_t a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
-      // Counter-clockwise seen from above, z towards the viewer.
+      // Counter-clockwise seen from above; z points towards the viewer.
       if (random() % 2)
         scene.triangles.insert(scene.triangles.end(), {{{a, d, c}, {0, 0, 0}, 0}, {{a, c, b}, {0, 0, 0}, 0}});
       else
@@ -244,8 +245,8 @@ Scene ground_scene(unsigned seed, int cells, double half) {
   return scene;
 }
 
-// The eye stands on a ground that reaches behind it, so that triangles cross near plane, far plane, guard
-// band and frame. Which pixels see ground is known from the ray through each.
+// The eye stands on ground that extends behind it, so that triangles cross the near plane, the far plane, the
+// guard band and the frame. The ray through each pixel tells whether it must show ground.
 TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
   std::mt19937 random(99);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -283,7 +284,7 @@ TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
       for (std::uint32_t y = 0; y < frame.height; ++y)
         for (std::uint32_t x = 0; x < frame.width; ++x) {
           const int here = count[std::size_t{y} * frame.width + x];
-          // Snapped borders move by up to 1/32 of a pixel; inside, nothing may.
+          // Snapped borders move by up to 1/32 of a pixel. Inside, nothing may change.
           const double cx = x + 0.5, cy = y + 0.5, d = 1.0 / 16.0;
           const bool inside = sees_ground(cx, cy);
           bool near_border = false;
@@ -296,7 +297,7 @@ TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
         }
     }
   }
-  // The scenes must be such that the test means something.
+  // The scenes must contain enough such cases for the test to be meaningful.
   EXPECT_GT(clipped_at_guard, 100);
   EXPECT_GT(clipped_at_near, 100);
 }
@@ -343,8 +344,8 @@ TEST(Project, TwoSidedIsTheSameWithTheBacks) {
   }
 }
 
-// Ground that reaches from behind the eye to beyond the far plane: what the near plane cuts off and the rest
-// meet without a gap, and cover all that a ray from the eye meets before the far plane.
+// Ground from behind the eye to beyond the far plane. The part in front of the near plane and the visible
+// part meet without a gap, and cover everything that a ray from the eye meets before the far plane.
 TEST(Project, TheSliceBeforeTheNearPlaneContinuesTheVisibleOne) {
   std::mt19937 random(31);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -362,7 +363,7 @@ TEST(Project, TheSliceBeforeTheNearPlaneContinuesTheVisibleOne) {
     const ViewBasis basis = view_basis(camera);
     const double focal = 0.5 * frame.height / std::tan(glm::radians(37.5));
     const Projector projector(scene, frame, {});
-    // A sliver that snapping turned over takes away what its neighbours cover twice.
+    // A sliver reversed by snapping counts negatively: its neighbours cover the same pixels twice.
     std::array<std::vector<ScreenTriangle>, 2> slices, turned_over;
     ProjectionCounts counts;
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
@@ -388,7 +389,7 @@ TEST(Project, TheSliceBeforeTheNearPlaneContinuesTheVisibleOne) {
       visible[pixel] -= visible_over[pixel];
       before[pixel] -= before_over[pixel];
     }
-    // -1: no ground; 0: before the near plane; 1: visible; 2: too far.
+    // -1: no ground; 0: in front of the near plane; 1: visible; 2: beyond the far plane.
     const auto slice_at = [&](double x, double y) {
       const glm::dvec3 ray = (x - 0.5 * frame.width) / focal * basis.right_world -
                              (y - 0.5 * frame.height) / focal * basis.up_world - basis.backward_world;
@@ -420,8 +421,8 @@ TEST(Project, TheSliceBeforeTheNearPlaneContinuesTheVisibleOne) {
   EXPECT_GT(in_both_slices, 200);
 }
 
-// Two triangles at one edge, taken in opposite directions, in any position: the points cut on the edge are
-// the same.
+// Two triangles at one edge, with opposite directions of the edge, in any position: the cut points on the
+// edge are equal.
 TEST(Project, ASharedEdgeIsCutAtTheSamePoints) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -432,11 +433,11 @@ TEST(Project, ASharedEdgeIsCutAtTheSamePoints) {
     scene.positions_world.push_back(point());
     scene.camera.far = 11.0;
     const FrameSize frame{64, 48};
-    // By where they lie along the edge, roughly: their place, exactly.
+    // Find cut points by their approximate place along the edge, and compare their coordinates exactly.
     const auto cut_points = [&](SceneTriangle t) {
       scene.triangles = {t};
       std::map<std::int64_t, std::array<double, 5>> found;
-      for (int turn = 0; turn < 2; ++turn) {  // seen from either side
+      for (int turn = 0; turn < 2; ++turn) {  // seen from both sides
         if (turn) std::swap(scene.triangles[0].position[1], scene.triangles[0].position[2]);
         for (const ScreenTriangle& s :
              Projector(scene, frame, {.clip_to_frame = round % 2 == 0}).project_all())
@@ -453,7 +454,7 @@ TEST(Project, ASharedEdgeIsCutAtTheSamePoints) {
     const auto second = cut_points({{1, 0, 3}, {0, 0, 0}, 0});
     for (const auto& [along, point_of_first] : first)
       if (const auto it = second.find(along);
-          it != second.end()) {  // the other's piece may have snapped to nothing
+          it != second.end()) {  // the piece of the other may have zero area after snapping
         ASSERT_EQ(point_of_first, it->second) << round;
         ++cuts;
       }
@@ -461,7 +462,7 @@ TEST(Project, ASharedEdgeIsCutAtTheSamePoints) {
   EXPECT_GT(cuts, 300);
 }
 
-/// A triangle whose vertices lie exactly on snapped coordinates: from the screen back to the world.
+/// A triangle with vertices exactly on snapped coordinates, projected back from the screen to the world.
 struct Unprojected {
   Scene scene;
   ScreenTriangle triangle;
@@ -538,10 +539,10 @@ TEST(SurfacePoint, OpposedNormalsFallBackToTheTrianglesOwn) {
   triangle.vertex[0].normal_world = {1, 0, 0};
   triangle.vertex[1].normal_world = {-1, 0, 0};
   EXPECT_EQ(surface_point(triangle, {0.5, 0.5, 0.0}).normal_world, glm::dvec3(0, 0, 1));  // towards the eye
-  // One step of rounding beside it the direction is still noise.
+  // One rounding next to it, the direction is still noise.
   EXPECT_EQ(surface_point(triangle, {0.5 + 1e-15, 0.5 - 1e-15, 0.0}).normal_world, glm::dvec3(0, 0, 1));
   EXPECT_NEAR(surface_point(triangle, {0.6, 0.4, 0.0}).normal_world.x, 1.0, 1e-15);
-  // Not even the corners know one: still a unit vector.
+  // If the corners have no normal either, the result is still a unit vector.
   for (ScreenVertex& v : triangle.vertex) v.position_world = v.normal_world = glm::dvec3(0.0);
   EXPECT_EQ(glm::length(surface_point(triangle, {0.2, 0.3, 0.5}).normal_world), 1.0);
 }

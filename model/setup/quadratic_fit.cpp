@@ -8,7 +8,7 @@ Int128 twice_area(const std::array<ScreenPoint, 3>& p) {
   return Int128{p[1].x - p[0].x} * (p[2].y - p[0].y) - Int128{p[1].y - p[0].y} * (p[2].x - p[0].x);
 }
 
-// A divisor must be positive; the numerators turn their sign with it.
+// A divisor must be positive. The numerators change their sign with it.
 Int128 magnitude(Int128 v) {
   return v < 0 ? -v : v;
 }
@@ -38,7 +38,7 @@ QuadraticWords QuadraticFit::words(const SixSamples& i, const DifferenceStart& s
   const Int128 q2 = 2 * (Int128{i.vertex[0]} + i.vertex[1] - 2 * Int128{i.edge12});
   const Int128 q3 = 2 * (Int128{i.vertex[0]} + i.vertex[2] - 2 * Int128{i.edge13});
   const Int128 b = 4 * (Int128{i.edge23} - i.edge12 - i.edge13 + i.vertex[0]);
-  // Numerators: t1, t2 over D, t3 to t5 over D^2.
+  // Numerators: t1 and t2 with divisor D, t3 to t5 with divisor D^2.
   const Int128 t1 = c3 * x2_ - c2 * x3_;
   const Int128 t2 = c2 * y3_ - c3 * y2_;
   const Int128 t3 = (q2 * x3_ - b * x2_) * x3_ + q3 * x2_ * x2_;
@@ -52,10 +52,10 @@ QuadraticWords QuadraticFit::words(const SixSamples& i, const DifferenceStart& s
   const Int128 gradient_u = t2 * d_ + 2 * t5 * u + t4 * v;
   const Int128 gradient_v = t1 * d_ + t4 * u + 2 * t3 * v;
 
-  // Six words are rounded, the others are sums of them: whole-number differences stay consistent.
+  // Six words are rounded. The others are sums of these, so that the integer differences stay consistent.
   const Int128 value = divider_.rounded(Int128{i.vertex[0]} * d_ * d_ + (t2 * u + t1 * v) * d_ + t5 * u * u +
                                         t4 * u * v + t3 * v * v);
-  // The span's own step is the one rounded, so that its error does not grow with the other direction's.
+  // Round the step in the direction of the span, so that its error does not depend on the opposite direction.
   const int sign = start.backward ? -1 : 1;
   const Int128 dx = divider_.rounded(sign * gradient_u * s + t5 * s * s);
   const Int128 step_e0 =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quadratic through six samples of a triangle, and the plane through three depths, as exact rationals;
-// from them the words that forward differences start with, each rounded once.
+// The quadratic through six samples of a triangle, and the plane through three depths, as exact rationals.
+// The start words of the forward differences are derived from them; each is rounded once.
 #pragma once
 
 #include <array>
@@ -11,37 +11,37 @@
 
 namespace halfway {
 
-/// Samples of one channel in units of 2^-28 colour steps (or whatever the caller's unit): at the three
-/// vertices, and at the midpoints of the edges 1-2, 1-3, 2-3.
+/// Samples of one channel in units of 2^-28 colour steps, or in the caller's unit: at the three vertices, and
+/// at the midpoints of the edges 1-2, 1-3, 2-3.
 struct SixSamples {
   std::array<std::int64_t, 3> vertex;
   std::int64_t edge12, edge13, edge23;
 };
 
-/// Where forward differences start, and the edge's step: pixel (x, y), e0 = (quotient, 1).
+/// Start of the forward differences, and the step along the edge: pixel (x, y), e0 = (quotient, 1).
 struct DifferenceStart {
   std::int64_t x, y, quotient;
   bool backward;
 };
 
-/// Words of an init vector's channel block; see rtl/interpolation/quadratic_interpolator.vhd. Not yet
-/// wrapped.
+/// Words of an init vector's channel block, before wrapping; see
+/// rtl/interpolation/quadratic_interpolator.vhd.
 struct QuadraticWords {
   Int128 value, dx, de0, de1, dxx, dxe0, dxe1, de0e0, de0e1, de1e1;
 };
 
 /// I(u, v) = I1 + (t2 u + t1 v)/D + (t5 u^2 + t4 uv + t3 v^2)/D^2, (u, v) relative to vertex 1 in
-/// 1/2^unit_bits pixels (quadratic paper, equation 4; its T's are these over D or D^2). D^2 is the one
-/// divisor.
+/// 1/2^unit_bits pixels (quadratic paper, equation 4; the paper's T are these values divided by D or D^2).
+/// D^2 is the only divisor.
 class QuadraticFit {
  public:
-  /// D = twice the area, not zero. Points within 2^13 pixels at unit_bits 4; each level of subdivision
-  /// doubles the units and halves the triangle. Samples below 2^39 in magnitude: then no sum here exceeds
-  /// 2^118.
+  /// D is twice the area and must not be zero. Points are within 2^13 pixels at unit_bits 4. Each level of
+  /// subdivision doubles the units and halves the triangle. Samples are below 2^39 in magnitude. No sum here
+  /// then exceeds 2^118.
   QuadraticFit(std::array<ScreenPoint, 3> points, int unit_bits);
 
-  /// The words for one channel's samples; `half` is added to the value (0.5 in the samples' unit, for
-  /// rounding).
+  /// The words for the samples of one channel. `half` is added to the value: 0.5 in the unit of the samples,
+  /// for rounding.
   QuadraticWords words(const SixSamples& samples, const DifferenceStart& start, std::int64_t half) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// QuadraticFit and DepthFit against the 6x6 and 3x3 systems solved in rationals, and the golden model's
-// fragments against those rationals at every covered pixel.
+// Compares QuadraticFit and DepthFit with the 6x6 and 3x3 systems solved in rationals, and the golden model's
+// fragments with those rationals at every covered pixel.
 #include "setup/quadratic_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ constexpr int c_fraction = Exact::c_intensity_fraction_bits;
 constexpr std::int64_t c_largest_sample_word = std::int64_t{1023} << c_fraction;
 constexpr FrameSize c_frame = {4096, 4096};
 
-/// Solves A x = b by elimination; A is regular.
+/// Solves A x = b by elimination. A must be regular.
 template <std::size_t N>
 std::array<mpq_class, N> solved(std::array<std::array<mpq_class, N + 1>, N> rows) {
   for (std::size_t i = 0; i < N; ++i) {
@@ -43,7 +43,7 @@ std::array<mpq_class, N> solved(std::array<std::array<mpq_class, N + 1>, N> rows
   return x;
 }
 
-/// a x^2 + b xy + c y^2 + d x + e y + f, x and y in units of the triangle's, from its first vertex.
+/// a x^2 + b xy + c y^2 + d x + e y + f; x and y in the triangle's units, relative to its first vertex.
 struct Quadratic {
   std::array<mpq_class, 6> k;
   mpq_class at(const mpq_class& x, const mpq_class& y) const {
@@ -76,7 +76,7 @@ std::int64_t twice_area(const Points& p) {
          std::int64_t{p[1].y - p[0].y} * (p[2].x - p[0].x);
 }
 
-/// The centre of a pixel from the first vertex, in the triangle's units.
+/// The centre of a pixel relative to the first vertex, in the triangle's units.
 std::int64_t centre(std::int64_t pixel, std::int32_t origin, int unit_bits) {
   const std::int64_t unit = std::int64_t{1} << unit_bits;
   return pixel * unit + unit / 2 - origin;
@@ -112,7 +112,7 @@ TEST(QuadraticFit, EachWordIsTheRationalRoundedOnce) {
           const DifferenceStart start{walk.start.pixel, walk.y, walk.start.quotient, walk.backward};
           const std::int64_t half = std::int64_t{1} << (c_fraction - 1);
           const QuadraticWords w = QuadraticFit(p, unit_bits).words(samples, start, half);
-          // The forward differences by their definition: the quadratic at pixels from the first one on.
+          // Forward differences by definition: differences of the quadratic at pixels from the first one on.
           const auto at = [&](std::int64_t dx, std::int64_t dy) {
             return quadratic.at(static_cast<long>(centre(start.x + dx, p[0].x, unit_bits)),
                                 static_cast<long>(centre(start.y + dy, p[0].y, unit_bits)));
@@ -130,10 +130,10 @@ TEST(QuadraticFit, EachWordIsTheRationalRoundedOnce) {
           ASSERT_EQ(to_mpz(w.de0), rounded(step(q, 1)));
           ASSERT_EQ(to_mpz(w.dxx), rounded(second(s, 0, s, 0)));
           ASSERT_EQ(to_mpz(w.de0e0), rounded(second(q, 1, q, 1)));
-          // The mixed one is rounded forward, whichever way the span runs.
+          // The mixed difference is rounded in forward direction, for spans in either direction.
           const mpz_class xe0 = rounded(second(1, 0, q, 1));
           ASSERT_EQ(to_mpz(w.dxe0), s * xe0);
-          // The others are sums of the words, as those of one whole-number quadratic.
+          // The other words are sums of these, as for a quadratic with integer coefficients.
           const Int128 forward_x = walk.backward ? w.dxx - w.dx : w.dx, forward_xe0 = s * w.dxe0;
           ASSERT_TRUE(w.de1 == w.de0 + forward_x + forward_xe0);
           ASSERT_TRUE(w.dxe1 == s * (forward_xe0 + w.dxx));
@@ -177,7 +177,7 @@ TEST(DepthFit, EachWordIsTheRationalRoundedOnce) {
   }
 }
 
-/// What the golden model made of a triangle, worst cases over its pixels. Errors as parts of their bound.
+/// Worst cases over the pixels of a triangle drawn by the golden model. Errors are relative to their bounds.
 struct Worst {
   double intensity = 0.0, intensity_steps = 0.0, depth = 0.0, depth_steps = 0.0, colour_steps = 0.0;
   std::int64_t pixels = 0, lowest = 0, highest = 0;
@@ -193,7 +193,7 @@ struct Worst {
   }
 };
 
-/// Sees every pixel's registers beside the rationals, which it holds as numerators over D^2 and D.
+/// Compares every pixel's registers with the rationals, which are stored as numerators over D^2 and D.
 class Comparison {
  public:
   Comparison(const Points& p, int unit_bits, const SixSamples& samples, const std::array<std::int64_t, 3>& z)
@@ -361,8 +361,8 @@ TEST(GoldenQuadratic, LongAndTallTrianglesAreWithinTheStatedBound) {
   RandomTriangles random(7);
   const auto units = [&](int pixels) { return 16 * pixels + random.within(-8, 8); };
   for (int round = 0; round < 12; ++round) {
-    // From corner to corner and along each side, wide and thin, forward and backward; beyond the frame as
-    // well.
+    // Triangles from corner to corner and along each side, wide and thin, forward and backward, also beyond
+    // the frame.
     const int thick = round % 4 == 0 ? 4096 : round % 4 == 1 ? 64 : 2, by = round % 3 == 0 ? 2000 : 0;
     const std::array<Points, 6> shapes = {{
         {{{units(-by), units(-by)}, {units(4096 + by), units(4096 + by)}, {units(thick), units(0)}}},
@@ -382,8 +382,8 @@ TEST(GoldenQuadratic, LongAndTallTrianglesAreWithinTheStatedBound) {
   EXPECT_GT(worst.pixels, 1'000'000);
 }
 
-// Samples of nothing and of the largest, in every combination: control points reach -1023 and 2046, and no
-// value leaves the format. A value that did would come out 2^12 steps off, and `draw` would see it.
+// All combinations of zero samples and largest samples. Control points are within -1023 ... 2046, and no
+// value leaves the format. Such a value would be wrong by 2^12 steps, and `draw` would report it.
 TEST(GoldenQuadratic, NoValueLeavesTheFormatWhateverTheSamples) {
   Worst worst;
   RandomTriangles random(9);
@@ -399,7 +399,7 @@ TEST(GoldenQuadratic, NoValueLeavesTheFormatWhateverTheSamples) {
   const auto steps = [](std::int64_t word) { return std::ldexp(static_cast<double>(word), -c_fraction); };
   EXPECT_GE(steps(worst.lowest), -1023.0 - 0.15);
   EXPECT_LE(steps(worst.highest), 2046.0 + 0.15);
-  // Near enough to the hull's ends to mean something.
+  // The extremes must be close enough to those of the control points to be meaningful.
   EXPECT_LT(steps(worst.lowest), -300.0);
   EXPECT_GT(steps(worst.highest), 1300.0);
 }

@@ -20,21 +20,22 @@ namespace {
 using golden::Exact;
 using golden::Published;
 
-// A vertex of a piece of a screen triangle: exact on the screen, exact in the triangle's barycentrics.
+// A vertex of a piece of a screen triangle: exact on the screen and in barycentric coordinates of the
+// triangle.
 struct Corner {
   ScreenPoint point;
   glm::dvec3 barycentric;
 };
 
-// A surface sample and its radiance, kept so that neighbours in the subdivision share it.
+// A sample of the surface and its radiance. Neighbours in the subdivision share it.
 struct Sample {
   Corner corner;
   SurfacePoint surface;
   glm::dvec3 radiance;
 };
 
-// Vertices, then midpoints of 1-2, 1-3, 2-3. Vertex points are in units of the piece's own level, and so are
-// the midpoints' once doubled: see `deeper`.
+// Vertices, then midpoints of 1-2, 1-3, 2-3. Points of vertices are in units of the piece's own level. Points
+// of midpoints are in units of the next level: see `deeper`.
 using SixPoints = std::array<Sample, 6>;
 
 struct Piece {
@@ -46,7 +47,7 @@ ScreenPoint doubled(ScreenPoint p) {
   return {2 * p.x, 2 * p.y};
 }
 
-// The midpoint in the next level's units, where it is exact.
+// The midpoint in units of the next level, where it is exact.
 ScreenPoint middle(ScreenPoint a, ScreenPoint b) {
   return {a.x + b.x, a.y + b.y};
 }
@@ -61,7 +62,7 @@ class Sampler {
     const SurfacePoint surface = surface_point(triangle_, corner.barycentric);
     return {corner, surface, radiance(scene_, material_, surface.position_world, surface.normal_world)};
   }
-  /// `a` and `b` in units of one level; the sample's point in units of the next.
+  /// `a` and `b` are in units of one level, the sample's point in units of the next.
   Sample between(const Sample& a, const Sample& b) const {
     return at({middle(a.corner.point, b.corner.point), (a.corner.barycentric + b.corner.barycentric) * 0.5});
   }
@@ -87,7 +88,7 @@ Piece whole(const ScreenTriangle& t, const Sampler& sampler) {
           0};
 }
 
-// A sample whose point is in units of a level, in units of the next one.
+// Converts a sample's point from units of one level to units of the next.
 Sample deeper(Sample s) {
   s.corner.point = doubled(s.corner.point);
   return s;
@@ -125,7 +126,7 @@ bool needs_split(const Piece& p, const Sampler& sampler, const QuadraticSetupOpt
   return centroid_error(t, sampler.at({{}, centroid}).radiance) > options.threshold;
 }
 
-// A triangle of at most this many pixels either way is not worth splitting.
+// Triangles of at most this width and height, in pixels, are not split.
 constexpr std::int32_t c_least_pixels = 2;
 
 bool is_small(const Piece& p, int subpixel_bits) {
@@ -273,7 +274,7 @@ void QuadraticSetup::append_exact(const ScreenTriangle& triangle, std::vector<st
                                   SetupCounts& counts) const {
   const int subpixel_bits = projector_.options().subpixel_bits;
   const std::array<ScreenPoint, 3> corners = screen_points(triangle);
-  // A triangle that covers no pixel needs no sample.
+  // A triangle that covers no pixel needs no samples.
   if (plan_walks(corners, subpixel_bits, frame_).empty()) return;
   const Sampler sampler(*scene_, triangle, counts);
   const std::array<std::int64_t, 3> depths = fixed_depths(triangle);
@@ -286,7 +287,7 @@ void QuadraticSetup::append_exact(const ScreenTriangle& triangle, std::vector<st
     if (walks.empty()) return;
     std::array<ScreenPoint, 3> scaled = corners;
     for (ScreenPoint& p : scaled) p = {p.x << piece.level, p.y << piece.level};
-    // Depth follows the whole triangle's plane, so that its pieces agree.
+    // All pieces use the depth plane of the whole triangle, so that their depths agree.
     append_vectors(words, channels_, triangle.source, walks, points, unit_bits,
                    DepthFit(scaled, unit_bits, depths), held_samples(piece, channels_, counts));
     counts.vectors += walks.size();

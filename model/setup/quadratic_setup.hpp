@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Setup of the quadratic shader: from the scene's triangles to init vectors.
+// Setup of the quadratic shader: converts the scene's triangles to init vectors.
 #pragma once
 
 #include <array>
@@ -21,13 +21,13 @@ namespace halfway {
 /// midpoints of edges 1-2, 1-3, 2-3.
 using ChannelSamples = std::array<std::array<double, 6>, 3>;
 
-/// Appends the vectors of preset exact that draw a triangle on the screen, or a piece of one: one for each of
-/// its walks. Points in 1/2^unit_bits pixels; depth may follow a larger triangle's plane.
+/// Appends the vectors of preset exact that draw a screen triangle or a piece of one, one vector per walk.
+/// Points are in 1/2^unit_bits pixels. `depth` may be the plane of a larger triangle.
 void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
                     std::span<const Walk> walks, const std::array<ScreenPoint, 3>& points, int unit_bits,
                     const DepthFit& depth, const ChannelSamples& samples);
 
-/// The same of preset published: one for each half. Returns how many.
+/// The same for preset published, one vector per half. Returns the number of vectors.
 std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
                            const std::array<HalfVertex, 3>& vertices, const ChannelSamples& samples);
 

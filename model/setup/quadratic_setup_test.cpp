@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From scenes to fragments: the golden model fed by the setup, against coverage, plane and quadratic computed
-// apart from it.
+// From scenes to fragments: compares the golden model, with init vectors from the setup, with independently
+// computed coverage, plane and quadratic.
 #include "setup/quadratic_setup.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ Scene lit_scene() {
   return scene;
 }
 
-/// Vertices moved along the sphere; a closed mesh of any shape where `bump` moves them off it as well.
+/// Vertices moved along the sphere. With `bump` they also move off the sphere: a closed mesh of any shape.
 Scene sphere_scene(unsigned seed, double jitter, double bump) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -53,7 +53,7 @@ Scene sphere_scene(unsigned seed, double jitter, double bump) {
         (1.0 + bump * unit(random));
   add_mesh(scene, mesh);
   scene.camera.eye_world = 3.5 * glm::normalize(glm::dvec3(unit(random), unit(random), unit(random) + 2.0));
-  scene.camera.target_world = {0.9 * unit(random), 0.9 * unit(random), 0.0};  // off the frame's middle
+  scene.camera.target_world = {0.9 * unit(random), 0.9 * unit(random), 0.0};  // off the middle of the frame
   return scene;
 }
 
@@ -122,25 +122,25 @@ Pixels drawn_pixels(const std::vector<Fragment>& fragments) {
 }
 
 constexpr QuadraticSetupOptions c_whole = {.test = HighlightTest::none};
-// So small a threshold that nearly every triangle is split, some to the last level.
+// The threshold is so small that nearly every triangle is split, some down to the last level.
 constexpr QuadraticSetupOptions c_split = {.test = HighlightTest::conservative, .threshold = 0.05};
 constexpr QuadraticSetupOptions c_split_some = {
     .test = HighlightTest::conservative, .threshold = 1.0, .max_level = 2};
 constexpr std::array<FrameSize, 5> c_frames = {{{160, 120}, {37, 91}, {320, 64}, {1, 1}, {500, 400}}};
 
-// Split or not, next to split or unsplit neighbours, partly beside the frame: each triangle of the scene
-// draws its own pixels, each once.
+// Triangles split or not, with split or unsplit neighbours, partly outside the frame: each triangle of the
+// scene draws its own pixels exactly once.
 TEST(QuadraticSetup, EachTriangleDrawsItsPixelsOnceHoweverItIsSplit) {
   std::vector<Scene> scenes = {teapot_scene()};
   for (unsigned seed = 0; seed < 3; ++seed) scenes.push_back(sphere_scene(seed, 0.1, 0.15));
   scenes.push_back(sphere_scene(9, 0.1, 0.15));
-  scenes.back().camera.eye_world = {0.3, 0.2, 1.3};  // inside the guard band's reach
+  scenes.back().camera.eye_world = {0.3, 0.2, 1.3};  // within the reach of the guard band
   std::uint64_t split = 0, walks = 0;
   for (const Scene& scene : scenes)
     for (const FrameSize frame : c_frames) {
       const Pixels expected = covered(projected(scene, frame), frame);
       for (const QuadraticSetupOptions& options : {c_whole, c_split, c_split_some}) {
-        if (options.threshold < 0.1 && frame.width > 400) continue;  // for time
+        if (options.threshold < 0.1 && frame.width > 400) continue;  // limits the run time
         const Drawn drawn = draw(scene, frame, options);
         ASSERT_TRUE(drawn_pixels(drawn.fragments) == expected)
             << frame.width << 'x' << frame.height << ", " << drawn.counts.leaves << " leaves";
@@ -175,7 +175,8 @@ TEST(QuadraticSetup, AClosedConvexMeshIsDrawnWithoutGapsAndOnce) {
   }
 }
 
-// Unsplit: colour by the Lagrange form of the six samples, depth by the plane, both at the pixel's centre.
+// Without splitting: compare the colour with the Lagrange form of the six samples, and the depth with the
+// plane, both at the pixel's centre.
 TEST(QuadraticSetup, FragmentsAreTheQuadraticThroughTheRadianceAndThePlaneThroughTheDepths) {
   for (Scene scene : {teapot_scene(), sphere_scene(4, 0.1, 0.1)}) {
     scene.directional[0].intensity *= 1.7;  // over-exposes in places
@@ -199,7 +200,7 @@ TEST(QuadraticSetup, FragmentsAreTheQuadraticThroughTheRadianceAndThePlaneThroug
           b.x * (2 * b.x - 1) * sample({1, 0, 0}) + b.y * (2 * b.y - 1) * sample({0, 1, 0}) +
           b.z * (2 * b.z - 1) * sample({0, 0, 1}) + 4 * b.x * b.y * sample({0.5, 0.5, 0}) +
           4 * b.x * b.z * sample({0.5, 0, 0.5}) + 4 * b.y * b.z * sample({0, 0.5, 0.5});
-      // Rounding, and what the differences may add over a triangle of less than 100 pixels.
+      // Rounding, plus the error of the differences over a triangle of less than 100 pixels.
       const double most = 0.5 + 1e-4;
       ASSERT_NEAR(f.red, std::clamp(colour.x, 0.0, 255.0), most);
       ASSERT_NEAR(f.green, std::clamp(colour.y, 0.0, 255.0), most);
@@ -247,7 +248,7 @@ TEST(QuadraticSetup, OneChannelIsAnyOfThreeWhereTheSceneIsGrey) {
   }
 }
 
-// Light without measure: samples are held, so that no control point leaves the format.
+// Unlimited light: samples are clamped, so that no control point leaves the format.
 TEST(QuadraticSetup, OverexposureIsHeldAndCounted) {
   Scene scene = sphere_scene(1, 0.0, 0.0);
   const FrameSize frame{160, 120};
@@ -278,7 +279,7 @@ TEST(QuadraticSetup, CountsSayWhatWasDone) {
   sum += split;
   EXPECT_EQ(sum.leaves, whole.leaves + split.leaves);
   EXPECT_EQ(sum.shaded, whole.shaded + split.shaded);
-  // No deeper than asked, and what that leaves unresolved is said.
+  // The level limit is respected, and the counts report what stays unresolved.
   QuadraticSetupOptions shallow = c_split;
   shallow.max_level = 1;
   const SetupCounts once = draw(scene, frame, shallow).counts;
@@ -286,8 +287,9 @@ TEST(QuadraticSetup, CountsSayWhatWasDone) {
   EXPECT_LE(once.leaves, 4 * once.triangles);
 }
 
-// The papers' walk: lines and spans closed at both ends, from real slopes. It draws every pixel inside and
-// none more than a pixel off, all in the frame; it repeats pixels along shared edges, as published.
+// The papers' walk: lines and spans include both ends, and the edges have real slopes. It draws every pixel
+// inside, none more than one pixel outside, and all in the frame. It repeats pixels along shared edges, as
+// published.
 TEST(QuadraticSetup, PublishedWalkCoversTheInsideAndStaysBesideTheEdges) {
   std::vector<Scene> scenes = {teapot_scene(), sphere_scene(6, 0.1, 0.1), sphere_scene(7, 0.1, 0.1)};
   scenes[2].camera.eye_world = {0.3, 0.2, 1.3};
@@ -297,7 +299,7 @@ TEST(QuadraticSetup, PublishedWalkCoversTheInsideAndStaysBesideTheEdges) {
       std::map<std::uint32_t, std::vector<ScreenTriangle>> by_source;
       const Projector projector(scene, frame, {.subpixel_bits = 0, .clip_to_frame = true});
       for (const ScreenTriangle& t : projector.project_all()) by_source[t.source].push_back(t);
-      // Twice the area of the pixel with each edge, positive inside; and how far off the edge that is.
+      // Twice the area of the pixel with each edge, positive inside; and its distance from that edge.
       const auto least_distance = [](const ScreenTriangle& t, int x, int y) {
         double least = 1e9;
         for (std::size_t i = 0; i < 3; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A triangle on the screen: snapped coordinates, and what is needed to find the surface point behind any
-// pixel.
+// A triangle on the screen: snapped coordinates, and the data from which the surface point at any pixel is
+// computed.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 
 namespace halfway {
 
-/// Screen space: x to the right, y down, pixel (x, y) has its centre at (x + 1/2, y + 1/2) pixels.
+/// Screen space: x points right, y down. The centre of pixel (x, y) is at (x + 1/2, y + 1/2) pixels.
 struct ScreenVertex {
   std::int32_t x, y;  ///< in 1/2^subpixel_bits of a pixel
   double z;           ///< depth in [0, 1], 0 at the near plane; linear in screen space
   double inverse_w;   ///< 1 / view-space distance along the viewing axis, > 0; linear in screen space
   glm::dvec3 position_world;
-  glm::dvec3 normal_world;  ///< as interpolated, not unit after clipping
+  glm::dvec3 normal_world;  ///< as interpolated; not unit after clipping
 };
 
-/// Front-facing, not degenerate after snapping, its vertices ordered so that twice_area() > 0.
+/// Front-facing, not degenerate after snapping. The vertices are ordered so that twice_area() > 0.
 struct ScreenTriangle {
   std::uint32_t source;    ///< number of the scene's triangle
   std::uint32_t material;  ///< index into Scene::materials
@@ -31,10 +31,10 @@ struct ScreenTriangle {
   }
 };
 
-/// A triangle that is seen from either side.
+/// A triangle that is visible from both sides.
 struct TwoSidedTriangle {
   ScreenTriangle triangle;  ///< ordered as if front-facing
-  bool faces_eye;           ///< counter-clockwise as it was given
+  bool faces_eye;           ///< true if it was given counter-clockwise
 };
 
 }  // namespace halfway

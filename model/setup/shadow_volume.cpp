@@ -18,10 +18,11 @@
 namespace halfway {
 namespace {
 
-// Volumes reach farther than they need to by this part, so that no rounding ends one before a surface.
+// Volumes are longer than needed by this fraction, so that rounding never ends a volume in front of a
+// surface.
 constexpr double c_extent_slack = 0.01;
 
-/// Where a triangle walks an edge; vertices by number, one for all positions that are equal.
+/// One use of an edge by a triangle. Equal positions have one vertex number.
 struct EdgeUse {
   std::uint32_t low, high;
   std::uint32_t triangle;
@@ -55,8 +56,8 @@ class EdgeTable {
               [](const EdgeUse& a, const EdgeUse& b) { return a.edge() < b.edge(); });
   }
 
-  /// Calls found(from_world, to_world, times) for the boundary of some of the triangles: how often they walk
-  /// an edge one way more than the other.
+  /// Calls found(from_world, to_world, times) for each boundary edge of some of the triangles. `times` is the
+  /// number of uses in this direction minus those in the other.
   template <class Found>
   void for_each_boundary_edge(const std::vector<bool>& is_in, Found&& found) const {
     for (std::size_t begin = 0, end = 0; begin < edges_.size(); begin = end) {
@@ -94,7 +95,7 @@ double distance_to_triangle(const glm::dvec3& point, const CornersWorld& corners
       {distance_to_segment(point, a, b), distance_to_segment(point, b, c), distance_to_segment(point, c, a)});
 }
 
-/// Far enough that every volume ends beyond all of the scene and the eye.
+/// A length with which every volume ends beyond the whole scene and the eye.
 double extent_of(const Scene& scene, const LightPoint& light, const std::vector<std::uint32_t>& averted) {
   BoundingSphere sphere = bounding_sphere(scene);
   sphere.radius = std::max(sphere.radius, glm::length(scene.camera.eye_world - sphere.centre_world));
@@ -108,14 +109,14 @@ double extent_of(const Scene& scene, const LightPoint& light, const std::vector<
   return ratio < c_largest_extent ? ratio : c_largest_extent;
 }
 
-/// The same for all who share the point. A positional light's volumes are cones: scaled about the light, a
-/// triangle's image has the same outline as the triangle, whatever angle it spans.
+/// Gives the same result for all triangles that share the point. The volumes of a positional light are cones:
+/// a triangle scaled about the light has the same outline as the triangle, whatever angle it spans.
 glm::dvec3 far_end(const glm::dvec3& point_world, const LightPoint& light, double extent) {
   const glm::dvec3 away = -light.way_from(point_world);
   return light.w == 0.0 ? point_world + extent * away : light.xyz_world + extent * away;
 }
 
-/// How many averted triangles lie between a point and a light.
+/// Number of triangles that face away from the light between a point and the light.
 std::uint32_t volumes_around(const Scene& scene, const glm::dvec3& point_world, const LightPoint& light) {
   if (light.way_from(point_world) == glm::dvec3(0.0)) return 0;
   const LightRay ray(point_world, light);
@@ -126,7 +127,7 @@ std::uint32_t volumes_around(const Scene& scene, const glm::dvec3& point_world, 
 }
 
 bool is_in_a_mesh(const Scene& scene, const glm::dvec3& point_world) {
-  // Any direction will do.
+  // The direction is arbitrary.
   const LightRay ray(point_world, {{0.36, 0.48, 0.8}, 0.0});
   int meshes = 0;
   for (const SceneTriangle& triangle : scene.triangles) {
@@ -136,7 +137,7 @@ bool is_in_a_mesh(const Scene& scene, const glm::dvec3& point_world) {
   return meshes != 0;
 }
 
-/// May the eye see a triangle's inside?
+/// True if the eye may see the inside of a triangle.
 bool shows_insides(const Scene& scene, const Projector& projector) {
   if (open_edges(scene.triangles) > 0 || is_in_a_mesh(scene, scene.camera.eye_world)) return true;
   std::vector<TwoSidedTriangle> cut_off;
@@ -211,7 +212,7 @@ std::vector<ShadowPolygon> shadow_polygons(const Scene& scene, const Projector& 
       const CornersWorld cap = turned_round(corners_world(scene, scene.triangles[t]));
       pieces.clear();
       projector.project_two_sided(cap, source, DepthSlice::visible, pieces, counts);
-      // Where a cap closes, its triangle is drawn.
+      // Visible caps that close a volume coincide with a drawn triangle: discard them.
       std::erase_if(pieces, [](const TwoSidedTriangle& piece) { return !piece.faces_eye; });
       projector.project_two_sided(cap, source, DepthSlice::before_near, pieces, counts);
       for (const TwoSidedTriangle& piece : pieces)

@@ -28,8 +28,8 @@ namespace {
 
 const std::filesystem::path c_scenes = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes";
 
-/// How often the surface turns around a point, by the solid angles of its triangles; and how far from whole
-/// that came out.
+/// The winding number of the surface around a point, from the solid angles of its triangles, and its distance
+/// from the nearest integer before rounding.
 std::pair<int, long double> winding(const std::vector<CornersWorld>& surface, const glm::dvec3& point_world) {
   long double sum = 0.0L;
   for (const CornersWorld& corners : surface) {
@@ -45,7 +45,7 @@ std::pair<int, long double> winding(const std::vector<CornersWorld>& surface, co
   return {static_cast<int>(std::lround(turns)), std::abs(turns - std::round(turns))};
 }
 
-/// Edges that the surface does not walk as often in one direction as in the other; to the last bit.
+/// Number of edges that the surface does not use equally often in both directions. Compared bit for bit.
 std::size_t unmatched_edges(const std::vector<CornersWorld>& surface) {
   const auto key = [](const glm::dvec3& p) { return std::tuple(p.x, p.y, p.z); };
   std::map<std::pair<decltype(key({})), decltype(key({}))>, int> net;
@@ -63,7 +63,8 @@ struct Agreement {
   int points = 0, shadowed = 0, in_doubt = 0;
 };
 
-/// Points all over the scene: the volumes are those that the averted triangles on the way to the light say.
+/// For points all over the scene, compares the volumes with the triangles facing away from the light between
+/// point and light.
 void expect_volumes_are_where_no_light_is(const Scene& scene, RandomSolids& random, int points,
                                           bool is_closed, Agreement& sum) {
   const std::vector<LightRef> lights = shining_lights(scene);
@@ -89,7 +90,7 @@ void expect_volumes_are_where_no_light_is(const Scene& scene, RandomSolids& rand
         ASSERT_EQ(static_cast<int>(volumes.around_eye), truth.enters) << name_of(volumes.light);
       }
       sum.shadowed += truth.enters > 0;
-      // From outside a closed mesh whatever is on the way is entered.
+      // Outside a closed mesh, a ray that crosses triangles enters the mesh.
       const Crossings upward = crossings(triangles, point, {glm::normalize(glm::dvec3(0.3, 0.5, 0.8)), 0.0});
       if (is_closed && upward.enters == upward.leaves && truth.enters + truth.leaves > 0) {
         ASSERT_GT(truth.enters, 0) << name_of(volumes.light);
@@ -118,7 +119,7 @@ TEST(ShadowVolume, OfALampBesideAndWithinSolids) {
     Scene scene = random.scene(3);
     scene.directional.clear();
     scene.spots.clear();
-    // Among the solids, within one of them, or a thousandth from a face.
+    // Among the solids, inside one of them, or at a thousandth from a face.
     const auto [a, b, c] = corners_world(scene, scene.triangles[random.whole(0, 5)]);
     const double from_face = round % 3 == 1 ? -0.1 : round % 2 ? 1e-3 : -1e-3;
     const glm::dvec3 at_face = (a + b + c) / 3.0 + from_face * glm::normalize(glm::cross(b - a, c - a));
@@ -131,7 +132,8 @@ TEST(ShadowVolume, OfALampBesideAndWithinSolids) {
   EXPECT_LE(sum.in_doubt, 2);
 }
 
-// Open meshes, edges of three triangles, triangles twice, turned round, of no area: a chain has a boundary.
+// Open meshes, edges of three triangles, duplicate, reversed and zero-area triangles: every set of triangles
+// has a boundary.
 TEST(ShadowVolume, OfAnyTrianglesIsClosed) {
   RandomSolids random(3);
   Agreement sum;
@@ -153,7 +155,7 @@ TEST(ShadowVolume, OfAnyTrianglesIsClosed) {
     triangles.push_back(fin);
     triangles.push_back({{0, 0, 1}, {0, 0, 0}, 0});
     triangles.push_back({{3, 3, 3}, {0, 0, 0}, 0});
-    // Equal positions under other numbers, as where normals part.
+    // Equal positions with different numbers, as at a discontinuity of normals.
     const auto copies = static_cast<std::uint32_t>(scene.positions_world.size());
     for (std::uint32_t i = 0; i < copies; ++i) scene.positions_world.push_back(scene.positions_world[i]);
     for (SceneTriangle& t : triangles)
@@ -171,12 +173,12 @@ TEST(ShadowVolume, SidesStandOnTheSilhouetteAlone) {
   add_mesh(scene, make_box(glm::dvec3(2.0), 3));
   const std::vector<LightRef> sun{{LightKind::directional, 0}};
   scene.directional = {{{0, 1, 0}, {}}};
-  EXPECT_EQ(make_shadow_volumes(scene, sun)[0].averted.size(), 18u);  // the faces at the side are edge-on
+  EXPECT_EQ(make_shadow_volumes(scene, sun)[0].averted.size(), 18u);  // the faces at the sides are edge-on
   EXPECT_EQ(make_shadow_volumes(scene, sun)[0].sides.size(), 2u * 12u);
   scene.directional[0].to_light_world = glm::normalize(glm::dvec3(1, 2, 3));
   EXPECT_EQ(make_shadow_volumes(scene, sun)[0].averted.size(), 54u);
   EXPECT_EQ(make_shadow_volumes(scene, sun)[0].sides.size(), 2u * 18u);
-  // Every triangle with vertices of its own, by number.
+  // Gives every triangle its own vertex numbers.
   std::vector<glm::dvec3> apart;
   for (SceneTriangle& t : scene.triangles)
     for (std::uint32_t& p : t.position) {
@@ -185,7 +187,7 @@ TEST(ShadowVolume, SidesStandOnTheSilhouetteAlone) {
     }
   scene.positions_world = apart;
   EXPECT_EQ(make_shadow_volumes(scene, sun)[0].sides.size(), 2u * 18u);
-  // Another box against it: on the edges where they meet, equal positions have other numbers.
+  // Another box that touches it: at the common edges, equal positions have different numbers.
   Mesh other = make_box(glm::dvec3(2.0), 3);
   for (glm::dvec3& p : other.positions) p += glm::dvec3(2.0, 0.0, 0.0);
   add_mesh(scene, other);
@@ -202,7 +204,7 @@ TEST(ShadowVolume, StaysWithinReason) {
   for (int round = 0; round < 100; ++round) {
     Scene scene = random.scene(2);
     scene.camera.eye_world = random.within(0.1, 60.0) * random.unit();
-    // A light just beside a vertex, and at it.
+    // A light close to a vertex, and exactly at it.
     if (round % 2) scene.positional[0].position_world = scene.positions_world[4] + 1e-3 * random.unit();
     if (round % 8 == 0) scene.positional[0].position_world = scene.positions_world[4];
     for (const ShadowVolumes& volumes : make_shadow_volumes(scene, shining_lights(scene)))
@@ -213,12 +215,12 @@ TEST(ShadowVolume, StaysWithinReason) {
   }
 }
 
-// ---- The rule of counting, pixel by pixel, against shadow rays
+// ---- The counting rule, pixel by pixel, compared with shadow rays
 
 struct Figures {
   int pixels = 0, lit = 0, shadowed = 0;
-  int differ = 0;       ///< count and ray
-  int unexplained = 0;  ///< of these, neither at a shadow's edge nor where the light grazes the surface
+  int differ = 0;       ///< pixels where count and ray differ
+  int unexplained = 0;  ///< of these, neither at a shadow's edge nor at grazing incidence of the light
   std::size_t polygons = 0;
   std::uint32_t most_around_eye = 0;
 
@@ -300,7 +302,7 @@ void count_and_compare(const Scene& scene, FrameSize frame, Figures& sum) {
         for (std::int64_t u = std::max<std::int64_t>(x - 1, 0);
              u < std::min<std::int64_t>(x + 2, frame.width); ++u) {
           const auto beside = static_cast<std::size_t>(v * frame.width + u);
-          // At the frame of a surface another one or the background begins.
+          // At the outline of a surface, another surface or the background starts.
           at_edge |= seen[beside] == c_nothing || lit[beside] != lit[pixel];
         }
       if (!at_edge && !grazed[pixel]) ++sum.unexplained;
@@ -308,8 +310,8 @@ void count_and_compare(const Scene& scene, FrameSize frame, Figures& sum) {
   }
 }
 
-// 30 in a million differ, within a pixel of an edge: vertices on the screen are a 32nd of a pixel off, and a
-// ray starts at a point of the surface that the volume's side only just passes.
+// 30 in a million differ, within a pixel of an edge: vertices on the screen have an error of up to 1/32
+// pixel, and a ray may start at a point close to a side of the volume.
 TEST(ShadowCount, AgreesWithRaysInTheBuiltInScene) {
   const Result<Scene> scene = load_scene("shadows", c_scenes);
   ASSERT_TRUE(scene) << scene.error().message;
@@ -319,7 +321,7 @@ TEST(ShadowCount, AgreesWithRaysInTheBuiltInScene) {
   EXPECT_GT(figures.shadowed, 30'000);
   EXPECT_LT(figures.differ * 10'000, figures.pixels) << figures.text();
   EXPECT_EQ(figures.unexplained, 0) << figures.text();
-  // Sides alone, and hardly cut: the caps would be ten times as many.
+  // Only sides, and almost never cut: the caps would be ten times as many.
   EXPECT_LT(figures.polygons, 500u);
 }
 
@@ -352,7 +354,8 @@ TEST(ShadowCount, StartsAtAnEyeWithinVolumes) {
   int within = 0;
   for (int round = 0; round < 40; ++round) {
     Scene scene = on_a_floor(random, 4);
-    // Behind a solid, as the sun or the lamp sees it, and close to a volume's side every other time.
+    // In the shadow of a solid, for the directional or the positional light; every other time close to a side
+    // of a volume.
     const LightPoint light =
         light_of(scene, {round % 2 ? LightKind::directional : LightKind::positional, 0}).point;
     const glm::dvec3 caster = scene.positions_world[round % 4 < 2 ? 0 : 5];
@@ -374,7 +377,7 @@ TEST(ShadowCount, StartsAtAnEyeWithinVolumes) {
   EXPECT_EQ(figures.unexplained, 0) << figures.text();
 }
 
-// The near plane cuts volumes, and solids open; the eye is in a solid; meshes are open from the start.
+// The near plane cuts volumes and cuts solids open; the eye is in a solid; meshes are open.
 TEST(ShadowCount, AgreesWhereInsidesShow) {
   RandomSolids random(9);
   Figures figures;

@@ -21,17 +21,17 @@ namespace {
 
 using golden::Exact, golden::Published;
 
-// Past either end of any bell, so that it gives nothing.
+// Beyond the end of any bell, so that the bell is zero.
 constexpr double c_outside = 2.0;
 
-// The cosine of the angle between a span's ends below which its middle is asked for: an arc of nearly half a
-// turn does not know its plane.
+// If the cosine of the angle between a span's ends is below this, the middle is needed: the ends of an arc of
+// nearly pi do not define its plane.
 constexpr double c_nearly_opposed = -0.99;
 
-// Of a cosine, from its peak down to zero.
+// From the peak of a cosine to its zero.
 constexpr double c_half_bell = 0.5 * std::numbers::pi;
 
-// Each line of a header's triangle as the hardware walks it: line(walker).
+// Calls line(walker) for each line of a header's triangle, in the hardware's order.
 template <class P, class Line>
 void walk_lines(std::span<const std::uint32_t> header, Line&& line) {
   golden::TriangleWalker<P> walker;
@@ -47,7 +47,7 @@ bool is_there(glm::dvec3 direction) {
   return direction != glm::dvec3(0.0);
 }
 
-// Where the triangle's edges cross a line's pixel centres, left and right, and how far down the edge.
+// Where the triangle's edges cross the centre of a line, left and right, and the position along the edge.
 struct Crossing {
   double x;  // pixels
   std::size_t top, bottom;
@@ -146,7 +146,7 @@ PointVectors SphericalSetup::slerped(const PointVectors& a, const PointVectors& 
 
 template <class P>
 std::int64_t SphericalSetup::factor_word(double steps, SetupCounts& counts) const {
-  // What is no number (a light without measure on what reflects none of it) is nothing.
+  // Treat NaN as 0. It results from infinite light on a material that reflects none of it.
   if (!(steps > 0.0)) return 0;
   if (steps > c_largest_factor<P>) ++counts.overexposed;
   return fixed(std::min(steps, c_largest_factor<P>), P::c_factor_fraction_bits);
@@ -156,7 +156,7 @@ void SphericalSetup::put_ambient(InitVector& init, const Material& material, Set
   const golden::SphericalLayout<Exact> exact(config_);
   const golden::SphericalLayout<Published> published(config_);
   for (int c = 0; c < config_.channels; ++c) {
-    // The half makes dropping the sum's fraction a rounding.
+    // Add one half: truncating the sum's fraction then rounds.
     const double steps = 255.0 * scene_->ambient[c] * material.ambient * material.colour[c] + 0.5;
     if (preset_ == Preset::exact)
       init.put(Exact::ambient_channel_at::ambient, factor_word<Exact>(steps, counts), exact.ambient_low(c));
@@ -202,16 +202,16 @@ template <class P>
 void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index, const SpanArcs& span,
                                 SetupCounts& counts) const {
   constexpr bool c_exact = std::is_same_v<P, Exact>;
-  // The published cosine table goes all the way round, so its angles count in half turns.
+  // The published cosine table covers the full period, so its angles are in units of half turns.
   constexpr double c_diffuse_unit = c_exact ? c_half_bell : std::numbers::pi;
   const golden::SphericalLayout<P> at(config_);
   const Material& material = scene_->materials[material_index];
   const Bell& bell = bells_[material_index];
-  // A table's largest entry is 2^D - 1, and stands for 1.
+  // A table's largest entry is 2^D - 1 and represents 1.
   const double full = std::ldexp(1.0, config_.data_bits) / (std::ldexp(1.0, config_.data_bits) - 1.0);
   const bool diffuse = has_diffuse(material), specular = config_.specular && has_specular(material);
 
-  // Angle and slope in the table's unit; a light without effect stays dark whatever its angle.
+  // Write angle and slope in the table's unit. A light with zero amplitude stays dark at any angle.
   const auto put_angle = [&](const golden::Field& angle, const golden::Field& slope, const CosineArc& arc,
                              double scale, int low) {
     const double start = arc.amplitude > 0.0 ? scale * (span.first * arc.sweep - arc.phase) : c_outside;
@@ -269,7 +269,7 @@ double SphericalSetup::interpolation_error(const Material& material, const SpanA
   return 255.0 * largest;
 }
 
-// One triangle of preset exact on its way into columns.
+// Divides one triangle of preset exact into columns.
 class SphericalSetup::ExactTriangle {
  public:
   ExactTriangle(const SphericalSetup& setup, const ScreenTriangle& triangle,
@@ -299,36 +299,36 @@ class SphericalSetup::ExactTriangle {
   }
 
  private:
-  // Of a span with so few steps every pixel is looked at.
+  // Spans with at most this many steps are checked at every pixel.
   static constexpr std::int64_t c_short_span = 16;
-  // A longer one is looked at at this many places, or more: often enough that no highlight is stepped over,
-  // which is a half bell to either side of its peak.
+  // Longer spans are checked at least at this many places, and twice per half bell, so that no highlight (one
+  // half bell on both sides of its peak) is missed.
   static constexpr std::int64_t c_least_looks = 7;
   static constexpr double c_looks_a_half_bell = 2.0;
-  // In a part of a spot's light, its edge or where it is full: every pixel, or so many.
+  // In each section of a spot's light (its edge, or full light): every pixel, or this many.
   static constexpr std::int64_t c_spot_looks = 16;
 
   std::vector<Walk> walks_of(Columns columns) const {
     return plan_walks(corners_, subpixel_bits_, columns, setup_.frame_.height);
   }
 
-  // A triangle's part as it is drawn. A line's arcs are most of what setup takes: so they are kept from where
-  // they are looked at to where they are written.
+  // The part of a triangle as it is drawn. The arcs take most of the setup's time. Keep them after the check
+  // to write them later.
   struct Line {
     bool empty;
-    double first, step;  ///< as SpanArcs
+    double first, step;  ///< as in SpanArcs
   };
   struct Part {
     std::vector<std::vector<std::uint32_t>> headers;
-    std::vector<std::size_t> ends;  ///< of each header's lines
+    std::vector<std::size_t> ends;  ///< end of each header's lines
     std::vector<Line> lines;
-    std::vector<LightArcs> arcs;  ///< of all lights, line by line where one is not empty
+    std::vector<LightArcs> arcs;  ///< of all lights, for each line that is not empty
     SetupCounts counts;
   };
 
   void append(Columns columns, std::vector<Walk> walks) {
     if (walks.empty()) return;
-    // Along edges that stay what they are nothing is won by cutting.
+    // With ends interpolated along the edges, splitting changes nothing.
     const bool may_cut = setup_.options_.ends == SpanEnds::on_surface && !setup_.lights_.empty();
     Part part;
     if (!plan(walks, may_cut && columns.width() > 1, part)) {
@@ -360,7 +360,7 @@ class SphericalSetup::ExactTriangle {
     }
   }
 
-  // Fills `part`; false where a line has to be cut, whose error is looked at with `look` alone.
+  // Fills `part`. Returns false if a line must be split. Checks errors only if `look` is true.
   bool plan(const std::vector<Walk>& walks, bool look, Part& part) const {
     for (const Walk& walk : walks) {
       part.headers.push_back(header_of(walk, part.counts));
@@ -397,7 +397,7 @@ class SphericalSetup::ExactTriangle {
     return words;
   }
 
-  // First and last pixel, in the walker's order.
+  // First and last pixel, in the order of the walker.
   struct Span {
     std::int64_t first, last;
     std::uint32_t y;
@@ -413,12 +413,12 @@ class SphericalSetup::ExactTriangle {
     return surface_point(triangle_, barycentric_screen(triangle_, half_x << subpixel_bits_,
                                                        (2 * std::int64_t{y} + 1) << subpixel_bits_));
   }
-  // From a span's first pixel, s = 0, to its last, s = 1: what the surface has there before normals are made
-  // unit, linear in s.
+  // The surface from a span's first pixel (s = 0) to its last (s = 1), before normals are normalized: linear
+  // in s.
   struct Chord {
     glm::dvec3 position_world, position_ahead, normal_world, normal_ahead;
     double first_inverse_w, last_inverse_w;
-    // How far along the span on the screen, 0 to 1.
+    // Position along the span on the screen, 0 to 1.
     double on_screen(double s) const {
       return s * first_inverse_w / ((1.0 - s) * last_inverse_w + s * first_inverse_w);
     }
@@ -458,7 +458,7 @@ class SphericalSetup::ExactTriangle {
       span.step = at.steps() == 0 ? 0.0 : 1.0 / static_cast<double>(at.steps());
       return span;
     }
-    // From left to right; a span that is drawn the other way steps back.
+    // Left to right. A span drawn from right to left has negative steps.
     const auto [from, to] = crossings(triangle_, subpixel_bits_, at.y);
     span.begin = setup_.slerped(vertex_[from.top], vertex_[from.bottom], from.t);
     span.end = setup_.slerped(vertex_[to.top], vertex_[to.bottom], to.t);
@@ -469,7 +469,7 @@ class SphericalSetup::ExactTriangle {
     return span;
   }
 
-  // Whether a line's error stays below the threshold where it is looked at.
+  // True if a line's error is below the threshold at all places that are checked.
   bool interpolates_well(const Span& at, const SpanArcs& arcs) const {
     if (at.steps() == 0) return true;
     const std::vector<std::int64_t> places = places_to_look_at(arcs, at);
@@ -480,7 +480,7 @@ class SphericalSetup::ExactTriangle {
              setup_.options_.threshold;
     });
   }
-  // Pixels of a span, counted from its first.
+  // The pixels to check, counted from the span's first pixel.
   std::vector<std::int64_t> places_to_look_at(const SpanArcs& arcs, const Span& at) const {
     const std::int64_t steps = at.steps();
     std::vector<std::int64_t> places;
@@ -502,11 +502,11 @@ class SphericalSetup::ExactTriangle {
       const LightArcs& light = arcs.light[i];
       half_bells = std::max({half_bells, light.diffuse.sweep / c_half_bell,
                              setup_.bells_[triangle_.material].scale * light.specular.sweep / c_half_bell});
-      // A highlight's peak and where it is steepest: there a shift shows.
+      // Check a highlight's peak and its steepest places, where a shift has the largest effect.
       if (is_seen(light.specular.amplitude))
         for (const double x : {-steepest_, 0.0, steepest_})
           add_about((light.specular.phase + x) / light.specular.sweep);
-      // The light's horizon as it is drawn: there the highlight ends however bright it is.
+      // Check the light's horizon as drawn: there the highlight ends abruptly.
       for (const double x : {-c_half_bell, c_half_bell})
         add_about((light.diffuse.phase + x) / light.diffuse.sweep);
     }
@@ -519,7 +519,7 @@ class SphericalSetup::ExactTriangle {
     return places;
   }
 
-  // Where what the arcs do not know of happens: directions that turn fast, horizons, spots.
+  // Adds places of changes that the arcs do not contain: fast turning directions, horizons, spots.
   void add_places_of_the_surface(const Chord& c, std::int64_t steps,
                                  std::vector<std::int64_t>& places) const {
     const auto pixels = static_cast<double>(steps);
@@ -528,8 +528,8 @@ class SphericalSetup::ExactTriangle {
       const auto before = to_integer<std::int64_t>(c.on_screen(s) * pixels);
       places.insert(places.end(), {before, std::min(steps, before + 1)});
     };
-    // The direction of start + s * ahead turns fastest where this is shortest, and most of its turn lies
-    // within a few times that length of it.
+    // The direction of start + s * ahead turns fastest where this vector is shortest. Most of its turn is
+    // within a few times that length.
     const auto add_turn = [&](glm::dvec3 start, glm::dvec3 ahead) {
       const double length = glm::length(ahead), s = -glm::dot(start, ahead) / (length * length),
                    width = glm::length(start + s * ahead) / length;
@@ -558,7 +558,7 @@ class SphericalSetup::ExactTriangle {
     }
   }
 
-  // From one place to the next where a spot's light changes its course, wherever it shines between them.
+  // Adds places between each two changes of a spot's light, if the spot shines there.
   void add_places_of_spot(const LightCone& spot, glm::dvec3 from_light, const Chord& c, std::int64_t steps,
                           std::vector<std::int64_t>& places) const {
     const glm::dvec3 ahead = c.position_ahead;
@@ -587,13 +587,13 @@ class SphericalSetup::ExactTriangle {
     }
   }
 
-  // Real ones of a s^2 + b s + c; where there are none, where it is nearest zero.
+  // Real roots of a s^2 + b s + c; without real roots, its extremum.
   static std::array<double, 2> roots(double a, double b, double c) {
     const double far = -0.5 * (b + std::copysign(std::sqrt(std::max(0.0, b * b - 4.0 * a * c)), b));
     return {far / a, c / far};
   }
 
-  // Whether a highlight there is bright enough to matter.
+  // True if a highlight is bright enough there to be visible.
   bool is_seen(double cosine) const { return highlight_power(cosine, material_.exponent) > 1.0 / 255.0; }
 
   static glm::dvec3 corner(std::size_t i) {
@@ -663,7 +663,8 @@ void SphericalSetup::append_published(const ScreenTriangle& triangle, std::vecto
       };
       SpanVectors span{on_edge(h.start), on_edge(h.stop), 0.0, 0.0};
       const std::int64_t steps = walker.stop().value() - 1 - walker.start().value();
-      // On one pixel nothing turns: a plane between ends that are one point would be rounding's.
+      // On one pixel nothing turns. A plane between ends that are the same point would be determined by
+      // rounding.
       if (steps == 0)
         span.end = span.begin;
       else

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Setup of the spherical shader: from the scene's triangles to headers and line records. For each line and
-// light the cosine between two directions that turn (spherical paper, equations 14 to 18) becomes an angle,
-// its step from pixel to pixel, and a factor.
+// Setup of the spherical shader: converts the scene's triangles to headers and line records. For each line
+// and light the cosine between two turning directions (spherical paper, equations 14 to 18) becomes an angle,
+// its step per pixel, and a factor.
 #pragma once
 
 #include <array>
@@ -18,50 +18,51 @@
 
 namespace halfway {
 
-/// Larger exponents are held at it: the bell's angle would leave its format.
+/// Larger exponents are clamped to this value, because the bell's angle would exceed its format.
 inline constexpr double c_largest_exponent = 1e6;
 
-/// Of all materials, for SphericalSetupOptions.
+/// The bells of all materials, for SphericalSetupOptions.
 Bells fitted_bells(const Scene& scene);
 
-/// Factors are held at it, in colour steps. Preset exact: so bright that a table's least entry other than 0,
-/// of up to c_white_data_bits, gives white: the picture is the one without a limit. With wider tables, and in
-/// preset published (four times white) always, all under a bell whose factor is held comes out too dark.
+/// Factors are clamped to this value, in colour steps. Preset exact: at this factor the smallest non-zero
+/// entry of a table with up to c_white_data_bits gives white, so the picture is the same as without a limit.
+/// With wider tables, and always in preset published (four times white), the bell of a clamped factor is too
+/// dark.
 template <class P>
 inline constexpr double c_largest_factor =
     static_cast<double>((1 << (P::c_factor_bits - P::c_factor_fraction_bits)) - 1);
 inline constexpr int c_white_data_bits = 8;
 static_assert(c_largest_factor<golden::Exact> >= 255.0 * (1 << c_white_data_bits));
 
-/// What the illumination model takes from a point of the surface, a light at a time. Zero vectors: no such
-/// direction there (the light at the very point, L = -V).
+/// Inputs of the illumination model at a point of the surface, per light. A zero vector means that the
+/// direction does not exist (the light is exactly at the point, or L = -V).
 struct LightVectors {
   glm::dvec3 to_light;
-  glm::dvec3 u, v;  ///< the highlight is (u.v)^n: N and H, or in Phong's model R and V
-  double spot;      ///< 1 but for spot lights
+  glm::dvec3 u, v;  ///< the highlight is (u.v)^n; Blinn: N and H, Phong: R and V
+  double spot;      ///< 1 except for spot lights
 };
 struct PointVectors {
   glm::dvec3 normal;
-  std::array<LightVectors, c_most_lights> light;  ///< as many as are reflected
+  std::array<LightVectors, c_most_lights> light;  ///< the number of reflected lights is used
 };
 
-/// A span between two points whose vectors are known: its first pixel at t = first, each further one `step`
-/// on.
+/// A span between two points with known vectors. Its first pixel is at t = first; each further pixel is one
+/// `step` ahead.
 struct SpanVectors {
   PointVectors begin, end;
   double first = 0.0, step = 0.0;
 };
 
-/// What the hardware has of a light along a span.
+/// The hardware's data of a light along a span.
 struct LightArcs {
   CosineArc diffuse;   ///< N.L
   CosineArc specular;  ///< u.v
-  double spot;         ///< the ends' mean: a factor stands still along a span
-  bool exact_at_ends;  ///< of a span that begins at t = 0 and ends at t = 1
+  double spot;         ///< mean of the ends: a factor is constant along a span
+  bool exact_at_ends;  ///< for a span from t = 0 to t = 1
 };
 struct SpanArcs {
-  std::array<LightArcs, c_most_lights> light;  ///< as many as are reflected
-  double first, step;                          ///< as SpanVectors
+  std::array<LightArcs, c_most_lights> light;  ///< the number of reflected lights is used
+  double first, step;                          ///< as in SpanVectors
 };
 
 class SphericalSetup final : public Setup {
@@ -81,13 +82,13 @@ class SphericalSetup final : public Setup {
                         SetupCounts& counts) const;
   PointVectors slerped(const PointVectors& a, const PointVectors& b, double t) const;
   void put_ambient(InitVector& init, const Material& material, SetupCounts& counts) const;
-  /// `middle` gives the vectors at the span's middle, asked for where the ends are nearly opposed.
+  /// `middle` returns the vectors at the span's middle. It is called only if the ends are nearly opposite.
   template <class Middle>
   SpanArcs arcs_of(const Material& material, const SpanVectors& span, Middle&& middle) const;
   template <class Preset>
   void put_record(InitVector& record, std::uint32_t material, const SpanArcs& span,
                   SetupCounts& counts) const;
-  /// Largest difference of a channel, in colour steps, between the span's interpolation at t and the
+  /// Largest difference of any channel, in colour steps, between the span's interpolation at t and the
   /// illumination model there.
   double interpolation_error(const Material& material, const SpanArcs& span, double t,
                              const SurfacePoint& there) const;
@@ -99,10 +100,10 @@ class SphericalSetup final : public Setup {
   Preset preset_;
   SphericalSetupOptions options_;
   golden::SphericalConfig config_;
-  std::vector<LightRef> lights_;  ///< no more than the key has; any further light of the key stays dark
+  std::vector<LightRef> lights_;  ///< at most the key's number; further lights of the key stay dark
   bool has_spots_;
-  std::vector<Bell> bells_;  ///< one a material
-  bool has_records_;         ///< with all effects also where there is no light
+  std::vector<Bell> bells_;  ///< one per material
+  bool has_records_;         ///< with all effects also true without a light
   unsigned init_bits_;
   Projector projector_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The golden model fed by the setup, against two references: the papers' formulas in long double, span by
-// span, within bounds that count every rounding on the way; and the illumination model, pixel by pixel.
+// Compares the golden model, with init vectors from the setup, with two references: the papers' formulas in
+// long double, span by span, within bounds that include every rounding; and the illumination model, pixel by
+// pixel.
 #include "setup/spherical_setup.hpp"
 
 #include <gtest/gtest.h>
@@ -46,14 +47,14 @@ Vector slerp_of(Vector a, Vector b, Real t) {
   return (std::sin((1 - t) * angle) * a + std::sin(t * angle) * b) / std::sin(angle);
 }
 
-// A turn below which doubles do not know its plane.
+// For a turn smaller than this, doubles do not define its plane.
 constexpr Real c_no_turn = 1e-9L;
 
 struct Arc {
   Real amplitude, sweep, phase;
 };
 
-// v held at v1, u2 turned back by v's rotation.
+// v fixed at v1, u2 rotated back by v's rotation.
 Arc arc_between(Vector u1, Vector u2, Vector v1, Vector v2) {
   const Vector c = glm::cross(v1, v2);
   const Real cos_v = glm::dot(v1, v2);
@@ -63,7 +64,7 @@ Arc arc_between(Vector u1, Vector u2, Vector v1, Vector v2) {
   if (sweep < c_no_turn) return {std::fabs(begin), 0, begin < 0 ? c_pi : 0};
   const Real b = (end - begin * std::cos(sweep)) / std::sin(sweep);
   Real phase = std::atan2(b, begin);
-  // The turn on which the middle is within half a turn of the peak.
+  // Choose the multiple of 2 pi for which the middle is within pi of the peak.
   phase += 2 * c_pi * std::round((sweep / 2 - phase) / (2 * c_pi));
   return {std::hypot(begin, b), sweep, phase};
 }
@@ -75,7 +76,7 @@ struct LightThere {
 struct There {
   Vector normal;
   std::vector<LightThere> light;
-  Real doubt = 0;  ///< of the directions as doubles have them, radians
+  Real doubt = 0;  ///< error of the directions in double, radians
 };
 
 There vectors_there(const Scene& scene, const SurfacePoint& point) {
@@ -85,7 +86,7 @@ There vectors_there(const Scene& scene, const SurfacePoint& point) {
   out.normal = n;
   const auto add = [&](Vector l, Real spot) {
     const Vector sum = l + to_eye;
-    // A few roundings; and H is the worse known the shorter L + V.
+    // A few roundings. The error of H is inversely proportional to |L + V|.
     out.doubt = std::max(out.doubt, 4e-15L / std::min<Real>(1, glm::length(sum)));
     if (scene.materials[0].brdf == Brdf::phong)
       out.light.push_back({l, 2 * glm::dot(n, l) * n - l, to_eye, spot});
@@ -122,21 +123,21 @@ There slerped(const There& a, const There& b, Real t) {
   return out;
 }
 
-// A span's ends, its first pixel at t = first, each further one `step` on.
+// The ends of a span. Its first pixel is at t = first; each further pixel is one `step` ahead.
 struct SpanThere {
   There begin, end;
   Real first = 0, step = 0;
   Real doubt = 0;  ///< of t
 };
 
-// Doubt past which an arc's amplitude and angle are not known, but their cosine is.
+// Above this error an arc's amplitude and angle count as unknown. Their cosine is still known.
 constexpr Real c_unknown = 1e-6L;
 
 struct LightOnSpan {
   Arc diffuse, specular;
   Real spot;
-  Real doubt;                          ///< of u.v and N.L
-  Real doubt_diffuse, doubt_specular;  ///< of the arcs' angles and amplitudes
+  Real doubt;                          ///< error of u.v and N.L
+  Real doubt_diffuse, doubt_specular;  ///< errors of the arcs' angles and amplitudes
 };
 
 LightOnSpan on_span(const SpanThere& span, std::size_t light) {
@@ -149,7 +150,7 @@ LightOnSpan on_span(const SpanThere& span, std::size_t light) {
                   0};
   const Real directions = std::max(span.begin.doubt, span.end.doubt);
   const auto doubt = [&](const Arc& arc) {
-    if (span.step == 0) return 4 * directions;  // one pixel: nothing turns
+    if (span.step == 0) return 4 * directions;  // one pixel: constant
     if (arc.sweep == 0) return c_unknown;
     return 4 * directions / std::sin(arc.sweep) + span.doubt * arc.sweep;
   };
@@ -159,11 +160,11 @@ LightOnSpan on_span(const SpanThere& span, std::size_t light) {
   return out;
 }
 
-// Steps of 1/255 that a light adds to a channel, and by how much the golden model may be off.
+// Steps of 1/255 that a light adds to a channel, and the greatest error of the golden model.
 struct Term {
   Real value, bound;
 };
-enum class Horizon { before, beyond, either };  ///< either: so near that rounding decides
+enum class Horizon { before, beyond, either };  ///< either: rounding decides
 
 template <class P>
 class Specification {
@@ -204,7 +205,8 @@ class Specification {
     const Real y = bell_.scale * x(on.specular, span, steps);
     const Real bell = c_exact && std::fabs(y) >= c_pi / 2 ? 0 : std::pow(std::fabs(std::cos(y)), bell_.power);
     Term term{factor * bell, c_factor_rounding + factor * (bell_error_ + drift(steps) * bell_slope_)};
-    // An unknown arc's amplitude and bell are any that together are near cos^n, as near as the fit.
+    // If an arc is unknown, only the product of its amplitude and its bell is known: cos^n, within the fit's
+    // error.
     if (on.doubt_specular < c_unknown)
       term.bound += brightest * (exponent_ + bell_.scale * bell_slope_) * on.doubt_specular;
     else if (c_exact)
@@ -224,7 +226,7 @@ class Specification {
     if (std::fabs(cosine) <= doubt) return Horizon::either;
     return cosine > 0 ? Horizon::before : Horizon::beyond;
   }
-  /// Of an angle word from its formula: start and slope are rounded, the slope once a pixel.
+  /// Error of an angle word: start and slope are rounded; the slope's error accumulates per pixel.
   static Real drift(int steps) { return std::ldexp(Real(1 + steps), -P::c_angle_fraction_bits - 1); }
 
  private:
@@ -240,14 +242,14 @@ class Specification {
   Real strength(const LightOnSpan& on, std::size_t light, int c) const {
     return 255 * on.spot * light_of(scene_, lights_[light]).intensity[c];
   }
-  // Factors are held where the table's largest entry stands for 1.
+  // Factors are clamped such that the table's largest entry represents 1.
   static constexpr Real c_limit = c_exact ? 65535 : 1023;
   Real held(Real steps) const {
     const Real entries = std::ldexp(1.0L, tables_.data_bits);
     return std::min(steps, c_limit * (entries - 1) / entries);
   }
 
-  // Held, an amplitude that is not known says nothing.
+  // If the factor is clamped and the amplitude is unknown, the bound is the full brightness.
   static Real lost(bool known, Real brightest) {
     return !known && brightest > 0.996L * c_limit ? brightest : 0;
   }
@@ -261,7 +263,7 @@ class Specification {
   Real cosine_error_, bell_error_, fit_error_, bell_slope_ = 0;
 };
 
-// ---- Spans and their ends, apart from the setup's
+// ---- Spans and their ends, computed independently of the setup
 
 glm::dvec3 corner(std::size_t i) {
   return {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
@@ -271,7 +273,7 @@ SurfacePoint pixel_point(const ScreenTriangle& t, std::int64_t x, std::int64_t y
       t, barycentric_screen(t, (2 * x + 1) << c_exact_subpixel_bits, (2 * y + 1) << c_exact_subpixel_bits));
 }
 
-// First and last pixel as they are drawn.
+// First and last pixel in drawing order.
 struct Span {
   std::int64_t first, last, y;
   bool upper_half = false;  ///< preset published
@@ -311,7 +313,7 @@ class Ends {
     return {from->there, to->there, (s.first + 0.5L - from->x) / length, s.way() / length,
             4e-12L / std::fabs(length)};
   }
-  // Lines are y of whole pixels; the span's ends lie on the edges.
+  // A line is at y of whole pixels. The span's ends lie on the edges.
   SpanThere published(const Span& s) const {
     const auto at = [&](std::size_t top, std::size_t bottom) {
       const Real t = Real(s.y - t_.vertex[top].y) / (t_.vertex[bottom].y - t_.vertex[top].y);
@@ -330,7 +332,7 @@ class Ends {
       span.step = Real{1} / s.steps();
     return span;
   }
-  /// Whether lines from y on are those above the middle vertex.
+  /// True if the lines from y on are those above the middle vertex.
   bool upper_half(std::int64_t y) const {
     return y == t_.vertex[down_[0]].y && t_.vertex[down_[0]].y != t_.vertex[down_[1]].y;
   }
@@ -344,7 +346,7 @@ class Ends {
 
 // ---- The comparison
 
-// Largest error, as a part of its bound.
+// Largest error relative to its bound.
 struct Figures {
   std::uint64_t fragments = 0, terms = 0, behind_horizon = 0, either = 0, unknown_arcs = 0, outside_bell = 0;
   Real diffuse = 0, specular = 0, fragment = 0;
@@ -358,7 +360,7 @@ std::ostream& operator<<(std::ostream& out, const Figures& f) {
              << " triangles cut; " << f.overexposed << " over-exposed";
 }
 
-// Every fragment of the triangles that come to the screen in one piece.
+// Checks every fragment of the triangles that are one piece on the screen.
 template <class P>
 void expect_specification(const Scene& scene, FrameSize frame, const HardwareKey& key,
                           SphericalSetupOptions options, Figures& figures) {
@@ -404,7 +406,7 @@ void expect_specification(const Scene& scene, FrameSize frame, const HardwareKey
       const bool upper_half = !c_exact && ends.upper_half(walker.y());
       for (std::size_t line = 1;; ++line) {
         if (!walker.line_empty()) {
-          // None where no light and no material calls for one.
+          // No records if neither lights nor materials need them.
           const auto record = vectors > 1 ? rest.subspan(line * vector_words, vector_words) : rest.first(0);
           const int way = walker.backward() ? -1 : 1;
           const Span span{walker.start().value(), walker.stop().value() - way, walker.y(), upper_half};
@@ -523,7 +525,7 @@ TEST(SphericalSetup, ExactIsThePapersFormulasWithinEveryRounding) {
   EXPECT_GT(figures.behind_horizon, 10'000u);
   EXPECT_GT(figures.outside_bell, 10'000u);
   EXPECT_LT(1000 * figures.either, figures.terms);
-  // The bounds are not idle.
+  // The bounds must not be much too wide.
   EXPECT_GT(figures.diffuse, 0.9);
   EXPECT_GT(figures.specular, 0.9);
   EXPECT_GT(figures.fragment, 0.9);
@@ -560,7 +562,7 @@ TEST(SphericalSetup, PublishedIsThePapersFormulasModuloItsRegisters) {
   EXPECT_GT(figures.specular, 0.9);
 }
 
-// ---- Against the illumination model
+// ---- Comparison with the illumination model
 
 std::vector<ScreenTriangle> projected(const Scene& scene, FrameSize frame) {
   return Projector(scene, frame, {.subpixel_bits = c_exact_subpixel_bits}).project_all();
@@ -582,7 +584,7 @@ void measure(const Scene& scene, FrameSize size, const SphericalSetupOptions& op
   const auto triangles = projected(scene, size);
   const ReferenceImage truth = render_reference(
       scene, triangles, {.frame = size, .subpixel_bits = c_exact_subpixel_bits, .workers = on_threads(2)});
-  const double promised = promised_steps(scene, key, options.threshold) + 0.5;  // the reference's rounding
+  const double promised = promised_steps(scene, key, options.threshold) + 0.5;  // and its rounding
   for (std::size_t pixel = 0; pixel < truth.mask.size(); ++pixel) {
     if (truth.mask[pixel] == 0) continue;
     double error = 0.0;
@@ -615,7 +617,7 @@ Scene lit_mesh(RandomScenes& random, int kind, RandomScenes::Lights lights) {
   return scene;
 }
 
-// Lines are looked at at a few places: between them nothing is promised, so what is past the promise there is
+// Lines are checked at a few places. Between them the error is not bounded, so pixels above the bound are
 // counted.
 TEST(SphericalSetup, ExactIsWithinItsPromiseOfTheIlluminationModel) {
   RandomScenes random(4);
@@ -643,14 +645,14 @@ TEST(SphericalSetup, ExactIsWithinItsPromiseOfTheIlluminationModel) {
   }
 }
 
-// A triangle with these corners, in 1/16 pixel, and any normals; the eye is set for it.
+// Adds a triangle with these corners, in 1/16 pixel, and random normals, and sets the eye for it.
 void add_on_screen(Scene& scene, Points p, FrameSize frame, RandomScenes& random) {
   const double depth = 4.0, focal = 0.5 * frame.height / std::tan(0.5 * 0.7);
   scene.camera.near = 1.0;
   scene.camera.far = 1000.0;
   scene.camera.eye_world = {0.0, 0.0, depth};
   scene.camera.vertical_fov_degrees = 0.7 * 180.0 / std::numbers::pi;
-  // Clockwise on the screen, y down, is what the eye sees.
+  // The eye sees triangles that are clockwise on the screen (y down).
   if ((std::int64_t{p[1].x} - p[0].x) * (std::int64_t{p[2].y} - p[0].y) >
       (std::int64_t{p[2].x} - p[0].x) * (std::int64_t{p[1].y} - p[0].y))
     std::swap(p[1], p[2]);
@@ -664,8 +666,8 @@ void add_on_screen(Scene& scene, Points p, FrameSize frame, RandomScenes& random
   scene.triangles.push_back({corner, corner, 0});
 }
 
-// However bright a light is, bells come down to where white ends: what is left is what the tables cannot tell
-// apart, which grows with the light.
+// For any brightness the flanks of the bells stay correct below white. The remaining error is the resolution
+// of the tables, which increases with the light.
 TEST(SphericalSetup, OverExposureKeepsTheFlanks) {
   struct Case {
     double intensity, least_psnr, largest_error;
@@ -689,7 +691,7 @@ TEST(SphericalSetup, OverExposureKeepsTheFlanks) {
     }
 }
 
-// A spot of three pixels between the places where a line is looked at for its lights' angles.
+// Spots of three pixels between the places that are checked for the lights' angles.
 TEST(SphericalSetup, NarrowSpotsAreNotMissed) {
   RandomScenes random(13);
   Accuracy whole, cut;
@@ -713,7 +715,8 @@ TEST(SphericalSetup, NarrowSpotsAreNotMissed) {
   EXPECT_EQ(cut.past, 0u);
 }
 
-// Normals that turn by any angle along slivers and triangles of every kind, a light and a spot close by.
+// Normals that turn by any angle along slivers and triangles of every kind, with a light and a spot close to
+// them.
 TEST(SphericalSetup, WildNormalsAreCutToo) {
   RandomScenes random(14);
   RandomTriangles triangles(14);
@@ -733,7 +736,7 @@ TEST(SphericalSetup, WildNormalsAreCutToo) {
   EXPECT_LE(cut.past, 2u);
 }
 
-// ---- What else holds
+// ---- Other properties
 
 using Pixels = std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>>;  // triangle, y, x
 
@@ -761,7 +764,7 @@ TEST(SphericalSetup, EachTriangleDrawsItsPixelsOnceHoweverItIsCut) {
   std::uint64_t cut = 0, pixels = 0;
   for (int i = 0; i < 18; ++i) {
     Scene scene = lit_mesh(random, i % 3, RandomScenes::any);
-    if (i % 4 == 0) scene.camera.eye_world *= 0.4;  // reaches past the frame
+    if (i % 4 == 0) scene.camera.eye_world *= 0.4;  // extends beyond the frame
     for (const FrameSize frame : {FrameSize{160, 120}, FrameSize{37, 91}, FrameSize{1, 1}})
       for (const double threshold : {1e9, 2.0, 0.01}) {
         const Drawn drawn = draw(scene, frame, spherical_key(scene), {.threshold = threshold});
@@ -775,7 +778,7 @@ TEST(SphericalSetup, EachTriangleDrawsItsPixelsOnceHoweverItIsCut) {
   EXPECT_GT(pixels, 100'000u);
 }
 
-// Slivers, triangles of a line, triangles over the whole guard band, normals as they come.
+// Slivers, triangles of one line, triangles over the whole guard band, arbitrary normals.
 TEST(SphericalSetup, AnyTriangleDrawsItsPixelsOnce) {
   RandomScenes random(12);
   RandomTriangles triangles(12);
@@ -838,7 +841,7 @@ TEST(SphericalSetup, OneChannelIsAnyOfThreeWhereTheSceneIsGrey) {
     }
 }
 
-// A scene without some effect, on hardware that has it: the same picture.
+// A scene without some effect on hardware that has it gives the same picture.
 TEST(SphericalSetup, HardwareThatASceneDoesNotCallForAddsNothing) {
   RandomScenes random(8);
   for (const Preset preset : {Preset::exact, Preset::published})
@@ -862,7 +865,7 @@ TEST(SphericalSetup, HardwareThatASceneDoesNotCallForAddsNothing) {
     }
 }
 
-// Materials of several exponents and none, on the hardware of all of them.
+// Materials of several exponents and of none, on the hardware for all of them.
 TEST(SphericalSetup, MaterialsDoNotMix) {
   RandomScenes random(9);
   for (const Preset preset : {Preset::exact, Preset::published}) {
@@ -883,7 +886,7 @@ TEST(SphericalSetup, MaterialsDoNotMix) {
     std::size_t seen = 0;
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
       Scene alone = scene;
-      for (SceneTriangle& t : alone.triangles) t.material = i;  // so that this material alone is worn
+      for (SceneTriangle& t : alone.triangles) t.material = i;  // so that only this material is in use
       std::vector<Fragment> fragments = draw(alone, frame, spherical_key(alone, preset)).fragments;
       std::erase_if(fragments, [&](const Fragment& f) { return f.triangle != i; });
       EXPECT_TRUE(fragments == together[i]) << "material " << i;
@@ -909,7 +912,7 @@ TEST(SphericalSetup, CountsSayWhatWasDone) {
   EXPECT_GT(cut.records, whole.records);
   EXPECT_GT(cut.shaded, whole.shaded);
   EXPECT_EQ(whole.overexposed, 0u);
-  // A channel of the ambient light too bright: once a vector, however often it was looked at.
+  // One channel of the ambient light is too bright: counted once per vector, however often it is checked.
   Scene bright = scene;
   bright.ambient = {1e4, 0.0, 0.0};
   bright.materials[0].ambient = 1.0;
@@ -952,7 +955,7 @@ TEST(SphericalSetup, WhereTheEyeIsTheNormalStandsForItsDirection) {
   }
 }
 
-// What `halfway sim` says of a scene, golden model alone.
+// The notes of `halfway sim` on a scene, with the golden model only.
 std::string notes(const Scene& scene, Preset preset = Preset::exact) {
   SimulateSettings settings;
   settings.plan.shader = Shader::spherical;
@@ -998,7 +1001,7 @@ TEST(SphericalSetup, NotesSayWhereThePictureIsWorse) {
   EXPECT_NE(notes(scene).find("that of 1.3 is off by up to 8.6 colour steps"), std::string::npos)
       << notes(scene);
   EXPECT_EQ(notes(scene, Preset::published).find("fits"), std::string::npos);
-  // Not worn, or without a highlight.
+  // A material not in use, or without a highlight.
   scene.materials.push_back({.name = "not worn", .exponent = 1.3});
   scene.materials[0].specular = 0.0;
   EXPECT_EQ(notes(scene), "");
@@ -1014,7 +1017,7 @@ TEST(SphericalSetup, NotesSayWhereThePictureIsWorse) {
   EXPECT_EQ(notes(scene).find("held"), std::string::npos) << "white all the same";
 }
 
-// What is held in preset exact would be white anyway.
+// A value that is clamped in preset exact would be white without the clamp, too.
 TEST(SphericalSetup, TheLargestFactorTimesTheLeastEntryIsWhite) {
   for (int data_bits = 2; data_bits <= c_white_data_bits; ++data_bits) {
     golden::SaturatingSum sum;

@@ -7,7 +7,8 @@
 namespace halfway {
 namespace {
 
-// Where an edge's pixel lies on the lines of an interval: beside the frame, it is held at the frame's side.
+// Position of an edge's pixel on the lines of an interval. Outside the frame it is clamped to the frame's
+// side.
 enum class Held { left, no, right };
 
 struct Interval {
@@ -16,7 +17,7 @@ struct Interval {
   const Edge* edge;
 };
 
-// First line of [begin, end) for which `holds`, which changes once from false to true.
+// First line of [begin, end) for which `holds` is true. `holds` changes at most once, from false to true.
 template <class Holds>
 std::int64_t first_where(std::int64_t begin, std::int64_t end, Holds&& holds) {
   while (begin < end) {
@@ -29,8 +30,8 @@ std::int64_t first_where(std::int64_t begin, std::int64_t end, Holds&& holds) {
   return begin;
 }
 
-// Splits the lines [begin, end) of an edge by where it lies; the pixel moves one way only, so three parts at
-// most.
+// Splits the lines [begin, end) of an edge by its position. The pixel moves in one direction only, so there
+// are at most three parts.
 void split(const Edge& edge, std::int64_t begin, std::int64_t end, std::int64_t width,
            std::vector<Interval>& out) {
   const bool to_right = edge.dx() >= 0;
@@ -54,7 +55,7 @@ EdgeSection section(const Interval& interval, std::int64_t begin, std::int64_t e
   const Edge::State at = interval.edge->at(begin);
   s.pixel = at.pixel;
   if (end - begin < 2)
-    return s;  // never stepped; and only a stepped edge is tall enough for its quotient to fit
+    return s;  // never stepped; only an edge that is stepped is tall enough for its quotient to fit
   const auto [quotient, remainder] = floor_divide(interval.edge->dx(), interval.edge->dy());
   s.quotient = quotient;
   s.remainder = remainder;
@@ -64,7 +65,7 @@ EdgeSection section(const Interval& interval, std::int64_t begin, std::int64_t e
   return s;
 }
 
-// Of the section's first `steps` steps, those with one more pixel.
+// Number of steps with an extra pixel among the section's first `steps` steps.
 std::int64_t carries_of(const EdgeSection& s, std::int64_t steps) {
   const std::int64_t error = s.error + s.remainder - (s.carry ? s.divisor : 0);  // before the first step
   return ceil_divide(steps * s.remainder - error, s.divisor);
@@ -74,7 +75,7 @@ std::int64_t pixel_of(const EdgeSection& s, std::int64_t steps) {
   return s.pixel + steps * s.quotient + carries_of(s, steps);
 }
 
-// A run of lines on which both edges keep to one interval each.
+// A run of lines on which each edge stays in one interval.
 struct Run {
   std::int64_t begin, end;
   const Interval *start, *stop;
@@ -93,7 +94,7 @@ std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> p, int unit_bits, FrameS
   std::vector<Walk> walks;
   if (begin >= end) return walks;
 
-  // Right of the long edge lies the middle vertex: spans run forward.
+  // If the middle vertex is to the right of the long edge, spans run forward.
   const std::int64_t side = (std::int64_t{p[1].x} - p[0].x) * (std::int64_t{p[2].y} - p[0].y) -
                             (std::int64_t{p[2].x} - p[0].x) * (std::int64_t{p[1].y} - p[0].y);
   if (side == 0) return walks;
@@ -126,7 +127,7 @@ std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> p, int unit_bits, FrameS
     if (stops[j].end == run_end) ++j;
   }
 
-  // One walk takes runs in a row that share the start edge's interval, with at most two of the stop edge's.
+  // One walk contains consecutive runs with one interval of the start edge and at most two of the stop edge.
   for (std::size_t i = 0; i < runs.size();) {
     const bool pair =
         i + 1 < runs.size() && runs[i + 1].begin == runs[i].end && runs[i + 1].start == runs[i].start;
@@ -142,7 +143,7 @@ std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> p, int unit_bits, FrameS
       walk.lower = section(*runs[i + 1].stop, runs[i + 1].begin, runs[i + 1].end, width);
     }
     if (backward) {
-      // Spans [stop, start) walked from the right: first pixel start - 1, past the last stop - 1.
+      // A backward span covers [stop, start) from the right: its first pixel is start - 1, its end stop - 1.
       --walk.start.pixel;
       --walk.upper.pixel;
       --walk.lower.pixel;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the golden triangle walker makes of plan_walks' words against for_each_span, line by line and pixel by
-// pixel; of a frame, and of columns of it.
+// Compares the golden triangle walker, with the words of plan_walks, with for_each_span, line by line and
+// pixel by pixel; for a frame, and for columns of it.
 #include "setup/walk.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ std::vector<Span> expected_spans(const Points& points, int unit_bits, FrameSize 
   return spans;
 }
 
-// The spans of one walk as the hardware draws them; its first and last line cover a pixel.
+// The spans of one walk as the hardware draws them. Its first and last line cover a pixel.
 void append_walk(const Walk& walk, std::vector<Span>& spans) {
   std::array<std::uint32_t, (Exact::c_init_header_bits + 31) / 32> words{};
   put_walk(words, walk);
@@ -91,7 +91,7 @@ TEST(Walk, TheHardwareDrawsExactlyTheSpansOfEveryKindOfTriangle) {
           if (::testing::Test::HasFailure()) return;
         }
       }
-  // The triangles must be such that the test means something.
+  // The triangles must contain enough such cases for the test to be meaningful.
   EXPECT_GT(seen.backward, 1000);
   EXPECT_GT(seen.upper_and_lower, 1000);
   for (const auto& [walks, triangles] : seen.walks)
@@ -99,8 +99,8 @@ TEST(Walk, TheHardwareDrawsExactlyTheSpansOfEveryKindOfTriangle) {
   for (const std::size_t walks : {0u, 1u, 2u, 3u}) EXPECT_GT(seen.walks[walks], 50) << walks;
 }
 
-// Every triangle of a small lattice: ties, horizontal edges and crossings of a tiny frame in every
-// combination.
+// Every triangle of a small lattice: ties, horizontal edges and crossings of a tiny frame in all
+// combinations.
 TEST(Walk, EveryTriangleOfALatticeAroundATinyFrame) {
   Seen seen;
   constexpr int c_side = 6, c_points = c_side * c_side;
@@ -117,7 +117,7 @@ TEST(Walk, EveryTriangleOfALatticeAroundATinyFrame) {
             c_points * (c_points - 1) * (c_points - 2) / 6);
 }
 
-// Columns side by side draw what the whole frame does: each covered pixel in exactly one of them.
+// Adjacent columns draw the same pixels as the whole frame: each covered pixel is in exactly one column.
 TEST(Walk, EachCoveredPixelIsDrawnByItsColumns) {
   std::uint64_t pieces_drawn = 0, pieces_empty = 0;
   for (const FrameSize frame : c_frames)
@@ -129,7 +129,7 @@ TEST(Walk, EachCoveredPixelIsDrawnByItsColumns) {
         SCOPED_TRACE(::testing::Message()
                      << '(' << p[0].x << ',' << p[0].y << ") (" << p[1].x << ',' << p[1].y << ") (" << p[2].x
                      << ',' << p[2].y << ") frame " << frame.width << 'x' << frame.height);
-        // Any cuts, two of them next to each other.
+        // Arbitrary cuts, two of them adjacent.
         std::vector<std::int64_t> cuts = {0, width};
         for (int n = random.within(1, 8); n > 0; --n) cuts.push_back(random.within(0, width));
         cuts.push_back(std::min<std::int64_t>(width, cuts.back() + 1));
@@ -173,7 +173,7 @@ TEST(Walk, OrderOfThePointsDoesNotMatter) {
   }
 }
 
-// A line taken by itself is the walk's, span and sums.
+// A single line of a walk has the same span and sums as in the walk.
 TEST(Walk, ALineOfItIsThatLine) {
   RandomTriangles random(17);
   std::uint64_t lines = 0, carries = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The published scale against the paper's table and equation, the fitted bell against every other, the bound
-// against samples and MPFR, and the whole way from an angle word to a colour against cos^n.
+// Compares the published scale with the paper's table and equation, the fitted bell with all other bells, the
+// error bound with samples and MPFR, and the complete path from an angle word to a colour with cos^n.
 #include "shading/bell.hpp"
 
 #include <gmock/gmock.h>
@@ -94,7 +94,7 @@ TEST(PublishedScale, Table1) {
         << "n = " << n << ": a = " << published_scale(n);
 }
 
-/// The equation's right side as printed, times n + 1.
+/// The right side of the equation as printed, times n + 1.
 double equation(double n, double a) {
   const Real four_a2 = Real(4.0) * Real(a) * Real(a);
   const Real versine = Real(1.0) - cos(Real::pi() / (Real(2.0) * Real(a)));
@@ -118,7 +118,7 @@ TEST(PublishedScale, SolvesTheEquation) {
   for (const double n : exponents) {
     const double a = published_scale(n), residual = std::abs(equation(n, a));
     worst = std::max(worst, residual);
-    // An a that is off by half of its last bit leaves up to one of these.
+    // An error of half a last bit in a causes up to one epsilon of residual.
     EXPECT_LE(residual, 6 * std::numeric_limits<double>::epsilon()) << "n = " << n << ", a = " << a;
   }
   EXPECT_GT(worst, 0.0);
@@ -145,7 +145,7 @@ double integral(const std::function<double(double)>& f, double to) {
   return sum * to / c_steps / 3;
 }
 
-// What the equation stands for, also where the bell runs past pi/2.
+// Checks the property that the equation expresses, also where the bell extends beyond pi/2.
 TEST(PublishedScale, BothBellsHaveOneIntegral) {
   for (const double n : {1.0, 1.2, 1.5, 1.9, 2.0, 3.0, 10.0, 100.0, 1000.0}) {
     const double a = published_scale(n);
@@ -171,7 +171,7 @@ double value(const Bell& bell, double x) {
   return u < c_pi / 2 ? bell.gain * std::pow(std::cos(u), bell.power) : 0.0;
 }
 
-/// Places that show the lobe, the bell, and all of [0, pi]; ascending.
+/// Places that cover the lobe, the bell, and all of [0, pi]; ascending.
 std::vector<double> places(double n, double scale, int count) {
   std::vector<double> x = {c_pi / 2, std::min(c_pi, c_pi / (2 * scale))};
   for (const double to : {c_pi, 8 / std::sqrt(n), c_pi / (2 * scale)})
@@ -218,8 +218,8 @@ double steepest(int power) {
   return slope;
 }
 
-/// What the header says the power is chosen by, beside the error: half a cell of 2^9 and the angle's drift,
-/// in units of 1.
+/// The second term by which the power is chosen, as the header defines it: half a cell of 2^9 and the drift
+/// of the angle, in units of 1.
 double weighed(int power) {
   return (0x1p-10 + 0x1p-11) * steepest(power);
 }
@@ -230,8 +230,8 @@ std::vector<double> exponents_between(double low, double high, int count) {
   return exponents;
 }
 
-// Three extremes of alternating signs: a bell of the same power with a smaller error everywhere would have to
-// cross this one twice, but two of them cross once at most (beside x = 0).
+// Three extremes of alternating signs. A bell of the same power with a smaller error everywhere would have to
+// cross this one twice, but two such bells cross at most once (apart from x = 0).
 TEST(FittedBell, ErrorAlternates) {
   std::vector<double> exponents = exponents_between(2.0, 1e6, 150);
   for (double n = 2.01; n < 32.0; n += 0.07) exponents.push_back(n);
@@ -251,8 +251,8 @@ TEST(FittedBell, ErrorAlternates) {
   }
 }
 
-/// The best bell of a power, sought in another way: over the gain by thirds, and for each gain the scale
-/// where the bell has as much too little as too much.
+/// The best bell of a power by another method: ternary search over the gain, and for each gain the scale with
+/// equal positive and negative errors.
 Bell best_found(double n, int power) {
   constexpr int c_samples = 200;
   const double natural = std::sqrt(n / power), to = std::min(c_pi / 2, 5 / std::sqrt(n));
@@ -296,7 +296,7 @@ TEST(FittedBell, NoOtherBellIsBetter) {
     for (const int power : c_powers) {
       if (power > 4 * n || (n > 4 * power && power < 8)) continue;  // far off
       const Bell other = best_found(n, power);
-      // Below 2 the lobe's bend at pi/2 lies between the places that it is fitted at.
+      // For n below 2 the lobe's corner at pi/2 lies between the samples used for the fit.
       EXPECT_GE(fit_error(n, other) + weighed(power), total - (n < 2.0 ? 3e-4 : 1e-5))
           << "n = " << n << ": power " << power << ", scale " << other.scale << ", gain " << other.gain
           << " are better than power " << fitted.power << ", scale " << fitted.scale << ", gain "
@@ -306,7 +306,7 @@ TEST(FittedBell, NoOtherBellIsBetter) {
   EXPECT_THAT(chosen, testing::ElementsAreArray(c_powers));
 }
 
-// Gaussians, in the limit.
+// In the limit both are Gaussians.
 TEST(FittedBell, FollowsTheRootOfALargeExponent) {
   const Bell million = fitted_bell(1e6);
   for (const double n : {1e7, 1e9, 1e12, 1e15}) {
@@ -388,7 +388,7 @@ TEST(FitError, BoundsExactErrors) {
     }
 }
 
-// cos^2 alone errs by 10 of 255 at n = 5 and by 18 at n = 500.
+// cos^2 alone has an error of 10 of 255 at n = 5 and of 18 at n = 500.
 TEST(FitError, OfThePublishedBell) {
   EXPECT_NEAR(fit_error(5, {2, published_scale(5)}), 0.0398, 5e-5);
   EXPECT_NEAR(fit_error(500, {2, published_scale(500)}), 0.0719, 1e-4);
@@ -400,7 +400,7 @@ constexpr double c_steps = 255.0;    // a highlight of full range
 constexpr double c_drift = 0x1p-11;  // of an angle word, in half bells: format `angle`
 const tables::CosineSize c_size = tables::CosineSizes{}.exact.front();
 
-/// What takes a highlight from steps * cos^n, in colour steps.
+/// The parts of a highlight's difference from steps * cos^n, in colour steps.
 struct Parts {
   double fit, table, drift;
   double factor = 0x1p-9, rounding = 0.5;
@@ -412,7 +412,7 @@ std::ostream& operator<<(std::ostream& out, const Parts& p) {
              << ", factor " << p.factor << ", rounding " << p.rounding << ")";
 }
 
-/// Of a bell of gain 1: the parts that come with the power.
+/// For a bell of gain 1: the parts that depend on the power.
 struct PowerParts {
   double table, drift;
 };
@@ -442,13 +442,13 @@ TEST(Bell, BelowTwoNoBellIsGood) {
   EXPECT_NEAR(at, 1.305, 0.01);
 }
 
-// For every n in [2, 1000], not only those that are tried.
+// For every n in [2, 1000], not only for the tested ones.
 //
-// From n1 to n > n1 the error of one bell grows by (n - n1)/(e n1) at most, as |d/dn cos^n x| <= 1/(e n). So
-// the sum that fitted_bell makes least, of error and `weighed`, is at n at most what it is at n1 with n1's
-// own bell, plus this, plus c_not_least. What else adds to the total comes with the power that is chosen; the
-// worst power is taken for it, and a gain of 1 + 5/255, since the gain is no further from 1 than the error is
-// large.
+// From n1 to n > n1 the error of one bell increases by at most (n - n1)/(e n1), because |d/dn cos^n x| <=
+// 1/(e n). fitted_bell minimizes the sum of error and `weighed`. At n this sum is at most its value at n1
+// with n1's bell, plus this increase, plus c_not_least. The other parts of the total depend on the chosen
+// power. The worst power is assumed for them, and a gain of 1 + 5/255, because |gain - 1| is at most the
+// error.
 TEST(Bell, ExactBellIsWithinFiveSteps) {
   constexpr double c_most = 5.0, c_not_least = 1e-5;
   double beside = 0.0;
@@ -461,7 +461,7 @@ TEST(Bell, ExactBellIsWithinFiveSteps) {
   double worst_exponent = 0.0, worst_integer = 0.0;
   Parts worst{}, worst_of_integers{};
   int tried = 0;
-  // The least sum at n; notes the total there.
+  // The least sum at n. Also records the total there.
   const auto least_sum = [&](double n) {
     const Bell bell = fitted_bell(n);
     const Parts p = parts(n, bell);
@@ -476,7 +476,7 @@ TEST(Bell, ExactBellIsWithinFiveSteps) {
   for (int n = 2; n < 1000; ++n) {
     double from = n, sum = least_sum(n);
     while (from < n + 1) {
-      // As far as the bound allows.
+      // Advance as far as the bound allows.
       const double room = c_most - beside - sum, reach = from * room * std::numbers::e / c_steps;
       ASSERT_GT(reach, 1e-6) << "between n = " << from << " and " << n + 1 << " the bound exceeds " << c_most;
       const double to = std::min<double>(n + 1, from + reach);
@@ -496,7 +496,7 @@ TEST(Bell, ExactBellIsWithinFiveSteps) {
   std::cout << text.str() << "; " << tried << " exponents tried\n";
 }
 
-// The shader's arithmetic stays within the sum of the parts, drifted angles and all.
+// The result of the shader's arithmetic stays within the sum of the parts, including drifted angles.
 TEST(Bell, ColoursStayWithinTheSumOfTheParts) {
   constexpr int c_fraction = 22;
   const int data_bits = c_size.data_bits, address_bits = c_size.address_bits;
@@ -516,7 +516,7 @@ TEST(Bell, ColoursStayWithinTheSumOfTheParts) {
       const double x =
           std::min(c_pi, random.uniform(-1.2, 1.2) * std::max(c_pi / (2 * bell.scale), 2 / std::sqrt(n)));
       const double half_bells = bell.scale * x / (c_pi / 2);
-      // Anywhere within the drift; often at its ends.
+      // Anywhere within the drift, often at its limits.
       const double drift = c_drift * std::clamp(random.uniform(-2.0, 2.0), -1.0, 1.0);
       const double word_real = (half_bells + drift) * double(unit);
       const std::int64_t word =

@@ -24,7 +24,7 @@ Worn worn_of(const Scene& scene) {
   return materials;
 }
 
-// The first that passes; null where none does.
+// The first material that passes the test, or null.
 const Material* first(const Worn& materials, bool (*test)(const Material&)) {
   const auto it =
       std::find_if(materials.begin(), materials.end(), [&](const Material* m) { return test(*m); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene calls for, whichever shader draws it: effects, and the lights and materials that can reach a
-// fragment.
+// What a scene needs, independent of the shader: effects, and the lights and materials that can contribute to
+// a fragment.
 #pragma once
 
 #include <array>
@@ -15,21 +15,21 @@
 
 namespace halfway {
 
-/// Lights of an intensity other than 0: directional ones, positional ones, spots, each in the scene's order.
+/// Lights whose intensity is not 0: directional, positional, spots, each in the scene's order.
 std::vector<LightRef> shining_lights(const Scene& scene);
-/// These, or none where no material in use reflects them.
+/// The shining lights, or none if no material in use reflects them.
 std::vector<LightRef> reflected_lights(const Scene& scene);
 
-/// For each material whether a triangle wears it.
+/// For each material, true if a triangle uses it.
 std::vector<bool> worn_materials(const Scene& scene);
 
-/// Whether light reflects from it this way.
+/// True if the material reflects light in this way.
 bool has_diffuse(const Material& material);
 bool has_specular(const Material& material);
 
 bool is_grey(glm::dvec3 colour);
 
-/// All that the project knows of, in the order that a plan lists it.
+/// All effects that the project has, in the order in which a plan lists them.
 enum class Effect {
   ambient,
   diffuse,
@@ -48,7 +48,7 @@ enum class Effect {
 };
 inline constexpr std::size_t c_effects = static_cast<std::size_t>(Effect::perspective) + 1;
 
-/// Such as "highlight colour".
+/// For example "highlight colour".
 const char* to_string(Effect effect);
 
 struct Call {
@@ -56,11 +56,11 @@ struct Call {
   std::string why;  ///< or why not
 };
 struct SceneCalls {
-  std::vector<LightRef> lights;  ///< reflected_lights
+  std::vector<LightRef> lights;  ///< as returned by reflected_lights
   std::array<Call, c_effects> call;
 
   const Call& operator[](Effect effect) const { return call[static_cast<std::size_t>(effect)]; }
-  std::size_t count(LightKind kind) const;  ///< of these lights
+  std::size_t count(LightKind kind) const;  ///< of the lights above
 };
 
 SceneCalls calls_of(const Scene& scene);

@@ -13,24 +13,24 @@ struct Sheared {
   double x, y, z;
 };
 
-/// p.x q.y - p.y q.x, its sign exact and its value good however small it comes out.
+/// p.x q.y - p.y q.x. Its sign is exact, and its value is accurate even if it is very small.
 double cross(const Sheared& p, const Sheared& q) {
   const double left = p.x * q.y, right = p.y * q.x;
   const double difference = left - right;
   constexpr double c_few_digits_lost = 1e-10;
   if (std::abs(difference) > c_few_digits_lost * (std::abs(left) + std::abs(right))) return difference;
-  // Kahan's difference of products: wrong by two roundings of the result at most.
+  // Kahan's difference of products: at most two roundings of the result.
   return std::fma(p.x, q.y, -right) + std::fma(-p.y, q.x, right);
 }
 
-/// An edge from p to q as the ray passes it.
+/// An edge from p to q as seen from the ray.
 struct PassedEdge {
   PassedEdge(const Sheared& p, const Sheared& q) : weight(cross(p, q)), side(weight) {
     if (side == 0.0) side = p.y != q.y ? p.y - q.y : q.x - p.x;
   }
   double weight;
-  /// Only the sign counts. On the edge itself the ray counts as moved by (e, e^2), e infinitely small: on one
-  /// side for both triangles at the edge, and never on it.
+  /// Only the sign counts. If the ray meets the edge exactly, it counts as moved by (e, e^2), e infinitely
+  /// small. It is then on the same side for both triangles of the edge, and never on the edge.
   double side;
 };
 
@@ -41,8 +41,8 @@ bool is_averted(const CornersWorld& corners_world, const LightPoint& light) {
   return glm::dot(light.way_from(a), glm::cross(b - a, c - a)) < 0.0;
 }
 
-// The ray becomes the z axis: sheared, not turned, so that each vertex is moved once, and to the same place
-// for every triangle that has it (Woop, Benthin and Wald, 2013).
+// Shear the ray onto the z axis. Without a rotation each vertex is moved once, and to the same place for
+// every triangle that contains it (Woop, Benthin and Wald, 2013).
 LightRay::LightRay(const glm::dvec3& from_world, const LightPoint& light)
     : from_world_(from_world),
       direction_world_(light.way_from(from_world)),
@@ -66,7 +66,7 @@ LightRay::Hit LightRay::hit(const CornersWorld& corners_world, double least_way)
   const PassedEdge bc(b, c), ca(c, a), ab(a, b);
   const bool enters = bc.side < 0.0 && ca.side < 0.0 && ab.side < 0.0;
   if (!enters && !(bc.side > 0.0 && ca.side > 0.0 && ab.side > 0.0)) return {};
-  // Weights of one sign: however thin the triangle, the way stays between those of its corners.
+  // The weights have one sign: however thin the triangle is, the distance stays between those of its corners.
   const double way =
       (bc.weight * a.z + ca.weight * b.z + ab.weight * c.z) / (bc.weight + ca.weight + ab.weight);
   if (!(way > least_way && way < greatest_way_)) return {};

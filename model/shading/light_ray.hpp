@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way from a point to a light, and the triangles on it.
+// The ray from a point to a light, and the triangles that it meets.
 //
-// Who casts a shadow: a triangle that turns its outside away from the light. A ray from outside a closed mesh
-// crosses as many of these as of the others, so the shadow is the whole mesh's; and no surface that faces the
-// light lies on a caster of its own mesh, so none can shadow itself by rounding.
+// A triangle casts a shadow if its outside faces away from the light. A ray from outside a closed mesh
+// crosses as many of these triangles as of the others, so together they cast the shadow of the whole mesh. A
+// surface that faces the light lies on no shadow caster of its own mesh, so rounding cannot make it shadow
+// itself.
 #pragma once
 
 #include <array>
@@ -21,38 +22,38 @@ inline CornersWorld corners_world(const Scene& scene, const SceneTriangle& trian
           scene.positions_world[triangle.position[2]]};
 }
 
-/// Does the triangle turn its outside away from the light? One that is edge-on does not.
+/// True if the outside of the triangle faces away from the light. False for a triangle seen edge-on.
 bool is_averted(const CornersWorld& corners_world, const LightPoint& light);
 
 enum class Crossing {
   none,
-  enters,  ///< through the outside, into the mesh: the triangle is averted from the light
+  enters,  ///< through the outside, into the mesh: the triangle faces away from the light
   leaves,  ///< through the inside, out of the mesh
 };
 
-/// A ray from a point to a light. Watertight: where triangles meet in an edge or a vertex, rays through it
-/// cross just as those beside it do.
+/// A ray from a point to a light. Watertight: where triangles meet in an edge or a vertex, a ray through it
+/// crosses as many triangles as a ray next to it.
 class LightRay {
  public:
-  /// The point is not the light's place.
+  /// The point must not be at the light.
   LightRay(const glm::dvec3& from_world, const LightPoint& light);
 
   struct Hit {
     Crossing crossing = Crossing::none;
-    double way = 0.0;  ///< in parts of the way to the light; lengths where the light is directional
+    double way = 0.0;  ///< as a fraction of the distance to the light; a length if the light is directional
   };
-  /// Only between the point and the light, more than `least_way` from the point.
+  /// Counts crossings only between the point and the light, and more than `least_way` from the point.
   Hit hit(const CornersWorld& corners_world, double least_way = 0.0) const;
 
   const glm::dvec3& from_world() const { return from_world_; }
   const glm::dvec3& direction_world() const { return direction_world_; }
-  /// Of the light; infinite for a directional one.
+  /// Position of the light on the ray; infinite for a directional light.
   double greatest_way() const { return greatest_way_; }
 
  private:
   glm::dvec3 from_world_, direction_world_;
   double greatest_way_;
-  int x_, y_, z_;  ///< axes; z is where the direction is longest
+  int x_, y_, z_;  ///< axes; z is the axis of the direction's largest component
   double shear_x_, shear_y_, scale_z_;
 };
 

@@ -55,7 +55,7 @@ TEST(LightRay, SaysWhereAndWhichWay) {
   EXPECT_EQ(from_above.hit(up).crossing, Crossing::enters);
   EXPECT_DOUBLE_EQ(from_above.hit(up).way, 6.0);
   EXPECT_EQ(from_below.hit(up, 0.3).crossing, Crossing::none);
-  // Behind the start, and behind the light.
+  // Behind the start, and beyond the light.
   EXPECT_EQ(LightRay({0, 3, 0}, {{0, 1, 0}, 0.0}).hit(up).crossing, Crossing::none);
   EXPECT_EQ(LightRay({0, 0, 0}, {{0, 1.9, 0}, 1.0}).hit(up).crossing, Crossing::none);
 }
@@ -78,12 +78,12 @@ TEST(LightRay, AgreesWithLongDouble) {
   EXPECT_GT(enters, 1000);
 }
 
-// Through the vertices and edges of a lattice that is one sheet: once everywhere.
+// Rays through the vertices and edges of a lattice that is one sheet cross it exactly once.
 TEST(LightRay, CrossesASheetOnceWhereverItIsAimed) {
   RandomSolids random(2);
   constexpr int c_cells = 6;
   for (int round = 0; round < 60; ++round) {
-    // Whole coordinates, a random lattice in the plane, or one with vertices a few roundings off it.
+    // Integer coordinates, a random lattice in the plane, or one with vertices a few roundings off the plane.
     const glm::dvec3 u = round == 0 ? glm::dvec3(1, 0, 0) : random.unit();
     const glm::dvec3 v = round == 0 ? glm::dvec3(0, 0, 1) : random.unit();
     const double noise = round % 3 == 2 ? 1e-15 : 0.0;
@@ -112,7 +112,7 @@ TEST(LightRay, CrossesASheetOnceWhereverItIsAimed) {
   }
 }
 
-// A fan around a point that rays miss by a few roundings, where plain products give the wrong signs.
+// A fan around a point that the rays miss by a few roundings. Plain products give wrong signs here.
 TEST(LightRay, CrossesAFanOnceAroundItsMiddle) {
   RandomSolids random(3);
   for (int round = 0; round < 300; ++round) {
@@ -134,8 +134,8 @@ TEST(LightRay, CrossesAFanOnceAroundItsMiddle) {
   }
 }
 
-// Slivers side by side along a line that the ray nearly meets, or meets: it passes their edges by so little
-// that the products in double are wrong, or equal where they should not be.
+// Slivers next to one another along a line that the ray meets or nearly meets. It passes their edges at such
+// small distances that products in double are wrong, or equal although they should differ.
 TEST(LightRay, CrossesOneOfManySlivers) {
   RandomSolids random(4);
   struct Point {
@@ -146,7 +146,8 @@ TEST(LightRay, CrossesOneOfManySlivers) {
   for (int round = 0; round < 3000; ++round) {
     const auto whole = [&] { return static_cast<std::int64_t>(random.within(1e8, 1e9)); };
     const Point apex{whole(), whole()};
-    // Euclid: a point beside the line through origin and apex by the least that whole numbers allow.
+    // Euclid's algorithm: a point next to the line through origin and apex, at the least distance that
+    // integers allow.
     Point beside{0, 1}, before{1, 0};
     for (std::int64_t a = apex.x, b = apex.y; b != 0;) {
       const std::int64_t quotient = a / b;
@@ -163,7 +164,7 @@ TEST(LightRay, CrossesOneOfManySlivers) {
     const auto from_apex = [&](Point p) { return Point{p.x - apex.x, p.y - apex.y}; };
     std::sort(rim.begin(), rim.end(),
               [&](Point p, Point q) { return cross(from_apex(p), from_apex(q)) > 0; });
-    // To either side, well clear of the line.
+    // Points on both sides, well away from the line.
     rim.insert(rim.begin(), {-apex.x - apex.y, -apex.y + apex.x});
     rim.push_back({-apex.x + apex.y, -apex.y - apex.x});
     if (cross(from_apex(rim.front()), from_apex(rim[1])) < 0) std::swap(rim.front(), rim.back());
@@ -182,7 +183,7 @@ TEST(LightRay, CrossesOneOfManySlivers) {
   EXPECT_GT(wrong_in_double, 1000);
 }
 
-// Along its edges and through its corners, a solid is left as often as it is entered.
+// Rays along the edges and through the corners leave a solid as often as they enter it.
 TEST(LightRay, EntersAndLeavesASolidAlongItsEdges) {
   const Mesh box = make_box({2.0, 2.0, 2.0}, 2);
   std::vector<CornersWorld> triangles;

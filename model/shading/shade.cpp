@@ -24,7 +24,7 @@ double beckmann(double n_dot_h, double sin2_n_h, double roughness) {
   if (!(n_dot_h > 0)) return 0.0;
   const double tangent_over_m = std::sqrt(sin2_n_h) / n_dot_h / roughness;
   const double exponent = tangent_over_m * tangent_over_m;
-  if (!(exponent < 700)) return 0.0;  // and cos^4 may have vanished
+  if (!(exponent < 700)) return 0.0;  // cos^4 may have underflowed too
   const double m_cos2 = roughness * n_dot_h * n_dot_h;
   return std::exp(-exponent) / (std::numbers::pi * m_cos2 * m_cos2);
 }

@@ -15,7 +15,7 @@
 namespace halfway {
 namespace {
 
-/// 400 bits: enough that cos^4 and the quotients of the printed formula lose nothing here.
+/// 400 bits: enough for cos^4 and the quotients of the printed formula without loss of accuracy.
 class Real {
  public:
   Real(double v = 0.0) {
@@ -68,7 +68,7 @@ Real dot(const RealVector& a, const RealVector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Equation 7 of the spherical paper as it is printed, times N.L.
+/// Equation 7 of the spherical paper as printed, times N.L.
 double cook_torrance_as_printed(const Material& material, const RealVector& n, const RealVector& l,
                                 const RealVector& v) {
   RealVector h{l[0] + v[0], l[1] + v[1], l[2] + v[2]};
@@ -110,7 +110,7 @@ TEST(Shade, CookTorranceEqualsThePrintedFormulaDownToTheHorizon) {
             const glm::dvec3 l = at(nl, 0.0), v = at(nv, angle);
             const double expected = cook_torrance_as_printed(material, real(c_up), real(l), real(v));
             const double factor = specular_factor(material, c_up, l, v);
-            // F = (1 - L.H)^5 has few digits of its own where L = V: its error there is absolute.
+            // If L = V, F = (1 - L.H)^5 is close to zero and has few accurate digits: its error is absolute.
             const double slack = expected * (reflectance == 0.0 ? 1e-6 : 1e-11) + 1e-60;
             if (expected > c_largest_specular)
               EXPECT_EQ(factor, c_largest_specular);
@@ -160,7 +160,7 @@ TEST(Shade, PowersAtKnownAngles) {
   EXPECT_NEAR(specular_factor(material, c_up, l, c_up), std::pow(std::cos(0.25), 7.0), 1e-15);
   material.brdf = Brdf::phong;
   EXPECT_NEAR(specular_factor(material, c_up, l, c_up), std::pow(std::cos(0.5), 7.0), 1e-15);
-  for (Brdf brdf : {Brdf::blinn, Brdf::phong}) {  // the mirror direction, full at any exponent
+  for (Brdf brdf : {Brdf::blinn, Brdf::phong}) {  // the mirror direction: 1 at any exponent
     material.brdf = brdf;
     material.exponent = 1.0;
     EXPECT_NEAR(specular_factor(material, c_up, l, {-l.x, 0.0, l.z}), 1.0, 1e-15);
@@ -174,7 +174,7 @@ TEST(Shade, BlinnWithoutAHalfwayVectorIsZero) {
 }
 
 TEST(Shade, BeckmannIsAProjectedDensity) {
-  // Its integral over the hemisphere, weighted by the cosine, is one.
+  // The integral over the hemisphere, weighted by the cosine, is one.
   for (double m : {0.1, 0.3, 1.0}) {
     double sum = 0.0;
     constexpr int c_steps = 200000;
@@ -213,7 +213,7 @@ TEST(Shade, RadianceSumsTheTermsOfEachLight) {
   material.specular = 2.0;
   const glm::dvec3 ambient{0.25, 0.0625, 0.015625};
   EXPECT_EQ(radiance(scene, material, {}, c_up), ambient);
-  // From behind the eye, straight down: N.L = N.H = 1.
+  // The eye looks straight down and the light comes from behind it: N.L = N.H = 1.
   const glm::dvec3 intensity{4.0, 2.0, 1.0};
   const glm::dvec3 lit{4.0 * (0.25 + 1.0), 2.0 * (0.125 + 2.0), 1.0 * 0.0625};
   scene.directional = {{c_up, intensity}};
@@ -230,7 +230,7 @@ TEST(Shade, RadianceSumsTheTermsOfEachLight) {
 TEST(Shade, ALightThatDoesNotReachGivesNothing) {
   Scene scene;
   scene.ambient = {0.5, 0.25, 0.125};
-  // Each light a colour of its own; the second of each kind has the weight of the next digit.
+  // Each light has its own colour channel. The second light of each kind has the weight of the next digit.
   scene.directional = {{c_up, {1, 0, 0}}, {c_up, {8, 0, 0}}};
   scene.positional = {{{0, 0, 1}, {0, 1, 0}}, {{0, 0, 2}, {0, 8, 0}}};
   scene.spots = {{{0, 0, 3}, -c_up, 0.9, 0.8, {0, 0, 1}}, {{0, 0, 4}, -c_up, 0.9, 0.8, {0, 0, 8}}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: directions that turn, in 250 bits or long double and without an angle.
+// For tests: turning directions, in 250 bits or long double, computed without angles.
 #pragma once
 
 #include <mpfr.h>
@@ -13,7 +13,7 @@
 
 namespace halfway {
 
-/// 250 bits: sums of opposed vectors, and quotients by them, lose nothing here.
+/// 250 bits: sums of opposite vectors, and quotients by them, stay accurate.
 class Real {
  public:
   Real(double v = 0.0) {
@@ -47,8 +47,8 @@ class Real {
   mpfr_t v_;
 };
 
-// The same directions by other means, without an angle: half way between two unit vectors is their sum, made
-// unit; and the rotation from one to another is two half turns.
+// The same directions computed without an angle: the direction half way between two unit vectors is their
+// normalized sum, and the rotation from one to another is two half turns.
 
 template <class R>
 struct Vector {
@@ -67,7 +67,7 @@ Vector<R> unit(const Vector<R>& v) {
   return (R(1.0) / sqrt(dot(v, v))) * v;
 }
 
-/// The great circle from a to b at t = 0, 1/8, 2/8 ... 1. a and b are not opposed.
+/// The great circle from a to b at t = 0, 1/8, 2/8 ... 1. a and b must not be opposite.
 template <class R>
 std::array<Vector<R>, 9> eighths(const Vector<R>& from, const Vector<R>& to) {
   const Vector<R> a = unit(from), b = unit(to);
@@ -83,15 +83,15 @@ Vector<R> half_turn(const Vector<R>& x, const Vector<R>& axis) {
   return R(2.0) * dot(axis, x) * axis - x;
 }
 
-/// Half a turn about v1, then about the middle between v1 and v2, takes v1 to v2 and leaves v1 x v2 as it is:
-/// the rotation v1 -> v2. Here it is undone.
+/// Undoes the rotation v1 -> v2. That rotation is a half turn about v1, then a half turn about the middle
+/// between v1 and v2: it moves v1 to v2 and keeps v1 x v2.
 template <class R>
 Vector<R> turned_back(const Vector<R>& x, const Vector<R>& v1, const Vector<R>& v2) {
   const Vector<R> a = unit(v1), middle = unit(a + unit(v2));
   return half_turn(half_turn(x, middle), a);
 }
 
-/// Cosines at the eighths: v held at v1.
+/// Cosines at the eighths, with v fixed at v1.
 template <class R>
 std::array<double, 9> expected_cosines(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v1, glm::dvec3 v2) {
   const Vector<R> v = unit(Vector<R>(v1));
@@ -115,7 +115,7 @@ class Directions {
       if (length2 > 0.01 && length2 <= 1.0) return glm::normalize(v);
     }
   }
-  /// At an angle from u, to the last bit of its components: pi - 1e-12 is not pi.
+  /// A direction at an angle from u, correct in the last bit of its components: pi - 1e-12 differs from pi.
   glm::dvec3 at(glm::dvec3 u, double angle, bool from_opposed = false) {
     const Vector<long double> a = unit(Vector<long double>(u)), other(any());
     const Vector<long double> tangent = unit(other - dot(other, a) * a);

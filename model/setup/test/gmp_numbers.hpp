@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: this project's integers as GMP's, where sums and quotients are exact without thought.
+// For tests: conversions between this project's integers and GMP's, whose sums and quotients are exact.
 #pragma once
 
 #include <gmpxx.h>
@@ -16,14 +16,14 @@ inline mpz_class to_mpz(Int128 v) {
   return v < 0 ? mpz_class(-z) : z;
 }
 
-/// Of a number below 2^127 in magnitude.
+/// For a number below 2^127 in magnitude.
 inline Int128 to_int128(const mpz_class& z) {
   const mpz_class magnitude = abs(z), high = magnitude >> 64;
   const Int128 v = (static_cast<Int128>(high.get_ui()) << 64) | magnitude.get_ui();
   return z < 0 ? -v : v;
 }
 
-/// round(v), halves up: what every rounding of a word in setup means.
+/// round(v), halves up: the rounding of all words in setup.
 inline mpz_class rounded(const mpq_class& v) {
   const mpz_class doubled = 2 * v.get_num() + v.get_den(), divisor = 2 * v.get_den();
   mpz_class quotient;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: scenes that the spherical shader draws, lit by all kinds of lights.
+// For tests: scenes for the spherical shader, with all kinds of lights.
 #pragma once
 
 #include <algorithm>
@@ -49,8 +49,8 @@ class RandomScenes {
 
   enum Lights { directional, positional, spots, any };
 
-  /// Around a mesh of about this radius at the origin, on the eye's side of it (+z): from right above its
-  /// surface to a few times as far.
+  /// Adds lights around a mesh of about this radius at the origin, on the eye's side (+z). Their distances
+  /// range from close to the surface to a few times the radius.
   void add_lights(Scene& scene, int count, Lights kind, double radius, bool grey) {
     for (int i = 0; i < count; ++i) {
       const int which = kind == any ? whole(0, 2) : static_cast<int>(kind);
@@ -71,7 +71,7 @@ class RandomScenes {
     }
   }
 
-  /// Triangles over the middle of the view of an eye at (0, 0, 4), normals up to `spread` off each other.
+  /// Triangles over the middle of the view of an eye at (0, 0, 4), with normals up to `spread` apart.
   void add_triangles(Scene& scene, int count, double size, double spread) {
     scene.camera.eye_world = {0.0, 0.0, 4.0};
     for (int k = 0; k < count; ++k) {

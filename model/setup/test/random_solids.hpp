@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests of shadows: scenes of closed solids, and what lies on the way to a light, in long double and
+// For tests of shadows: scenes of closed solids, and the crossings of a ray to a light, in long double and
 // without any of the code under test.
 #pragma once
 
@@ -53,7 +53,7 @@ class RandomSolids {
         return glm::normalize(v);
   }
 
-  /// A sphere or a box, turned and squeezed, of about this radius.
+  /// A rotated and scaled sphere or box of about this radius.
   Mesh solid(double radius) {
     Mesh mesh = whole(0, 1) == 0
                     ? make_uv_sphere(whole(3, 9), whole(2, 7), radius)
@@ -65,8 +65,7 @@ class RandomSolids {
     return mesh;
   }
 
-  /// Solids about the origin, within and through one another, under one light of each kind; the eye looks at
-  /// them.
+  /// Solids around the origin, nested and intersecting, with one light of each kind. The eye looks at them.
   Scene scene(int solids) {
     Scene scene;
     scene.shadows = true;
@@ -91,11 +90,11 @@ class RandomSolids {
   std::mt19937 random_;
 };
 
-/// What a straight way crosses, and by how much that is beyond doubt.
+/// Crossings of a straight ray, and their margin.
 struct Crossings {
   int enters = 0, leaves = 0;
-  /// Least distance of anything decisive from its threshold: barycentrics, and parts of the way, from 0
-  /// and 1.
+  /// Least distance of any deciding value from its threshold: barycentric coordinates, and fractions of the
+  /// way from 0 and 1.
   long double margin = std::numeric_limits<long double>::infinity();
 };
 
@@ -111,7 +110,7 @@ Crossings crossings(const Triangles& triangles, const glm::dvec3& from_world, co
     const LongVec offset = glm::cross(from - a, way);
     const std::array<long double, 2> weight{glm::dot(ac, offset) / -slope, glm::dot(ab, offset) / slope};
     const long double t = glm::dot(a - from, normal) / slope;
-    // How far inside, and how far outside.
+    // Positive inside, negative outside.
     long double inside = std::min({weight[0], weight[1], 1.0L - weight[0] - weight[1], t});
     if (light.w != 0.0) inside = std::min(inside, 1.0L - t);
     found.margin = std::min(found.margin, std::abs(inside));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: triangles on the screen that setup must survive, and their init vectors' header words.
+// For tests: random triangles on the screen as input of setup, and the header words of their init vectors.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,16 +19,16 @@ namespace halfway {
 using Points = std::array<ScreenPoint, 3>;
 
 enum class TriangleKind {
-  any,              ///< of the frame's size, partly beside it
+  any,              ///< of the frame's size, partly outside it
   small,            ///< a few pixels
   subpixel,         ///< within one pixel
-  one_line,         ///< a line high, any width
-  sliver,           ///< a unit off degenerate, of the frame's size
+  one_line,         ///< one line high, any width
+  sliver,           ///< one unit from degenerate, of the frame's size
   horizontal_edge,  ///< flat at the top or the bottom
   on_centres,       ///< vertices on pixel centres
-  crossing,         ///< over the whole guard band, most of it beside the frame
+  crossing,         ///< over the whole guard band, mostly outside the frame
   thin_across,      ///< over the whole guard band, a few units thick
-  outside           ///< beside the frame
+  outside           ///< outside the frame
 };
 inline constexpr std::array c_triangle_kinds = {TriangleKind::any,         TriangleKind::small,
                                                 TriangleKind::subpixel,    TriangleKind::one_line,
@@ -40,12 +40,12 @@ class RandomTriangles {
  public:
   explicit RandomTriangles(unsigned seed) : random_(seed) {}
 
-  /// In 1/2^unit_bits pixels, vertices in any order. `level` of subdivision: the guard band of 8191 pixels is
-  /// halved as often, as setup's triangles are.
+  /// In 1/2^unit_bits pixels, vertices in any order. `level` is the level of subdivision: per level the range
+  /// of 8191 pixels of the guard band is halved, as for setup's triangles.
   Points next(TriangleKind kind, int unit_bits, FrameSize frame, int level = 0) {
     const int unit = 1 << unit_bits, reach = 8191 >> level;
     const int width = static_cast<int>(frame.width), height = static_cast<int>(frame.height);
-    // An origin such that all that is within `reach` of it lies in the guard band.
+    // Choose an origin such that all points within `reach` lie in the guard band.
     const int left = level == 0 ? -2048 : within(-reach, width - 1),
               top = level == 0 ? -2048 : within(-reach, height - 1);
     const auto anywhere = [&] {
@@ -117,7 +117,7 @@ class RandomTriangles {
   std::mt19937 random_;
 };
 
-/// Does `value` fit the field as it stands, without wrapping?
+/// True if `value` fits the field without wrapping.
 inline bool fits(const golden::Field& field, std::int64_t value) {
   const std::int64_t least = field.is_signed ? -(std::int64_t{1} << (field.bits - 1)) : 0;
   const std::int64_t greatest = (std::int64_t{1} << (field.is_signed ? field.bits - 1 : field.bits)) - 1;
