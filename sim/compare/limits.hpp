@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a simulation has gone astray.
+// Limits after which a simulation is stopped as faulty.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,10 @@
 
 namespace halfway {
 
-/// Cycles without a movement after which the hardware hangs: more than all lines of a frame, empty.
+/// Number of cycles without progress that counts as a hang. It exceeds the time for all lines of an empty
+/// frame.
 inline constexpr std::uint32_t c_idle_limit = 4 * c_max_frame_side;
-/// Fragments past the golden model's after which a runaway is stopped.
+/// Number of fragments beyond the golden model's after which a simulation is stopped.
 inline constexpr std::uint64_t c_most_surplus = 10'000;
 
 }  // namespace halfway

@@ -37,7 +37,7 @@ void StreamComparator::compare(const Fragment* golden, const Fragment* rtl, std:
   constexpr std::size_t c_block = 1024;
   for (std::size_t i = 0; i < count; i += c_block) {
     const std::size_t n = std::min(c_block, count - i);
-    // Fragments have no padding: equal bytes are equal fields.
+    // Fragments have no padding, so equal bytes are equal fields.
     if (std::memcmp(golden + i, rtl + i, n * sizeof(Fragment)) == 0) {
       compared_ += n;
       continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two fragment streams, compared field by field as they come.
+// Compares two fragment streams field by field while they arrive.
 #pragma once
 
 #include <array>
@@ -15,35 +15,35 @@
 namespace halfway {
 
 struct Mismatch {
-  std::uint64_t index;                  ///< in the stream
-  std::optional<Fragment> golden, rtl;  ///< nothing where that stream has ended
+  std::uint64_t index;                  ///< position in the stream
+  std::optional<Fragment> golden, rtl;  ///< std::nullopt if that stream has ended
 };
 
 inline constexpr std::array<std::string_view, 7> c_fragment_fields = {"triangle", "line",  "pixel", "depth",
                                                                       "red",      "green", "blue"};
 
-/// A fragment's fields in the order of c_fragment_fields.
+/// The fields of a fragment in the order of c_fragment_fields.
 std::array<std::uint32_t, 7> fields(const Fragment& fragment);
 
 class StreamComparator {
  public:
   void add_golden(std::span<const Fragment> fragments);
   void add_rtl(std::span<const Fragment> fragments);
-  /// The same of both, without a copy of what they share.
+  /// Append equally many fragments of both streams, without copying the equal ones.
   void add(std::span<const Fragment> golden, std::span<const Fragment> rtl);
-  /// No more will come: what one stream has and the other has not differs.
+  /// End both streams. Fragments without a counterpart count as mismatches.
   void finish();
 
   std::uint64_t mismatches() const { return mismatches_; }  ///< fragments that differ in any field
   std::uint64_t golden_count() const { return compared_ + pending_golden_.size() - golden_used_; }
   std::uint64_t rtl_count() const { return compared_ + pending_rtl_.size() - rtl_used_; }
   const std::array<std::uint64_t, 7>& field_mismatches() const { return field_mismatches_; }
-  /// The first c_kept ones.
+  /// The first c_kept mismatches.
   const std::vector<Mismatch>& first() const { return first_; }
   static constexpr std::size_t c_kept = 10;
 
-  /// "triangle 3, line 10, pixel 7, red: golden 200, RTL 201", a line a field that differs, at most c_kept,
-  /// then counts.
+  /// "triangle 3, line 10, pixel 7, red: golden 200, RTL 201": one line per differing field, at most c_kept
+  /// lines, then counts.
   std::string describe(std::string_view rtl_name) const;
 
  private:

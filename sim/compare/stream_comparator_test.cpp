@@ -9,7 +9,7 @@
 namespace halfway {
 namespace {
 
-// In pairs or one after the other, in pieces of any length, the streams compare alike.
+// Pairs and separate streams in pieces of any length give equal results.
 TEST(StreamComparator, PairsCompareAsStreamsDo) {
   std::vector<Fragment> golden(5000), rtl;
   for (std::uint32_t i = 0; i < golden.size(); ++i)

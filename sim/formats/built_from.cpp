@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes what `built_from` of the program says: halfway_built_from CHECKOUT FILE. The build calls it.
+// halfway_built_from CHECKOUT FILE: writes the function `built_from` of the program. The build runs it.
 #include <fmt/format.h>
 
 #include <cstdio>

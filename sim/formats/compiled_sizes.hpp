@@ -5,7 +5,7 @@
 
 namespace halfway::tables {
 
-/// The sizes of the cosine tables that this program was built with.
+/// The sizes of the cosine tables compiled into this program.
 CosineSizes compiled_sizes();
 
 }  // namespace halfway::tables

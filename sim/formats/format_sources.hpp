@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a library of other formats is compiled from at run time, and the program that loads it was built from:
-// where the two are not the same, neither's objects are laid out as the other takes them.
+// Sources from which a library of other formats is compiled at run time. The program must have been built
+// from the same sources; otherwise the object layouts of program and library may differ.
 #pragma once
 
 #include <filesystem>
@@ -12,14 +12,15 @@
 
 namespace halfway {
 
-/// From the project's root: all that takes a format's width and that makes init vectors or fragments; what
-/// these call besides is the program's own.
+/// Paths relative to the project's root: all sources that depend on a format's width, and all that make init
+/// vectors or fragments. Other functions that these call are the program's own.
 std::vector<std::string> format_sources(Shader shader);
 
-/// Of a checkout's: the sources of all shaders, and every header under model/.
+/// Hash over a checkout: the sources of all shaders and every header under model/.
 Result<std::string> format_sources_hash(const std::filesystem::path& source);
 
-/// The same of the checkout that this program was built from, as it was then. Written by the build.
+/// The same hash of the checkout that this program was built from, at build time. The build generates this
+/// function.
 const char* built_from();
 
 }  // namespace halfway

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The entry points of a shared library with setup and golden model of one shader and preset, compiled with
-// other word lengths: sim/formats/README.md. HALFWAY_SHADER is the shader's number, HALFWAY_PRESET its
-// formats' name.
+// Entry points of a shared library with setup and golden model of one shader and preset, compiled with other
+// word lengths: see sim/formats/README.md. HALFWAY_SHADER is the shader's number, HALFWAY_PRESET its formats'
+// name.
 #include "golden_run/shader_model.hpp"
 #include "setup/processors_setup.hpp"
 #include "setup/quadratic_setup.hpp"
@@ -13,7 +13,7 @@ namespace {
 using Formats = golden::HALFWAY_PRESET;
 constexpr auto c_shader = static_cast<Shader>(HALFWAY_SHADER);
 
-// In here the formats are those that the key asks for.
+// Inside this library the compiled formats are the key's word lengths.
 HardwareKey built_in(HardwareKey key) {
   key.words = {};
   return key;

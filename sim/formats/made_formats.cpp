@@ -21,8 +21,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* c_library = "formats.so";
 
-// As CMakeLists.txt compiles these, but for a library's place in memory: the host's instructions are
-// compared. Nothing that both have may be taken for the other's: not an inline constant either.
+// The flags of CMakeLists.txt for these sources, plus position-independent code: the counted host
+// instructions must be comparable. The library and the program must not share any symbol, not even an inline
+// constant.
 constexpr std::array c_flags = {
     "-std=gnu++20", "-O2",           "-DFMT_SHARED",        "-fPIC",
     "-shared",      "-pthread",      "-fvisibility=hidden", "-fvisibility-inlines-hidden",
@@ -60,7 +61,7 @@ Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& 
       fmt::format("{}-{}-{}-{}", to_string(key.shader), to_string(key.preset), words.name(), hash.hex());
   const fs::path folder = parent / name;
   if (!fs::exists(folder / c_library)) {
-    // Half a minute's work: points of the same formats wait for the one that does it.
+    // Compiling takes half a minute. Other points with the same formats wait for it.
     const fs::path locked = parent / (name + ".lock");
     if (Status made = make_folders(locked); !made) return made.error();
     const auto lock = FolderLock::take(locked, [] {});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Setups and golden models with word lengths that the program was not built with: the same sources, compiled
-// with other formats into a shared library, cached.
+// Setups and golden models with word lengths that are not compiled into the program. The same sources are
+// compiled with other formats into a shared library, which is cached.
 #pragma once
 
 #include <memory>
@@ -14,11 +14,12 @@
 
 namespace halfway {
 
-/// Makes setups and golden models of keys with the word lengths that it was compiled for.
+/// Creates setups and golden models for keys with the word lengths that the library was compiled for.
 class MadeFormats {
  public:
-  /// For the key's shader, preset and word lengths. Compiles them by the compiler that compiled the program,
-  /// unless the cache has them. Bad input where what runs was built from other sources than the checkout's.
+  /// Open the library for the key's shader, preset and word lengths. If it is not in the cache, compile it
+  /// with the program's own compiler. Returns bad input if the program was built from other sources than the
+  /// checkout's.
   static Result<std::shared_ptr<const MadeFormats>> open(const HardwareKey& key,
                                                          const SimulatorFolders& folders);
 
@@ -35,7 +36,7 @@ class MadeFormats {
   MakeGoldenModel* golden_model_ = nullptr;
 };
 
-/// The setup and the golden model of a key: of `formats`, or where it is null, the program's own.
+/// The setup and the golden model of a key: from `formats`, or the program's own if it is null.
 std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
                                   const SetupOptions& options, const MadeFormats* formats);
 std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key, const MadeFormats* formats);

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-// In a checkout that has changed since the program was built the two must not be mixed.
+// Program and library must not be mixed if the checkout has changed since the program was built.
 TEST(MadeFormats, AProgramOlderThanTheCheckoutIsRefused) {
   const fs::path source = HALFWAY_SOURCE_DIR;
   const auto here = format_sources_hash(source);

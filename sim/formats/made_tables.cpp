@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Paths from rtl/, and what they hold.
+// Paths relative to rtl/, and the files' contents.
 using Packages = std::map<std::string, std::string>;
 
 CosineSizes sizes_with(bool exact, CosineSize size) {
@@ -26,7 +26,7 @@ CosineSizes sizes_with(bool exact, CosineSize size) {
 }
 
 struct Source {
-  fs::path path;  // from rtl/
+  fs::path path;  // relative to rtl/
   std::string text;
 };
 
@@ -48,7 +48,7 @@ Result<std::vector<Source>> rtl_sources(const fs::path& rtl, const Packages& pac
 MadeTables::MadeTables(bool exact, CosineSize size) {
   for (const CosineTable& made : cosine_tables(sizes_with(exact, size))) {
     if (made.exact != exact) continue;
-    // Entries have 12 bits at most.
+    // Entries have at most 12 bits.
     std::vector<std::uint16_t> entries;
     for (const std::uint32_t entry : made.entries) entries.push_back(static_cast<std::uint16_t>(entry));
     entries_.push_back(std::move(entries));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cosine tables of sizes that the program was not built with: for the golden model here, for the RTL as a
-// copy of its sources.
+// Cosine tables of sizes that are not compiled into the program: in memory for the golden model, and as a
+// copy of the RTL's sources.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@
 
 namespace halfway::tables {
 
-/// All powers of one preset's size, by the generator of those that are compiled in.
+/// Tables of one size for all powers of a preset, made by the generator of the compiled tables.
 class MadeTables {
  public:
-  /// The size must be one that cosine_table takes.
+  /// `size` must be one that cosine_table accepts.
   MadeTables(bool exact, CosineSize size);
   MadeTables(const MadeTables&) = delete;
   MadeTables& operator=(const MadeTables&) = delete;
@@ -31,16 +31,16 @@ class MadeTables {
   std::vector<golden::CosineTable> tables_;
 };
 
-/// Whether the program was built with tables of that size.
+/// True if the program contains tables of that size.
 bool compiled_in(bool exact, CosineSize size);
 
-/// A folder in the cache that stands for the checkout: its sim/ and tb/, and its rtl/ with what is asked for
-/// in the preset: tables of that size alone, other word lengths.
+/// A cached copy of the checkout: its sim/ and tb/, and its rtl/ with the given changes to the preset: only
+/// tables of that size, other word lengths.
 Result<std::filesystem::path> rtl_with(bool exact, const std::optional<CosineSize>& size,
                                        const WordLengths& words, const std::filesystem::path& checkout,
                                        const std::filesystem::path& cache);
 
-/// The same with tables alone.
+/// Same as rtl_with, for tables only.
 Result<std::filesystem::path> rtl_with_tables(bool exact, CosineSize size,
                                               const std::filesystem::path& checkout,
                                               const std::filesystem::path& cache);

@@ -100,7 +100,7 @@ TEST(MadeWords, TheRootsTableGoesWithItsSeed) {
     EXPECT_EQ(made[i].value_bits, 8);
     EXPECT_EQ(made[i].values.front(), 252U);  // 1/sqrt(1 + 1/32), of 256
   }
-  // What the committed files have, with the lengths that they have.
+  // The committed files and their word lengths.
   const WordLengths same{.seed_bits = 12, .newton = true};
   EXPECT_EQ(function_vhdl_package(function_tables(true, same)), function_vhdl_package());
   EXPECT_EQ(vhdl_package(preset_formats(true, same)), vhdl_package(preset_formats()));

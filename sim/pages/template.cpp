@@ -28,7 +28,7 @@ data data_of(const nlohmann::ordered_json& json) {
   return object;
 }
 
-// Mustache itself leaves out what the data lacks.
+// Mustache itself omits names that the data lacks; here they are errors.
 class StrictContext : public kainjow::mustache::context<std::string> {
  public:
   using context::context;

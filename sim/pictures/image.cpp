@@ -31,7 +31,7 @@ Error cannot_write(const std::string& path, int error) {
                   std::strerror(error)));
 }
 
-/// Every byte, and the close that may still report a full disk. 0 or errno.
+/// Write all bytes and close the file (a full disk may be reported only then). Return 0 or errno.
 int write_and_close(int file, std::span<const unsigned char> bytes) {
   int error = 0;
   while (!bytes.empty() && error == 0) {

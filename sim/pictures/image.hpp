@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames as image files.
+// Read and write frames as image files.
 #pragma once
 
 #include <filesystem>
@@ -9,20 +9,20 @@
 
 namespace halfway {
 
-/// How long a PNG may take for how few bytes.
+/// Trade-off between time and size of a PNG.
 enum class Compression { usual, quick };
 
-/// Writes the whole file or leaves what was there: under a name beside it first, then renamed. What is no
-/// regular file (a pipe, a device) is written as it stands. A path that cannot be opened is bad_input; a disk
-/// that is full or breaks is tool_failed.
+/// Write the file atomically: to a temporary name next to it, then rename. A path that is not a regular file
+/// (a pipe, a device) is written directly. A path that cannot be opened is bad_input; a full or failing disk
+/// is tool_failed.
 Status write_png(const std::filesystem::path& path, const Frame& frame,
                  Compression compression = Compression::usual);
 
-/// The same as a binary PPM, of 3 bytes a pixel.
+/// Same as write_png, but as a binary PPM with 3 bytes per pixel.
 Status write_ppm(const std::filesystem::path& path, const Frame& frame);
 
-/// Reads a PNG of 8 bits, three channels and at most 4096x4096 pixels, such as write_png makes; others are
-/// refused.
+/// Read a PNG with 8 bits per channel, three channels and at most 4096x4096 pixels, such as write_png writes.
+/// Other files are refused.
 Result<Frame> read_png(const std::filesystem::path& path);
 
 }  // namespace halfway

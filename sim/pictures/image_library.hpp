@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenImageIO, in a library of its own that is loaded where the first image is: with some 250 libraries
-// behind it, it would cost every start of a program a quarter of a second of processor time.
+// OpenImageIO in a library of its own, loaded at the first image. OpenImageIO depends on some 250 libraries;
+// loading them at every start of the program would take a quarter of a second of processor time.
 #pragma once
 
 #include <filesystem>
@@ -12,17 +12,17 @@
 
 namespace halfway {
 
-// What that library has; the same compiler makes both sides.
+// Functions of that library. The same compiler builds both sides.
 extern "C" {
-/// Of OpenImageIO, such as `OpenImageIO 2.4.7`.
+/// Version of OpenImageIO, such as `OpenImageIO 2.4.7`.
 void halfway_image_versions(std::string& text);
-/// A whole PNG. `path` is for messages.
+/// Encode a whole PNG. `path` is for messages.
 void halfway_encode_png(const std::string& path, const Frame& frame, bool quick,
                         Result<std::vector<unsigned char>>& bytes);
 /// See read_png in image.hpp.
 void halfway_decode_png(const std::string& path, Result<Frame>& frame);
-/// Pixels of two images of brightness, 0 to 1, whose difference is seen on a display of so many cd/m2 that
-/// fills so many degrees of the view; -1 where OpenImageIO cannot tell.
+/// Number of pixels whose difference is visible between two images of brightness (0 to 1), on a display of
+/// the given luminance in cd/m2 and field of view in degrees; -1 if OpenImageIO cannot compute it.
 long halfway_seen_by_yee(const std::vector<float>& a, const std::vector<float>& b, FrameSize size,
                          float luminance, float field);
 }
@@ -34,10 +34,10 @@ struct ImageLibrary {
   decltype(&halfway_seen_by_yee) seen_by_yee = nullptr;
 };
 
-/// Loaded by the first who asks, and never unloaded: it has threads.
+/// Loaded by the first call and never unloaded, because it has threads.
 Result<ImageLibrary> image_library();
 
-/// Where it lies: what is measured hangs on it as on the program.
+/// The library's path. Cached results depend on this file as well as on the program.
 std::filesystem::path image_library_file();
 
 }  // namespace halfway

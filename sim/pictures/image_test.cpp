@@ -54,7 +54,7 @@ TEST_F(Image, ComesBackAsItWasWritten) {
     EXPECT_EQ(back->size.width, size.width);
     EXPECT_EQ(back->size.height, size.height);
     EXPECT_EQ(back->rgb, frame.rgb);
-    EXPECT_EQ(files(), 1u);  // nothing temporary left
+    EXPECT_EQ(files(), 1u);  // no temporary file is left
     ASSERT_TRUE(write_png(path, frame, Compression::quick));
     const auto quick = read_png(path);
     ASSERT_TRUE(quick) << quick.error().message;
@@ -88,8 +88,8 @@ TEST_F(Image, AFolderThatCannotTakeItIsBadInput) {
   expect_refused(folder_ / "missing" / "a.png");
   std::ofstream(folder_ / "file") << "x";
   expect_refused(folder_ / "file" / "a.png");
-  expect_refused(folder_);  // is a folder itself
-  if (::geteuid() != 0) {   // nothing is closed to root
+  expect_refused(folder_);  // the path is a folder
+  if (::geteuid() != 0) {   // root may read every file
     fs::create_directory(folder_ / "closed");
     fs::permissions(folder_ / "closed", fs::perms::owner_read | fs::perms::owner_exec);
     expect_refused(folder_ / "closed" / "a.png");
@@ -104,7 +104,7 @@ TEST_F(Image, AFullDeviceIsAToolThatFailed) {
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-// A file size limit stops the writing half way, as a disk does that fills up.
+// A file size limit stops the writing half way, like a disk that fills up.
 TEST_F(Image, AWriteCutShortLeavesTheOldFile) {
   const fs::path path = folder_ / "a.png";
   ASSERT_TRUE(write_png(path, noise({8, 8}, 1)));

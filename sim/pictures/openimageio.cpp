@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The other side of image_library.hpp: all that includes OpenImageIO.
+// Implementation of image_library.hpp. Only this file includes OpenImageIO.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>

@@ -8,8 +8,8 @@
 namespace halfway {
 namespace {
 
-constexpr float c_luminance = 100.0F;  // cd/m2 of white
-constexpr float c_field = 45.0F;       // degrees
+constexpr float c_luminance = 100.0F;  // cd/m2, of white
+constexpr float c_field = 45.0F;       // field of view in degrees
 
 std::vector<float> brightness(const Frame& frame) {
   std::vector<float> values(frame.pixels());

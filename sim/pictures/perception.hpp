@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of two frames' difference an eye sees.
+// Visible differences between two frames.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,10 @@
 
 namespace halfway {
 
-/// Pixels whose difference in brightness is seen: Yee's perceptual metric as OpenImageIO has it, on a display
-/// of 100 cd/m2 that fills 45 degrees of the view. Brightness is the mean of the channels: given three
-/// channels OpenImageIO 2.4 finds no difference whatever they hold. Sizes must agree.
+/// Number of pixels with a visible difference in brightness, by OpenImageIO's implementation of Yee's
+/// perceptual metric, on a display of 100 cd/m2 with a field of view of 45 degrees. Brightness is the mean of
+/// the channels: with three channels OpenImageIO 2.4 always reports no difference. The frames must have the
+/// same size.
 Result<std::uint64_t> perceived_pixels(const Frame& a, const Frame& b);
 
 }  // namespace halfway

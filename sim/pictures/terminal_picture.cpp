@@ -13,7 +13,7 @@ namespace {
 
 using Colour = std::array<std::uint32_t, 3>;
 
-// Pixels [begin, end) of one axis that a smaller axis' pixel stands for.
+// Source pixels [begin, end) on one axis that one pixel of the smaller axis covers.
 struct Range {
   std::uint32_t begin, end;
 };
@@ -42,7 +42,7 @@ std::uint32_t distance(const Colour& a, const Colour& b) {
   return sum;
 }
 
-// xterm's 16 to 231 are the cube, red slowest; 232 to 255 the greys, of 8, 18 to 238.
+// xterm's colours 16 to 231 are the cube, with red changing slowest. 232 to 255 are the greys 8, 18, ... 238.
 std::uint32_t palette_index(const Colour& colour) {
   constexpr std::array<std::uint32_t, 6> c_levels = {0, 95, 135, 175, 215, 255};
   constexpr std::uint32_t c_cube = 16, c_grey = 232, c_greys = 24;
@@ -61,7 +61,7 @@ std::uint32_t palette_index(const Colour& colour) {
   return distance(colour, {level, level, level}) < distance(colour, in_cube) ? c_grey + grey : c_cube + index;
 }
 
-// Sets a half block's colours where they change.
+// Sets the colours of a half block when they change.
 class Pen {
  public:
   Pen(std::string& text, TerminalColours colours) : text_(text), colours_(colours) {}

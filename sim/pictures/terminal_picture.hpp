@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames as text, for a terminal that knows colours.
+// Frames as text for a colour terminal.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@ namespace halfway {
 
 enum class TerminalColours {
   full,     ///< 24 bits
-  palette,  ///< the 256 of xterm: a cube of 6 levels a channel, and 24 greys
+  palette,  ///< xterm's 256 colours: a cube with 6 levels per channel, and 24 greys
 };
 
-/// The largest size of the frame's proportions, and at least a pixel, that fits into so many columns and
-/// lines of text, of two pixels each; never larger than the frame.
+/// The largest size with the frame's proportions that fits into the given columns and lines of text. A line
+/// shows two pixels. The size is at least one pixel and at most the frame's size.
 FrameSize fitting_size(FrameSize frame, std::uint32_t columns, std::uint32_t lines);
 
-/// The frame in that size, each pixel the mean of those that it stands for, as half blocks; every line ends
-/// with the terminal's own colours and a line feed.
+/// The frame scaled to that size, drawn with half blocks. Each pixel is the mean of the source pixels that it
+/// covers. Every line ends with a colour reset and a line feed.
 std::string terminal_picture(const Frame& frame, FrameSize size, TerminalColours colours);
 
 }  // namespace halfway

@@ -29,7 +29,7 @@ TEST(TerminalPicture, AveragesWhatAPixelStandsFor) {
   Frame frame({3, 2});
   frame.rgb = {10, 0, 0, 20, 0, 255, 33, 9, 9,  //
                30, 0, 0, 41, 0, 255, 34, 9, 9};
-  // Pixels 0 and 1 to 2: of three columns to two, the second has two.
+  // Three columns reduced to two: pixel 0, and the mean of pixels 1 and 2.
   EXPECT_EQ(terminal_picture(frame, {2, 1}, TerminalColours::full),
             "\033[38;2;20;0;0m\u2580\033[38;2;32;5;132m\u2580\033[0m\n");
 }

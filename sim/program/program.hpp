@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every program of this project shares: where its checkout lies, and how it ends.
+// Shared by all programs of this project: the folders of the checkout, and how a program ends.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,7 +10,7 @@
 
 namespace halfway::cli {
 
-/// Of the checkout that the program was built from.
+/// Folders of the checkout that the program was built from.
 struct Folders {
   std::filesystem::path source;
   std::filesystem::path rtl() const { return source / "rtl"; }
@@ -18,14 +18,14 @@ struct Folders {
   std::filesystem::path cache() const { return source / "build" / "cache"; }
 };
 
-/// Prints the error on stderr and gives its exit code.
+/// Print the error on stderr and return its exit code.
 int report(const Error& error);
 
-/// Prints a line on stderr, without control characters.
+/// Print a line on stderr, without control characters.
 void say(std::string_view line);
 
-/// Parses, and so runs, what was asked for: the program's exit code. The command's callback sets `exit_code`.
-/// What could not be written to stdout is told, and ends with tool_failed what ended well.
+/// Parse the command line, run the command, and return the program's exit code. The command's callback sets
+/// `exit_code`. If writing to stdout failed, report it; a command that succeeded then ends with tool_failed.
 int run_program(CLI::App& app, int argc, char** argv, const int& exit_code);
 
 /// The command `tables`.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The block diagrams in rtl/diagrams against the VHDL that they show.
+// The block diagrams in rtl/diagrams must agree with the VHDL.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,8 +32,8 @@ std::set<std::string> found(const std::string& text, const char* pattern) {
   return all;
 }
 
-// Every entity that is instantiated in a top's tree, the top too. What a skewed entity and a stream_register
-// are made of is not shown.
+// All entities instantiated in a top's hierarchy, including the top. The parts of a skewed entity and of a
+// stream_register are not shown.
 std::set<std::string> tree_of(const std::string& top) {
   static const std::map<std::string, std::filesystem::path> c_files = [] {
     std::map<std::string, std::filesystem::path> files;
@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Diagram, ::testing::ValuesIn(c_shaders),
                          [](const auto& shader) { return to_string(shader.param); });
 
 TEST_P(Diagram, NamesTheEntitiesOfTheShader) {
-  // Nodes and clusters; what stands behind __ is a role.
+  // Names of nodes and clusters. The part after __ is a role.
   std::set<std::string> shown = found(dot_, R"(\n\s*subgraph cluster_(\w+) \{)");
   for (const std::string& node : found(dot_, R"(\n\s*(\w+) \[[^\]]*label=)"))
     if (!node.starts_with("port_")) shown.insert(node.substr(0, node.find("__")));
@@ -78,7 +78,7 @@ TEST_P(Diagram, LinksGoBetweenItsNodes) {
 
 TEST_P(Diagram, IsDrawnFromItsText) {
   const std::string svg = text_of(c_rtl / "diagrams" / (name_ + ".svg"));
-  // Each line of a label, whichever Graphviz drew it.
+  // Check each line of a label, in the label formats of all Graphviz versions.
   for (std::string label : found(dot_, R"re(label="([^"]*)")re"))
     for (std::size_t at = 0; at != std::string::npos;) {
       const std::size_t end = label.find("\\n", at);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The papers' figures, as figures.json tells of them.
+// Section with the papers' figures, from figures.json.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,13 +17,13 @@
 namespace halfway::report {
 namespace {
 
-// A text as HTML, with what stands between backticks as code.
+// A text as HTML; text between backticks becomes code.
 std::string words_of(const Json& json, const char* key) {
   return std::regex_replace(kainjow::mustache::html_escape(json.at(key).get<std::string>()),
                             std::regex("`([^`]*)`"), "<code>$1</code>");
 }
 
-// Width and height: the page reserves the room while a picture is loading.
+// Width and height, so that the page reserves the space while a picture loads.
 Result<std::pair<int, int>> size_of(const std::filesystem::path& picture) {
   if (picture.extension() != ".svg") {
     const auto frame = read_png(picture);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames that sim left, what their runs say, and the effects that each scene calls for.
+// Section with the frames drawn by `sim`, the summaries of the runs, and the effects that each scene uses.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -22,7 +22,7 @@ constexpr std::array c_layers = {std::pair{"reference", "reference"}, std::pair{
                                  std::pair{"ghdl", "RTL in GHDL"}, std::pair{"verilator", "RTL in Verilator"},
                                  std::pair{"diff", "difference"}};
 
-// Folders in a folder, by name.
+// The folders in a folder, sorted by name.
 std::vector<std::filesystem::path> folders_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> found;
   std::error_code error;
@@ -38,7 +38,7 @@ std::string number(const Json& value, const char* format) {
 
 struct Images {
   Json uris = Json::array();
-  std::map<std::string, std::size_t> numbers;  // equal files are one
+  std::map<std::string, std::size_t> numbers;  // equal files are stored once
 
   Result<std::size_t> add(const std::filesystem::path& file) {
     auto uri = data_uri(file, "image/png");
@@ -49,14 +49,14 @@ struct Images {
   }
 };
 
-// A simulator's figure of the runs; "–" where it did not run, or could not measure it.
+// A value of a simulator's run; "–" if the simulator did not run or could not measure it.
 std::string figure(const Json& runs, const char* simulator, const char* name) {
   for (const Json& run : runs)
     if (run.value("simulator", "") == simulator && !run.at(name).is_null()) return run.at(name).dump();
   return "–";
 }
 
-// A run as the table shows it.
+// A run as a row of the table.
 Json run_of(const std::string& scene, const std::string& shader, const Json& summary) {
   Json run = {{"scene", scene}, {"shader", shader}};
   for (const char* key : {"preset", "width", "height", "triangles", "fragments"}) run[key] = summary.at(key);
@@ -69,7 +69,7 @@ Json run_of(const std::string& scene, const std::string& shader, const Json& sum
   return run;
 }
 
-// What the plan says of each effect, and the entities of it, as a column of the scene's table.
+// The plan's decision for each effect, and the units used, as a column of the scene's table.
 Status add_plan(Json& table, const std::string& shader, const Plan& plan, UnitCounter& counter) {
   table["plans"].push_back({{"shader", shader}, {"key", plan.key.name()}});
   for (std::size_t e = 0; e < c_effects; ++e) {
@@ -94,7 +94,7 @@ Status add_plan(Json& table, const std::string& shader, const Plan& plan, UnitCo
   return Ok{};
 }
 
-// Scenes that a shader has no frame of, those of a broken-off run among them.
+// List the scenes that a shader has no complete frame of.
 void add_gaps(Page& page, Json& missing) {
   for (const Shader shader : c_shaders) {
     std::vector<std::string> scenes;
@@ -119,7 +119,7 @@ Status add_frames(Page& page) {
     Json table;
     for (const auto& folder : folders_in(scene_folder)) {
       const ResultFiles files{folder};
-      if (!std::filesystem::exists(files.summary())) continue;  // a run that did not end
+      if (!std::filesystem::exists(files.summary())) continue;  // a run that did not finish
       page.settings.on_progress("frames: " + scene_name);
       const auto text = read_file(files.summary());
       if (!text) return text.error();
@@ -141,11 +141,11 @@ Status add_frames(Page& page) {
       ++page.report.frames;
       const auto it = std::ranges::find_if(c_shaders, [&](Shader s) { return shader == to_string(s); });
       if (it == c_shaders.end())
-        continue;  // with all effects: the shader's own frame shows what is called for
+        continue;  // drawn with all effects; the effects needed come from the shader's own frame
       const auto preset =
           summary["preset"] == to_string(Preset::published) ? Preset::published : Preset::exact;
       const auto scene = load_scene(scene_name, page.settings.folders.source / "sim" / "scenes");
-      if (!scene) continue;  // a mesh from elsewhere: its name alone does not load it
+      if (!scene) continue;  // a mesh from another place: the name alone does not identify it
       const auto plan = plan_scene(*scene, {.shader = *it, .preset = preset});
       if (!plan) return plan.error();
       if (!counter) {

@@ -19,7 +19,7 @@ namespace {
 constexpr const char* c_cells = "cells";
 constexpr const char* c_cycles = "cycles";
 
-// Those of a study's table that the front keeps.
+// Columns of a study's table that the front contains.
 constexpr std::array c_columns = {
     "scene",  "scene_hash",   "tools",    "point", "method", "preset",     "address_bits",  "data_bits",
     "form",   "threshold",    "exponent", "width", "height", "angle_bits", "fraction_bits", "seed_bits",
@@ -29,7 +29,7 @@ bool is_hardware(const Table& table, std::size_t row) {
   return !table.text(row, "hardware").empty();
 }
 
-// Error against cells, or where they were not counted against clocks.
+// Error against cells; against clocks if cells were not counted.
 Plot plot_of(const Table& front) {
   bool counted = true;
   for (std::size_t row = 0; row < front.rows.size(); ++row)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The front in one plot: of the designs that draw one picture, what each costs and how far off it is.
+// One plot of the designs that draw the same picture: error against cost, with the Pareto front.
 #pragma once
 
 #include <filesystem>
@@ -13,21 +13,21 @@
 
 namespace halfway::report {
 
-/// What sets a point's hardware apart, but for sizes of tables and thresholds: one series of a plot.
+/// Name of a point's series in a plot: its hardware without table sizes and thresholds.
 std::string series_of(const Table& table, std::size_t row);
-/// What points of equal pictures share.
+/// Text that is equal for points with equal pictures.
 std::string picture_of(const Table& table, std::size_t row);
-/// What none is both less and better than: the lower left of the points that are not aside, from left to
-/// right.
+/// The lower left boundary of the points that are not `aside`: those that no other point beats in both axes,
+/// from left to right.
 std::vector<std::pair<double, double>> lower_left(const std::vector<PlotPoint>& points);
 
-/// The picture that most of a study's hardware draws, as picture_of has it; empty where there is no hardware.
+/// picture_of the picture that most of a study's hardware draws; empty without hardware.
 std::string commonest_picture(const Table& study);
-/// Of a study's table that picture's designs, in the columns that say what a design is,
-/// costs and errs by, and what all that is of. No rows where there is no hardware.
+/// The rows of a study's table with that picture, with the columns for design, cost, error and origin.
+/// Without hardware there are no rows.
 Table front_of(const Table& study);
-/// Error against cells, or where they were not counted against clocks, as an SVG. Bad input where there is
-/// nothing to plot.
+/// Error against cells (against clocks if cells were not counted), as an SVG. Bad input if there is nothing
+/// to plot.
 Result<std::string> draw_front(const Table& front, const std::filesystem::path& scratch);
 /// README's part "front": the picture with what its line joins, in words. Bad input where not all is counted.
 Result<std::string> readme_front(const Table& front);

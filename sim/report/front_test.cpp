@@ -26,7 +26,7 @@ using ::testing::Not;
 
 const fs::path c_source = HALFWAY_SOURCE_DIR;
 
-// Two pictures, of two and of three designs in hardware.
+// Two pictures with two and three hardware designs.
 constexpr const char* c_study = R"(point,method,preset,scene_hash,exponent,hardware,cells,cycles,rms,record
 p,phong,,7,5,,,0,0,a
 q5,quadratic,exact,7,5,q,100,10,4,b
@@ -65,12 +65,12 @@ TEST_F(FrontTest, PlotsThePictureThatMostDesignsDraw) {
                           HasSubstr("aria-label=\"dear\""), HasSubstr("spherical, published"),
                           Not(HasSubstr("aria-label=\"p\"")), Not(HasSubstr("aria-label=\"q5\"")),
                           HasSubstr("cells")));
-  // What the line joins: not the design that costs more and errs more.
+  // A design that costs more and errs more is not on the line.
   EXPECT_EQ(lower_left({{100, 8}, {200, 2}, {300, 4}}),
             (std::vector<std::pair<double, double>>{{100, 8}, {200, 2}}));
   EXPECT_EQ(lower_left({{.x = 50, .y = 1, .aside = true}, {200, 2}}),
             (std::vector<std::pair<double, double>>{{200, 2}}));
-  // README's words: what the line joins, and what lies under another mark.
+  // README lists the designs on the line, including those hidden under another mark.
   const auto words = readme_front(front);
   ASSERT_TRUE(words) << words.error().message;
   EXPECT_THAT(*words,
@@ -81,7 +81,7 @@ TEST_F(FrontTest, PlotsThePictureThatMostDesignsDraw) {
   EXPECT_THAT(
       *readme_front(front_of(read(equal))),
       AllOf(HasSubstr("q and twin (100 cells, 8)"), HasSubstr("One mark for equal figures: q and twin.")));
-  // A count that is missing takes cells off the axis.
+  // If one count is missing, the axis shows clocks instead of cells.
   std::string uncounted = c_study;
   uncounted.replace(uncounted.find(",300,"), 5, ",,");
   const auto clocks = draw_front(front_of(read(uncounted)), here());
@@ -151,7 +151,7 @@ TEST_F(GalleryFront, IsOfTheCheckoutsDesigns) {
   }
 }
 
-// One of its designs, drawn by the RTL as it is now.
+// Draw one of its designs with the current RTL.
 TEST_F(GalleryFront, IsWhatTheHardwareDrawsNow) {
   const auto found = std::ranges::find(points_, study::Method::quadratic, &study::DesignPoint::method);
   ASSERT_NE(found, points_.end());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hardware: block diagrams, how a fragment comes about, and timing diagrams of a few clocks.
+// Section with the hardware: block diagrams, the steps that make a fragment, and timing diagrams of a few
+// clocks.
 #include <fmt/format.h>
 
 #include "sim/report/html.hpp"
@@ -23,7 +24,7 @@ constexpr std::array c_parts = {
                "How a fragment comes about in the shading processors"},
 };
 
-// What stands under a heading of the second level, to the next.
+// The text from a second-level heading to the next.
 Result<std::string> under(const std::string& markdown, const std::string& heading,
                           const std::filesystem::path& file) {
   const std::string mark = "\n## " + heading + "\n";

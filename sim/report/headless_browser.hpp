@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chromium without a window, driven by its DevTools protocol over a pair of sockets: no port, no driver.
+// Headless Chromium, controlled through its DevTools protocol over a pair of sockets: no port, no driver.
 #pragma once
 
 #include <fcntl.h>
@@ -23,12 +23,12 @@
 
 namespace halfway::report {
 
-/// For tests: what goes wrong is thrown.
+/// For tests: failures are exceptions.
 class HeadlessBrowser {
  public:
   using Json = nlohmann::json;
 
-  /// Empty where there is none in PATH.
+  /// Path of the browser; empty if PATH has none.
   static std::string program() {
     for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
       if (!find_program(name).empty()) return name;
@@ -46,7 +46,8 @@ class HeadlessBrowser {
     process_ = fork();
     if (process_ == 0) {
       setpgid(0, 0);
-      const int end = fcntl(ends[1], F_DUPFD, 10);  // 3 and 4 may be ends themselves
+      // descriptors 3 and 4 are overwritten in the child, so move the ends above them
+      const int end = fcntl(ends[1], F_DUPFD, 10);
       dup2(::open(log.c_str(), O_WRONLY | O_CREAT, 0644), 2);
       dup2(end, 3);
       dup2(end, 4);
@@ -65,14 +66,14 @@ class HeadlessBrowser {
   ~HeadlessBrowser() {
     std::fclose(stream_);
     if (process_ > 0) {
-      kill(-process_, SIGKILL);  // its own process group: it and what it started
+      kill(-process_, SIGKILL);  // its process group: the browser and its children
       waitpid(process_, nullptr, 0);
     }
   }
   HeadlessBrowser(const HeadlessBrowser&) = delete;
   HeadlessBrowser& operator=(const HeadlessBrowser&) = delete;
 
-  /// Sends a command, and gives its result.
+  /// Send a command and return its result.
   Json send(const std::string& method, Json params = Json::object()) {
     Json command = {{"id", ++last_}, {"method", method}, {"params", std::move(params)}};
     if (!session_.empty()) command["sessionId"] = session_;
@@ -90,7 +91,7 @@ class HeadlessBrowser {
     }
   }
 
-  /// The value of an expression, of a promise what it comes to.
+  /// The value of an expression. For a promise: the value it resolves to.
   Json evaluate(const std::string& expression) {
     const Json result = send("Runtime.evaluate",
                              {{"expression", expression}, {"awaitPromise", true}, {"returnByValue", true}});
@@ -98,7 +99,7 @@ class HeadlessBrowser {
       throw std::runtime_error(expression + ": " + result["exceptionDetails"].dump());
     return result["result"].value("value", Json());
   }
-  /// Waits until an expression is true.
+  /// Wait until an expression is true.
   bool becomes_true(const std::string& expression) {
     for (int i = 0; i < 200; ++i) {
       if (evaluate("Boolean(" + expression + ")") == true) return true;
@@ -128,8 +129,7 @@ class HeadlessBrowser {
                                       {"buttons", type == "mouseReleased" ? 0 : 1},
                                       {"clickCount", 1}});
   }
-  /// `touchStart` and `touchMove` with all fingers that are down; the browser is told first that it has a
-  /// touch screen.
+  /// Send `touchStart` or `touchMove` with all fingers that are down. Touch emulation is enabled first.
   void touch(const std::string& type, const std::vector<std::pair<double, double>>& fingers) {
     Json points = Json::array();
     for (std::size_t i = 0; i < fingers.size(); ++i)
@@ -150,9 +150,9 @@ class HeadlessBrowser {
     send("Input.dispatchKeyEvent", event);
   }
 
-  /// What the console said of errors and warnings, and exceptions.
+  /// Errors and warnings of the console, and exceptions.
   std::vector<std::string> complaints;
-  /// Of everything but the page itself and data.
+  /// URLs requested, except the page itself and data URIs.
   std::vector<std::string> requests;
 
  private:

@@ -32,7 +32,7 @@ bool is_outside(const char* url) {
   return std::string_view(url).starts_with("https://") || std::string_view(url).starts_with("http://");
 }
 
-// What a page of its own has, and a part of another page has not.
+// Remove what only a separate page has and adapt the rest to be part of another page.
 void adapt(cmark_node* document) {
   std::vector<cmark_node*> all;
   cmark_iter* walk = cmark_iter_new(document);
@@ -100,14 +100,15 @@ Result<std::string> inline_svg(const std::string& svg, const std::string& prefix
       value = "#" + prefix + value.substr(1);
     else
       replace_all(value, "url(#", "url(#" + prefix);
-    // Black and white are the page's ink and paper.
+    // Replace black and white by the page's text and background colours.
     if (value == "black" || value == "#000000" || value == "rgb(  0,   0,   0)")
       value = "currentColor";
     else if (value == "white" || value == "#ffffff" || value == "rgb(255, 255, 255)")
       value = "none";
     attribute.set_value(value.c_str());
   }
-  // A viewBox keeps the proportions; the page says how wide, and knows how wide it was drawn.
+  // The viewBox keeps the proportions. The page sets the width and needs the width that the figure was drawn
+  // with.
   if (!root.attribute("viewBox"))
     root.append_attribute("viewBox") =
         fmt::format("0 0 {} {}", root.attribute("width").as_int(), root.attribute("height").as_int()).c_str();
@@ -117,7 +118,7 @@ Result<std::string> inline_svg(const std::string& svg, const std::string& prefix
   for (const char* name : {"width", "height", "role", "aria-label"}) root.remove_attribute(name);
   root.append_attribute("role") = role;
   root.append_attribute("aria-label") = label.c_str();
-  // Titles are tooltips, of what the label says already.
+  // Titles would appear as tooltips that repeat the label.
   for (const char* name : {"title", "desc"}) root.remove_child(name);
   std::ostringstream out;
   root.print(out, "", pugi::format_raw | pugi::format_no_declaration);

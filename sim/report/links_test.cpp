@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Links and pictures of the pages lead to files that are there.
+// Links and pictures in the Markdown pages must point to existing files.
 #include <gtest/gtest.h>
 
 #include <filesystem>

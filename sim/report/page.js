@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report's moving parts: pictures with a wipe and a zoom, points that open.
+// Interactive parts of the report: pictures with wipe and zoom, and panels for points.
 "use strict";
 
 const data = JSON.parse(document.getElementById("data").textContent);
 
-/// A new element; `of` are its properties, `children` what it holds.
+/// A new element with properties `of` and the given children.
 function element(tag, of = {}, ...children) {
   const made = Object.assign(document.createElement(tag), of);
   made.append(...children);
   return made;
 }
 
-/// The pixels of a PNG, read once.
+/// Pixels of each PNG, decoded once.
 const pictures = new Map();
 function pictureOf(uri) {
   if (!pictures.has(uri)) {
@@ -28,7 +28,7 @@ function pictureOf(uri) {
   return pictures.get(uri);
 }
 
-/// 32 times the difference of two pictures, as diff.png shows it.
+/// 32 times the difference of two pictures, as in diff.png.
 function differenceOf(a, b) {
   const canvas = element("canvas", { width: a.canvas.width, height: a.canvas.height });
   const context = canvas.getContext("2d", { willReadFrequently: true });
@@ -39,7 +39,7 @@ function differenceOf(a, b) {
   return { canvas, pixels: image.data };
 }
 
-/// The pixel nearest the middle that is not of the corner's colour: of a body, where there is one.
+/// The pixel nearest to the centre whose colour differs from the corner's, if any: a pixel of a body.
 function firstPixelOf({ canvas, pixels }) {
   const { width, height } = canvas;
   let best = { x: width >> 1, y: height >> 1 }, least = Infinity;
@@ -53,15 +53,15 @@ function firstPixelOf({ canvas, pixels }) {
 }
 
 const zooms = [1, 2, 4, 8, 16, 32, 64, 128];
-const valuesFrom = 30; // CSS pixels a pixel from which on values are written into it
+const valuesFrom = 30;  // minimum CSS pixels per pixel for writing values into the pixels
 
-/// Two of several pictures of one size, with a line between them.
+/// Shows two of several pictures of equal size, separated by a movable line.
 class Viewer {
   constructor(root) {
     this.root = root;
-    this.wipe = 0.5; // of the canvas's width
-    this.zoom = 1;   // times the size at which the whole picture is seen
-    this.left = this.top = 0; // picture's place at the canvas's corner
+    this.wipe = 0.5;  // position of the line, as a part of the canvas's width
+    this.zoom = 1;  // 1: the whole picture is visible
+    this.left = this.top = 0;  // picture coordinates of the canvas's corner
     this.layers = [];
     this.canvas = element("canvas", { tabIndex: 0 });
     this.canvas.setAttribute("role", "application");
@@ -69,7 +69,7 @@ class Viewer {
     this.range.setAttribute("aria-label", "wipe: where the left picture ends");
     this.choices = ["left", "right"].map((side) => element("select", { className: side }));
     this.values = element("div", { className: "values" });
-    this.label = element("p", { className: "on-paper" }); // where there are no lists to read it from
+    this.label = element("p", { className: "on-paper" });  // names the picture if there are no lists
     this.values.setAttribute("aria-live", "polite");
     const button = (text, label, act) => {
       const made = element("button", { type: "button", textContent: text, onclick: act });
@@ -92,7 +92,7 @@ class Viewer {
     matchMedia("(resolution: 1dppx)").addEventListener("change", () => this.draw());
   }
 
-  /// Layers are { id, name, picture }; left and right are two of their ids.
+  /// Layers are { id, name, picture }; `left` and `right` are ids of two of them.
   show(what, layers, left, right) {
     this.what = what;
     const same = this.layers.length > 0 && layers.length > 0 &&
@@ -115,7 +115,7 @@ class Viewer {
   }
 
   layer(side) { return this.layers.find((layer) => layer.id === this.choices[side].value); }
-  /// CSS pixels a pixel of the picture.
+  /// CSS pixels per picture pixel.
   get scale() { return this.zoom * this.canvas.clientWidth / this.width; }
 
   draw() {
@@ -175,7 +175,7 @@ class Viewer {
       }
   }
 
-  /// What every layer holds at the chosen pixel.
+  /// Show the values of all layers at the chosen pixel.
   tellPixel() {
     const { x, y } = this.pixel;
     const rows = this.layers.map((layer) => {
@@ -198,11 +198,11 @@ class Viewer {
     this.tellPixel();
   }
 
-  /// What lies at a place of the canvas.
+  /// Picture coordinates of a canvas position.
   pictureAt(place) {
     return { x: this.left + place.x / this.scale, y: this.top + place.y / this.scale };
   }
-  /// Takes a point of the picture to a place of the canvas, zoomed by any number.
+  /// Zoom, and move the picture so that `point` of the picture is at `place` of the canvas.
   hold(point, place, zoom) {
     this.zoom = Math.min(zooms.at(-1), Math.max(1, zoom));
     this.left = point.x - place.x / this.scale;
@@ -210,7 +210,7 @@ class Viewer {
     this.keepInside();
     this.draw();
   }
-  /// Keeps what lies at a place of the canvas, or else the chosen pixel, where it is.
+  /// Zoom around a canvas position; without one, around the chosen pixel.
   zoomTo(zoom, at = null) {
     const { scale } = this;
     const place = at || { x: (this.pixel.x + 0.5 - this.left) * scale, y: (this.pixel.y + 0.5 - this.top) * scale };
@@ -222,7 +222,7 @@ class Viewer {
     this.left = Math.min(this.width - this.width / this.zoom, Math.max(0, this.left));
     this.top = Math.min(this.height - this.height / this.zoom, Math.max(0, this.top));
   }
-  /// Moves the picture until the chosen pixel is seen.
+  /// Scroll the picture until the chosen pixel is visible.
   seePixel() {
     const width = this.width / this.zoom, height = this.height / this.zoom;
     this.left = Math.min(this.pixel.x, Math.max(this.left, this.pixel.x + 1 - width));
@@ -236,15 +236,15 @@ class Viewer {
       const box = canvas.getBoundingClientRect();
       return { x: event.clientX - box.left, y: event.clientY - box.top };
     };
-    const down = new Map(); // pointers, by their ids: where each is
-    let drag = null, pinch = null; // what one pointer does, and what two do
+    const down = new Map();  // position of each pointer, by its id
+    let drag = null, pinch = null;  // state of one-pointer and two-pointer gestures
     const spread = () => {
       const [a, b] = [...down.values()];
       return { middle: { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 }, distance: Math.max(1, Math.hypot(a.x - b.x, a.y - b.y)) };
     };
     const lift = (event) => {
       down.delete(event.pointerId);
-      drag = pinch = null; // a finger that is left over does nothing
+      drag = pinch = null;  // after a pinch, the remaining finger has no effect
     };
     canvas.onpointerdown = (event) => {
       const at = place(event);
@@ -286,13 +286,13 @@ class Viewer {
       lift(event);
     };
     canvas.onpointercancel = lift;
-    // The page neither scrolls nor zooms by what two fingers do here.
+    // Two fingers on the canvas neither scroll nor zoom the page.
     canvas.addEventListener("touchstart", (event) => {
       if (event.touches.length > 1) event.preventDefault();
     }, { passive: false });
     canvas.ondblclick = (event) => this.zoomIn(place(event));
     canvas.addEventListener("wheel", (event) => {
-      if (!event.ctrlKey) return; // the page scrolls
+      if (!event.ctrlKey) return;  // without Ctrl the page scrolls
       event.preventDefault();
       if (event.deltaY < 0) this.zoomIn(place(event));
       else this.zoomOut(place(event));
@@ -321,7 +321,7 @@ class Viewer {
   }
 }
 
-/// Frames: a scene and a shader, chosen from lists or by links such as #frame/spheres/quadratic.
+/// Frames: scene and shader are chosen from lists or by links such as #frame/spheres/quadratic.
 function makeFrames() {
   const root = document.getElementById("frame-viewer");
   if (root === null || data.frames.length === 0) return;
@@ -341,7 +341,8 @@ function makeFrames() {
     const frame = data.frames.find((f) => f.scene === sceneName && f.shader === shaderName);
     const layers = await Promise.all(frame.layers.map(async ({ id, name, image }) =>
       ({ id, name, picture: await pictureOf(data.images[image]) })));
-    if (scene.value !== sceneName || shader.value !== shaderName) return; // another was chosen meanwhile
+    // another frame was chosen meanwhile
+    if (scene.value !== sceneName || shader.value !== shaderName) return;
     const has = (id) => layers.some((layer) => layer.id === id);
     viewer.show(`${sceneName} by the shader ${shaderName}`, layers, has("reference") ? "reference" : layers[0].id,
       ["verilator", "ghdl", "golden"].find(has) || layers[0].id);
@@ -371,10 +372,10 @@ function makePoints() {
   const crowd = document.getElementById("point-crowd");
   let viewer = null;
 
-  /// Points of its plot that lie where a pointer meant one of them, the nearest first.
+  /// Points of the same plot close to the pointer, nearest first.
   function crowdOf(link, event) {
     const svg = link.closest(".plot svg");
-    if (svg === null || event.detail === 0) return []; // keys go from point to point
+    if (svg === null || event.detail === 0) return [];  // with keys, each point can be reached separately
     const distance = (other) => {
       const box = other.querySelector("circle").getBoundingClientRect();
       return Math.hypot(box.x + box.width / 2 - event.clientX, box.y + box.height / 2 - event.clientY);
@@ -420,7 +421,7 @@ function makePoints() {
     open(numbers[0] ?? Number(link.getAttribute("href").slice(7)));
   });
 
-  // One stop of the tab key a plot; in it the arrows go to the nearest point on that side.
+  // Each plot is one stop of the Tab key. In a plot, an arrow key selects the nearest point in its direction.
   for (const svg of document.querySelectorAll(".plot svg")) {
     const links = [...svg.querySelectorAll("a")];
     links.forEach((link, i) => link.setAttribute("tabindex", i === 0 ? "0" : "-1"));
@@ -438,7 +439,7 @@ function makePoints() {
       links.forEach((link, i) => {
         const there = centre(link), dx = there.x - here.x, dy = there.y - here.y;
         const ahead = dx * along[0] + dy * along[1];
-        // Points in one place follow each other by number.
+        // Points at the same place are ordered by number.
         const cost = ahead + 2 * Math.abs(dx * along[1] + dy * along[0]) + (ahead === 0 ? 1e-3 * (i - from) : 0);
         const isAhead = ahead > 0 || (dx === 0 && dy === 0 && (along[0] + along[1]) * (i - from) > 0);
         if (i !== from && isAhead && cost < least) [best, least] = [link, cost];
@@ -450,7 +451,7 @@ function makePoints() {
   }
 }
 
-/// A link into something folded unfolds it.
+/// A link to an element in a folded section unfolds the section.
 function unfold() {
   const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
   const folded = target && target.closest("details");

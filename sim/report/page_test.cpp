@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report's page in a browser, used by mouse and by keys.
+// Tests of the report's page in a browser, used with mouse, keys and touch.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -56,8 +56,8 @@ class ReportPage : public CommandTest {
     ASSERT_TRUE(browser_->becomes_true("document.querySelector('#frame-viewer .values td')"));
   }
 
-  // Five points of one picture, two of them in one place, as `halfway study` leaves them where Yosys and
-  // Valgrind are not there.
+  // A study of five points with one picture, two of them at the same place, as `halfway study` writes it
+  // without Yosys and Valgrind.
   static void make_study(const std::filesystem::path& out) {
     const std::filesystem::path source = HALFWAY_SOURCE_DIR;
     study::StudySettings settings;
@@ -83,7 +83,7 @@ class ReportPage : public CommandTest {
   }
 
   Json evaluate(const std::string& expression) { return browser_->evaluate(expression); }
-  /// Where an element's middle lies in the window, scrolled to.
+  /// Scroll to an element and return its centre in the window.
   std::pair<double, double> middle_of(const std::string& selector) {
     const Json box = evaluate(fmt::format(
         "(() => {{ const e = document.querySelector(\"{}\"); e.scrollIntoView({{block: 'center', behavior: "
@@ -105,14 +105,15 @@ class ReportPage : public CommandTest {
   double wipe() {
     return evaluate("document.querySelector('#frame-viewer input').valueAsNumber").get<double>();
   }
-  /// What the canvas shows at a place, of its width and height.
+  /// The canvas's colour at a position given as parts of its width and height.
   std::vector<int> painted(const std::string& canvas, double x, double y) {
     return evaluate(
                fmt::format("[...{}.getImageData({} * copy.width, {} * copy.height, 1, 1).data.slice(0, 3)]",
                            copy_of(canvas), x, y))
         .get<std::vector<int>>();
   }
-  /// A context with what a canvas shows; reading the canvas itself would make it slow, and Chromium complain.
+  /// A drawing context with a copy of a canvas. Reading the canvas itself would make it slow and cause
+  /// warnings in Chromium.
   static std::string copy_of(const std::string& canvas) {
     return fmt::format(
         "(globalThis.shown = document.querySelector('{}'), globalThis.copy = new "
@@ -121,21 +122,22 @@ class ReportPage : public CommandTest {
         "context.drawImage(shown, 0, 0), context)",
         canvas);
   }
-  /// The values that the viewer tells of a layer's chosen pixel.
+  /// The values that the viewer shows for a layer at the chosen pixel.
   std::vector<int> told(const std::string& viewer, const std::string& layer) {
     return evaluate(fmt::format("[...document.querySelectorAll('{} [data-layer={}] td')].slice(1).map((c) => "
                                 "Number(c.textContent))",
                                 viewer, layer))
         .get<std::vector<int>>();
   }
-  /// The words of the page on paper.
+  /// The text of the printed page.
   std::string print() {
     const std::filesystem::path pdf = folder_->path() / "page.pdf", coded = folder_->path() / "coded";
     EXPECT_TRUE(write_file(coded, browser_->send("Page.printToPDF")["data"].get<std::string>()));
     const auto decoded =
         run_process({.arguments = {"base64", "-d", coded.string()}, .standard_output = pdf}, "");
     EXPECT_TRUE(decoded && decoded->succeeded());
-    const std::filesystem::path words = folder_->path() / "page.txt";  // a process's output is not kept whole
+    // subprocess output is truncated, so use a file
+    const std::filesystem::path words = folder_->path() / "page.txt";
     const auto read = run_process({.arguments = {"pdftotext", pdf.string(), words.string()}}, "");
     EXPECT_TRUE(read && read->succeeded());
     const auto text = read_file(words);
@@ -155,10 +157,10 @@ TEST_F(ReportPage, FitsPhonesPaperAndTheDark) {
     browser_->resize(width, 844);
     EXPECT_LE(evaluate("document.documentElement.scrollWidth").get<int>(), width);
   }
-  // A phone shows the verdict beside its figure.
+  // On a phone, the verdict is next to its figure.
   browser_->resize(390, 844);
   EXPECT_LE(evaluate("document.querySelector('.agrees').getBoundingClientRect().right").get<double>(), 390);
-  // Words stand out from the paper: WCAG's contrast.
+  // The contrast of text and background meets WCAG.
   const std::string contrast = R"((() => {
     const light = (rgb) => rgb.match(/[\d.]+/g).slice(0, 3).map((v) => v / 255)
       .map((v) => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
@@ -182,12 +184,12 @@ TEST_F(ReportPage, PrintsWhatIsFolded) {
   ASSERT_GT(evaluate("document.querySelectorAll('details').length").get<int>(), 2);
   ASSERT_EQ(evaluate("document.querySelectorAll('details[open]').length"), 0);
   const std::string printed = print();
-  // From the papers' figures, the points' table, the effects and a page of tb/.
+  // Texts of the papers' figures, the points' table, the effects and a page of tb/.
   for (const char* words : {"Here: ours", "Points of the study", "Effects of spheres",
                             "make bench writes this page", "spheres by the shader quadratic: reference left"})
     EXPECT_NE(printed.find(words), std::string::npos) << words;
   EXPECT_EQ(evaluate("document.querySelectorAll('details[open]').length"), 0);
-  // Narrow columns break no word: each is printed as often as the page has it.
+  // Narrow columns do not break words: a word is printed as often as it occurs on the page.
   const std::string word = "edge_error";
   int whole = 0;
   for (std::size_t at = 0; (at = printed.find(word, at)) != std::string::npos; at += word.size()) ++whole;
@@ -206,7 +208,8 @@ TEST_F(ReportPage, FiguresHaveTheirRoomAndTheirWords) {
 TEST_F(ReportPage, BeginsWithAPixelOfABody) {
   const auto reference = read_png(folder_->path() / "out/spheres/quadratic/reference.png");
   ASSERT_TRUE(reference);
-  ASSERT_EQ(pixel(*reference, 48, 36), pixel(*reference, 0, 0));  // in the middle lies none
+  // no body is at the centre
+  ASSERT_EQ(pixel(*reference, 48, 36), pixel(*reference, 0, 0));
   EXPECT_NE(told("#frame-viewer", "reference"), pixel(*reference, 0, 0));
 }
 
@@ -236,7 +239,7 @@ TEST_F(ReportPage, WipesAndZoomsToThePngsPixels) {
   ASSERT_TRUE(reference && difference);
   const std::string canvas = "#frame-viewer canvas";
   evaluate("{ const s = document.querySelector('#frame-viewer .right'); s.value = 'diff'; s.onchange(); }");
-  // A pixel in the right half that tells the two apart: a wipe over it shows.
+  // Find a pixel in the right half where the two differ, so that moving the wipe over it is visible.
   std::uint32_t x = 55, y = 1;
   const auto differ = [&] { return std::abs(pixel(*reference, x, y)[0] - pixel(*difference, x, y)[0]) > 40; };
   while (!differ()) {
@@ -251,7 +254,7 @@ TEST_F(ReportPage, WipesAndZoomsToThePngsPixels) {
   drag(mid_x, mid_x + 0.48 * width, mid_y);
   EXPECT_NEAR(wipe(), 980, 3);
   EXPECT_EQ(painted(canvas, at_x, at_y), pixel(*reference, x, y));
-  // By keys: the slider's own, and the canvas's.
+  // With keys: those of the slider, and those of the canvas.
   evaluate("document.querySelector('#frame-viewer input').focus()");
   const double before = wipe();
   browser_->press("ArrowLeft");
@@ -260,22 +263,22 @@ TEST_F(ReportPage, WipesAndZoomsToThePngsPixels) {
   for (int i = 0; i < 30; ++i) browser_->press("[");
   EXPECT_NEAR(wipe(), before - 600, 10);
   EXPECT_EQ(painted(canvas, at_x, at_y), pixel(*difference, x, y));
-  // A click chooses a pixel; the arrows go on from it.
+  // A click chooses a pixel; the arrow keys continue from it.
   const auto [again_x, again_y] = middle_of(canvas);
   click(again_x + (at_x - 0.5) * width, again_y + (at_y - 0.5) * width * 0.75);
   EXPECT_EQ(told("#frame-viewer", "reference"), pixel(*reference, x, y));
   EXPECT_EQ(told("#frame-viewer", "diff"), pixel(*difference, x, y));
   browser_->press("ArrowLeft");
   EXPECT_EQ(told("#frame-viewer", "reference"), pixel(*reference, x - 1, y));
-  // Zoomed in, that pixel fills the place where it was, and has its values written in it.
+  // Zooming in keeps that pixel in place and writes its values into it.
   for (int i = 0; i < 6; ++i) browser_->press("+");
   const Json corner = evaluate(
       "(() => { const label = document.querySelector('#frame-viewer canvas').ariaLabel; return label; })()");
   EXPECT_NE(corner.get<std::string>().find("zoom 64"), std::string::npos);
   browser_->press("]");
   for (int i = 0; i < 60; ++i) browser_->press("]");
-  // 64 times 96 pixels: 1.5 of them are seen side by side, so the chosen one covers its middle's
-  // surroundings.
+  // Zoom 64 of 96 pixels: 1.5 pixels are visible across, so the chosen pixel covers the area around its
+  // centre.
   const Json colours = evaluate(fmt::format(
       "(() => {{ const d = {}.getImageData(0, 0, copy.width, copy.height).data; const n = {{}}; for (let i = "
       "0; i < "
@@ -295,7 +298,7 @@ TEST_F(ReportPage, TwoFingersZoomAndMove) {
   const std::string canvas = "#frame-viewer canvas";
   evaluate(
       "{ const s = document.querySelector('#frame-viewer .right'); s.value = 'reference'; s.onchange(); }");
-  // A pixel that is not as its neighbours are.
+  // Find a pixel that differs from its neighbours.
   std::uint32_t x = 40, y = 30;
   const auto differ = [&](std::uint32_t other_x, std::uint32_t other_y) {
     return std::abs(pixel(*reference, x, y)[0] - pixel(*reference, other_x, other_y)[0]) > 8;
@@ -320,12 +323,12 @@ TEST_F(ReportPage, TwoFingersZoomAndMove) {
   EXPECT_TRUE(
       browser_->becomes_true("document.querySelector('#frame-viewer canvas').ariaLabel.includes('zoom 5.')"))
       << label();
-  // Five times as large, around the pixel between the fingers.
+  // Zoom by five around the pixel between the fingers.
   const double step = 5.0 / 96;
   EXPECT_EQ(painted(canvas, at_x, at_y), pixel(*reference, x, y));
   EXPECT_EQ(painted(canvas, at_x - step, at_y), pixel(*reference, x - 1, y));
   EXPECT_EQ(painted(canvas, at_x, at_y - step * 96 / 72), pixel(*reference, x, y - 1));
-  // Both to the right: the picture goes with them.
+  // Moving both fingers to the right moves the picture.
   for (const double right : {10.0, 20.0}) two("touchMove", right, 50);
   const double there = at_x + 20 / width;
   EXPECT_EQ(painted(canvas, there, at_y), pixel(*reference, x, y));
@@ -334,11 +337,11 @@ TEST_F(ReportPage, TwoFingersZoomAndMove) {
   EXPECT_EQ(evaluate("visualViewport.scale"), 1);
   EXPECT_EQ(evaluate("scrollY").get<double>(), scrolled);
   EXPECT_EQ(wipe(), 500);
-  // A finger alone chooses a pixel, as before.
+  // A single finger chooses a pixel, as before.
   browser_->touch("touchStart", {{px + 20, py}});
   browser_->touch("touchEnd", {});
   EXPECT_EQ(told("#frame-viewer", "reference"), pixel(*reference, x, y));
-  // Together again: the whole picture, and no less.
+  // Pinching together shows the whole picture, not less.
   two("touchStart", 0, 60);
   for (const double apart : {30.0, 10.0, 5.0}) two("touchMove", 0, apart);
   EXPECT_NE(label().find("zoom 1."), std::string::npos) << label();
@@ -367,11 +370,11 @@ TEST_F(ReportPage, PointsOpenTheirFrames) {
                 .get<std::string>()
                 .find("quadratic_shader"),
             std::string::npos);
-  // Another has the same figures, and so the same place: it is there, too.
+  // A second point has the same values and the same place; the list offers both.
   const std::string crowd = "document.getElementById('point-crowd')";
   EXPECT_EQ(evaluate(crowd + ".hidden"), false);
   EXPECT_EQ(evaluate("document.querySelectorAll('#point-crowd a[href=\"#point-4\"]').length"), 1);
-  // The frame is the one that the study kept.
+  // The frame shown is the study's file.
   std::size_t equal = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder_->path() / "study/points")) {
     if (file.path().extension() != ".png") continue;
@@ -389,7 +392,7 @@ TEST_F(ReportPage, PointsOpenTheirFrames) {
       browser_->becomes_true("document.getElementById('point-name').textContent === data.points[4].name"));
   EXPECT_EQ(evaluate(crowd + ".hidden"), false);
   shut();
-  // By keys alone: focus, an arrow to a neighbour, Enter.
+  // With keys only: focus, an arrow key to a neighbour, Enter.
   evaluate("document.querySelector(\"" + point + "\").focus()");
   browser_->press("Enter");
   ASSERT_TRUE(is_open());

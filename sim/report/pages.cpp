@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pages that other commands write, as parts of this one.
+// Sections with the pages that other commands write.
 #include "sim/report/html.hpp"
 #include "sim/report/section.hpp"
 #include "sim/system/file.hpp"
@@ -10,8 +10,8 @@ namespace {
 struct OtherPage {
   const char* id;
   const char* title;
-  const char* file;     // in the checkout
-  const char* command;  // that writes it
+  const char* file;     // relative to the checkout
+  const char* command;  // the command that writes it
 };
 constexpr std::array c_pages = {
     OtherPage{"stability", "Hard cases", "tb/stability/README.md", "make stability"},

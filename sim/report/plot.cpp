@@ -16,13 +16,13 @@
 namespace halfway::report {
 namespace {
 
-// Of middling lightness, for white and for dark paper; shapes tell series apart without colours.
+// Colours of medium lightness, for white and dark backgrounds. Shapes distinguish the series without colours.
 constexpr std::array c_colours = {"#767676", "#b8860b", "#0072b2", "#2a9df4", "#009e73", "#d55e00",
                                   "#cc5fa0", "#8a63d2", "#7a9a01", "#c0392b", "#17a2b8", "#a0522d"};
 constexpr std::array c_shapes = {2, 1, 6, 7, 5, 9, 13, 11, 4, 8, 12, 10};
 static_assert(c_colours.size() == c_shapes.size());
 
-// Between double quotes in a gnuplot script.
+// A double-quoted string of a gnuplot script.
 std::string quoted(const std::string& text) {
   std::string safe = "\"";
   for (const char c : text) {
@@ -48,8 +48,8 @@ std::string tick_label(double tick) {
   return tick < 1e6 ? fmt::format("{:g}", tick) : fmt::format("{:g} M", tick / 1e6);
 }
 
-// Round numbers between two that are less than two decades apart, as gnuplot takes them: the fewer the
-// farther these are apart.
+// Ticks at round numbers on an axis of less than two decades, as gnuplot selects them: fewer for a wider
+// range.
 std::string ticks_within(double least, double most) {
   std::vector<double> digits = {1.0, 2.0, 5.0};
   if (most / least < 20) digits = {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};
@@ -61,9 +61,9 @@ std::string ticks_within(double least, double most) {
   return ticks;
 }
 
-// A logarithmic axis, on which 0 has a place of its own.
+// A logarithmic axis with a separate position for 0.
 struct Axis {
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;  // of what is above 0
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;  // of the values above 0
   bool has_zero = false;
 
   void add(double value) {
@@ -74,26 +74,26 @@ struct Axis {
     least = std::min(least, value);
     most = std::max(most, value);
   }
-  // Of nothing but 0: any.
+  // If all values are 0, use any range.
   void close() {
     if (most == 0.0) least = most = 1.0;
   }
-  // As far below the least as an eighth of the axis is long.
+  // Position of 0: an eighth of the axis's length below the smallest value.
   double zero() const { return least * std::pow(std::max(10.0, most / least), -0.125); }
   double place(double value) const { return value > 0 ? value : zero(); }
   double begin() const { return has_zero ? zero() : least; }
-  // Between 0 and the rest.
+  // Position of the gap between 0 and the other values.
   double gap() const { return std::pow(zero(), 0.3) * std::pow(least, 0.7); }
   std::string ticks(const char* name) const {
-    // gnuplot's own, which stand beside ours: millions in words, too.
+    // Number format of gnuplot's own ticks, consistent with ours: millions with a suffix.
     const std::string own = most < 1e6 ? "" : fmt::format("set format {} \"%.0s %c\"\n", name);
     if (!has_zero && most / least >= 100) return own;
     std::string text = most / least < 100 ? ticks_within(least, most) : std::string();
     if (text.empty())
       for (double tick = std::pow(10.0, std::ceil(std::log10(least))); tick <= most * 1.1; tick *= 10.0)
         text += fmt::format("{}\"{}\" {}", text.empty() ? "" : ", ", tick_label(tick), tick);
-    // Ticks of a decade's tens alone are too few where there is no more than one of them; and none of them
-    // means anything beside 0.
+    // Without 0, add ticks to gnuplot's, which are too few on a short axis. With 0, replace gnuplot's ticks,
+    // because ticks between 0 and the smallest value have no meaning.
     if (!has_zero) return own + fmt::format("set {}tics add ({})\n", name, text);
     return fmt::format("set {}tics (\"0\" {}{}{})\n", name, zero(), text.empty() ? "" : ", ", text);
   }
@@ -134,7 +134,8 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
         "set arrow from graph 0, first {0} to graph 1, first {0} nohead dashtype 3 linecolor rgb \"{1}\"\n"
         "set label {2} at graph 1, first {0} right offset 0, 0.5 textcolor rgb \"{1}\"\n",
         y.place(level.y), "#767676", quoted(level.name));
-  // The front first: what lies above takes the pointer. Marks follow each other by series.
+  // Draw points of the front last in the SVG's z-order; the point on top receives the pointer. Sort the marks
+  // by series.
   std::vector<PlotPoint> points = plot.points;
   std::ranges::stable_sort(points, {}, &PlotPoint::series);
   std::string blocks = "$front << END\n";
@@ -161,7 +162,7 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
   if (const auto parsed = document.load_string(svg->c_str(), pugi::parse_default | pugi::parse_ws_pcdata);
       !parsed)
     return tool_failed(std::string("gnuplot: wrote SVG that cannot be read: ") + parsed.description());
-  // Titles of curves would be tooltips.
+  // Titles of curves would appear as tooltips.
   for (const pugi::xpath_node& title : document.select_nodes("//g/title"))
     title.parent().remove_child(title.node());
   const pugi::xpath_node_set marks = document.select_nodes("//g[@id='gnuplot_plot_2']//use");
@@ -174,7 +175,8 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
     link.append_attribute("aria-label") = points[at].name.c_str();
     if (points[at].aside) link.append_attribute("class") = "aside";
     link.append_child("title").text() = points[at].name.c_str();
-    // A finger needs more than a dot; gnuplot's transform is a translation and the mark's scale.
+    // An invisible circle around the mark makes it large enough for a finger. gnuplot's transform is a
+    // translation and the mark's scale.
     const std::string transform = mark.attribute("transform").value();
     pugi::xml_node around = link.append_child("circle");
     around.append_attribute("r") = "8";
@@ -191,7 +193,7 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
 Result<std::string> draw_timing(const std::vector<Lane>& lanes, std::uint64_t first_cycle,
                                 const std::filesystem::path& scratch) {
   const std::size_t cycles = lanes.empty() ? 0 : lanes.front().values.size();
-  constexpr double c_names = 150, c_clock = 23;  // as wide as that
+  constexpr double c_names = 150, c_clock = 23;  // widths in the drawing
   const double width = c_names + c_clock * static_cast<double>(cycles);
   std::string wires = "$wires << END\n", boxes = "$boxes << END\n", texts = "$texts << END\n", labels;
   for (std::size_t n = 0; n < lanes.size(); ++n) {
@@ -208,7 +210,7 @@ Result<std::string> draw_timing(const std::vector<Lane>& lanes, std::uint64_t fi
       } else if (!value.empty()) {
         boxes += fmt::format("{} {} {} {} {} {}\n", static_cast<double>(begin + end) / 2, y, begin, end,
                              y - 0.33, y + 0.33);
-        // As much as fits between its two sides.
+        // Print the value only if it fits into its box.
         if (const std::size_t room = 3 * (end - begin); value.size() <= room)
           texts += fmt::format("{} {} {}\n", static_cast<double>(begin + end) / 2, y, value);
       }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plots by gnuplot, as SVG: points that are links, and timing diagrams.
+// SVG plots made by gnuplot: scatter plots whose points are links, and timing diagrams.
 #pragma once
 
 #include <cstddef>
@@ -13,44 +13,44 @@
 namespace halfway::report {
 
 struct PlotPoint {
-  /// Both axes are logarithmic; what is 0 stands apart, below the least or left of it.
+  /// Both axes are logarithmic. Values of 0 have a separate position below or left of the smallest value.
   double x = 0.0, y = 0.0;
   std::size_t series = 0;
-  std::size_t number = 0;  ///< links to #point-<number>
-  std::string name;        ///< what a reader hears
-  bool aside = false;      ///< of class `aside`: not what the front is of
+  std::size_t number = 0;  ///< the point links to #point-<number>
+  std::string name;        ///< for screen readers and tooltips
+  bool aside = false;      ///< has class `aside`: not part of the front's comparison
 };
-/// A line across the plot.
+/// A horizontal line across the plot.
 struct PlotLevel {
   double y = 0.0;
   std::string name;
 };
 struct Plot {
   std::string x_label, y_label;
-  std::vector<PlotPoint> points;                 ///< one at least
-  std::vector<std::pair<double, double>> front;  ///< joined by a line; may be empty
-  std::vector<PlotLevel> levels;                 ///< such as a yardstick's, which has no place along x
-  std::vector<std::string> legend;               ///< of each series, on the right; empty: none is drawn
+  std::vector<PlotPoint> points;                 ///< at least one
+  std::vector<std::pair<double, double>> front;  ///< points joined by a line; may be empty
+  std::vector<PlotLevel> levels;    ///< such as those of a reference method, which has no x value
+  std::vector<std::string> legend;  ///< one entry per series, on the right; empty: no legend
 };
 
-/// How a series is drawn: colours and gnuplot's types of points, which differ among the first twelve.
+/// Appearance of a series: colour and gnuplot's point type. The first twelve differ.
 struct PointLook {
   const char* colour;
-  int shape;  ///< the SVG has it as an element called gpPt<shape - 1>
+  int shape;  ///< the SVG contains it as an element called gpPt<shape - 1>
 };
 PointLook look_of(std::size_t series);
 
-/// An SVG of its own. Each point is an `a` with a name, in the order of `points`.
-/// `scratch` is a folder for gnuplot's files.
+/// A complete SVG. Each point is an `a` element with a name, in the order of `points`. `scratch` is a folder
+/// for gnuplot's files.
 Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scratch);
 
-/// A signal over some clocks, a value each.
+/// A signal over several clocks, with one value per clock.
 struct Lane {
   std::string name;
-  bool wire = false;  ///< of one bit: drawn as a level
+  bool wire = false;  ///< one bit, drawn as a level
   std::vector<std::string> values;
 };
-/// All lanes of equal length; '' among a bus's values is one that means nothing.
+/// All lanes must have equal length. An empty value of a bus means invalid.
 Result<std::string> draw_timing(const std::vector<Lane>& lanes, std::uint64_t first_cycle,
                                 const std::filesystem::path& scratch);
 

@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Where each point stands, by its link and its name.
+/// The position of each point, by its link and its name.
 std::map<std::string, std::pair<double, double>> places_in(const std::string& svg) {
   std::map<std::string, std::pair<double, double>> places;
   pugi::xml_document document;
@@ -54,7 +54,7 @@ TEST_F(PlotTest, EachPointIsALinkInItsPlace) {
              between = places.at("#point-2 between");
   EXPECT_THAT(*svg, HasSubstr("aria-label=\"between\" class=\"aside\""));
   EXPECT_THAT(*svg, Not(HasSubstr("aria-label=\"above\" class")));
-  // SVG's y goes down; both axes are logarithmic.
+  // SVG's y axis points down; both axes are logarithmic.
   EXPECT_LT(below.first, between.first);
   EXPECT_GT(below.second, between.second);
   EXPECT_NEAR(between.first, (below.first + above.first) / 2, 1.0);
@@ -75,7 +75,7 @@ TEST_F(PlotTest, ZeroHasAPlaceOfItsOwn) {
   ASSERT_EQ(places.size(), 4U);
   const auto left = places.at("#point-0 none on the host"), least = places.at("#point-1 least"),
              bottom = places.at("#point-2 none seen"), most = places.at("#point-3 most");
-  // As far apart as eyes see; SVG's y goes down.
+  // Visibly separated. SVG's y axis points down.
   EXPECT_LT(left.first, least.first - 20);
   EXPECT_GT(bottom.second, least.second + 20);
   EXPECT_LT(most.second, least.second);
@@ -83,7 +83,7 @@ TEST_F(PlotTest, ZeroHasAPlaceOfItsOwn) {
   EXPECT_THAT(*svg, HasSubstr(">0<"));
   EXPECT_THAT(*svg, HasSubstr("a yardstick"));
   EXPECT_THAT(*svg, HasSubstr("the best"));
-  // Of nothing else, too.
+  // A plot with zeros only.
   EXPECT_TRUE(draw_plot({.points = {{0, 0, 0, 0, "alone"}}}, folder_->path()));
 }
 

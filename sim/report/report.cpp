@@ -18,7 +18,7 @@ Json Page::lacks(const std::string& what, const std::string& command) {
 
 namespace {
 
-// What the page is made by; null where that is not known, as without Git.
+// The commit of the checkout; null if unknown, for example without Git.
 Json commit_of(const std::filesystem::path& source) {
   if (find_program("git").empty()) return nullptr;
   const auto described = run_process({.arguments = {"git", "-C", source.string(), "describe", "--always",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report: one HTML page with everything in it, made of what the other commands left.
+// The report: one self-contained HTML page made from the results of the other commands.
 #pragma once
 
 #include <filesystem>
@@ -13,24 +13,24 @@
 namespace halfway::report {
 
 struct ReportSettings {
-  std::filesystem::path page;     ///< the file to write; beside it front.svg and front.csv, of the study
-  std::filesystem::path results;  ///< what sim left: <scene>/<shader>/
-  std::filesystem::path study;    ///< what study left: study.csv, points/
-  std::filesystem::path figures;  ///< what figures left: figures.json and its pictures
+  std::filesystem::path page;  ///< output file; front.svg and front.csv of the study are written next to it
+  std::filesystem::path results;  ///< results of sim: <scene>/<shader>/
+  std::filesystem::path study;    ///< results of study: study.csv, points/
+  std::filesystem::path figures;  ///< results of figures: figures.json and pictures
   SimulatorFolders folders;
-  std::vector<std::string> scenes{};  ///< whose frames are missed where a shader's are not there
-  bool timing = true;                 ///< simulate in GHDL for timing diagrams
+  /// scenes that are reported as missing if a shader has no frame of them
+  std::vector<std::string> scenes{};
+  bool timing = true;  ///< simulate in GHDL for timing diagrams
   std::function<void(const std::string& what)> on_progress = [](const std::string&) {};
 };
 
 struct Report {
   std::size_t frames = 0, points = 0, figures = 0;
   std::size_t bytes = 0;
-  std::vector<std::string> notes;  ///< what is missing in it, and the command that makes it
+  std::vector<std::string> notes;  ///< missing parts and the commands that make them
 };
 
-/// Writes the page, whole or not at all. What was not made yet is noted in it, too; what is damaged is an
-/// error.
+/// Write the page atomically. Missing results are noted on the page; damaged results are an error.
 Result<Report> write_report(const ReportSettings& settings);
 
 }  // namespace halfway::report

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway report`, as a user meets it.
+// Tests of the command `halfway report`.
 #include "sim/report/report.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +40,8 @@ TEST_F(ReportCommand, SaysWhatIsMissingAndWhatMakesIt) {
     EXPECT_THAT(outcome.output, HasSubstr(command));
     EXPECT_THAT(page(), HasSubstr(std::string("<code>") + command + "</code> makes it"));
   }
-  // What comes with the checkout is there: pages as tables, diagrams as drawings, and no mark left.
+  // The parts that come with the checkout are present: pages as tables, diagrams as drawings. No template
+  // mark is left.
   EXPECT_THAT(page(),
               AllOf(HasSubstr("<summary>Proofs</summary>"), HasSubstr("<summary>Hard cases</summary>"),
                     HasSubstr("<summary>Mutants</summary>"), HasSubstr(">unrolled_shading_processor: "),
@@ -75,7 +76,7 @@ TEST_F(ReportCommand, RefusesWhatIsDamaged) {
   }
 }
 
-// A picture of five designs and two of software, one design without a clock.
+// A picture of five hardware designs, one without a clock, and two software points.
 constexpr const char* c_study =
     R"(scene,scene_hash,tools,point,method,preset,tessellation,exponent,width,height,hardware,cells,cycles,clock_mhz,clock,frame_ns,rms,largest_error,error_99,psnr_db,highlight_rms,perceived_pixels,mach_rms,host_evaluations,host_instructions,front,record
 "ball",77,"GHDL 9, Verilator 8",P,phong,,1,5,320,240,,,0,,,,0,0,0,inf,0,0,0,0,,,a
@@ -97,7 +98,7 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
     return at == std::string::npos ? std::string() : text.substr(at, text.find(end, at) - at);
   };
   const auto plot = [&](const std::string& id) { return part("id=\"plot/" + id + "\"", "</figure>"); };
-  // Time where a clock is known; what has none is counted.
+  // Points with a known clock have a time; the others are counted.
   EXPECT_THAT(
       plot("rms-time"),
       AllOf(HasSubstr("aria-label=\"Q: time of the frame, ns 292712, rms error, steps of 1/255 0.5\""),
@@ -105,10 +106,10 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
             HasSubstr("PLACE=1</code> finds: 1 of processors-2; 1 of spherical; in all 2"),
             HasSubstr("the device has no room for their hardware: 1 of processors-1; in all 1"),
             HasSubstr("gouraud (software)"), HasSubstr("phong (software)")));
-  // Clocks of all hardware; software has none, and is no point.
+  // All hardware has a number of clocks. Software has none, so it is not a point.
   EXPECT_THAT(plot("rms-clocks"), AllOf(HasSubstr("href=\"#point-6\""), Not(HasSubstr("not here")),
                                         Not(HasSubstr("href=\"#point-0\"")), Not(HasSubstr("e+0"))));
-  // 0 is a place, also of the host's work.
+  // 0 has a position, also for the host's work.
   EXPECT_THAT(plot("perceived-time"), AllOf(HasSubstr("href=\"#point-2\""), HasSubstr("href=\"#point-3\"")));
   EXPECT_THAT(plot("rms-host"),
               AllOf(HasSubstr("href=\"#point-5\""), HasSubstr("V: instructions of setup on the host 0,"),
@@ -116,7 +117,7 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
                     HasSubstr("1 of processors-2; in all 1")));
   EXPECT_THAT(part("<ul class=\"legend\"", "</ul>"),
               AllOf(HasSubstr("spherical"), Not(HasSubstr("software"))));
-  // The table tells all of them, and no 0 where there is nothing.
+  // The table lists all points and has no 0 for missing values.
   const auto row = [&](const std::string& point) {
     return part("<td><a href=\"#point-" + point + "\">", "</tr>");
   };
@@ -129,14 +130,14 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
   EXPECT_THAT(row("2"),
               HasSubstr("Q</a></td><td>yes</td><td>292712</td><td>32813</td><td>5334</td><td>5417130</td>"));
   EXPECT_THAT(row("4"), HasSubstr("S</a></td><td>yes</td><td>–</td><td>33100</td>"));
-  // Which study it is, and that it is not the usual one.
+  // The page names the study and says that it is not the default one.
   EXPECT_THAT(part("id=\"study/of\"", "</p>"),
               AllOf(HasSubstr("<strong>ball</strong>"), HasSubstr("<code>77</code>"),
                     HasSubstr("7 points, of no space"), HasSubstr("GHDL 9, Verilator 8")));
   const std::string other = "The study is of the scene ball, not of sim/studies/sphere.toml";
   EXPECT_THAT(page(), HasSubstr(other));
   EXPECT_THAT(outcome.output, HasSubstr(other));
-  // A point's panel says why it has no clock.
+  // A point's panel gives the reason for a missing clock.
   EXPECT_THAT(page(), AllOf(HasSubstr("[\"where that clock is from\",\"not placed\"]"),
                             HasSubstr("[\"99th percentile of errors, /255\",\"25\"]"),
                             HasSubstr("[\"on the front\",\"no\"]")));
@@ -157,7 +158,7 @@ TEST_F(ReportCommand, MakeDrawsEveryFrameThatIsMissing) {
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   std::filesystem::copy_file(source / "Makefile", here / "Makefile");
   for (const char* scene : {"lights", "matte"}) put(fmt::format("sim/scenes/{}.toml", scene), "");
-  // A first run was broken off in the second shader.
+  // The first run was interrupted in the second shader.
   for (const char* drawn : {"lights/quadratic", "matte/quadratic", "lights/spherical"})
     put(fmt::format("build/out/{}/summary.json", drawn), "{}");
   put("build/out/matte/spherical/init.txt", "");
@@ -193,12 +194,12 @@ TEST_F(ReportCommand, EqualPicturesAreOne) {
   EXPECT_EQ(image_of("golden"), image_of("verilator"));
   EXPECT_NE(image_of("golden"), image_of("reference"));
   EXPECT_EQ(image_of("ghdl"), -1);
-  // What is drawn of no scene but this is told.
+  // Missing frames are listed for this scene only.
   for (const char* gap :
        {"Frames by the shader quadratic of highlights, lights, matte, shadows, teapot:",
         "Frames by the shader spherical of highlights, lights, matte, shadows, spheres, teapot:"})
     EXPECT_THAT(page(), HasSubstr(gap));
-  // A wrong picture is shown as what it is.
+  // A wrong picture is reported as wrong.
   const auto folder = folder_->path() / "out/spheres/quadratic";
   std::filesystem::copy_file(folder / "reference.png", folder / "verilator.png",
                              std::filesystem::copy_options::overwrite_existing);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Accuracy against time: the points of a study, as plots whose points open.
+// Section with accuracy against time: the points of a study as plots with links to the points.
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,7 +24,7 @@
 namespace halfway::report {
 namespace {
 
-// A column of the study's table, and its words.
+// A column of the study's table and its description.
 struct Measure {
   const char* column;
   const char* words;
@@ -48,7 +48,7 @@ constexpr std::array c_axes = {
     Axes{"rms-host", {"host_instructions", "instructions of setup on the host"}, c_rms},
 };
 
-// Columns that a point's panel shows as they are, and their words.
+// Columns that a point's panel shows unchanged, and their descriptions.
 constexpr std::array c_told = {
     std::pair{"hardware", "hardware"},
     std::pair{"cycles", "clocks of the frame"},
@@ -80,7 +80,7 @@ constexpr std::array c_told = {
     std::pair{"front", "on the front"},
 };
 
-// Those of the table of all points.
+// Columns of the table of all points.
 constexpr std::array c_columns = {
     std::pair{"front", "on the front"},
     std::pair{"frame_ns", "ns a frame"},
@@ -95,7 +95,7 @@ constexpr std::array c_columns = {
     std::pair{"mach_rms", "Mach bands, rms"},
 };
 
-// What only hardware has: the table holds 0 there of software.
+// Columns that apply to hardware only; the table has 0 for software.
 constexpr std::array c_of_hardware = {"cycles",       "fragments",    "leaves",
                                       "init_vectors", "line_records", "host_evaluations"};
 
@@ -103,12 +103,12 @@ bool in_hardware(const Table& table, std::size_t row) {
   return !table.text(row, "hardware").empty();
 }
 
-// Whole where there are four digits or more before the point: never with an exponent.
+// Print an integer from 1000 on, otherwise four digits; never with an exponent.
 std::string shown(double value) {
   return value >= 1e3 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
 
-// Empty: the table tells nothing.
+// Text of a cell for the page; empty if unknown.
 std::string told(const Table& table, std::size_t row, const char* column) {
   const std::string_view name = column;
   if (!in_hardware(table, row) && std::ranges::find(c_of_hardware, name) != c_of_hardware.end()) return "";
@@ -125,7 +125,7 @@ bool has_any(const Table& table, const char* column) {
   return false;
 }
 
-// What a plot does not show, and why: an entry of its list `missing`.
+// Add entries to a plot's list `missing`: the points not shown, and the reason.
 void add_missing(Json& plot, const std::map<std::string, std::size_t>& missing, const char* why) {
   if (missing.empty()) return;
   std::size_t count = 0;
@@ -138,7 +138,7 @@ void add_missing(Json& plot, const std::map<std::string, std::size_t>& missing, 
       {{"why", why}, {"points", fmt::format("{}", fmt::join(names, "; "))}, {"count", count}});
 }
 
-// In words; of any of its rows.
+// Describe the picture of a row in words.
 std::string told_picture(const Table& table, std::size_t row) {
   const std::string& exponent = table.text(row, "exponent");
   return fmt::format("{}{}tessellation {}, {}×{}", exponent.empty() ? "" : "exponent " + exponent,
@@ -146,8 +146,8 @@ std::string told_picture(const Table& table, std::size_t row) {
                      table.text(row, "height"));
 }
 
-// Which study it is: another may lie where `make study` leaves its own. `points` and `space`: the smallest
-// space in the checkout that has all its points, and how much of it they are.
+// Identify the study, because the folder of `make study` may contain another one. `points` and `space`: the
+// smallest space of the checkout that contains all its points, and the share of the space that was measured.
 Json study_of(const Page& page, const Table& points, const std::filesystem::path& file) {
   std::error_code error;
   const auto written = std::filesystem::last_write_time(file, error);
@@ -166,7 +166,7 @@ Json study_of(const Page& page, const Table& points, const std::filesystem::path
        std::filesystem::directory_iterator(page.settings.folders.source / "sim/studies", error)) {
     if (entry.path().extension() != ".toml") continue;
     const auto space = study::read_space(entry.path());
-    if (!space) continue;  // a scene
+    if (!space) continue;  // a scene file
     const auto has = [&](const std::string& name) {
       return std::ranges::find(*space, name, &study::DesignPoint::name) != space->end();
     };
@@ -178,7 +178,7 @@ Json study_of(const Page& page, const Table& points, const std::filesystem::path
   return of;
 }
 
-// Where it is not the usual study: that it is not.
+// A note if it is not the default study.
 Json unusual(Page& page, const Table& points) {
   const std::filesystem::path& source = page.settings.folders.source;
   const auto usual = load_scene((source / "sim/studies/sphere.toml").string(), source / "sim/scenes");
@@ -209,7 +209,7 @@ Status add_study(Page& page) {
 
   std::vector<std::string> series;
   std::set<std::string> hardware_series;
-  std::map<std::string, std::size_t> phong;  // the reference of each picture
+  std::map<std::string, std::size_t> phong;  // the reference row of each picture
   for (std::size_t row = 0; row < points->rows.size(); ++row) {
     page.settings.on_progress(fmt::format("points: {} of {}", row + 1, points->rows.size()));
     if (points->text(row, "method") == "phong") phong.emplace(picture_of(*points, row), row);
@@ -238,10 +238,10 @@ Status add_study(Page& page) {
   const bool timed = has_any(*points, c_time.column);
   for (const Axes& axes : c_axes) {
     const bool of_time = axes.x.column == c_time.column;
-    if (!timed && axes.x.column == c_clocks.column) continue;  // drawn already
+    if (!timed && axes.x.column == c_clocks.column) continue;  // already drawn
     const Measure& along = of_time && !timed ? c_clocks : axes.x;
     Plot plot{.x_label = along.words, .y_label = axes.y.words};
-    // How many have no place along x, by series, and of these those that never have one.
+    // Points without an x value per series; points that do not fit the device are counted separately.
     std::map<std::string, std::size_t> missing, too_large;
     for (std::size_t row = 0; row < points->rows.size(); ++row) {
       const auto x = points->number(row, along.column), y = points->number(row, axes.y.column);
@@ -284,13 +284,13 @@ Status add_study(Page& page) {
   }
   Json legend = Json::array(), columns = Json::array(), rows = Json::array();
   for (std::size_t s = 0; s < series.size(); ++s) {
-    if (!hardware_series.contains(series[s])) continue;  // a line across
+    if (!hardware_series.contains(series[s])) continue;  // drawn as a line across
     const PointLook look = look_of(s);
     legend.push_back({{"shape", look.shape - 1}, {"colour", look.colour}, {"name", series[s]}});
   }
   for (const auto& [column, words] : c_columns) columns.push_back(words);
   bool others = false;
-  std::size_t of = 0;  // a row of the picture
+  std::size_t of = 0;  // the last row with the picture
   for (std::size_t row = 0; row < points->rows.size(); ++row) {
     if (picture_of(*points, row) == picture)
       of = row;
@@ -303,7 +303,7 @@ Status add_study(Page& page) {
     }
     rows.push_back({{"number", row}, {"name", points->text(row, "point")}, {"cells", std::move(cells)}});
   }
-  view["plots"] = {{"first", drawn.empty() ? Json() : drawn[0]["id"]},  // the legend's marks are its
+  view["plots"] = {{"first", drawn.empty() ? Json() : drawn[0]["id"]},  // the legend uses this plot's marks
                    {"legend", std::move(legend)},
                    {"picture", nullptr},
                    {"drawn", std::move(drawn)},

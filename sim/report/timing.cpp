@@ -19,22 +19,23 @@ namespace halfway::report {
 namespace {
 
 constexpr FrameSize c_size{16, 12};
-constexpr std::size_t c_fragments = 24;  // after which the picture ends
-constexpr std::size_t c_row = 50;        // clocks that a page has the width for
-constexpr std::size_t c_read = 200;      // looked at, for the first vector
+constexpr std::size_t c_fragments = 24;  // number of fragments after which the diagram ends
+constexpr std::size_t c_row = 50;        // number of clocks that fit the page's width
+constexpr std::size_t c_read = 200;      // clocks read to find the first vector
 
 enum class Shown { wire, decimal, hexadecimal };
 struct ShownSignal {
   const char* label;
-  const char* path;  // in the testbench
+  const char* path;  // in the testbench's hierarchy
   Shown as;
-  const char* valid = nullptr;  // a wire: the value counts only where it is 1
+  const char* valid = nullptr;  // name of a wire: the value is valid only while it is 1
 };
 
-// As the data goes: in at the top, out at the bottom.
+// In the order of the data flow: inputs at the top, outputs at the bottom.
 std::vector<ShownSignal> signals_of(Shader shader) {
   const bool stalls =
-      shader == Shader::processors;  // behind the walker, too; elsewhere only the walker waits
+      // stages after the walker stall too; in the other shaders only the walker stalls
+      shader == Shader::processors;
   const char* const walked = stalls ? "dut/drawn" : "dut/span_step";
   std::vector<ShownSignal> signals = {
       {"init_valid", "init_valid", Shown::wire},
@@ -49,7 +50,7 @@ std::vector<ShownSignal> signals_of(Shader shader) {
       {"y", "dut/y", Shown::decimal, walked},
       {"x", "dut/x", Shown::decimal, walked},
   };
-  if (!stalls) signals.push_back({"pixel_valid", "dut/pixel_valid", Shown::wire});  // to the queue
+  if (!stalls) signals.push_back({"pixel_valid", "dut/pixel_valid", Shown::wire});  // input of the queue
   if (shader == Shader::processors) {
     signals.push_back({"token_valid", "dut/token_valid", Shown::wire});
     signals.push_back({"shaded_valid", "dut/shaded_valid", Shown::wire});
@@ -65,7 +66,7 @@ std::string in_testbench(const char* path) {
   return std::string("frame_tb/") + path;
 }
 
-// 32 bits at most here; what has a metavalue is '?'.
+// At most 32 bits. A value with metavalues is '?'.
 std::string shown(const std::string& bits, Shown as) {
   std::uint64_t word = 0;
   for (const char bit : bits) {
@@ -75,9 +76,9 @@ std::string shown(const std::string& bits, Shown as) {
   return as == Shown::hexadecimal ? fmt::format("{:x}", word) : fmt::format("{}", word);
 }
 
-// Writes the scene's init vectors for the hardware.
+// Write the scene's init vectors for the hardware.
 Status write_vectors(const Scene& scene, const HardwareKey& key, const std::filesystem::path& path) {
-  // Two triangles as they are, of as many fragments in each shader.
+  // No subdivision: two triangles with the same number of fragments in each shader.
   SetupOptions options;
   options.quadratic.test = HighlightTest::none;
   const std::unique_ptr<Setup> setup = make_setup(scene, c_size, key, options);
@@ -140,7 +141,8 @@ Result<TimingDiagram> draw_shader_timing(Shader shader, const SimulatorFolders& 
   }
   TimingDiagram diagram{.key = key.name()};
   const std::size_t clocks = last - first, rows = (clocks + c_row - 1) / c_row;
-  const std::size_t in_row = ((clocks + rows - 1) / rows + 1) / 2 * 2;  // even: a tick stands at every other
+  // even, because every second clock has a tick
+  const std::size_t in_row = ((clocks + rows - 1) / rows + 1) / 2 * 2;
   for (std::size_t begin = 0; begin < clocks; begin += in_row) {
     std::vector<Lane> part = lanes;
     for (Lane& lane : part)

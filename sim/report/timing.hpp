@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timing diagrams: two triangles of a few pixels go through a shader in GHDL.
+// Timing diagrams of two small triangles in a shader, simulated in GHDL.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@
 namespace halfway::report {
 
 struct TimingDiagram {
-  std::string key;                ///< of the hardware
-  std::vector<std::string> svgs;  ///< the clocks in order, as many in each as a page is wide
-  /// What the picture shows, in words: the clocks of the first fragments, with place and colour.
+  std::string key;                ///< name of the hardware key
+  std::vector<std::string> svgs;  ///< consecutive clocks, divided to fit the page's width
+  /// Description of the picture: the clocks of the first fragments, with position and colour.
   std::string words;
 };
 
-/// Its first clocks. Exit code tool_failed where GHDL or gnuplot is missing.
+/// Draw the first clocks. Exit code tool_failed if GHDL or gnuplot is missing.
 Result<TimingDiagram> draw_shader_timing(Shader shader, const SimulatorFolders& folders);
 
 }  // namespace halfway::report

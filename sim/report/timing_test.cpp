@@ -55,12 +55,12 @@ TEST_P(Timing, ShowsTheGoldenModelsFragmentsInVerilatorsClocks) {
   for (const std::string& svg : timing->svgs) {
     for (const char* signal : {"init_valid", "line_step", "span_step", "fragment_red"})
       EXPECT_THAT(svg, HasSubstr(signal));
-    // As wide as a page is, at most.
+    // At most as wide as a page.
     int width = 0;
     ASSERT_EQ(std::sscanf(svg.c_str() + svg.find("viewBox"), "viewBox=\"0 0 %d", &width), 1);
     EXPECT_LE(width, 1312);
   }
-  // The first fragment's clock stands at a tick or beside one.
+  // The clock of the first fragment is at a tick or next to one.
   std::string all;
   for (const std::string& svg : timing->svgs) all += svg;
   EXPECT_THAT(all, HasSubstr(fmt::format(">{}<", *clock / 2 * 2)));

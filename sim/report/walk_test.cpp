@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The walks of a pixel in rtl/README.md are what `halfway why` prints.
+// The traces of one pixel in rtl/README.md must equal the output of `halfway why`.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -16,7 +16,7 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
-// The text with single spaces, so that columns may be as wide as they are.
+// The text with runs of spaces reduced to one, so that column widths do not matter.
 std::string squeezed(const std::string& text) {
   std::string out;
   for (const std::string& word : words_of(text)) out += word + ' ';
@@ -42,7 +42,7 @@ TEST_F(PixelWalk, IsWhatWhyPrints) {
     command[1] = source / command[1];
     const Outcome outcome = run(command);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-    // Each line of the block, in this order.
+    // The output contains each line of the block, in this order.
     const std::string output = squeezed(outcome.output);
     std::size_t after = 0;
     while (std::getline(block, line)) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kMagic = "halfway-init";
 
-/// The value of each hexadecimal digit; 16 for every other character.
+/// The value of each hexadecimal digit; 16 for any other character.
 constexpr std::array<std::uint8_t, 256> kDigitValues = [] {
   std::array<std::uint8_t, 256> values{};
   values.fill(16);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Init vectors, what setup hands to the hardware for each triangle, in memory and as a text file.
-//
+// Init vectors (setup's output for each triangle, the hardware's input), in memory and as a text file.
 //   halfway-init 1 <key name> <bits>
-//   <one vector a line: ceil(bits / 4) hexadecimal digits, most significant first>
+//   <one vector per line: ceil(bits / 4) hexadecimal digits, most significant first>
 //   end <count>
-//
-// The count stands at the end so that the file can be written as a stream; a file without it is not whole.
+// The count is in the last line, so that the file can be written as a stream. A file without it is
+// incomplete.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +20,8 @@
 
 namespace halfway {
 
-/// Vectors of `bits` bits each, one after the other, each in `words_per_vector()` words, least significant
-/// first. The bits of the last word above the vector are zero.
+/// Vectors of `bits` bits each in sequence. Each vector has `words_per_vector()` words, least significant
+/// first. Unused bits of the last word are zero.
 struct InitStream {
   unsigned bits = 0;
   std::vector<std::uint32_t> words;
@@ -40,9 +39,9 @@ class InitFileWriter {
  public:
   static Result<InitFileWriter> open(const std::filesystem::path& path, std::string_view key_name,
                                      unsigned bits);
-  /// Writes whole vectors; `words` holds as many words as the vectors take.
+  /// Write whole vectors. `words` has `words_per_vector()` words per vector.
   void write(std::span<const std::uint32_t> words);
-  /// Ends the file and gives it its name. The first error of any write comes out here.
+  /// Write the last line and rename the file to its final name. Returns the first error of any write.
   Status commit();
 
  private:
@@ -54,11 +53,11 @@ class InitFileWriter {
 
 class InitFileReader {
  public:
-  /// Reads the header; a file for another hardware key is an error. An empty `key_name` takes any.
+  /// Read the header. A file for another hardware key is an error. An empty `key_name` accepts any key.
   static Result<InitFileReader> open(const std::filesystem::path& path, std::string_view key_name);
   unsigned bits() const { return bits_; }
   const std::string& key_name() const { return key_name_; }
-  /// Appends up to `limit` vectors to `words`; gives how many. 0: the file's end, and the file was whole.
+  /// Append up to `limit` vectors to `words` and return their number. 0: end of a complete file.
   Result<std::size_t> read(std::vector<std::uint32_t>& words, std::size_t limit);
 
  private:

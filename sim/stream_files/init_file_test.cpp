@@ -13,7 +13,7 @@ namespace {
 
 class InitFile : public testing::Test {
  protected:
-  // A folder of its own: ctest runs the tests of this file side by side.
+  // Each test has its own folder, because ctest runs the tests of this file in parallel.
   void SetUp() override {
     auto folder = TemporaryFolder::make(testing::TempDir());
     ASSERT_TRUE(folder) << folder.error().message;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tb/illumination/table4_tb.vhd holds its clocks against: model/plan/processor_clocks.hpp.
+// Expected clock counts for tb/illumination/table4_tb.vhd, from model/plan/processor_clocks.hpp.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace halfway::vectors {
 
-/// A row a line: preset, kind of processor (3: none works), positional, spot, N normalized, view vector, in
-/// one word; clocks.
+/// One row per line: a word of preset, kind of processor (3: none works), positional, spot, N normalized,
+/// view vector; then the clocks.
 inline Status write_table4(const std::filesystem::path& folder) {
   VectorFile file;
   for (const ProcessorClocks& row : c_processor_clocks)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strict reading of the project's line formats: fields with exactly one space between, decimal numbers
-// without sign, space or leading zero, so that every content has one spelling.
+// Strict reading of the project's line formats. Exactly one space separates fields. Decimal numbers have no
+// sign, space or leading zero. Every content therefore has exactly one spelling.
 #pragma once
 
 #include <charconv>
@@ -10,8 +10,8 @@
 
 namespace halfway {
 
-/// Cuts the next field off the front of `line`, and the space after it. A field may be empty where the line
-/// is bad.
+/// Remove the next field and the space after it from the front of `line`. In an invalid line a field may be
+/// empty.
 inline std::string_view take_field(std::string_view& line) {
   const std::size_t space = line.find(' ');
   const std::string_view field = line.substr(0, space);
@@ -19,7 +19,7 @@ inline std::string_view take_field(std::string_view& line) {
   return field;
 }
 
-/// `take_field` would not see a space after the last field.
+/// Detects a space after the last field, which `take_field` would ignore.
 inline bool ends_in_space(std::string_view line) {
   return !line.empty() && line.back() == ' ';
 }

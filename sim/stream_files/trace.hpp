@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A trace: the fragments in the order in which they were emitted, as a text file that diff can compare.
-//
+// A trace: the fragments in the order of their output, as a text file that diff can compare.
 //   halfway-trace 1 <key name>
-//   <triangle> <y> <x> <z> <red> <green> <blue>      a fragment a line, decimal
-//   cycles <n>                                       only where a simulator wrote it
+//   <triangle> <y> <x> <z> <red> <green> <blue>      one fragment per line, decimal
+//   cycles <n>                                       only if a simulator wrote the trace
 //   end <count>
-//
-// Cycles count from the rising edge that takes the first init vector to the one that moves the last vector or
-// fragment, both counted; without a vector they are 0. A file without its last line is not whole.
+// Cycles count from the rising edge that takes the first init vector to the edge that moves the last vector
+// or fragment, both included; without a vector the count is 0. A file without its last line is incomplete.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +32,7 @@ class TraceWriter {
  public:
   static Result<TraceWriter> open(const std::filesystem::path& path, std::string_view key_name);
   void write(std::span<const Fragment> fragments);
-  /// Ends the file and gives it its name. The first error of any write comes out here.
+  /// Write the last line and rename the file to its final name. Returns the first error of any write.
   Status commit(std::optional<std::uint64_t> cycles = std::nullopt);
 
  private:
@@ -45,12 +43,12 @@ class TraceWriter {
 
 class TraceReader {
  public:
-  /// Reads the header; a trace of another hardware key is an error. An empty `key_name` takes any.
+  /// Read the header. A trace of another hardware key is an error. An empty `key_name` accepts any key.
   static Result<TraceReader> open(const std::filesystem::path& path, std::string_view key_name);
   const std::string& key_name() const { return key_name_; }
-  /// Appends up to `limit` fragments; gives how many. 0: the file's end, and the file was whole.
+  /// Append up to `limit` fragments and return their number. 0: end of a complete file.
   Result<std::size_t> read(std::vector<Fragment>& fragments, std::size_t limit);
-  /// Known once `read` has given 0.
+  /// Known after `read` has returned 0.
   std::optional<std::uint64_t> cycles() const { return cycles_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two traces, read side by side in bounded memory.
+// Two traces, read in parallel in bounded memory.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace halfway {
 
-/// Hands both traces on in turn, chunk by chunk, to their ends. `rtl` may be null: there is none.
+/// Read both traces in turn, chunk by chunk, to their ends. `rtl` may be null: no such trace.
 template <class OnGolden, class OnRtl>
 Status read_side_by_side(TraceReader& golden, TraceReader* rtl, OnGolden&& on_golden, OnRtl&& on_rtl) {
   constexpr std::size_t c_chunk = 1 << 16;  // fragments

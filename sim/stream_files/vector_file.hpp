@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A testbench's vectors as text, for tb/tb_pkg.vhd: words in hexadecimal with a blank between, a vector a
-// line, `end <count>` last, so that a file cut short is seen.
+// A testbench's vectors as text, for tb/tb_pkg.vhd: one vector per line, hexadecimal words separated by one
+// space, and `end <count>` as the last line, so that a truncated file is detected.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace halfway::vectors {
 
 class VectorFile {
  public:
-  /// A word of `bits` bits; what `value` holds above them is dropped.
+  /// Append a word of `bits` bits. Higher bits of `value` are dropped.
   VectorFile& word(std::uint64_t value, int bits) {
     const std::uint32_t words[] = {static_cast<std::uint32_t>(value),
                                    static_cast<std::uint32_t>(value >> 32)};
@@ -27,7 +27,7 @@ class VectorFile {
   VectorFile& word(golden::Word<W> value) {
     return word(value.bits(), W);
   }
-  /// `bits` bits of a flat vector, bit 0 of words[0] lowest.
+  /// Append `bits` bits of a flat vector. Bit 0 of words[0] is the lowest.
   VectorFile& words_of(std::span<const std::uint32_t> words, int bits) {
     for (int low = (bits - 1) / 4 * 4; low >= 0; low -= 4) {
       const auto nibble = words[static_cast<std::size_t>(low) / 32] >> (low % 32) & 0xF;

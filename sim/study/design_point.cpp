@@ -20,7 +20,7 @@
 namespace halfway::study {
 namespace {
 
-// Ends the reading of a space; `read_space` turns it into its error.
+// Exception that stops reading a space. `read_space` returns its error.
 struct BadSpace {
   Error error;
 };
@@ -42,8 +42,8 @@ class Sweep {
         fail(key.str(), fmt::format("is no key here; those are {}", fmt::join(keys, ", ")));
   }
 
-  // Each point with each of the values under a key, one or a list of them; where there is none, the points as
-  // they are. `set` takes a value into a point.
+  // Replace each point by one copy per value of the key (one value or a list). If the key is missing, leave
+  // the points unchanged. `set` writes a value into a point.
   template <class Set>
   void multiply(std::vector<DesignPoint>& points, std::string_view key, const Set& set) const {
     const toml::node* node = table_.get(key);
@@ -79,7 +79,7 @@ class Sweep {
     return *size;
   }
 
-  // One of these by its name.
+  // Look up one of the given values by its name.
   template <class Value>
   Value name(std::string_view key, const toml::node& node, const std::vector<Value>& known) const {
     std::vector<std::string> all;
@@ -140,7 +140,7 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
   });
   if (std::ranges::any_of(points, [](const DesignPoint& p) { return p.tables && p.tables->data_bits == 0; }))
     sweep.fail("data_bits", "goes with address_bits alone");
-  // A word length means something in some methods alone, and the preset's own is no other.
+  // A word length applies to some methods only. The preset's own length counts as not given.
   const auto length = [&](std::string_view key, tables::Range range, bool (*has)(Method),
                           std::optional<int> tables::WordLengths::*word, int exact, int published) {
     lengths(key, range.least, range.most, [&](DesignPoint& p, int value) {
@@ -163,7 +163,7 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
     const auto newton = node.value_exact<bool>();
     if (!newton) sweep.fail("newton", "takes true or false");
     if (!is_processors(p.method)) return;
-    // A square of published is no longer than the table's entry is good for.
+    // In preset published, a square has no more bits than the table's entries are accurate for.
     if (*newton && p.preset == Preset::published) sweep.fail("newton", "goes with preset exact alone");
     if (*newton != (p.preset == Preset::exact)) p.words.newton = newton;
   });
@@ -176,7 +176,7 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
   multiply("form", [&](DesignPoint& p, const toml::node& node) {
     p.form = sweep.name<ProcessorForm>("form", node, {ProcessorForm::folded, ProcessorForm::unrolled});
   });
-  // Version I takes N as it is interpolated; in preset exact that is N/w.
+  // Version I uses the interpolated N without normalization; in preset exact that would be N/w.
   std::erase_if(points, [](const DesignPoint& p) {
     return p.method == Method::processors_1 && p.preset == Preset::exact;
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A point of the design space: what draws, at which word lengths, and what it draws.
+// A point of the design space: method, word lengths and picture.
 #pragma once
 
 #include <array>
@@ -17,15 +17,15 @@
 
 namespace halfway::study {
 
-/// In the order of their names below.
+/// In the order of c_method_names.
 enum class Method {
-  phong,      ///< per pixel, in software: the yardstick
+  phong,      ///< per pixel, in software: the reference method
   gouraud,    ///< in software
-  quadratic,  ///< in hardware from here on; never split
-  adaptive,   ///< quadratic; split where it errs by more than `threshold`
+  quadratic,  ///< this and the following methods are hardware; never split
+  adaptive,   ///< quadratic; triangles with an error above `threshold` are split
   spherical,
-  processors_1,  ///< the paper's version I: no normalization, lights without a place alone
-  processors_2,  ///< version II
+  processors_1,  ///< the paper's version I: no normalization, only directional lights
+  processors_2,  ///< the paper's version II
 };
 inline constexpr std::array c_method_names = {"phong",     "gouraud",      "quadratic",   "adaptive",
                                               "spherical", "processors-1", "processors-2"};
@@ -35,46 +35,46 @@ inline const char* to_string(Method method) {
 constexpr bool in_hardware(Method method) {
   return method >= Method::quadratic;
 }
-/// Other than the yardstick, which is its own picture.
+/// False for phong only: its picture is the reference itself.
 constexpr bool is_drawn(Method method) {
   return method != Method::phong;
 }
 
 struct DesignPoint {
   Method method = Method::quadratic;
-  Preset preset = Preset::exact;                 ///< of hardware
-  std::optional<TableSize> tables;               ///< of spherical; none: the preset's
-  tables::WordLengths words{};                   ///< of what the method has; none: the preset's
-  ProcessorForm form = ProcessorForm::unrolled;  ///< of the processors
-  double threshold = 2.0;                        ///< colour steps; of adaptive, and of spherical in exact
-  double tessellation = 1.0;                     ///< of the scene's own meshes, as load_scene takes it
-  std::optional<double> exponent;                ///< of every material; none: the scene's
+  Preset preset = Preset::exact;                 ///< of hardware methods
+  std::optional<TableSize> tables;               ///< of spherical; std::nullopt: the preset's tables
+  tables::WordLengths words{};                   ///< of the method; std::nullopt: the preset's lengths
+  ProcessorForm form = ProcessorForm::unrolled;  ///< of processors methods
+  double threshold = 2.0;          ///< colour steps; of adaptive, and of spherical in preset exact
+  double tessellation = 1.0;       ///< relative to the scene's own meshes, as for load_scene
+  std::optional<double> exponent;  ///< of every material; std::nullopt: the scene's exponents
   FrameSize size{320, 240};
   FrameSize tile{1280, 960};  ///< a larger frame is drawn in tiles of this size
 
-  /// Such as `spherical exact 9x8, exponent 50, tessellation 0.5, 320x240`: equal names, equal points.
+  /// Such as `spherical exact 9x8, exponent 50, tessellation 0.5, 320x240`. Points are equal if their names
+  /// are equal.
   std::string name() const;
-  /// The same without what is drawn.
+  /// The part of the name that describes method and word lengths.
   std::string design() const;
-  /// The scene and what is drawn of it, without what draws: points of equal pictures share their reference.
+  /// The part of the name that describes scene and picture. Points with equal pictures share their reference.
   std::string picture() const;
   bool in_tiles() const { return size.width > tile.width || size.height > tile.height; }
-  /// One: the frame.
+  /// The tiles of the frame; one tile if the frame is not larger than a tile.
   std::vector<Tile> tiles() const { return tiles_of(size, tile); }
   bool has_threshold() const;
   PlanRequest plan() const;
   SetupOptions setup() const;
 };
 
-/// Without those that differ in nothing from one before; those of one picture together, as its reference is
-/// made once.
+/// Remove duplicates and put points of the same picture next to each other, because they share one reference.
 std::vector<DesignPoint> ordered(std::vector<DesignPoint> points);
 
-/// A tile's least side.
+/// Smallest side of a tile.
 inline constexpr std::uint32_t c_least_tile = 16;
 
-/// The sweeps of a space, each the product of its lists, without the points that differ in nothing. A space
-/// is a TOML file, see sim/studies/README.md; errors name file and line.
+/// Read the points of a space: all sweeps, each the product of its lists, without duplicates. A space is a
+/// TOML file, see sim/studies/README.md. Errors name file and line.
 Result<std::vector<DesignPoint>> read_space(const std::filesystem::path& path);
 
 }  // namespace halfway::study

@@ -37,7 +37,7 @@ TEST_F(SpaceTest, IsTheProductOfEachSweepsLists) {
 }
 
 TEST_F(SpaceTest, HasNoPointTwice) {
-  // Neither a preset nor a threshold means anything to software, nor a threshold to what is never split.
+  // Preset and threshold are ignored for software. The threshold is ignored for methods that never split.
   const auto points = read(
       "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\"]\npreset = [\"exact\", \"published\"]\nthreshold = "
       "[1, 2]\n"
@@ -81,8 +81,8 @@ TEST_F(SpaceTest, HasWordLengthsWhereTheyMeanSomething) {
               HasSubstr("space.toml:3: fraction_bits takes numbers from 2 to 40"));
 }
 
-// What questions are answered by turns the tables' lengths; the whole space turns every knob that any other
-// does, word lengths among them.
+// The space for queries varies the tables' lengths. The full space varies every parameter of the other
+// spaces, including all word lengths.
 TEST(Spaces, HoldWhatTheyPromise) {
   const std::filesystem::path studies = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/studies";
   const auto designs_of = [&](const char* file) {
@@ -130,7 +130,7 @@ TEST(DesignPoint, NamesAllThatTellsItFromOthers) {
   EXPECT_EQ(point.name(), "processors-2 exact folded, 320x240, tessellation 0.5");
 }
 
-// A tile says how a frame is drawn only where it is smaller.
+// The tile appears in the name only if the frame is larger.
 TEST_F(SpaceTest, CutsFramesThatAreLargerThanATile) {
   const auto points = read(
       "[[sweep]]\nmethod = \"quadratic\"\nsize = [\"4096x4096\", \"33x17\", \"1280x960\"]\n"

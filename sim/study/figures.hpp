@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A measurement as named figures: what records and tables hold.
+// A measurement as named values, the columns of records and tables.
 #pragma once
 
 #include "sim/study/measure.hpp"
 
 namespace halfway::study {
 
-/// What setup counted, likewise.
+/// Call `visit` with each setup counter and its name.
 template <class Counts, class Visit>
 void for_each_setup_figure(Counts& setup, const Visit& visit) {
   visit("screen_triangles", setup.triangles);
@@ -17,7 +17,7 @@ void for_each_setup_figure(Counts& setup, const Visit& visit) {
   visit("host_evaluations", setup.shaded);
 }
 
-/// Every figure of a measurement with its column's name, in the table's order.
+/// Call `visit` with every value of a measurement and its column name, in the table's order.
 template <class Measured, class Visit>
 void for_each_figure(Measured& m, const Visit& visit) {
   visit("hardware", m.hardware);

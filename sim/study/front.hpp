@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which points are worth building: those that no other beats.
+// Pareto front of a set of points.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,15 @@
 
 namespace halfway::study {
 
-/// A point's figures, the less the better; all points of one front have as many. Infinity is worse than any
-/// number, and NaN is none of them.
+/// A point's costs; lower is better. All points of a front have the same number of costs. Infinity is the
+/// worst value. NaN is not allowed.
 using Costs = std::vector<double>;
 
-/// As good in every figure, and better in one.
+/// True if `a` is at least as good in every cost and better in one.
 bool beats(const Costs& a, const Costs& b);
 
-/// Numbers of the points that no other beats, in the points' order. Points with equal costs stand together,
-/// on the front or off it.
+/// Indices of the points that no other point beats, in ascending order. Points with equal costs are either
+/// all on the front or all off it.
 std::vector<std::size_t> front_of(std::span<const Costs> points);
 
 }  // namespace halfway::study

@@ -16,7 +16,7 @@ using ::testing::IsEmpty;
 
 constexpr double c_infinity = std::numeric_limits<double>::infinity();
 
-// Few values, so that points tie in one figure, in some, in all.
+// Draw costs from a few values, so that points tie in one, several or all costs.
 std::vector<Costs> random_points(std::mt19937& random) {
   const std::size_t figures = 1 + random() % 4;
   std::vector<Costs> points(1 + random() % 40);

@@ -22,7 +22,7 @@ namespace halfway::study {
 
 namespace {
 
-// The size of the point's tables, if they have to be made.
+// The size of the point's tables if they are not compiled in.
 std::optional<tables::CosineSize> made_size(const DesignPoint& point) {
   if (point.method != Method::spherical || !point.tables) return std::nullopt;
   const tables::CosineSize size{point.tables->address_bits, point.tables->data_bits};
@@ -100,7 +100,8 @@ struct Open {
   HardwareFigures* figures;
 };
 
-// Each of `count` things on all threads, until one fails; `what` is said with how many are done.
+// Run `each` for `count` items on all threads until one fails. Progress messages contain `what` and the
+// number done.
 Status do_all(std::size_t count, const FiguresOptions& options, const std::string& what,
               const std::function<Status(std::size_t)>& each) {
   std::size_t done = 0;
@@ -138,7 +139,7 @@ void add_tools(HardwareFigures& figures, const std::string& tools) {
   figures.tools += tools;
 }
 
-// Why what is pinned without a clock has none.
+// Reason why pinned hardware has no clock.
 std::string no_placement(const synth::Ice40Cells& cells) {
   const std::string why = synth::does_not_fit(cells);
   return why.empty() ? "too full, or nextpnr does not end" : why;
@@ -179,8 +180,8 @@ Status count_cells(const HardwareSource& source, HardwareFigures& figures) {
   return Ok{};
 }
 
-// Cells that Yosys counted for no family are told not to be on the device, where each takes a logic cell,
-// too, without synthesis for it, which is minutes and gigabytes of what is much too large.
+// Yosys's generic synthesis already shows that some hardware is too large for the device, because every cell
+// takes at least one logic cell. This avoids minutes and gigabytes of synthesis for the device.
 void take_size(HardwareFigures& figures) {
   if (figures.mhz || !figures.fits || !figures.cells) return;
   std::string why = synth::does_not_fit("flip-flops", figures.cells->flip_flops, synth::kDeviceCells);
@@ -191,7 +192,7 @@ void take_size(HardwareFigures& figures) {
   figures.fits = false;
 }
 
-// What is to place it; none where its clock is known, or why it has none.
+// Return the synthesizer for placement, or std::nullopt if the clock or the reason for its absence is known.
 Result<std::optional<synth::Synthesizer>> placer_of(const HardwareSource& source, HardwareFigures& figures) {
   if (figures.mhz || !figures.fits) return std::optional<synth::Synthesizer>();
   auto synthesizer = synth::Synthesizer::open(source.folders, true);
@@ -208,7 +209,7 @@ Result<std::optional<synth::Synthesizer>> placer_of(const HardwareSource& source
   return std::optional<synth::Synthesizer>();
 }
 
-// Each seed of each design, so that all threads have work to the end.
+// Place each design with each seed as one list of jobs, so that all threads are busy to the end.
 Status place_all(std::vector<Open>& open, const FiguresOptions& options) {
   struct Placed {
     Open* open;
@@ -232,7 +233,7 @@ Status place_all(std::vector<Open>& open, const FiguresOptions& options) {
         const auto placement =
             each.placer->place(each.open->source.design(), static_cast<unsigned>(1 + job % synth::kSeeds));
         if (!placement) return placement.error();
-        if (!placement->ended) return Ok{};  // another seed's may
+        if (!placement->ended) return Ok{};  // another seed may succeed
         const std::scoped_lock lock(mutex);
         each.mhz.push_back(placement->mhz);
         return Ok{};

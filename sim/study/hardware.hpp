@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hardware of a study's points, and what it costs: figures of a hardware key, not of a point.
+// Hardware of a study's points and its cost. Costs belong to a hardware key, not to a point.
 #pragma once
 
 #include <cstddef>
@@ -26,89 +26,92 @@
 
 namespace halfway::study {
 
-/// The hardware that draws a point.
+/// The hardware for a point.
 struct PointHardware {
   HardwareKey key;
-  std::shared_ptr<const tables::MadeTables> tables;  ///< the key's, where the program was not built with them
-  std::shared_ptr<const MadeFormats> formats{};      ///< likewise
+  std::shared_ptr<const tables::MadeTables> tables;  ///< for the key, if not compiled into the program
+  std::shared_ptr<const MadeFormats> formats{};      ///< for the key, if not compiled into the program
 };
-/// The point must be hardware's; bad input where it cannot draw the scene. With other word lengths than the
-/// preset's it can be drawn by `drawing_hardware_of` alone.
+/// `point.method` must be hardware. Returns bad input if the hardware cannot draw the scene. Points whose
+/// word lengths differ from the preset's need `drawing_hardware_of` to draw.
 Result<PointHardware> hardware_of(const DesignPoint& point, const Scene& scene);
-/// The same with formats that the program was not built with: compiled, where the cache does not have them.
+/// Same as hardware_of, but with formats that are not compiled into the program: compile them unless the
+/// cache has them.
 Result<PointHardware> drawing_hardware_of(const DesignPoint& point, const Scene& scene,
                                           const SimulatorFolders& folders);
 
-/// What the point's RTL is made from: `folders`, or where it has tables or word lengths that the program was
-/// not built with, a copy in the cache.
+/// Sources of the point's RTL: `folders`, or a copy in the cache if its tables or word lengths are not
+/// compiled into the program.
 Result<SimulatorFolders> rtl_of(const DesignPoint& point, const SimulatorFolders& folders);
 
-/// Hardware with what it is synthesized from.
+/// Hardware and its RTL sources.
 struct HardwareSource {
   PointHardware hardware;
-  SimulatorFolders folders;  ///< rtl_of the point
+  SimulatorFolders folders;  ///< rtl_of(point)
   synth::Design design() const;
 };
 
 inline constexpr const char* c_not_placed = "not placed";
 
 struct HardwareFigures {
-  std::optional<Cells> cells;  ///< of no FPGA family; none without Yosys
-  /// On an iCE40 HX8K with registered ports, the median of synth::kSeeds placements.
+  std::optional<Cells> cells;  ///< generic synthesis, no FPGA family; std::nullopt without Yosys
+  /// On an iCE40 HX8K with registered ports: the median of synth::kSeeds placements.
   std::optional<double> mhz;
-  /// Where that is from, `pinned` or `placed`; or why there is none.
+  /// Origin of the clock: `pinned` or `placed`; otherwise the reason why there is none.
   std::string clock = c_not_placed;
-  /// Of hardware that was placed, then or when that was pinned: by itself, without the registers around it.
+  /// Cells of hardware that was placed, in this run or when it was pinned, without the port registers.
   std::optional<synth::Ice40Cells> ice40;
-  /// The device has no room for it: it never has a clock there.
+  /// False: the hardware is larger than the device, so it has no clock.
   bool fits = true;
-  /// Versions of what all that is by, such as `pinned with nextpnr-ice40 0.4, cells by Yosys 0.23`.
+  /// Tool versions for all values, such as `pinned with nextpnr-ice40 0.4, cells by Yosys 0.23`.
   std::string tools{};
-  std::string netlist{};  ///< synth::netlist_hash of it
+  std::string netlist{};  ///< synth::netlist_hash of the hardware
 };
 /// By the key's name.
 using HardwareTable = std::map<std::string, HardwareFigures>;
 
-/// LUTs and flip-flops, tables and multipliers as LUTs among them; memory that is written as LUTs of 16 bits.
+/// LUTs and flip-flops, including tables and multipliers built of LUTs. Writable memory counts as one LUT per
+/// 16 bits.
 double cell_count(const Cells& cells);
 
 struct PinnedClock {
   synth::Pin pin;
-  std::string tools;  ///< that it was placed with
+  std::string tools;  ///< tools of the placement
 };
-/// By the hash of the netlist that each is of.
+/// By netlist hash.
 using PinnedClocks = std::map<std::string, PinnedClock>;
 
 struct FiguresOptions {
   unsigned threads = 1;
-  bool cells = true;  ///< else by Yosys no more than `place` takes
-  /// Synthesizes and places what has no pinned clock, minutes each; else such a clock is not known.
+  bool cells = true;  ///< false: run Yosys only if `place` needs it
+  /// Synthesize and place hardware without a pinned clock (minutes each). false: such clocks stay unknown.
   bool place = false;
   std::function<void(const std::string&)> on_progress = [](const std::string&) {};
 };
 
-/// The cells and clocks of all hardware that the records name, each from the cache where it is there. Without
-/// Yosys there is a table without cells; a clock is pinned in synth::kPins or synth::kStudyPins by the hash
-/// of the netlist that it is of.
+/// The cells and clocks of all hardware that the records name, from the cache if present. Without Yosys the
+/// table has no cells. Pinned clocks are in synth::kPins and synth::kStudyPins; they are found by netlist
+/// hash.
 Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const Record> records,
                                        const SimulatorFolders& folders, const FiguresOptions& options);
 
-/// Pins in synth::kStudyPins what a table made with `place` tells and synth::kPins does not, and leaves there
-/// what other hardware has of the same flow; how many are pinned then.
+/// Write the clocks of a table made with `place` to synth::kStudyPins, unless synth::kPins has them. Keep the
+/// file's pins of other hardware with the same flow. Return the number of pins in the file.
 Result<std::size_t> pin_clocks(const HardwareTable& table, const SimulatorFolders& folders);
 
-/// What takes longest of that with `place`, in pieces that may be done by anyone, in any order: a placement
-/// of each hardware by each seed. Each is left in the cache, with a mark that it is done: what the device has
-/// no room for leaves nothing else.
+/// The slowest part of hardware_figures with `place`, in independent pieces: a placement of each hardware
+/// with each seed. Results are stored in the cache with a mark for each finished piece. If the hardware does
+/// not fit the device, the mark is the only result.
 class Placements {
  public:
-  /// `points`: one of each hardware. `rtl`: the hash of all RTL. An error names what installs a missing tool.
+  /// `points`: one for each hardware. `rtl`: the hash of all RTL. If a tool is missing, the error names the
+  /// package to install.
   static Result<Placements> open(const std::string& scene, std::span<const DesignPoint> points,
                                  const SimulatorFolders& folders, const std::string& rtl);
 
   std::size_t count() const { return hardware_.size() * synth::kSeeds; }
   bool is_done(std::size_t number) const;
-  /// Of hardware whose clock is pinned, or that does not fit, no more than the mark.
+  /// Make one placement. For hardware with a pinned clock, or that does not fit, only write the mark.
   Status make(std::size_t number) const;
   /// The hardware's name and the seed, for messages.
   std::string name(std::size_t number) const;
@@ -122,7 +125,7 @@ class Placements {
   std::vector<HardwareSource> hardware_;
   PinnedClocks pinned_;
   std::filesystem::path marks_;
-  std::string made_by_;  ///< hash of what a placement hangs on beside the hardware's name and the seed
+  std::string made_by_;  ///< hash of all that a placement depends on, except the hardware's name and the seed
 };
 
 }  // namespace halfway::study

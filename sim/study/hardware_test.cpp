@@ -25,8 +25,8 @@ using ::testing::ElementsAre;
 
 const fs::path c_source = HALFWAY_SOURCE_DIR;
 
-// Stand for Yosys and nextpnr, which would take minutes: figures in, figures out. A placement's clock is 100
-// MHz and more, by its seed, in an order of their own.
+// Fast replacements for Yosys and nextpnr with given results. The clock of a placement is 100 to 104 MHz and
+// depends on the seed.
 constexpr const char* c_yosys = R"(#!/bin/sh
 [ "$1" = -V ] && echo 'Yosys 0.23' && exit
 echo >mapped.il
@@ -51,13 +51,13 @@ class HardwareFiguresTest : public ::testing::Test {
  protected:
   void SetUp() override {
     folders_ = {folder_->path() / "source", folder_->path() / "cache"};
-    // Where clocks are pinned is its own.
+    // This tree has its own folders for pinned clocks.
     for (const char* name : {"tb/synth", "sim/studies"}) ASSERT_TRUE(make_folders(folders_.source / name));
     fs::create_directory_symlink(c_source / "rtl", folders_.source / "rtl");
     for (const auto& entry : fs::directory_iterator(c_source / "sim"))
       if (entry.is_directory() && entry.path().filename() != "studies")
         fs::create_directory_symlink(entry.path(), folders_.source / "sim" / entry.path().filename());
-    // Analysis is GHDL's own, and takes longest.
+    // Share GHDL's cache, because analysis takes longest.
     ASSERT_TRUE(make_folders(folders_.cache));
     ASSERT_TRUE(make_folders(c_source / "build/cache/ghdl"));
     fs::create_directory_symlink(c_source / "build/cache/ghdl", folders_.cache / "ghdl");
@@ -141,7 +141,7 @@ TEST_F(HardwareFiguresTest, AClockIsThePinnedOneOfTheSameNetlistAlone) {
   other[0] = other[0] == '0' ? '1' : '0';
   pin(flow + fmt::format("any 1 2 3 4 87.5 {}\n", other));
   EXPECT_FALSE(figures(false).mhz);
-  pin(fmt::format("any 1 2 3 4 87.5 {}\n", *hash));  // of no flow that is known
+  pin(fmt::format("any 1 2 3 4 87.5 {}\n", *hash));  // of an unknown flow
   EXPECT_FALSE(figures(false).mhz);
 }
 
@@ -170,7 +170,7 @@ TEST_F(HardwareFiguresTest, WhatTheDeviceHasNoRoomForHasNoClockAndSaysWhy) {
   };
   EXPECT_EQ(why("4", "30", "7000"), "too full: 7000 of the HX8K's 7680 logic cells");
   EXPECT_EQ(why("4", "7681", "40"), "does not fit the HX8K: 7681 LUTs of 7680");
-  // Told before it is synthesized for the device.
+  // Reported before synthesis for the device.
   EXPECT_EQ(why("7681", "NONE", "40"), "does not fit the HX8K: 7681 flip-flops of 7680");
   EXPECT_EQ(placements(), 0U);
 }
@@ -191,7 +191,7 @@ TEST_F(HardwareFiguresTest, WhatIsPlacedCanBePinned) {
     EXPECT_TRUE(count) << count.error().message;
     return count ? *count : 99;
   };
-  EXPECT_EQ(pinned(table(false)), 0U);  // nothing is known of it
+  EXPECT_EQ(pinned(table(false)), 0U);  // no clock is known yet
   EXPECT_EQ(pinned(table(true)), 1U);
   const synth::Ice40Cells cells{.luts = 30, .flip_flops = 4};
   EXPECT_EQ(pins().at(key_.name()).cells, cells);
@@ -202,13 +202,13 @@ TEST_F(HardwareFiguresTest, WhatIsPlacedCanBePinned) {
     EXPECT_EQ(figures.ice40, cells);
   }
   EXPECT_EQ(placements(), synth::kSeeds);
-  // Other hardware's stay, of the same flow.
+  // Pins of other hardware stay if they have the same flow.
   synth::Pins others = pins();
   others["other"] = {{1, 2, 3, 4}, 50.0, std::string(32, 'a')};
   ASSERT_TRUE(synth::write_study_pins(folders_.source / synth::kStudyPins, others, "tools"));
   EXPECT_EQ(pinned(table(false)), 2U);
   EXPECT_EQ(pins().at("other").mhz, 50.0);
-  // A design's pin is enough.
+  // A design's own pin suffices.
   pin(fmt::format("flow {}\nany 1 2 3 4 87.5 {}\n", synth::flow_hash(), pins().at(key_.name()).netlist));
   EXPECT_EQ(pinned(table(false)), 1U);
   EXPECT_EQ(table(false).at(key_.name()).mhz, 87.5);
@@ -222,7 +222,7 @@ TEST_F(HardwareFiguresTest, WhatIsPlacedCanBePinned) {
   EXPECT_EQ(large.clock, "does not fit the HX8K: 7681 LUTs of 7680");
 }
 
-// What the files tell is of the hardware that is drawn today.
+// The pinned clocks must match the netlists of the current RTL.
 TEST(StudyClocks, AreOfTheSmallStudysHardware) {
   const auto pins = synth::read_pins(c_source / synth::kStudyPins);
   ASSERT_TRUE(pins) << pins.error().message;
@@ -236,7 +236,7 @@ TEST(StudyClocks, AreOfTheSmallStudysHardware) {
     const auto drawn = drawn_scene(scene, c_source / "sim/scenes", point);
     ASSERT_TRUE(drawn) << drawn.error().message;
     const auto hardware = hardware_of(point, *drawn);
-    if (!hardware) continue;  // what cannot draw the scene
+    if (!hardware) continue;  // this hardware cannot draw the scene
     records.push_back({point, {}});
     records.back().measured.hardware = hardware->key.name();
   }
@@ -249,7 +249,8 @@ TEST(StudyClocks, AreOfTheSmallStudysHardware) {
     if (pin != pins->end()) {
       EXPECT_EQ(pin->second.netlist, figures.netlist) << name;
     }
-    // Of most processors their multipliers alone are too large, which nobody need synthesize to know.
+    // Most processors are too large for the device by their multipliers alone; that is known without
+    // synthesis for it.
     if (!name.starts_with("processors")) {
       EXPECT_NE(figures.clock, c_not_placed)
           << name << ": not pinned; make study PLACE=1 PIN=1 places it, minutes for each seed";
@@ -258,7 +259,7 @@ TEST(StudyClocks, AreOfTheSmallStudysHardware) {
   EXPECT_GT(clocks, 18U);
 }
 
-// As pieces of a study: what each part leaves in the cache is all that the table needs.
+// Placements as pieces of a study: the cache entries of all parts suffice for the table.
 TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   StudySettings settings{.scene = scene_,
                          .points = {{.method = Method::gouraud, .size = {32, 24}}},
@@ -292,7 +293,7 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   EXPECT_EQ(placed.mhz, 102.0);
   EXPECT_EQ(placed.clock, "placed");
   EXPECT_EQ(placements(), synth::kSeeds);
-  // Another RTL, another piece.
+  // Changing the RTL makes the piece open again.
   fs::remove(folders_.source / "rtl");
   fs::copy(c_source / "rtl", folders_.source / "rtl", fs::copy_options::recursive);
   ASSERT_TRUE(write_file(folders_.source / "rtl/notes", "another"));

@@ -49,7 +49,7 @@ Status in_processes(const std::filesystem::path& names,
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(names.c_str(), "r"), &std::fclose);
   if (!file) return bad_input(fmt::format("{}: {}", names.string(), std::strerror(errno)));
   std::array<char, c_longest_name> line{};
-  // From here on this process allocates nothing.
+  // This process allocates nothing from here on.
   while (std::fgets(line.data(), static_cast<int>(line.size()), file.get()) != nullptr) {
     line[std::strcspn(line.data(), "\n")] = '\0';
     const pid_t child = fork();
@@ -76,7 +76,8 @@ Result<std::optional<std::vector<std::uint64_t>>> host_instructions(std::vector<
   if (c_sanitized || find_program("valgrind").empty()) return counted;
   auto folder = TemporaryFolder::make(scratch);
   if (!folder) return folder.error();
-  // Bound at once: the first call of a library's function is no dearer than the others.
+  // LD_BIND_NOW: otherwise the first call of a library function would cost more instructions than later
+  // calls.
   Command command{.arguments = {"valgrind", "--tool=callgrind", "--quiet", "--toggle-collect=*set_up_frame*",
                                 fmt::format("--callgrind-out-file={}/%p", folder->path().string())},
                   .standard_output = folder->path() / "processes",
@@ -85,7 +86,8 @@ Result<std::optional<std::vector<std::uint64_t>>> host_instructions(std::vector<
   const std::filesystem::path list = folder->path() / "names";
   if (Status written = write_file(list, fmt::format("{}\n", fmt::join(names, "\n"))); !written)
     return written.error();
-  // By a name that is as long anywhere: what the program keeps of it shifts its heap.
+  // The program stores this file name, and its length shifts the heap. /dev/stdin has the same length on
+  // every machine.
   worker.insert(worker.end(), {"--set-up", "/dev/stdin"});
   command.arguments.insert(command.arguments.end(), worker.begin(), worker.end());
   command.standard_input = ::open(list.c_str(), O_RDONLY | O_CLOEXEC);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the host does for a frame, in instructions: counted by Callgrind.
+// Number of host instructions for a frame, counted by Callgrind.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +19,19 @@ namespace halfway::study {
 
 inline constexpr const char* c_install_valgrind = "apt-get install valgrind";
 
-/// Makes the init vectors of one frame, from the scene on: what is counted. `formats` as in
-/// make_setup. Callgrind knows it by its name.
+/// Compute the init vectors of one frame from the scene. Callgrind counts this function, found by its name.
+/// `formats` as in make_setup.
 [[gnu::noinline]] SetupCounts set_up_frame(const Scene& scene, FrameSize size, const HardwareKey& key,
                                            const SetupOptions& options, const MadeFormats* formats);
 
-/// For each line of the file, a name: calls `each` in a process of its own, then writes the process's number
-/// and the name to standard output. The processes begin with the same heap, whatever the names: the number of
-/// instructions that the allocator takes depends on what it did before.
+/// For each line of the file, a name: call `each` in a new process, then print the process id and the name on
+/// standard output. All processes start with the same heap, whatever the names, because the allocator's
+/// instructions depend on its history.
 Status in_processes(const std::filesystem::path& names,
                     const std::function<Status(const std::string&)>& each);
 
-/// Instructions of set_up_frame for each of the points, by their names. The worker, to which they are added,
-/// each behind `--set-up`, sets them up by in_processes. None where there is no Valgrind.
+/// Instructions of set_up_frame for each of the points, given by name. `worker` is a command that calls
+/// in_processes; the names are passed to it with `--set-up`. std::nullopt without Valgrind.
 Result<std::optional<std::vector<std::uint64_t>>> host_instructions(std::vector<std::string> worker,
                                                                     const std::vector<std::string>& names,
                                                                     const std::filesystem::path& scratch);

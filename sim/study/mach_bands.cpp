@@ -20,14 +20,14 @@ namespace {
 
 constexpr int c_subpixel_bits = 4;
 constexpr double c_reach = 4.0;         // pixels from the edge
-constexpr double c_least_length = 4.0;  // pixels; a shorter edge has too few beside it
-constexpr double c_end = 0.1;           // of the edge's length at either end, where other edges are near
-constexpr int c_least_pixels = 12;      // on a side
-// Of the matrix of the fit, a pixel: below it they lie too much in one row.
+constexpr double c_least_length = 4.0;  // pixels; a shorter edge has too few pixels next to it
+constexpr double c_end = 0.1;       // part of the edge's length ignored at either end, close to other edges
+constexpr int c_least_pixels = 12;  // on each side
+// Determinant limit of the fit's matrix, per pixel. Below it, the pixels are nearly collinear.
 constexpr double c_least_spread = 0.05;
 constexpr std::uint32_t c_nothing = std::numeric_limits<std::uint32_t>::max();
 
-// Pixels of each scene triangle that are seen.
+// The visible pixels of each scene triangle.
 std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> seen_pixels(
     const Scene& scene, std::span<const ScreenTriangle> triangles, FrameSize size) {
   std::vector<std::uint32_t> owner(Frame::pixels(size), c_nothing);
@@ -45,7 +45,7 @@ std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> seen_pixels(
   return pixels;
 }
 
-// Least squares of brightness = a + b distance + c along, of two frames at once.
+// Least-squares fit of brightness = a + b distance + c along, for two frames at once.
 struct Fit {
   int count = 0;
   glm::dmat3 matrix{0.0};
@@ -58,7 +58,7 @@ struct Fit {
     frame += in_frame * basis;
     reference += in_reference * basis;
   }
-  // b of the frame and of the reference; none where too few pixels fix it.
+  // b of the frame and of the reference; std::nullopt if the fit is underdetermined.
   std::optional<glm::dvec2> slopes() const {
     if (count < c_least_pixels) return std::nullopt;
     const double n = count;
@@ -74,7 +74,7 @@ double brightness(const Frame& frame, std::uint32_t x, std::uint32_t y) {
   return (double{1} * pixel[0] + pixel[1] + pixel[2]) / 3.0;
 }
 
-// Two triangles' common edge, by the scene's indices.
+// The common edge of two triangles, by the scene's indices.
 struct Corner {
   std::uint32_t position, normal;
   auto operator<=>(const Corner&) const = default;
@@ -90,8 +90,8 @@ glm::dvec2 on_screen(const ScreenVertex& v) {
   return glm::dvec2(v.x, v.y) / static_cast<double>(1 << c_subpixel_bits);
 }
 
-// Edges of triangles that came to the screen whole. Both have the edge's corners with the same normals: else
-// the surface has a crease there, and brightness is meant to jump.
+// Edges between triangles that are not clipped. Both triangles must have the same normals at the edge's
+// corners. Otherwise the surface has a crease there, and a jump in brightness is intended.
 std::map<Edge, Sides> shared_edges(const Scene& scene, std::span<const ScreenTriangle> triangles) {
   std::map<Edge, Sides> edges;
   for (const ScreenTriangle& t : triangles) {
@@ -142,7 +142,7 @@ Result<MachBands> mach_bands(const Frame& frame, const Frame& reference, const S
         if (distance > c_reach || at < c_end * length || at > (1.0 - c_end) * length) continue;
         fit.add(distance, at / length, brightness(frame, x, y), brightness(reference, x, y));
       }
-      // Distances grow away from the edge on either side, so the slopes across it add up to the jump.
+      // Distances are positive on both sides of the edge, so the jump is the sum of the two slopes.
       if (const auto slopes = fit.slopes()) {
         jump += *slopes;
         ++fitted;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mach bands: the eye sees an edge between two triangles where the brightness's slope across it jumps.
+// Mach bands: a jump in the slope of brightness between two triangles looks like an edge.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace halfway::study {
 
-/// Of the jumps of the slope across edges, less the reference's at the same edge; in colour steps a pixel.
+/// Jumps of the slope across edges minus the reference's jumps at the same edges, in colour steps per pixel.
 struct MachBands {
-  std::uint64_t edges = 0;  ///< looked at
+  std::uint64_t edges = 0;  ///< edges evaluated
   double rms = 0.0, largest = 0.0;
 };
 
-/// Looks at every edge over which the surface is smooth and both triangles are seen: on either side a plane
-/// is fitted to the brightness (the mean of the three channels) of the pixels at most 4 pixels from the edge.
-/// The frames' sizes must agree; `triangles` are those of the scene at this size, with 4 subpixel bits.
+/// Evaluate every edge where the surface is smooth and both triangles are visible. On each side of the edge,
+/// fit a plane to the brightness (the mean of the three channels) of the pixels at most 4 pixels away. The
+/// frames must have the same size. `triangles` are the scene's triangles at this size, with 4 subpixel bits.
 Result<MachBands> mach_bands(const Frame& frame, const Frame& reference, const Scene& scene,
                              std::span<const ScreenTriangle> triangles);
 

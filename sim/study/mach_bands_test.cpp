@@ -13,7 +13,7 @@
 namespace halfway::study {
 namespace {
 
-// A square of two triangles that fills the frame; its diagonal goes from lower left to upper right.
+// A square of two triangles that fills the frame. Its diagonal rises from lower left to upper right.
 Scene square() {
   Scene scene;
   scene.camera.eye_world = {0.0, 0.0, 5.0};
@@ -26,8 +26,8 @@ Scene square() {
 
 constexpr FrameSize c_size{128, 128};
 
-// Brightness that falls by `steps` from one diagonal of pixels to the next, either side of the frame's: whole
-// steps, so that nothing is rounded.
+// Brightness decreases by `steps` per diagonal of pixels on both sides of the frame's diagonal. Whole steps
+// avoid rounding.
 Frame roof(int steps) {
   Frame frame(c_size);
   for (std::uint32_t y = 0; y < c_size.height; ++y)
@@ -69,7 +69,7 @@ TEST(MachBands, AreNotLookedForAcrossACrease) {
 
 TEST(MachBands, AreNotLookedForBesideWhatIsHidden) {
   Scene scene = square();
-  // Something in front of the one triangle.
+  // Cover part of one triangle.
   scene.positions_world.insert(scene.positions_world.end(), {{-1, -0.9, 0.5}, {1, 1, 0.5}, {-1, 1, 0.5}});
   scene.triangles.push_back({{4, 5, 6}, {0, 0, 0}, 0});
   const auto triangles = Projector(scene, c_size, {}).project_all();

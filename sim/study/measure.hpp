@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One point of a study: how far its picture is from the reference, and what it takes.
+// Measurement of one point of a study: the difference of its picture from the reference, and its cost.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@
 
 namespace halfway::study {
 
-/// What a point's design draws, and takes for it: a frame, or a tile of one.
+/// The picture of a point's design and its cost, for a frame or a tile.
 struct Drawing {
   Frame frame;
-  std::vector<std::uint8_t> mask;  ///< of pixels that it covers; empty in software: as the reference
+  std::vector<std::uint8_t> mask;  ///< of covered pixels; empty in software: same as the reference's
   std::string hardware;            ///< the key's name; empty in software
   std::uint64_t fragments = 0;     ///< 0 in software
   std::uint64_t cycles = 0;        ///< of the RTL
@@ -33,24 +33,24 @@ struct Measurement {
   FrameDistance picture;    ///< against the reference, over the pixels that either covers
   FrameDistance highlight;  ///< over those of Reference::highlight
   std::uint64_t perceived =
-      0;  ///< pixels whose difference is seen (Yee, at 100 cd/m2 and 45 degrees of view)
+      0;  ///< pixels with a visible difference (Yee, at 100 cd/m2 and 45 degrees of view)
   MachBands mach_bands;
   std::uint64_t triangles = 0;  ///< of the scene
   std::uint64_t fragments = 0;  ///< 0 in software
   std::string hardware;         ///< the key's name; empty in software
-  std::uint64_t cycles = 0;     ///< of the RTL, for the frame; in tiles: for all of them
+  std::uint64_t cycles = 0;     ///< of the RTL, for the frame; with tiles: the sum
   SetupCounts setup;            ///< host
-  /// Of the host, for the frame's init vectors; none in software, and where nothing counted them.
+  /// Host instructions for the frame's init vectors; std::nullopt in software, or if not counted.
   std::optional<std::uint64_t> host_instructions;
 };
 
-/// Draws the frame, or a tile of it. Of hardware it is the RTL that draws, in Verilator; where a fragment
-/// differs from the golden model's, that is an error with the exit code `differs`. The point must be drawn
-/// (is_drawn).
+/// Draw the frame or a tile. Hardware is drawn by the RTL in Verilator. If a fragment differs from the golden
+/// model's, the error has the exit code `differs`. The point must be drawn (is_drawn).
 Result<Drawing> draw(const DesignPoint& point, const Subject& subject, const SimulatorFolders& folders,
                      const std::optional<Tile>& tile = {});
 
-/// The drawing of the whole frame against the reference; none: it is the reference.
+/// Compare the drawing of the whole frame with the reference. Without a drawing, the reference is compared
+/// with itself.
 Result<Measurement> measure(const Pictures& pictures, std::optional<Drawing> drawing);
 
 }  // namespace halfway::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the points of a study are measured by: the scene as they draw it, and its reference picture.
+// Scene and reference picture of a study's points.
 #pragma once
 
 #include <algorithm>
@@ -21,40 +21,40 @@
 
 namespace halfway::study {
 
-/// What is drawn.
+/// The scene to draw.
 struct Subject {
   Scene scene;
   std::vector<ScreenTriangle> triangles;
 };
 
-/// What it is to look like: a frame, or a tile of it.
+/// The correct picture of a frame or a tile.
 struct Reference {
   ReferenceImage image;
-  /// Pixels where highlights take the reference up by c_highlight steps or more; one byte a pixel.
+  /// Pixels where highlights raise the reference by c_highlight steps or more; one byte per pixel.
   std::vector<std::uint8_t> highlight;
 };
 inline constexpr int c_highlight = 8;
 
-/// Both, of a whole frame.
+/// Subject and reference of a whole frame.
 struct Pictures {
   std::shared_ptr<const Subject> subject;
   Reference reference;
 };
 
-/// The scene as the point draws it.
+/// The scene with the point's tessellation and exponent.
 Result<Scene> drawn_scene(const std::string& scene, const std::filesystem::path& scenes_folder,
                           const DesignPoint& point);
 
 Reference render(const Subject& subject, FrameSize frame, const std::optional<Tile>& tile = {});
 
-/// Things by name, each made once for all who share it, and kept while it is likely to be needed again.
-/// Threads may call it at once.
+/// Thread-safe cache of named values. Each value is made once and shared. The oldest values are dropped
+/// first.
 template <class Value>
 class Shelf {
  public:
   using Shared = std::shared_ptr<const Value>;
 
-  /// `make` gives a Result<Shared>.
+  /// `make` returns a Result<Shared>.
   template <class Make>
   Result<Shared> of(const std::string& name, const Make& make) {
     std::shared_ptr<Thing> thing;
@@ -80,10 +80,10 @@ class Shelf {
   std::deque<std::pair<std::string, std::shared_ptr<Thing>>> kept_;
 };
 
-/// Those of a scene.
+/// The pictures of a scene.
 class PictureShelf {
  public:
-  /// How the reference of a picture comes; none: it is rendered.
+  /// Makes the reference of a picture; empty: render it.
   using MakeReference = std::function<Result<Reference>()>;
 
   PictureShelf(std::string scene, std::filesystem::path scenes_folder)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a study is cut into: pieces that may be measured by anyone, in any order.
+// Pieces of a study. Any process may measure them, in any order.
 #pragma once
 
 #include <cstddef>
@@ -10,22 +10,22 @@
 
 namespace halfway::study {
 
-/// A frame that is cut into tiles has a piece for each, and one that puts the point together of them.
+/// A frame with tiles has one piece per tile, and one that assembles the point from them.
 enum class PieceKind {
-  point,           ///< all of one
-  reference_tile,  ///< of the picture's reference, for all points of the picture
-  tile,            ///< of the point's drawing
-  gathering,       ///< when the picture's tiles and the point's are there
+  point,           ///< a whole point without tiles
+  reference_tile,  ///< a tile of the reference, shared by all points of the picture
+  tile,            ///< a tile of the point's drawing
+  gathering,       ///< assembles a point; needs the tiles of the reference and of the drawing
 };
 
 struct Piece {
   PieceKind kind;
-  std::size_t point;       ///< by number; of a picture, its first
-  std::size_t points = 1;  ///< of a picture: so many, one behind the other
-  std::size_t tile = 0;    ///< by number
+  std::size_t point;       ///< index of the point; of a reference tile, the first point of the picture
+  std::size_t points = 1;  ///< of a reference tile: number of consecutive points of the picture
+  std::size_t tile = 0;    ///< index of the tile
 };
 
-/// In the points' order; a picture's tiles stand before its points.
+/// In the order of the points. The reference tiles of a picture precede its points.
 std::vector<Piece> pieces_of(std::span<const DesignPoint> points);
 
 }  // namespace halfway::study

@@ -41,11 +41,11 @@ std::string time_text(double seconds) {
   return fmt::format("{:.4g} ns", seconds / 1e-9);
 }
 
-// What the offers of a market can be compared by.
+// Quantities that the offers of a market are compared by.
 struct Scales {
   bool cells;
-  bool seconds;  ///< of some
-  bool cycles;   ///< besides, because the seconds of others are not known
+  bool seconds;  ///< known for some offers
+  bool cycles;   ///< also needed, because the seconds of some offers are unknown
   bool host;
 };
 Scales scales_of(std::span<const Offer> offers) {
@@ -56,7 +56,7 @@ Scales scales_of(std::span<const Offer> offers) {
           .host = std::ranges::all_of(offers, [](const Offer& o) { return o.host.has_value(); })};
 }
 
-// Cells, time, host: the order of prices is the dictionary's.
+// Cells, time, host. Prices are compared lexicographically.
 Costs price_of(const Offer& offer, Scales scales) {
   constexpr double c_none = std::numeric_limits<double>::infinity();
   return {scales.cells ? *offer.cells : 0.0, scales.seconds ? offer.seconds.value_or(c_none) : 0.0,
@@ -76,7 +76,7 @@ bool by_psnr(const Demand& demand) {
   return demand.psnr_db && !demand.largest_error;
 }
 
-// The measure of accuracy that the demand names first; the less the better.
+// Errors with the measure of the demand first; lower is better.
 Costs errors_of(const Offer& offer, const Demand& demand) {
   Costs errors = {offer.largest_error, -offer.psnr_db};
   if (by_psnr(demand)) std::swap(errors[0], errors[1]);
@@ -88,7 +88,7 @@ Costs joined(Costs a, const Costs& b) {
   return a;
 }
 
-// The first by `key` of those that `take` takes.
+// The offer with the smallest `key` among those that satisfy `take`; the first of equals.
 template <class Key, class Take>
 std::optional<std::size_t> least(std::span<const Offer> offers, const Key& key, const Take& take) {
   std::optional<std::size_t> found;
@@ -116,7 +116,7 @@ const char* host_scale(Scales scales) {
                      : "the host's work not compared: its instructions are not counted (that takes Valgrind)";
 }
 
-// How much more `there` takes than `here`, figure by figure.
+// The difference of the costs of `there` and `here`.
 std::string difference_text(const Offer& here, const Offer& there) {
   std::vector<std::string> texts;
   const auto add = [&](double from, double to, const char* what) {
@@ -136,11 +136,11 @@ std::string difference_text(const Offer& here, const Offer& there) {
 }
 
 struct Knob {
-  const char* name;  // a space's key
+  const char* name;  // a key of a space file
   std::string value;
 };
 
-// What sets designs apart. A key that means nothing for a design is not among its own.
+// The parameters that distinguish designs. Parameters that do not apply to a design are omitted.
 std::vector<Knob> knobs_of(const DesignPoint& p) {
   const auto told = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
   std::vector<Knob> knobs = {{"method", to_string(p.method)}, {"preset", to_string(p.preset)}};
@@ -168,7 +168,7 @@ std::vector<Knob> knobs_of(const DesignPoint& p) {
   return knobs;
 }
 
-// The space that an answer is the best of: how many designs, and in what they differ.
+// The searched space: the number of designs and the parameters in which they differ.
 std::string knobs_text(const Market& market, std::span<const Record> records) {
   std::vector<std::pair<std::string, std::set<std::string>>> values;
   for (const Offer& offer : market.offers)
@@ -185,7 +185,7 @@ std::string knobs_text(const Market& market, std::span<const Record> records) {
   return text + "\n";
 }
 
-// The front as a table: of the whole front, which has designs for each of its figures, the steps.
+// The front as a table. Only steps of increasing accuracy are listed; the whole front is longer.
 std::string front_text(const Market& market, const Answer& answer, const Demand& demand,
                        std::span<const Record> records) {
   const Scales scales = scales_of(market.offers);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a designer asks of a study: the cheapest hardware that is good enough, and what better would cost.
+// Queries to a study: the cheapest hardware that meets a demand, and the cost of better hardware.
 #pragma once
 
 #include <cstddef>
@@ -16,73 +16,72 @@
 namespace halfway::study {
 
 struct Demand {
-  std::optional<double> largest_error;  ///< at most, in steps of 1/255
-  std::optional<double> psnr_db;        ///< at least
-  std::optional<double> seconds;        ///< a frame, at most
+  std::optional<double> largest_error;  ///< upper limit, in steps of 1/255
+  std::optional<double> psnr_db;        ///< lower limit
+  std::optional<double> seconds;        ///< upper limit, per frame
   bool accuracy() const { return largest_error || psnr_db; }
   bool any() const { return accuracy() || seconds; }
   /// Such as `largest error at most 2/255, a frame in 10 ms`.
   std::string text() const;
 };
 
-/// From what --error (`2`, steps), --psnr (`45` or `45dB`) and --time (`10ms`; s, ms, us or ns) say; empty:
-/// nothing asked.
+/// Parse --error (`2`, in steps), --psnr (`45` or `45dB`) and --time (`10ms`; s, ms, us or ns). Empty: no
+/// demand.
 Result<Demand> read_demand(const std::string& error, const std::string& psnr, const std::string& time);
 
-/// A point of hardware as what it gives and what it takes.
+/// A point of hardware with its accuracy and its cost.
 struct Offer {
-  std::size_t record = 0;    ///< its number
+  std::size_t record = 0;    ///< index of the record
   double largest_error = 0;  ///< steps of 1/255
-  double psnr_db = 0;        ///< infinity where nothing differs
+  double psnr_db = 0;        ///< infinity if the pictures are equal
   std::optional<double> cells;
   double cycles = 0;              ///< for the frame
-  std::optional<double> seconds;  ///< the same at the hardware's clock
-  bool fits = true;               ///< else the device that clocks are of has no room for it
-  /// Instructions of the host for each triangle of the scene; none where nothing counted them.
+  std::optional<double> seconds;  ///< `cycles` at the hardware's clock
+  bool fits = true;               ///< false: the device used for clocks is too small
+  /// Host instructions per triangle of the scene; std::nullopt if not counted.
   std::optional<double> host{};
 };
 
-/// The offers of one picture. Software is none.
+/// The offers of one picture. Software points are no offers.
 struct Market {
   std::string picture;
   std::vector<Offer> offers;
 };
 
-/// What hardware is taken to run at where its own clock is not known; none: its time is not known either.
+/// Assumed clock of hardware whose own clock is unknown. std::nullopt: its time is unknown too.
 struct Clock {
   std::optional<double> mhz;
 };
 
-/// One a picture, in the records' order.
+/// One market per picture, in the order of the records.
 std::vector<Market> markets_of(std::span<const Record> records, const HardwareTable& hardware, Clock clock);
 
-/// Largest error, PSNR, cells, time and host, as costs. Cells count where they are known of all. Time is in
-/// seconds where they are known of all that fit the device, and what does not is slower than that, among its
-/// like by cycles; else it is in cycles for all, and in seconds besides for those of which they are known.
-/// The host counts where its instructions are known of all.
+/// Largest error, PSNR, cells, time and host work as costs. Cells count only if they are known for all
+/// offers. If the seconds of all offers that fit the device are known, time is in seconds; offers that do not
+/// fit rank after these, by cycles. Otherwise time is in cycles for all offers, and also in seconds for those
+/// whose seconds are known. Host instructions count only if they are known for all offers.
 std::vector<Costs> costs_of(std::span<const Offer> offers);
 
-/// Numbers of offers. All but `fastest`, `fewest_cycles`, `best` and `best_met` are on the front.
+/// Indices of offers. All except `fastest`, `fewest_cycles`, `best` and `best_met` are on the front.
 struct Answer {
-  std::vector<std::size_t> front;       ///< from the cheapest to the dearest
-  std::vector<std::size_t> steps;       ///< those of the front that are more accurate than all before them
-  std::optional<std::size_t> cheapest;  ///< that meets the demand
-  std::optional<std::size_t> best_met;  ///< the most accurate that meets it
-  std::optional<std::size_t> cheaper;   ///< the most accurate of those that are cheaper
-  std::optional<std::size_t> accurate;  ///< the cheapest of those that are more accurate, and in time
-  std::size_t unknown = 0;              ///< how many might meet the demand, if their time were known
-  std::size_t no_room = 0;              ///< and how many that never have one
-  std::optional<std::size_t> best;      ///< the most accurate of all
-  std::optional<std::size_t> fastest;   ///< of those whose time is known, if it is of any
+  std::vector<std::size_t> front;  ///< from the cheapest to the most expensive
+  std::vector<std::size_t> steps;  ///< members of the front that are more accurate than all cheaper members
+  std::optional<std::size_t> cheapest;  ///< among those that meet the demand
+  std::optional<std::size_t> best_met;  ///< the most accurate that meets the demand
+  std::optional<std::size_t> cheaper;   ///< the most accurate of the cheaper ones
+  std::optional<std::size_t> accurate;  ///< the cheapest of the more accurate ones that meet the time limit
+  std::size_t unknown = 0;  ///< number of accurate enough offers whose time is unknown, if a time is demanded
+  std::size_t no_room = 0;  ///< number of accurate enough offers that do not fit the device
+  std::optional<std::size_t> best;     ///< the most accurate of all
+  std::optional<std::size_t> fastest;  ///< among those with a known time, if any
   std::optional<std::size_t> fewest_cycles;
 };
 
-/// Cheaper is what has fewer cells; where they are equal or not known, what is faster; then what asks less of
-/// the host. More accurate is what has the smaller largest error, or where PSNR alone is demanded, the higher
-/// PSNR.
+/// Cheaper means fewer cells; if these are equal or unknown, less time; then less host work. More accurate
+/// means a smaller largest error, or a higher PSNR if only PSNR is demanded.
 Answer answer(std::span<const Offer> offers, const Demand& demand);
 
-/// In words; every figure is the offers'. Where nothing is demanded: the front alone.
+/// The answer as text. Every figure is taken from the offers. Without a demand, print the front only.
 std::string to_text(const Market& market, const Answer& answer, const Demand& demand,
                     std::span<const Record> records);
 

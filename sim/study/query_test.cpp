@@ -58,7 +58,7 @@ Offer random_offer(std::mt19937& random, bool clocks) {
               .cells = static_cast<double>(100 * (1 + random() % 4)),
               .cycles = static_cast<double>(1000 * (1 + random() % 3)),
               .host = static_cast<double>(10 * (random() % 3))};
-  // Some hardware has no clock.
+  // Leave the clock of some hardware unknown.
   if (clocks && random() % 4 != 0) offer.seconds = offer.cycles / (random() % 2 == 0 ? 1e8 : 5e7);
   return offer;
 }
@@ -128,7 +128,7 @@ TEST_P(RandomMarket, AnswersAreWhatTheyAreCalled) {
       }
       EXPECT_THAT(found.front, Contains(*found.cheaper));
     }
-    // Each step is dearer than the one before, and better; the last is the best.
+    // Each step costs more and is more accurate than the previous one. The last is the most accurate of all.
     ASSERT_FALSE(found.steps.empty());
     for (std::size_t i = 1; i < found.steps.size(); ++i) {
       const Offer &before = offers[found.steps[i - 1]], &after = offers[found.steps[i]];
@@ -143,7 +143,7 @@ TEST_P(RandomMarket, AnswersAreWhatTheyAreCalled) {
 
 INSTANTIATE_TEST_SUITE_P(Clocks, RandomMarket, ::testing::Bool());
 
-// A study of three points of hardware and one of software, of two pictures.
+// A study of three hardware points and one software point, with two pictures.
 class QueryTest : public ::testing::Test {
  protected:
   QueryTest() {
@@ -229,9 +229,9 @@ TEST_F(QueryTest, TakesTimeByTheHardwaresOwnClockBeforeAnyOther) {
   EXPECT_THAT(mixed, HasSubstr("1005 cycles (10.05 us)"));
   EXPECT_THAT(mixed, HasSubstr("-10.15 us (-50.2 %)"));
   EXPECT_THAT(mixed, HasSubstr("time in nanoseconds, the"));
-  // Of one of the three no clock is known.
+  // The clock of one of the three is unknown.
   EXPECT_THAT(ask({.largest_error = 2.0}), HasSubstr("time in cycles, and in nanoseconds where"));
-  // None fits: slower than what does, whatever its cycles are, and not unknown.
+  // Does not fit: the offer ranks as slower than those that fit, whatever its cycles, and not as unknown.
   hardware_["processors"].fits = false;
   const std::string fitting = ask({.seconds = 1.0});
   EXPECT_THAT(fitting, HasSubstr("time in nanoseconds, the"));
@@ -262,7 +262,7 @@ TEST_F(QueryTest, TellsTheBestOfWhatIsNotEnough) {
   EXPECT_THAT(text,
               HasSubstr("none of 3 points of hardware meets it\n  most accurate  processors-2 exact: "));
   EXPECT_THAT(text, AllOf(HasSubstr("  fewest cycles  quadratic exact: "), Not(HasSubstr("fastest"))));
-  // Faster than another is only what has a time.
+  // Only offers with a known time compete for `fastest`.
   hardware_["processors"].mhz = 50.0;
   EXPECT_THAT(ask({.largest_error = 0.0}),
               AllOf(HasSubstr("  fastest        processors-2 exact: "),
@@ -273,7 +273,7 @@ TEST_F(QueryTest, TellsTheBestOfWhatIsNotEnough) {
   EXPECT_THAT(ask({.largest_error = 1.0}), HasSubstr("  more accurate  nothing is\n"));
 }
 
-// With a time alone to meet, any accuracy is enough: the best that there is in it is told, too.
+// If only a time is demanded, any accuracy suffices. The most accurate offer within that time is printed too.
 TEST_F(QueryTest, TellsTheMostAccurateInATime) {
   const std::string text = ask({.seconds = 10.07e-6}, {100.0});
   EXPECT_THAT(text, HasSubstr("  cheapest       quadratic exact: "));
@@ -309,9 +309,10 @@ TEST_F(QueryTest, WithoutCellsGoesByCyclesAndHost) {
   EXPECT_THAT(text, Not(HasSubstr(" cells,")));
 }
 
-// Evaluations of one shader are not another's, and a count that one lacks compares nothing.
+// Setup evaluations of different shaders are not comparable. Host instructions are compared only if all
+// offers have them.
 TEST_F(QueryTest, ComparesTheHostByInstructionsThatAllHaveCounted) {
-  // As good and as dear as the quadratic but for the host, which evaluates less and works more.
+  // Equal to the quadratic shader except for the host: fewer evaluations, more instructions.
   Record record{{.method = Method::spherical}, records_[1].measured};
   record.measured.setup.shaded = 0;
   record.measured.host_instructions = 90000;
@@ -327,7 +328,7 @@ TEST_F(QueryTest, ComparesTheHostByInstructionsThatAllHaveCounted) {
               AllOf(HasSubstr("front          4 of 4 points"), HasSubstr("the host's work not compared")));
 }
 
-// Whatever a text says is in the offers, or is the difference of two of them.
+// Every number in the text is a number of an offer or the difference of two.
 TEST_F(QueryTest, EveryFigureIsTheData) {
   std::mt19937 random(11);
   const std::regex number(R"([+-]?\d+(\.\d+)?)");

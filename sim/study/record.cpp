@@ -27,7 +27,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// JSON has no infinity: a PSNR of equal pictures is null there, as is what was not counted.
+// JSON has no infinity: the PSNR of equal pictures is null, and so are values that were not counted.
 template <class Value>
 Json told(const Value& value) {
   if constexpr (std::floating_point<Value>)
@@ -80,7 +80,7 @@ void add_vector(ContentHash& hash, const glm::dvec3& v) {
   add_numbers(hash, {v.x, v.y, v.z});
 }
 
-// Every file of the folder, by name.
+// Hash every file of the folder, by name.
 Result<std::string> hash_of(const std::filesystem::path& folder) {
   const auto files = files_below(folder);
   if (!files) return files.error();

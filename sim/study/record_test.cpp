@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a record is worth anything for: the scene, program, RTL and tools that it was measured with.
+// A record is valid only for the scene, program, RTL and tools that it was measured with.
 #include "sim/study/record.hpp"
 
 #include <gmock/gmock.h>
@@ -140,7 +140,7 @@ TEST_F(RecordsTest, AreFoundByWhatTheyWereMeasuredWithAlone) {
   EXPECT_FALSE(find(here, record.point));
 }
 
-// Each in turn, with what is beside it whole.
+// Damage each file in turn while the other one is intact.
 TEST_F(RecordsTest, TellWhichFileIsDamaged) {
   const Records records(folder_->path(), {"scene", "1", "2", "3", "4"});
   Record record{{.method = Method::adaptive, .size = {40, 30}}, {}};
@@ -166,12 +166,12 @@ TEST_F(RecordsTest, TellWhichFileIsDamaged) {
     ASSERT_TRUE(write_file(file, *whole));
     EXPECT_TRUE(records.find(record.point));
   }
-  // A whole picture, but another one.
+  // A valid picture, but not the point's.
   ASSERT_TRUE(records.add_frame(record.point, Frame({30, 40})));
   EXPECT_FALSE(records.find(record.point));
 }
 
-// A checkout whose RTL has a byte, or a file's name, more.
+// Change one byte, or one file name, of a checkout's RTL.
 TEST_F(RecordsTest, ProvenanceIsOfEveryFileOfTheRtl) {
   const Scene scene = scene_of_everything();
   std::filesystem::create_directories(folder_->path() / "rtl/part");
@@ -195,7 +195,7 @@ TEST_F(RecordsTest, ProvenanceIsOfEveryFileOfTheRtl) {
   expect_another("a name");
 }
 
-// The same bytes in another program are its provenance: a copy of this one with a byte more is another.
+// A program with one byte more is another program; an identical copy is the same.
 TEST_F(RecordsTest, ProvenanceIsOfTheProgram) {
   const auto mine = read_file("/proc/self/exe");
   ASSERT_TRUE(mine);

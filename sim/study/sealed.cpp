@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* c_checksum = "checksum";
 
 std::string checksum(std::string_view bytes) {
-  constexpr unsigned long long c_seed = 0;  // xxh64sum's
+  constexpr unsigned long long c_seed = 0;  // same seed as xxh64sum
   return fmt::format("{:016x}", OIIO::xxhash::XXH64(bytes.data(), bytes.size(), c_seed));
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a study keeps bears checksums: where a byte has become another, that is noticed when the study goes
-// on.
+// Checksums in the files of a study, to detect damaged files when the study continues.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +11,12 @@
 
 namespace halfway::study {
 
-/// Of all bytes of the file: XXH64 in hexadecimal, as `xxh64sum` prints it.
+/// XXH64 of the file in hexadecimal, as `xxh64sum` prints it.
 Result<std::string> checksum_of(const std::filesystem::path& file);
 
-/// The object as text, its own checksum at the end.
+/// The object as text with its own checksum as the last member.
 std::string sealed(nlohmann::ordered_json object);
-/// The object without that checksum; none where a byte is not as `sealed` wrote it.
+/// The object without the checksum; std::nullopt if the text is not as `sealed` wrote it.
 std::optional<nlohmann::ordered_json> unsealed(const std::string& text);
 
 }  // namespace halfway::study

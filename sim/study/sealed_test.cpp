@@ -26,7 +26,7 @@ TEST(Sealed, ComesBackUnlessAnyByteIsAnother) {
     EXPECT_FALSE(unsealed(other)) << other;
 }
 
-// What xxhash's own programs say of these bytes.
+// Expected values are computed by xxhash's own programs.
 TEST(Sealed, ChecksumIsXxh64) {
   auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
   ASSERT_TRUE(folder) << folder.error().message;

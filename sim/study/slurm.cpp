@@ -13,7 +13,7 @@ namespace halfway::study {
 namespace {
 
 constexpr const char* c_install = "apt-get install slurm-client, on a machine of the cluster";
-constexpr std::size_t c_shown = 2000;  // characters of what a task said
+constexpr std::size_t c_shown = 2000;  // characters of a task's output
 
 std::filesystem::path task_log(const JobArray& array, std::size_t part) {
   return array.folder / fmt::format("task-{}.log", part);

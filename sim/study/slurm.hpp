@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of a study as tasks of a Slurm job array.
+// Run the parts of a study as tasks of a Slurm job array.
 #pragma once
 
 #include <cstddef>
@@ -13,26 +13,26 @@
 namespace halfway::study {
 
 struct JobArray {
-  /// What measures a part, without a shell: the program and its arguments, to which `--part I/N` is added. It
-  /// must lie, as all that it names, where the nodes find it under the same path.
+  /// Command that measures a part: program and arguments, run without a shell, with `--part I/N` appended.
+  /// The nodes must see the program and all its files under the same paths.
   std::vector<std::string> worker;
-  std::size_t parts = 1;             ///< N
-  std::vector<std::size_t> open;     ///< of these, those that are submitted
-  std::filesystem::path folder;      ///< for the job's script and its tasks' output; the nodes must reach it
-  unsigned retries = 2;              ///< of a task that fails, by Slurm
-  std::vector<std::string> options;  ///< more of sbatch's, such as --partition=short
+  std::size_t parts = 1;          ///< N of --part
+  std::vector<std::size_t> open;  ///< the parts to submit
+  /// for the job's script and the output of its tasks; the nodes must be able to access it
+  std::filesystem::path folder;
+  unsigned retries = 2;              ///< of a failing task, by Slurm
+  std::vector<std::string> options;  ///< additional options of sbatch, such as --partition=short
 };
 
 /// The batch script.
 std::string job_script(const JobArray& array);
 
-/// Submits the array and waits for its end. Where a task fails for good, an error with the end of what it
-/// said.
+/// Submit the array and wait for its end. If a task fails finally, the error contains the end of its output.
 Status run_job_array(const JobArray& array);
 
-/// How a line of a worker's begins that whoever submitted the array is to be told, too.
+/// Prefix of the output lines of a worker that are passed on to the process that submitted the array.
 inline constexpr std::string_view c_note = "note: ";
-/// Such lines of all tasks that ran, however the array ended.
+/// Such lines of all tasks that ran, also if the array failed.
 std::vector<std::string> notes_of(const JobArray& array);
 
 }  // namespace halfway::study

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The script of a job array, and the array, run by a shell in the place of Slurm. tb/slurm has a real one.
+// Tests of a job array's script, and of the array run by a shell instead of Slurm. tb/slurm runs it in a real
+// Slurm.
 #include "sim/study/slurm.hpp"
 
 #include <gmock/gmock.h>
@@ -72,7 +73,7 @@ class JobArrayTest : public ::testing::Test {
     ::setenv("PATH", (folder_->path().string() + ":" + path_).c_str(), 1);
   }
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
-  // Tasks 1, 4 and 5 of 8; $2 is the part.
+  // Run tasks 1, 4 and 5 of 8. $2 is the part.
   JobArray array(const std::string& script) const {
     return {.worker = {"sh", "-c", script, "worker"},
             .parts = 8,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands in for Slurm: sbatch --wait that runs tasks here, one behind the other, each anew while it asks for
-// that.
+// Replacement for Slurm: an `sbatch --wait` that runs the tasks one after the other on this machine and
+// repeats a task that requests requeueing.
 #pragma once
 
 #include <gtest/gtest.h>

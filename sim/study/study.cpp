@@ -24,7 +24,7 @@
 namespace halfway::study {
 namespace {
 
-// A whole frame of a large picture, and what it is compared by, takes gigabytes.
+// A whole frame of a large picture and its reference take gigabytes.
 constexpr unsigned c_most_gathering = 2;
 
 struct Range {
@@ -42,14 +42,14 @@ bool is_point(const Piece& piece) {
   return piece.kind == PieceKind::point || piece.kind == PieceKind::gathering;
 }
 
-// What came of a piece.
+// The result of a piece.
 struct Made {
-  std::optional<Record> record{};  // a point's, of which nothing is kept in memory but figures
-  std::size_t tiles = 0;           // drawn
+  std::optional<Record> record{};  // of a point; only figures stay in memory
+  std::size_t tiles = 0;           // tiles drawn
   std::vector<std::string> notes{};
 };
 
-// Where pieces are made, and lie when they are.
+// Makes pieces and finds those that are stored.
 class Bench {
  public:
   static Result<Bench> open(const StudySettings& settings) {
@@ -73,11 +73,11 @@ class Bench {
   const std::optional<Placements>& placements() const { return placements_; }
   std::size_t placement_count() const { return placements_ ? placements_->count() : 0; }
 
-  // A point's record; an error where it is damaged.
+  // A point's record; an error if it is damaged.
   Result<std::optional<Record>> find(const Piece& piece) const {
     return is_point(piece) ? kept_.find(point_of(piece)) : std::optional<Record>();
   }
-  // A tile is of no use any more where its points are there.
+  // A tile is also done when all its points are done.
   bool is_done(const Piece& piece) const {
     const DesignPoint& point = point_of(piece);
     if (!is_point(piece) && tiles_.has(point, piece.kind, piece.tile)) return true;
@@ -158,7 +158,7 @@ class Bench {
   std::unique_ptr<PictureShelf> shelf_;
 };
 
-// Those of the part.
+// Make this part's placements.
 Status place(const StudySettings& settings, const Bench& bench, Study& study) {
   const Range mine = part_of(bench.placement_count(), settings.part, settings.parts);
   const std::size_t count = mine.end - mine.begin;
@@ -177,13 +177,13 @@ Status place(const StudySettings& settings, const Bench& bench, Study& study) {
   });
 }
 
-// Those of the records that lack them.
+// Count the host instructions for the records that lack them.
 Status count_instructions(const StudySettings& settings, const Records& kept, std::vector<Record>& records) {
   std::vector<Record*> open;
   for (Record& record : records)
     if (in_hardware(record.point.method) && !record.measured.host_instructions) open.push_back(&record);
   if (settings.set_up.empty() || find_program("valgrind").empty()) return Ok{};
-  // Valgrind takes seconds to begin with.
+  // Batches, because starting Valgrind takes seconds.
   constexpr std::size_t c_batch = 16;
   const std::size_t batches = (open.size() + c_batch - 1) / c_batch;
   std::size_t done = 0;
@@ -286,8 +286,8 @@ Result<Study> run_study(const StudySettings& settings) {
                                      all.size() == settings.points.size() ? "points" : "points and tiles"));
     return Ok{};
   };
-  // What is put together of tiles comes when all that is drawn here is there. Of another part's it may not
-  // be: then that part, or a later run, does it.
+  // Assemble points from tiles after all tiles of this part are drawn. If tiles of another part are missing,
+  // that part or a later run assembles the point.
   std::vector<std::size_t> drawn, gathered;
   for (std::size_t at = 0; at < mine.size(); ++at)
     (mine[at].kind == PieceKind::gathering ? gathered : drawn).push_back(at);

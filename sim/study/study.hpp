@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A study: every point of a design space measured, and which of them are worth building.
+// A study measures every point of a design space and determines which are worth building.
 #pragma once
 
 #include <filesystem>
@@ -15,51 +15,51 @@
 namespace halfway::study {
 
 struct StudySettings {
-  std::string scene;  ///< as load_scene takes it
+  std::string scene;  ///< as for load_scene
   std::vector<DesignPoint> points;
-  std::filesystem::path out;  ///< records of all studies lie in out/points, tables in out
+  std::filesystem::path out;  ///< records of all studies are in out/points, tables in out
   unsigned threads = 1;
-  /// Pieces (pieces.hpp) that follow each other are cut into `parts`; measured is only this one's. All: part
-  /// 0 of 1.
+  /// The sequence of pieces (pieces.hpp) is cut into `parts`. Only part `part` is measured. Part 0 of 1: all.
   std::size_t part = 0, parts = 1;
   SimulatorFolders folders;
-  /// Drawable::hardware, where its placements are pieces of the study, too: cut into parts by themselves, as
-  /// each takes as long as many points.
+  /// Drawable::hardware, if its placements are pieces of the study too. They are cut into parts separately,
+  /// because each takes as long as many points.
   std::vector<DesignPoint> placed;
-  /// What host_instructions takes as its worker. Empty: they are not counted.
+  /// The worker for host_instructions. Empty: do not count instructions.
   std::vector<std::string> set_up;
-  /// Told what is done; points that were measured before count.
+  /// Called after each piece. Points measured earlier count as done.
   std::function<void(const std::string&)> on_progress = [](const std::string&) {};
-  /// Told at once which file was damaged, and what was made anew for it.
+  /// Called at once for each damaged file, with the file and the piece that is measured again.
   std::function<void(const std::string&)> on_note = [](const std::string&) {};
 };
 
 struct Study {
   Provenance provenance;
-  std::vector<Record> records;  ///< in the points' order; of the part alone, as far as they are there
-  std::size_t measured = 0;     ///< of these anew, in this run
+  /// in the order of the points; for one part: its points as far as they are measured
+  std::vector<Record> records;
+  std::size_t measured = 0;     ///< measured in this run
   std::size_t drawn_tiles = 0;  ///< in this run
-  std::size_t placements = 0;   ///< likewise
+  std::size_t placements = 0;   ///< made in this run
 };
 
-/// The points that can be drawn of the scene. What is left out is told: each reason once.
+/// The points of which the scene can be drawn. Each reason for omitting points is listed once.
 struct Drawable {
   std::vector<DesignPoint> points;
-  std::vector<DesignPoint> hardware;  ///< of these, one of each hardware
+  std::vector<DesignPoint> hardware;  ///< one of `points` for each hardware
   std::size_t left_out = 0;
   std::vector<std::string> reasons;
 };
 Drawable drawable(std::vector<DesignPoint> points, const std::string& scene, const SimulatorFolders& folders);
 
-/// For more parts than this there is no use: how many pieces there are of points, or of placements.
+/// Largest useful number of parts: the number of pieces or of placements.
 std::size_t most_parts(const StudySettings& settings);
 
-/// Numbers of the parts with pieces that were not measured before.
+/// The parts that have pieces without a stored result.
 Result<std::vector<std::size_t>> open_parts(const StudySettings& settings);
 
-/// Measures what was not measured before, on all threads. Each piece's record is written as it comes, so that
-/// a run that is broken off goes on where it was. The first piece that fails ends the study. Of a part, what
-/// has to be put together of tiles that are not there is left open.
+/// Measure all points without a stored result, on all threads. Each record is written as soon as it is
+/// complete, so that an interrupted run can be continued. The first failing piece ends the study. In a run of
+/// one part, points that need missing tiles of other parts are not assembled.
 Result<Study> run_study(const StudySettings& settings);
 
 }  // namespace halfway::study

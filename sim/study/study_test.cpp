@@ -53,7 +53,7 @@ class StudyTest : public ::testing::Test {
   }
   const Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
   StudySettings settings_;
-  mutable std::vector<std::string> notes_;  // of the last study
+  mutable std::vector<std::string> notes_;  // notes of the last study
 };
 
 TEST_F(StudyTest, MeasuresEachMethodAsWhatItIs) {
@@ -82,7 +82,7 @@ TEST_F(StudyTest, MeasuresEachMethodAsWhatItIs) {
 TEST_F(StudyTest, GoesOnWhereItWasBrokenOff) {
   const std::string first = table_of(study());
   EXPECT_EQ(study().measured, 0U);
-  // A point without its figures, and another without its frame.
+  // Remove one point's figures and another point's frame.
   const Provenance provenance = study().provenance;
   const auto lose = [&](std::size_t point, const char* ending) {
     return std::filesystem::remove(folder_->path() / "points" /
@@ -131,7 +131,7 @@ TEST_F(StudyTest, PartsAreTheWhole) {
   EXPECT_THAT(*open_parts(settings_), ::testing::ElementsAre(0U, 2U));
 }
 
-// The same figures as of the frame in one, but for the hardware's clocks.
+// Drawing in tiles gives the same figures as drawing the whole frame, except for the clocks of the hardware.
 class TiledStudyTest : public StudyTest {
  protected:
   void SetUp() override {
@@ -140,7 +140,7 @@ class TiledStudyTest : public StudyTest {
     whole_ = study();
     for (DesignPoint& point : settings_.points) point.tile = {37, 29};
   }
-  // Without what tells the two apart.
+  // All figures except those that differ for tiles.
   static std::string figures(Record record) {
     record.measured.cycles = 0;
     std::string text;
@@ -169,19 +169,19 @@ class TiledStudyTest : public StudyTest {
 TEST_F(TiledStudyTest, TilesAreTheWhole) {
   const Study tiled = study();
   EXPECT_EQ(tiled.measured, 4U);
-  EXPECT_EQ(tiled.drawn_tiles, 4U * 4U);  // the reference's, and of all but Phong's
+  EXPECT_EQ(tiled.drawn_tiles, 4U * 4U);  // tiles of the reference and of all methods except phong
   expect_whole(tiled);
   EXPECT_THAT(tiled.records[2].point.name(), HasSubstr("64x48 in tiles of 37x29"));
   EXPECT_THAT(table_of(tiled), HasSubstr(",4\n"));
   EXPECT_THAT(table_of(whole_), Not(HasSubstr(",4\n")));
 }
 
-// Of a study that was broken off before it had put anything together.
+// A study that was interrupted before any point was assembled.
 class BrokenOffStudyTest : public TiledStudyTest {
  protected:
   void SetUp() override {
     TiledStudyTest::SetUp();
-    // A point's tiles each; those of the reference, which the first part is, come last.
+    // Each part has a point's tiles. Part 0, with the reference's tiles, runs last.
     settings_.parts = settings_.points.size();
     for (settings_.part = settings_.parts; settings_.part-- > 0;) study();
     settings_.part = 0;
@@ -213,7 +213,7 @@ class BrokenOffStudyTest : public TiledStudyTest {
   std::string table_;
 };
 
-// A tile that is lost is drawn anew, and no other.
+// Only lost tiles are drawn again.
 TEST_F(BrokenOffStudyTest, GoesOnTileByTile) {
   EXPECT_TRUE(std::filesystem::remove(file(drawing_, "-tile-1.json")));
   EXPECT_TRUE(std::filesystem::remove(file(drawing_, "-tile-2-mask.png")));
@@ -221,7 +221,7 @@ TEST_F(BrokenOffStudyTest, GoesOnTileByTile) {
   expect_anew(3);
 }
 
-// Nobody misses the reference's, which are for points to come.
+// Drawings are removed after assembly. The reference's tiles stay for later points; losing them does no harm.
 TEST_F(BrokenOffStudyTest, LeavesOfTilesTheReferencesAlone) {
   expect_anew(0);
   std::size_t left = 0;
@@ -238,8 +238,8 @@ TEST_F(BrokenOffStudyTest, LeavesOfTilesTheReferencesAlone) {
   EXPECT_EQ(table_of(again), table_);
 }
 
-// Cut short, with a byte another, another tile's or no picture at all: the point that is put together of it
-// draws it anew.
+// A truncated tile, a changed byte, another tile or a file that is no picture: assembling the point draws the
+// tile again.
 TEST_F(BrokenOffStudyTest, DrawsADamagedTileAnew) {
   const auto cut = [](const std::filesystem::path& path) {
     const auto whole = read_file(path);
@@ -296,7 +296,7 @@ TEST_F(TiledStudyTest, PartsDrawTilesAndTheLastOneGathers) {
     }
     return measured;
   };
-  // Back to front: the reference comes last, and no point can be put together before.
+  // Run the parts backwards. The reference comes last, so no point can be assembled before.
   EXPECT_EQ(run_parts({1, 2, 3, 4}), 0U);
   EXPECT_THAT(*open_parts(settings_), ::testing::ElementsAre(0U, 1U, 2U, 3U, 4U));
   run_parts({0});
@@ -324,8 +324,7 @@ TEST_F(StudyTest, TellsThePointThatFails) {
   EXPECT_THAT(made.error().message, HasSubstr("version II"));
 }
 
-// Tables that the program was not built with, in RTL and golden model alike: measure() compares each
-// fragment.
+// Draw with table sizes that are not compiled in, in RTL and golden model. measure() compares each fragment.
 TEST_F(StudyTest, DrawsWithTablesOfAnySize) {
   settings_.points.clear();
   for (const auto size :
@@ -344,8 +343,8 @@ TEST_F(StudyTest, DrawsWithTablesOfAnySize) {
   EXPECT_EQ(usual.fragments, least.fragments);
 }
 
-// Word lengths that the program was not built with, in setup, golden model and RTL alike: 16 bits in all, 4
-// of them behind the point.
+// Draw with word lengths that are not compiled in, in setup, golden model and RTL: 16 bits with 4 fraction
+// bits.
 TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
   settings_.points = {
       {.method = Method::quadratic, .tessellation = 0.5, .size = {160, 120}},
@@ -362,7 +361,7 @@ TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
 
 TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
   const DesignPoint point{.method = Method::spherical, .tables = TableSize{5, 4}, .size = {160, 120}};
-  // What would be made stands there already, with one entry another.
+  // Change one entry of the cached tables that the study will use.
   const auto folder = tables::rtl_with_tables(true, {5, 4}, c_source, folder_->path());
   ASSERT_TRUE(folder) << folder.error().message;
   const std::filesystem::path package = *folder / "rtl/tables/cosine_pkg.vhd";
@@ -422,7 +421,7 @@ TEST_F(StudyTest, TheTableTellsTheFront) {
   EXPECT_THAT(lines[1], EndsWith(",,,,,,,,,,," + record_name(made.provenance, made.records[0].point) +
                                  ",,,,,,,,,,,,,,1"));
   EXPECT_THAT(lines[3], HasSubstr(",100,20,0,0,0,120,1,1."));
-  // The tools of what has figures by them.
+  // The line names the tools that made its figures.
   EXPECT_THAT(lines[1], HasSubstr(",\"" + made.provenance.tools + "\","));
   EXPECT_THAT(lines[3], HasSubstr(",\"" + made.provenance.tools + ", cells by Tool 1\","));
   const auto cycles = static_cast<double>(made.records[2].measured.cycles),
@@ -451,14 +450,14 @@ TEST_F(StudyTest, CountsTheHostsInstructions) {
   const auto of = [](const Record& record) { return record.measured.host_instructions; };
   ASSERT_TRUE(of(made.records[0]) && of(made.records[1]));
   EXPECT_GT(of(made.records[1]), of(made.records[0]));
-  // In the other's place: the same.
+  // The counts do not depend on the order of the points.
   const auto again =
       host_instructions(settings_.set_up, {points->at(1).name(), points->at(0).name()}, folder_->path());
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ((*again)->at(0), of(made.records[1]));
   EXPECT_EQ((*again)->at(1), of(made.records[0]));
   EXPECT_FALSE(host_instructions(settings_.set_up, {"no such point"}, folder_->path()));
-  // Kept with the record.
+  // The count is stored with the record.
   settings_.set_up.clear();
   EXPECT_EQ(of(study().records[1]), of(made.records[1]));
 }

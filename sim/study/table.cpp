@@ -14,7 +14,7 @@
 namespace halfway::study {
 namespace {
 
-// By record; software is neither on a front nor off it.
+// Indexed by record; std::nullopt for software.
 std::vector<std::optional<bool>> on_fronts(std::size_t records, std::span<const Market> markets) {
   std::vector<std::optional<bool>> on_front(records);
   for (const Market& market : markets) {
@@ -28,12 +28,12 @@ template <class Value>
 std::string text_of(const Value& value) {
   return fmt::format("{}", value);
 }
-// Empty where there is none.
+// Empty text for std::nullopt.
 template <class Value>
 std::string text_of(const std::optional<Value>& value, const char* format = "{}") {
   return value ? fmt::format(fmt::runtime(format), *value) : "";
 }
-// The member, where there is what has it.
+// The member's text; empty without an object.
 template <class Whole, class Part>
 std::string text_of(const std::optional<Whole>& whole, Part Whole::*part) {
   return whole ? text_of((*whole).*part) : "";
@@ -48,7 +48,7 @@ std::string ratio(std::uint64_t part, std::uint64_t whole) {
   return fmt::format("{:.6g}", static_cast<double>(part) / static_cast<double>(whole));
 }
 
-// A line's values by their columns' names.
+// A line's values with the names of their columns.
 using Line = std::vector<std::pair<std::string, std::string>>;
 
 Line line_of(const Provenance& provenance, const Record& record, const HardwareFigures* known,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A study as one table.
+// A study as a CSV table.
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@
 
 namespace halfway::study {
 
-/// One line a point, the names of the columns first. Columns are told in sim/studies/README.md; what is not
-/// known is empty. Whether a point is on its picture's front is worked out here, from `markets`.
+/// A header line with the names of the columns, then one line per point. sim/studies/README.md describes the
+/// columns. Unknown values are empty. The column for the Pareto front is computed from `markets`.
 std::string to_csv(const Provenance& provenance, std::span<const Record> records,
                    const HardwareTable& hardware, std::span<const Market> markets);
 

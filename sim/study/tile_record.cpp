@@ -26,13 +26,13 @@ constexpr const char* c_masks = "-mask.png";  // red: covered, green: in a highl
 constexpr const char* c_figures = ".json";    // written last
 constexpr std::array c_endings = {c_colours, c_masks, c_figures};
 
-// Whose figures they are.
+// Identifies the tile that figures belong to.
 Json label(const DesignPoint& point, PieceKind kind, std::size_t tile) {
   if (kind == PieceKind::reference_tile) return {{"picture", point.picture()}, {"tile", tile}};
   return {{"point", point.name()}, {"tile", tile}};
 }
 
-// With their names. Those of all tiles add up to the frame's.
+// Figures with their names. The sum over all tiles is the frame's figure.
 template <class Counts, class Visit>
 void for_each_count(Counts& d, const Visit& visit) {
   visit("fragments", d.fragments);
@@ -67,10 +67,10 @@ Status add_files(const std::filesystem::path& stem, const Frame& colours, const 
 struct TileFiles {
   Json figures{};
   Frame colours{}, masks{};
-  std::filesystem::path damaged{};  // the first file that is; empty: none
+  std::filesystem::path damaged{};  // the first damaged file; empty: none
 };
 
-// `label`: what the figures must hold.
+// Read a tile. `label` is the expected identity in the figures.
 Result<TileFiles> read_files(const std::filesystem::path& stem, FrameSize size, const Json& label) {
   TileFiles files;
   const std::filesystem::path figures = stem.string() + c_figures;
@@ -139,7 +139,7 @@ Status TileRecords::add_drawing(const DesignPoint& point, std::size_t tile, cons
 
 struct TileRecords::Whole {
   Frame colours, masks;
-  std::vector<Json> figures{};  // by tile
+  std::vector<Json> figures{};  // one per tile
 };
 
 Result<TileRecords::Whole> TileRecords::put_together(const DesignPoint& point, PieceKind kind,

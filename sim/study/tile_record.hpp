@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a study keeps of a tile: colours and masks as PNG, figures and checksums as JSON. The JSON file comes
-// last, and each is written whole or not at all. Those of a drawing go when the point is put together; those
-// of a reference are for whichever point of the picture comes next.
+// Stored results of a tile: colours and masks as PNG, figures and checksums as JSON. The JSON file is written
+// last, each file atomically. The files of a drawing are removed when its point is assembled. Those of a
+// reference stay for later points of the picture.
 #pragma once
 
 #include <cstddef>
@@ -18,28 +18,28 @@
 
 namespace halfway::study {
 
-/// Tiles of one study in a folder. What is not of its provenance is none of its.
+/// Tiles of one study in a folder. Tiles of another provenance are ignored.
 class TileRecords {
  public:
   TileRecords(std::filesystem::path folder, Provenance provenance)
       : folder_(std::move(folder)), provenance_(std::move(provenance)) {}
 
-  /// A tile by its number in DesignPoint::tiles: reference_tile, which points of one picture share, or tile,
-  /// of the point's own drawing.
+  /// True if a tile is stored. `tile` is an index of DesignPoint::tiles. `kind` is reference_tile, shared by
+  /// the points of a picture, or tile, of the point's own drawing.
   bool has(const DesignPoint& point, PieceKind kind, std::size_t tile) const;
   Status add_reference(const DesignPoint& point, std::size_t tile, const Reference& reference) const;
   Status add_drawing(const DesignPoint& point, std::size_t tile, const Drawing& drawing) const;
 
-  /// Of a point that is put together: nobody else reads them.
+  /// Remove the tiles of the drawing of an assembled point; no other point uses them.
   void remove_drawing(const DesignPoint& point) const;
 
-  /// All that the point is put together of is there.
+  /// True if all tiles for assembling the point are stored.
   bool complete(const DesignPoint& point) const;
-  /// Adds a tile, of which this file is damaged, anew.
+  /// Stores a tile again because the given file is damaged.
   using Redraw = std::function<Status(std::size_t tile, const std::filesystem::path& damaged)>;
-  /// The whole frame.
+  /// The reference of the whole frame.
   Result<Reference> reference(const DesignPoint& point, const Redraw& redraw) const;
-  /// The whole frame; figures are sums.
+  /// The drawing of the whole frame; figures are sums over the tiles.
   Result<Drawing> drawing(const DesignPoint& point, const Redraw& redraw) const;
 
  private:

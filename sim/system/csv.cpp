@@ -12,7 +12,7 @@
 namespace halfway {
 namespace {
 
-// The values of one line; none where a quote does not end.
+// The values of one line; std::nullopt where a quote is not closed.
 std::optional<std::vector<std::string>> values_of(std::string_view line) {
   std::vector<std::string> values(1);
   bool quoted = false;

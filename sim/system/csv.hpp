@@ -13,18 +13,18 @@ namespace halfway {
 
 struct Table {
   std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;  ///< each as long as `columns`
+  std::vector<std::vector<std::string>> rows;  ///< each row has as many values as `columns`
 
-  /// Empty where there is no such column.
+  /// Empty if the column does not exist.
   const std::string& text(std::size_t row, const std::string& column) const;
-  /// None where it is empty or no finite number.
+  /// std::nullopt if the value is empty or not a finite number.
   std::optional<double> number(std::size_t row, const std::string& column) const;
 };
 
-/// Values may stand between double quotes, and hold commas then; a quote in them is two. Lines end in one
-/// '\n' or '\r\n'. An error names file and line.
+/// A value may be enclosed in double quotes. It may then contain commas, and a quote in it is written twice.
+/// Lines end with '\n' or '\r\n'. An error names the file and the line.
 Result<Table> read_csv(const std::filesystem::path& path);
-/// What `read_csv` reads as the same table.
+/// Inverse of `read_csv`.
 std::string to_csv(const Table& table);
 
 }  // namespace halfway

@@ -24,7 +24,7 @@ Error cannot(ExitCode code, const std::filesystem::path& path, std::string_view 
   return {code, fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(error))};
 }
 
-// A full or failing disk is no fault of who named the file.
+// A full or failing disk is not an error of the input.
 ExitCode code_of(int error) {
   return error == ENOSPC || error == EDQUOT || error == EIO ? ExitCode::tool_failed : ExitCode::bad_input;
 }
@@ -43,12 +43,12 @@ int write_all(int descriptor, const char* bytes, std::size_t count) {
 }
 
 constexpr const char* kFolderPrefix = ".halfway-";
-// Between a temporary's making and its lock lies less.
+// Upper bound of the time between creating and locking a temporary file.
 constexpr time_t kYoungSeconds = 60;
-// A tool that found no room may have given some back as it ended.
+// A tool that ran out of disk space may have released some of it when it ended.
 constexpr unsigned long kLittleRoom = 4UL << 20;
 
-// Of the folder's entries whose names begin so: those that no process holds.
+// Remove the entries of `folder` that start with `prefix` and that no process has locked.
 void remove_stale(const std::filesystem::path& folder, const std::string& prefix) {
   std::error_code error;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
@@ -189,7 +189,7 @@ Status TemporaryFolder::move_to(const std::filesystem::path& target) {
     path_.clear();
     return Ok{};
   }
-  if (std::filesystem::is_directory(target)) return Ok{};  // another run built the same and was first
+  if (std::filesystem::is_directory(target)) return Ok{};  // another run built the same folder first
   return tool_failed(fmt::format("{}: cannot move the build here: {}", target.string(), error.message()));
 }
 
@@ -251,7 +251,7 @@ void LineWriter::append(std::string_view text) {
 
 Status LineWriter::commit() {
   flush();
-  // close tells of errors too: delayed allocation, quotas, network file systems.
+  // close reports errors too: delayed allocation, quotas, network file systems.
   if (::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) error_ = errno;
   if (error_ == 0 && ::rename(temporary_.c_str(), path_.c_str()) != 0) error_ = errno;
   if (error_ == 0) return Ok{};

@@ -40,7 +40,7 @@ TEST_F(File, ErrorsNameTheFileAndLeaveNothing) {
   ASSERT_FALSE(full);
   EXPECT_NE(full.error().message.find("/proc/halfway"), std::string::npos);
   EXPECT_EQ(full.error().code, ExitCode::bad_input);
-  // A folder stands where the file should be: the rename fails after everything was written.
+  // A folder has the name of the file, so the rename fails after everything was written.
   ASSERT_TRUE(make_folders(*this / "taken"));
   EXPECT_FALSE(write_file(*this / "taken", "content"));
   EXPECT_EQ(files(), 1U);
@@ -133,7 +133,7 @@ TEST_F(File, TemporaryFolderGoesUnlessMoved) {
   EXPECT_EQ(*read_file(*this / "kept/f"), "1");
 }
 
-// Old enough to be nobody's, were it not locked.
+// Make the file so old that it counts as abandoned unless it is locked.
 void age(const std::filesystem::path& path) {
   std::filesystem::last_write_time(path,
                                    std::filesystem::file_time_type::clock::now() - std::chrono::minutes(5));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One run at a time in a folder.
+// A lock that admits one run at a time to a folder.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 namespace halfway {
 
-/// Held until it goes, or its process does, however that ends.
+/// The lock is released when the object is destroyed or the process ends in any way.
 class FolderLock {
  public:
-  /// Waits while another run holds the folder; `on_wait` is called once if it must.
+  /// Wait while another run has the lock. `on_wait` is called once if waiting is necessary.
   static Result<FolderLock> take(const std::filesystem::path& folder, const std::function<void()>& on_wait);
   FolderLock(FolderLock&& other) noexcept : descriptor_(other.descriptor_) { other.descriptor_ = -1; }
   FolderLock& operator=(FolderLock&&) = delete;

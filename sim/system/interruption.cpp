@@ -12,11 +12,12 @@
 namespace halfway {
 namespace {
 
-// A file system may hang, or whoever reads a pipe.
+// A file system or the reader of a pipe may block for ever.
 constexpr std::chrono::seconds c_patience{2};
 
-// Global, for a handler has no other way to what it serves. Blocking the signals and waiting for them would
-// do without, but libraries have threads of their own before main, which take them.
+// Global, because a signal handler has no other access to its object. Blocking the signals and waiting for
+// them in a thread would avoid that, but libraries start threads before main, and those would receive the
+// signals.
 std::atomic<int> writer = -1;
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -32,7 +33,7 @@ void tell(int signal) {
 Interruption::Interruption(std::function<void()> tidy)
     : tidy_(std::move(tidy)), before_{{{SIGINT, {}}, {SIGTERM, {}}, {SIGHUP, {}}}} {
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) return;  // signals then end the process as ever
+  if (::pipe2(ends, O_CLOEXEC) != 0) return;  // without a pipe, signals keep their default action
   reader_ = ends[0];
   writer = ends[1];
   watcher_ = std::jthread([this] { watch(); });
@@ -66,7 +67,7 @@ void Interruption::watch() {
   tidy_();
   restore();
   ::raise(signal);
-  if (alone) gate_.unlock();  // a handler from before took it, and the process goes on
+  if (alone) gate_.unlock();  // an earlier handler took the signal, and the process continues
 }
 
 }  // namespace halfway

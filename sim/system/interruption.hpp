@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C between two outputs, never in one.
+// Delays Ctrl-C until the current output file is complete.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@
 
 namespace halfway {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP wait until nobody holds the gate (though not for ever), call
-/// `tidy`, and then end the process as they would have; those that are ignored stay so. One at a time in a
-/// process.
+/// During the object's life, SIGINT, SIGTERM and SIGHUP wait until the gate is free (with a time limit), call
+/// `tidy`, and then end the process with their usual status. Ignored signals stay ignored. At most one object
+/// per process.
 class Interruption {
  public:
   explicit Interruption(std::function<void()> tidy);
@@ -21,7 +21,7 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  /// Held by whoever writes what must be whole.
+  /// Hold the gate while writing output that must be complete.
   std::shared_lock<std::shared_timed_mutex> writing() { return std::shared_lock(gate_); }
 
  private:

@@ -12,7 +12,7 @@
 namespace halfway {
 namespace {
 
-// What stands in a file between `begin` and the next `end`, behind the first `key`.
+// The text between `begin` and the next `end`, after the first `key` in the file.
 std::string told(const char* file, std::string_view key, std::string_view begin, char end) {
   const auto text = read_file(file);
   const std::size_t at = text ? text->find(key) : std::string::npos;

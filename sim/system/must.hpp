@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors as exceptions, for long measurements that the first error ends: thrown by must(), caught in one
-// place.
+// Errors as exceptions, for long measurements that end at the first error. must() throws; one place catches.
 #pragma once
 
 #include <utility>
@@ -13,7 +12,7 @@ struct Failure {
   Error error;
 };
 
-/// The value; throws Failure where there is an error.
+/// Return the value, or throw Failure on an error.
 template <class T>
 T must(Result<T> result) {
   if (!result) throw Failure{result.error()};

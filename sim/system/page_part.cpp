@@ -8,7 +8,7 @@
 namespace halfway {
 namespace {
 
-// From behind the first comment's line to the second comment.
+// From the end of the first comment's line to the second comment.
 struct Place {
   std::size_t begin, end;
 };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of a page that a command writes, between two comments on lines of their own that a reader does not
-// see.
+// Parts of a page that a command writes. Two HTML comments, each on its own line, mark each part.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +11,13 @@
 
 namespace halfway {
 
-/// What stands between `<!-- NAME: ... -->` and `<!-- end of NAME -->`, blank lines at both ends left out.
+/// Return the text between `<!-- NAME: ... -->` and `<!-- end of NAME -->`, without blank lines at both ends.
 Result<std::string> page_part(std::string_view page, std::string_view name);
 
-/// The page with that part's text in place of what stands there.
+/// Return the page with the text of that part replaced.
 Result<std::string> with_page_part(std::string_view page, std::string_view name, std::string_view text);
 
-/// Writes what `rewritten` makes of the file's page over it; an error of either names the file.
+/// Replace the page in the file by `rewritten(page)`. An error of either names the file.
 Status rewrite_page(const std::filesystem::path& path,
                     const std::function<Result<std::string>(const std::string& page)>& rewritten);
 

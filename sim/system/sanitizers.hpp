@@ -3,8 +3,8 @@
 
 namespace halfway {
 
-/// Built with AddressSanitizer or ThreadSanitizer: terabytes of addresses are reserved, and Valgrind cannot
-/// run us. GCC tells of itself by these names, Clang by __has_feature.
+/// True if built with AddressSanitizer or ThreadSanitizer. These reserve terabytes of addresses and do not
+/// run under Valgrind. GCC defines these macros; Clang has __has_feature.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool c_sanitized = true;
 #elif defined(__has_feature)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time that work takes: by the clock, and of the processor, which does not grow where threads share a core.
+// Elapsed time and processor time. Processor time does not grow when threads share a core.
 #pragma once
 
 #include <sys/resource.h>
@@ -17,15 +17,16 @@ inline double seconds_since(std::chrono::steady_clock::time_point start) {
   return seconds_between(start, std::chrono::steady_clock::now());
 }
 
-/// Processor seconds that the calling thread has taken since it began.
+/// Processor seconds of the calling thread since its start.
 inline double thread_seconds() {
   timespec now{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// A stretch of work in processor seconds and by the clock. Who divides it into short pieces takes their
-/// times by the clock, and of the processor's as large a share: to ask for that takes most of a microsecond.
+/// A measured interval: processor seconds and elapsed seconds. Reading the processor clock takes almost a
+/// microsecond. To divide an interval into short pieces, measure each piece in elapsed time and assign it the
+/// same share of the processor time.
 class Stretch {
  public:
   using Clock = std::chrono::steady_clock;
@@ -47,7 +48,7 @@ class Stretch {
     return work();
   }
   double processor() const { return processor_; }
-  /// Of the processor's time, what a piece took by the clock.
+  /// Processor seconds of a piece that took `clock_seconds` of elapsed time.
   double share(double clock_seconds) const {
     return clock_ > 0.0 ? processor_ * clock_seconds / clock_ : 0.0;
   }
@@ -56,14 +57,14 @@ class Stretch {
   double processor_ = 0.0, clock_ = 0.0;
 };
 
-/// Of all this process's threads together.
+/// Processor seconds of all threads of this process.
 inline double process_seconds() {
   timespec now{};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Of all programs that this process has run to their ends.
+/// Processor seconds of all child processes that have ended.
 inline double children_seconds() {
   rusage usage{};
   ::getrusage(RUSAGE_CHILDREN, &usage);

@@ -34,7 +34,7 @@ Result<std::string> ask(const std::vector<std::string>& question, const std::str
 
 namespace {
 
-/// What -march=native stands for: a cache on a shared disk may be seen from another machine.
+/// The processor that -march=native selects. Another machine may read a cache on a shared disk.
 std::string processor() {
   const auto text = read_file("/proc/cpuinfo");
   if (!text) return "unknown";

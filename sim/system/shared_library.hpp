@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What generated C++ needs on its way to a cached shared library: tools, the compiler, the library itself.
+// Build and load generated C++ as a cached shared library: tools, compiler, library.
 #pragma once
 
 #include <filesystem>
@@ -16,19 +16,20 @@ namespace halfway {
 inline constexpr const char* kInstallVerilator = "apt-get install verilator";
 inline constexpr const char* kInstallCompiler = "apt-get install clang";
 
-/// What the command printed; an error with all of it where the command failed. `doing` begins the message.
+/// Return the output of the command. If the command fails, the error contains all of its output and starts
+/// with `doing`.
 Result<std::string> run_tool(Command command, const std::string& install, const std::string& doing);
-/// A short answer, such as a version, without its line's end.
+/// Return a short answer, such as a version, without the line end.
 Result<std::string> ask(const std::vector<std::string>& question, const std::string& install);
 
 struct Compiler {
   std::string program;
   std::string identity;  ///< program, version and this processor: what -march=native depends on
-  /// `wanted`, or, where that is empty, clang++ where it is installed, else g++.
+  /// `wanted`. If empty: clang++ if installed, otherwise g++.
   static Result<Compiler> find(const std::string& wanted);
 };
 
-/// A loaded shared library; unloaded when the last copy goes.
+/// A loaded shared library; unloaded when the last copy is destroyed.
 class SharedLibrary {
  public:
   static Result<SharedLibrary> load(const std::filesystem::path& file);
@@ -39,7 +40,8 @@ class SharedLibrary {
     if (found == nullptr) return tool_failed(file_.string() + ": has no function " + name);
     return reinterpret_cast<Function*>(found);
   }
-  /// Points each to the function of the name behind it: bind(run, "halfway_run", drain, "halfway_drain").
+  /// Set each pointer to the function whose name follows it: bind(run, "halfway_run", drain,
+  /// "halfway_drain").
   template <class Function, class... More>
   Status bind(Function*& pointer, const char* name, More&&... more) const {
     const auto found = function<Function>(name);

@@ -21,9 +21,9 @@ extern char** environ;
 namespace halfway {
 namespace {
 
-constexpr std::size_t kKeptOutput = 32U << 10;  ///< of the beginning, and as much of the end
+constexpr std::size_t kKeptOutput = 32U << 10;  ///< bytes kept of the start and of the end
 
-/// Keeps the beginning and the end of what a program says.
+/// Keeps the start and the end of a program's output.
 class KeptOutput {
  public:
   void add(const char* bytes, std::size_t count) {
@@ -77,20 +77,20 @@ struct Start {
   const char* program;
   char* const* arguments;
   char* const* variables;
-  const char* folder;  ///< empty: ours
+  const char* folder;  ///< empty: the caller's folder
   int input, output, error;
-  int failure;  ///< is told errno where the program does not start
+  int failure;  ///< receives errno if the program does not start
   pid_t parent;
 };
 
-/// The child; -1 where there is none. Until it is the other program it runs in our memory while we wait, and
-/// so calls nothing but the system. A copy of our tables of pages would take longer than many a program runs,
-/// and each page that we write then again.
+/// Return the child's process id, or -1. Until exec, the child runs in the parent's memory while the parent
+/// waits (vfork), so it may only make system calls. A fork would copy the page tables and later every written
+/// page; that takes longer than many of the programs run.
 [[gnu::noinline]] pid_t start(const Start& s) {
   const pid_t child = ::vfork();
   if (child != 0) return child;
-  ::setpgid(0, 0);                     // its own group: a timeout ends all that it started
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing runs on after us, whatever kills us
+  ::setpgid(0, 0);                     // own process group: a timeout ends the child and all its children
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // the child ends when this process ends for any reason
   const bool orphan = ::getppid() != s.parent;
   sigset_t none;
   sigemptyset(&none);
@@ -155,7 +155,7 @@ Result<ProcessEnd> run_process(const Command& command, const std::string& instal
   Descriptor input(command.standard_input);
   std::filesystem::path program = find_program(name);
   if (program.empty()) return tool_failed(fmt::format("{}: not found; install it with: {}", name, install));
-  // The child may change its folder first, and what PATH gave may be relative.
+  // The child may change its folder first, and PATH may contain relative paths.
   program = std::filesystem::absolute(program);
 
   Pipe output, failure;
@@ -172,7 +172,7 @@ Result<ProcessEnd> run_process(const Command& command, const std::string& instal
     }
   }
 
-  // All that needs memory is made before the child: another thread may hold the allocator's lock.
+  // Allocate all memory before the child starts: another thread may hold the allocator's lock.
   std::vector<char*> arguments;
   for (const std::string& argument : command.arguments)
     arguments.push_back(const_cast<char*>(argument.c_str()));
@@ -229,7 +229,7 @@ Result<ProcessEnd> run_process(const Command& command, const std::string& instal
       if (exited) exit_time = Clock::now();
     }
     const Clock::time_point now = Clock::now();
-    // A grandchild may hold the pipe: after the child's end it gets no more than a second.
+    // A grandchild may keep the pipe open. Wait at most one second after the child's end.
     if (exited && now - exit_time > std::chrono::seconds(1)) break;
     if (!exited && !end.timed_out && command.timeout && now - start >= *command.timeout) {
       end.timed_out = true;
@@ -240,7 +240,8 @@ Result<ProcessEnd> run_process(const Command& command, const std::string& instal
       next_poll = now + command.poll_interval;
     }
     pollfd watched{output.reader.get(), POLLIN, 0};
-    // The pipe's end wakes us at once, mostly as the child ends; one that closed it early is looked for.
+    // Closing the pipe wakes poll at once, usually when the child ends. Poll for the end of a child that
+    // closed it earlier.
     const int wait_ms = open ? (exited ? 10 : 20) : 1;
     const int ready = ::poll(open ? &watched : nullptr, open ? 1 : 0, wait_ms);
     if (open && ready > 0) {
@@ -249,7 +250,7 @@ Result<ProcessEnd> run_process(const Command& command, const std::string& instal
       if (got == 0 || (got < 0 && errno != EINTR)) open = false;
     }
   }
-  ::kill(-child, SIGKILL);  // what it may have left behind in its group
+  ::kill(-child, SIGKILL);  // remaining processes of its group
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   if (WIFEXITED(status)) end.exit_status = WEXITSTATUS(status);
   end.output = kept.text();

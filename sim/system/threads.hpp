@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work shared by threads, whose faults come out in the one that asked for it.
+// Work shared by threads. Exceptions of the threads are rethrown in the calling thread.
 #pragma once
 
 #include <algorithm>
@@ -17,9 +17,9 @@
 
 namespace halfway {
 
-/// Runs `work` on `threads` threads, this one among them, to the end of all. Where the system gives fewer, on
-/// those. The first exception of any thread is thrown here; out of memory in a thread would else end the
-/// process.
+/// Run `work` on `threads` threads, including the calling thread, and wait for all. If the system starts
+/// fewer threads, use those. Rethrow the first exception of any thread here; otherwise running out of memory
+/// in a thread would end the process.
 template <class Work>
 void work_on_threads(unsigned threads, const Work& work) {
   std::mutex mutex;
@@ -43,7 +43,7 @@ void work_on_threads(unsigned threads, const Work& work) {
   if (first) std::rethrow_exception(first);
 }
 
-/// Calls work on `threads` threads at most; 0: as many as the machine has.
+/// Call work on at most `threads` threads; 0: one per processor of the machine.
 inline auto on_threads(unsigned threads) {
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
   return [threads](unsigned most, const std::function<void()>& work) {
@@ -51,9 +51,9 @@ inline auto on_threads(unsigned threads) {
   };
 }
 
-/// Calls `each`, which returns a Status, with every number below `count` once, in order, on `threads` threads
-/// at most. Behind a failure or an exception none is begun; what is returned then is the failure of the
-/// smallest number that fails, whatever the threads.
+/// Call `each`, which returns a Status, once with every number below `count`, in order, on at most `threads`
+/// threads. After a failure or an exception no further call starts. The result is the failure of the smallest
+/// failing number, independent of the number of threads.
 template <class Each>
 Status for_each_on_threads(unsigned threads, std::size_t count, const Each& each) {
   std::atomic<std::size_t> next = 0;

@@ -54,7 +54,7 @@ TEST(ForEachOnThreads, TheSmallestNumbersFailureComesOutAndNoneIsBegunBehindIt) 
   ASSERT_FALSE(alone);
   EXPECT_EQ(alone.error().message, "10");
   EXPECT_EQ(ran, 11);
-  // The second fails at once, the first after it.
+  // The second call fails at once; the first fails after it.
   std::atomic<bool> second_failed = false;
   const Status both = for_each_on_threads(2, 2, [&](std::size_t i) -> Status {
     if (i == 0)

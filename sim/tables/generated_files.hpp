@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every generated file, and whether a checkout's are as the generator writes them.
+// All generated files, and the check that a checkout's copies are current.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +11,13 @@
 namespace halfway::tables {
 
 struct GeneratedFile {
-  std::filesystem::path path;  ///< from the checkout's root
+  std::filesystem::path path;  ///< relative to the checkout's root
   std::string text;
 };
 
 std::vector<GeneratedFile> generated_files(const CosineSizes& sizes);
 
-/// The first line in which the checkout's file is not the generated one; 0 where there is none.
+/// The first line where the checkout's file differs from the generated one; 0 if the files are equal.
 std::size_t first_different_line(const std::filesystem::path& checkout, const GeneratedFile& file);
 
 /// "path:line: not what the generator writes; ..." for each file of the checkout that differs.

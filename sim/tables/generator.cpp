@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway tables` as a program of its own, for `make tables`: it is built from nothing that it writes.
+// `halfway tables` as a separate program, for `make tables`. It does not depend on the files that it writes.
 #include "sim/program/program.hpp"
 
 int main(int argc, char** argv) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway tables`: writes what is generated, or checks that it is as it would be written.
+// `halfway tables`: writes the generated files, or checks that the checkout's copies are current.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct TablesOptions {
   std::optional<std::string> address_bits, data_bits;
 };
 
-/// The same, checked.
+/// The parsed and checked settings.
 struct TablesSettings {
   bool exact;
   tables::CosineSizes sizes;
@@ -65,7 +65,7 @@ void print_tables(const tables::CosineSizes& sizes) {
   }
 }
 
-// What a cos^2 table of each size would do: the spherical paper's figure 11 in figures.
+// Print the errors of a cos^2 table of each size: the data of the spherical paper's figure 11.
 void print_errors(bool exact) {
   constexpr int c_fewest = 4, c_most = 10;
   fmt::print("cos^2, preset {}: largest error in 1/255\n{:>12}", exact ? "exact" : "published", "data bits");
@@ -82,7 +82,7 @@ void print_errors(bool exact) {
   }
 }
 
-// Sizes that the checkout has tables of, and will not have.
+// Sizes of the checkout's tables that this run would remove.
 std::vector<tables::CosineSize> sizes_that_go(const std::filesystem::path& checkout, bool exact,
                                               const tables::CosineSizes& sizes) {
   const auto present = read_file(checkout / "rtl" / "tables" / "cosine_pkg.vhd");

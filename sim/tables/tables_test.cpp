@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway tables` as a user meets it: what it writes, what it says, and what it finds changed.
+// Tests of the command `halfway tables`: files written, messages, and changes found.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -115,7 +115,7 @@ TEST_F(TablesCommand, ASizeIsForOnePresetAndStandsOnce) {
       << again.output;
 }
 
-// A preset has one size that was asked for: what another run made goes, and not in silence.
+// A preset has exactly one explicitly requested size. Tables of an earlier run are removed, with a message.
 TEST_F(TablesCommand, SaysWhichTablesGo) {
   EXPECT_THAT(run({}).output, Not(HasSubstr(" go; "))) << "there were none";
   EXPECT_THAT(run({}).output, Not(HasSubstr(" go; ")));
@@ -168,7 +168,7 @@ TEST_F(TablesCommand, ErrorsBySizeAreAReportOnly) {
   EXPECT_FALSE(std::filesystem::exists(source()));
 }
 
-// One entry off by one, at the start, in the middle and at the end of the tables, in either file.
+// Change one entry by one at the start, in the middle and at the end of the tables, in each file.
 TEST_F(TablesCommand, AFlippedEntryIsCaughtAndLocated) {
   for (const std::string file : {"rtl/tables/cosine_pkg.vhd", "model/golden/cosine_tables.hpp"}) {
     ASSERT_EQ(run({}).exit_code, 0);
@@ -189,7 +189,7 @@ TEST_F(TablesCommand, AFlippedEntryIsCaughtAndLocated) {
                   HasSubstr(file + ":" + std::to_string(line) + ": not what the generator writes"));
       EXPECT_TRUE(text_of(file.c_str()) == changed) << file << ": --check wrote";
     }
-    // And one entry lost at the file's end.
+    // Also remove the last character of the file.
     ASSERT_TRUE(write_file(source() / file, whole.substr(0, whole.size() - 1)));
     EXPECT_EQ(run({"--check"}).exit_code, 1) << file;
   }
