@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/illumination/ambient_term.vhd.
+// Golden model of rtl/illumination/ambient_term.vhd.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace halfway::golden {
 
-/// Terms of a token, red, green, blue, or the first alone.
+/// Terms of a token: red, green, blue; or one channel.
 using Terms = std::array<std::uint64_t, 3>;
 
 template <class Preset>
@@ -29,7 +29,7 @@ class AmbientTerm {
       terms[c] = reflected_term<Preset>(token.ambient[c], light.intensity[c], c_full_weight<Preset>);
     return terms;
   }
-  /// Makes N a direction, and the view vector where there is one.
+  /// Normalizes N, and the view vector if there is one.
   void ready_vectors(Token& token) const {
     if (config_.normalize && token.normalize) {
       token.normal = normalized<Preset, Preset::c_vector_bits>(token.normal);

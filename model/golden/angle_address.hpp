@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/arithmetic/angle_address.vhd.
+// Golden model of rtl/arithmetic/angle_address.vhd.
 #pragma once
 
 #include <type_traits>
@@ -8,7 +8,7 @@
 
 namespace halfway::golden {
 
-/// An angle's place in a table of 2^address_bits entries; in_range: not past the bell's ends.
+/// The cell of an angle in a table of 2^address_bits entries. in_range: the angle is within the bell.
 struct AngleAddress {
   std::uint32_t address;
   bool in_range;
@@ -19,7 +19,7 @@ constexpr AngleAddress angle_address(Word<Preset::c_angle_bits> angle, int addre
   if constexpr (std::is_same_v<Preset, Exact>) {
     constexpr int c_fraction = Preset::c_angle_fraction_bits;
     const std::int64_t sign = angle.value() >> 63;
-    // Ones' complement: -v falls into the cell of the same entry as v.
+    // Use the ones' complement for negative angles: v and -1 - v then have the same cell.
     const auto magnitude = static_cast<std::uint64_t>(angle.value() ^ sign);
     return {static_cast<std::uint32_t>(low_bits(magnitude, c_fraction) >> (c_fraction - address_bits)),
             magnitude >> c_fraction == 0};

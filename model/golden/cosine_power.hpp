@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/illumination/cosine_power.vhd.
+// Golden model of rtl/illumination/cosine_power.vhd.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/tables/cosine_rom.vhd: the table as it was generated.
+// Golden model of rtl/tables/cosine_rom.vhd: reads the generated table.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@ namespace halfway::golden {
 
 class CosineRom {
  public:
-  /// No table: every sample is zero.
+  /// Without a table every sample is zero.
   CosineRom() = default;
-  /// One of the tables, which must outlive it.
+  /// Uses one of the tables, which must outlive this object.
   CosineRom(bool exact, int power, int address_bits, int data_bits,
             std::span<const CosineTable> tables = c_cosine_tables) {
     const auto table = std::find_if(tables.begin(), tables.end(), [&](const auto& t) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/stream/delay_line.vhd.
+// Golden model of rtl/stream/delay_line.vhd.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,15 @@ class DelayLine {
  public:
   explicit DelayLine(int depth) : words_(static_cast<std::size_t>(depth)) {}
 
-  /// A clock with enable.
+  /// One clock with enable.
   void step(T word) {
     words_[next_] = std::move(word);
     next_ = (next_ + 1) % words_.size();
     ++taken_;
   }
-  /// The word that was taken `depth` clocks before the next one.
+  /// The word stored `depth` clocks before the next one.
   const T& delayed() const { return words_[next_]; }
-  /// `depth` words were taken: delayed() is one of them.
+  /// True if at least `depth` words were stored: delayed() is then one of them.
   bool full() const { return taken_ >= words_.size(); }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/illumination/diffuse_slice.vhd: what each stage gives for the pixel at which the angle stands.
+// Golden model of rtl/illumination/diffuse_slice.vhd: the output of each stage for the current angle's pixel.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ class DiffuseSlice {
   using Angle = Word<Preset::c_angle_bits>;
 
   DiffuseSlice() = default;
-  /// `channels` 0: no factor and no table, only the light's horizon.
+  /// `channels` 0: without factor and table, only the light's horizon.
   DiffuseSlice(int channels, int address_bits, int data_bits,
                std::span<const CosineTable> tables = c_cosine_tables)
       : channels_(channels), address_bits_(address_bits) {
     if (channels > 0) rom_ = CosineRom(std::is_same_v<Preset, Exact>, 1, address_bits, data_bits, tables);
   }
 
-  /// `low`: where the slice's part begins in the line record.
+  /// `low`: lowest bit of the slice's block in the line record.
   void span_load(std::span<const std::uint32_t> record, int low) {
     using At = typename Preset::diffuse_header_at;
     angle_.load(Angle::from_bits(get_bits(record, At::angle, low)));
@@ -38,12 +38,12 @@ class DiffuseSlice {
   void span_step() { angle_.step(slope_); }
 
   Angle angle() const { return angle_.value(); }
-  /// The pixel is not behind the light's horizon.
+  /// True if the light is above the pixel's horizon.
   bool lit() const { return place().in_range; }
   std::uint32_t sample() const { return rom_.sample(place().address); }
   std::uint64_t product(int channel) const { return product(channel, gated_sample()); }
 
-  /// What the multipliers take instead of the sample: zero past the bell's ends.
+  /// Input of the multipliers: the sample, or zero outside the bell.
   std::uint32_t gated_sample() const {
     const AngleAddress at = place();
     return at.in_range ? rom_.sample(at.address) : 0;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/arithmetic/dot_product.vhd.
+// Golden model of rtl/arithmetic/dot_product.vhd.
 #pragma once
 
 #include "golden/vector_shift.hpp"
 
 namespace halfway::golden {
 
-/// Exact; with components of B bits it has 2 B + 1.
+/// Exact. With components of B bits the result has 2 B + 1 bits.
 constexpr std::int64_t dot_product(const Axes& a, const Axes& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/raster/edge_pair.vhd.
+// Golden model of rtl/raster/edge_pair.vhd.
 #pragma once
 
 #include <type_traits>
@@ -33,7 +33,7 @@ class EdgePair {
       stop_edge_.load(edge_x(init, At::upper_x), edge_x(init, At::upper_slope));
     }
   }
-  /// Goes to the next line; with `section_change` the stop edge goes to its lower section.
+  /// Advances to the next line. With `section_change` the stop edge continues with its lower section.
   void step(bool section_change) {
     start_edge_.step();
     if constexpr (c_exact) {
@@ -45,7 +45,7 @@ class EdgePair {
     stop_edge_.step();
   }
 
-  /// First pixel of the line, and the one after its last.
+  /// First pixel of the line, and the pixel after its last.
   SpanXWord start() const { return start_edge_.x(); }
   SpanXWord stop() const {
     if constexpr (c_exact)
@@ -63,7 +63,7 @@ class EdgePair {
   bool empty() const {
     return backward_ ? start().value() <= stop().value() : start().value() >= stop().value();
   }
-  /// Of the line, where it is not empty.
+  /// Number of pixels of the line. The line must not be empty.
   std::size_t pixels() const {
     const std::int64_t from = start().value(), to = stop().value();
     return static_cast<std::size_t>(backward_ ? from - to : to - from);
@@ -80,7 +80,7 @@ class EdgePair {
   }
 
   StepEdge start_edge_, stop_edge_;
-  EdgeStart lower_;  ///< the stop edge's lower section
+  EdgeStart lower_;  ///< lower section of the stop edge
   bool backward_ = false;
 };
 

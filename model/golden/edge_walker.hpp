@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/raster/edge_walker.vhd.
+// Golden model of rtl/raster/edge_walker.vhd.
 #pragma once
 
 #include "golden/word.hpp"
@@ -8,10 +8,10 @@ namespace halfway::golden {
 
 using SpanXWord = Word<Exact::c_span_x_bits>;
 
-/// What an edge_walker loads: a section of an init vector's edge.
+/// Input of a load: one section of an edge of an init vector.
 struct EdgeStart {
   SpanXWord x, quotient;
-  std::uint32_t remainder = 0, divisor = 0, error = 0;  ///< edge_error
+  std::uint32_t remainder = 0, divisor = 0, error = 0;  ///< error: in format edge_error
   bool carry = false;
 };
 
@@ -40,7 +40,7 @@ class EdgeWalker {
   using Reduced = Word<Exact::c_edge_error_bits + 1>;
   SpanXWord x_, quotient_;
   std::uint32_t remainder_ = 0, rise_ = 0;
-  Reduced reduced_;  ///< the error less the remainder; before the first step the error
+  Reduced reduced_;  ///< before the first step the error, then the error minus the remainder
   bool carry_ = false;
 };
 

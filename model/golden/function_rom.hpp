@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/tables/function_rom.vhd: the table as it was generated.
+// Golden model of rtl/tables/function_rom.vhd: reads the generated table.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace halfway::golden {
 
-/// slope: the magnitude of the next value's difference from this one; 0 where the table is not interpolated.
+/// slope: the absolute difference to the next value; 0 if the table is not interpolated.
 struct FunctionSample {
   std::uint32_t value, slope;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/illumination/half_vector.vhd.
+// Golden model of rtl/illumination/half_vector.vhd.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace halfway::golden {
 
-/// Bits of the sum: of two directions, or, as printed, of a direction and an offset.
+/// Bits of the sum: of two directions (exact), or of a direction and an offset (published, as printed).
 template <class Preset>
 inline constexpr int c_half_sum_bits =
     Preset::c_light_shift_bits > 0 ? Preset::c_direction_bits + 1 : Preset::c_offset_bits;
 
-/// H: the unit vector in the direction of `to_light` and `to_eye` together. Preset exact: L and V. Preset
-/// published: the way to the light, not normalized, and E.
+/// H: the unit vector in the direction of `to_light` plus `to_eye`. Preset exact: L and V. Preset published:
+/// the vector to the light, not normalized, and E.
 template <class Preset>
 constexpr Axes half_vector(const Axes& to_light, const Axes& to_eye) {
   using Sum = Word<c_half_sum_bits<Preset>>;

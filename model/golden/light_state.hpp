@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/illumination/light_state.vhd: what a processor keeps from token to token.
+// Golden model of rtl/illumination/light_state.vhd: a processor's state between tokens.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ namespace halfway::golden {
 template <class Preset>
 class LightState {
  public:
-  /// `shadows`: it counts the shadow volumes of light `number`.
+  /// `shadows`: count the shadow volumes of light `number`.
   LightState(bool shadows, std::uint32_t number) : number_(number) {
     if (shadows) counter_.emplace();
   }
 
-  /// A token that is no object.
+  /// Takes a token that is not an object.
   void take(const ShadingToken<Preset>& token) {
     const bool own = token.light_number == number_;
     switch (token.command) {
@@ -41,14 +41,14 @@ class LightState {
         return;
     }
   }
-  /// An object: whether no shadow volume is around it. Its column starts again.
+  /// Takes an object. Returns true if no shadow volume contains it. Resets the counter of its column.
   bool take_object(const ShadingToken<Preset>& token) {
     return !counter_ || counter_->take(token.x, light_.around_eye);
   }
 
   bool defined() const { return defined_; }
   const ShadingLight& light() const { return light_; }
-  /// A count of shadow volumes left its format, since the beginning.
+  /// True if a count of shadow volumes has exceeded its format since the start.
   bool fault() const { return counter_ && counter_->fault(); }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/illumination/light_term.vhd: the diffuse or the specular term of one light.
+// Golden model of rtl/illumination/light_term.vhd: the diffuse or the specular term of one light.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace halfway::golden {
 
-/// Kinds of processors: which term one adds.
+/// The term that a processor adds.
 enum class Term { ambient = 0, diffuse = 1, specular = 2 };
 
 template <class Preset>
@@ -23,14 +23,14 @@ class LightTerm {
  public:
   using Token = ShadingToken<Preset>;
 
-  /// What the processor of light `light` can do: its light can be positional, a spot.
+  /// The number of the light determines whether it can be positional or a spot.
   LightTerm(const ProcessorsConfig& config, Term term, int light)
       : config_(config),
         term_(term),
         positional_(light > config.directional),
         spots_(light > config.directional + config.positional) {}
 
-  /// k I (N.A)^x; in preset exact none of a highlight whose light is not above the horizon.
+  /// k I (N.A)^x. In preset exact there is no highlight if the light is not above the horizon.
   std::optional<Terms> terms(const Token& token, const ShadingLight& light) const {
     const bool diffuse = term_ == Term::diffuse;
     const Axes normal = direction(token), l = to_light(token, light);
@@ -51,7 +51,7 @@ class LightTerm {
 
   bool at_place(const ShadingLight& light) const { return positional_ && light.positional; }
 
-  /// N as the ambient processor made it.
+  /// N as output by the ambient processor.
   static Axes direction(const Token& token) {
     Axes normal;
     for (std::size_t i = 0; i < normal.size(); ++i)

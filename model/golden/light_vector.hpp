@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/illumination/light_vector.vhd.
+// Golden model of rtl/illumination/light_vector.vhd.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace halfway::golden {
 
-/// The way from a point to a light, in format offset. Preset exact: `place` times `distance`, and `point`
-/// shifted right.
+/// The vector from a point to a light, in format offset. Preset exact: `place` times `distance`, minus
+/// `point` shifted right.
 template <class Preset>
 constexpr Axes light_offset(const Axes& place, std::uint32_t shift, const Axes& point,
                             std::int64_t distance) {
@@ -28,7 +28,7 @@ constexpr Axes light_offset(const Axes& place, std::uint32_t shift, const Axes& 
   return offset;
 }
 
-/// L: of a directional light, the direction that `place` holds.
+/// L. For a directional light it is the direction in `place`.
 template <class Preset>
 constexpr Axes light_vector(bool positional, const Axes& place, std::uint32_t shift, const Axes& point,
                             std::int64_t distance) {

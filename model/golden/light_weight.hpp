@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/illumination/light_weight.vhd.
+// Golden model of rtl/illumination/light_weight.vhd.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace halfway::golden {
 
-/// `cosine`, a weight, times the share of a spot's cone.
+/// `cosine`, in format weight, times the factor of a spot's cone.
 template <class Preset>
 constexpr std::uint32_t light_weight(std::uint32_t cosine, const Axes& to_light, const Axes& axis,
                                      std::int64_t outer, std::uint32_t slope) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/raster/line_counter.vhd.
+// Golden model of rtl/raster/line_counter.vhd.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace halfway::golden {
 
-/// The lines of one triangle, without the clock.
+/// The lines of one triangle, without timing.
 template <class Preset>
 class LineCounter {
  public:
@@ -23,7 +23,7 @@ class LineCounter {
     remaining_ = word(At::upper_lines);
     if constexpr (std::is_same_v<Preset, Exact>) lower_lines_ = word(At::lower_lines);
   }
-  /// Goes to the next line. Sums wrap: no upper lines count as 2**bits.
+  /// Advances to the next line. Sums wrap: zero upper lines count as 2**bits.
   void step() {
     y_ = static_cast<std::uint32_t>(low_bits(y_ + 1, Preset::c_pixel_y_bits));
     if (section_last()) {
@@ -36,14 +36,14 @@ class LineCounter {
 
   std::uint32_t triangle() const { return triangle_; }
   std::uint32_t y() const { return y_; }
-  /// The line is the last of its section, or of the triangle.
+  /// True for the last line of a section, or of the triangle.
   bool section_last() const { return remaining_ == 1; }
   bool last() const { return section_last() && lower_lines_ == 0; }
 
  private:
   std::uint32_t triangle_ = 0, y_ = 0;
   std::uint32_t remaining_ = 0;    ///< lines of this section, this line included
-  std::uint32_t lower_lines_ = 0;  ///< lines of the section that follows
+  std::uint32_t lower_lines_ = 0;  ///< lines of the next section
 };
 
 }  // namespace halfway::golden

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/interpolation/line_interpolator.vhd.
+// Golden model of rtl/interpolation/line_interpolator.vhd.
 #pragma once
 
 #include "golden/word.hpp"

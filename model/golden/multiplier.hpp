@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/arithmetic/multiplier.vhd.
+// Golden model of rtl/arithmetic/multiplier.vhd.
 #pragma once
 
 #include <cstdint>

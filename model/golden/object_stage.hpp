@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/raster/object_stage.vhd: which object is nearest at each pixel of a line.
+// Golden model of rtl/raster/object_stage.vhd: selects the nearest object at each pixel of a line.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ class ObjectStage {
   ObjectStage() : entries_(std::size_t{1} << Exact::c_pixel_x_bits) {}
 
   void clear() { std::fill(entries_.begin(), entries_.end(), Entry{}); }
-  /// Whether a token leaves the stage; `command` is of the host's: depth, shadow, or draw.
+  /// True if the stage outputs the token. `command` is one of the host's: depth, shadow or draw.
   bool passes(Command command, std::uint32_t x, std::uint32_t z, std::uint32_t triangle) {
     Entry& kept = entries_[x];
     if (command == Command::depth) {

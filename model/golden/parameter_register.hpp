@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/stream/parameter_register.vhd.
+// Golden model of rtl/stream/parameter_register.vhd.
 #pragma once
 
 namespace halfway::golden {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/interpolation/part_interpolator.vhd.
+// Golden model of rtl/interpolation/part_interpolator.vhd.
 #pragma once
 
 #include "golden/word.hpp"
 
 namespace halfway::golden {
 
-/// Of a clock load or step.
+/// In one clock call either load or step.
 template <int W>
 class PartInterpolator {
  public:
@@ -18,7 +18,7 @@ class PartInterpolator {
     const Word<W> before = value_;
     value_ += increment;
     if (carry) value_ += Word<W>::from_bits(1);
-    // Less than it was, or as much though a carry came to an increment of ones.
+    // The sum wrapped: it is smaller, or it is equal because of a carry and an increment of all ones.
     carry_ = value_.bits() < before.bits() || (carry && value_.bits() == before.bits());
   }
   Word<W> value() const { return value_; }

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/interpolation/plane_interpolator.vhd.
+// Golden model of rtl/interpolation/plane_interpolator.vhd.
 #pragma once
 
 #include "golden/line_interpolator.hpp"
 
 namespace halfway::golden {
 
-/// Of a clock line_load or line_step, and span_load or span_step: the RTL takes no load in a step's clock.
+/// In one clock call line_load or line_step, and span_load or span_step: the RTL never loads and steps in the
+/// same clock.
 template <int W>
 class PlaneInterpolator {
  public:
   using Value = Word<W>;
 
-  /// Where edges do not carry, de1 is as de0.
+  /// If edges have no carry, set de1 equal to de0.
   void line_load(Value value, Value dx, Value de0, Value de1) {
     along_edge_.load(value);
     dx_ = dx;

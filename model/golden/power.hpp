@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/arithmetic/power.vhd.
+// Golden model of rtl/arithmetic/power.vhd.
 #pragma once
 
 #include <algorithm>
@@ -15,20 +15,21 @@ class Power {
  public:
   static constexpr int c_base_fraction = Preset::c_direction_fraction_bits;
   static constexpr std::uint32_t c_one = std::uint32_t{1} << c_base_fraction;
-  /// Of -log2(base): a whole part for the leading zeros, and the table's fraction.
+  /// Fraction bits of -log2(base). Its whole part is the number of leading zeros, its fraction comes from the
+  /// table.
   static constexpr int c_loss_fraction = function_table<Preset>(Function::logarithm).fraction_bits;
-  /// Of exponent times loss, where 2^-it is taken.
+  /// Fraction bits of exponent times -log2(base), from which the power of two is computed.
   static constexpr int c_decay_fraction = std::min(c_loss_fraction, 20);
 
-  /// base^exponent in format weight; base in direction's fraction bits, 0 to 1, exponent in its format. 0 for
-  /// base 0.
+  /// base^exponent in format weight. `base` is from 0 to 1 with the fraction bits of direction; `exponent` is
+  /// in format exponent. 0 for base 0.
   static constexpr std::uint32_t power(std::uint32_t base, std::uint32_t exponent) {
     if (base == 0) return 0;
     return decayed((std::uint64_t{loss(base)} * exponent) >>
                    (c_loss_fraction + Preset::c_exponent_fraction_bits - c_decay_fraction));
   }
 
-  /// -log2(base), base above 0.
+  /// -log2(base), base > 0.
   static constexpr std::uint32_t loss(std::uint32_t base) {
     if (base == c_one) return 0;
     const auto lead = static_cast<std::uint32_t>(c_base_fraction + 1 - std::bit_width(base));
@@ -38,7 +39,7 @@ class Power {
 
   /// 2^-exponent in format weight, rounded half up.
   static constexpr std::uint32_t decayed(std::uint64_t exponent) {
-    // Not the entry at the first cell's middle.
+    // The table's first entry is the value at the middle of its cell, not at 0.
     if (exponent == 0) return std::uint32_t{1} << Preset::c_weight_fraction_bits;
     const std::uint64_t whole = exponent >> c_decay_fraction;
     const auto rest = static_cast<std::uint32_t>(low_bits(exponent, c_decay_fraction));
@@ -48,12 +49,12 @@ class Power {
   }
 
  private:
-  // Bits that the shifted decay keeps below a weight.
+  // Guard bits of the shifted value below a weight.
   static constexpr int c_guard = 2;
   static constexpr int c_guard_below =
       Preset::c_weight_fraction_bits + c_guard - function_table<Preset>(Function::decay).fraction_bits;
 
-  // The upper bits of `position` choose the cell; with a table that has slopes the others go along it.
+  // The upper bits of `position` select the cell. With slopes the other bits interpolate in it.
   static constexpr std::uint32_t interpolated(Function function, std::uint32_t position, int position_bits,
                                               int sign) {
     const FunctionTable& table = function_table<Preset>(function);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How near the power and the spot's share come to base^exponent and to the cubic, in long double; the bounds
-// are those that the headers of rtl/ state.
+// Compares the power with base^exponent, and the spot's factor with its cubic, in long double. The bounds are
+// those stated in the headers in rtl/.
 #include "golden/power.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ long double power_error(std::uint32_t base, std::uint32_t exponent) {
          std::pow(c, m);
 }
 
-// 2^-15 and m 2^-23: far within half a step of 255 and m 2^-19, which is what a cosine's own error asks for.
+// 2^-15 and m 2^-23: much less than half a step of 255 and m 2^-19, the error caused by the cosine itself.
 TEST(Power, ExactForExponentsFrom1To8191) {
   using P = Power<Exact>;
   std::mt19937_64 random(1);
@@ -31,7 +31,7 @@ TEST(Power, ExactForExponentsFrom1To8191) {
     for (int i = 0; i < 250; ++i) {
       const std::uint32_t exponent = (m << Exact::c_exponent_fraction_bits) +
                                      (m < 8191 ? static_cast<std::uint32_t>(random() & 255) : 0);
-      // Up to where the power has come down to 2^-12, and anywhere.
+      // Bases whose power is at least 2^-12, and arbitrary bases.
       const auto below = static_cast<std::uint32_t>(random() % P::c_one);
       const std::uint32_t base =
           P::c_one - (i % 4 == 0 ? below : static_cast<std::uint32_t>(below / (1 + m / 8)));
@@ -53,7 +53,7 @@ TEST(Power, ExactOverAllBases) {
   }
 }
 
-// A power never rises where its base falls: no rings about a highlight.
+// The power is monotonic in its base: no rings around a highlight.
 TEST(Power, RisesWithItsBase) {
   for (const std::uint32_t m : {1U, 5U, 50U, 500U}) {
     for (std::uint32_t base = 1; base <= Power<Published>::c_one; ++base)
@@ -64,7 +64,7 @@ TEST(Power, RisesWithItsBase) {
   }
 }
 
-// Cells of 1/64 of a power of two: the paper's kind of table, and what it does to sharp highlights.
+// Cells of 1/64 of a power of two: the kind of table in the paper, and its errors in sharp highlights.
 TEST(Power, WhatPublishedMeasures) {
   for (const auto& [m, expected] :
        {std::pair{1U, 1.99}, {10U, 9.81}, {50U, 45.04}, {100U, 83.12}, {500U, 213.47}}) {
@@ -87,7 +87,7 @@ void expect_spot(double bound, int whole_bits = 12) {
         static_cast<std::uint32_t>(1 + (random() % ((1ULL << slope_bits) - 1) >> random() % slope_bits));
     const auto outer = static_cast<std::int64_t>(random() % (2ULL << c_fraction)) - (1LL << c_fraction);
     const long double s = std::ldexp(static_cast<long double>(slope), -Preset::c_spot_slope_fraction_bits);
-    // A little outside the outer edge, to a little inside the inner one.
+    // From slightly outside the outer edge to slightly inside the inner edge.
     const long double wanted = (static_cast<long double>(random() % 1'000'000) / 800'000 - 0.1L) / s;
     const auto over = static_cast<std::int64_t>(std::ldexp(std::min(wanted, 2.0L), 2 * c_fraction));
     const std::int64_t sum = -(outer * (std::int64_t{1} << c_fraction)) - over;
@@ -108,11 +108,12 @@ void expect_spot(double bound, int whole_bits = 12) {
   EXPECT_GT(largest, 0.6L * bound);
 }
 
-// t is cut by up to a step, over by up to 2^-28, the share's slope is 3/2 at most, and its end is rounded.
+// Truncation of t is at most one step, that of `over` at most 2^-28. The cubic's slope is at most 3/2, and
+// its result is rounded.
 TEST(SpotCone, IsTheCubic) {
   expect_spot<Exact>(std::ldexp(3.5, -16));
   expect_spot<Published>(std::ldexp(2.0, -8));
-  // Steeper.
+  // Steeper edges.
   constexpr int c_steepest = Exact::c_spot_slope_bits - Exact::c_spot_slope_fraction_bits;
   expect_spot<Exact>(std::ldexp(3.5, -16) + std::ldexp(1.5, c_steepest - 28), c_steepest);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/shaders/processors_pkg.vhd: what of the shading processors is there, and where the blocks lie
-// in their flat vectors.
+// Golden model of rtl/shaders/processors_pkg.vhd: the configuration of the shading processors, and the
+// positions of the blocks in their flat vectors.
 #pragma once
 
 #include <algorithm>
@@ -14,19 +14,19 @@ namespace halfway::golden {
 /// The processors shader's generics.
 struct ProcessorsConfig {
   int channels = 3;
-  /// Lights of each kind: numbers 1 to directional, then positional ones, then spots.
+  /// Number of lights of each kind. Numbering: 1 to directional, then positional lights, then spots.
   int directional = 0, positional = 0, spots = 0;
   bool diffuse = true, specular = true;  ///< each light has a processor for it
   bool normalize = true;                 ///< the ambient processor can normalize N
   bool shadows = false;
 
   constexpr int lights() const { return directional + positional + spots; }
-  /// In the pipeline: ambient, and for each light a diffuse and a specular one.
+  /// Number of processors in the pipeline: ambient, and for each light a diffuse and a specular one.
   constexpr int processors() const { return 1 + lights() * ((diffuse ? 1 : 0) + (specular ? 1 : 0)); }
 };
 
-/// Of the host's vectors, and of tokens. In tokens the first three carry an object to shade and say where it
-/// lies: at another pixel than the one before, at the same, on another line.
+/// Commands of the host's vectors and of tokens. In tokens the first three carry an object to shade and tell
+/// its position relative to the previous object: at another pixel, at the same pixel, on another line.
 enum class Command : std::uint32_t {
   new_pixel = 0,
   new_object = 1,
@@ -36,7 +36,8 @@ enum class Command : std::uint32_t {
   redefine = 5,
   remove = 6,  ///< delete
   shadow = 7,
-  // Of the host alone: a triangle to be shaded, and one of which the object stage only keeps the depths.
+  // Only from the host: a triangle to be shaded, and a triangle of which the object stage keeps only the
+  // depths.
   draw = 0,
   depth = 1,
 };
@@ -50,22 +51,22 @@ class ProcessorsLayout {
 
   explicit constexpr ProcessorsLayout(const ProcessorsConfig& config) : c_(config) {}
 
-  /// P is interpolated: the surface point (preset published), or the view ray through the pixel (exact).
+  /// True if P is interpolated: the surface point (published), or the view ray through the pixel (exact).
   constexpr bool has_place() const { return c_.positional + c_.spots > 0 || has_view(); }
-  /// 1/w is: with it the view ray becomes a point.
+  /// True if 1/w is interpolated. It scales the view ray to a point.
   constexpr bool has_distance() const { return c_exact && c_.positional + c_.spots > 0; }
-  /// The ambient processor makes the unit vector to the eye.
+  /// True if the ambient processor computes the unit vector to the eye.
   constexpr bool has_view() const { return c_exact && c_.specular && c_.lights() > 0; }
-  /// In a vector that draws.
+  /// Number of planes in a vector that draws.
   constexpr int planes() const { return c_axes * (has_place() ? 2 : 1) + (has_distance() ? 1 : 0); }
 
-  // Lowest bits of the blocks of a host's vector. The walk is that of preset exact in either.
+  // Lowest bits of the blocks of a host's vector. Both presets use the walk of preset exact.
   static constexpr int walk_low() { return Preset::c_request_header_bits; }
   static constexpr int plane_low(int plane) {
     return walk_low() + Exact::c_init_header_bits + plane * Preset::c_plane_header_bits;
   }
   constexpr int init_material_low() const { return plane_low(planes()); }
-  // Behind the request, in the host's vector and in a token.
+  // After the request, in the host's vector and in a token.
   static constexpr int light_axes_low() { return Preset::c_request_header_bits; }
   static constexpr int light_axis_low(int axis) {
     return light_axes_low() + Preset::c_light_axes_header_bits + axis * Preset::c_light_axes_channel_bits;
@@ -77,7 +78,7 @@ class ProcessorsLayout {
     return std::max(light_colour_low(c_.channels), init_material_low() + material_bits());
   }
 
-  // Within a material.
+  // Positions within a material.
   static constexpr int exponent_low() { return 0; }
   constexpr int ambient_low(int channel) const {
     return (c_.specular ? Preset::c_exponent_bits : 0) + channel * Preset::c_coefficient_bits;
@@ -88,8 +89,8 @@ class ProcessorsLayout {
   }
   constexpr int material_bits() const { return specular_low(c_.specular ? c_.channels : 0); }
 
-  // Lowest bits of the blocks of a token. N is a vector up to the ambient processor, a direction (its sign
-  // extended) behind it.
+  // Lowest bits of the blocks of a token. Before the ambient processor N is a vector, after it a direction
+  // (sign extended).
   static constexpr int normal_low(int axis) {
     return Preset::c_pixel_header_bits + axis * Preset::c_vector_bits;
   }

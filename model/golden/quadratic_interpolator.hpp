@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/interpolation/quadratic_interpolator.vhd.
+// Golden model of rtl/interpolation/quadratic_interpolator.vhd.
 #pragma once
 
 #include <type_traits>
@@ -8,7 +8,8 @@
 
 namespace halfway::golden {
 
-/// Of a clock line_load or line_step, and span_load or span_step: the RTL takes no load in a step's clock.
+/// In one clock call line_load or line_step, and span_load or span_step: the RTL never loads and steps in the
+/// same clock.
 template <class Preset>
 class QuadraticInterpolator {
  public:
@@ -16,7 +17,7 @@ class QuadraticInterpolator {
   using At = typename Preset::init_channel_at;
   static constexpr bool c_carries = std::is_same_v<Preset, Exact>;
 
-  /// `block_low`: where the channel's block begins in the init vector.
+  /// `block_low`: lowest bit of the channel's block in the init vector.
   void line_load(std::span<const std::uint32_t> init, int block_low) {
     const auto word = [&](const Field& field) { return Value::from_bits(get_bits(init, field, block_low)); };
     value_along_edge_.load(word(At::value));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quadratic paper's own trace, and forward differences against the polynomial that they step along.
+// Tests the quadratic paper's own trace, and compares the forward differences with their polynomial.
 #include "golden/quadratic_interpolator.hpp"
 
 #include <gtest/gtest.h>
@@ -52,12 +52,12 @@ TEST(QuadraticInterpolator, ReproducesThePublishedTrace) {
   }
 }
 
-// I(x, y) = a + bx + cy + dx^2 + exy + fy^2 with whole coefficients, all modulo 2^W, along an edge of step
-// (q, 1) or (q + 1, 1), spans to either side: the words are the polynomial's, whatever wraps.
+// I(x, y) = a + bx + cy + dx^2 + exy + fy^2 with integer coefficients, all modulo 2^W, along an edge of step
+// (q, 1) or (q + 1, 1), with spans in both directions: the words equal the polynomial even where they wrap.
 TEST(QuadraticInterpolator, FollowsAPolynomialModuloTheWordsWidth) {
   std::mt19937_64 random(3);
   using At = Exact::init_channel_at;
-  constexpr int c_block_low = 77;  // blocks begin anywhere
+  constexpr int c_block_low = 77;  // a block may start at any bit
   for (int round = 0; round < 300; ++round) {
     std::array<std::uint64_t, 6> k;
     for (std::uint64_t& coefficient : k) coefficient = random();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/shaders/quadratic_shader.vhd: init vectors to fragments, in the order that the hardware emits
-// them.
+// Golden model of rtl/shaders/quadratic_shader.vhd: converts init vectors to fragments, in the hardware's
+// order.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ class QuadraticShader {
   static constexpr int c_init_bits = Preset::c_init_header_bits + Channels * Preset::c_init_channel_bits;
   static constexpr std::size_t c_init_words = (c_init_bits + 31) / 32;
   static constexpr int init_bits() { return c_init_bits; }
-  /// Vectors that make a triangle.
+  /// Number of vectors of a triangle.
   static constexpr std::size_t group(std::span<const std::uint32_t>) { return 1; }
 
   /// Draws one init vector of c_init_words words. Calls emit(fragment) for each covered pixel,
@@ -38,14 +38,14 @@ class QuadraticShader {
   }
 
   const TriangleWalker<Preset>& walker() const { return walker_; }
-  /// As the vector loads it.
+  /// The triangle walker after it loaded the vector.
   static TriangleWalker<Preset> walker_of(std::span<const std::uint32_t> init) {
     TriangleWalker<Preset> walker;
     walker.line_load(init);
     return walker;
   }
 
-  // The registers, for a watch.
+  // Registers, for callbacks.
   const ZInterpolator<Preset>& depth() const { return depth_; }
   const QuadraticInterpolator<Preset>& channel(int c) const { return channel_[static_cast<std::size_t>(c)]; }
 
@@ -92,7 +92,7 @@ class QuadraticShader {
             .green = colour(1),
             .blue = colour(2)};
   }
-  /// With one channel, grey: all colours are that channel's.
+  /// With one channel (grey) all colours are equal.
   std::uint8_t colour(std::size_t channel) const {
     return static_cast<std::uint8_t>(
         saturate<Preset::c_intensity_bits, Preset::c_intensity_fraction_bits, Preset::c_colour_bits>(

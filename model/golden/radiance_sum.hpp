@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/illumination/radiance_sum.vhd.
+// Golden model of rtl/illumination/radiance_sum.vhd.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace halfway::golden {
 
-/// I_in and the term of one channel, limited to the largest value.
+/// I_in plus the term of one channel, limited to the largest value.
 template <class Preset>
 constexpr std::uint32_t radiance_sum(std::uint32_t radiance, std::uint64_t term) {
   constexpr std::uint64_t c_largest = low_bits(~std::uint64_t{0}, Preset::c_radiance_bits);

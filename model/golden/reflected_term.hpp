@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/illumination/reflected_term.vhd.
+// Golden model of rtl/illumination/reflected_term.vhd.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr std::uint64_t reflected_term(std::uint32_t k, std::uint32_t intensity,
   return std::min(static_cast<std::uint64_t>(round_half_up(product, c_drop)), c_largest) * weight;
 }
 
-/// The weight of an ambient term.
+/// The weight of an ambient term, which is 1.
 template <class Preset>
 inline constexpr std::uint32_t c_full_weight = 1U << Preset::c_weight_fraction_bits;
 

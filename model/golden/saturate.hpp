@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/arithmetic/saturate.vhd.
+// Golden model of rtl/arithmetic/saturate.vhd.
 #pragma once
 
 #include "golden/word.hpp"

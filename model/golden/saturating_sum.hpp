@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/arithmetic/saturating_sum.vhd.
+// Golden model of rtl/arithmetic/saturating_sum.vhd.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace halfway::golden {
 
-/// Unsigned terms, added one by one; the sum is exact.
+/// A sum of unsigned terms, added one by one. The sum is exact.
 class SaturatingSum {
  public:
   constexpr void add(std::uint64_t term) { sum_ += term; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/shaders/shading_pipeline.vhd: the ambient processor, then those of light 1, of light 2 and so
-// on; tokens run through all of them in order.
+// Golden model of rtl/shaders/shading_pipeline.vhd: the ambient processor, then the processors of light 1, of
+// light 2 and so on. Tokens pass all of them in order.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ class ShadingPipeline {
     }
   }
 
-  /// Makes of `token` what comes out behind the last processor: true where it does, an object. Loads and
-  /// shadow polygons do not. watch(index, token) sees the token behind each processor.
+  /// Changes `token` to the output of the last processor. Returns true if there is an output: objects have
+  /// one, loads and shadow polygons do not. Calls watch(index, token) after each processor.
   template <class Watch>
   bool process(Token& token, Watch&& watch) {
     for (std::size_t i = 0; i < processors_.size(); ++i) {

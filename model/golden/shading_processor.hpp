@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/illumination/shading_processor.vhd and unrolled_shading_processor.vhd, which give the same
+// Golden model of rtl/illumination/shading_processor.vhd and unrolled_shading_processor.vhd, which have equal
 // results: one term of the illumination model, I_out = I_in + k I (N.A)^x, token by token.
 #pragma once
 
@@ -20,7 +20,7 @@ class ShadingProcessor {
  public:
   using Token = ShadingToken<Preset>;
 
-  /// `light`: the number of its light; 0 is the ambient one's.
+  /// `light`: number of the light; 0 for the ambient processor.
   ShadingProcessor(const ProcessorsConfig& config, Term term, int light)
       : config_(config),
         term_(term),
@@ -28,7 +28,7 @@ class ShadingProcessor {
         ambient_term_(config),
         light_term_(config, term, light) {}
 
-  /// Makes of `token` what leaves the processor.
+  /// Changes `token` to the processor's output.
   void process(Token& token) {
     if (!token.is_object()) {
       state_.take(token);
@@ -42,14 +42,14 @@ class ShadingProcessor {
     else if (const auto terms = light_term_.terms(token, state_.light()))
       add(token, *terms);
   }
-  /// The same on a token's flat words.
+  /// The same on the flat words of a token.
   void process(std::span<std::uint32_t> words) {
     Token token = Token::decode(config_, words);
     process(token);
     if (token.is_object()) token.encode(config_, words);
   }
 
-  /// A count of shadow volumes left its format, since the beginning.
+  /// True if a count of shadow volumes has exceeded its format since the start.
   bool fault() const { return state_.fault(); }
 
  private:

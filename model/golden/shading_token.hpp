@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the shading processors hand on, field by field; flat words only at the borders.
+// The tokens between shading processors as separate fields. Flat words are used only at the interfaces.
 #pragma once
 
 #include <array>
@@ -12,32 +12,32 @@
 
 namespace halfway::golden {
 
-/// Unsigned words of one format: red, green, blue, or the first alone.
+/// Unsigned words of one format: red, green, blue; or one channel.
 using Channels = std::array<std::uint32_t, 3>;
 
-/// What a processor's registers hold of its light, in view space; the formats are those of light_axes and
+/// A processor's registers for its light, in view space. The formats are those of light_axes and
 /// light_colour.
 struct ShadingLight {
   bool positional = false, spot = false;
-  std::uint32_t shift = 0;  ///< of the places of surfaces, exact
+  std::uint32_t shift = 0;  ///< of the surfaces' places, exact
   std::int64_t outer = 0;
   std::uint32_t slope = 0;
-  int around_eye = 0;  ///< shadow volumes that hold the eye
+  int around_eye = 0;  ///< number of shadow volumes around the eye
   Axes place{};        ///< or direction to the light
   Axes axis{};
   Axes half{};  ///< published
   Channels intensity{};
 };
 
-/// Processors_pkg has the layout. Of the flat words of a token that loads only the light counts; of a shadow
-/// polygon's only the pixel.
+/// The layout is in processors_pkg. Of a load's flat words only the light is used, of a shadow polygon's only
+/// the pixel.
 template <class Preset>
 struct ShadingToken {
   Command command = Command::new_pixel;
-  std::uint32_t light_number = 0;  ///< of the light that is loaded or that casts the shadow
+  std::uint32_t light_number = 0;  ///< of the light to load or of the light that casts the shadow
   bool opens = false, normalize = false;
   std::uint32_t triangle = 0, y = 0, x = 0, z = 0;
-  Axes normal{};  ///< a vector up to the ambient processor, a direction behind it
+  Axes normal{};  ///< a vector before the ambient processor, a direction after it
   Axes place{};   ///< P, or the view ray
   std::int64_t distance = 0;
   Axes view{};
@@ -72,7 +72,7 @@ struct ShadingToken {
     return token;
   }
 
-  /// Writes this token's fields and leaves all other bits as they are.
+  /// Writes this token's fields and keeps all other bits.
   void encode(const ProcessorsConfig& config, std::span<std::uint32_t> words) const {
     const ProcessorsLayout<Preset> layout(config);
     set_bits(words, At::command, static_cast<std::uint32_t>(command));
@@ -91,7 +91,7 @@ struct ShadingToken {
     });
   }
 
-  /// The light of a vector of the host, or of a token, that defines it.
+  /// The light defined by a host's vector or by a token.
   static ShadingLight decode_light(const ProcessorsConfig& config, std::span<const std::uint32_t> words) {
     ShadingLight light;
     for_each_light_word(config, light,
@@ -120,7 +120,7 @@ struct ShadingToken {
       value = static_cast<T>(raw);
   }
 
-  // use(word, lowest bit, bits) for every word of an object behind its header.
+  // Calls use(word, lowest bit, bits) for every word of an object after its header.
   template <class Use>
   void for_each_word(const ProcessorsConfig& config, const ProcessorsLayout<Preset>& layout, Use&& use) {
     visit(*this, config, layout, use);

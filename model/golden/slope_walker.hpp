@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/raster/slope_walker.vhd.
+// Golden model of rtl/raster/slope_walker.vhd.
 #pragma once
 
 #include "golden/edge_walker.hpp"

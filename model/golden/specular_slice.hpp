@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/illumination/specular_slice.vhd: what each stage gives for the pixel at which the angle stands.
+// Golden model of rtl/illumination/specular_slice.vhd: the output of each stage for the current angle's
+// pixel.
 #pragma once
 
 #include <array>
@@ -19,19 +20,19 @@ class SpecularSlice {
   using Angle = Word<Preset::c_angle_bits>;
 
   SpecularSlice() = default;
-  /// Bit i of `powers`: the table of cosine to the power 2^i is there.
+  /// Bit i of `powers`: the table of cosine to the power 2^i exists.
   SpecularSlice(int channels, unsigned powers, int address_bits, int data_bits,
                 std::span<const CosineTable> tables = c_cosine_tables)
       : channels_(channels), address_bits_(address_bits) {
     for (std::size_t i = 0; i < roms_.size(); ++i)
       if ((powers >> i & 1U) != 0)
         roms_[i] = CosineRom(std::is_same_v<Preset, Exact>, 1 << i, address_bits, data_bits, tables);
-    // With one table there is nothing to select.
+    // With one table no selection is needed.
     selects_ = std::popcount(powers) != 1;
     if (!selects_) selected_ = roms_[static_cast<std::size_t>(std::countr_zero(powers))];
   }
 
-  /// `low`: where the slice's part begins in the line record.
+  /// `low`: lowest bit of the slice's block in the line record.
   void span_load(std::span<const std::uint32_t> record, int low) {
     using At = typename Preset::specular_header_at;
     angle_.load(Angle::from_bits(get_bits(record, At::angle, low)));
@@ -50,12 +51,12 @@ class SpecularSlice {
   void span_step() { angle_.step(slope_); }
 
   Angle angle() const { return angle_.value(); }
-  /// Not past the bell's ends and, `lit`, not behind the light's horizon.
+  /// True if the angle is within the bell and, given by `lit`, the light is above the horizon.
   bool in_range(bool lit) const { return lit && place().in_range; }
   std::uint32_t sample() const { return selected_.sample(place().address); }
   std::uint64_t product(int channel, bool lit) const { return product(channel, gated_sample(lit)); }
 
-  /// What the multipliers take instead of the sample: zero where not in_range.
+  /// Input of the multipliers: the sample, or zero if not in_range.
   std::uint32_t gated_sample(bool lit) const {
     const AngleAddress at = place();
     return lit && at.in_range ? selected_.sample(at.address) : 0;

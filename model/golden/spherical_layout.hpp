@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/shaders/spherical_pkg.vhd: where a light's parts lie in a line record.
+// Golden model of rtl/shaders/spherical_pkg.vhd: positions of a light's parts in a line record.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace halfway::golden {
 struct SphericalConfig {
   int channels = 3, lights = 1;
   bool diffuse = true, specular = true;
-  int highlight_channels = 3;  ///< 1: every highlight is grey, one multiplier a light does for all channels
-  unsigned powers = 2;         ///< bit i: the table of cosine to the power 2^i is there
+  int highlight_channels = 3;  ///< 1: every highlight is grey; one multiplier per light serves all channels
+  unsigned powers = 2;         ///< bit i: the table of cosine to the power 2^i exists
   int address_bits = 0, data_bits = 0;
   std::span<const CosineTable> tables =
-      c_cosine_tables;  ///< there is one of this size; they outlive a shader
+      c_cosine_tables;  ///< must contain a table of this size and outlive the shader
 };
 
 template <class Preset>
@@ -29,14 +29,15 @@ class SphericalLayout {
 
   explicit constexpr SphericalLayout(const SphericalConfig& config) : config_(config) {}
 
-  /// The light's diffuse angle is needed: for its cosine, or as the horizon that ends the highlight.
+  /// True if the light's diffuse angle is needed: for its cosine, or for the horizon at which the highlight
+  /// ends.
   constexpr bool has_diffuse_part() const { return config_.diffuse || (config_.specular && c_exact); }
-  /// Colours that a light's diffuse part has a factor for.
+  /// Number of colours with a diffuse factor.
   constexpr int diffuse_channels() const { return config_.diffuse ? config_.channels : 0; }
 
   constexpr int diffuse_low(int light) const { return light * light_bits(); }
   constexpr int specular_low(int light) const { return diffuse_low(light) + diffuse_bits(); }
-  /// 0: no line records follow a triangle's header.
+  /// If 0, no line records follow a triangle's header.
   constexpr int record_bits() const { return config_.lights * light_bits(); }
 
   constexpr int ambient_low(int channel) const {

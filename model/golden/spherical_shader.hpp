@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/shaders/spherical_shader.vhd: a triangle's header and line records to fragments, in the order
-// that the hardware emits them.
+// Golden model of rtl/shaders/spherical_shader.vhd: converts a triangle's header and line records to
+// fragments, in the hardware's order.
 #pragma once
 
 #include <array>
@@ -37,11 +37,11 @@ class SphericalShader {
   int init_bits() const { return layout_.init_bits(); }
   std::size_t init_words() const { return words_of(init_bits()); }
 
-  /// Init vectors that the triangle of this header takes: itself, and a line record for every line.
+  /// Number of init vectors of the triangle with this header: the header, and one line record per line.
   std::size_t group(std::span<const std::uint32_t> header) const {
     if (layout_.record_bits() == 0) return 1;
     using At = typename Preset::init_header_at;
-    // A counter that stands at zero goes all the way round.
+    // A counter loaded with zero counts a full period.
     std::size_t lines = get_bits(header, At::upper_lines);
     if (lines == 0) lines = std::size_t{1} << Preset::c_lines_bits;
     if constexpr (SphericalLayout<Preset>::c_exact) lines += get_bits(header, At::lower_lines);
@@ -61,14 +61,14 @@ class SphericalShader {
   }
 
   const TriangleWalker<Preset>& walker() const { return walker_; }
-  /// As the header loads it.
+  /// The triangle walker after it loaded the header.
   static TriangleWalker<Preset> walker_of(std::span<const std::uint32_t> header) {
     TriangleWalker<Preset> walker;
     walker.line_load(header);
     return walker;
   }
 
-  // The registers, for a watch.
+  // Registers, for callbacks.
   const ZInterpolator<Preset>& depth() const { return depth_; }
   const DiffuseSlice<Preset>& diffuse(std::size_t light) const { return diffuse_[light]; }
   const SpecularSlice<Preset>& specular(std::size_t light) const { return specular_[light]; }
@@ -117,7 +117,7 @@ class SphericalShader {
 
   Fragment fragment(SpanXWord x) const {
     const auto sums = channel_sums();
-    // With one channel, grey: all colours are that channel's.
+    // With one channel (grey) all colours are equal.
     const auto colour = [&](std::size_t channel) {
       return static_cast<std::uint8_t>(sums[config_.channels == 3 ? channel : 0].result(
           Preset::c_factor_fraction_bits + config_.data_bits, Preset::c_colour_bits));
@@ -131,7 +131,7 @@ class SphericalShader {
             .blue = colour(2)};
   }
 
-  /// Ambient light and every slice's product, a sum per channel.
+  /// One sum per channel: ambient light and the products of all slices.
   std::array<SaturatingSum, 3> channel_sums() const {
     std::array<SaturatingSum, 3> sums;
     for (int c = 0; c < config_.channels; ++c) sums[c].add(std::uint64_t{ambient_[c]} << config_.data_bits);
@@ -153,8 +153,8 @@ class SphericalShader {
   TriangleWalker<Preset> walker_;
   ZInterpolator<Preset> depth_;
   std::array<std::uint32_t, 3> ambient_{};
-  std::vector<DiffuseSlice<Preset>> diffuse_;    // one a light, or none
-  std::vector<SpecularSlice<Preset>> specular_;  // one a light, or none
+  std::vector<DiffuseSlice<Preset>> diffuse_;    // one per light, or none
+  std::vector<SpecularSlice<Preset>> specular_;  // one per light, or none
 };
 
 }  // namespace halfway::golden

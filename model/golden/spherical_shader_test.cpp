@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spherical shader's colours against illumination in double precision; angles about the bell's ends; sums
-// that would wrap.
+// Compares the spherical shader's colours with illumination in double precision. Tests angles close to the
+// ends of the bell, and sums that would wrap.
 #include "golden/spherical_shader.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int c_x = 100, c_y = 7;
 
-/// One light's part in one channel of one line, as numbers.
+/// One light's part in one channel of one line, as real numbers.
 struct Term {
   double angle, slope;  ///< in units of the angle word
   int power;
@@ -53,7 +53,7 @@ class Drawing {
   std::span<std::uint32_t> record(int line) {
     return std::span(vectors).subspan(shader.init_words() * static_cast<std::size_t>(1 + line));
   }
-  /// The word that stands for `value`, and what it stands for.
+  /// Writes the word for `value` and returns the value that the word represents.
   static double put_rounded(std::span<std::uint32_t> words, const Field& field, double value, int low) {
     const double scale = unit(field.fraction_bits);
     const auto word = std::llround(value * scale);
@@ -72,7 +72,7 @@ class Drawing {
   std::vector<std::uint32_t> vectors;
 };
 
-/// The bell as the hardware's formats mean it, before any table.
+/// The bell as defined by the hardware's formats, without tables.
 template <class Preset>
 double bell(const Term& term, double angle, bool diffuse) {
   if constexpr (std::is_same_v<Preset, Exact>) {
@@ -96,7 +96,7 @@ void expect_illumination(const SphericalConfig& config, unsigned seed) {
   for (int c = 0; c < config.channels; ++c)
     ambient.push_back(Drawing<Preset>::put_rounded(d.vectors, Preset::ambient_channel_at::ambient,
                                                    uniform(0.5, 40), d.layout.ambient_low(c)));
-  // Expected: each pixel's sum, and how far tables and samples may be off.
+  // Expected sum of each pixel, and the greatest error of tables and samples.
   struct Expected {
     double sum = 0, error = 0;
   };
@@ -113,7 +113,7 @@ void expect_illumination(const SphericalConfig& config, unsigned seed) {
         Term term{Drawing<Preset>::put_rounded(d.record(line), Header::angle, uniform(-1.3, 1.3), low),
                   Drawing<Preset>::put_rounded(d.record(line), Header::slope, uniform(-0.02, 0.02), low), 1,
                   0};
-        // What the word holds, in preset published too.
+        // The value of the word, in preset published too.
         const auto word = Word<Preset::c_angle_bits>::from_bits(get_bits(d.record(line), Header::angle, low));
         term.angle = static_cast<double>(word.value()) / unit(Header::angle.fraction_bits);
         return term;
@@ -128,7 +128,7 @@ void expect_illumination(const SphericalConfig& config, unsigned seed) {
           const bool behind = horizon != nullptr && std::abs(at(*horizon, x)) >= 1;
           const double v = at(term, x);
           e.sum += behind ? 0 : term.factor * bell<Preset>(term, v, diffuse) * whole / unit(config.data_bits);
-          // Half a cell where the bell is steepest, and half a step of the entry.
+          // Half a cell where the bell is steepest, plus half a step of the entry.
           const double width = std::is_same_v<Preset, Exact> ? cell : 2 * cell * (diffuse ? 2 : 1);
           e.error += term.factor * (std::numbers::pi / 2 * std::sqrt(term.power) * width / 2 + 0.5 / whole);
         }
@@ -198,7 +198,7 @@ TEST(SphericalShader, IlluminatesAsTheFormulasSay) {
   }
 }
 
-// Of two highlights at their tops, one is behind the light's horizon.
+// Of two highlights at their peaks, one is below the light's horizon.
 TEST(SphericalShader, EndsAHighlightAtTheHorizon) {
   const auto [a, b] = c_exact_cosine_size;
   Drawing<Exact> d({1, 1, false, true, 1, 2, a, b}, 2, 1, false);
@@ -211,7 +211,7 @@ TEST(SphericalShader, EndsAHighlightAtTheHorizon) {
   }
   const auto fragments = d.draw();
   ASSERT_EQ(fragments.size(), 2U);
-  EXPECT_EQ(fragments[0].red, 99);  // 100 times 255 / 256, the fraction dropped
+  EXPECT_EQ(fragments[0].red, 99);  // 100 times 255 / 256, truncated
   EXPECT_EQ(fragments[1].red, 0);
 }
 
@@ -234,7 +234,7 @@ TEST(SphericalShader, GroupHoldsARecordForEveryLine) {
   EXPECT_EQ(d.shader.group(d.vectors), 4U);
   d.put(Exact::init_header_at::lower_lines, 9);
   EXPECT_EQ(d.shader.group(d.vectors), 13U);
-  d.put(Exact::init_header_at::upper_lines, 0);  // the counter goes all the way round
+  d.put(Exact::init_header_at::upper_lines, 0);  // the counter counts a full period
   EXPECT_EQ(d.shader.group(d.vectors), 1U + 8192 + 9);
   for (const SphericalConfig& config :
        {SphericalConfig{3, 0, true, true, 1, 2, a, b}, SphericalConfig{3, 2, false, false, 1, 2, a, b}}) {
@@ -245,12 +245,12 @@ TEST(SphericalShader, GroupHoldsARecordForEveryLine) {
   }
 }
 
-// A line without a pixel has its record, which is passed over; each pixel is watched stage by stage.
+// A line without pixels has a record, which is skipped. Each pixel is checked stage by stage.
 TEST(SphericalShader, PassesOverTheRecordsOfEmptyLines) {
   const auto [a, b] = c_exact_cosine_size;
   Drawing<Exact> d({1, 1, true, false, 1, 2, a, b}, 3, 2, false);
   using At = Exact::init_header_at;
-  // 2 pixels, none, and again 2, beside them: the lower section begins with the second line.
+  // 2 pixels, none, then 2 pixels next to the first: the lower section starts with the second line.
   d.put(At::upper_lines, 1);
   d.put(At::lower_lines, 2);
   d.put(At::lower_x, c_x);
@@ -289,7 +289,7 @@ TEST(AngleAddress, IsTheCellOfTheMagnitude) {
     for (int i = 0; i < 2000; ++i) {
       const auto v = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(one));
       EXPECT_EQ(at(v, bits).address, static_cast<std::uint32_t>((v << bits) / one));
-      // The other side of the top meets the same cell, and ends a unit in the last place later.
+      // The other side of the peak has the same cell, and ends one unit in the last place later.
       EXPECT_EQ(at(-v - 1, bits).address, at(v, bits).address);
     }
     EXPECT_TRUE(at(one - 1, bits).in_range);
@@ -301,7 +301,7 @@ TEST(AngleAddress, IsTheCellOfTheMagnitude) {
   }
 }
 
-// A word's upper bits: its cell of a table whose address is signed and goes round.
+// The upper bits of a word select its cell. The address of the table is signed and wraps.
 TEST(AngleAddress, GoesRoundInPresetPublished) {
   using Angle = Word<Published::c_angle_bits>;
   for (int v = -2048; v < 2048; ++v) {
@@ -319,7 +319,7 @@ TEST(SaturatingSum, NeitherWrapsNorPassesTheLargest) {
   EXPECT_EQ(sum.result(17, 8), 127U);
   sum.add(1);
   EXPECT_EQ(sum.result(16, 8), 255U);
-  for (int i = 0; i < 100; ++i) sum.add(~std::uint32_t{0});  // past 2^32
+  for (int i = 0; i < 100; ++i) sum.add(~std::uint32_t{0});  // exceeds 2^32
   EXPECT_EQ(sum.result(16, 8), 255U);
   EXPECT_EQ(sum.result(32, 8), 100U);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/illumination/spot_cone.vhd.
+// Golden model of rtl/illumination/spot_cone.vhd.
 #pragma once
 
 #include <algorithm>
@@ -12,16 +12,17 @@ namespace halfway::golden {
 template <class Preset>
 class SpotCone {
  public:
-  /// Of a sum of products of directions.
+  /// Fraction bits of a sum of products of directions.
   static constexpr int c_sum_fraction = 2 * Preset::c_direction_fraction_bits;
-  /// Of what the cosine is above the outer edge's: with a slope of 2^12 a step is one of t; steeper edges are
-  /// as narrow as the errors of directions.
+  /// Fraction bits of the cosine minus the cosine of the outer edge. With a slope of 2^12 one step is one
+  /// step of t. Steeper edges are as narrow as the errors of directions.
   static constexpr int c_over_fraction = 28;
 
-  /// The light's share in format weight, by the cosine of the angle between the way from the light to the
-  /// point and the cone's axis: 0 from the outer edge on, 1 up to the inner one, t^2 (3 - 2 t) between, t
-  /// linear in the cosine. axis_sum: the exact dot product of the direction *to* the light and the axis.
-  /// outer: the outer edge's cosine as a direction; slope: 1 / (inner cosine - outer), in format spot_slope.
+  /// The light's share in format weight, from the cosine of the angle between the cone's axis and the
+  /// direction from the light to the point: 0 outside the outer edge, 1 inside the inner one, t^2 (3 - 2 t)
+  /// between, t linear in the cosine. axis_sum: the exact dot product of the direction *to* the light and the
+  /// axis. outer: the cosine of the outer edge as a direction. slope: 1 / (inner cosine - outer), in format
+  /// spot_slope.
   static constexpr std::uint32_t factor(std::int64_t axis_sum, std::int64_t outer, std::uint32_t slope) {
     const std::int64_t over = -axis_sum - (outer << Preset::c_direction_fraction_bits);
     if (over <= 0) return 0;

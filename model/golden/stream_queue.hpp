@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/stream/stream_queue.vhd, clock by clock.
+// Golden model of rtl/stream/stream_queue.vhd, clock by clock.
 #pragma once
 
 #include <deque>
@@ -10,7 +10,7 @@ namespace halfway::golden {
 template <class T>
 class StreamQueue {
  public:
-  /// `most` words may be claimed at once.
+  /// At most `most` words may be claimed at the same time.
   explicit StreamQueue(int most) : most_(most) {}
 
   bool room() const { return claimed_ < most_; }
@@ -18,7 +18,7 @@ class StreamQueue {
   bool out_valid() const { return out_.has_value(); }
   const T& out_data() const { return *out_; }
 
-  /// `in`: the word that comes, if any.
+  /// `in`: the input word, if there is one.
   void clock(bool reset, bool claim, const std::optional<T>& in, bool out_ready) {
     if (claim) ++claimed_;
     if (out_ready && out_) {
@@ -40,7 +40,7 @@ class StreamQueue {
  private:
   int most_, claimed_ = 0;
   std::optional<T> out_;
-  std::deque<T> words_;  ///< that the output can take from the next clock on
+  std::deque<T> words_;  ///< available at the output from the next clock on
 };
 
 }  // namespace halfway::golden

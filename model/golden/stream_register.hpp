@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/stream/stream_register.vhd: one place of a valid/ready stream, clock by clock.
+// Golden model of rtl/stream/stream_register.vhd: one register of a valid/ready stream, clock by clock.
 #pragma once
 
 #include "golden/parameter_register.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The register keeps every word of the stream, in order, under any pattern of valid and ready.
+// The register keeps every word of the stream, in order, for any pattern of valid and ready.
 #include "golden/stream_register.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(StreamRegister, LosesAndRepeatsNothing) {
       }
       waited = stage.out_valid() && !out_ready;
       if (waited) waiting = stage.out_data();
-      // A word that is offered in vain stays; one that is not offered must not be seen.
+      // A word that is not accepted stays offered. A word that is not offered must not be stored.
       stage.clock(false, in_valid, in_valid ? sent : ~0U, out_ready);
       if (taken) ++sent;
       ASSERT_EQ(sent - received, stage.out_valid() ? 1u : 0u);

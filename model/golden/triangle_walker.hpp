@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/raster/triangle_walker.vhd: the same lines and pixels in the same order, without the clock.
+// Golden model of rtl/raster/triangle_walker.vhd: the same lines and pixels in the same order, without
+// timing.
 #pragma once
 
 #include "golden/edge_pair.hpp"
@@ -21,19 +22,19 @@ class TriangleWalker {
   std::uint32_t y() const { return lines_.y(); }
   bool backward() const { return edges_.backward(); }
   bool carry() const { return edges_.carry(); }
-  /// First pixel of the line, and the one after its last.
+  /// First pixel of the line, and the pixel after its last.
   SpanXWord start() const { return edges_.start(); }
   SpanXWord stop() const { return edges_.stop(); }
   bool line_empty() const { return edges_.empty(); }
   bool line_last() const { return lines_.last(); }
-  /// Of the line, where it is not empty.
+  /// Number of pixels of the line. The line must not be empty.
   std::size_t pixels() const { return edges_.pixels(); }
-  /// From a pixel of a span to the next one: 1 or -1.
+  /// Step from a pixel of a span to the next one: 1 or -1.
   SpanXWord pixel_step() const {
     return SpanXWord::from_bits(backward() ? ~std::uint64_t{0} : std::uint64_t{1});
   }
 
-  /// Calls line() at each line from the loaded one to the triangle's last.
+  /// Calls line() for each line from the loaded one to the triangle's last.
   template <class Line>
   void walk(Line&& line) {
     for (;; line_step()) {

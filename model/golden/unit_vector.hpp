@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the processors compute of directions, put together from the entities' twins: vectors made unit ones,
-// and cosines between them.
+// Functions of directions, composed of the golden models of the entities: normalized vectors, and cosines
+// between them.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace halfway::golden {
 
-/// The unit vector in the direction of v, whose components have VectorBits bits and any common scale; in
-/// format direction. A zero vector gives one.
+/// The unit vector in the direction of v, in format direction. The components of v have VectorBits bits and
+/// any common scale. A zero vector gives a zero vector.
 template <class Preset, int VectorBits>
 constexpr Axes normalized(const Axes& v) {
   constexpr int c_bits = Preset::c_direction_bits;
@@ -27,7 +27,7 @@ constexpr Axes normalized(const Axes& v) {
   return unit;
 }
 
-/// Of a dot product of directions: is there light from there.
+/// For a dot product of directions: true if light comes from that side.
 constexpr bool positive(std::int64_t dot) {
   return dot > 0;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How near 1/sqrt, unit vectors and cosines come to what they stand for, in long double; the bounds are those
-// that the headers state.
+// Errors of 1/sqrt, unit vectors and cosines compared with long double. The bounds are those stated in the
+// headers.
 #include "golden/unit_vector.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace halfway::golden {
 namespace {
 
-// Smallest and largest of a relative error.
+// Smallest and largest relative error.
 struct Range {
   long double low = 0, high = 0;
   void add(long double error) {
@@ -32,7 +32,8 @@ long double power_of_two(double exponent) {
 }
 
 TEST(ReciprocalRoot, TheErrorOfPresetExactOverAllOfIt) {
-  // x is cut to 22 bits of fraction: its error is largest at an end of each stretch cut alike.
+  // x is truncated to 22 fraction bits: the largest error is at one end of each interval with equal truncated
+  // x.
   constexpr int c_cut = Exact::c_square_fraction_bits - 22;
   Range range;
   for (std::uint32_t cut = 1U << 22; cut < 4U << 22; ++cut) {
@@ -59,7 +60,7 @@ TEST(ReciprocalRoot, BelowOneItIsTwiceThatOfFourTimesTheSquare) {
   EXPECT_EQ(ReciprocalRoot<Exact>::reciprocal(1U << 28), ReciprocalRoot<Exact>::root(1U << 28));
   EXPECT_EQ(ReciprocalRoot<Exact>::reciprocal((1U << 28) - 1),
             2 * ReciprocalRoot<Exact>::root((4U << 28) - 4));
-  // A zero vector's, of no meaning, but of its width.
+  // The result for a zero vector has no meaning, but it must fit the width.
   EXPECT_LT(ReciprocalRoot<Exact>::reciprocal(0), 1U << ReciprocalRoot<Exact>::c_bits);
   EXPECT_LT(ReciprocalRoot<Published>::reciprocal(0), 1U << ReciprocalRoot<Published>::c_bits);
 }
@@ -114,7 +115,7 @@ void expect_unit(double length_bits, double angle_bits) {
   EXPECT_GT(worst.length_low, -power_of_two(length_bits)) << VectorBits;
   EXPECT_LT(worst.length_high, power_of_two(length_bits)) << VectorBits;
   EXPECT_LT(worst.angle, power_of_two(angle_bits)) << VectorBits;
-  // And no better than half as much, so that the bounds mean something.
+  // The errors must exceed half of the bounds: otherwise the bounds are too wide.
   EXPECT_LT(worst.length_low, -power_of_two(length_bits - 1)) << VectorBits;
   EXPECT_GT(worst.angle, power_of_two(angle_bits - 1.5)) << VectorBits;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The callbacks of a golden shader in which its registers can be read; these ignore them all.
+// Callbacks of a golden shader that read its registers. These do nothing.
 #pragma once
 
 #include "golden/edge_walker.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/arithmetic/vector_shift.vhd.
+// Golden model of rtl/arithmetic/vector_shift.vhd.
 #pragma once
 
 #include <array>
@@ -11,16 +11,16 @@
 
 namespace halfway::golden {
 
-/// X, y and z of a vector.
+/// x, y and z of a vector.
 using Axes = std::array<std::int64_t, c_axes>;
 
-/// The three components of VectorBits bits each, shifted left alike as far as none loses its sign, in
-/// ResultBits of which all but the sign are fraction: the largest then lies from 1/2 to 1. What does not fit
-/// is dropped below. A zero vector stays one.
+/// Shifts the three components (VectorBits bits) left by the same number of bits, the greatest without
+/// overflow of the sign. The results have ResultBits bits, all fraction except the sign: the largest is then
+/// from 1/2 to 1. Bits below the format are truncated. A zero vector stays zero.
 template <int VectorBits, int ResultBits>
 constexpr Axes vector_shift(const Axes& v) {
   static_assert(VectorBits >= 2 && VectorBits < 64 && ResultBits < 64);
-  std::uint64_t moving = 0;  // a bit set: there some component differs from its sign
+  std::uint64_t moving = 0;  // bit set: some component differs from its sign at this bit
   for (const std::int64_t component : v) moving |= static_cast<std::uint64_t>(component ^ (component >> 63));
   const int free = VectorBits - 1 - static_cast<int>(std::bit_width(moving));
   Axes shifted;

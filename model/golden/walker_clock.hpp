@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// When the walker does things at full speed, from what the header of rtl/raster/triangle_walker.vhd promises:
-// the edge stage stands a line ahead of the line stage, and that a line ahead of the span stage.
+// Timing of the triangle walker at full speed, from the contract in the header of
+// rtl/raster/triangle_walker.vhd: the edge stage is one line ahead of the line stage, which is one line ahead
+// of the span stage.
 #pragma once
 
 #include <algorithm>
@@ -8,15 +9,16 @@
 
 namespace halfway::golden {
 
-/// Clocks count from that in which the first triangle begins.
+/// Clocks are counted from the start of the first triangle.
 class WalkerClock {
  public:
-  /// `records`: the buffer in front holds a record a line, so the next header comes only after the last line.
-  /// `held`: for so many clocks more an init vector stays in the buffer in front, when it was read.
+  /// `records`: the input buffer holds one record per line, so the next header comes only after the last
+  /// line. `held`: number of additional clocks for which an init vector stays in the input buffer after it
+  /// was read.
   explicit WalkerClock(bool records = false, std::int64_t held = 0)
       : records_(records), held_(held), read_(-2 - held) {}
 
-  /// The clock in which the next init vector's first line goes to the line stage.
+  /// The clock in which the first line of the next init vector enters the line stage.
   std::int64_t take_init() {
     const std::int64_t there = (records_ ? line_free_ : read_ + held_) + 1;
     read_ = std::max(there, handed_on_ + (lines_ == 1 ? 1 : 0));
@@ -24,19 +26,19 @@ class WalkerClock {
     lines_ = 0;
     return handed_on_;
   }
-  /// The clock in which the edge stage read that vector: when it was there, in that in which the line before
-  /// left the edge stage, but a clock later behind a triangle's first line.
+  /// The clock in which the edge stage read that vector: as soon as it is available and the previous line
+  /// leaves the edge stage, but one clock later after the first line of a triangle.
   std::int64_t read() const { return read_; }
 
-  /// The clock in which the line, and its record, is taken. Its first pixel stands at the output a clock
-  /// later and leaves in that clock, the others follow.
+  /// The clock in which the line and its record are taken. Its first pixel is output in the next clock, the
+  /// others follow.
   std::int64_t take_line(std::int64_t pixels) {
     if (lines_++ != 0) handed_on_ = line_free_;
     line_free_ = pixels == 0 ? handed_on_ + 1 : std::max(handed_on_ + 1, span_free_);
     if (pixels != 0) span_free_ = line_free_ + pixels;
     return line_free_;
   }
-  /// The clock in which the last pixel so far leaves.
+  /// The clock in which the last pixel so far is output.
   std::int64_t last_pixel() const { return span_free_; }
 
  private:

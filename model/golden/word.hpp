@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two's-complement words of a stated width, and flat vectors of such words.
+// Two's-complement words of a given width, and flat vectors of such words.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ constexpr std::uint64_t low_bits(std::uint64_t value, int bits) {
   return bits >= 64 ? value : value & ((std::uint64_t{1} << bits) - 1);
 }
 
-/// A signed word of W bits; sums wrap modulo 2^W. Kept at the top of 64 bits, where the machine's own sum
-/// wraps alike.
+/// A signed word of W bits. Sums wrap modulo 2^W. It is stored in the upper bits of 64 bits, where the
+/// machine's sum wraps in the same way.
 template <int W>
 class Word {
   static_assert(W >= 1 && W <= 64);
@@ -40,7 +40,7 @@ class Word {
   std::uint64_t aligned_ = 0;
 };
 
-/// Field `field` of the block that starts at bit `block_low` of a flat vector, bit 0 of words[0] first.
+/// Reads field `field` of the block that starts at bit `block_low` of a flat vector, bit 0 of words[0] first.
 constexpr std::uint64_t get_bits(std::span<const std::uint32_t> words, const Field& field,
                                  int block_low = 0) {
   const int low = block_low + field.low;

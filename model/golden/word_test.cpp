@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Word's sums against GMP's integers modulo 2^W; fields of flat vectors at every alignment; saturation.
+// Compares Word's sums with GMP's integers modulo 2^W. Tests fields of flat vectors at every alignment, and
+// saturation.
 #include "golden/word.hpp"
 
 #include <gmpxx.h>
@@ -70,8 +71,8 @@ TEST(Word, LowBitsKeepsWhatItSays) {
   }
 }
 
-// Every width at every alignment within two words, on a random vector: the field takes the value, and no
-// other bit of the vector moves.
+// Every width at every alignment within two words, on a random vector: the field has the value, and no other
+// bit of the vector changes.
 TEST(FlatVector, AFieldIsWrittenAndReadAtEveryAlignment) {
   std::mt19937_64 random(2);
   constexpr int c_words = 6;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/interpolation/z_interpolator.vhd.
+// Golden model of rtl/interpolation/z_interpolator.vhd.
 #pragma once
 
 #include <type_traits>
@@ -8,7 +8,7 @@
 
 namespace halfway::golden {
 
-/// Of a clock's strobes as PlaneInterpolator.
+/// The same calls per clock as PlaneInterpolator.
 template <class Preset>
 class ZInterpolator : public PlaneInterpolator<Preset::c_depth_sum_bits> {
  public:
@@ -23,7 +23,7 @@ class ZInterpolator : public PlaneInterpolator<Preset::c_depth_sum_bits> {
       Plane::line_load(word(At::z), word(At::z_dx), word(At::z_de0), word(At::z_de0));
   }
 
-  /// Depth of the pixel: whole bits of the sum.
+  /// Depth of the pixel: the integer bits of the sum.
   std::uint32_t z() const {
     return static_cast<std::uint32_t>(
         low_bits(Plane::value().bits() >> Preset::c_depth_sum_fraction_bits, Preset::c_depth_bits));

@@ -12,8 +12,8 @@
 
 namespace halfway {
 
-/// Takes the next triangle's vectors off the front of init_words. Empty at the end, and for a triangle whose
-/// vectors are cut short, which draws nothing.
+/// Removes the next triangle's vectors from the start of init_words and returns them. Returns an empty span
+/// at the end, and if the vectors of the triangle are incomplete; nothing is then drawn.
 template <class Shader>
 std::span<const std::uint32_t> take_triangle(const Shader& shader,
                                              std::span<const std::uint32_t>& init_words) {
@@ -55,7 +55,7 @@ class ShaderModel final : public GoldenModel {
     });
     return count;
   }
-  // Inline the shader, so that the fields of a fragment go straight to the vector.
+  // Inline the shader, so that the fields of a fragment are written directly to the vector.
   [[gnu::flatten]] void draw(std::span<const std::uint32_t> init_words,
                              std::vector<Fragment>& fragments) override {
     const auto emit = [&](const Fragment& fragment) { fragments.push_back(fragment); };
@@ -75,7 +75,7 @@ class ShaderModel final : public GoldenModel {
   Shader shader_;
 };
 
-/// S is the key's shader.
+/// S must be the key's shader.
 template <class Formats, Shader S>
 std::unique_ptr<GoldenModel> make_shader_model(const HardwareKey& key) {
   if constexpr (S == Shader::spherical)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hardware key: what is elaborated. One key, one build of the RTL for each simulator.
+// The hardware key: the hardware to elaborate. Each key has one build of the RTL per simulator.
 #pragma once
 
 #include <array>
@@ -39,32 +39,32 @@ struct TableSize {
   friend bool operator==(TableSize, TableSize) = default;
 };
 
-/// What the spherical shader has for a scene's lights.
+/// Units of the spherical shader.
 struct SphericalUnits {
   unsigned lights = 0;  ///< 0 to 16
   bool diffuse = false, specular = false;
-  unsigned highlight_channels = 1;  ///< 1 where every highlight is white: one multiplier for all channels
-  unsigned powers = 0;              ///< bit i: there is a table of cosine to the power 2^i for highlights
+  unsigned highlight_channels = 1;  ///< 1 if all highlights are white: one multiplier for all channels
+  unsigned powers = 0;              ///< bit i: a table of cosine to the power 2^i for highlights
   TableSize tables;
-  /// Empty: those that the program was built with. They must outlive the key and what draws by it.
+  /// Empty: the tables built into the program. They must outlive the key and all objects that draw with it.
   std::span<const golden::CosineTable> made_tables{};
-  /// Whether lines have records: some light has an effect.
+  /// True if lines have records, that is, if some light has an effect.
   bool records() const { return lights > 0 && (diffuse || specular); }
 };
 
-/// The two forms of a shading processor: the same fragments, at other costs.
+/// The two forms of a shading processor: the same fragments at different costs.
 enum class ProcessorForm {
-  folded,    ///< as published: one datapath, several cycles a token
-  unrolled,  ///< a token a clock
+  folded,    ///< as published: one datapath, several cycles per token
+  unrolled,  ///< one token per clock
 };
 inline const char* to_string(ProcessorForm form) {
   return form == ProcessorForm::folded ? "folded" : "unrolled";
 }
 
-/// What the pipeline of shading processors has for a scene's lights.
+/// Units of the pipeline of shading processors.
 struct ProcessorUnits {
-  unsigned directional = 0, positional = 0, spots = 0;  ///< 16 in all at most
-  bool diffuse = false, specular = false;               ///< false where there is no light
+  unsigned directional = 0, positional = 0, spots = 0;  ///< at most 16 in total
+  bool diffuse = false, specular = false;               ///< false without lights
   bool normalize = false;                               ///< the ambient processor can normalize N
   bool shadows = false;                                 ///< object stage and shadow counters
   ProcessorForm form = ProcessorForm::unrolled;
@@ -74,26 +74,26 @@ struct ProcessorUnits {
 struct HardwareKey {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
-  unsigned channels = 3;      ///< 1 where every colour of the scene is grey
+  unsigned channels = 3;      ///< 1 if every colour of the scene is grey
   SphericalUnits spherical;   ///< of the spherical shader
   ProcessorUnits processors;  ///< of the shading processors
-  /// Other word lengths than the preset's. Setup and golden model of such a key are compiled for it: the
-  /// ones in this library have the preset's.
+  /// Word lengths that replace the preset's. Setup and golden model of such a key are compiled for it. Those
+  /// in this library have the preset's word lengths.
   tables::WordLengths words{};
 
   /// Top entity in rtl/shaders.
   std::string entity() const;
-  /// Generics of the top entity, as `-g` takes them, in a fixed order.
+  /// Generics of the top entity, in the form of the option `-g`, in a fixed order.
   std::vector<std::pair<std::string, std::string>> generics() const;
   /// The width of the top's port init_data, as a VHDL expression of its generics.
   std::string vhdl_init_bits() const;
-  /// Such as quadratic_shader-exact-c3; names the cached build.
+  /// For example quadratic_shader-exact-c3. Also the name of the cached build.
   std::string name() const;
 };
 
-/// The spherical shader's generics for its golden twin.
+/// The configuration of the spherical shader's golden model.
 golden::SphericalConfig golden_config(const HardwareKey& key);
-/// The processors shader's.
+/// The configuration of the processors shader's golden model.
 golden::ProcessorsConfig processors_config(const HardwareKey& key);
 
 }  // namespace halfway

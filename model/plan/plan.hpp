@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan: which hardware a scene calls for, and why. A pure function of the scene and the shader asked for.
+// The plan: the hardware that a scene needs, with reasons. A pure function of the scene and the requested
+// shader.
 #pragma once
 
 #include <optional>
@@ -13,46 +14,47 @@
 
 namespace halfway {
 
-/// Where a shader leaves an effect to.
+/// Which part of the system computes an effect in a given shader.
 enum class DoneBy { hardware, host, nobody };
 
 struct PlannedEffect {
   Effect effect;
-  bool called_for;  ///< by the scene
-  std::string why;  ///< or why not
+  bool called_for;  ///< true if the scene needs it
+  std::string why;  ///< the reason for called_for
   DoneBy by;
-  std::string how;  ///< in this shader; may be empty
-  /// Whether the hardware has it: what is called for, and with all effects the rest too.
+  std::string how;  ///< how this shader computes it; may be empty
+  /// True if the hardware contains the effect: if the scene needs it, or if all effects are requested.
   bool elaborated = false;
-  /// The same hardware with this effect alone put in, or left out; none where it cannot be.
+  /// The same hardware with only this effect added or removed. Empty if that is impossible.
   std::optional<HardwareKey> other;
 };
 
 struct Plan {
-  HardwareKey key;                     ///< what is elaborated: one of these two
-  HardwareKey called_for;              ///< what the scene calls for
-  HardwareKey everything;              ///< every effect that the shader has
-  std::vector<PlannedEffect> effects;  ///< every effect there is, in their order
+  HardwareKey key;                     ///< the hardware to elaborate: one of the next two
+  HardwareKey called_for;              ///< the hardware that the scene needs
+  HardwareKey everything;              ///< hardware with every effect of the shader
+  std::vector<PlannedEffect> effects;  ///< all effects, in the order of Effect
 };
 
 struct PlanRequest {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
-  std::optional<TableSize> tables;  ///< of the spherical shader; none: the preset's
-  /// Where the program was not built with that size; the RTL must have it, too (rtl_with_tables of
+  std::optional<TableSize> tables;  ///< of the spherical shader; empty: the preset's
+  /// Tables of a size that the program was not built with. The RTL must have them too (rtl_with_tables of
   /// sim/formats).
   std::span<const golden::CosineTable> made_tables{};
-  /// Elaborate Plan::everything; what the scene has not, setup gives coefficients of zero.
+  /// Elaborate Plan::everything. For effects not in the scene, setup uses coefficients of zero.
   bool all_effects = false;
-  /// Lights that Plan::everything has in the spherical shader and in the processors; none: those of the
-  /// scene, and at least one.
+  /// Number of lights of Plan::everything, for the spherical shader and the processors. Empty: the scene's
+  /// number, at least one.
   std::optional<unsigned> lights;
-  std::optional<ProcessorForm> form;  ///< of the shading processors; none: unrolled
+  std::optional<ProcessorForm> form;  ///< of the shading processors; empty: unrolled
 };
 
 inline constexpr std::size_t c_most_lights = 16;  ///< of the spherical shader, and of the processors
 
-/// An error where the shader cannot draw the scene, or the scene's numbers are not what scene.hpp says.
+/// Error if the shader cannot draw the scene, or if a number of the scene is outside the range given in
+/// scene.hpp.
 Result<Plan> plan_scene(const Scene& scene, const PlanRequest& request);
 
 }  // namespace halfway

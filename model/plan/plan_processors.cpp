@@ -11,7 +11,7 @@
 namespace halfway {
 namespace {
 
-// The lights of a kind that the pipeline has processors for.
+// The pipeline's number of lights of a kind.
 unsigned& light_units(ProcessorUnits& units, LightKind kind) {
   switch (kind) {
     case LightKind::directional:
@@ -24,7 +24,7 @@ unsigned& light_units(ProcessorUnits& units, LightKind kind) {
   std::abort();
 }
 
-// The first triangle over which the normal turns; none where each has one normal.
+// The first triangle with more than one normal. Empty if there is none.
 std::optional<std::size_t> first_curved(const Scene& scene) {
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     const auto& n = scene.triangles[i].normal;
@@ -34,8 +34,8 @@ std::optional<std::size_t> first_curved(const Scene& scene) {
   return std::nullopt;
 }
 
-// Whether N is normalized for each pixel, and why. The scene's own word on it, "unit vectors are called for",
-// does not say whether a pixel's N has to be made one.
+// Whether N is normalized at each pixel, with the reason. The scene's own call for unit vectors does not say
+// whether the N of a pixel must be normalized.
 Call call_normalize(const Scene& scene, const SceneCalls& calls, Preset preset) {
   const Call& lit = calls[Effect::normalization];
   if (!lit.called_for) return lit;
@@ -48,7 +48,7 @@ Call call_normalize(const Scene& scene, const SceneCalls& calls, Preset preset) 
   return {false, "each triangle has one normal, unit from the host"};
 }
 
-// Bad input where a highlight is not Blinn's.
+// Error if a highlight is not of Blinn's model.
 Status check_highlights(const Scene& scene) {
   const std::vector<bool> worn = worn_materials(scene);
   for (std::size_t i = 0; i < worn.size(); ++i) {
@@ -64,7 +64,7 @@ Status check_highlights(const Scene& scene) {
   return Ok{};
 }
 
-// Hardware without an effect has nothing of what only that effect uses.
+// Removes units that serve only effects that the hardware does not have.
 HardwareKey without_idle_units(HardwareKey key) {
   ProcessorUnits& p = key.processors;
   if (!p.diffuse && !p.specular) p.directional = p.positional = p.spots = 0;
@@ -75,7 +75,7 @@ HardwareKey without_idle_units(HardwareKey key) {
 HardwareKey everything(HardwareKey key, unsigned lights) {
   ProcessorUnits& p = key.processors;
   key.channels = 3;
-  // Hardware for a spot serves any light.
+  // Hardware for a spot can also draw the other kinds of light.
   p.directional = p.positional = 0;
   p.spots = lights;
   p.diffuse = p.specular = p.normalize = p.shadows = true;
@@ -164,7 +164,7 @@ class Planner {
     const auto count = static_cast<unsigned>(calls_.count(kind));
     HardwareKey other = key_;
     ProcessorUnits& o = other.processors;
-    // With all effects every light's hardware is a spot's.
+    // With all effects, every light uses the hardware of a spot.
     const bool all_spots = o.spots != calls_.count(LightKind::spot);
     unsigned& of_kind = all_spots ? o.spots : light_units(o, kind);
     if (count > 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which shading processors a scene calls for, and why.
+// Which shading processors a scene needs, and the reasons given.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,14 +15,14 @@ namespace {
 
 using ::testing::AllOf, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not;
 
-// A flat grey triangle, no light yet.
+// A flat grey triangle, without lights.
 Scene flat_scene() {
   Scene scene;
   scene.name = "s";
   scene.materials = {{.name = "plain"}};
   scene.positions_world = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   scene.normals_world = {{0, 0, 1}, {0, 0.6, 0.8}, {0, 0, 1}};
-  scene.triangles = {{{0, 1, 2}, {0, 0, 2}, 0}};  // two normals by number, one by value
+  scene.triangles = {{{0, 1, 2}, {0, 0, 2}, 0}};  // two normals by index, one by value
   return scene;
 }
 
@@ -118,7 +118,7 @@ TEST(PlanProcessors, EveryHighlightIsBlinns) {
   for (const Brdf brdf : {Brdf::phong, Brdf::cook_torrance}) {
     Scene scene = with_lights(1);
     scene.materials.push_back({.name = "other", .brdf = brdf});
-    EXPECT_EQ(key(scene), key(with_lights(1)));  // not worn
+    EXPECT_EQ(key(scene), key(with_lights(1)));  // not in use
     scene.triangles.push_back(scene.triangles[0]);
     scene.triangles.back().material = 1;
     EXPECT_THAT(refusal(scene),
@@ -178,7 +178,7 @@ TEST(PlanProcessors, EveryEffectSaysWhatItIsAndWhatItTakes) {
             EXPECT_THAT(e.how, Not(IsEmpty()));
           }
           if (!e.other) continue;
-          // The two differ in this alone.
+          // The two keys differ in this effect only.
           EXPECT_NE(e.other->name(), plan.key.name());
           const ProcessorUnits &here = plan.key.processors, &other = e.other->processors;
           switch (e.effect) {

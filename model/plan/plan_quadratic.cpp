@@ -4,7 +4,7 @@
 namespace halfway {
 namespace {
 
-// The radiance is the host's, so nearly everything is.
+// The host computes the radiance, and therefore nearly every effect.
 PlannedEffect effect_of(const SceneCalls& calls, Effect effect, const HardwareKey& key) {
   switch (effect) {
     case Effect::ambient:

@@ -12,7 +12,7 @@
 namespace halfway {
 namespace {
 
-constexpr unsigned c_squared = 2;  // of SphericalUnits::powers: the table of cosine squared alone
+constexpr unsigned c_squared = 2;  // of SphericalUnits::powers: only the table of cosine squared
 constexpr unsigned c_every_power = 31;
 
 std::vector<TableSize> generated_sizes(bool exact) {
@@ -43,7 +43,7 @@ Result<TableSize> table_size(const PlanRequest& request) {
                   request.tables->data_bits));
 }
 
-// The powers that fit the exponents in use; bad input where a highlight is no power of a cosine.
+// The powers for the exponents in use. Error if a highlight is not a power of a cosine.
 Result<unsigned> powers_of(const Scene& scene, Preset preset) {
   unsigned powers = 0;
   const std::vector<bool> worn = worn_materials(scene);
@@ -55,7 +55,7 @@ Result<unsigned> powers_of(const Scene& scene, Preset preset) {
           "{}: material '{}' is cook_torrance, and the spherical shader's highlights are powers of a cosine; "
           "make it blinn or phong, or take the quadratic shader",
           scene.name, m.name));
-    // Each power is a power of two: itself the mask's bit.
+    // Each power is a power of two, and so equal to its bit of the mask.
     powers |= preset == Preset::exact ? static_cast<unsigned>(fitted_bell(m.exponent).power) : c_squared;
   }
   return powers;
@@ -68,7 +68,7 @@ std::string names(unsigned powers) {
   return fmt::format("{}", fmt::join(list, ", "));
 }
 
-// Hardware without an effect has nothing of what only that effect uses.
+// Removes units that serve only effects that the hardware does not have.
 HardwareKey without_idle_units(HardwareKey key) {
   SphericalUnits& s = key.spherical;
   if (!s.records()) {
@@ -166,7 +166,7 @@ class Planner {
     out.other = without_idle_units(other);
     return out;
   }
-  // A light's slices do not know its kind.
+  // The slices of a light are the same for all kinds.
   PlannedEffect lights_of(Effect effect, LightKind kind, std::string how) const {
     const auto count = static_cast<unsigned>(calls_.count(kind));
     HardwareKey other = key_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene calls for and why, and that keys of different hardware are told apart.
+// Which hardware a scene needs, the reasons given, and that different hardware has different keys.
 #include "plan/plan.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ namespace {
 
 using ::testing::AllOf, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not;
 
-// Everything grey, one triangle, no light yet. Exponent 2: the bell is cos^2 itself.
+// One grey triangle, all grey, without lights. Exponent 2: the bell equals cos^2.
 Scene grey_scene() {
   Scene scene;
   scene.name = "s";
@@ -99,12 +99,12 @@ TEST(Plan, OneChannelWhereEverythingSeenIsGrey) {
       wear(scene, {.name = "gold", .specular_colour = {1.0, 0.8, 0.3}});
       EXPECT_EQ(channels(scene), 3U);
       EXPECT_THAT(why(scene).why, HasSubstr("'gold'"));
-      scene.materials.back().specular = 0.0;  // a highlight of no strength has no colour
+      scene.materials.back().specular = 0.0;  // a highlight of strength zero has no colour
       EXPECT_EQ(channels(scene), 1U);
 
       scene = grey;
       scene.materials.push_back({.name = "unworn", .colour = {1.0, 0.0, 0.0}});
-      scene.background = {0.1, 0.2, 0.3};  // what no triangle covers is not shaded
+      scene.background = {0.1, 0.2, 0.3};  // pixels without a triangle are not shaded
       EXPECT_EQ(channels(scene), 1U);
     }
 }
@@ -153,7 +153,7 @@ TEST(Plan, ShadowsAreCalledForWhereThereIsLightToKeepOut) {
   }
 }
 
-// What a scene calls for does not depend on who draws it.
+// The effects that a scene needs do not depend on the shader.
 TEST(Plan, QuadraticLeavesLightsToTheHost) {
   Scene scene = lit_scene();
   scene.positional.resize(40);
@@ -278,7 +278,7 @@ TEST(Plan, EffectsThatNoMaterialShowsAreLeftOut) {
     EXPECT_EQ(units.powers != 0, c.specular);
     EXPECT_EQ(reflected_lights(scene).size(), units.lights);
   }
-  // Lights without measure, and nothing to reflect them.
+  // Many lights, but no material that reflects them.
   Scene scene = lit_scene();
   scene.materials[0].diffuse = scene.materials[0].specular = 0.0;
   scene.directional.resize(100);
@@ -327,7 +327,7 @@ TEST(Plan, WhiteHighlightsTakeOneMultiplier) {
   sunset.positional.push_back({.intensity = {1.0, 0.5, 0.2}});
   EXPECT_EQ(highlight_channels(sunset), 3U);
   EXPECT_THAT(why(sunset), HasSubstr("positional light 1"));
-  // No highlight, so none that is coloured.
+  // Without highlights no highlight is coloured.
   for (Material& m : sunset.materials) m.specular = 0.0;
   EXPECT_EQ(spherical(sunset).key.spherical.highlight_channels, 1U);
 }
@@ -337,7 +337,7 @@ TEST(Plan, PowersAreThoseOfTheExponentsInUse) {
     Scene scene = lit_scene();
     scene.materials[0].exponent = exponents[0];
     for (std::size_t i = 1; i < exponents.size(); ++i) wear(scene, {.exponent = exponents[i]});
-    // None of these is seen.
+    // None of these is visible.
     scene.materials.push_back({.name = "unworn", .exponent = 4.0});
     wear(scene, {.name = "matt", .specular = 0.0, .exponent = 4.0});
     const Plan plan = spherical(scene, preset);
@@ -388,7 +388,7 @@ TEST(Plan, TablesAreThePresetsOrThoseThatAreThere) {
                       HasSubstr(std::string("make tables PRESET=") + to_string(preset) +
                                 " ADDRESS_BITS=12 DATA_BITS=3")));
   }
-  // A size of one preset is not there for the other.
+  // A table size of one preset is not available for the other.
   const golden::CosineSize published = golden::c_published_cosine_size;
   EXPECT_FALSE(plan_scene(lit_scene(), {.shader = Shader::spherical,
                                         .tables = TableSize{published.address_bits, published.data_bits}}));
@@ -397,7 +397,8 @@ TEST(Plan, TablesAreThePresetsOrThoseThatAreThere) {
   EXPECT_THAT(quadratic.error().message, HasSubstr("only the spherical shader"));
 }
 
-// An effect's counterpart differs in what the effect alone needs, either way.
+// The counterpart of an effect differs only in the units that the effect needs, whether it adds or removes
+// it.
 TEST(Plan, OtherKeysDifferInOneEffect) {
   Scene scene = lit_scene();
   scene.positional.resize(2);
@@ -419,7 +420,7 @@ TEST(Plan, OtherKeysDifferInOneEffect) {
   EXPECT_EQ(other(poor, Effect::specular), "spherical_shader-exact-c1-l1-s1-cos2-rom9x8");
   EXPECT_EQ(other(poor, Effect::spot), "spherical_shader-exact-c1-l1-d-rom9x8");
   EXPECT_EQ(other(poor, Effect::colour), "spherical_shader-exact-c3-l0");
-  // Taking the only light takes its effects along.
+  // Removing the only light also removes its effects.
   EXPECT_EQ(other(spherical(lit_scene()), Effect::directional), "spherical_shader-exact-c1-l0");
   for (const Plan& plan : {rich, poor})
     for (const PlannedEffect& e : plan.effects)
@@ -446,7 +447,7 @@ TEST(Plan, AllEffectsAreAllThatTheShaderHas) {
   EXPECT_EQ(key(three, Preset::exact), "spherical_shader-exact-c3-l3" + all);
   EXPECT_EQ(key(three, Preset::exact, 16), "spherical_shader-exact-c3-l16" + all);
   EXPECT_EQ(key(three, Preset::published), "spherical_shader-published-c3-l3-d-s3-cos2-rom6x6");
-  // Lights that nothing reflects count no more than elsewhere.
+  // Lights that no material reflects do not count here either.
   Scene dull = grey_scene();
   dull.materials[0].diffuse = dull.materials[0].specular = 0.0;
   dull.directional.resize(100);
@@ -459,7 +460,7 @@ TEST(Plan, AllEffectsAreAllThatTheShaderHas) {
   EXPECT_EQ(planned(grey_scene(), {.all_effects = true}).key.name(), "quadratic_shader-exact-c3");
   EXPECT_EQ(planned(grey_scene(), {}).everything.name(), "quadratic_shader-exact-c3");
   EXPECT_FALSE(plan_scene(grey_scene(), {.all_effects = true, .lights = 2}));
-  // With all effects, what is not called for is there; one more light may not be.
+  // With all effects, effects that the scene does not need are present. Another light may not fit.
   const Plan most = planned(grey_scene(), {.shader = Shader::spherical, .all_effects = true, .lights = 16});
   for (const Effect e :
        {Effect::diffuse, Effect::specular, Effect::highlight_colour, Effect::exponents, Effect::colour}) {
@@ -470,7 +471,7 @@ TEST(Plan, AllEffectsAreAllThatTheShaderHas) {
   EXPECT_FALSE(effect(most, Effect::spot).other);
 }
 
-// All the hardware there is, up to what a plan may ask for.
+// All hardware up to the limits of a plan.
 std::vector<HardwareKey> every_key() {
   std::vector<HardwareKey> keys;
   for (const Preset preset : {Preset::exact, Preset::published})

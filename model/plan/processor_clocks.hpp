@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table 4 of the processors paper: clocks of the folded shading processor, as the RTL has them.
+// Table 4 of the processors paper: clocks of the folded shading processor, as measured in the RTL.
 #pragma once
 
 #include <array>
@@ -11,17 +11,17 @@
 
 namespace halfway {
 
-/// A row of the table: clocks from one token taken to the next one taken while nothing behind the processor
-/// waits, measured in the RTL by tb/illumination/table4_tb.vhd. Of an object that the light reaches; where it
-/// takes fewer in preset exact, the highlight is below the horizon.
+/// A row of the table: clocks from the acceptance of one token to the acceptance of the next while the output
+/// is not stalled, measured in the RTL by tb/illumination/table4_tb.vhd. For an object that the light
+/// reaches. In preset exact it takes fewer clocks if the highlight is below the horizon.
 struct ProcessorClocks {
   const char* what;
-  std::optional<golden::Term> term;  ///< none: what no processor works on
-  std::optional<LightKind> light;    ///< none: the ambient one
-  bool normalize, view;              ///< the ambient processor normalizes N, makes the view vector
+  std::optional<golden::Term> term;  ///< empty: no term to compute
+  std::optional<LightKind> light;    ///< empty: ambient
+  bool normalize, view;              ///< the ambient processor normalizes N; it computes the view vector
   std::optional<unsigned> paper;     ///< as printed
   unsigned exact;
-  std::optional<unsigned> published;  ///< none: this preset has no such work
+  std::optional<unsigned> published;  ///< empty: this preset has no such operation
 
   std::optional<unsigned> clocks(Preset preset) const { return preset == Preset::exact ? exact : published; }
 };
@@ -42,7 +42,7 @@ inline constexpr std::array<ProcessorClocks, 11> c_processor_clocks = {{
     {"spot specular", golden::Term::specular, LightKind::spot, false, false, std::nullopt, 32, 24},
 }};
 
-/// The work that takes longest in the pipeline of a processors shader's key: it sets the pace of all.
+/// The slowest operation in the pipeline of a processors shader's key. It determines the throughput.
 const ProcessorClocks& slowest_processor(const HardwareKey& key);
 
 }  // namespace halfway

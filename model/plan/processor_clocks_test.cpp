@@ -19,7 +19,7 @@ namespace {
 
 using golden::Term;
 
-// Equality with the RTL is tb.table4's.
+// tb.table4 checks that these values equal the RTL's.
 TEST(Table4, PublishedIsThePapers) {
   int printed = 0;
   for (const ProcessorClocks& row : c_processor_clocks) {
@@ -75,12 +75,12 @@ TEST(Table5, TheSlowestProcessorIsOneThatTheSceneHas) {
   EXPECT_EQ(slowest(key), "positional diffuse");
   key.processors.spots = 1;
   EXPECT_EQ(slowest(key), "spot diffuse");
-  // Of no account: what gives way to it.
+  // Slower rows that the key replaces must not count.
   key.processors = {.directional = 1, .specular = true, .normalize = true};
   EXPECT_EQ(slowest(key), "directional specular");
 }
 
-// None of a pipeline's own rows takes longer; the works are counted up here in another way.
+// No row of a pipeline takes longer. Here the rows are enumerated by another method.
 TEST(Table5, NoProcessorOfThePipelineIsSlower) {
   for (const Preset preset : {Preset::exact, Preset::published})
     for (unsigned bits = 0; bits < 64; ++bits) {
@@ -106,7 +106,7 @@ TEST(Table5, NoProcessorOfThePipelineIsSlower) {
     }
 }
 
-// The paper's worked example, by the clocks that its processors take here.
+// The paper's worked example with the clocks measured here.
 TEST(Table5, WorkedExampleAsMeasured) {
   HardwareKey key{.shader = Shader::processors, .preset = Preset::published};
   key.processors = {.directional = 5, .positional = 5, .diffuse = true, .specular = true, .normalize = true};

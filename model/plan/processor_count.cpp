@@ -16,7 +16,7 @@ PipelineCount count_pipelines(std::uint64_t clocks, std::uint64_t per_pipeline, 
   PipelineCount count{};
   count.pipeline_ns = clocks * load.objects * c_processor_cycle_ns;
   count.per_pipeline = per_pipeline;
-  const std::uint64_t busy_ns = load.frames * load.pixels * count.pipeline_ns;  // in a second
+  const std::uint64_t busy_ns = load.frames * load.pixels * count.pipeline_ns;  // per second
   count.pipelines_needed = static_cast<double>(busy_ns) / static_cast<double>(c_second_ns);
   count.pipelines = divide_up(busy_ns, c_second_ns);
   return count;
@@ -24,7 +24,7 @@ PipelineCount count_pipelines(std::uint64_t clocks, std::uint64_t per_pipeline, 
 
 ProcessorCount count_processors(ProcessorVersion version, const ShadingLoad& load) {
   const std::uint64_t positional = version == ProcessorVersion::one ? 0 : load.positional;
-  // Two processors a light, and one for ambient light.
+  // Two processors per light, and one for ambient light.
   ProcessorCount count{
       count_pipelines(pipeline_clocks(version), 2 * (load.directional + positional) + 1, load)};
   count.single_ns =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table 5 of the processors paper: how many shading processors keep up with a frame.
+// Table 5 of the processors paper: the number of shading processors needed for a frame rate.
 #pragma once
 
 #include <cstdint>
@@ -7,54 +7,55 @@
 
 namespace halfway {
 
-/// Without normalization and positional lights, or with both.
+/// One: without normalization and positional lights. Two: with both.
 enum class ProcessorVersion { one, two };
 
-/// What there is to draw.
+/// The load of a scene.
 struct ShadingLoad {
-  std::uint64_t pixels = 0;       ///< M, of a frame
-  std::uint64_t frames = 30;      ///< a second
-  std::uint64_t objects = 1;      ///< O, of a pixel
+  std::uint64_t pixels = 0;       ///< M, per frame
+  std::uint64_t frames = 30;      ///< per second
+  std::uint64_t objects = 1;      ///< O, per pixel
   std::uint64_t directional = 0;  ///< R
-  std::uint64_t positional = 0;   ///< P, spot lights among them
+  std::uint64_t positional = 0;   ///< P, including spot lights
 };
 
 inline constexpr std::uint64_t c_processor_cycle_ns = 50;
 
-/// Clocks of a pixel and object in the slowest processor of a pipeline: the specular one's (table 4).
+/// Clocks per pixel and object in the slowest processor of a pipeline, the specular one (table 4).
 constexpr std::uint64_t pipeline_clocks(ProcessorVersion version) {
   return version == ProcessorVersion::one ? 7 : 13;
 }
 
-/// Clocks in one processor that does all. As printed, both terms of a light cost what the slower one does.
+/// Clocks in one processor that computes all terms. As printed, both terms of a light cost as much as the
+/// slower one.
 constexpr std::uint64_t single_clocks(ProcessorVersion version, std::uint64_t directional,
                                       std::uint64_t positional) {
   return version == ProcessorVersion::one ? 14 * directional + 4 : 14 * directional + 26 * positional + 6;
 }
 
-/// Pipelines side by side that keep up.
+/// The number of parallel pipelines for a load.
 struct PipelineCount {
-  std::uint64_t pipeline_ns;   ///< of a pixel in a pipeline
-  double pipelines_needed;     ///< not whole
+  std::uint64_t pipeline_ns;   ///< per pixel, in a pipeline
+  double pipelines_needed;     ///< not rounded
   std::uint64_t per_pipeline;  ///< processors
-  std::uint64_t pipelines;     ///< whole ones
+  std::uint64_t pipelines;     ///< rounded up
 
   std::uint64_t processors() const { return pipelines * per_pipeline; }
 };
 
-/// Of pipelines of so many processors, which take an object each `clocks`. All of `load` but the lights is at
-/// least 1, and the busy nanoseconds of a second fit into 64 bits.
+/// For pipelines of `per_pipeline` processors that accept one object per `clocks`. All fields of `load`
+/// except the lights must be at least 1, and the busy nanoseconds of a second must fit into 64 bits.
 PipelineCount count_pipelines(std::uint64_t clocks, std::uint64_t per_pipeline, const ShadingLoad& load);
 
-/// As the paper's formulas have it.
+/// As defined by the paper's formulas.
 struct ProcessorCount : PipelineCount {
-  std::uint64_t single_ns;  ///< of a pixel in one processor that does all
-  /// The same as the paper counts, for whom a pixel is due in whole nanoseconds, the rest dropped: 33
-  /// of 33.3. None where less than one is left.
+  std::uint64_t single_ns;  ///< per pixel, in one processor that computes all terms
+  /// The same with the paper's rounding: the time per pixel is truncated to whole nanoseconds, for example
+  /// 33.3 to 33. Empty if the result is zero.
   std::optional<std::uint64_t> published_due_ns, published_pipelines;
 };
 
-/// Version one has no positional lights: they are left out. `load` as for count_pipelines.
+/// Positional lights are ignored for version one, which has none. `load`: see count_pipelines.
 ProcessorCount count_processors(ProcessorVersion version, const ShadingLoad& load);
 
 }  // namespace halfway

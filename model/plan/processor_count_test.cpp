@@ -8,7 +8,7 @@
 namespace halfway {
 namespace {
 
-// A million pixels, 30 frames a second, three objects a pixel, five lights of each kind.
+// A million pixels, 30 frames per second, three objects per pixel, five lights of each kind.
 constexpr ShadingLoad c_worked{
     .pixels = 1'000'000, .frames = 30, .objects = 3, .directional = 5, .positional = 5};
 
@@ -19,7 +19,7 @@ TEST(Table5, WorkedExample) {
   EXPECT_EQ(count.published_due_ns, 33U);
   EXPECT_EQ(count.published_pipelines, 60U);  // 1950 / 33 = 59.09
   EXPECT_EQ(*count.published_pipelines * count.per_pipeline, 1260U);
-  // Due after 33.3 ns, not 33, fewer do.
+  // With 33.3 ns per pixel instead of 33 ns fewer pipelines are needed.
   EXPECT_DOUBLE_EQ(count.pipelines_needed, 58.5);
   EXPECT_EQ(count.pipelines, 59U);
   EXPECT_EQ(count.processors(), 1239U);
@@ -49,16 +49,16 @@ TEST(Table5, FormulasAreThePapers) {
               EXPECT_GE(static_cast<double>(count.pipelines), count.pipelines_needed);
               EXPECT_LT(static_cast<double>(count.pipelines), count.pipelines_needed + 1);
               EXPECT_EQ(count.processors(), count.pipelines * count.per_pipeline);
-              // The dropped fraction of a nanosecond asks for more, never for fewer.
+              // Truncating the nanoseconds never gives fewer pipelines.
               EXPECT_GE(count.published_pipelines.value_or(count.pipelines), count.pipelines);
             }
           }
 }
 
-// Exactly full pipelines take none more: no rounding of seconds in between.
+// An exact number of pipelines must not be rounded up: no rounding of seconds in between.
 TEST(Table5, WholeNumbersOfPipelinesStayWhole) {
   for (std::uint64_t n = 1; n <= 1000; ++n) {
-    // 20 000 000 pixels a second, of 7 n * 50 ns each.
+    // 20 000 000 pixels per second, of 7 n * 50 ns each.
     const ProcessorCount count = count_processors(
         ProcessorVersion::one, {.pixels = 200'000, .frames = 100, .objects = n, .directional = 1});
     EXPECT_EQ(count.pipelines, 7 * n) << n;

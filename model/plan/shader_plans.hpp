@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One function a shader: which hardware a scene's calls are to it, and what it leaves to the host.
+// One function per shader: the hardware for a scene, and the effects left to the host.
 #pragma once
 
 #include "plan/plan.hpp"
@@ -12,12 +12,12 @@ Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const 
 
 inline constexpr const char* c_form_of_another = "--form: only the shading processors have two forms";
 
-/// What the scene says of the effect, and who does it; nothing elaborated yet.
+/// The scene's need for the effect, and the part of the system that computes it. Not elaborated.
 PlannedEffect planned(const SceneCalls& calls, Effect effect, DoneBy by, std::string how);
 
-/// Done by the hardware.
+/// Computed by the hardware; elaborated if the scene needs it.
 PlannedEffect in_hardware(const SceneCalls& calls, Effect effect, std::string how);
-/// The same, and elaborated whatever the scene calls for.
+/// Computed by the hardware; elaborated for every scene.
 PlannedEffect always_elaborated(const SceneCalls& calls, Effect effect, std::string how);
 
 }  // namespace halfway

@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::uint32_t c_leaf_triangles = 4;
 constexpr int c_bins = 16;
-// Deeper than any sensible tree; what is left there is halved by number, 32 times at most.
+// Deeper than any reasonable tree. Below this depth the triangles are halved by number, at most 32 times.
 constexpr int c_most_costed_depth = 60;
 constexpr std::size_t c_most_depth = c_most_costed_depth + 34;
-// Of the scene's radius: far above what a sheared vertex is off by, far below any box.
+// Relative to the scene's radius: far larger than the error of a sheared vertex, far smaller than any box.
 constexpr double c_box_margin = 1e-12;
 
 struct Box {
@@ -49,7 +49,7 @@ struct Box {
 
 }  // namespace
 
-/// Top down, by the surface area heuristic over bins.
+/// Builds the tree top down, by the surface area heuristic over bins.
 class ShadowRays::Builder {
  public:
   Builder(ShadowRays& rays, double margin) : rays_(rays), margin_(margin) {
@@ -59,7 +59,7 @@ class ShadowRays::Builder {
       for (const glm::dvec3& corner : corners_world(*rays.scene_, triangle)) box.add(corner);
       boxes_.push_back(box);
     }
-    // Without a finite box a triangle has no place in the tree, and no ray meets it.
+    // Omit triangles without a finite box: no ray meets them.
     for (std::uint32_t i = 0; i < boxes_.size(); ++i)
       if (boxes_[i].is_finite()) rays.order_.push_back(i);
   }
@@ -98,7 +98,7 @@ class ShadowRays::Builder {
   }
 
  private:
-  /// Parts order_[begin, end) in two, neither empty.
+  /// Partitions order_[begin, end) into two parts that are not empty.
   std::uint32_t split(std::uint32_t begin, std::uint32_t end, const Box& centres, int depth) {
     const auto first = rays_.order_.begin() + begin, last = rays_.order_.begin() + end;
     const glm::dvec3 size = centres.high - centres.low;
@@ -122,7 +122,7 @@ class ShadowRays::Builder {
       const auto cost = [](const Bin& side) {
         return side.count == 0 ? 0.0 : side.count * side.box.half_area();
       };
-      std::array<double, c_bins> left_cost;  // of bins up to and with this one
+      std::array<double, c_bins> left_cost;  // cost of the bins up to and including this one
       Bin sum;
       for (int i = 0; i < c_bins; ++i) {
         sum.box.add(bins[i].box);
@@ -173,7 +173,7 @@ bool ShadowRays::reaches(LightRef light, const glm::dvec3& point_world, std::uin
 bool ShadowRays::is_blocked(const LightRay& ray, double least_way) const {
   if (nodes_.empty()) return false;
   const glm::dvec3 inverse = 1.0 / ray.direction_world();
-  // Written so that 0 * infinity, of a ray within a box's side, never refuses the box.
+  // Written such that 0 * infinity, for a ray in the plane of a box's side, never rejects the box.
   const auto meets = [&](const Node& node) {
     double begin = 0.0, end = ray.greatest_way();
     for (int axis = 0; axis < 3; ++axis) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadow rays, exactly: which lights reach a point of a surface.
+// Exact shadow rays: which lights reach a point of a surface.
 #pragma once
 
 #include <cstdint>
@@ -11,26 +11,27 @@
 
 namespace halfway {
 
-/// What is nearer to a point than this part of the scene's radius does not shadow it: two surfaces there
-/// touch.
+/// Surfaces nearer to a point than this fraction of the scene's radius do not shadow it: they count as
+/// touching.
 inline constexpr double c_touching = 1e-9;
 
-/// The scene's triangles in a tree of boxes.
+/// The scene's triangles in a tree of bounding boxes.
 class ShadowRays {
  public:
-  /// The scene must outlive it.
+  /// The scene must outlive this object.
   explicit ShadowRays(const Scene& scene);
 
-  /// Does the light reach a point of one of the scene's triangles? Not where the triangle itself is averted
-  /// from it, whatever a normal interpolated there says, nor where an averted triangle (light_ray.hpp) lies
-  /// on the way.
+  /// True if the light reaches a point of one of the scene's triangles. False if the triangle itself faces
+  /// away from the light, whatever its interpolated normal is, or if a triangle that faces away from the
+  /// light (light_ray.hpp) is between the point and the light.
   bool reaches(LightRef light, const glm::dvec3& point_world, std::uint32_t triangle) const;
 
-  /// Is an averted triangle on the way, more than `least_way` from its start?
+  /// True if a triangle that faces away from the light is on the ray, more than `least_way` from its start.
   bool is_blocked(const LightRay& ray, double least_way) const;
 
  private:
-  /// A leaf holds order_[first, first + count); without any it has two children, at `first` and behind.
+  /// A leaf contains order_[first, first + count). With count = 0 the node has two children, at `first` and
+  /// first + 1.
   struct Node {
     glm::dvec3 low_world, high_world;
     std::uint32_t first, count;
@@ -39,7 +40,7 @@ class ShadowRays {
 
   const Scene* scene_;
   double touching_distance_;
-  std::vector<std::uint32_t> order_;  ///< triangles by leaf
+  std::vector<std::uint32_t> order_;  ///< triangles in the order of the leaves
   std::vector<Node> nodes_;
 };
 

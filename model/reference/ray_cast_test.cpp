@@ -20,7 +20,7 @@ bool blocked_by_search(const Scene& scene, const LightRay& ray, double least_way
   });
 }
 
-/// A sheet of `triangles` loose triangles, and some twice.
+/// A layer of `triangles` unconnected triangles, some of them twice.
 Scene loose(RandomSolids& random, int triangles, double size, const glm::dvec3& spread) {
   Scene scene;
   scene.materials.emplace_back();
@@ -48,7 +48,7 @@ TEST(ShadowRays, FindWhatASearchFinds) {
       const glm::dvec3 from =
           i % 5 == 0 ? scene.positions_world[random.whole(0, 2)] : 1.5 * spread * random.cube(1.0);
       LightPoint light{random.unit(), 0.0};
-      // Towards places, vertices among them, and along the axes.
+      // Rays towards points, including vertices, and along the axes.
       if (i % 3 == 1) light = {2.0 * spread * random.cube(1.0) + 0.1 * random.unit(), 1.0};
       if (i % 3 == 2 && i % 2) light = {scene.positions_world.back(), 1.0};
       if (i % 3 == 2 && i % 4 == 0) light = {{0, i % 8 ? 1 : -1, 0}, 0.0};
@@ -65,7 +65,7 @@ TEST(ShadowRays, FindWhatASearchFinds) {
   EXPECT_LT(blocked, rays_cast / 5 * 4);
 }
 
-// Boxes whose faces lie in one plane, and rays within that plane.
+// Boxes with faces in one plane, and rays within that plane.
 TEST(ShadowRays, RaysWithinTheSidesOfBoxes) {
   Scene scene;
   for (int i = 0; i < 5; ++i) {
@@ -96,7 +96,8 @@ TEST(ShadowRays, ManyTrianglesInOnePlaceAreStillATree) {
   EXPECT_FALSE(ShadowRays(Scene{}).is_blocked(LightRay({0, 1, 0}, {{0, 1, 0}, 0.0}), 0.0));
 }
 
-// A convex solid shadows itself exactly where its triangles are averted: not one point is wrong by rounding.
+// A convex solid shadows itself exactly where its triangles face away from the light. Rounding causes no
+// error at any point.
 TEST(ShadowRays, AConvexSolidNeverShadowsItsLitSide) {
   RandomSolids random(4);
   int lit = 0, dark = 0;
@@ -113,7 +114,7 @@ TEST(ShadowRays, AConvexSolidNeverShadowsItsLitSide) {
     for (int i = 0; i < 300; ++i) {
       const auto t = random.whole(0, static_cast<std::uint32_t>(scene.triangles.size()) - 1);
       const auto [a, b, c] = corners_world(scene, scene.triangles[t]);
-      // Corners and edges too.
+      // Includes corners and edges.
       double u = random.within(0.0, 1.0), v = random.within(0.0, 1.0);
       if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
       if (i % 4 == 1) u = 0.0;
@@ -123,7 +124,7 @@ TEST(ShadowRays, AConvexSolidNeverShadowsItsLitSide) {
       for (const LightRef light : {c_sun, c_lamp}) {
         const LightPoint from = light_of(scene, light).point;
         const glm::dvec3 way = from.way_from(point), normal = glm::cross(b - a, c - a);
-        // Edge-on, either is right.
+        // Edge-on: both results are correct.
         if (std::abs(glm::dot(way, normal)) < 1e-6 * glm::length(way) * glm::length(normal)) continue;
         const bool is_lit = !is_averted({a, b, c}, from);
         ASSERT_EQ(rays.reaches(light, point, t), is_lit) << round;
@@ -141,10 +142,10 @@ TEST(ShadowRays, AShadowOnTheGroundIsWhereGeometryPutsIt) {
   scene.normals_world = {{0, 1, 0}};
   scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}, {{0, 2, 3}, {0, 0, 0}, 0}};
   Mesh box = make_box({2.0, 1.0, 2.0}, 1);
-  for (glm::dvec3& p : box.positions) p += glm::dvec3(0.0, 0.5, 0.0);  // stands on the ground
+  for (glm::dvec3& p : box.positions) p += glm::dvec3(0.0, 0.5, 0.0);  // on the ground
   add_mesh(scene, box);
   scene.directional = {{glm::normalize(glm::dvec3(-1, 1, 0)), {}}};
-  scene.positional = {{{0, 3, 0}, {}}};  // the top's edge throws its shadow at 1.5
+  scene.positional = {{{0, 3, 0}, {}}};  // the shadow of the top's edge is at 1.5
   scene.spots = {{{0, 3, 0}, {0, -1, 0}, 1.0, 0.0, {}}};
   const ShadowRays rays(scene);
   for (const auto& [x, sun, lamp] : {std::tuple{-1.4, true, false},
@@ -160,14 +161,14 @@ TEST(ShadowRays, AShadowOnTheGroundIsWhereGeometryPutsIt) {
     EXPECT_EQ(rays.reaches(c_lamp, {x, 0, 0.1}, ground), lamp) << x;
     EXPECT_EQ(rays.reaches({LightKind::spot, 0}, {x, 0, 0.1}, ground), lamp) << x;
   }
-  // Nothing lies between a lamp and what is before it; at the very lamp there is no way at all.
+  // Nothing is between a lamp and a point close to it. A point exactly at the lamp has no ray.
   scene.positional = {{{1.2, 0.0, 0.1}, {}}};
   EXPECT_TRUE(rays.reaches(c_lamp, {1.2, 0.0, 0.1}, 0));
   EXPECT_TRUE(rays.reaches(c_lamp, {1.3, 0.0, 0.1}, 0));
   EXPECT_FALSE(rays.reaches(c_lamp, {-1.2, 0.0, 0.1}, 0));
 }
 
-// A sheet that touches the ground does not shadow it there; a little above it does.
+// A sheet that touches the ground does not shadow it. Slightly above the ground it does.
 TEST(ShadowRays, TouchingIsNotShadowing) {
   for (const double height : {0.0, 1e-12, 1e-7, 0.1}) {
     Scene scene;

@@ -33,7 +33,7 @@ ReferenceImage render_gouraud(const Scene& scene, std::span<const ScreenTriangle
                               const RenderOptions& options) {
   return render_visible(scene, triangles, options, [&] {
     constexpr std::uint32_t c_none = std::numeric_limits<std::uint32_t>::max();
-    // The last triangle's vertices stay at hand: a span asks for them pixel by pixel.
+    // Keep the vertices of the last triangle: a span uses them for each pixel.
     return [&, last = c_none, at_vertex = std::array<glm::dvec3, 3>{}](std::uint32_t index, std::uint32_t x,
                                                                        std::uint32_t y) mutable {
       const ScreenTriangle& triangle = triangles[index];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures to measure a shader by: Phong shading per pixel, and Gouraud's, both in double with exact
-// coverage.
+// Reference pictures for the accuracy of a shader: Phong shading per pixel and Gouraud shading, both in
+// double with exact coverage.
 #pragma once
 
 #include <cstdint>
@@ -17,29 +17,29 @@
 namespace halfway {
 
 struct ReferenceImage {
-  Frame frame;                     ///< or its tile
-  std::vector<std::uint8_t> mask;  ///< 1 where a triangle covers the pixel, else 0; one byte a pixel
+  Frame frame;                     ///< of the whole frame or of the tile
+  std::vector<std::uint8_t> mask;  ///< one byte per pixel: 1 if a triangle covers it, else 0
 };
 
-/// Calls `work` at most `most` times, perhaps at the same time on several threads, and returns after the last
-/// call.
+/// Calls `work` at most `most` times, possibly on several threads at the same time, and returns after the
+/// last call.
 using Workers = std::function<void(unsigned most, const std::function<void()>& work)>;
 
 struct RenderOptions {
   FrameSize frame;
   int subpixel_bits = 4;       ///< of the screen triangles' coordinates, 1 to 9
-  Workers workers{};           ///< none: this thread alone. The picture does not depend on it.
-  std::optional<Tile> tile{};  ///< of the frame, in place of all of it
+  Workers workers{};           ///< empty: only this thread. The picture does not depend on it.
+  std::optional<Tile> tile{};  ///< a part of the frame; empty: the whole frame
 };
 
-/// Normal and position are interpolated perspective-correctly at the pixel's centre and shaded there.
-/// Of two triangles at the same depth the first in the span keeps the pixel. With Scene::shadows a light
-/// counts only where its shadow ray reaches (ray_cast.hpp).
+/// Normal and position are interpolated perspective-correctly at the pixel's centre and shaded there. Of two
+/// triangles at the same depth the first in the span is visible. With Scene::shadows a light counts only if
+/// its shadow ray reaches the point (ray_cast.hpp).
 ReferenceImage render_reference(const Scene& scene, std::span<const ScreenTriangle> triangles,
                                 const RenderOptions& options);
 
-/// Shades at the vertices, unclamped, and interpolates linearly on the screen; the same coverage. It knows no
-/// shadows.
+/// Shades at the vertices, without clamping, and interpolates linearly on the screen. The coverage is the
+/// same. Without shadows.
 ReferenceImage render_gouraud(const Scene& scene, std::span<const ScreenTriangle> triangles,
                               const RenderOptions& options);
 

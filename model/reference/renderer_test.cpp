@@ -23,7 +23,7 @@ namespace {
 
 constexpr FrameSize c_frame{70, 53};
 
-/// Loose triangles, all over and through each other, of two materials under one light of each kind.
+/// Unconnected, overlapping and intersecting triangles of two materials, with one light of each kind.
 Scene tangle(unsigned seed, int triangles) {
   Scene scene;
   std::mt19937 random(seed);
@@ -46,7 +46,7 @@ Scene tangle(unsigned seed, int triangles) {
   return scene;
 }
 
-/// Pixel by pixel over all triangles, by the sign of three areas.
+/// Searches all triangles at each pixel, by the signs of three areas.
 std::vector<std::uint32_t> visible_by_search(const std::vector<ScreenTriangle>& triangles, FrameSize frame) {
   std::vector<std::uint32_t> seen(Frame::pixels(frame), 0xffffffffu);
   for (std::uint32_t y = 0; y < frame.height; ++y)
@@ -105,7 +105,7 @@ TEST(Renderer, ShadesTheNearestTriangleAtEachCentre) {
   EXPECT_GT(covered, 1000);
 }
 
-// Pixel by pixel, by a search of all triangles.
+// For each pixel, searches all triangles.
 TEST(Renderer, InASceneWithShadowsALightGivesNothingWhereItDoesNotReach) {
   RandomSolids random(5);
   int shadowed = 0, lit = 0;
@@ -128,7 +128,7 @@ TEST(Renderer, InASceneWithShadowsALightGivesNothingWhereItDoesNotReach) {
         const auto reaches = [&](LightRef light) {
           const LightPoint from = light_of(scene, light).point;
           const Crossings on_the_way = crossings(corners, point.position_world, from);
-          // The point's own triangle is always crossed at 0.
+          // The ray always crosses the point's own triangle at 0.
           in_doubt |= std::abs(glm::dot(from.way_from(point.position_world), point.normal_world)) < 1e-6;
           const bool is_lit = !is_averted(corners[t.source], from) && on_the_way.enters == 0;
           ++(is_lit ? lit : shadowed);
@@ -200,7 +200,8 @@ TEST(Renderer, NoTrianglesGiveTheBackground) {
   }
 }
 
-// Sums above white at the vertices pull the middle up: they must not be cut before they are interpolated.
+// Sums above white at the vertices increase the colour in the middle: they must not be clamped before
+// interpolation.
 TEST(Renderer, GouraudDoesNotClampItsVertices) {
   Scene scene;
   scene.camera.vertical_fov_degrees = 90.0;
@@ -214,7 +215,7 @@ TEST(Renderer, GouraudDoesNotClampItsVertices) {
   scene.triangles = {{{0, 1, 2}, {1, 1, 0}, 0}};  // 0, 0 and 3
   const auto triangles = Projector(scene, {64, 64}, {}).project_all();
   const ReferenceImage image = render_gouraud(scene, triangles, {.frame = {64, 64}});
-  // The tip is at y = 32 - 25.6 (snapped 6.375), the foot at 57.6 (57.625): white until two thirds down.
+  // The top is at y = 32 - 25.6 (snapped 6.375), the bottom at 57.6 (57.625). White in the upper two thirds.
   for (std::uint32_t y = 8; y < 57; ++y) {
     const double expected = 3.0 * (57.625 - (y + 0.5)) / (57.625 - 6.375);
     EXPECT_EQ(image.frame.rgb[image.frame.offset(32, y)], to_byte(expected)) << y;

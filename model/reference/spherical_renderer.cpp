@@ -20,7 +20,7 @@
 namespace halfway {
 namespace {
 
-/// What one light needs at a point of the surface; a vector that is undefined there is zero.
+/// Vectors of one light at a point of the surface. An undefined vector is zero.
 struct LightVectors {
   glm::dvec3 to_light;
   glm::dvec3 u, v;  ///< the highlight is (u.v)^n
@@ -83,7 +83,7 @@ struct TurningPair {
   }
 };
 
-/// Bell that stands for cos^n, at an angle.
+/// The bell that approximates cos^n, at an angle.
 double squared_cosine(double angle, double scale) {
   const double x = scale * std::abs(angle);
   if (!(x < std::numbers::pi / 2)) return 0.0;
@@ -180,7 +180,7 @@ class SphericalShader {
       slerp_vectors(vertex_[top], vertex_[bottom], t, out);
       return mix(a.x, b.x, t) / unit;
     };
-    // The span runs from the long edge, to whichever side: turned round it is the same.
+    // The span starts at the long edge, in either direction. The result is the same from the other end.
     x_begin_ = cross(down[0], down[2], begin_);
     const double x_end = y_ < middle ? cross(down[0], down[1], end_) : cross(down[1], down[2], end_);
     length_ = x_end - x_begin_;
@@ -209,11 +209,11 @@ class SphericalShader {
   std::span<const double> scales_;  ///< published_scale of each material
   std::vector<glm::dvec3> intensities_;
 
-  // Of the triangle and the line last asked for.
+  // For the triangle and line of the last call.
   std::uint32_t index_ = std::numeric_limits<std::uint32_t>::max(), y_ = 0;
   std::array<PointVectors, 3> vertex_;
   PointVectors begin_, end_;
-  double x_begin_ = 0.0, length_ = 1.0;  ///< pixels; negative where the span runs to the left
+  double x_begin_ = 0.0, length_ = 1.0;  ///< in pixels; negative for a span to the left
   std::vector<TurningPair> diffuse_, specular_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spherical paper's interpolation pixel by pixel in double: no tables, no word lengths. Shows what the
-// method itself costs in accuracy, and what its choices matter.
+// The spherical paper's interpolation per pixel in double, without tables and word lengths. Shows the error
+// of the method itself and of its variants.
 #pragma once
 
 #include <span>
@@ -12,19 +12,19 @@
 
 namespace halfway {
 
-/// How the angle between two vectors that both turn along a span is had (spherical paper, section 3.2). In
-/// the built-in scenes at 320x240 the two give the same frame but for one step of 255 (rms 0.03 to 0.27).
-/// Where the vectors turn far along a span, one_fixed is the worse: on a sphere of 36 triangles close to a
-/// light they are up to 26 steps apart, and their rms errors are 5.7 and 2.5.
+/// Computation of the angle between two vectors that both turn along a span (spherical paper, section 3.2).
+/// In the built-in scenes at 320x240 the frames of both schemes differ by at most one step of 255 (rms 0.03
+/// to 0.27). If the vectors turn far along a span, one_fixed is worse: on a sphere of 36 triangles close to a
+/// light the schemes differ by up to 26 steps, and their rms errors are 5.7 and 2.5.
 enum class VectorScheme {
-  one_fixed,         ///< one cosine: the second held at the span's begin, the first's end turned back
-  both_interpolated  ///< spherical interpolation of each, and their product, at each pixel
+  one_fixed,         ///< one cosine: the second vector fixed at the span's start
+  both_interpolated  ///< spherical interpolation of each vector, and their product, at each pixel
 };
 
-/// What stands for cos^n of the angle x between N and H, or R and V.
+/// The function used for cos^n of the angle x between N and H, or R and V.
 enum class HighlightCurve {
-  power,          ///< itself
-  squared_cosine  ///< cos^2 ax where |ax| < pi/2, zero outside; a = published_scale(n)
+  power,          ///< cos^n itself
+  squared_cosine  ///< cos^2 ax if |ax| < pi/2, zero outside; a = published_scale(n)
 };
 
 struct SphericalMethod {
@@ -34,10 +34,10 @@ struct SphericalMethod {
 };
 
 /// Per light of a span: N.L from N and L, the highlight from N and H (Blinn) or R and V (Phong), each
-/// interpolated between the span's two ends in the frame; nothing where N.L <= 0. Cook-Torrance's highlight
-/// is no power of a cosine: it is shaded from N, L and V, each interpolated by itself, in both schemes. A
-/// light whose L or H is undefined at one end gives no N.L or no highlight on the whole span. A spot light's
-/// cone goes linearly from end to end. Coverage and depth are render_reference's.
+/// interpolated between the span's two ends in the frame; zero if N.L <= 0. Cook-Torrance's highlight is not
+/// a power of a cosine: it is shaded from N, L and V, each interpolated separately, in both schemes. A light
+/// whose L or H is undefined at one end contributes no N.L or no highlight on the whole span. The factor of a
+/// spot light's cone is linear from end to end. Coverage and depth are those of render_reference.
 ReferenceImage render_spherical(const Scene& scene, std::span<const ScreenTriangle> triangles,
                                 const RenderOptions& options, const SphericalMethod& method);
 

@@ -38,7 +38,8 @@ std::vector<SphericalMethod> all_methods() {
   return methods;
 }
 
-/// One triangle that may leave the frame, its normals up to a right angle apart, a light of each kind.
+/// One triangle that may extend beyond the frame, normals up to a right angle apart, and a light of each
+/// kind.
 Scene one_triangle(std::mt19937& random, Brdf brdf) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const auto point = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
@@ -64,8 +65,8 @@ Scene one_triangle(std::mt19937& random, Brdf brdf) {
   return scene;
 }
 
-// The method written down pixel by pixel, by the paper's own formulas; none of the scenes comes near their
-// faults.
+// The method written pixel by pixel with the paper's own formulas. The scenes avoid the singularities of
+// these formulas.
 
 glm::dvec3 published_slerp(glm::dvec3 a, glm::dvec3 b, double t) {
   if (glm::length(a - b) < 1e-9) return a;
@@ -110,7 +111,7 @@ Cosine cosine_between(VectorScheme scheme, glm::dvec3 u1, glm::dvec3 u2, glm::dv
   const glm::dvec3 c = glm::cross(v1, v2);
   const double cosine = glm::dot(v1, v2);
   const glm::dvec3 u2_back = cosine * u2 - glm::cross(c, u2) + glm::dot(c, u2) / (1.0 + cosine) * c;
-  // The amplitude is v1's length in the plane that u turns in.
+  // The amplitude is the length of v1's projection onto the plane in which u turns.
   const glm::dvec3 across = glm::cross(u1, u2_back);
   const double length = glm::length(across);
   const double value = glm::dot(published_slerp(u1, u2_back, t), v1);
@@ -160,7 +161,7 @@ TEST(SphericalRenderer, DrawsWhatTheFormulasSay) {
         const auto first = std::find(line, line + c_frame.width, 1) - line;
         const auto count = std::count(line, line + c_frame.width, 1);
         if (count == 0) continue;
-        // Ends: the first and the last pixel, or where the edges are on this line.
+        // Ends: the first and the last pixel, or the edges at this line.
         double begin = static_cast<double>(first) + 0.5, end = begin + static_cast<double>(count - 1);
         std::function<std::array<Vectors, 2>(std::size_t)> ends = [&](std::size_t light) {
           const auto at = [&](std::int64_t x) {
@@ -219,7 +220,7 @@ Scene builtin(const std::string& name) {
   return *load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
 }
 
-/// A sphere of 36 triangles with a sharp highlight, and a light a quarter of its radius away.
+/// A sphere of 36 triangles with a sharp highlight, and a light at a quarter of its radius from the surface.
 Scene hard_scene() {
   const Mesh mesh = make_uv_sphere(6, 4, 1.0);
   Scene scene;
@@ -259,7 +260,7 @@ TEST(SphericalRenderer, TheNumberOfThreadsDoesNotMatter) {
   }
 }
 
-// Where edges start at the light itself there is no L to turn from; on the surface there is, pixel by pixel.
+// If an edge starts exactly at the light, L is undefined there. On the surface L is defined at every pixel.
 TEST(SphericalRenderer, ALightAtAVertexLeavesItsEdgesDark) {
   Scene scene = hard_scene();
   scene.ambient = glm::dvec3(0.0);
@@ -278,8 +279,8 @@ TEST(SphericalRenderer, ALightAtAVertexLeavesItsEdgesDark) {
 }
 
 struct Difference {
-  FrameDistance schemes;      ///< one fixed against both interpolated
-  FrameDistance fixed, both;  ///< against the reference
+  FrameDistance schemes;      ///< one_fixed compared with both_interpolated
+  FrameDistance fixed, both;  ///< compared with the reference
 };
 
 Difference measure(const Scene& scene, FrameSize size, SpanEnds ends) {
@@ -306,8 +307,8 @@ Difference measure(const Scene& scene, FrameSize size, SpanEnds ends) {
   return d;
 }
 
-// The paper: "visually indistinguishable". So they are, in its scenes and in ours: one step of 255 at most.
-// They need not be: where vectors turn far along a span, the one held fixed costs more than it saves.
+// The paper says "visually indistinguishable". This holds in its scenes and in ours: at most one step of 255.
+// It does not hold in general: if the vectors turn far along a span, the fixed vector causes a larger error.
 TEST(SphericalRenderer, FixedAgainstBoth) {
   struct Case {
     const char* scene;
@@ -340,7 +341,7 @@ TEST(SphericalRenderer, FixedAgainstBoth) {
   }
 }
 
-// A directional light and its N.L: nothing but N turns, and the two are one.
+// A directional light and its N.L: only N turns, and both schemes are equal.
 TEST(SphericalRenderer, SchemesAreOneWhereOneVectorStandsStill) {
   for (const char* name : {"spheres", "teapot"}) {
     Scene scene = builtin(name);
@@ -352,7 +353,7 @@ TEST(SphericalRenderer, SchemesAreOneWhereOneVectorStandsStill) {
       const Frame both =
           render_spherical(scene, triangles, options, {VectorScheme::both_interpolated, ends}).frame;
       const FrameDistance distance = *frame_distance(fixed, both);
-      EXPECT_LE(distance.differing, 3u) << name;  // a rounding that falls on the edge
+      EXPECT_LE(distance.differing, 3u) << name;  // rounding close to a step's boundary
       EXPECT_LE(distance.max_lsb, 1u) << name;
     }
   }

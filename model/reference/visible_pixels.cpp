@@ -13,11 +13,11 @@
 namespace halfway {
 namespace {
 
-// Lines that one thread holds the visibility of: few enough for its cache at 4096 pixels a line.
+// Lines for which one thread stores the visibility: few enough for its cache at 4096 pixels per line.
 constexpr std::uint32_t c_band_lines = 16;
 constexpr std::uint32_t c_nothing = std::numeric_limits<std::uint32_t>::max();
 
-/// Bands of the tile that a triangle may touch; none where first > last.
+/// Bands of the tile that a triangle may cover; none if first > last.
 struct BandRange {
   std::uint16_t first = 1, last = 0;
 };
@@ -31,7 +31,7 @@ BandRange bands_touched(const ScreenTriangle& triangle, const Tile& tile, int su
   return {static_cast<std::uint16_t>(first / c_band_lines), static_cast<std::uint16_t>(last / c_band_lines)};
 }
 
-/// Which triangle is seen at each pixel of a band of the tile, and how deep, where it is not c_nothing.
+/// The visible triangle at each pixel of a band, and its depth if the triangle is not c_nothing.
 struct Visibility {
   std::vector<double> z;
   std::vector<std::uint32_t> triangle;

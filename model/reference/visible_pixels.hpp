@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame behind every software picture: exact coverage, the nearest triangle at each pixel, many threads.
+// The common part of all software pictures: exact coverage, the nearest triangle at each pixel, several
+// threads.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +21,8 @@ glm::dvec3 barycentric_at_centre(const ScreenTriangle& triangle, int subpixel_bi
 /// Radiance at pixel (x, y), where triangles[index] is the nearest.
 using PixelShader = std::function<glm::dvec3(std::uint32_t index, std::uint32_t x, std::uint32_t y)>;
 
-/// `make_shader` is called for each band of the frame or tile, on any thread; its shader then gets the band's
-/// covered pixels, line by line from left to right, and may keep what it likes from one to the next.
+/// Calls `make_shader` for each band of the frame or tile, on any thread. The shader is then called for the
+/// band's covered pixels, line by line from left to right, and may keep data from one call to the next.
 ReferenceImage render_visible(const Scene& scene, std::span<const ScreenTriangle> triangles,
                               const RenderOptions& options, const std::function<PixelShader()>& make_shader);
 

@@ -163,7 +163,7 @@ TEST(Project, ACornerNearInfinityIsCutWhereItShould) {
       const auto triangles = Projector(scene, frame, {.clip_to_frame = clip_to_frame}).project_all();
       const std::vector<int> count = coverage(triangles, frame, 4);
       for (int y = 0; y < 64; ++y)
-        for (int x = 0; x < 64; ++x) {  // at the middle line the band covers -0.625 to 6.375 pixels, snapped
+        for (int x = 0; x < 64; ++x) {  // relative to the diagonal the band covers -0.625 to 6.375 pixels
           const double from_middle = (x + 0.5 - 32.0) * side - (32.0 - (y + 0.5));
           const bool covered = y < 32 && from_middle > -0.625 && from_middle < 6.375;
           ASSERT_EQ(count[static_cast<std::size_t>(y * 64 + x)], covered ? 1 : 0) << x << ',' << y;

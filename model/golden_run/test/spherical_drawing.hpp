@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: a stage, what the golden model draws of a scene, and what preset exact promises of it.
+// For tests: a simple scene, its fragments by the golden model, and the error bound of preset exact for it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,10 +22,10 @@ namespace halfway {
 
 inline constexpr int c_exact_subpixel_bits = 4;
 
-/// Odd: a pixel lies in the very middle.
+/// Odd sizes, so that a pixel is at the exact middle.
 inline constexpr FrameSize c_stage_frame{65, 49};
 
-/// A triangle across the view of an eye straight above it, not lit yet.
+/// A triangle that fills the view of an eye straight above it, without lights.
 inline Scene stage(const std::array<glm::dvec3, 3>& normals = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}}) {
   Scene scene;
   scene.name = "stage";
@@ -37,7 +37,7 @@ inline Scene stage(const std::array<glm::dvec3, 3>& normals = {{{0, 0, 1}, {0, 0
   return scene;
 }
 
-/// A light of each kind, to the side.
+/// One light of each kind, from the side.
 inline void add_side_lights(Scene& scene) {
   scene.directional.push_back({glm::normalize(glm::dvec3(0.3, 0.2, 1.0)), glm::dvec3(0.4)});
   scene.positional.push_back({{0.4, -0.3, 2.0}, glm::dvec3(0.4)});
@@ -45,7 +45,7 @@ inline void add_side_lights(Scene& scene) {
       {{-0.5, 0.3, 2.5}, glm::normalize(glm::dvec3(0.5, -0.2, -2.5)), 0.95, 0.9, glm::dvec3(0.4)});
 }
 
-/// The eye so far away that its rays are parallel, and the stage fills the view still.
+/// Moves the eye so far away that its rays are parallel. The triangle still fills the view.
 inline void move_eye_away(Scene& scene) {
   scene.camera.eye_world.z = 1e9;
   scene.camera.vertical_fov_degrees = 1e-7;
@@ -77,12 +77,12 @@ inline Drawn draw(const Scene& scene, FrameSize frame, const HardwareKey& key,
   return drawn;
 }
 
-/// How far, in colour steps, a fragment may be from the illumination model where the interpolation holds the
-/// threshold: what bells and tables add for each light, and roundings.
+/// Greatest difference, in colour steps, between a fragment and the illumination model if the interpolation
+/// stays within the threshold. It adds the errors of bells and tables for each light, and the rounding.
 inline double promised_steps(const Scene& scene, const HardwareKey& key, double threshold) {
   const TableSize size = key.spherical.tables;
   const auto error = [&](int power) {
-    // And the angle's drift, 2^-11 of a half bell at most; no table is steeper than 4 a half bell.
+    // Includes the angle's drift of up to 2^-11 of a half bell. No table is steeper than 4 per half bell.
     return tables::table_error(tables::cosine_table(true, power, size.address_bits, size.data_bits)) +
            0x1p-11 * 4;
   };
