@@ -28,7 +28,7 @@ class Formula {
     throw std::logic_error(fmt::format("formula '{}': {} before '{}'", text_, why, left_));
   }
 
-  // The next character that is no space; '\0' at the end.
+  // The next non-space character; '\0' at the end.
   char next() {
     while (!left_.empty() && left_.front() == ' ') left_.remove_prefix(1);
     return left_.empty() ? '\0' : left_.front();
@@ -61,7 +61,7 @@ class Formula {
         return value;
     }
   }
-  // Binds stronger than the sign before it, weaker than the one in the exponent.
+  // Its precedence is higher than that of a sign before it, lower than that of a sign in the exponent.
   double power() {
     if (take('-')) return -power();
     const double base = atom();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The worst case that a format or table states of its words, with the formula that it follows from.
+// A worst case that a format or table states for its words, and the formula from which it is derived.
 #pragma once
 
 #include <span>
@@ -10,14 +10,14 @@ namespace halfway::tables {
 
 struct Bound {
   enum class Kind {
-    range,  ///< whole numbers, held exactly: the largest magnitude that comes
-    error   ///< how far a word may be from what it stands for
+    range,  ///< exact integers: the largest magnitude
+    error   ///< greatest difference of a word from the value that it represents
   };
   Kind kind;
-  std::string_view of;          ///< which of an entry's bounds; empty where it has one
+  std::string_view of;          ///< distinguishes an entry's bounds; empty if it has only one
   double value;                 ///< in `unit`
-  std::string_view unit;        ///< empty: of the values
-  std::string_view derivation;  ///< a formula: what `value` is, or is a little more than
+  std::string_view unit;        ///< empty: the unit of the values
+  std::string_view derivation;  ///< a formula whose result is `value` or slightly less
 };
 
 constexpr Bound at_most(double value, std::string_view derivation) {
@@ -33,11 +33,11 @@ struct Quantity {
   double value;
 };
 
-/// A formula of numbers, named quantities, + - * / ^, brackets and sqrt. Throws std::logic_error where it is
-/// none.
+/// Evaluates a formula of numbers, named quantities, + - * / ^, brackets and sqrt. Throws std::logic_error
+/// for other text.
 double evaluated(std::string_view formula, std::span<const Quantity> quantities);
 
-/// "0.15", or where a power of two says it shorter "2^-11".
+/// "0.15", or a power of two such as "2^-11" if that is shorter.
 std::string shown(double value);
 
 /// "power: off by at most 2^-15 + m * 2^-23 = 0.00101"

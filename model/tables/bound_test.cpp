@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formulas, and that what each bound states is what its derivation comes to, or a little more.
+// Tests formulas, and compares each stated bound with the result of its derivation: it may be slightly
+// larger.
 #include "tables/bound.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +43,7 @@ TEST(Bound, IsSaidInOneLine) {
   EXPECT_EQ(to_string(off_by(0x1p-17, "", "u / 2", "diffuse")), "diffuse: off by at most 2^-17: u / 2");
 }
 
-// A bound that is twice what it follows from says nothing of the format.
+// A bound far above its derivation would say nothing about the format.
 void expect_near(double stated, double derived, const std::string& name) {
   EXPECT_LE(derived, stated * (1 + 1e-9)) << name;
   EXPECT_GE(derived, stated * 0.8) << name;

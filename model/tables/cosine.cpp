@@ -26,7 +26,7 @@ std::span<const int> powers(bool exact) {
   return c_published_powers;
 }
 
-// The cell [low, low + 1] that an entry stands for, counted from angle 0.
+// The cell [low, low + 1] of an entry, counted from angle 0.
 int low_of_cell(const CosineTable& table, int entry) {
   const int cells = 1 << table.address_bits;
   return table.exact || entry < cells / 2 ? entry : entry - cells;
@@ -37,10 +37,10 @@ int shift_of_cells(const CosineTable& table) {
   return table.exact ? 0 : table.power == 1 ? 2 : 1;
 }
 
-// The table's function, `position` cells from angle 0. Off by at most 8 * power * epsilon: the cosine by 4
-// epsilon, its angle's rounding included; a squaring doubles that and rounds once.
+// The table's function, `position` cells from angle 0. Error at most 8 * power * epsilon: 4 epsilon for the
+// cosine, including the rounding of its angle; each squaring doubles the error and rounds once.
 long double bell(const CosineTable& table, long double position) {
-  // Cells in a quarter turn: powers of two, so the quotient is exact.
+  // The number of cells per quarter turn is a power of two, so the quotient is exact.
   const long double cells = std::ldexp(1.0L, table.address_bits - shift_of_cells(table));
   const long double quarters = position / cells;
   if (std::fabs(quarters) >= 1.0L) return 0.0L;
@@ -112,8 +112,8 @@ std::vector<CosineTable> cosine_tables(const CosineSizes& sizes) {
 }
 
 double table_error(const CosineTable& table) {
-  // Peak and zero lie at ends of cells, so the function is monotonic over a cell and farthest from the entry
-  // at one of its ends. What lies beyond the zero is zero in table and function.
+  // Peak and zero lie at the ends of cells. The function is therefore monotonic over a cell, and its greatest
+  // distance from the entry is at one end of the cell. Beyond the zero, table and function are zero.
   long double largest = 0;
   for (int entry = 0; entry < static_cast<int>(table.entries.size()); ++entry) {
     const long double value = table.entries[entry] / largest_word(table);
@@ -124,7 +124,7 @@ double table_error(const CosineTable& table) {
 }
 
 double error_bound(const CosineTable& table) {
-  // cos^m x is steepest where tan^2 x = 1/(m - 1): sqrt(m) (1 - 1/m)^((m - 1)/2).
+  // The slope of cos^m x is greatest where tan^2 x = 1/(m - 1): sqrt(m) (1 - 1/m)^((m - 1)/2).
   const double m = table.power, steepest = std::sqrt(m) * std::pow(1.0 - 1.0 / m, (m - 1.0) / 2);
   const double cell = std::numbers::pi / 2 * std::ldexp(1.0, shift_of_cells(table) - table.address_bits);
   return 0.5 / static_cast<double>(largest_word(table)) + steepest * cell / 2;
@@ -148,7 +148,7 @@ std::string cosine_vhdl_package(const CosineSizes& sizes) {
       "end package;\n\npackage body cosine_pkg is\n\n",
       c_notice);
   auto to = std::back_inserter(out);
-  for (const CosineTable& table : tables)  // 120 columns with the bracket that closes
+  for (const CosineTable& table : tables)  // 120 columns including the closing bracket
     fmt::format_to(to, "  {}\n  constant {} : cosine_table_t(0 to {}) := (\n{});\n\n",
                    bound_comment(table, "--"), constant_name(table), table.entries.size() - 1,
                    wrapped_numbers(table.entries, "    ", 118));

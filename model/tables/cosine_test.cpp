@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every entry is the nearest to MPFR's cosine, every error bound is one and is reached, and the committed
-// VHDL and C++ carry the same numbers.
+// Every entry is the one nearest to MPFR's cosine. Every error bound holds and is reached. The committed VHDL
+// and C++ contain the same numbers.
 #include "tables/cosine.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ std::string name_of(const CosineTable& table) {
   return name_of(table.exact, table.power, table.address_bits, table.data_bits);
 }
 
-// A number with precision to spare: the closest that any entry comes to a tie is 2^-22.
+// A number with more precision than needed: the least distance of any entry from a tie is 2^-22.
 class Real {
  public:
   Real() { mpfr_init2(value_, 256); }
@@ -43,7 +43,7 @@ class Real {
   mpfr_t value_;
 };
 
-// The angle, in units of pi, of the middle of an entry's cell is `odd` / 2^`shift`.
+// The angle at the middle of an entry's cell is pi * `odd` / 2^`shift`.
 struct Angle {
   int odd, shift;
 };
@@ -57,7 +57,8 @@ Angle middle_of(const CosineTable& table, int entry) {
   return {2 * address + 1, table.power == 2 ? table.address_bits + 1 : table.address_bits};
 }
 
-// How far an entry is from its true value, and how far that is from a tie, in units of an entry's last bit.
+// Distance of an entry from its exact value, and of the exact value from a tie, in units of an entry's last
+// bit.
 struct Distance {
   double from_true, from_tie;
 };
@@ -115,7 +116,7 @@ TEST(Cosine, TheExactTableFallsFromItsPeakToNearZero) {
     for (std::size_t i = 1; i < table.entries.size(); ++i)
       ASSERT_LE(table.entries[i], table.entries[i - 1]) << name_of(table) << ", entry " << i;
   }
-  // sqrt(1/2) of 255 is 180.3, between the middles of the cells 255 and 256.
+  // 255 sqrt(1/2) = 180.3 lies between the middles of cells 255 and 256.
   const CosineTable cosine = cosine_table(true, 1, 9, 8);
   EXPECT_EQ(cosine.entries[255], 181U);
   EXPECT_EQ(cosine.entries[256], 180U);
@@ -133,18 +134,18 @@ TEST(Cosine, ThePublishedTableIsAWholePeriod) {
       const std::size_t cells = table.entries.size();
       for (std::size_t i = 0; i < cells; ++i)
         ASSERT_EQ(table.entries[i], table.entries[cells - 1 - i]) << name_of(table) << ", entry " << i;
-      // The specular half period is the exact table of a bit less.
+      // Half a period of the specular table equals the exact table with one address bit less.
       if (power == 2 && address_bits > 3) {
         const CosineTable half = cosine_table(true, 2, address_bits - 1, 6);
         for (std::size_t i = 0; i < half.entries.size(); ++i)
           ASSERT_EQ(table.entries[i], half.entries[i]) << i;
       }
-      // The diffuse cosine is zero from a quarter of the period to three quarters.
+      // The diffuse cosine is zero from one quarter to three quarters of the period.
       for (std::size_t i = cells / 4; power == 1 && i < cells / 2; ++i) ASSERT_EQ(table.entries[i], 0U) << i;
     }
 }
 
-// The table's function at `position` cells from angle 0, written once more.
+// An independent definition of the table's function at `position` cells from angle 0.
 double truth(const CosineTable& table, double position) {
   const double cells = std::ldexp(1.0, table.address_bits);
   if (table.exact) return std::pow(std::cos(std::numbers::pi / 2 * position / cells), table.power);
@@ -167,7 +168,7 @@ double sampled_error(const CosineTable& table) {
 void expect_error_is_reached(const CosineTable& table) {
   const double bound = table_error(table), sampled = sampled_error(table);
   EXPECT_GE(bound, sampled - 1e-14) << name_of(table);
-  // A sample is 1e-6 of a cell, of which there are eight or more to a turn, from each end.
+  // The first and last samples are 1e-6 of a cell from its ends. A turn has eight or more cells.
   EXPECT_LE(bound, sampled + 1e-6 * table.power) << name_of(table);
 }
 
@@ -193,7 +194,7 @@ TEST(Cosine, AWrongEntryRaisesTheError) {
   }
 }
 
-// Of 255, as papers on table sizes count.
+// In units of 1/255, as in papers on table sizes.
 TEST(Cosine, ErrorsOfSquaredCosine) {
   for (const auto& [address_bits, data_bits, expected] : {std::tuple{6, 4, 11.52},
                                                           {6, 6, 4.67},
@@ -232,7 +233,7 @@ TEST(Cosine, TheCommittedFilesAreTheGeneratorsOwn) {
 
 using Constants = std::map<std::string, std::vector<std::uint32_t>>;
 
-// The tables in a text by name: the numbers between what opens an aggregate and what closes it.
+// The tables in a text by name: the numbers between the start and the end of an aggregate.
 Constants constants(const std::string& text, const std::string& open, const std::string& close) {
   Constants found;
   for (std::size_t at = 0; (at = text.find(open, at)) != std::string::npos;) {

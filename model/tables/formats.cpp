@@ -13,7 +13,7 @@
 namespace halfway::tables {
 namespace {
 
-// Formats that both presets share.
+// Formats common to both presets.
 std::vector<Format> common_formats() {
   return {
       {"flag", false, 1, 0, "one bit", {at_most(1, "1")}},
@@ -72,14 +72,15 @@ std::vector<Format> common_formats() {
   };
 }
 
-// What the derivations name. An edge of preset exact goes `lines` lines down with a pixel more on each, and a
-// span runs back over all of them: 4095 + 4095 `steps`, which carry words of their own. In preset published
-// there are no carries: a span is `pixels` steps at most, and so is a line record of either preset.
+// The quantities in the derivations. An edge of preset exact steps `lines` lines down with one extra pixel on
+// each, and a span may run back over all these pixels: 4095 + 4095 `steps`, each of which adds a rounded word
+// of its own. Preset published has no carries: a span has at most `pixels` steps, and so has a line record of
+// either preset.
 constexpr double c_frame = 4096, c_lines = c_frame - 1, c_pixels = c_frame - 1, c_steps = c_lines + c_pixels;
 constexpr Quantity c_quantities[] = {
     {"frame", c_frame},     {"lines", c_lines},       {"pixels", c_pixels},
     {"steps", c_steps},     {"k", c_lines + c_steps}, {"k_published", c_lines + c_pixels},
-    {"lights", 16},         {"terms", 2 * 16},  // that are cut: a diffuse and a specular one for each light
+    {"lights", 16},         {"terms", 2 * 16},  // truncated terms: a diffuse and a specular one per light
     {"e", std::numbers::e},
 };
 
@@ -477,7 +478,7 @@ std::string upper_first(std::string_view name) {
   return text;
 }
 
-// Why a format is as it is, and what it promises, a line each.
+// The reason for a format and its bounds, one per line.
 std::string commented(const Format& format, std::string_view indent) {
   std::string text = fmt::format("{}{}{}.{}: {}\n", indent, format.is_signed ? 's' : 'u', format.integer_bits,
                                  format.fraction_bits, format.why);
@@ -486,7 +487,7 @@ std::string commented(const Format& format, std::string_view indent) {
   return text;
 }
 
-// Lines of a comment: what the formulas name.
+// Comment lines that define the names in the formulas.
 constexpr std::string_view c_names_in_bounds[] = {
     "In bounds u is the format's unit, u_x that of format x. Frames have up to 4096 lines and pixels, so",
     "lines = pixels = 4095; steps = 8190: a pixel a line along the edge, and then the span; k = lines + "
@@ -546,12 +547,12 @@ std::vector<PresetFormats> preset_formats(bool exact, const WordLengths& words) 
 
 double derived(const PresetFormats& preset, const Format& format, const Bound& bound,
                std::optional<double> exponent) {
-  // Units of other formats by their names.
+  // Add the units of all formats under their names.
   std::vector<std::string> names;
   for (const Format& other : preset.formats) names.push_back(fmt::format("u_{}", other.name));
   std::vector<Quantity> quantities(std::begin(c_quantities), std::end(c_quantities));
   quantities.push_back({"u", format.unit()});
-  // A bound that grows with the exponent is stated for the largest.
+  // A bound that increases with the exponent is stated for the largest exponent.
   const Format& exponents = format_of(preset, "exponent");
   quantities.push_back({"m", exponent.value_or(std::ldexp(1.0, exponents.integer_bits) - exponents.unit())});
   for (std::size_t i = 0; i < names.size(); ++i) quantities.push_back({names[i], preset.formats[i].unit()});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one table of number formats and of the layouts made from them: the source of rtl/tables/formats_pkg.vhd
-// and of model/golden/formats.hpp.
+// The table of number formats, and the layouts composed of them. Source of rtl/tables/formats_pkg.vhd and of
+// model/golden/formats.hpp.
 #pragma once
 
 #include <cmath>
@@ -20,20 +20,20 @@ struct Format {
   bool is_signed;
   int integer_bits;  ///< without the sign
   int fraction_bits;
-  std::string_view why;       ///< what the widths follow from
-  std::vector<Bound> bounds;  ///< what its words promise; tb/bounds checks each
+  std::string_view why;       ///< the reason for the widths
+  std::vector<Bound> bounds;  ///< worst cases of its words; tb/bounds checks each
 
   double unit() const { return std::ldexp(1.0, -fraction_bits); }
   int bits() const { return (is_signed ? 1 : 0) + integer_bits + fraction_bits; }
 };
 
-/// A named word in a flat vector; fields follow each other from bit 0 upwards in the order of their list.
+/// A named word in a flat vector. The fields of a list are consecutive from bit 0 upwards.
 struct Field {
   std::string_view name;
   std::string_view format;
 };
 
-/// A flat vector: one header, then the same block once a colour channel.
+/// A flat vector: one header, then one block per colour channel.
 struct Layout {
   std::string_view name;
   std::vector<Field> header, channel;
@@ -45,14 +45,14 @@ struct PresetFormats {
   std::vector<Layout> layouts;
 };
 
-/// Both presets; every format name occurs in both.
+/// Both presets. Each format name exists in both.
 std::vector<PresetFormats> preset_formats();
 
-/// The same with other word lengths in one of them. What the formats say of their bounds stays the preset's.
+/// The same with other word lengths in one preset. The texts of the bounds stay those of the preset.
 std::vector<PresetFormats> preset_formats(bool exact, const WordLengths& words);
 
-/// What a bound's derivation comes to with the preset's formats; where it grows with the exponent, at the one
-/// given, else at the largest.
+/// The result of a bound's derivation with the preset's formats. If it increases with the exponent, it is
+/// computed for the given exponent, or else for the largest.
 double derived(const PresetFormats& preset, const Format& format, const Bound& bound,
                std::optional<double> exponent = {});
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The committed package and header are the table's own; its bounds are what its comments say.
+// The committed package and header equal the generator's output. The bounds equal those in the comments.
 #include "tables/formats.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,8 @@ const Format& format_of(const PresetFormats& preset, std::string_view name) {
   return *std::ranges::find(preset.formats, name, &Format::name);
 }
 
-// What the golden model reads a vector by: each layout without gap or overlap, as wide as its formats.
+// Checks the fields that the golden model uses: each layout has no gap and no overlap, and the width of its
+// formats.
 template <std::size_t Count>
 void expect_layout(const PresetFormats& preset, const std::vector<Field>& fields,
                    const std::array<golden::Field, Count>& compiled, int bits) {
@@ -105,26 +106,26 @@ double stated(const PresetFormats& preset, std::string_view name, std::string_vi
   return std::ranges::find(bounds, of, &Bound::of)->value;
 }
 
-// What the bounds are good for.
+// Checks that the bounds are sufficient for the use of the formats.
 TEST(Formats, BoundsSufficeForWhatTheFormatsServe) {
   using golden::Exact;
   const auto presets = preset_formats();
   const PresetFormats& exact = presets[0];
-  // Control points reach 2 * 1023; half a step for rounding and the differences' error come on top.
+  // Control points are within 2 * 1023. Add half a step for rounding and the error of the differences.
   const double whole = std::ldexp(1.0, Exact::c_intensity_bits - 1 - Exact::c_intensity_fraction_bits);
   EXPECT_LT(2046 + 0.5 + stated(exact, "intensity"), whole);
-  // A colour is right but for its rounding: half a step and less than half of one.
+  // The error of a colour is its rounding of half a step plus less than half a step.
   EXPECT_LT(stated(exact, "intensity") + stated(exact, "intensity", "samples"), 0.5);
   EXPECT_LT(stated(exact, "depth_sum"), 0.5);
-  // Half a bell is 2^9 cells of exact's tables.
+  // Half a bell has 2^9 cells in preset exact's tables.
   EXPECT_LE(stated(exact, "angle"), 0.25 * std::ldexp(1.0, -9));
-  // Exponent 10^6 by cos^16: the scale is 250, and an arc's angles are within three half bells of it,
-  // unscaled.
+  // Exponent 10^6 with cos^16: the scale is 250. The angles of an arc are within three half bells before
+  // scaling.
   EXPECT_LT(3.0 * 251, std::ldexp(1.0, Exact::c_angle_bits - 1 - Exact::c_angle_fraction_bits));
   // The largest factor times the least entry of 8 bits is white.
   EXPECT_GE((1 << Exact::c_factor_bits) - (1 << Exact::c_factor_fraction_bits),
             (255 << 8) << Exact::c_factor_fraction_bits);
-  // What the terms of all processors lose is far from a colour step.
+  // The truncation errors of all processors' terms are much less than a colour step.
   EXPECT_LT(stated(exact, "radiance"), 0.01);
 }
 

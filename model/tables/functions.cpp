@@ -17,12 +17,12 @@
 namespace halfway::tables {
 namespace {
 
-// The function `position` cells from the first one's beginning; positions and arguments are exact.
+// The function at `position` cells from the start of the first cell. Positions and arguments are exact.
 long double value_of(const FunctionTable& table, long double position) {
   const long double cells = std::ldexp(1.0L, table.address_bits);
   switch (table.function) {
     case Function::reciprocal_root:
-      // As many cells from 1 to 2 as from 2 to 4.
+      // The ranges 1 to 2 and 2 to 4 have the same number of cells.
       return 1.0L / std::sqrt(position < cells / 2 ? 1.0L + position / (cells / 2) : 4.0L * position / cells);
     case Function::logarithm:
       return std::log2(1.0L + position / cells);
@@ -36,13 +36,13 @@ std::uint32_t correctly_rounded(const FunctionTable& table, int index) {
   const long double offset = table.slope_bits > 0 ? 0.0L : 0.5L;
   const long double value = std::ldexp(value_of(table, index + offset), table.fraction_bits);
   const long double above_tie = value - std::floor(value) - 0.5L;
-  // The functions are within a few epsilon of themselves, and at most 1.
+  // The computed functions have errors of a few epsilon, and their values are at most 1.
   const long double doubt = std::ldexp(8 * std::numeric_limits<long double>::epsilon(), table.fraction_bits);
   if (std::fabs(above_tie) <= doubt)
     throw std::logic_error(fmt::format("{}: value {} is too near a tie to be rounded in long double",
                                        to_string(table.function), index));
   const auto rounded = to_integer<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
-  // The value behind the last cell serves a difference alone.
+  // The value after the last cell is used only for a difference.
   if (index == 1 << table.address_bits) return rounded;
   return std::min(rounded, (std::uint32_t{1} << table.value_bits) - 1);
 }
@@ -63,9 +63,9 @@ std::string constant_name(const FunctionTable& table) {
 
 constexpr std::string_view c_notice = "Made by `make tables` from model/tables/functions.cpp; edit that.";
 
-// What a Newton step from an entry of 1/sqrt(x) falls short of twice the root, halved: 3/2 of the square of
-// the entry's relative error, in units of 2^-23. The error is sqrt(2) u / 2 for the rounding and w / 2 for
-// the cell.
+// Half the error of a Newton step for twice the root, from an entry of 1/sqrt(x): 3/2 of the squared relative
+// error of the entry, in units of 2^-23. The error of the entry is sqrt(2) u / 2 (rounding) plus w / 2
+// (cell).
 int root_raise(const FunctionTable& table) {
   const double error =
       std::numbers::sqrt2 * std::ldexp(0.5, -table.fraction_bits) + std::ldexp(0.5, -table.address_bits);
@@ -74,9 +74,10 @@ int root_raise(const FunctionTable& table) {
 
 }  // namespace
 
-// u is a value's unit, w a cell's width (of 1/sqrt up to 2 it is 2w, and its slope 1/2 at most; from there
-// 4w, and 2^-2.5). Rounded, a value is u/2 off. At a cell's middle it is off by half a cell's slope besides;
-// along a chord by w^2/8 of the second derivative, and by u, to which what is added is cut.
+// u is the unit of a value, w the width of a cell. (For 1/sqrt up to 2 the width is 2w and the slope at most
+// 1/2; from 2 on 4w and 2^-2.5.) Rounding adds an error of u/2. With the value at a cell's middle add half a
+// cell times the slope. With interpolation along a chord add w^2/8 of the second derivative, and u for the
+// truncation of the product.
 std::vector<FunctionTable> function_tables() {
   return {
       made({true,

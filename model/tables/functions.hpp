@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of the functions that the shading processors compute; the source of rtl/tables/function_pkg.vhd and
-// of model/golden/function_tables.hpp.
+// Tables of the functions that the shading processors use. Source of rtl/tables/function_pkg.vhd and of
+// model/golden/function_tables.hpp.
 #pragma once
 
 #include <array>
@@ -14,8 +14,7 @@
 namespace halfway::tables {
 
 enum class Function {
-  reciprocal_root,  ///< 1/sqrt(x), 1 <= x < 4: the first half of the entries up to x = 2, the second from
-                    ///< there
+  reciprocal_root,  ///< 1/sqrt(x), 1 <= x < 4: half of the entries up to x = 2, half from 2 on
   logarithm,        ///< log2(x), 1 <= x <= 2
   decay             ///< 2^-x, 0 <= x <= 1
 };
@@ -32,25 +31,26 @@ inline const char* to_string(Function function) {
   return "decay";
 }
 
-/// The function over 2^address_bits cells, times 2^fraction_bits, correctly rounded; held where it does not
-/// fit value_bits. With slope_bits it is interpolated: value i is the function where cell i begins, and there
-/// is one more for the last cell's end. Without, a value is the function at its cell's middle.
+/// The function over 2^address_bits cells, times 2^fraction_bits, correctly rounded, clamped to value_bits.
+/// With slope_bits the table is interpolated: value i is the function at the start of cell i, and one more
+/// value is the function at the end of the last cell. Without slope_bits a value is the function at the
+/// middle of its cell.
 struct FunctionTable {
   bool exact;
   Function function;
   int address_bits, value_bits, fraction_bits;
-  int slope_bits;  ///< of the difference of neighbours; 0: none
-  Bound error;     ///< of the table over whole cells; with slopes along the chord, the product cut to a unit
+  int slope_bits;  ///< of the difference between neighbours; 0: none
+  Bound error;     ///< over whole cells; with slopes along the chord, the product truncated to a unit
   std::vector<std::uint32_t> values;
 };
 
-/// Those of preset exact, in the order of c_functions, then of published.
+/// The tables of preset exact in the order of c_functions, then those of published.
 std::vector<FunctionTable> function_tables();
 
 /// The same with another table of 1/sqrt(x) in one preset.
 std::vector<FunctionTable> function_tables(bool exact, const WordLengths& words);
 
-/// What the derivation of its bound comes to.
+/// The result of the derivation of the table's bound.
 double derived(const FunctionTable& table);
 
 std::string function_vhdl_package(const std::vector<FunctionTable>& tables);

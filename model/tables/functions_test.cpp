@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every value is the nearest to MPFR's, sizes are the formats', and the committed VHDL and C++ carry the same
-// numbers.
+// Every value is the one nearest to MPFR's. The sizes are those of the formats. The committed VHDL and C++
+// contain the same numbers.
 #include "tables/functions.hpp"
 
 #include <fmt/format.h>
@@ -33,12 +33,12 @@ std::string name_of(const FunctionTable& table) {
   return fmt::format("{} {}", table.exact ? "exact" : "published", to_string(table.function));
 }
 
-// The function's argument at value `index`, in units of 2^-(address_bits + 1): exact.
+// The function's argument for value `index`, in units of 2^-(address_bits + 1): exact.
 long argument(const FunctionTable& table, long index) {
   const long half_cells = 2 * index + (table.slope_bits > 0 ? 0 : 1), one = 2L << table.address_bits;
   switch (table.function) {
     case Function::reciprocal_root:
-      // The first half of the cells up to 2, the others twice as wide.
+      // The first half of the cells ends at 2. The other cells are twice as wide.
       return 2 * half_cells < one ? one + 2 * half_cells : 4 * half_cells;
     case Function::logarithm:
       return one + half_cells;
@@ -48,7 +48,7 @@ long argument(const FunctionTable& table, long index) {
   return half_cells;
 }
 
-// How far a value is from the true one, in units of its last bit, and how far that is from a tie.
+// Distance of a value from the exact one, in units of its last bit, and of the exact value from a tie.
 std::pair<double, double> distance(const FunctionTable& table, long index) {
   Real value, rest;
   mpfr_set_si_2exp(value, argument(table, index), -(table.address_bits + 1), MPFR_RNDN);
@@ -94,7 +94,7 @@ TEST(Functions, ValuesAndSlopesFitTheirBits) {
       EXPECT_EQ(slope > 0, table.function == Function::logarithm) << name_of(table) << ", value " << i;
       steepest = std::max(steepest, static_cast<std::uint32_t>(std::abs(slope)));
     }
-    // No bit too many, either.
+    // The widths must not be larger than needed.
     EXPECT_EQ(std::bit_width(largest), table.value_bits) << name_of(table);
     EXPECT_EQ(std::bit_width(steepest), table.slope_bits) << name_of(table);
   }
@@ -121,7 +121,7 @@ TEST(Functions, TheCommittedFilesAreTheGeneratorsOwn) {
   }
 }
 
-// The numbers of the aggregate that follows a constant's name.
+// The numbers of the aggregate after a constant's name.
 std::vector<std::uint32_t> numbers_of(const std::string& text, const std::string& name,
                                       const std::string& open, const std::string& close) {
   std::size_t at = text.find(name);
@@ -137,8 +137,8 @@ std::vector<std::uint32_t> numbers_of(const std::string& text, const std::string
   return numbers;
 }
 
-// The testbench of tables and its vectors name functions by hand: one that they leave out would pass
-// untested.
+// The testbench of the tables and its vectors list the functions by hand. A missing function would not be
+// tested.
 TEST(Functions, TheTestbenchReadsEveryOne) {
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const auto testbench = read_file(source / "tb/tables/function_rom_tb.vhd");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Word lengths of hardware that the program was not built with: what a study varies of a preset's formats.
+// Word lengths of hardware that the program was not built with: changes to a preset's formats for a study.
 #pragma once
 
 #include <optional>
@@ -7,23 +7,23 @@
 
 namespace halfway::tables {
 
-/// Each of them: none for the preset's own.
+/// An empty value selects the preset's word length.
 struct WordLengths {
   std::optional<int> angle_bits;     ///< fraction bits of the spherical shader's angles
   std::optional<int> fraction_bits;  ///< of the quadratic shader's intensities
-  /// Of an entry of the processors' table of 1/sqrt(x), which has 2^(seed_bits - c_seed_cells) entries.
+  /// Bits of an entry of the processors' table of 1/sqrt(x), which has 2^(seed_bits - c_seed_cells) entries.
   std::optional<int> seed_bits;
-  std::optional<bool> newton;  ///< whether a Newton step follows the table; preset exact
+  std::optional<bool> newton;  ///< preset exact: true if a Newton step follows the table
 
   bool any() const { return angle_bits || fraction_bits || seed_bits || newton; }
-  /// Such as `angle16`, `seed8-plain`; empty where there is none.
+  /// For example `angle16`, `seed8-plain`. Empty if nothing is changed.
   std::string name() const;
   friend bool operator==(const WordLengths&, const WordLengths&) = default;
 };
 
 inline constexpr int c_seed_cells = 3;
 
-/// What the formats' C++ and VHDL take.
+/// Limits of the formats' C++ and VHDL.
 struct Range {
   int least, most;
 };

@@ -8,7 +8,7 @@
 
 namespace halfway::tables {
 
-/// The numbers, separated by commas, on lines of at most `columns` that begin with `indent`.
+/// The numbers, separated by commas, on lines of at most `columns` that start with `indent`.
 inline std::string wrapped_numbers(std::span<const std::uint32_t> numbers, std::string_view indent,
                                    std::size_t columns) {
   std::string text, line(indent);
