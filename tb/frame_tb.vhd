@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Drives a shader from an init file and writes its fragments as a trace (sim/stream_files/init_file.hpp and trace.hpp
--- give the formats). At most one vector and one fragment move at each rising edge; inputs change after the edge,
--- outputs are sampled with the next one, as a register would.
+-- Drives a shader with the vectors of an init file and writes its fragments to a trace (formats:
+-- sim/stream_files/init_file.hpp and trace.hpp). At each rising edge at most one vector and one fragment are
+-- transferred. Inputs change after the edge. Outputs are sampled at the next edge, as by a register.
 --
--- Cycles are numbered from 0, the edge that takes the first vector. With g_stall_seed other than 0 both streams
--- stall at random; sim/verilator/harness.cpp draws the same pattern, so that both simulators give the same cycles.
+-- Cycles are numbered from 0, the edge at which the first vector is taken. If g_stall_seed is not 0, both streams stall
+-- at random. sim/verilator/harness.cpp uses the same pattern, so both simulators give the same cycles.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -12,7 +12,7 @@ use std.textio.all;
 
 entity frame_tb is
   generic (
-    -- The shader's own; each shader takes those that it has.
+    -- Generics of the shader. Each shader has some of them.
     g_exact              : boolean  := true;
     g_channels           : positive := 3;
     g_lights             : natural  := 1;
@@ -31,8 +31,8 @@ entity frame_tb is
 
     g_init_file     : string   := "init.txt";
     g_trace_file    : string   := "trace.txt";
-    g_max_fragments : natural  := natural'high;  -- more than these is a failure
-    g_idle_limit    : positive := 100_000;       -- cycles in which nothing moves: a hang
+    g_max_fragments : natural  := natural'high;  -- a run with more fragments fails
+    g_idle_limit    : positive := 100_000;       -- cycles without a transfer that count as a hang
     g_stall_seed    : natural  := 0              -- 0: full speed
   );
 end entity;
@@ -40,7 +40,7 @@ end entity;
 architecture sim of frame_tb is
   constant c_init_bits : positive := work.formats_pkg.init_bits(g_exact, g_channels);
 
-  constant c_late_cycles : positive := 8; -- for a fault
+  constant c_late_cycles : positive := 8; -- by which fault may be late
 
   signal clk               : std_logic := '0';
   signal reset             : std_logic := '1';
@@ -60,9 +60,9 @@ architecture sim of frame_tb is
   signal fault             : std_logic;
   signal finished          : boolean := false;
 
-  -- A line by these costs what textio's write and hread take for one digit.
+  -- A line of text. These procedures build it in the time that textio's write and hread take for one digit.
   type text_t is record
-    letters : string(1 to 80); -- of a fragment's seven fields 42 at most
+    letters : string(1 to 80); -- a fragment's seven fields need at most 42
     length  : natural;
   end record;
 
@@ -72,12 +72,12 @@ architecture sim of frame_tb is
     word.letters(word.length) := letter;
   end procedure;
 
-  -- An unsigned number of up to 32 bits in decimal: an integer has no room for the 32nd.
+  -- Append an unsigned number of up to 32 bits in decimal. A natural has only 31 bits.
   procedure put_decimal (word : inout text_t; value : in std_logic_vector) is
     alias bits      : std_logic_vector(value'length - 1 downto 0) is value;
     variable digits : string(1 to 10);
     variable first  : positive := digits'right;
-    variable high   : natural  := 0; -- without the lowest 16 bits
+    variable high   : natural  := 0; -- value / 2**16
     variable low    : natural  := 0;
     variable tens   : natural;
   begin
@@ -106,7 +106,7 @@ architecture sim of frame_tb is
     word.length                                                             := word.length + digits'right - first + 1;
   end procedure;
 
-  -- A value from as many hexadecimal digits as it asks for, and whether they are such.
+  -- Read a value. It has as many hexadecimal digits as its width needs. `good`: all of them are hexadecimal digits.
   procedure get_hexadecimal (text : inout line; value : out std_logic_vector; good : out boolean) is
     alias bits     : std_logic_vector(value'length - 1 downto 0) is value;
     variable digit : natural;
@@ -133,7 +133,7 @@ architecture sim of frame_tb is
             bits(low) := '0';
           end if;
         elsif digit mod 2 = 1 then
-          good := false; -- a bit that the value does not have
+          good := false; -- a bit beyond the value's width is set
         end if;
         digit := digit / 2;
         low   := low + 1;
@@ -207,7 +207,7 @@ begin
     variable random      : unsigned(31 downto 0) := to_unsigned(g_stall_seed, 32);
     variable payload     : std_logic_vector(103 downto 0);
     variable held        : std_logic_vector(103 downto 0);
-    variable holding     : boolean := false;   -- the fragment of the last edge was not taken
+    variable holding     : boolean := false;   -- the fragment at the last edge was not taken
 
     procedure check_fault is
     begin
@@ -242,7 +242,7 @@ begin
             & to_string(c_init_bits) & " bits" severity failure;
         end if;
         vectors := vectors + 1;
-        -- Once a vector, not once a clock: a simulator pays for every bit.
+        -- Assign once per vector, not once per clock: the simulator's time grows with every bit assigned.
         init_data <= vector;
       end if;
     end procedure;
@@ -268,7 +268,7 @@ begin
       end if;
     end procedure;
   begin
-    -- Header: halfway-init 1 <key name> <bits>; the trace takes over the key's name.
+    -- Read the header: halfway-init 1 <key name> <bits>. The trace gets the same key name.
     file_open(status, init_file, g_init_file, read_mode);
     if status /= open_ok then
       report g_init_file & ": cannot open" severity failure;
@@ -381,7 +381,7 @@ begin
       drive;
     end loop;
 
-    -- A counter may find out what was wrong with a token after that has gone.
+    -- Wait for fault: the shadow counter may set it some clocks after the token that causes it.
     for i in 1 to c_late_cycles loop
       wait until rising_edge(clk);
       check_fault;

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- What the testbenches share: files of vectors (tb/vectors/vector_file.hpp gives the format), the comparison that ends
--- a run with vector number, got and expected, random stalls.
+-- Common parts of the testbenches: files of vectors (format: tb/vectors/vector_file.hpp), comparisons that stop the run
+-- with vector number, actual and expected value, and random stalls.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -15,22 +15,22 @@ package tb_pkg is
   type vectors_t is protected
     procedure open_file (name : in string);
     procedure close_file;
-    -- Goes to the next vector; false at the end of a whole file that held at least one.
+    -- Advances to the next vector. Returns false at the end of a complete file with at least one vector.
     impure function next_vector return boolean;
-    -- As next_vector, where one must be: `what` came, and the file expects no more.
+    -- As next_vector, but fails at the end of the file: the hardware gave `what`, and the file expects no more.
     procedure expect_vector (what : in string);
-    -- The next word of this vector.
+    -- Reads the next word of this vector.
     procedure read_word (word : out std_logic_vector);
     procedure read_flag (flag : out std_logic);
-    -- The next word of this vector is what `got` must be.
+    -- Compares `got` with the next word of this vector.
     procedure check_word (name : in string; got : in std_logic_vector);
-    -- As above, where `checked` is '1'; else the word is passed over.
+    -- As check_word if `checked` is '1'; otherwise skips the word.
     procedure check_word_if (checked : in std_logic; name : in string; got : in std_logic_vector);
     procedure check_flag (name : in string; got : in std_logic);
     procedure check_flag_if (checked : in std_logic; name : in string; got : in std_logic);
-    -- The next word as a number below 2**31.
+    -- Reads the next word as a number below 2**31.
     impure function read_number return natural;
-    -- Ends the run: file, number of the vector, and the message.
+    -- Stops the run. The message gives the file and the number of the vector.
     procedure fail (message : in string);
   end protected;
 
@@ -41,10 +41,10 @@ package tb_pkg is
   -- xorshift32 (Marsaglia 2003, shifts 13, 17, 5)
   function next_random (state : unsigned(31 downto 0)) return unsigned;
 
-  -- A random word, with runs of like bits; one in four is all zeros or ones, or the least or the greatest with a sign.
+  -- A random word with runs of equal bits. One in four is all zeros, all ones, or the least or greatest signed number.
   procedure draw_word (random : inout unsigned(31 downto 0); word : out unsigned);
 
-  -- True for one value of `random` in 2**exponent.
+  -- True with probability 1 / 2**exponent.
   function chance (random : unsigned(7 downto 0); exponent : natural range 0 to 8) return boolean;
 
 end package;
@@ -146,7 +146,7 @@ package body tb_pkg is
       return to_integer(unsigned(word));
     end function;
 
-    -- Hexadecimal; where a digit has no value, all bits as well.
+    -- Hexadecimal. If a digit has metavalues, append all bits.
     function to_text (word : std_logic_vector) return string is
     begin
       if is_x(word) then

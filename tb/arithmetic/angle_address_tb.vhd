@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Preset published: every angle; preset exact: both ends of every cell within three half bells of the top, every
--- power of two with its neighbours, random words.
+-- Preset published: every angle. Preset exact: both ends of every cell within three half bells of the top, every power
+-- of two and its neighbours, random words.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

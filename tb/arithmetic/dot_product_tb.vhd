@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Random and extreme vectors of several widths, squares among them; a sum a clock, then with pauses.
+-- Random and extreme vectors and squares of vectors, in several widths: one sum per clock, then with pauses.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.shading_pkg.all;

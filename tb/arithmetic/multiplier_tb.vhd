@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- All operands where there are few, else random and extreme ones; a product a clock, then with pauses.
+-- All operands of small widths; random and extreme operands of others. One product per clock, then with pauses.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;
@@ -63,7 +63,7 @@ architecture sim of multiplier_tb is
 
   constant c_sizes : sizes_t := ((1, 1), (8, 8), (4, 9), (8, 18), (18, 12), (8, 24), (12, 24), (32, 32));
 
-  signal finished, chosen : boolean_vector(c_sizes'range(1)); -- of either form
+  signal finished, chosen : boolean_vector(c_sizes'range(1)); -- of each form
 begin
   all_sizes : for i in c_sizes'range(1) generate
     one : entity work.multiplier_run

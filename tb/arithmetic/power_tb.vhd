@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- All bases where there are few, else about each power of two, and random ones where the power is neither 0 nor 1
--- nearly everywhere; one a clock, then with pauses.
+-- All bases of small widths. For other widths bases around each power of two, and random bases; for powers that are 0
+-- or 1 almost everywhere, random bases between. One per clock, then with pauses.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- All squares where there are few, else about each cell's ends, and random ones; one a clock, then with pauses.
+-- All squares of small widths; otherwise squares around both ends of each cell, and random ones. One per clock, then
+-- with pauses.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Every value of three small formats, corners and random values of both presets' intensity.
+-- All values of three small formats; corner cases and random values of the intensity of both presets.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- One term and many, all values where there are few, else all at their largest, sums about the largest result, and
--- random and extreme words.
+-- One term and several. All values of small widths; otherwise all terms at their maximum, sums around the largest
+-- result, and random and extreme words.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;

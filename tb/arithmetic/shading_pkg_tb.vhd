@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Cosines of random and extreme dot products by the golden twin; rounding and holding against sums of numeric_std.
+-- Cosines of random and extreme dot products against the golden model. Rounding and clamping against numeric_std.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;

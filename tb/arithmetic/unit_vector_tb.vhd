@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Each axis and shift, zero, opposed and random vectors; one a clock, then with pauses.
+-- Each axis and shift, zero, opposite and random vectors: one per clock, then with pauses.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -65,7 +65,7 @@ end entity;
 architecture sim of unit_vector_tb is
   signal finished : boolean_vector(0 to 4);
 begin
-  -- N and the view ray, L and H of preset exact; N and L of published.
+  -- Preset exact: N and the view ray, then L and H. Preset published: N and L.
   exact_vector : entity work.unit_vector_run
     generic map (g_exact => true, g_vector_bits => 30, g_folder => g_folder)
     port map (finished => finished(0));

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Random and extreme vectors of several widths; a product a clock, then with pauses.
+-- Random and extreme vectors in several widths: one product per clock, then with pauses.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.shading_pkg.all;

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- All vectors where there are few, else each shift, and random vectors; one a clock, then with pauses.
+-- All vectors of small widths; otherwise each shift, and random vectors. One per clock, then with pauses.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.shading_pkg.all;

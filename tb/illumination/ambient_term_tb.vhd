@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Objects with N normalized and not, one per clock and with pauses; a light stands still for 60 objects.
+-- Objects with and without normalization of N, one per clock, then with pauses. A light is constant for 60 objects.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

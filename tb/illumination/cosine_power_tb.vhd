@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Directions at angles of any size, one pair per clock and with pauses.
+-- Directions at angles of any size: one pair per clock, then with pauses.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, one and three channels and the horizon alone, clock by clock against the golden twin: every stage
--- flowing and stalling at random, spans of a pixel and long ones, angles past the bell's ends and any words.
+-- Both presets, with one channel, three channels, and the horizon only. Every clock is compared with the golden model,
+-- each stage stalling at random. Spans of one pixel and long spans, angles beyond the ends of the bell, and random
+-- words.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- Every command, for this light and for others, objects and shadow polygons, and more shadow volumes than the counter
--- holds; one token per clock, and with pauses. Then a reset: the light is no longer defined.
+-- can count. One token per clock, then with pauses. After a reset the light is undefined.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -20,7 +20,7 @@ end entity;
 
 architecture sim of light_state_run is
   constant c_config : config_t := config(g_exact, 3, 1, 1, 1, true, true, true, true);
-  -- Tokens at one pace.
+  -- Number of tokens between changes of the pace.
   constant c_pace : positive := 100;
 
   signal clk     : std_logic := '0';
@@ -61,8 +61,8 @@ begin
     variable is_object : std_logic;
     variable random    : unsigned(31 downto 0) := to_unsigned(77, 32);
     variable count     : natural := 0;
-    variable faulty    : std_logic := '0'; -- after the token before this one
-    variable earlier   : std_logic := '0'; -- and after the one before that
+    variable faulty    : std_logic := '0'; -- expected fault after the previous token
+    variable earlier   : std_logic := '0'; -- expected fault after the token before that
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & ".txt");
     wait until rising_edge(clk);
@@ -82,7 +82,7 @@ begin
       is_object := object;
       vectors.check_flag("object", object);
       vectors.check_flag("changes", changes);
-      -- fault comes two clocks after its token.
+      -- fault is set two clocks after its token.
       if (fault = '1' and faulty = '0') or (fault /= '1' and earlier = '1') then
         vectors.fail("fault is " & to_string(fault) & ", after the last two tokens " & to_string(earlier)
           & to_string(faulty));

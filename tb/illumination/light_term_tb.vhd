@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both terms of a directional light, of a positional one and of a spot, one object per clock and with pauses; a light
--- stands still for 60 objects.
+-- Both terms of a directional light, a positional light and a spot: one object per clock, then with pauses. A light is
+-- constant for 60 objects.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.processors_pkg.all;

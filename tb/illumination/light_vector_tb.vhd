@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Lights at any place and distance, with points one per clock and with pauses; a light stands still for 100 points.
+-- Lights at any place and distance. One point per clock, then with pauses. A light is constant for 100 points.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Spots and other lights, points in and outside their cones, one per clock and with pauses. The cosine comes g_lead
--- clocks after its direction.
+-- Spots and other lights, points inside and outside the cone: one per clock, then with pauses. The cosine follows its
+-- direction after g_lead clocks.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

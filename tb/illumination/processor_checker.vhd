@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Feeds one shading processor, of either form, from a file and compares every token that it hands on with the golden
--- twin's: at full speed, with a slow source, with a slow sink, and with both.
+-- Feeds one shading processor, folded or unrolled, from a file and compares every output token with the golden model's:
+-- at full speed, with a slow source, with a slow sink, and with both.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -34,7 +34,7 @@ architecture sim of processor_checker is
   constant c_config : config_t := config(g_exact, g_channels, g_directional, g_positional, g_spots, g_diffuse,
     g_specular, g_normalize, g_shadows);
   constant c_bits : positive := token_bits(c_config);
-  -- Tokens at one pace.
+  -- Number of tokens between changes of the pace.
   constant c_pace : positive := 50;
 
   function digit (flag : boolean) return string is
@@ -154,7 +154,7 @@ begin
     variable word    : std_logic_vector(in_token'range);
     variable random  : unsigned(31 downto 0) := to_unsigned(3 * c_bits + 8 * g_kind + g_light, 32);
     variable count   : natural               := 0;
-    variable faulty  : std_logic             := '0'; -- after the token before this one
+    variable faulty  : std_logic             := '0'; -- expected fault after the previous token
   begin
     vectors.open_file(c_file);
     while vectors.next_vector loop
@@ -197,7 +197,8 @@ begin
     wait;
   end process;
 
-  -- The unrolled form takes an object each clock, and its first token leaves when it should.
+  -- Check the throughput and latency of the unrolled form: one object per clock, and the first token after the promised
+  -- time.
   unrolled : if g_unrolled generate
     pace : process (clk) is
       constant c_header  : pixel_header_t := pixel_header(g_exact);
@@ -295,8 +296,8 @@ end architecture;
 library ieee;
 use ieee.std_logic_1164.all;
 
--- Both presets, every processor of five pipelines: everything that there can be, the paper's version I, a positional
--- light alone, and single effects. The same list as tb/vectors/processors.cpp.
+-- Both presets, every processor of five pipelines: one with all effects, the paper's version I, one with only a
+-- positional light, and two with single effects. tb/vectors/processors.cpp has the same list.
 entity processors_checker is
   generic (
     g_unrolled : boolean;

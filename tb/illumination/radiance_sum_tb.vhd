@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Colours and terms of any size, sums below and above the largest colour, one per clock and with pauses.
+-- Colours and terms of any size, sums below and above the largest colour: one per clock, then with pauses.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

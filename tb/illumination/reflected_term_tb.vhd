@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Coefficients and intensities of any size, one product per clock and with pauses. The weight comes a clock after its
--- coefficients.
+-- Coefficients and intensities of any size: one product per clock, then with pauses. The weight follows its
+-- coefficients after one clock.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

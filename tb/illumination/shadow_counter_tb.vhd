@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Clock by clock against the golden twin: every column after reset, runs on few columns at full speed and with pauses,
--- counts past both ends of their format, fewer volumes around an object than none, clears, and resets in between.
+-- Every clock is compared with the golden model: every column after reset, sequences on few columns at full speed and
+-- with pauses, counts beyond both ends of their format, negative counts of volumes around an object, clears, and
+-- resets.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

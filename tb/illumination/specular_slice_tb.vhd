@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, one and three channels, all tables, some and one, clock by clock against the golden twin: every stage
--- flowing and stalling at random, spans of a pixel and long ones, angles past the bell's ends and any words, powers
--- with and without a table.
+-- Both presets, one and three channels, with all tables, some tables and one table. Every clock is compared with the
+-- golden model, each stage stalling at random. Spans of one pixel and long spans, angles beyond the ends of the bell,
+-- random words, powers with and without a table.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

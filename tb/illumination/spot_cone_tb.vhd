@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Random cones, and points in the rim, at its edges and anywhere; one a clock, then with pauses.
+-- Random cones; points in the rim, at its edges and at random: one per clock, then with pauses.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- The clocks of the folded shading processor, from one token taken to the next one taken while nothing behind it waits:
--- those of model/plan/processor_clocks.hpp, row by row.
+-- Measures the clocks of the folded shading processor from one accepted token to the next while the output never
+-- stalls. They must be those of model/plan/processor_clocks.hpp, row by row.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -19,12 +19,12 @@ entity table4_run is
     g_specular   : boolean;
     g_kind       : natural;
     g_command    : natural;
-    g_normalize  : std_logic; -- of objects
-    g_light      : std_logic -- lit: the light is valid
+    g_normalize  : std_logic; -- of the objects
+    g_light      : std_logic -- the light is lit: it is defined and valid
   );
   port (
     finished : out boolean := false;
-    row      : out natural := 0 -- of the table, once finished
+    row      : out natural := 0 -- row of the table, valid once finished
   );
 end entity;
 
@@ -35,10 +35,10 @@ architecture sim of table4_run is
   constant c_header : pixel_header_t      := pixel_header(g_exact);
   constant c_axes_header : light_axes_header_t  := light_axes_header(g_exact);
   constant c_axis   : light_axes_channel_t := light_axes_channel(g_exact);
-  -- Of light 1, but for the ambient processor.
+  -- Light 1; light 0 for the ambient processor.
   constant c_light : natural := boolean'pos(g_kind /= c_ambient);
 
-  -- Where there is nothing to do, a number that no kind has.
+  -- The kind of work. Without work: a number that no kind has.
   function work_kind return natural is
   begin
     if g_light = '0' or g_command = c_shadow or g_command = c_define then
@@ -63,7 +63,7 @@ architecture sim of table4_run is
   constant c_object : boolean := g_light = '1' and g_command /= c_shadow and g_command /= c_define;
   constant c_first  : boolean := c_object and g_kind = c_ambient;
 
-  -- In the table: preset, kind of processor, positional, spot, N normalized, view vector.
+  -- The row's key: preset, kind of processor, positional, spot, N normalized, view vector.
   constant c_work : std_logic_vector(6 downto 0) := to_flag(g_exact) & std_logic_vector(to_unsigned(work_kind, 2)) &
     to_flag(c_object and g_positional > 0) & to_flag(c_object and g_spots > 0) &
     to_flag(c_first and g_normalize = '1') & to_flag(c_first and has_view(c_config));
@@ -73,7 +73,7 @@ architecture sim of table4_run is
     token(low + bits - 1 downto low) := std_logic_vector(to_unsigned(value, bits));
   end procedure;
 
-  -- The light stands, or lies, where the normals point to.
+  -- Define a light whose position, or direction, lies in the direction of the normals.
   function definition return token_t is
     variable token : token_t := (others => '0');
     variable low   : natural;
@@ -144,7 +144,7 @@ begin
     variable clocks : natural;
     variable wanted : natural;
   begin
-    -- The row that has this work.
+    -- Find the row of this work.
     rows_file.open_file(g_folder & "/table4.txt");
     loop
       rows_file.expect_vector("work that is in no row, " & g_name);
@@ -199,7 +199,7 @@ entity table4_tb is
 end entity;
 
 architecture sim of table4_tb is
-  constant c_runs : positive := 15; -- of a preset
+  constant c_runs : positive := 15; -- per preset
 
   signal finished : boolean_vector(0 to 2 * c_runs - 1);
   signal rows     : integer_vector(0 to 2 * c_runs - 1);
@@ -278,7 +278,7 @@ begin
     variable measured : boolean;
   begin
     wait until and finished;
-    -- Every row, by one of the runs.
+    -- Every row must have been measured by one of the runs.
     rows_file.open_file(g_folder & "/table4.txt");
     while rows_file.next_vector loop
       measured := false;

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, every processor of five pipelines against the golden twin (processors_checker).
--- Beside the vectors, the clocks from a token taken to the same one offered that the entity's header promises.
+-- Both presets, every processor of five pipelines against the golden model (processors_checker). Also checks the
+-- latency in clocks from an accepted token to the same token at the output, as the entity's header promises.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -115,7 +115,7 @@ architecture sim of unrolled_shading_processor_tb is
 
   type promises_t is array (natural range <>) of promise_t;
 
-  -- With specular the ambient processor of preset exact has the view vector to make.
+  -- With specular, the ambient processor of preset exact computes the view vector.
   constant c_promises : promises_t := (
     (0, 0, 0, false, false, c_ambient, (2, 2)),
     (0, 0, 0, false, true, c_ambient, (6, 9)),

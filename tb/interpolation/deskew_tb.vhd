@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Skewed words at random, clock by clock: the whole word, as late as its last part.
+-- Random skewed words, checked in every clock: the whole word is output with its last part.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Loads, steps and waits at random, extreme words and wrap-around among them, clock by clock against the golden twin.
+-- Random loads, steps and waits, with extreme words and wrap-around. Every clock is compared with the golden model.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;

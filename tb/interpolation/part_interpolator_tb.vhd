@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Loads, steps and waits at random, with and without a carry, extreme words and wrap-around among them, clock by clock
--- against the golden twin.
+-- Random loads, steps and waits, with and without a carry, with extreme words and wrap-around. Every clock is compared
+-- with the golden model.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Loads, steps and waits at random, extreme words and wrap-around among them, clock by clock against the golden twin of
--- line_interpolator, its words skewed.
+-- Random loads, steps and waits, with extreme words and wrap-around. Every clock is compared with the golden model of
+-- line_interpolator, with its words skewed.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;

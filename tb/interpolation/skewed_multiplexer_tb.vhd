@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Words and choices at random, clock by clock: the skewed word that was chosen.
+-- Random words and selections, checked in every clock: the output is the selected word, skewed.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Loads and waits at random, clock by clock against the golden twin of parameter_register, its two words skewed.
+-- Random loads and waits. Every clock is compared with the golden model of parameter_register, with its two words
+-- skewed.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;

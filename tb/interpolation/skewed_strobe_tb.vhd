@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Strobes at random, clock by clock: each part has that of the part below it, one clock later.
+-- Random strobes, checked in every clock: each part's strobe is that of the part below, one clock later.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;

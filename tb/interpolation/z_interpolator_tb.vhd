@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets: every combination of the walker's strobes at random, clock by clock against the golden twin; in parts,
--- the same clocks later.
+-- Both presets. Every combination of the walker's strobes at random, every clock compared with the golden model. In
+-- several parts: the same values, later by one clock per additional part.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -29,7 +29,7 @@ architecture sim of z_interpolator_run is
   signal span_load  : std_logic := '0';
   signal span_step  : std_logic := '0';
 
-  signal values : values_t(1 to c_most_parts); -- of words in so many parts
+  signal values : values_t(1 to c_most_parts); -- element n: of the interpolator in n parts
 begin
   forms : for parts in values'range generate
     dut : entity work.z_interpolator
@@ -50,7 +50,7 @@ begin
   run : process is
     variable vectors  : vectors_t;
     variable strobe   : std_logic_vector(1 to 5);
-    variable checked  : std_logic_vector(0 to c_most_parts - 1) := (others => '0'); -- now, in the clock before, ...
+    variable checked  : std_logic_vector(0 to c_most_parts - 1) := (others => '0'); -- now, one clock ago, ...
     variable before   : values_t(0 to c_most_parts - 1);
     variable words    : std_logic_vector(init'range);
   begin

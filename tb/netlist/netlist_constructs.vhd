@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Every construct that the RTL is written with, once each, its result in a lane of 80 bits. Simulated by GHDL and, as
--- GHDL's own netlist, by Verilator, over the same random stimuli: each lane must be equal bit for bit. A construct that
--- the RTL comes to use gets a lane here first.
+-- Every construct that the RTL uses, once each. Each result has a lane of 80 bits. GHDL simulates this text and
+-- Verilator GHDL's netlist of it, with the same random stimuli. Every lane must be equal bit for bit. Add a lane here
+-- before the RTL uses a new construct.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -31,12 +31,12 @@ package netlist_constructs_pkg is
   function formats (exact : boolean) return formats_t;
   function squares return rom_t;
   function wide_table return wide_rom_t;
-  -- 2**address_bits numbers, as many as are asked for.
+  -- Table of 2**address_bits cubes.
   function cubes (address_bits : positive) return table_t;
-  -- Signed to unsigned of fewer bits, at the nearest end where it does not fit.
+  -- Signed to unsigned of fewer bits, clamped to the result's range.
   function saturate (value : signed; bits : positive) return std_logic_vector;
-  function lane (value : std_logic_vector) return lane_t;  -- zeros above
-  function signed_lane (value : signed) return lane_t;     -- signs above
+  function lane (value : std_logic_vector) return lane_t;  -- zero extended
+  function signed_lane (value : signed) return lane_t;     -- sign extended
   function bit_lane (value : boolean) return lane_t;
 end package;
 
@@ -116,7 +116,7 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 
--- A register that holds, and one that loads, as a component inside; a field of it never changes.
+-- A record register with load and step, used as a component. One field is never assigned.
 entity netlist_register is
   generic (
     g_bits : positive
@@ -165,7 +165,8 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.netlist_constructs_pkg.all;
 
--- A table of numbers turned into words, read into a register, and a register of a product: each one clocked process.
+-- A table of numbers converted to words, read into a register, and a register of a product. Each register has its own
+-- clocked process.
 entity netlist_rom is
   generic (
     g_address_bits : positive;
@@ -271,7 +272,7 @@ architecture rtl of netlist_constructs is
   type terms_t is array (0 to 1) of std_logic_vector(5 * 13 - 1 downto 0);
   type sums_t is array (0 to 1) of unsigned(15 downto 0);
 
-  -- A record as a word.
+  -- A record that is packed to a word.
   type fields_t is record
     number : std_logic_vector(c_narrow - 1 downto 0);
     byte_1 : std_logic_vector(7 downto 0);
@@ -294,7 +295,7 @@ architecture rtl of netlist_constructs is
   signal r, r_next : reg_t;
   signal lanes     : lanes_t;
   signal fields    : fields_t;
-  signal upper     : std_logic_vector(71 downto 29); -- a signal whose lowest bit is not bit 0
+  signal upper     : std_logic_vector(71 downto 29); -- a range whose lowest index is not 0
   signal a, b      : std_logic_vector(71 downto 0);
   signal control   : std_logic_vector(15 downto 0);
   signal sa, sb    : signed(71 downto 0);
@@ -329,7 +330,7 @@ begin
   wa      <= signed(a(c_wide - 1 downto 0));
   wb      <= signed(b(c_wide - 1 downto 0));
 
-  -- Sums and products, wrapping, of 12 to 72 bits.
+  -- Wrapping sums and products of 12 to 72 bits.
   lanes(0) <= lane(std_logic_vector(ua + ub));
   lanes(1) <= signed_lane(sa - sb);
   lanes(2) <= signed_lane(na + nb);
@@ -352,7 +353,7 @@ begin
   lanes(17) <= bit_lane(sa(39 downto 0) <= c_mid_value) xor bit_lane(unsigned(a(12 downto 0)) = 1);
   lanes(18) <= bit_lane(na < -3) xor bit_lane(nb /= 0);
 
-  -- Slices, concatenations, a shift right by the sign's bits and a slice, widening.
+  -- Slices, concatenations, an arithmetic shift right by sign bits and a slice, widening.
   shifted   <= (71 downto 67 => sa(71)) & sa(71 downto 5);
   lanes(19) <= signed_lane(shifted);
   lanes(20) <= lane(a(17 downto 3) & b(71 downto 40) & control(4) & "101");
@@ -393,13 +394,13 @@ begin
   lanes(26) <= lane(mux);
   lanes(27) <= lane(by_case);
 
-  -- Tables by an index, saturation.
+  -- Tables with an index, saturation.
   lanes(28) <= lane(c_rom(to_integer(unsigned(a(5 downto 0)))));
   lanes(29) <= lane(c_wide_rom(to_integer(unsigned(b(70 downto 67)))));
   lanes(30) <= lane(saturate(wa(c_wide - 1 downto c_formats.wide.fraction), 8) & saturate(nb, 8)
     & saturate(sa, 40));
 
-  -- A register of records and a state machine in two processes.
+  -- A register of records with a state machine, in two processes.
   combinational : process (all)
     variable v : reg_t;
   begin
@@ -453,7 +454,7 @@ begin
   lanes(32) <= lane(std_logic_vector(r.lower.count) & std_logic_vector(r.lower.value)
     & std_logic_vector(r.upper.count) & r.valid & r.flag & step);
 
-  -- A counter with wrap and enable, a generate loop of instances, an array written by a loop.
+  -- A counter with wrap and enable, a generate loop of instances, an array assigned by a loop.
   count : process (clk)
   begin
     if rising_edge(clk) then
@@ -510,7 +511,7 @@ begin
     lanes(35) <= lane(std_logic_vector(resize(unsigned(control), 40) + 12345));
   end generate;
 
-  -- A table and a multiplier behind registers with an enable.
+  -- A table and a multiplier after registers with an enable.
   read <= control(15) or reset;
 
   numbers : entity work.netlist_rom
@@ -528,7 +529,7 @@ begin
       );
   lanes(36) <= lane(product & sample);
 
-  -- Slices of an array's elements written by generates, padded by an aggregate; sums of all by a loop.
+  -- Slices of array elements assigned by generates and padded by an aggregate; sums of all elements by a loop.
   two_sums : for i in terms'range generate
     terms(i)(12 downto 0) <= a(i * 9 + 7 downto i * 9) & (4 downto 0 => '0');
 
@@ -549,7 +550,8 @@ begin
   end generate;
   lanes(37) <= lane(std_logic_vector(sums(1)) & std_logic_vector(sums(0)));
 
-  -- Ones' complement by the sign; all of a slice zero; the one of several by its number, none where there is none.
+  -- Ones' complement by the sign; a slice compared with zero; selection of one element by its number, zero if out of
+  -- range.
   magnitude <= not a(32 downto 0) when a(32) = '1' else a(32 downto 0);
   lanes(38) <= lane(magnitude(21 downto 13)) xor bit_lane(magnitude(32 downto 22) = (32 downto 22 => '0'));
 
@@ -564,7 +566,7 @@ begin
   end process;
   lanes(39) <= lane(chosen);
 
-  -- A word unpacked by an aggregate, and packed in another order; slices of a range that does not begin at 0.
+  -- A word unpacked by an aggregate and packed in another order; slices of a range whose lowest index is not 0.
   fields <= unpacked(a(word_t'range));
   lanes(40) <= lane(packed((fields.number, fields.byte_1, fields.flag)) & fields.number & fields.byte_1);
   upper <= b(upper'range);

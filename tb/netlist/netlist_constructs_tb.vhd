@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Feeds a file of stimuli, a hexadecimal vector a cycle, and writes the response just before each rising edge.
+-- Reads a file of stimuli, one hexadecimal vector per cycle, and writes the response just before each rising edge.
 library ieee;
 use ieee.std_logic_1164.all;
 use std.textio.all;

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Constructs that GHDL 2.0.0 turns into a wrong netlist without a word. The test of the netlist must catch each:
--- refused by the driver, or seen as a difference between GHDL's simulation and Verilator's.
+-- Constructs for which GHDL 2.0.0 writes a wrong netlist without a message. The netlist test must detect each one: the
+-- driver refuses it, or GHDL's simulation and Verilator's differ.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- The shading processors' arithmetic, both presets, one result per lane: what GHDL simulates must be what its netlist
--- computes. And what the way to a simulator says in another way than the RTL.
+-- The arithmetic of the shading processors in both presets, one result per lane. GHDL's simulation and its netlist must
+-- be equal. Includes the constructs that the steps between RTL and Verilator rewrite.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -23,7 +23,7 @@ end entity;
 
 architecture rtl of netlist_shading is
   constant c_bits   : positive := 24;
-  constant c_filled : positive := 15;  -- more than any pipeline here is deep
+  constant c_filled : positive := 15;  -- clocks; more than the depth of every pipeline here
 
   signal a, b       : std_logic_vector(71 downto 0);
   signal control    : std_logic_vector(15 downto 0);
@@ -101,7 +101,7 @@ begin
     begin
       base <= '1' & (c_formats.direction.fraction - 1 downto 0 => '0') when control(5 downto 2) = "0000" else
         '0' & a(c_formats.direction.fraction - 1 downto 0);
-      -- Small exponents as well, and points near the cone's edge.
+      -- Mix in small exponents, and points near the cone's edge.
       exponent <= b(c_formats.exponent.bits - 1 downto 0) when control(6) = '1' else
         (c_half - 1 downto 0 => '0') & b(c_formats.exponent.bits - 1 downto c_half);
       dot_sum <= b(2 * c_formats.direction.bits downto 0) when control(9 downto 7) = "000" else
@@ -122,7 +122,7 @@ begin
         port map (clk => clk, enable => enable, axis_sum => dot_sum,
           outer => a(c_formats.direction.bits - 1 downto 0), slope => slope, factor => factor);
 
-        -- Mostly gentle: a steep one gives all or nothing.
+        -- Use gentle slopes in three of four cases. A steep slope mostly gives 0 or 1.
       slope <= a(71 downto 72 - slope'length) when b(1 downto 0) = "11" else
         (slope'length - 1 downto c_gentle => '0') & a(71 downto 72 - c_gentle);
 
@@ -145,7 +145,7 @@ begin
     port map (clk => clk, reset => reset, enable => enable, word => b, delayed => line_9);
 
   load <= control(10) or not filled;
-  step <= control(11); -- with load, too, which is in no contract, and yet the RTL says what comes of it
+  step <= control(11); -- also together with load: no contract allows that, but the RTL defines the result
 
   interpolate : entity work.part_interpolator
     generic map (g_bits => 20)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, on ordinary triangles and on garbage, with random waits: every clock against the golden twin.
+-- Both presets, ordinary triangles and random words, random waits. Every clock is compared with the golden model.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

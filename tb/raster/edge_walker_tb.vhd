@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Edges of random triangles, and random words, with steps and waits at random: clock by clock against the golden twin.
+-- Edges of random triangles and random words, with random steps and waits. Every clock is compared with the golden
+-- model.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

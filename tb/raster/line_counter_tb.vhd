@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, on ordinary triangles and on garbage, no upper lines among it: every clock against the golden twin, at
--- full speed and with random stalls, with resets.
+-- Both presets, ordinary triangles and random words, also without upper lines; at full speed, with random stalls, and
+-- with resets. Every clock is compared with the golden model.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Lines of all three rounds, often on a few columns, against the golden twin: at full speed, where not a clock may be
--- lost; with both sides stalling at random; with resets in the middle. A file's words: clear, token; and the tokens that
--- leave.
+-- Lines of all three rounds, often on a few columns, against the golden model. Three kinds of pass: full speed, in
+-- which no clock may be lost; random stalls on both sides; a reset in the middle. Words of an input file: clear, token.
+-- Words of an output file: the expected tokens.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -19,7 +19,7 @@ entity object_stage_run is
 end entity;
 
 architecture sim of object_stage_run is
-  -- A header, and a few bits behind it.
+  -- A header, and a few more bits.
   constant c_bits : positive := pixel_channel_low(g_exact, 0) + 37;
 
   signal clk       : std_logic := '0';
@@ -54,8 +54,8 @@ begin
   run : process is
     variable inputs, outputs : vectors_t;
 
-    -- Where it stalls, a token is offered, and one taken, in one clock of two. reset_at: tokens until a reset ends the
-    -- pass; 0: none.
+    -- One pass. With stalls, a token is offered in one of two clocks and accepted in one of two clocks. The pass ends
+    -- with a reset after reset_at tokens; 0: no reset.
     procedure pass (seed : natural; stalls : boolean; reset_at : natural) is
       variable random   : unsigned(31 downto 0) := to_unsigned(seed, 32);
       variable token    : std_logic_vector(c_bits - 1 downto 0);
@@ -66,7 +66,7 @@ begin
       variable offered  : boolean := false;
       variable waiting  : boolean := false;
       variable taken    : natural := 0;
-      variable still    : natural := 0; -- clocks in which nothing moved
+      variable still    : natural := 0; -- clocks without a transfer
 
       procedure next_input is
       begin
@@ -82,7 +82,7 @@ begin
       next_input;
       loop
         random := next_random(random);
-        -- A clear stands alone, between tokens.
+        -- A clear is given between tokens, with no token offered.
         if to_come and clears = '1' and in_valid = '0' and idle = '1' then
           clear    <= '1';
           in_valid <= '0';

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Random edges, wrap-around among them, with steps and waits at random: clock by clock against the golden twin, x and, of
--- a walker that gives that, its complement.
+-- Random edges, also with wrap-around, with random steps and waits. Every clock is compared with the golden model: x
+-- and, if the walker outputs it, the complement of x.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Random spans in both directions, at full speed and with random stalls, with resets: every clock against the contract
--- in the entity's header (tb/vectors/raster.cpp).
+-- Random spans in both directions; at full speed, with random stalls, and with resets. Every clock is compared with the
+-- contract in the entity's header (tb/vectors/raster.cpp).
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;

@@ -1,8 +1,9 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, on triangles without an empty line, and on a mix with empty lines and garbage: every line, strobe and
--- pixel against the golden twin, in order. At full speed every init vector is taken and every fragment given out in the
--- very clock that the entity's header promises; without empty lines that is a fragment a clock, but behind a triangle
--- of a single pixel (tb/vectors/raster.cpp). Then with both sides, and what a line waits for, stalling at random, and with resets in the middle.
+-- Both presets, on triangles without empty lines, and on a mix with empty lines and random words. Every line, strobe
+-- and pixel is compared with the golden model, in order. At full speed every init vector must be accepted, and every
+-- fragment output, in the clock that the entity's header promises. Without empty lines that is one fragment per clock;
+-- only a triangle of a single pixel takes two clocks (tb/vectors/raster.cpp). Other passes have random stalls of init,
+-- lines and fragments, or a reset in the middle.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -12,7 +13,7 @@ use work.tb_pkg.all;
 entity triangle_walker_run is
   generic (
     g_exact : boolean;
-    g_stem  : string -- of the files' names
+    g_stem  : string -- start of the file names
   );
   port (
     finished : out boolean := false
@@ -20,8 +21,8 @@ entity triangle_walker_run is
 end entity;
 
 architecture sim of triangle_walker_run is
-  constant c_latency    : positive := 3;      -- clocks from init taken to the first fragment
-  constant c_idle_limit : positive := 10_000; -- clocks in which nothing moves: a hang
+  constant c_latency    : positive := 3;      -- clocks from an accepted init vector to the first fragment
+  constant c_idle_limit : positive := 10_000; -- clocks without a transfer that count as a hang
 
   signal clk            : std_logic := '0';
   signal reset          : std_logic := '1';
@@ -83,22 +84,22 @@ begin
         severity failure;
     end procedure;
 
-    -- One pass over a set. Where it stalls, init is offered in one clock of 2**init_pause, lines may go on in one of
-    -- 2**line_pause, and fragments are taken in one of 2**fragment_pause. reset_at is the clock of a reset that ends
-    -- the pass; 0: none.
+    -- One pass over a set. With stalls, init is offered in one of 2**init_pause clocks, line_ready is '1' in one of
+    -- 2**line_pause, and fragment_ready in one of 2**fragment_pause. The pass ends with a reset in clock reset_at; 0:
+    -- no reset.
     procedure pass (set : string; seed, init_pause, line_pause, fragment_pause, reset_at : natural) is
       constant c_full : boolean := init_pause = 0 and line_pause = 0 and fragment_pause = 0;
 
       variable random     : unsigned(31 downto 0) := to_unsigned(seed, 32);
       variable init_now   : std_logic_vector(init'range);
-      variable to_come    : boolean;            -- an init vector not yet taken
+      variable to_come    : boolean;            -- an init vector is not yet accepted
       variable offered    : boolean := false;
-      variable in_edge    : boolean := false;   -- the edge stage holds a triangle that has not begun
+      variable in_edge    : boolean := false;   -- the edge stage holds a triangle that has not started
       variable in_line    : boolean := false;   -- the line stage holds a triangle
-      variable waiting    : boolean := false;   -- the last clock's fragment was not taken
+      variable waiting    : boolean := false;   -- the fragment of the last clock was not accepted
       variable empty      : std_logic;
       variable last       : std_logic;
-      variable clock      : integer := -1;      -- 0: the first init vector is taken
+      variable clock      : integer := -1;      -- 0: the first init vector is accepted
       variable ticks      : natural := 0;
       variable idle       : natural := 0;
       variable taken      : natural := 0;
@@ -132,7 +133,7 @@ begin
         end if;
         idle := idle + 1;
 
-        -- The contract, whatever is drawn.
+        -- Check the contract for the outputs that do not depend on the triangles.
         check_flag("busy", busy, to_flag(in_edge) or to_flag(in_line) or fragment_valid, clock);
         check_flag("line_held", line_held, to_flag(in_line), clock);
         check_flag("span_step", span_step, fragment_valid and fragment_ready, clock);
@@ -141,7 +142,7 @@ begin
         end if;
 
         if fragment_valid = '1' then
-          -- Compared in every clock, so that it has to stand still.
+          -- Compare in every clock: a waiting fragment must be stable.
           if not waiting then
             fragments.expect_vector("fragment " & to_string(given));
             given := given + 1;
@@ -222,7 +223,7 @@ begin
       lines.close_file;
       fragments.close_file;
 
-      -- Idle, after a reset as after the last triangle.
+      -- Check that the walker is idle, both after a reset and after the last triangle.
       init_valid     <= '0';
       reset          <= '0';
       fragment_ready <= '1';

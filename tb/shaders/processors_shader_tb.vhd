@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets and both forms, lights of each kind, with and without each effect, by shader_checker: lights that are
--- defined, redefined and deleted between triangles, frames, and with shadows lines in their three rounds. What the golden
--- twin gives is checked in full; clocks only where the processors take a token in each.
+-- Both presets and both forms, lights of each kind, with and without each effect, by shader_checker. Lights are
+-- defined, redefined and deleted between triangles; there are several frames; with shadows lines are drawn in three
+-- rounds. All outputs of the golden model are compared. Clocks are only compared if the processors accept one token per
+-- clock.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -20,7 +21,7 @@ entity processors_shader_run is
     g_normalize   : boolean;
     g_shadows     : boolean;
     g_unrolled    : boolean;
-    g_stem        : string -- of the files' names
+    g_stem        : string -- start of the file names
   );
   port (
     finished : out boolean := false
@@ -114,7 +115,7 @@ entity processors_shader_tb is
   );
 end entity;
 
--- As the configurations of tb/vectors/processors_shader.cpp.
+-- The configurations are those of tb/vectors/processors_shader.cpp.
 architecture sim of processors_shader_tb is
   signal finished : boolean_vector(0 to 8);
 begin

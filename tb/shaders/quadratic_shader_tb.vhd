@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, one and three channels, by shader_checker. Without empty lines there is a fragment per clock, but a
--- triangle of a single pixel takes two clocks.
+-- Both presets, one and three channels, by shader_checker. Without empty lines the shader outputs one fragment per
+-- clock; only a triangle of a single pixel takes two clocks.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -10,7 +10,7 @@ entity quadratic_shader_run is
   generic (
     g_exact    : boolean;
     g_channels : positive;
-    g_stem     : string -- of the files' names
+    g_stem     : string -- start of the file names
   );
   port (
     finished : out boolean := false

@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Drives a shader and checks it, every fragment, against the golden twin, in order, on two sets: triangles without an empty line ("dense"), and a mix with empty lines and garbage ("mixed"). At full speed
--- every init vector is taken and every fragment given out in the very clock that the entity's header promises. Then
--- with both sides stalling at random, and with resets in the middle.
+-- Drives a shader and compares every fragment with the golden model, in order, on two sets: triangles without empty
+-- lines ("dense"), and a mix with empty lines and random words ("mixed"). At full speed every init vector must be
+-- accepted, and every fragment output, in the clock that the entity's header promises. Other passes have random stalls
+-- on both sides, or a reset in the middle.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -12,12 +13,12 @@ entity shader_checker is
   generic (
     g_exact      : boolean;
     g_init_bits  : positive;
-    g_timed      : boolean  := true; -- the files give the clocks
-    g_latency    : positive := 1;    -- clocks from a triangle's first init vector taken to its first fragment, where timed
-    g_gapless    : boolean;          -- between triangles without an empty line no clock is lost, but one after a single pixel
-    g_resets     : natural  := 10;   -- passes that a reset ends
-    g_faults     : boolean  := false; -- there is a set, "fault", at the end of which the hardware says that it went wrong
-    g_stem       : string            -- of the files' names
+    g_timed      : boolean  := true; -- the files contain the clocks
+    g_latency    : positive := 1;    -- if timed: clocks from the first init vector of a triangle to its first fragment
+    g_gapless    : boolean;          -- no clock is lost if no line is empty, except after a single pixel
+    g_resets     : natural  := 10;   -- number of passes that end with a reset
+    g_faults     : boolean  := false; -- a set "fault" exists: fault must be '1' at its end
+    g_stem       : string            -- start of the file names
   );
   port (
     clk               : buffer std_logic := '0';
@@ -41,7 +42,7 @@ entity shader_checker is
 end entity;
 
 architecture sim of shader_checker is
-  constant c_idle_limit : positive := 10_000; -- clocks in which nothing moves: a hang
+  constant c_idle_limit : positive := 10_000; -- clocks without a transfer that count as a hang
 
   signal payload : std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length + fragment_z'length
     + 3 * fragment_red'length - 1 downto 0);
@@ -61,26 +62,26 @@ begin
         severity failure;
     end procedure;
 
-    -- One pass over a set. Where it stalls, init is offered in one clock of 2**init_pause, and fragments are taken in
-    -- one of 2**fragment_pause. reset_at is the clock of a reset that ends the pass; 0: none.
+    -- One pass over a set. With stalls, init is offered in one of 2**init_pause clocks, and fragment_ready is '1' in
+    -- one of 2**fragment_pause. The pass ends with a reset in clock reset_at; 0: no reset.
     procedure pass (set : string; seed, init_pause, fragment_pause, reset_at : natural) is
       constant c_full : boolean := init_pause = 0 and fragment_pause = 0;
 
       variable random     : unsigned(31 downto 0) := to_unsigned(seed, 32);
       variable init_now   : std_logic_vector(init_data'range);
       variable held       : std_logic_vector(payload'range);
-      variable to_come    : boolean;          -- an init vector not yet taken
+      variable to_come    : boolean;          -- an init vector is not yet accepted
       variable offered    : boolean := false;
-      variable waiting    : boolean := false; -- the last clock's fragment was not taken
-      variable just_taken : boolean := false; -- an init vector, in the last clock
-      variable clock      : integer := -1;    -- 0: the first init vector is taken
+      variable waiting    : boolean := false; -- the fragment of the last clock was not accepted
+      variable just_taken : boolean := false; -- an init vector was accepted in the last clock
+      variable clock      : integer := -1;    -- 0: the first init vector is accepted
       variable ticks      : natural := 0;
       variable idle       : natural := 0;
       variable taken      : natural := 0;
       variable given      : natural := 0;
       variable init_clock : natural;
-      variable before     : natural := 0;         -- the clock of the fragment before
-      variable pixels     : natural := 0;         -- of its triangle
+      variable before     : natural := 0;         -- clock of the previous fragment
+      variable pixels     : natural := 0;         -- of the previous fragment's triangle
       variable last       : std_logic_vector(fragment_triangle'range);
       variable last_y     : unsigned(fragment_y'range);
     begin
@@ -137,7 +138,8 @@ begin
               if given = 1 and g_timed and clock /= g_latency then
                 fragments.fail("comes in clock " & to_string(clock) & ", expected " & to_string(g_latency));
               end if;
-              -- Neighbours may have the same number.
+              -- Detect a new triangle by its number, or by a line that does not continue the previous one: consecutive
+              -- triangles may have the same number.
               if given = 1 or fragment_triangle /= last or unsigned(fragment_y) - last_y > 1 then
                 if set = "dense" and given > 1 and g_gapless and clock > before + maximum(1, 3 - pixels) then
                   fragments.fail("of another triangle comes " & to_string(clock - before) & " clocks after the one before");
@@ -200,7 +202,7 @@ begin
         wait until rising_edge(clk);
       end if;
 
-      -- Idle, after a reset as after the last triangle.
+      -- Check that the shader is idle, both after a reset and after the last triangle.
       init_valid     <= '0';
       reset          <= '0';
       fragment_ready <= '1';

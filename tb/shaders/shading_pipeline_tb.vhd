@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both forms in both presets, several lights, loads, shadow polygons and new frames among the objects, against the
--- golden twin: every object that comes out, at full speed and with a slow source and a slow sink.
+-- Both forms in both presets, several lights. Light definitions, shadow polygons and new frames are mixed with the
+-- objects. Every output object is compared with the golden model's: at full speed, with a slow source, with a slow
+-- sink.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -29,7 +30,7 @@ end entity;
 architecture sim of shading_pipeline_run is
   constant c_bits : positive := token_bits(config(g_exact, g_channels, g_directional, g_positional, g_spots, g_diffuse,
     g_specular, g_normalize, g_shadows));
-  -- Tokens, or objects, at one pace.
+  -- Number of tokens, or objects, between changes of the pace.
   constant c_pace : positive := 60;
 
   function digit (flag : boolean) return string is
@@ -162,7 +163,7 @@ begin
     wait;
   end process;
 
-  -- After the last object has left only what is dropped may follow.
+  -- After the last object only tokens that are discarded may follow.
   dropped : process (clk) is
   begin
     if rising_edge(clk) and out_valid = '1' then

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, with and without each effect, one light and many, by shader_checker. With line records a clock is lost
--- between triangles where the last span has a single pixel; halfway_vectors checks that against the clocks it writes.
+-- Both presets, with and without each effect, one light and several, by shader_checker. With line records one clock is
+-- lost between triangles if the last span has a single pixel. halfway_vectors checks this rule in the clocks that it
+-- writes.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -18,7 +19,7 @@ entity spherical_shader_run is
     g_powers             : natural  := 2;
     g_address_bits       : positive := 9;
     g_data_bits          : positive := 8;
-    g_stem               : string -- of the files' names
+    g_stem               : string -- start of the file names
   );
   port (
     finished : out boolean := false
@@ -110,7 +111,7 @@ entity spherical_shader_tb is
   );
 end entity;
 
--- As the configurations of tb/vectors/shaders.cpp.
+-- The configurations are those of tb/vectors/shaders.cpp.
 architecture sim of spherical_shader_tb is
   signal finished : boolean_vector(0 to 10);
 begin

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets: vectors at random, read and started as early as the contract allows, or later. The words are those of the
--- started vector in the clock in which the interpolators load them, part by part.
+-- Both presets. Random vectors are read and started at random times, from the earliest that the contract allows. In the
+-- clock in which the interpolators load a part, the words must be those of the started vector.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -28,7 +28,7 @@ architecture sim of word_buffer_run is
 
   type vectors_t is array (natural range <>) of vector_t;
 
-  -- The bits of a part, of all words.
+  -- Mask of one part of all words.
   function part_mask (part : natural) return vector_t is
     variable mask : vector_t := (others => '0');
 
@@ -68,14 +68,14 @@ begin
   run : process is
     variable random   : unsigned(31 downto 0) := x"92D68CA2";
     variable word     : unsigned(vector_t'range);
-    variable current  : vector_t;             -- the next to start
-    variable started  : vectors_t(1 to g_parts); -- one clock ago, and so on
+    variable current  : vector_t;             -- the next vector to start
+    variable started  : vectors_t(1 to g_parts); -- the vector started one clock ago, two clocks ago, ...
     variable starts   : std_logic_vector(1 to g_parts) := (others => '0');
     variable expected : vector_t;
     variable got      : vector_t;
     variable checks   : natural := 0;
 
-    -- One clock; then compare what the interpolators load.
+    -- Wait one clock, then compare the words that the interpolators load.
     procedure clock is
     begin
       wait until rising_edge(clk);
@@ -93,7 +93,7 @@ begin
       started := current & started(1 to g_parts - 1);
     end procedure;
 
-    -- No clock, or up to three.
+    -- Wait zero to three clocks.
     procedure wait_at_random is
     begin
       random := next_random(random);
@@ -125,7 +125,7 @@ begin
       clock;
       current := in_data;
       wait_at_random;
-      -- The triangle starts in the last clock of its vector, or when the next vector is there.
+      -- Start the triangle in the last clock of its vector, or when the next vector is available.
       random := next_random(random);
       if chance(random(7 downto 0), 1) then
         start_triangle;
@@ -149,7 +149,7 @@ end architecture;
 
 entity word_buffer_tb is
   generic (
-    g_folder : string := "" -- without vectors
+    g_folder : string := "" -- no vectors
   );
 end entity;
 

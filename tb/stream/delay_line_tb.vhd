@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Random words through lines of several depths; one a clock, then with pauses.
+-- Random words through lines of several depths: one per clock, then with pauses.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;
@@ -38,7 +38,7 @@ begin
     if vectors.read_number /= g_depth then
       vectors.fail("the latency is another than the hardware's, " & to_string(g_depth));
     end if;
-    -- The buffer's place is counted from reset on.
+    -- Release the reset: the buffer's index counts from here.
     wait until rising_edge(clk);
     reset <= '0';
     while vectors.next_vector loop

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Loads and waits at random, clock by clock against the golden twin.
+-- Random loads and waits. Every clock is compared with the golden model.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;

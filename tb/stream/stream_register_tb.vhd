@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Clock by clock against the golden twin: full speed, either side stalling, both, and resets in between. Beside that,
--- without the twin: what goes in comes out once, in order, a clock later, and stands still while it waits.
+-- Every clock is compared with the golden model: at full speed, with stalls at the input, at the output and at both,
+-- and with resets. A second check does not use the golden model: every word comes out once, in order, one clock later,
+-- and is stable while it waits.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;

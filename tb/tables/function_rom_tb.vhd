@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Every table: every entry, a clock after the other, then at random with pauses.
+-- Reads every entry of every table: in order, one per clock, then at random with pauses.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.function_pkg.all;

@@ -1,19 +1,20 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The published specular slice with its delays: the line interpolator (adder, multiplexer, register), and
---             ROM and multiplier behind the register. Behavioural and not synthesizable: rtl/ describes the hardware,
---             this shows its timing.
--- Contract    At a rising edge of step the register takes start where init = '1', else the sum. product belongs to the
---             angle in the register; whoever takes it does so at the next step.
--- Formats     angle and slope s0.11, a word of 1.0 is half a bell; sums wrap. ra is the angle's upper six bits.
---             factor u8, sample u6, product u14; the factor has eight bits because one colour's byte shows enough.
--- Delays      published, for an XCV300-6: multiplexer 5 ns, adder 10 ns, register 5 ns, a step every 60 ns.
---             Not published: ROM and multiplier. The register leaves them 55 ns of a step; the testbench gives them
---             15 ns and 35 ns.
---             Stage 1, step to multiplexer: register + adder + multiplexer. Stage 2, step to product: register + ROM +
---             multiplier. Both start with the register, so they overlap, and the longer one bounds the step.
--- Source      spherical paper, figures 12 (the slice) and 17 (its timing)
--- Golden twin none; tb/timing/interpolator_timing_tb.vhd computes what is expected
+-- Purpose     The published specular slice with its delays: the line interpolator (adder, multiplexer, register),
+--             followed by ROM and multiplier. Behavioural and not synthesizable: rtl/ describes the hardware, this
+--             model shows its timing.
+-- Contract    At a rising edge of step the register loads start if init = '1', else the sum. product belongs to the
+--             angle in the register and is valid at the next step.
+-- Formats     angle and slope s0.11, where 1.0 is half a bell; sums wrap. ra is the upper six bits of the angle. factor
+--             u8, sample u6, product u14. factor has eight bits because the byte of one colour is sufficient here.
+-- Delays      Published, for an XCV300-6: multiplexer 5 ns, adder 10 ns, register 5 ns, one step every 60 ns.
+--             Not published: ROM and multiplier. 55 ns of a step remain for them after the register; the testbench
+--             assumes 15 ns and 35 ns.
+--             Stage 1, from step to multiplexer: register + adder + multiplexer. Stage 2, from step to product:
+--             register + ROM + multiplier. Both stages start with the register, so they overlap. The longer stage is
+--             the lower bound of the step.
+-- Source      spherical paper, figure 12 (the slice) and figure 17 (its timing)
+-- Golden twin none; tb/timing/interpolator_timing_tb.vhd computes the expected values
 
 library ieee;
 use ieee.std_logic_1164.all;

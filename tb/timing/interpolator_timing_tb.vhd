@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Draws lines of pixels, one step a pixel, each after one step of loading, and takes nothing from the model's generics:
--- delays, paths and the overlap of the two stages are measured between events, values computed here. The generics give
--- the model other delays or another step, which the checks must find.
+-- Draws lines of pixels with one step per pixel, after one step that loads. Measures the delays, the stages and their
+-- overlap between events, and computes the expected values without the model's generics. Other delays or another step
+-- in the generics must therefore be detected.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -10,8 +10,8 @@ use work.tb_pkg.next_random;
 
 entity interpolator_timing_tb is
   generic (
-    g_lines         : positive := 200; -- figure 17 shows the first
-    g_step_ns       : positive := 60;  -- from the second on
+    g_lines         : positive := 200; -- figure 17 shows the first line
+    g_step_ns       : positive := 60;  -- of the second line and all others
     g_mux_ns        : positive := 5;
     g_adder_ns      : positive := 10;
     g_register_ns   : positive := 5;
@@ -25,10 +25,10 @@ architecture sim of interpolator_timing_tb is
   type part_t is (multiplexer, adder, angle_register, rom, multiplier);
   type times_t is array (part_t) of time;
 
-  -- Published; those of ROM and multiplier are ours.
+  -- Published, except ROM and multiplier, which are assumptions.
   constant c_delays : times_t := (5 ns, 10 ns, 5 ns, 15 ns, 35 ns);
   constant c_step   : time    := 60 ns;
-  -- From step to multiplexer, from step to product, and the adder's work beside that of ROM and multiplier.
+  -- Stage 1, from step to multiplexer; stage 2, from step to product; overlap of the adder with ROM and multiplier.
   constant c_stage_1 : time := c_delays(angle_register) + c_delays(adder) + c_delays(multiplexer);
   constant c_stage_2 : time := c_delays(angle_register) + c_delays(rom) + c_delays(multiplier);
   constant c_overlap : time := c_delays(adder);
@@ -46,7 +46,7 @@ architecture sim of interpolator_timing_tb is
   signal sample     : std_logic_vector(5 downto 0);
   signal product    : std_logic_vector(13 downto 0);
 
-  -- What the monitor saw.
+  -- Measured by the monitor.
   signal measured : times_t := (others => 0 ns);
   signal stage_1  : time    := 0 ns;
   signal stage_2  : time    := 0 ns;
@@ -66,7 +66,7 @@ architecture sim of interpolator_timing_tb is
       report name & " is " & to_hstring(got) & ", expected " & to_hstring(c_expected) severity failure;
   end procedure;
 
-  -- The published table's entry for this angle, by its formula.
+  -- The published table's entry for this angle, computed by its formula.
   function bell (angle_word : natural) return natural is
     variable address : real := real(angle_word / 2 ** 6);
   begin
@@ -116,7 +116,7 @@ begin
         return "line " & to_string(line) & ", pixel " & to_string(pixel) & ": ";
       end function;
 
-      -- What the next step takes, as it comes.
+      -- Check the register's next value and that it is stable before the step.
       procedure check_stage_1 (pixel : in natural) is
       begin
         check_word(here(pixel) & "what the register takes", next_angle, angle_word);
@@ -150,7 +150,7 @@ begin
         end if;
         last_sample := bell(angle_word);
 
-        -- Stage 2 has this pixel's product, stage 1 the next one's angle, at once.
+        -- Stage 2 now has this pixel's product, and stage 1 the next pixel's angle.
         angle_word := (angle_word + slope_word) mod 2 ** 12;
         check_stage_1(pixel + 1);
         check_stage_2(pixel, (angle_word - slope_word) mod 2 ** 12);
@@ -164,7 +164,7 @@ begin
         number(std_logic_vector(random(31 downto 24))), 1 + line mod 8, g_step_ns * 1 ns);
     end loop;
 
-    wait for c_step / 2; -- for figure 17, to show the last product
+    wait for c_step / 2; -- extends the waveform of figure 17 by the last product
     for part in part_t loop
       check_time(to_string(part), measured(part), c_delays(part));
     end loop;
@@ -185,9 +185,9 @@ begin
     wait;
   end process;
 
-  -- At every event: how long ago the input moved that it answers, and its value.
+  -- At every event of an output, check its value and the time since the event of the input that caused it.
   monitor : process (init, step, start, slope, factor, sum, next_angle, angle, ra, sample, product) is
-    -- When these last moved.
+    -- Times of the last events.
     variable step_at, angle_at, sum_at, ra_at : time := 0 ns;
 
     variable both : time;
@@ -241,7 +241,8 @@ begin
       check_word("product", product, number(factor) * number(sample));
       measured(multiplier) <= minimum(sample'last_event, factor'last_event);
 
-      -- A product that a step began, no new factor: while it was formed, the adder formed the next pixel's angle.
+      -- The sample changed later than the factor, so a step caused this product. The adder computed the next angle
+      -- meanwhile.
       if sample'last_event < factor'last_event then
         stage_2 <= maximum(stage_2, now - step_at);
         both := minimum(now, sum_at) - maximum(ra_at, angle_at);
