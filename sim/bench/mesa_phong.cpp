@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene by OpenGL ES: the illumination model for each pixel in a fragment shader, for `make bench` on
-// Mesa's llvmpipe, OpenGL without a graphics card.
-//
+// Draws a scene by OpenGL ES with per-pixel illumination in a fragment shader. `make bench` runs it on Mesa's
+// llvmpipe, which needs no graphics card.
 //   halfway_mesa SCENE WIDTHxHEIGHT REPETITIONS FRAME
-//
-// Writes the frame, red, green and blue of each pixel, line by line from the top left. Prints the processor
-// seconds of the quickest drawing, vertices in place, until the picture is there, and on a second line the
-// renderer's name.
+// Writes the frame: red, green and blue of each pixel, line by line from the top left. Prints the processor
+// seconds of the fastest drawing, without loading the vertices, and on a second line the renderer's name.
 #define EGL_EGLEXT_PROTOTYPES
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -47,7 +44,7 @@ void main() {
 }
 )";
 
-// As radiance() of reference/shade.cpp with Blinn's highlights. LIGHTS comes before it.
+// Same as radiance() of reference/shade.cpp with Blinn's highlights. LIGHTS is inserted before it.
 constexpr const char* c_fragment_shader = R"(
 precision highp float;
 uniform vec3 eye, ambient, diffuse, specular;
@@ -70,7 +67,7 @@ void main() {
 }
 )";
 
-/// Without a window; current until the process ends.
+/// Create a context without a window. It stays current until the process ends.
 Status make_context() {
   const EGLDisplay display =
       eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
@@ -270,7 +267,7 @@ Status run(const char* name, FrameSize size, int repetitions, const char* file) 
   if (Status made = make_context(); !made) return made;
   const auto picture = Picture::make(*scene, size);
   if (!picture) return picture.error();
-  picture->draw();  // compiles the shaders for the processor
+  picture->draw();  // the first drawing compiles the shaders for the processor
   double best = 1e300;
   for (int i = 0; i < repetitions; ++i) {
     const double start = process_seconds();

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kInstallYosys = "apt-get install yosys yosys-dev";
 
-/// CXXRTL's name of a module: p_, and underscores doubled.
+/// CXXRTL's name of a module: prefix p_, underscores doubled.
 std::string cxxrtl_name(const std::string& module) {
   std::string name = "p_";
   for (const char c : module) name += c == '_' ? "__" : std::string(1, c);
@@ -46,7 +46,7 @@ Result<OutsideModel> OutsideModel::open(OutsideTool tool, const HardwareKey& key
       fmt::format("-DHALFWAY_INIT_BITS={}", port_bits(*netlist, key.entity(), "init_data"));
   Command translate, compile;
   if (verilated) {
-    // The warnings that sim/verilator waives, too.
+    // The same warnings as in sim/verilator are waived.
     translate.arguments = {"verilator",           "--cc",           "--exe",    "--build",   "-Wno-COMBDLY",
                            "-Wno-CASEINCOMPLETE", "-Wno-UNOPTFLAT", "--prefix", "Vshader",   "--top-module",
                            key.entity(),          "-CFLAGS",        bits,       "netlist.v", "harness.cpp"};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What others would simulate the RTL by, for `make bench` to measure the project's own way against: programs
-// made of the same netlist by Verilator and by CXXRTL as they come.
+// Simulators of the RTL as standard tools make them: programs that Verilator and CXXRTL build from the same
+// netlist. `make bench` compares them with the project's own simulator.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 namespace halfway {
 
 enum class OutsideTool {
-  verilator,  ///< `verilator --cc --exe --build`: its own flags for itself, make and g++
-  cxxrtl,     ///< Yosys' write_cxxrtl with its own flags, compiled by clang++, else g++, with -O3
+  verilator,  ///< `verilator --cc --exe --build`: Verilator's default flags, make and g++
+  cxxrtl,     ///< Yosys's write_cxxrtl with its default flags, compiled by clang++ (otherwise g++) with -O3
 };
 inline const char* to_string(OutsideTool tool) {
   return tool == OutsideTool::verilator ? "Verilator as it comes" : "CXXRTL";
@@ -25,18 +25,18 @@ inline const char* to_string(OutsideTool tool) {
 
 struct OutsideRun {
   std::vector<Fragment> fragments;
-  double seconds = 0.0;      ///< of the processor, for the clocks alone
-  std::uint64_t cycles = 0;  ///< from the first vector offered to idle hardware
+  double seconds = 0.0;      ///< processor seconds of the clock loop only
+  std::uint64_t cycles = 0;  ///< from the first vector offered until the hardware is idle
 };
 
 class OutsideModel {
  public:
-  /// Builds the program in build/cache/bench/, or takes it from there. Without `fast` the C++ is compiled
-  /// without optimization where the tool leaves that to us: to compare, not to measure.
+  /// Build the program in build/cache/bench/, or use the cached one. Without `fast`, the C++ is compiled
+  /// without optimization if the tool allows it; this suffices for comparing pictures, but not for timing.
   static Result<OutsideModel> open(OutsideTool tool, const HardwareKey& key, const SimulatorFolders& folders,
                                    bool fast = true);
 
-  /// A process that draws all vectors at full speed.
+  /// Run a process that draws all vectors at full speed.
   Result<OutsideRun> run(std::span<const std::uint32_t> init_words) const;
 
  private:

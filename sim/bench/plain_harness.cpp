@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled with a model of the RTL that Verilator or CXXRTL made, and used as their manuals use them: set the
-// inputs, evaluate with the clock low, look at the outputs, evaluate with the clock high.
-//
+// Test harness for a model of the RTL made by Verilator or CXXRTL. It uses the model as the tools' manuals
+// do: set the inputs, evaluate with the clock low, read the outputs, evaluate with the clock high.
 //   program INIT FRAGMENTS
-//
-// INIT holds init vectors, whole words each, least significant first; FRAGMENTS gets what is drawn, both as
-// the machine has them in memory. Prints the processor seconds of the clocks alone, and how many they were.
-// C++17: Verilator's own flags.
+// INIT contains init vectors, each in whole words, least significant first. Fragments are written to
+// FRAGMENTS. Both files have the machine's memory layout. Prints the processor seconds of the clock loop and
+// the number of clocks. C++17, because Verilator's default flags select it.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -24,16 +22,16 @@
 namespace {
 
 constexpr std::size_t kInitWords = (HALFWAY_INIT_BITS + 31) / 32;
-constexpr std::uint64_t kIdleLimit = 100000;  // clocks in which nothing moves: a hang
+constexpr std::uint64_t kIdleLimit = 100000;  // clocks without progress that count as a hang
 
-struct Fragment {  // as model/frame/fragment.hpp
+struct Fragment {  // same layout as in model/frame/fragment.hpp
   std::uint32_t triangle, z;
   std::uint16_t y, x;
   std::uint8_t red, green, blue, reserved;
 };
 
 #ifdef HALFWAY_CXXRTL
-// An output is a value, or a wire where a register drives it.
+// An output is a value, or a wire if a register drives it.
 template <class Port>
 auto chunks(const Port& port, int) -> decltype(&port.curr.data[0]) {
   return &port.curr.data[0];

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways to a picture that `make bench` holds against one another. Each is checked to draw what it should
-// every time that it is timed.
+// The ways to draw a picture that `make bench` compares. Each timed run checks its picture.
 #pragma once
 
 #include <array>
@@ -32,42 +31,43 @@ inline constexpr auto c_ways = [] {
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Way>(i);
   return all;
 }();
-/// As the tables call it.
+/// Name in the tables.
 std::string to_string(Way way);
-/// As a benchmark's name.
+/// Name in benchmarks.
 std::string short_name(Way way);
 
-/// What a way needs that this machine has not: a program's or a package's name; empty: nothing.
+/// The program or package that a way needs and this machine lacks; empty if it can run.
 std::string lacking(Way way, const SimulatorFolders& folders);
 
 struct WayInput {
-  const Scene* scene;  ///< a built-in one for Way::mesa
+  const Scene* scene;  ///< a built-in scene for Way::mesa
   FrameSize size;
   const InitBatches* batches;  ///< of that scene and size
   SimulatorFolders folders;
-  std::filesystem::path scratch;  ///< a folder that is there
-  bool fast = true;  ///< else what is compiled here is compiled quickly: to check, not to measure
+  std::filesystem::path scratch;  ///< an existing folder
+  bool fast = true;               ///< false: compile without optimization, for checking but not for timing
 };
 
-/// Processor seconds of the picture once; an error where it is not the right one.
+/// Draw the picture once and return the processor seconds. A wrong picture is an error.
 using Go = std::function<Result<double>()>;
-/// Builds what is to be built. The input must outlive the result.
+/// Build everything that the way needs. The input must outlive the result.
 Result<Go> make_way(Way way, const WayInput& input);
 
-/// Of Way::mesa beside the reference, within outlines: floats, and vertices on another grid of subpixels. Of
-/// all pixels so many may be off by more than 2/255 on outlines, where the grids cover other pixels.
+/// Limits for Way::mesa against the reference. Pixels inside outlines differ, because Mesa uses floats and
+/// another subpixel grid for vertices: limit on PSNR. On outlines the grids cover different pixels: limit on
+/// the part of all pixels that differ there by more than 2/255.
 inline constexpr double c_mesa_least_psnr_db = 50.0, c_mesa_most_off = 0.01;
 struct MesaPicture {
   double seconds = 0.0;
-  double psnr_db = 0.0;      ///< within outlines
-  unsigned max_lsb = 0;      ///< there, the largest difference
-  double outline_off = 0.0;  ///< part of the covered pixels that is off on outlines
-  std::string renderer;      ///< as it names itself
+  double psnr_db = 0.0;      ///< inside outlines
+  unsigned max_lsb = 0;      ///< inside outlines: the largest difference
+  double outline_off = 0.0;  ///< part of the covered pixels that differ on outlines
+  std::string renderer;      ///< the renderer's name
 };
 Result<MesaPicture> draw_by_mesa(const WayInput& input, int repetitions);
 
-/// The program that `ghdl-mcode` is: installed, or unpacked in build/tools by scripts/unpack.sh; may be
-/// missing.
+/// Path of the program `ghdl-mcode`: installed, or unpacked in build/tools by scripts/unpack.sh. The file may
+/// not exist.
 std::string ghdl_mcode(const SimulatorFolders& folders);
 
 }  // namespace halfway

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work that asks nothing of a machine but its vector units: what several threads lose at it, the machine's
-// processors take from one another.
+// Work that uses vector units only. A slow-down with several threads is caused by the machine's processors
+// sharing resources.
 #pragma once
 
 #include <cstdint>
 
 namespace halfway {
 
-/// Independent sums of vectors as wide as those of lanes, in registers alone. What they come to, so that
-/// nobody leaves them out.
+/// Add vectors as wide as those of the lanes, in registers only. Return the result, so that the compiler does
+/// not remove the work.
 std::uint32_t sum_in_registers(std::uint32_t rounds);
 
 }  // namespace halfway

@@ -18,7 +18,7 @@ constexpr std::chrono::minutes kSynthesisTimeout{60};
 constexpr const char* kFigures = "cells.json";
 constexpr const char* kMultipliers = "multipliers.json";
 
-// Stands for $mul, and is left alone by what makes LUTs.
+// Replaces $mul. The passes that make LUTs leave it unchanged.
 constexpr const char* kMultiplier = "multiplier_cell";
 constexpr const char* kMultiplierModel = R"(module multiplier_cell (A, B, Y);
   parameter A_SIGNED = 0, B_SIGNED = 0, A_WIDTH = 1, B_WIDTH = 1, Y_WIDTH = 1;
@@ -37,7 +37,7 @@ Result<std::string> run_yosys(Command command, const std::string& doing) {
                                  end->output, to_string(command)));
 }
 
-// A figure of the whole design in what Yosys's stat wrote.
+// Read the statistics of the whole design from the output of Yosys's stat.
 Result<Json> read_design(const std::filesystem::path& path) {
   const auto text = read_file(path);
   if (!text) return tool_failed(text.error().message);
@@ -47,12 +47,12 @@ Result<Json> read_design(const std::filesystem::path& path) {
   return tool_failed(fmt::format("{}: not what Yosys's stat writes; delete it and try again", path.string()));
 }
 
-// How many of the highest bits repeat the one below them; as many as are zeros where it is not signed.
+// Number of highest bits that are redundant: copies of the sign, or zeros if unsigned.
 struct Extension {
   unsigned bits = 0;
   bool is_sign = false;
 };
-// `word`: numbers of wires, and constants as texts; the lowest bit first.
+// `word`: wire numbers, and constants as texts; lowest bit first.
 Extension extension_of(const Json& word) {
   const Json& top = word.back();
   unsigned same = 1;
@@ -62,11 +62,11 @@ Extension extension_of(const Json& word) {
   return {same - 1, same > 1};
 }
 
-// As `synth` has it, but for memory that is written: that stays memory.
+// Same steps as Yosys's `synth`, except that writable memory stays memory.
 std::string yosys_script(const HardwareKey& key) {
   const std::string top = key.entity();
   std::string coarse = fmt::format("synth -flatten -lut 4 -top {} -run begin:fine", top), multipliers;
-  // Wide multipliers, and many of them, would take nearly all of abc's time.
+  // Otherwise abc would spend most of its time on the many wide multipliers.
   if (key.shader == Shader::processors) {
     coarse = fmt::format(
         "read_verilog -lib {0}.v; hierarchy -top {1}; proc; flatten; opt_expr; opt_clean; opt -nodffe "
@@ -105,7 +105,7 @@ Result<std::vector<MultiplierShape>> read_multiplier_shapes(const std::string& n
         };
         MultiplierShape shape{.square = a == b, .product_bits = static_cast<unsigned>(words.at("Y").size())};
         shape.is_signed = is_signed("A_SIGNED") || is_signed("B_SIGNED") || a_more.is_sign || b_more.is_sign;
-        // Zeros before a word beside a signed one: one of them is its sign.
+        // In a signed product, an unsigned operand keeps one of its leading zeros as its sign.
         for (Extension* more : {&a_more, &b_more})
           if (shape.is_signed && !more->is_sign && more->bits > 0) --more->bits;
         shape.a_bits = static_cast<unsigned>(a.size()) - a_more.bits;
@@ -176,8 +176,8 @@ Result<Cells> CellCounter::read(const std::filesystem::path& folder) const {
     else if (type.find("DFF") != std::string::npos)
       cells.flip_flops += count.get<std::uint64_t>();
     else if (type.starts_with("$memrd") || type.starts_with("$memwr"))
-      continue;  // ports of what memory_bits counts
-    else         // a latch, say: never in a right netlist, and not to be passed over
+      continue;  // ports of memories; memory_bits counts these
+    else         // for example a latch: an error, because a correct netlist has none
       return tool_failed(fmt::format("{}: cells of type {}, neither LUT nor flip-flop", path.string(), type));
   }
   if (cells.multipliers == 0) return cells;

@@ -20,7 +20,7 @@ class CellsTest : public ::testing::Test {
  protected:
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
 
-  /// A program that stands for Yosys, before the others in PATH.
+  /// Put a replacement for Yosys at the front of PATH.
   void put_yosys(const std::string& script) {
     ASSERT_TRUE(make_folders(folder_->path() / "bin"));
     ASSERT_TRUE(write_file(folder_->path() / "bin" / "yosys", "#!/bin/sh\n" + script));
@@ -52,15 +52,15 @@ TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
   const auto grey = count(grey_), coloured = count(coloured_);
   ASSERT_TRUE(grey) << grey.error().message;
   ASSERT_TRUE(coloured) << coloured.error().message;
-  // Six line interpolators of 40 bits and six words that stand still make a channel, and ten words each of
-  // the triangles that wait.
+  // A channel has six line interpolators of 40 bits, six constant words, and ten words for each of the
+  // waiting triangles.
   const std::uint64_t flip_flops = coloured->flip_flops - grey->flip_flops;
   EXPECT_GT(flip_flops, 2 * 6 * 40U);
   EXPECT_LT(flip_flops, 2 * 40 * 40U);
-  EXPECT_GT(coloured->luts, grey->luts + 2 * 6 * 40U);  // an adder takes one a bit or more
+  EXPECT_GT(coloured->luts, grey->luts + 2 * 6 * 40U);  // an adder takes at least one LUT per bit
   EXPECT_EQ(cached(), 2U);
 
-  // The second time from the cache: Yosys itself is asked for its version only.
+  // The second count uses the cache. Yosys only reports its version.
   const auto version = run_process({.arguments = {"yosys", "-V"}}, kInstallYosys);
   ASSERT_TRUE(version);
   put_yosys("[ $# = 1 ] && printf '" + version->output + "' || exit 9\n");
@@ -78,7 +78,7 @@ TEST_F(CellsTest, AMissingYosysIsToldWithTheCommandThatBringsIt) {
   EXPECT_THAT(none.error().message, HasSubstr("apt-get install yosys"));
 }
 
-// Another netlist is another count, though the key is the same.
+// Another netlist is counted again, although the key is the same.
 TEST_F(CellsTest, ChangedRtlIsCountedAnew) {
   put_yosys("[ $# = 1 ] || echo '{\"design\": {\"num_cells_by_type\": {\"$lut\": 1}}}' >cells.json\n");
   ASSERT_TRUE(count(grey_));
@@ -102,35 +102,35 @@ TEST_F(CellsTest, ChangedRtlIsCountedAnew) {
   EXPECT_EQ(cached(), 2U);
 }
 
-// The shading processors' alone, which have wide ones and many.
+// Only the shading processors, whose multipliers are wide and many.
 TEST_F(CellsTest, MultipliersOfTheShadingProcessorsAreNoLuts) {
   ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << kInstallYosys;
   HardwareKey key{.shader = Shader::processors, .preset = Preset::published, .channels = 1};
   const auto ambient = count(key);
   ASSERT_TRUE(ambient) << ambient.error().message;
-  // k I alone.
+  // Only k I.
   EXPECT_EQ(ambient->multipliers, 1U);
   const int k_bits = golden::Published::c_coefficient_bits,
             i_bits = golden::Published::c_light_intensity_bits;
   EXPECT_GE(ambient->product_bits, static_cast<std::uint64_t>(k_bits + i_bits));
-  EXPECT_LE(ambient->product_bits, static_cast<std::uint64_t>(k_bits + i_bits + 2));  // signs
+  EXPECT_LE(ambient->product_bits, static_cast<std::uint64_t>(k_bits + i_bits + 2));  // sign bits
   key.processors = {.directional = 1, .diffuse = true};
   const auto lit = count(key);
   ASSERT_TRUE(lit) << lit.error().message;
-  // N.L has three, k I and the weighted term one each.
+  // N.L has three multipliers; k I and the weighted term have one each.
   EXPECT_EQ(lit->multipliers, 1 + 3 + 2U);
   EXPECT_GT(lit->luts, ambient->luts);
   EXPECT_GT(lit->flip_flops, ambient->flip_flops);
-  // A bit of a product takes a LUT or two for each of the multiplier's.
+  // Each bit product of a multiplier takes one or two LUTs.
   EXPECT_GT(ambient->multiplier_luts, static_cast<std::uint64_t>(k_bits * i_bits / 2));
   EXPECT_LT(ambient->multiplier_luts, static_cast<std::uint64_t>(3 * k_bits * i_bits));
   EXPECT_GT(lit->multiplier_luts, 5 * ambient->multiplier_luts);
-  // Table and adders are LUTs; so many multipliers would be as many again.
+  // LUTs are the table and the adders only. The multipliers would double the count.
   EXPECT_LT(lit->luts, 4000U);
 }
 
-// Words as Yosys's JSON has them, the lowest bit first: with copies of their signs, with zeros before them,
-// as they are.
+// Operands in Yosys's JSON format, lowest bit first: with sign extension, with zero extension, and without
+// extension.
 TEST(MultiplierShapes, AreWithoutCopiesOfSigns) {
   const auto netlist = [](const std::string& a, const std::string& b) {
     const std::string cell = fmt::format(
@@ -151,7 +151,7 @@ TEST(MultiplierShapes, AreWithoutCopiesOfSigns) {
   EXPECT_EQ(shape("1, 2, 3, 3, 3", "11, 12"), (MultiplierShape{true, false, 3, 2, 3}));
   EXPECT_EQ(shape(R"(1, 2, "0", "0", "0")", "11, 12"), (MultiplierShape{false, false, 2, 2, 3}));
   EXPECT_EQ(shape(R"(1, 2, "1", "1")", "11, 12"), (MultiplierShape{false, false, 4, 2, 3}));
-  // Beside a signed word one of the zeros is its sign.
+  // In a product with a signed word, one of the zeros is the sign.
   EXPECT_EQ(shape(R"(1, 2, "0", "0", "0")", "11, 12, 12"), (MultiplierShape{true, false, 3, 2, 3}));
   EXPECT_TRUE(read_multiplier_shapes(netlist("1", "11"), "other")->empty());
   for (const char* damaged : {"", R"("0", "0")"})
@@ -160,7 +160,7 @@ TEST(MultiplierShapes, AreWithoutCopiesOfSigns) {
   EXPECT_FALSE(read_multiplier_shapes("nonsense", "mul"));
 }
 
-// What Yosys might leave, and what then is said; nothing of it stays in the cache.
+// Invalid results of Yosys and their error messages. They are removed from the cache.
 TEST_F(CellsTest, WhatIsNoCountOfLutsAndFlipFlopsIsRefused) {
   const auto stat = [](const std::string& cells) {
     return "[ $# = 1 ] || cat >cells.json <<'EOF'\n{\"design\": {\"num_cells_by_type\": {" + cells +

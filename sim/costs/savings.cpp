@@ -28,7 +28,7 @@ constexpr std::array c_cases = {
     SavingsCase{"spheres", "", Shader::processors, Preset::published},
 };
 
-// Numbers by their columns' names.
+// Visit each number with its column name.
 template <class Cost, class Visit>
 void for_each_number(Cost& cost, const Visit& visit) {
   visit("luts", cost.luts);
@@ -38,7 +38,7 @@ void for_each_number(Cost& cost, const Visit& visit) {
   visit("cycles", cost.cycles);
 }
 
-// The first values of a line.
+// The first values of a line: the case and its hardware.
 std::vector<std::string> label(const SavingsCase& which, bool all) {
   return {which.scene, to_string(which.shader), to_string(which.preset), all ? "all effects" : "called for"};
 }
@@ -104,7 +104,7 @@ Result<std::vector<Savings>> measure_savings(const SimulatorFolders& folders, un
   std::vector<Savings> savings(c_cases.size());
   std::mutex mutex;
   std::size_t done = 0;
-  // The largest hardware stands last.
+  // Largest hardware last.
   const std::size_t jobs = 2 * c_cases.size();
   Status measured = for_each_on_threads(threads, jobs, [&](std::size_t at) -> Status {
     const std::size_t job = jobs - 1 - at, which = job / 2;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What leaving hardware out saves: the scenes of README's two tables, their figures as a file, and the
-// tables.
+// Savings in hardware for unused effects: the scenes of README's two tables, the measured costs as a file,
+// and the tables.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,11 @@
 
 namespace halfway {
 
-inline constexpr const char* kSavings = "sim/gallery/savings.csv";  ///< from the project's root
+inline constexpr const char* kSavings = "sim/gallery/savings.csv";  ///< relative to the project's root
 
 struct SavingsCase {
-  const char* scene;  ///< a built-in one
-  const char* what;   ///< of it, as README says it
+  const char* scene;  ///< a built-in scene
+  const char* what;   ///< description of the scene in README
   Shader shader;
   Preset preset;
 
@@ -34,26 +34,27 @@ struct SavingsCase {
 };
 std::span<const SavingsCase> savings_cases();
 
-/// Of one hardware.
+/// Cost of one hardware.
 struct HardwareCost {
   std::string key;
-  std::uint64_t luts = 0, flip_flops = 0, memory_bits = 0, multipliers = 0;  ///< as CellCounter has them
-  std::uint64_t cycles = 0;                                                  ///< of the frame
+  std::uint64_t luts = 0, flip_flops = 0, memory_bits = 0, multipliers = 0;  ///< as in CellCounter
+  std::uint64_t cycles = 0;                                                  ///< for the frame
 };
 struct Savings {
   HardwareCost called_for, everything;
 };
 
-/// Of every case, in minutes of all cores. `on_line` is told each line of the file as it comes.
+/// Measure every case; this takes minutes on all cores. `on_line` receives each line of the file as soon as
+/// it is measured.
 Result<std::vector<Savings>> measure_savings(const SimulatorFolders& folders, unsigned threads,
                                              const std::function<void(const std::string&)>& on_line);
 
-/// One line a hardware, in the order of the cases.
+/// One line per hardware, in the order of the cases.
 std::string to_csv(std::span<const Savings> savings);
-/// An error where it is not of these cases.
+/// An error if the file has other cases.
 Result<std::vector<Savings>> read_savings(const std::filesystem::path& csv);
 
-/// README with its parts "savings" and "savings of processors" drawn from these.
+/// README with its parts "savings" and "savings of processors" written from these costs.
 Result<std::string> with_savings(const std::string& readme, std::span<const Savings> savings);
 
 }  // namespace halfway

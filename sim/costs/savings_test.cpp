@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// README's tables of what is left out against their file, and the file against the plans as they are.
+// README's tables of savings must match their file, and the file must match the current plans.
 #include "sim/costs/savings.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene costs on given hardware: cycles, and the simulators' time.
+// Cost of a scene on given hardware: cycles, and the simulators' time.
 #pragma once
 
 #include <cstdint>
@@ -22,19 +22,19 @@ struct CostSettings {
   unsigned threads = 1;
   bool ghdl = true, verilator = true;
   SimulatorFolders folders;
-  /// Told what is being done.
+  /// Called with a description of each step.
   std::function<void(const std::string& what)> on_progress = [](const std::string&) {};
 };
 
 struct SimulationCost {
   std::uint64_t fragments = 0, cycles = 0;
-  /// Processor seconds of the simulation alone, the least of up to three. None: not run.
+  /// Processor seconds of the simulation only, the minimum of up to three runs. std::nullopt: not run.
   std::optional<double> ghdl_seconds, verilator_seconds;
-  Frame frame;  ///< Verilator's, or without it the golden model's
+  Frame frame;  ///< drawn by Verilator, or without it by the golden model
 };
 
-/// Hardware that hangs or the like is an error; whether it draws what the golden model draws is not looked
-/// at.
+/// A hang or another failure of the hardware is an error. The picture is not compared with the golden
+/// model's.
 Result<SimulationCost> simulation_cost(const Scene& scene, const HardwareKey& key,
                                        const CostSettings& settings);
 

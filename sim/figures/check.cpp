@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The names of what a JSON pointer leads to: "spherical-05: 'a for n = 5': ".
+// Names of the object at a JSON pointer: "spherical-05: 'a for n = 5': ".
 std::string place_of(const Json& entries, const std::string& path) {
   std::string place;
   for (Json::json_pointer at(path); !at.empty(); at.pop_back()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the committed figures are what is drawn and measured.
+// Checks that the committed figures are up to date.
 #pragma once
 
 #include <filesystem>
@@ -12,9 +12,9 @@
 
 namespace halfway::figures {
 
-/// Compares the page, figures.json and the pictures in `folder` with what was drawn into `drawn_folder`: a
-/// sentence for each difference. Rows that were not measured are taken from figures.json, but for their
-/// verdicts. Plots of another gnuplot than this machine's are not compared, which `notes` says.
+/// Compare the page, figures.json and the pictures in `folder` with those drawn into `drawn_folder`. Returns
+/// one sentence per difference. Rows that were not measured are taken from figures.json, except for their
+/// verdicts. Plots made by another version of gnuplot are not compared; `notes` lists them.
 Result<std::vector<std::string>> stale(std::span<const Entry> drawn, const std::filesystem::path& folder,
                                        const std::filesystem::path& drawn_folder,
                                        const std::filesystem::path& source, std::vector<std::string>& notes);

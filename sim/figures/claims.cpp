@@ -7,7 +7,7 @@
 namespace halfway::figures {
 namespace {
 
-// A table's values, each asked for once: what is left in the end has a name that nobody knows.
+// Reads each value of a table once. Values left at the end have unknown names.
 class Fields {
  public:
   Fields(toml::node& node, const std::string& file) : file_(file), at_(node.source().begin) {

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// 0.00005, but 1e-09.
+// Print 0.00005 as decimal, but 1e-09 with exponent.
 std::string plain(double value) {
   std::string text =
       value == 0.0 || std::abs(value) >= 1e-6 ? fmt::format("{:.6f}", value) : fmt::format("{:.0e}", value);
@@ -28,7 +28,7 @@ Json json_of(const Row& row) {
   return {{"what", claim.what},
           {"published", claim.published},
           {"measured", measured.text},
-          {"value", measured.value},  // null where it is no number
+          {"value", measured.value},  // null if the value is not a number
           {"criterion", claim.criterion.text()},
           {"verdict", row.agrees() ? "agrees" : "differs"},
           {"reason", row.reason()},
@@ -126,7 +126,7 @@ std::vector<std::string> faults(std::span<const Entry> entries) {
       const std::string sides = fmt::format("published {}, measured {} ({})", claim.published,
                                             row->measured.text, claim.criterion.text());
       if (!row->agrees() && claim.why_not.empty()) say(" differs, and no reason is known: " + sides);
-      // A processor's time may agree on one machine, and not on another.
+      // A processor's time may agree on one machine and differ on another.
       if (row->agrees() && !claim.why_not.empty() && !claim.timed)
         say(" agrees, though a reason why not is given: " + sides);
     }

@@ -70,7 +70,7 @@ std::array<std::uint32_t, Figure7Shader::c_init_words> figure7_init(const Figure
 
 namespace {
 
-// Adds a line or a pixel: words of the stage, of which one may not be known.
+// Append a line or a pixel: the registers of the stage. One without a value sets `known` to false.
 void add(Figure7Trace& trace, const Stage& stage, std::span<const std::optional<std::uint64_t>> words) {
   const auto word = [&](std::string_view name) {
     const auto at = std::ranges::find(stage.words, name, &StageWord::name) - stage.words.begin();

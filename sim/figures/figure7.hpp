@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figure 7 of the quadratic paper, the trace of the authors' own simulation, and the registers of ours.
+// Figure 7 of the quadratic paper: the trace of the authors' own simulation, compared with our registers.
 #pragma once
 
 #include <cstdint>
@@ -16,43 +16,43 @@
 
 namespace halfway::figures {
 
-/// Words of a register, in the order in which it held them.
+/// Values of a register in time order.
 using TraceWords = std::vector<std::uint32_t>;
 
-/// tb/published/figure7.txt, by the registers' names there.
+/// Contents of tb/published/figure7.txt, by register names.
 struct Figure7 {
   std::map<std::string, std::uint32_t> step;
   std::map<std::string, TraceWords> line, pixel;
 };
 Result<Figure7> read_figure7(const std::filesystem::path& file);
 
-/// Line k has k pixels; the printed trace breaks off in the fourth.
+/// Line k has k pixels; the printed trace ends within the fourth line.
 inline constexpr std::uint32_t c_figure7_lines = 4,
                                c_figure7_pixels = c_figure7_lines * (c_figure7_lines + 1) / 2;
 inline constexpr std::uint32_t c_figure7_triangle = 7, c_figure7_x = 20, c_figure7_y = 10;
 
-/// The hardware, and its golden twin.
+/// The hardware and its golden model.
 const HardwareKey& figure7_key();
 using Figure7Shader = golden::QuadraticShader<golden::Published, 1>;
 
-/// Edges of slope 0 and 1 pixel a line, so that line k has k pixels.
+/// Edges with slopes of 0 and 1 pixel per line, so that line k has k pixels.
 std::array<std::uint32_t, Figure7Shader::c_init_words> figure7_init(const Figure7& figure);
 
-/// Registers of the line stage and of the span stage, line by line and pixel by pixel, as the figure names
-/// them; clocks where there are any.
+/// Registers of the line stage (per line) and of the span stage (per pixel), with the figure's names, and
+/// clocks if known.
 struct Figure7Trace {
   std::map<std::string, TraceWords> line, pixel;
   TraceWords pixel_x, pixel_y;
   std::vector<std::uint64_t> line_clock, pixel_clock;
-  bool known = true;  ///< no register read here had a bit without a value
+  bool known = true;  ///< no register read had an undefined bit
 };
 
-/// The golden model's, without clocks.
+/// Trace of the golden model, without clocks.
 Figure7Trace golden_figure7(const Figure7& figure);
-/// The RTL's, in GHDL.
+/// Trace of the RTL in GHDL.
 Result<Figure7Trace> rtl_figure7(const Figure7& figure, const SimulatorFolders& folders);
 
-/// "FFFD1688 FFFD0626", of so many words at most.
+/// "FFFD1688 FFFD0626", at most `most` words.
 std::string hexadecimal(std::span<const std::uint32_t> words, std::size_t most = SIZE_MAX);
 
 }  // namespace halfway::figures

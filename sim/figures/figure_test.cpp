@@ -66,7 +66,7 @@ TEST(Figures, AVerdictNeedsAReasonWhereItDiffersAndNoneWhereItAgrees) {
   EXPECT_EQ((Row{excused, other}.reason()), "rounded");
   EXPECT_EQ((Row{excused, same}.reason()), "");
   EXPECT_THAT(faults_of(excused, same), Contains(HasSubstr("agrees, though")));
-  excused.timed = true;  // and so of another machine
+  excused.timed = true;  // measured on another machine
   EXPECT_THAT(faults_of(excused, same), IsEmpty());
   const Claim words{"a", "06AF"};
   EXPECT_TRUE((Row{words, {"06AF"}}.agrees()));
@@ -111,7 +111,7 @@ std::vector<Figure> figures() {
   return *all;
 }
 
-// What the papers print and the project draws again.
+// All figures and claims that the papers print and the project reproduces.
 TEST(Figures, EveryFigureIsThereWithItsClaims) {
   std::set<std::string> ids;
   for (const Figure& f : figures()) {
@@ -133,7 +133,7 @@ std::map<std::string, Measurements> measurements(const std::string& json) {
   return *read;
 }
 
-// The committed figures, as the program reads them.
+// Read the committed figures.
 std::vector<Entry> committed() {
   const auto json = read_file(c_folder / "figures.json");
   EXPECT_TRUE(json) << json.error().message;
@@ -142,7 +142,7 @@ std::vector<Entry> committed() {
   return completed(entries, measurements(*json));
 }
 
-// The published number of each row, changed: no verdict stays what it is.
+// Changing the published number of each row changes every verdict.
 TEST(Figures, EveryVerdictCanGoTheOtherWay) {
   int rows = 0;
   for (const Entry& entry : committed())
@@ -219,7 +219,7 @@ TEST(Figures, TimesStayOnAPageUntilTheirVerdictChanges) {
   EXPECT_EQ(to_json(completed({entry({"1.05", 1.05})}, {})), to_json(std::array{entry({"1.05", 1.05})}));
 }
 
-// A folder with one figure, and what is drawn again beside it.
+// A folder with one figure, and the newly drawn figure.
 class Stale : public testing::Test {
  protected:
   void SetUp() override {
@@ -282,7 +282,7 @@ TEST_F(Stale, ASlowRowsVerdictMustFollow) {
   whole_[0].rows[1].measured.value = 1.2;
   write(whole_);
   EXPECT_THAT(found(), Contains(HasSubstr("'slow' differs, and no reason is known")));
-  whole_[0].rows[1].claim.criterion.value = 1.2;  // a page that calls it equal all the same
+  whole_[0].rows[1].claim.criterion.value = 1.2;  // the page still says that it agrees
   write(whole_);
   EXPECT_THAT(found(), Contains("x-1: 'slow': verdict is agrees there, measured differs"));
 }
@@ -327,7 +327,7 @@ TEST_F(Stale, AClaimThatNothingWasMeasuredForIsAnError) {
 
 TEST(SixPointFit, GoesThroughTheSixPointsByOneDivision) {
   constexpr double c_x2 = 7.0, c_y2 = 0.0, c_x3 = 2.0,
-                   c_y3 = 6.0;  // where the published form divides by zero
+                   c_y3 = 6.0;  // the published formula divides by zero here
   constexpr std::array c_values{0.1, 0.4, 0.3, 0.9, 0.5, 0.7};
   const auto fit = fit_six_points(c_x2, c_y2, c_x3, c_y3, c_values);
   EXPECT_NEAR(fit.at(0.0, 0.0), c_values[0], 1e-14);

@@ -24,7 +24,7 @@ namespace halfway::figures {
 namespace {
 
 constexpr int c_subpixel_bits = 4;
-constexpr std::uint32_t c_hen_cells = 6;  // a unit of length
+constexpr std::uint32_t c_hen_cells = 6;  // per unit of length
 
 }  // namespace
 
@@ -52,7 +52,7 @@ Scene hen_scene() {
   const Material material{
       .name = "hen", .colour = {0.8, 0.6, 0.35}, .diffuse = 0.65, .specular = 0.4, .exponent = 20.0};
   Scene scene = scene_of(make_hen(c_hen_cells), material, {0.45, 0.25, 1.0});
-  scene.camera.vertical_fov_degrees *= 0.8;  // its sphere is larger than itself
+  scene.camera.vertical_fov_degrees *= 0.8;  // the bounding sphere is larger than the mesh
   return scene;
 }
 
@@ -94,7 +94,8 @@ Hardware draw_in_hardware(const Context& context, const Scene& scene, FrameSize 
 }
 
 Frame draw_mesh(const Scene& scene, FrameSize size, unsigned threads) {
-  constexpr double c_line = 0.55, c_soft = 0.7;  // pixels: half a line's width, and how it fades
+  // pixels: half the width of a line, and the width of its soft edge
+  constexpr double c_line = 0.55, c_soft = 0.7;
   const std::vector<ScreenTriangle> triangles =
       Projector(scene, size, {.subpixel_bits = c_subpixel_bits}).project_all();
   const RenderOptions options{

@@ -27,7 +27,7 @@ set key noautotitle textcolor rgb '#1f2328'
 
 constexpr std::string_view c_produced = "Produced by ";
 
-// Groups that hold nothing, of which gnuplot writes many; and the titles that it gives curves.
+// Remove gnuplot's many empty groups, and its titles of curves.
 void prune(pugi::xml_node node) {
   for (pugi::xml_node child = node.first_child(), next; child; child = next) {
     next = child.next_sibling();
@@ -39,7 +39,7 @@ void prune(pugi::xml_node node) {
   }
 }
 
-// gnuplot 5.4 cannot be told what a picture's title and description are.
+// Insert title and description; gnuplot 5.4 has no option for them.
 std::string described(const std::string& svg, const Plot& plot) {
   pugi::xml_document document;
   const auto parsed = document.load_string(svg.c_str(), pugi::parse_default | pugi::parse_declaration);
@@ -55,7 +55,7 @@ std::string described(const std::string& svg, const Plot& plot) {
   prune(root);
   std::ostringstream out;
   document.save(out, "", pugi::format_raw);
-  // A line an element, but none within texts.
+  // Put each element on a line, without line breaks in texts.
   std::string text = out.str();
   for (const std::string_view next : {"><g", "><path", "><use", "><rect", "><title", "><desc", "><!--"})
     for (std::size_t at = 0; (at = text.find(next, at)) != std::string::npos; at += next.size())

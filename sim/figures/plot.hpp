@@ -14,19 +14,19 @@ namespace halfway::figures {
 
 struct Plot {
   FrameSize size{760, 340};
-  std::string title;   ///< what the picture shows: the SVG's title, and its text in the page
-  std::string words;   ///< what it says, for those who do not see it; may be empty
-  std::string script;  ///< after terminal and output are set
+  std::string title;   ///< title of the SVG, and text on the page
+  std::string words;   ///< alternative text; may be empty
+  std::string script;  ///< gnuplot script after terminal and output are set
 };
 
 /// "$name << EOD", rows of numbers, "EOD".
 std::string data_block(const std::string& name, std::span<const std::vector<double>> rows);
 
-/// Writes NAME.svg into the context's folder, its script beside it, and notes it in the drawing. Throws
-/// Failure where there is no gnuplot.
+/// Write NAME.svg and its script into the context's folder, and register the picture in the drawing. Throws
+/// Failure without gnuplot.
 void draw_plot(const Context& context, const std::string& name, const Plot& plot, Drawing& drawing);
 
-/// Which gnuplot drew an SVG: two versions do not write the same bytes.
+/// The version of gnuplot that drew an SVG. Different versions write different bytes.
 std::string drawn_by(std::string_view svg);
 
 inline constexpr const char* c_install_gnuplot = "apt-get install gnuplot-nox";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The processors paper's tables 3, 4 and 5, and what its text says of highlights and perspective.
+// The processors paper: tables 3, 4 and 5, and its statements on highlights and perspective.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -41,7 +41,7 @@ const char* name_of_reflection(Reflection reflection) {
   return c_names[static_cast<std::size_t>(reflection)];
 }
 
-// A sphere under one kind of light, reflecting it in one way.
+// A sphere with one kind of light and one kind of reflection.
 Scene lit_sphere(Source source, Reflection reflection) {
   Scene scene = sphere_scene(17, 12, 20.0);
   Material& material = scene.materials[0];
@@ -61,7 +61,7 @@ Scene lit_sphere(Source source, Reflection reflection) {
 constexpr PlanRequest c_published{
     .shader = Shader::processors, .preset = Preset::published, .form = ProcessorForm::folded};
 
-// Whether the published hardware draws it: something is lit, and it is about what it should be.
+// Result of drawing with the published hardware: lit, and approximately correct.
 struct Drawn {
   bool lit = false;
   bool normalizes = false;  // version II
@@ -81,7 +81,7 @@ std::string list_of(const std::vector<const char*>& names) {
 }
 
 void draw_table_3(const Context& context, Drawing& out) {
-  // What either version has, by the hardware that a scene with nothing else calls for.
+  // Sources and reflections of each version, from the hardware for scenes with a single one.
   std::vector<const char*> sources_1, sources_2, reflections_1, reflections_2;
   for (const Source source : c_sources) {
     const Reflection reflection = source == Source::ambient ? Reflection::ambient : Reflection::diffuse;
@@ -106,8 +106,8 @@ void draw_table_3(const Context& context, Drawing& out) {
   out.measured["version II, with normalization: light sources"] = {list_of(sources_2)};
   out.measured["version II: reflection"] = {list_of(reflections_2)};
 
-  // The same sphere under a directional light by version I, a positional one by version II, and by preset
-  // exact.
+  // The same sphere: with a directional light by version I, with a positional light by version II, and by
+  // preset exact.
   constexpr FrameSize c_shown_size{144, 108};
   std::vector<Frame> pictures;
   for (const Source source : {Source::directional, Source::positional}) {
@@ -145,7 +145,7 @@ void draw_table_3(const Context& context, Drawing& out) {
 
 struct Table4Row {
   const char* what;
-  const char* run;  // as tb/illumination/table4_tb.vhd names it
+  const char* run;  // name in tb/illumination/table4_tb.vhd
 };
 constexpr std::array<Table4Row, 8> c_table_4 = {
     {{"ambient, version I", "ambient, version I"},
@@ -157,7 +157,7 @@ constexpr std::array<Table4Row, 8> c_table_4 = {
      {"positional light, specular (version II)", "positional specular"},
      {"shadow polygon", "shadow polygon"}}};
 
-// Clocks by "run, preset", as the testbench reports them.
+// Clocks by "run, preset", as reported by the testbench.
 std::map<std::string, int> clocks_in_ghdl(const Context& context) {
   const TemporaryFolder scratch = must(TemporaryFolder::make(context.folders.cache));
   must(vectors::write_table4(scratch.path()));

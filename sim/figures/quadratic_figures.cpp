@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quadratic paper's figures 7 to 11, the times of its section 6, and what its text says of the
-// arithmetic.
+// The quadratic paper: figures 7 to 11, the times of its section 6, and its statements on arithmetic.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,15 +24,15 @@ namespace {
 
 // ---- Figure 7 ----
 
-// As the page calls the registers, by their names in figure7.txt.
+// The page's names of registers, by their names in figure7.txt.
 constexpr std::array<std::pair<const char*, const char*>, 3> c_line_registers = {
     {{"dI_start", "ΔI_start"}, {"I_start", "I_start"}, {"dI(X_start)", "ΔI(X_start)"}}};
 constexpr std::array<std::pair<const char*, const char*>, 2> c_pixel_registers = {
     {{"dI(X,Y)", "ΔI(X,Y)"}, {"I(X,Y)", "I(X,Y)"}}};
 
-// A box a word, in the clocks in which the register holds it.
+// One box per word, over the clocks in which the register holds it.
 std::string figure_7_script(const Figure7Trace& trace) {
-  std::array<std::string, 3> blocks;  // printed by the paper, ours alone, lines
+  std::array<std::string, 3> blocks;  // words printed in the paper, our additional words, lines
   const auto add = [&](double lane, std::size_t from, std::size_t until, std::uint32_t word, bool printed) {
     blocks[printed ? 0 : 1] += fmt::format("{} {} {} {:08X}\n", lane, from, until, word);
   };
@@ -44,7 +43,8 @@ std::string figure_7_script(const Figure7Trace& trace) {
       add(lane, from, from + k + 1, trace.line.at(name).at(k), true);
     lane -= 1.0;
   }
-  constexpr std::array<std::size_t, 2> c_printed{7, 8};  // words of either; then the scan breaks off
+  // words of each register, after which the printed scan ends
+  constexpr std::array<std::size_t, 2> c_printed{7, 8};
   for (std::size_t r = 0; r < c_pixel_registers.size(); ++r, lane -= 1.0)
     for (std::size_t i = 0; i < c_figure7_pixels; ++i)
       add(lane, i, i + 1, trace.pixel.at(c_pixel_registers[r].first).at(i), i < c_printed[r]);
@@ -154,7 +154,7 @@ void draw_figure_8(const Context& context, Drawing& out) {
                "A hen and the teapot: mesh, Phong shading, quadratic shading", out);
 }
 
-// A sphere of so many triangles, by exponents of 5 and 50.
+// A sphere with the given number of triangles and exponents of 5 and 50.
 void draw_spheres(const std::string& id, std::uint32_t slices, std::uint32_t stacks, const Context& context,
                   Drawing& out) {
   std::vector<Frame> pictures;
@@ -203,7 +203,7 @@ void draw_spheres(const std::string& id, std::uint32_t slices, std::uint32_t sta
 // ---- Section 6: times; sections 3 and 5: what the text says of cost and arithmetic ----
 
 struct Times {
-  double gouraud = 0.0, quadratic = 0.0, phong = 0.0;  // processor seconds of a frame
+  double gouraud = 0.0, quadratic = 0.0, phong = 0.0;  // processor seconds per frame
 };
 
 constexpr FrameSize c_timed_size{500, 500};
@@ -222,7 +222,7 @@ Times software_times(const Scene& scene) {
       *frame = std::move(drawn.frame);
       *seconds = std::min(*seconds, drawn.seconds);
     }
-  // They must draw what they are named for.
+  // The renderers must draw their own method's picture.
   const RenderOptions options{.frame = c_timed_size, .subpixel_bits = 4};
   const ReferenceImage phong = render_reference(scene, triangles, options);
   const Frame gouraud = render_gouraud(scene, triangles, options).frame;
@@ -234,8 +234,8 @@ Times software_times(const Scene& scene) {
 }
 
 void draw_times(const Context& context, Drawing& out) {
-  // What a rule of fraction bits leaves: a second difference of just less than half a unit, which is rounded
-  // away, over a line of M pixels.
+  // Error of the paper's rule for fraction bits: a second difference of almost half a unit is rounded to 0
+  // over a line of M pixels.
   constexpr int c_pixels = 1000, c_rule_bits = 10;
   golden::LineInterpolator<32> value, difference;
   const double second = 0.499 * std::ldexp(1.0, -c_rule_bits);
@@ -255,7 +255,7 @@ void draw_times(const Context& context, Drawing& out) {
   const double off = std::abs(right - std::ldexp(static_cast<double>(value.value().bits()), -c_rule_bits));
   out.measured["error after M = 1000 pixels by the 10 fraction bits of b > log₂ M"] =
       measured(off, "{:.0f} colour steps");
-  // T3 as printed has Y2² below: with Y2 = 0, T5 X2² = 2 C12 above it.
+  // The printed T3 has Y2² in the denominator. With Y2 = 0 the numerator T5 X2² - 2 C12 is 0 too.
   const double x2 = 10.0, y2 = 0.0, c12 = 0.3, t5 = 2.0 * c12 / (x2 * x2), t4 = 0.1;
   const double t3 = (2.0 * c12 - t5 * x2 * x2 - t4 * x2 * y2) / (y2 * y2);
   out.measured["T3 of a triangle with Y2 = 0, by the printed formula"] = {
@@ -276,7 +276,8 @@ void draw_times(const Context& context, Drawing& out) {
   out.measured["quadratic shading, as a multiple of Gouraud shading's time"] =
       measured(times.quadratic / times.gouraud, "{:.2f}");
   out.measured["Phong shading, likewise"] = measured(times.phong / times.gouraud, "{:.1f}");
-  // A time that all three spend on every pixel, so great that Phong's ratio is the published one.
+  // Assume a constant additional time per pixel for all three methods, chosen so that Phong's ratio is the
+  // published one.
   constexpr double c_published_phong = 450.0 / 230.0;
   const double beside = (times.phong - c_published_phong * times.gouraud) / (c_published_phong - 1.0);
   out.measured["the first with a time beside shading that makes the second 1.96"] =
@@ -289,7 +290,7 @@ void draw_times(const Context& context, Drawing& out) {
     return static_cast<double>(drawn.cycles) / static_cast<double>(drawn.fragments);
   };
   const double quadratic = pace(scene, c_timed_size, {.shader = Shader::quadratic});
-  // The same hardware on colours that are linear on each triangle: what Gouraud shading asks of it.
+  // The same hardware with colours that are linear on each triangle, as in Gouraud shading.
   Scene matte = scene;
   matte.materials[0].specular = 0.0;
   const double linear =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quadratic through a triangle's three vertices and three edge midpoints, by one division; on any
-// numbers, so that its operations can be counted.
+// The quadratic through a triangle's three vertices and three edge midpoints, computed with one division. The
+// number type is a parameter, so that its operations can be counted.
 #pragma once
 
 #include <array>
@@ -19,7 +19,8 @@ struct QuadraticCoefficients {
   }
 };
 
-/// Values at vertices 1, 2, 3 and in the middle of edges 12, 13, 23; vertices 2 and 3 relative to the first.
+/// Values at vertices 1, 2, 3 and at the midpoints of edges 12, 13, 23. Vertices 2 and 3 are relative to
+/// vertex 1.
 template <class Scalar, class Value>
 QuadraticCoefficients<Value> fit_six_points(Scalar x2, Scalar y2, Scalar x3, Scalar y3,
                                             const std::array<Value, 6>& values) {
@@ -27,7 +28,7 @@ QuadraticCoefficients<Value> fit_six_points(Scalar x2, Scalar y2, Scalar x3, Sca
   const Scalar inverse = 1.0 / (x2 * y3 - y2 * x3), squared = inverse * inverse;
   const Value twice_12 = 2.0 * i12, twice_13 = 2.0 * i13;
   const Value q2 = 2.0 * (i1 + i2 - twice_12), q3 = 2.0 * (i1 + i3 - twice_13);
-  const Value c2 = i2 - i1 - q2, c3 = i3 - i1 - q3;  // 4 I12 - 3 I1 - I2, likewise 13
+  const Value c2 = i2 - i1 - q2, c3 = i3 - i1 - q3;  // 4 I12 - 3 I1 - I2; the same for 13
   const Value b = 4.0 * (i23 + i1 - i12 - i13);
   const Value q2_y3 = q2 * y3, q2_x3 = q2 * x3, q3_y2 = q3 * y2, q3_x2 = q3 * x2, b_y2 = b * y2,
               b_x2 = b * x2;
@@ -43,7 +44,7 @@ struct OperationCounts {
   int additions = 0, multiplications = 0, divisions = 0;
 };
 
-/// A number that counts what is done with it.
+/// A number that counts the operations on it.
 class CountedNumber {
  public:
   CountedNumber(double value, OperationCounts& counts) : value_(value), counts_(&counts) {}

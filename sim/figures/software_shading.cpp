@@ -18,7 +18,7 @@ namespace {
 
 constexpr int c_subpixel_bits = 4;
 
-/// A value that is linear on the screen: at a pixel's centre, and its step to the right.
+/// A value that is linear on the screen: its value at a pixel's centre and its step to the right.
 template <class Value>
 struct Plane {
   Value origin, dx, dy;
@@ -73,7 +73,7 @@ class Renderer {
     for (int c = 0; c < 3; ++c) frame_.rgb[3 * pixel + c] = to_byte(colour[c]);
   }
 
-  // begin(x, y) at a line's first pixel; then colour() of each, and step() to the next.
+  // Call begin(x, y) at a line's first pixel, then colour() for each pixel and step() to move to the next.
   template <class Begin, class Colour, class Step>
   void walk(const ScreenTriangle& t, const Plane<double>& depth, const Begin& begin, const Colour& colour,
             const Step& step) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The three renderers whose times the quadratic paper compares, as plain software: one scan conversion, and
-// per pixel an addition a channel, two, or the illumination model.
+// The three renderers that the quadratic paper compares, as plain software. They share one scan conversion.
+// Per pixel and channel they compute one addition, two additions, or the illumination model.
 #pragma once
 
 #include <span>
@@ -12,17 +12,17 @@
 namespace halfway::figures {
 
 enum class SoftwareShading {
-  gouraud,    ///< shaded at the three vertices, linear between
-  quadratic,  ///< at six points, by forward differences
-  phong       ///< at each pixel; normal and position linear on the screen, as the paper has them
+  gouraud,    ///< shaded at the three vertices, linear in between
+  quadratic,  ///< shaded at six points, with forward differences
+  phong       ///< shaded at each pixel; normal and position are linear on the screen, as in the paper
 };
 
 struct SoftwareFrame {
   Frame frame;
-  double seconds;  ///< of the processor, to draw the triangles on a frame that is there
+  double seconds;  ///< processor seconds for drawing the triangles into an existing frame
 };
 
-/// In double, with a depth buffer, of triangles at 4 subpixel bits; on this thread.
+/// Computed in double with a depth buffer, from triangles with 4 subpixel bits, on the calling thread.
 SoftwareFrame shade_in_software(const Scene& scene, std::span<const ScreenTriangle> triangles, FrameSize size,
                                 SoftwareShading shading);
 

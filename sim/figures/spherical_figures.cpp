@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spherical paper's figures 5, 9, 10, 11, 14, 15, 16 and 17, its table 1, and what its text says of both.
+// The spherical paper: figures 5, 9, 10, 11, 14, 15, 16 and 17, table 1, and its statements on them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ double power_of_cosine(double exponent, double x) {
   return highlight_power(std::cos(x), exponent);
 }
 
-// Greatest of a function of the angle over [0, pi/2].
+// Maximum of a function of the angle over [0, pi/2].
 template <class Function>
 double largest_over_angles(const Function& function) {
   constexpr int c_samples = 20'000;
@@ -49,12 +49,12 @@ double largest_over_angles(const Function& function) {
   return largest;
 }
 
-// Close together where sharp bells bend, in degrees.
+// Step in degrees; small where sharp bells have high curvature.
 double curve_step(double degrees) {
   return degrees >= -12.0 && degrees < 12.0 ? 0.75 : 3.0;
 }
 
-// Rows of x in degrees, and each curve there; symmetric.
+// Rows with x in degrees and the value of each curve, mirrored about 0.
 template <class Curve>
 std::vector<std::vector<double>> curves(std::span<const double> of, const Curve& curve) {
   std::vector<std::vector<double>> rows;
@@ -97,7 +97,7 @@ void draw_figure_5(const Context& context, Drawing& out) {
 constexpr std::array c_figure_9_exponents{5.0, 10.0, 20.0, 50.0, 500.0};
 constexpr std::array c_figure_9_scales{1.45, 1.98, 2.76};
 
-// Where a bell is down at a half.
+// Angle at which a bell has fallen to one half.
 double half_width(double exponent) {
   return std::acos(std::pow(0.5, 1.0 / exponent));
 }
@@ -158,9 +158,9 @@ void draw_figure_10(const Context& context, Drawing& out) {
   constexpr std::array c_exponents{5.0, 10.0, 20.0, 50.0};
   double narrowest = 1.0, widest = 10.0, farthest = 0.0, far_exponent = 0.0, fitted = 0.0;
   for (const auto& [n, printed] : c_table_1) {
-    if (n < 5) continue;  // at 2 the two are one
+    if (n < 5) continue;  // for n = 2 the two are equal
     const double a = published_scale(n);
-    // At the centre cosⁿ x is 1 − n x²/2, cos² ax is 1 − a² x².
+    // Near the centre cosⁿ x is 1 − n x²/2, and cos² ax is 1 − a² x².
     narrowest = std::min(narrowest, 2.0 * a * a / n);
     const auto reach = [&](const auto& bell) {
       double x = c_half_pi;
@@ -221,7 +221,7 @@ void draw_figure_11(const Context& context, Drawing& out) {
     const int bits = c_figure_11_bits[i];
     const tables::CosineTable table = tables::cosine_table(false, 2, bits, bits);
     error[i] = tables::table_error(table);
-    constexpr int c_samples = 192;  // six an entry of 6 address bits
+    constexpr int c_samples = 192;  // six samples per entry with 6 address bits
     std::vector<std::vector<double>> rows;
     for (int k = 0; k < c_samples; ++k) {
       const double x = c_half_pi * (k + 0.5) / c_samples, value = entry_at(table, x);
@@ -277,7 +277,7 @@ Scene smooth_highlights(const Context& context) {
   return scene;
 }
 
-// By spherical interpolation in double.
+// Drawn by spherical interpolation in double.
 Frame interpolated(const Scene& scene, FrameSize size, SpanEnds ends, HighlightCurve curve,
                    unsigned threads) {
   const auto triangles = Projector(scene, size, {.subpixel_bits = 4}).project_all();
@@ -295,7 +295,7 @@ void draw_figure_14(const Context& context, Drawing& out) {
     return interpolated(scene, c_size, SpanEnds::on_surface, curve, context.threads);
   };
   const Frame power = by(HighlightCurve::power), squared = by(HighlightCurve::squared_cosine);
-  // The highlights alone, each as bright as can be.
+  // Highlights only, with maximum brightness.
   for (Material& m : scene.materials) m.ambient = m.diffuse = 0.0, m.specular = 1.0;
   const std::array bells{by(HighlightCurve::power), by(HighlightCurve::squared_cosine)};
   const auto count = [&](const Frame& frame, std::uint32_t third, int least) {
@@ -305,7 +305,7 @@ void draw_figure_14(const Context& context, Drawing& out) {
         pixels += frame.rgb[frame.offset(x, y)] >= least ? 1 : 0;
     return pixels;
   };
-  constexpr int c_halo = 1, c_centre = 230;  // of 255
+  constexpr int c_halo = 1, c_centre = 230;  // in steps of 1/255
   std::string halos, centres;
   double least_halo = 1e9, largest_centre = 0.0;
   for (std::uint32_t i = 0; i < 3; ++i) {
@@ -414,7 +414,7 @@ struct Turn {
   glm::dvec3 begin, end;
 };
 
-// The largest angle between the two schemes' angles on the way, in degrees.
+// Largest difference in degrees between the angles of the two schemes along the way.
 double scheme_angle(const Turn& u, const Turn& v) {
   constexpr int c_steps = 16;
   const CosineArc arc = cosine_arc(u.begin, u.end, v.begin, v.end);
@@ -429,7 +429,7 @@ double scheme_angle(const Turn& u, const Turn& v) {
   return largest * 180.0 / std::numbers::pi;
 }
 
-// Over the edges of what is seen, each light's N.L and N.H.
+// Maximum over the edges of visible triangles, for each light's N.L and N.H.
 double largest_scheme_angle(const Scene& scene, FrameSize size) {
   double largest = 0.0;
   for (const ScreenTriangle& t : Projector(scene, size, {}).project_all())
@@ -463,7 +463,7 @@ FrameDistance between_schemes(const Scene& scene, FrameSize size, unsigned threa
   return distance(fixed.frame, by(VectorScheme::both_interpolated).frame, fixed.mask);
 }
 
-// 36 triangles close to a light: vectors turn far on each.
+// 36 triangles close to a light, so that vectors turn by large angles on each.
 Scene close_light_scene() {
   Scene scene =
       scene_of(make_uv_sphere(6, 4, 1.0), {.colour = glm::dvec3(0.6), .exponent = 50.0}, {0.0, 0.0, 1.0});
@@ -474,8 +474,8 @@ Scene close_light_scene() {
   return scene;
 }
 
-// Equation 15's last line as printed, and equations 16 and 17, against the vectors themselves: the largest
-// deviation of the cosine.
+// Equation 15's last line as printed, and equations 16 and 17, compared with the vectors: the largest error
+// of the cosine.
 struct EquationErrors {
   double printed_15 = 0.0, from_16 = 0.0;
 };
@@ -524,11 +524,11 @@ void draw_schemes(const Context& context, Drawing& out) {
   const EquationErrors errors = equation_errors();
   out.measured["equation 15, last line, as printed"] =
       measured(errors.printed_15, "off the vectors' cosine by up to {:.2f}");
-  // Rounding alone, which a compiler may do otherwise: the page says a bound.
+  // Rounding errors only. They depend on the compiler, so the page prints a bound.
   constexpr double c_rounding = 1e-13;
   out.measured["equations 16 and 17"] = measured(std::max(errors.from_16, c_rounding), "equal within {:.0e}");
 
-  // Both turn by the same angle, in planes that stand on one another.
+  // Both vectors turn by the same angle in perpendicular planes.
   std::vector<std::vector<double>> rows;
   for (int degrees = 0; degrees <= 90; degrees += 2) {
     const double a = degrees / 180.0 * std::numbers::pi, c = std::cos(a), s = std::sin(a);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Testbenches of tb/ in GHDL, whose reports or traces a figure shows.
+// Run testbenches of tb/ in GHDL for figures of their reports or traces.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace halfway::figures {
 
-/// Analyses the sources and runs `top` with these options: what it prints. Throws Failure, if the testbench
-/// fails too.
+/// Analyse the sources, run `top` with these options and return its output. Throws Failure, also if the
+/// testbench fails.
 std::string run_testbench(const Context& context, const std::string& top, std::vector<VhdlSource> sources,
                           const std::vector<std::string>& testbench_files,
                           const std::vector<std::string>& options);

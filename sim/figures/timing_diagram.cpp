@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* c_top = "interpolator_timing_tb";
 
-/// A signal's lane in the picture, and what it waits for, as the hardware is wired.
+/// A signal's lane in the picture, and its inputs in the hardware.
 struct Lane {
   std::string_view signal;
   double y;
@@ -75,7 +75,7 @@ class TraceBuilder {
   }
 
  private:
-  // The signal's value ends now; it began to change when its input did.
+  // End the signal's current value. Its transition began when its input changed.
   void close(const std::string& signal, double began) {
     if (!value_.contains(signal)) return;
     const double since = since_[signal];
@@ -129,13 +129,13 @@ class TraceBuilder {
   }
 
   TimingTrace trace_;
-  std::map<std::string, std::string> name_;  // by the VCD's code
+  std::map<std::string, std::string> name_;  // by the VCD's identifier code
   std::set<std::string> wires_;
   std::map<std::string, std::string> value_;
   std::map<std::string, double> since_;
   std::map<std::string, int> pixel_;
   std::map<std::pair<int, std::string>, std::string> told_;
-  std::vector<TimingTrace::Span> stage_1_;  // at work since the last step
+  std::vector<TimingTrace::Span> stage_1_;  // activity since the last step
   double now_ = 0.0, step_at_ = 0.0;
   int pixels_ = 0;
 };
@@ -153,7 +153,7 @@ std::vector<std::string> words_of(std::string_view line) {
 }  // namespace
 
 Result<TimingTrace> timing_trace(std::string_view vcd) {
-  constexpr double c_femtoseconds = 1e6;  // in a nanosecond
+  constexpr double c_femtoseconds = 1e6;  // per nanosecond
   TraceBuilder builder;
   std::string scope;
   while (!vcd.empty()) {
@@ -205,7 +205,8 @@ std::string block(const char* name, const Rows& rows, const Line& line) {
   return text + "EOD\n";
 }
 
-// A pixel keeps its colour from lane to lane, pale at rest and full at work; what belongs to none is grey.
+// Each pixel has the same colour in all lanes: pale when stable, saturated while changing. Values of no pixel
+// are grey.
 constexpr std::string_view c_drawing = R"(half = 0.31
 pales = "0xcfe4f7 0xd2eecb 0xfde1c2 0xe6d9f5 0xededed"
 fulls = "0x7ab4e6 0x86cf76 0xf6ae5f 0xb897e0 0xc4c4c4"
@@ -283,7 +284,7 @@ std::string script_of(const TimingTrace& trace) {
   return text + std::string(c_drawing);
 }
 
-// "5 ns" where it is always the same.
+// Print a single value, such as "5 ns", if all are equal.
 Measured always(const std::vector<double>& times) {
   const auto [least, most] = std::ranges::minmax(times);
   if (least != most) return {fmt::format("{} to {} ns", least, most)};

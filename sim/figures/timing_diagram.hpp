@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figure 17 of the spherical paper: its line interpolator, ROM and multiplier in time, from a trace of their
-// timing model in GHDL (tb/timing).
+// Figure 17 of the spherical paper: timing of its line interpolator, ROM and multiplier, from a trace of
+// their timing model in GHDL (tb/timing).
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace halfway::figures {
 
-/// What of the trace is drawn. Times are in ns; a pixel of -1 is none.
+/// The drawn parts of the trace. Times are in ns. A pixel of -1 means no pixel.
 struct TimingTrace {
   struct Wire {
     std::string signal;
@@ -24,10 +24,10 @@ struct TimingTrace {
     std::string signal;
     double from, until;
     int pixel;
-    double middle;  ///< of the time before the next value is on its way
+    double middle;  ///< of the time until the next transition begins
     std::string text;
   };
-  /// From a signal's input's last move to its own.
+  /// Interval from the last change of a signal's input to the signal's own change.
   struct Work {
     std::string signal;
     double from, until;
@@ -39,15 +39,15 @@ struct TimingTrace {
   std::vector<Wire> wires;
   std::vector<Value> values;
   std::vector<Work> work;
-  std::vector<Span> both;    ///< stage 1 at work while stage 2 is
-  std::vector<Span> pixels;  ///< each from its step on
-  std::vector<Span> steps;   ///< between two steps
+  std::vector<Span> both;    ///< intervals in which both stages are active
+  std::vector<Span> pixels;  ///< each starts at its step
+  std::vector<Span> steps;   ///< from one step to the next
   std::string slope, factor;
   double end = 0.0;
-  std::string words;  ///< the trace told, pixel by pixel
+  std::string words;  ///< description of the trace, pixel by pixel
 };
 
-/// From a VCD file of interpolator_timing_tb's first line, as GHDL writes it: times in fs.
+/// Read a VCD file of the first line of interpolator_timing_tb, as written by GHDL; its times are in fs.
 Result<TimingTrace> timing_trace(std::string_view vcd);
 
 void draw_figure_17(const Context& context, Drawing& out);

@@ -29,9 +29,8 @@ Result<std::string> run_ghdl(Command command, const std::string& doing) {
       room_note({command.working_folder, std::filesystem::temp_directory_path()})));
 }
 
-/// GHDL 2.0.0 leaves out of a Verilog `case` what the VHDL has under `when others`, and nothing in the
-/// Verilog shows it. The same netlist as VHDL does: only "X...X when others", after a full list of choices,
-/// may be left out.
+/// GHDL 2.0.0 omits the VHDL's `when others` in a Verilog `case`, and the Verilog does not show it. GHDL's
+/// VHDL netlist does: accept only "X...X when others" after a full list of choices.
 Status check_choices(const std::string& entity, std::string_view vhdl) {
   constexpr std::string_view mark = " when others;";
   for (std::size_t at = vhdl.find(mark); at != std::string_view::npos; at = vhdl.find(mark, at + 1)) {
@@ -49,7 +48,7 @@ Status check_choices(const std::string& entity, std::string_view vhdl) {
   return Ok{};
 }
 
-/// build/cache/ghdl/<hash> and the hash.
+/// The path build/cache/ghdl/<hash>, and the hash.
 std::pair<std::filesystem::path, std::string> place_of(const char* kind, const GhdlTool& tool,
                                                        const std::vector<VhdlSource>& sources,
                                                        const std::string& top,
@@ -61,7 +60,7 @@ std::pair<std::filesystem::path, std::string> place_of(const char* kind, const G
   return {std::filesystem::absolute(cache) / "ghdl" / hash.hex(), hash.hex()};
 }
 
-/// Puts the sources into the command's folder and their names behind it.
+/// Write the sources into the command's folder, append their names to the command and run it.
 Result<std::string> run_on(Command command, const std::vector<VhdlSource>& sources) {
   command.arguments.insert(command.arguments.end(), kAnalysisFlags.begin(), kAnalysisFlags.end());
   for (const VhdlSource& source : sources) {
@@ -115,7 +114,8 @@ Result<std::vector<VhdlSource>> read_rtl_sources(const std::filesystem::path& so
 
 Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
                                       const std::string& top, const std::filesystem::path& cache) {
-  // GHDL's library file holds absolute names of folders where given such: all commands run inside the folder.
+  // If folders are given as absolute names, GHDL's library file contains them. Run all commands inside the
+  // folder instead.
   const auto [folder, hash] = place_of("ghdl library 2", tool, sources, top, cache);
   GhdlLibrary library(tool, folder, hash);
   if (std::filesystem::exists(folder)) return library;
@@ -157,7 +157,7 @@ Result<GhdlLibrary> GhdlLibrary::for_synthesis(const GhdlTool& tool, const std::
 
   auto fresh = TemporaryFolder::make(folder.parent_path());
   if (!fresh) return fresh.error();
-  // --synth shows no warnings of its own.
+  // --synth does not print its own warnings.
   if (auto done = run_on({.arguments = {tool.program, "-s"}, .working_folder = fresh->path()}, sources);
       !done)
     return done.error();
@@ -173,7 +173,7 @@ Result<std::string> GhdlLibrary::synthesize(
   const std::filesystem::path kept = folder_ / "netlists" / fmt::format("{}-{}.v", entity, hash.hex());
   if (std::filesystem::exists(kept)) return read_file(kept);
   const auto netlist = [&](const std::string& language) -> Result<std::string> {
-    // Standard output goes to a file: warnings on standard error must not get into the netlist.
+    // Standard output is written to a file, so that warnings on standard error do not get into the netlist.
     auto scratch = TemporaryFolder::make(folder_.parent_path());
     if (!scratch) return scratch.error();
     Command command{.arguments = {tool_.program, "--synth", "--std=08", "--no-formal", "--out=" + language},

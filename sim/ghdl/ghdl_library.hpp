@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Analysed VHDL, cached by content: build/cache/ghdl/<hash>/ holds copies of the sources under their own
-// relative names and GHDL's work library beside them, so that later edits of the tree cannot disturb a run.
+// Analysed VHDL, cached by content. build/cache/ghdl/<hash>/ contains copies of the sources under their
+// relative names and GHDL's work library. Later edits of the tree do not affect a run.
 #pragma once
 
 #include <chrono>
@@ -14,9 +14,9 @@
 
 namespace halfway {
 
-/// Where the sources are and where builds are kept.
+/// Folders of the sources and of the builds.
 struct SimulatorFolders {
-  std::filesystem::path source;  ///< the project's root, which holds rtl/, tb/ and sim/
+  std::filesystem::path source;  ///< the project's root with rtl/, tb/ and sim/
   std::filesystem::path cache;   ///< usually build/cache
 };
 
@@ -26,30 +26,30 @@ enum class GhdlBackEnd { mcode, llvm, gcc };
 
 struct GhdlTool {
   GhdlBackEnd back_end;
-  std::string version;           ///< all that `ghdl --version` says
+  std::string version;           ///< the output of `ghdl --version`
   std::string program = "ghdl";  ///< a name in PATH, or a path
 
-  /// Asks the program; where there is none, an error with the command that installs GHDL.
+  /// Find the program. If it is missing, return an error with the command that installs GHDL.
   static Result<GhdlTool> find(const std::string& program = "ghdl");
 };
 
 struct VhdlSource {
-  std::string name;  ///< relative to the project's root, as messages show it
+  std::string name;  ///< relative to the project's root, as in messages
   std::string content;
 };
 
-/// The RTL in compile order: rtl/files.f, a path relative to rtl/ on each line.
+/// The RTL in compile order. rtl/files.f lists one path relative to rtl/ per line.
 Result<std::vector<VhdlSource>> read_rtl_sources(const std::filesystem::path& source_folder);
 Result<VhdlSource> read_vhdl_source(const std::filesystem::path& source_folder, const std::string& name);
 
 class GhdlLibrary {
  public:
-  /// Analyses the sources in order, warnings as errors, unless the cache has them. `top` is elaborated too
-  /// where the back end makes a program of it (llvm, gcc); empty: nothing to elaborate. The RTL that the
-  /// sources begin with is analysed once for all testbenches.
+  /// Analyse the sources in order, with warnings as errors, unless the result is cached. `top` is also
+  /// elaborated if the back end makes a program of it (llvm, gcc); empty: no elaboration. The RTL at the
+  /// start of the sources is analysed once for all testbenches.
   static Result<GhdlLibrary> open(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
                                   const std::string& top, const std::filesystem::path& cache);
-  /// For `synthesize` alone: the same checks, and no code generated, which is nearly all of the time.
+  /// For `synthesize` only: the same checks without code generation, which takes most of the time.
   static Result<GhdlLibrary> for_synthesis(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
                                            const std::filesystem::path& cache);
 
@@ -57,11 +57,11 @@ class GhdlLibrary {
   const GhdlTool& tool() const { return tool_; }
   const std::string& hash() const { return hash_; }
 
-  /// The Verilog netlist of `entity`, as `ghdl --synth` prints it, which takes seconds: from the library's
-  /// folder where it was asked for before. Refused where GHDL would drop a `when others`.
+  /// The Verilog netlist of `entity`, as `ghdl --synth` prints it. Synthesis takes seconds, so the result is
+  /// stored in the library's folder. Refuses a design for which GHDL would omit a `when others`.
   Result<std::string> synthesize(const std::string& entity,
                                  const std::vector<std::pair<std::string, std::string>>& generics) const;
-  /// The command that simulates `top`; its generics and GHDL's run options go at the end.
+  /// The command that simulates `top`. Generics and GHDL's run options are appended to it.
   std::vector<std::string> run_arguments(const std::string& top) const;
 
  private:
@@ -70,7 +70,7 @@ class GhdlLibrary {
   GhdlTool tool_;
   std::filesystem::path folder_;
   std::string hash_;
-  std::vector<std::string> to_read_;  ///< the sources' names, where nothing is analysed
+  std::vector<std::string> to_read_;  ///< names of the sources; used if nothing is analysed
 };
 
 }  // namespace halfway

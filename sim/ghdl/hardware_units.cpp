@@ -7,7 +7,7 @@
 namespace halfway {
 namespace {
 
-// The longest entity name that the module's name begins with.
+// The longest entity name that is a prefix of the module's name.
 std::string entity_of(std::string_view module, const std::set<std::string>& entities) {
   std::string entity;
   for (const std::string& name : entities)
@@ -19,7 +19,7 @@ bool is_label(std::string_view label, const std::string& name) {
   return label == name || label.starts_with(name + "_");
 }
 
-// What does an effect that the hardware always has.
+// Instances that implement an effect that the hardware always has.
 std::vector<std::string> instances_of(Effect effect, Shader shader) {
   switch (effect) {
     case Effect::depth:
@@ -27,8 +27,8 @@ std::vector<std::string> instances_of(Effect effect, Shader shader) {
     case Effect::exponents:
       return {"power"};
     case Effect::ambient:
-      // The first processor of the pipeline; in the spherical shader a word for the line and one for the
-      // span.
+      // The first processor of the pipeline. In the spherical shader: one register for the line and one for
+      // the span.
       if (shader == Shader::processors) return {"chain_n1"};
       return {"line_ambient_register", "span_ambient_register"};
     default:

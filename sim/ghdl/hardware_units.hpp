@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many of each entity the hardware of a key has: instances in GHDL's netlist.
+// Number of instances of each entity in the hardware of a key, from GHDL's netlist.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@
 
 namespace halfway {
 
-using UnitCounts = std::map<std::string, int>;  ///< by entity; none is zero
+using UnitCounts = std::map<std::string, int>;  ///< by entity; every count is at least one
 
 /// The instances in a netlist, as a tree.
 class InstanceTree {
@@ -24,8 +24,8 @@ class InstanceTree {
 
   /// All instances below the module `top`.
   UnitCounts count(const std::string& top) const;
-  /// The instances below `top` that have one of these names, and all instances below them. A name is an
-  /// entity's or a label's; a generate statement's label is the beginning of the label in the netlist.
+  /// Count the instances below `top` with one of these names, and all instances inside them. A name is an
+  /// entity or a label. The label of a generate statement is a prefix of the label in the netlist.
   UnitCounts count_named(const std::string& top, const std::vector<std::string>& names) const;
 
  private:
@@ -39,13 +39,13 @@ class InstanceTree {
 
 class UnitCounter {
  public:
-  /// Fails if GHDL is missing or does not take the RTL.
+  /// Fails if GHDL is missing or rejects the RTL.
   static Result<UnitCounter> open(const SimulatorFolders& folders);
 
-  /// The entities below the top. Synthesizes the netlist, or takes it from the cache.
+  /// Count the entities below the top. Synthesizes the netlist or takes it from the cache.
   Result<UnitCounts> count(const HardwareKey& key);
-  /// The entities in the hardware `key` that only this effect needs; if it is not elaborated, those that it
-  /// would add.
+  /// Count the entities in the hardware `key` that only this effect needs. If the effect is not elaborated,
+  /// count those that it would add.
   Result<UnitCounts> count(const HardwareKey& key, const PlannedEffect& effect);
 
  private:

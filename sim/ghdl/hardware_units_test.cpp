@@ -74,7 +74,7 @@ class HardwareUnits : public ::testing::Test {
   std::optional<UnitCounter> counter_;
 };
 
-// By hand, from the entities' text.
+// Counted by hand in the entities' source text.
 TEST_F(HardwareUnits, OfAQuadraticShader) {
   EXPECT_EQ(units({.shader = Shader::quadratic, .preset = Preset::published, .channels = 1}),
             (UnitCounts{{"deskew", 2},
@@ -141,7 +141,7 @@ TEST_F(HardwareUnits, ContainNothingThatTheSceneDoesNotCallFor) {
     Plan spherical = plan_of("matte", Shader::spherical, preset);
     expect_none(spherical.key, {"specular_slice", "quadratic_interpolator"});
     EXPECT_TRUE(units(spherical.everything).contains("specular_slice"));
-    // Neither light nor reflection.
+    // No light and no reflection.
     spherical.key.spherical.lights = 0;
     spherical.key.spherical.diffuse = false;
     expect_none(spherical.key,
@@ -153,7 +153,7 @@ TEST_F(HardwareUnits, ContainNothingThatTheSceneDoesNotCallFor) {
       expect_none(processors.called_for, of_effects);
       for (const std::string& entity : of_effects)
         EXPECT_TRUE(units(processors.everything).contains(entity)) << entity;
-      // Version I of the paper has no unit vectors.
+      // Version I of the paper does not normalize vectors.
       if (preset == Preset::published)
         expect_none(processors.called_for,
                     {"reciprocal_root", "vector_shift", "function_rom", "unit_vector"});
@@ -161,7 +161,7 @@ TEST_F(HardwareUnits, ContainNothingThatTheSceneDoesNotCallFor) {
   }
 }
 
-// An effect that is elaborated has units; adding one that is not adds units.
+// An elaborated effect has units. Adding another effect adds units.
 TEST_F(HardwareUnits, BelongToEveryEffectOfTheHardware) {
   for (const Shader shader : c_shaders)
     for (const Preset preset : {Preset::exact, Preset::published}) {

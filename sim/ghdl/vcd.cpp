@@ -29,7 +29,7 @@ Result<SampledSignals> sample_vcd(const std::filesystem::path& file, const std::
   std::map<std::string, std::string> now;      // by code
   SampledSignals sampled;
   std::string clock_code;
-  bool rising = false;  // at this time; what else moves now moves after the edge
+  bool rising = false;  // the clock rises at the current time; later changes are after the edge
   const auto sample = [&] {
     for (const std::string& path : paths) sampled.values[path].push_back(now[code_of[path]]);
     ++sampled.edges;
@@ -66,7 +66,7 @@ Result<SampledSignals> sample_vcd(const std::filesystem::path& file, const std::
         clock_code = code->second;
       }
     } else if (clock_code.empty()) {
-      continue;  // of the head
+      continue;  // of the header
     } else if (line.front() == '#') {
       close_time();
       if (sampled.edges >= most_edges) break;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What signals of a VCD trace hold before each rising edge of a clock, as a register would sample them.
+// Values of signals in a VCD trace before each rising edge of a clock, as a register would sample them.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,12 @@ namespace halfway {
 
 struct SampledSignals {
   std::size_t edges = 0;
-  /// By path, such as "frame_tb/dut/x"; a value a clock edge, as bits.
+  /// By path, such as "frame_tb/dut/x": one value per clock edge, as bits.
   std::map<std::string, std::vector<std::string>> values;
 };
 
-/// Reads the first `most_edges` clocks. `clock` and `paths` are scopes and name joined by '/'; a path that
-/// the trace lacks is an error.
+/// Read the first `most_edges` clocks. `clock` and `paths` are scopes and name joined by '/'. A path that is
+/// not in the trace is an error.
 Result<SampledSignals> sample_vcd(const std::filesystem::path& file, const std::string& clock,
                                   const std::vector<std::string>& paths, std::size_t most_edges);
 

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 class VcdTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    // The clock rises at 5 and 15; q moves with it, d between.
+    // The clock rises at 5 and 15. q changes with it, d in between.
     ASSERT_TRUE(write_file(
         file_,
         "$date\n  today\n$end\n$timescale\n  1 fs\n$end\n$scope module tb $end\n"

@@ -141,7 +141,7 @@ Bits BitOperations::choose(int mask, const Bits& a, const Bits& b) {
     unsigned at = 0;
     for (const Piece& piece : *bits) cuts.insert(at += piece.width);
   }
-  // Choose each part.
+  // Select each part.
   Bits chosen;
   unsigned low = 0;
   for (const unsigned high : cuts) {
@@ -171,7 +171,7 @@ Bits BitOperations::invert(const Bits& a) {
   return from_words(words, width);
 }
 
-/// Words from the least significant on; `carry` is a mask, or a number of one bit.
+/// Add words from the least significant one on. `carry` is a mask or a one-bit number.
 Bits BitOperations::sum(const Bits& a, const Bits& b, int carry) {
   const Words x = to_words(a), y = to_words(b);
   Words words;

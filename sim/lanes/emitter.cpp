@@ -79,7 +79,7 @@ class StepEmitter {
     text_ += "  }\n";
   }
 
-  /// `mask`: the lanes that change; empty: all.
+  /// `mask`: the lanes to update; empty: all.
   void emit_update(const Update& update, std::string mask) {
     const int where = changed_lanes(step_, delays_, update).first;
     if (where >= 0) mask += (mask.empty() ? "" : " & ") + reference(where);

@@ -53,7 +53,7 @@ class GraphBuilder {
   LaneGraph& graph() { return step_.graph; }
   Bits fail(const std::string& what) { return ops_.fail(what); }
 
-  /// Where the netlist's text has an expression, for messages.
+  /// The text of an expression in the netlist, for messages.
   static std::string line_of(pugi::xml_node node) {
     const std::string_view place = node.attribute("loc").value();
     const std::size_t comma = place.find(',');

@@ -10,8 +10,8 @@
 
 namespace halfway {
 
-/// The step with `reset` 0 or 1, with registers cut as `layout` says. Notes in `layout` where they must be
-/// cut besides; if that changes it, build again.
+/// The step with `reset` 0 or 1, with registers cut as in `layout`. Additional cuts that are needed are noted
+/// in `layout`; if it changes, build again.
 Result<Step> build_step(const LaneNetlist& netlist, const LanePorts& ports, bool reset, CellLayout& layout);
 
 }  // namespace halfway

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From Verilator's XML of a flattened netlist to C++ that clocks many copies of it at once, each in a lane of
-// its own. The text calls the operations of sim/lanes/lane_operations.hpp.
+// From Verilator's XML of a flattened netlist to C++ that clocks many copies of it at once, one per lane. The
+// text calls the operations of sim/lanes/lane_operations.hpp.
 #pragma once
 
 #include <map>
@@ -12,10 +12,11 @@
 
 namespace halfway {
 
-/// What the text is for. The clock is the input `clk`; `reset` is 1 in reset_step() and 0 in step().
+/// Ports of the generated hardware. The clock is the input `clk`. `reset` is 1 in reset_step() and 0 in
+/// step().
 struct LanePorts {
   std::map<std::string, bool> fixed;  ///< inputs of one bit that never change
-  std::vector<std::string> outputs;   ///< those that are looked at; what no other needs is left out
+  std::vector<std::string> outputs;  ///< outputs that are read; logic that only other outputs need is omitted
 };
 
 /// The structs State, Inputs and Outputs, and the functions

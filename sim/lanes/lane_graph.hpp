@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a netlist works out in a clock, as a graph of operations on lanes: each node is a vector of 32-bit
-// numbers, one a lane, or a mask, one bit a lane. Equal nodes are one node; operands come before their users.
+// The values that a netlist computes per clock, as a graph of operations on lanes. Each node is a vector of
+// 32-bit numbers, one per lane, or a mask of one bit per lane. Equal nodes are merged; operands precede their
+// users.
 #pragma once
 
 #include <array>
@@ -25,9 +26,9 @@ enum class LaneOp {
   either,         ///< bitwise or
   differ,         ///< bitwise exclusive or
   invert,
-  left,  ///< by value
+  left,  ///< by a constant, `value`
   right,
-  left_by,  ///< by another vector; from 32 on nothing is left
+  left_by,  ///< by another vector; the result is 0 from a distance of 32 on
   right_by,
   signed_right_by,
   select,  ///< mask ? a : b
@@ -53,7 +54,7 @@ struct LaneNode {
   LaneOp op;
   std::array<int, 3> operands{-1, -1, -1};
   std::uint64_t value = 0;
-  unsigned bits = kLaneWord;  ///< all from here up are zero
+  unsigned bits = kLaneWord;  ///< bits from this one up are zero
 
   bool is_mask() const { return op >= LaneOp::mask_constant; }
 };
@@ -71,7 +72,7 @@ class LaneGraph {
   int mask_cell(std::size_t number) { return add({.op = LaneOp::mask_cell, .value = number}); }
   int operate(LaneOp op, int a, int b);
   int invert(int a);
-  int shift(int a, int by);  ///< to the left where positive
+  int shift(int a, int by);  ///< to the left if positive
   int clean(int a, unsigned width);
   int select(int mask, int a, int b);
   int fill(int mask, std::uint64_t value);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled with the generated lanes of a shader.
-//
-// A cycle is as in sim/verilator/harness.cpp at full speed: outputs are sampled just before the rising edge,
-// inputs change after it. A lane that has drawn its part is given the next one when its hardware is idle; one
-// that gets no more runs on empty, if others are to end theirs.
+// A cycle is the same as in sim/verilator/harness.cpp at full speed: outputs are sampled just before the
+// rising edge, inputs change after it. A lane that has drawn its part gets the next one when its hardware is
+// idle. A lane without a next part runs empty until the others have finished theirs.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -18,19 +17,19 @@ namespace {
 #include "lanes.hpp"
 
 constexpr std::size_t kInitWords = (HALFWAY_INIT_BITS + 31) / 32;
-constexpr std::size_t kBlock = 256;  // clocks between two looks at the room for fragments
-// Fragments of room that stay from run to run; a room for large triangles goes when these are taken.
+constexpr std::size_t kBlock = 256;  // clocks between two checks of the room for fragments
+// Room for fragments that is kept between runs. Larger room is released when its fragments are taken.
 constexpr std::size_t kKeptRoom = std::size_t{1} << 21;
 constexpr int kResetClocks = 4, kLateClocks = 8;  // as in sim/verilator/harness.cpp
 
 #ifdef HALFWAY_STALLS
-// Random stalls of both streams, each lane for itself: a vector is offered late and then stays, a fragment
-// waits. What waits must not change.
+// Random stalls of both streams, independent per lane. A vector is offered late and then stays offered; a
+// fragment waits. A waiting fragment must not change.
 class Stalls {
  public:
   explicit Stalls(std::uint32_t seed) : random_(seed * 2654435761u | 1u) {}
 
-  /// Before the edge: sets what this clock offers and accepts.
+  /// Before the edge: set what this clock offers and accepts.
   void drive(Inputs& in, std::uint32_t waiting) {
     offered_ = (offered_ | (next_random() >> 16)) & waiting;
     ready_ = next_random() >> 16;
@@ -67,7 +66,7 @@ class Stalls {
   Outputs held_{};
 };
 #else
-// Full speed: `fragment_ready` is a constant of the generated text.
+// Full speed: `fragment_ready` is constant in the generated text.
 class Stalls {
  public:
   explicit Stalls(std::uint32_t) {}
@@ -133,12 +132,13 @@ class Lanes {
  private:
   struct Lane {
     std::unique_ptr<HalfwayFragment[]> fragments;
-    std::size_t room = 0, taken = 0, begun = 0, count = 0;  // in that room; `begun`: its part's first
-    HalfwayFragment* next = nullptr;       // where its fragments go, less those of this block's clocks
-    std::size_t part = 0;                  // its number
-    const std::uint32_t* words = nullptr;  // of the vector that is offered
-    std::size_t vectors = 0;               // still to be taken
-    std::uint64_t still = 0;               // clocks in which nothing moved
+    // fragments of room, taken fragments, index of the part's first fragment, all fragments
+    std::size_t room = 0, taken = 0, begun = 0, count = 0;
+    HalfwayFragment* next = nullptr;  // address of the lane's next fragment, minus the clocks of this block
+    std::size_t part = 0;             // number of the part
+    const std::uint32_t* words = nullptr;  // the offered vector
+    std::size_t vectors = 0;               // remaining vectors
+    std::uint64_t still = 0;               // clocks without progress
     std::size_t waiting() const { return count - taken; }
   };
 
@@ -149,7 +149,7 @@ class Lanes {
     return sum;
   }
 
-  // A fragment is moved once at most for each time that its lane's room is filled.
+  // Each time a lane's room is full, each of its fragments is moved at most once.
   void make_room() {
     std::size_t room = 0;
     for (const Lane& lane : lanes_) room += lane.room;
@@ -161,7 +161,7 @@ class Lanes {
     }
   }
 
-  // What is not written takes no memory: the system gives it page by page.
+  // Unwritten pages take no memory.
   static void move(Lane& lane, std::size_t room) {
     const HalfwayFragment* const from = lane.fragments.get() + lane.taken;
     const std::size_t waiting = lane.waiting();
@@ -245,7 +245,8 @@ class Lanes {
       const std::uint32_t valid = to_bits(out.fragment_valid), drawn = valid & stalls_.ready();
       stalls_.taken(take);
       write(out, clock++);
-      // Most lanes have a fragment in most clocks: only where there is none the place does not move.
+      // In most clocks most lanes have a fragment, so advance all addresses and correct those of lanes
+      // without one.
       for (std::uint32_t none = active_ & ~drawn; none != 0; none &= none - 1)
         --lanes_[std::countr_zero(none)].next;
       moved |= take | drawn;
@@ -270,12 +271,12 @@ class Lanes {
   Inputs in_;
   Lane lanes_[kLanes];
   std::uint32_t active_ = 0, faults_ = 0;  // a bit per lane
-  bool stops_ = false;                     // a lane has nothing to begin, and the caller has more
+  bool stops_ = false;                     // a lane has no part to start, and the caller has more parts
   const HalfwayBatch* batch_ = nullptr;
   std::uint32_t owner_;
   std::uint64_t idle_limit_, cycles_ = 0;
   Stalls stalls_;
-  std::uint32_t waiting_ = 0;  // lanes with a vector that is not taken
+  std::uint32_t waiting_ = 0;  // lanes with a vector that is not accepted yet
 };
 
 }  // namespace

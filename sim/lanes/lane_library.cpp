@@ -11,7 +11,7 @@ namespace halfway {
 namespace {
 
 constexpr const char* kLibraryName = "lanes.so";
-// As sim/verilator/verilated_library.cpp has them.
+// Same flags as in sim/verilator/verilated_library.cpp.
 const std::vector<std::string> kVerilatorFlags = {
     "--xml-only",  "--flatten", "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE", "--x-assign", "fast",
     "--x-initial", "fast",      "--noassert",   "--xml-output",        "netlist.xml"};
@@ -92,7 +92,7 @@ Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::
     auto& arguments = compile.arguments;
     arguments.insert(arguments.end(), kCompilerFlags.begin(), kCompilerFlags.end());
     arguments.emplace_back(build.fast ? "-O3" : "-O1");
-    // g++ would let all libraries in the process share the inline variables of the first.
+    // g++ would share inline variables between all libraries of the process.
     if (compiler->program.find("clang") == std::string::npos) arguments.emplace_back("-fno-gnu-unique");
     for (const std::string& definition : build.definitions) arguments.push_back("-D" + definition);
     arguments.insert(arguments.end(), {"-I" + std::filesystem::absolute(build.source).string(), "harness.cpp",

@@ -13,18 +13,18 @@
 namespace halfway {
 
 struct LaneBuild {
-  std::string name;     ///< of the cached build, before the hash
-  std::string netlist;  ///< mended
+  std::string name;     ///< prefix of the cached build's folder
+  std::string netlist;  ///< after mend_netlist
   std::string top;
   LanePorts ports;
   std::filesystem::path harness;         ///< a C++ source that includes "lanes.hpp"
   std::filesystem::path source;          ///< the project's root
   std::vector<std::string> definitions;  ///< NAME=value for the harness
-  bool fast = true;                      ///< worth a long compilation
-  std::string compiler;                  ///< empty: clang++ where it is installed, else g++
+  bool fast = true;                      ///< optimize, which takes long to compile
+  std::string compiler;                  ///< empty: clang++ if installed, otherwise g++
 };
 
-/// Builds the library in build/cache/lanes/<name>-<hash>/ unless it is there, and loads it.
+/// Build the library in build/cache/lanes/<name>-<hash>/ unless it exists, and load it.
 Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::path& cache);
 
 }  // namespace halfway

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The generator on netlists of its own: every operation as in Verilator, and what it cannot do, refused.
+// Tests of the generator on small netlists: every operation gives Verilator's result, and unsupported
+// constructs are refused.
 #include "sim/lanes/lane_library.hpp"
 
 #include <fmt/format.h>
@@ -17,9 +18,9 @@ namespace {
 const std::filesystem::path kRoot = HALFWAY_SOURCE_DIR;
 const std::filesystem::path kCache = kRoot / "build" / "cache";
 constexpr unsigned kLanes = 16, kStimulusWords = 5, kResponseWords = 100;
-constexpr std::size_t kVectors = 500;  // a lane
+constexpr std::size_t kVectors = 500;  // per lane
 
-// As tb/netlist/netlist_harness.cpp, each lane with its own vectors.
+// Same as tb/netlist/netlist_harness.cpp, with different vectors in each lane.
 const char* const kHarness = R"(
 #include "sim/lanes/lane_operations.hpp"
 namespace halfway::lanes { namespace {
@@ -42,14 +43,14 @@ extern "C" __attribute__((visibility("default"))) void lanes_run(const std::uint
 }
 )";
 
-// Ports as tb/netlist/netlist_harness.cpp has them.
+// Ports as in tb/netlist/netlist_harness.cpp.
 std::string module_of(const std::string& body) {
   return "module m\n  (input  clk,\n   input  reset,\n   input  [159:0] stimulus,\n   output [3199:0] "
          "response);\n" +
          body + "endmodule\n";
 }
 
-// What the shaders' netlists are made of, and registers that read one another at one edge.
+// All constructs of the shaders' netlists, and registers that read one another at the same edge.
 const char* const kEverything = R"(
   wire [39:0] a, b;
   wire [11:0] c, d;
@@ -233,7 +234,7 @@ std::string text_of(const SharedLibrary& lanes) {
 }
 
 TEST_F(Lanes, WhatARegisterKeepsBecomesACondition) {
-  // A record of two fields; each has conditions of its own.
+  // A record of two fields with separate conditions.
   const auto record = open(
       "  reg [15:0] q;\n"
       "  always @(posedge clk)\n"
@@ -243,7 +244,7 @@ TEST_F(Lanes, WhatARegisterKeepsBecomesACondition) {
   EXPECT_EQ(text_of(*record).find("select("), std::string::npos) << text_of(*record);
   EXPECT_EQ(text_of(*record).find("  {\n"), std::string::npos) << text_of(*record);
 
-  // A sum that is loaded or stepped: the step alone adds.
+  // A sum that is loaded or stepped. Only the step adds.
   const auto sum = open(
       "  reg [15:0] q;\n"
       "  wire [15:0] addend;\n"
@@ -262,7 +263,7 @@ TEST_F(Lanes, WhatARegisterKeepsBecomesACondition) {
 }
 
 TEST_F(Lanes, OnePartOfASignalMayDependOnAnother) {
-  // As GHDL prints a record whose fields are calculated from one another.
+  // A record whose fields depend on one another, as printed by GHDL.
   const auto chain = open(
       "  wire [11:0] chain;\n"
       "  assign chain = {chain[7:4] + 4'd1, chain[3:0] ^ 4'd5, stimulus[3:0]};\n"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector type of the generated lanes, with all that depends on the processor: V holds a 32-bit number per
-// lane, M a condition per lane. Another processor needs another version of this header alone.
-//
-// With AVX-512 M is a mask register. Elsewhere the compiler translates the vector extension as it can.
+// The vector type of the generated lanes and everything that depends on the processor: V holds a 32-bit
+// number per lane, M a condition per lane. Another processor needs another version of this header only.
+// With AVX-512, M is a mask register. Otherwise the compiler translates the vector extension.
 #pragma once
 
 #include <cstdint>

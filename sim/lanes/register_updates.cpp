@@ -49,7 +49,7 @@ RegisterUpdates::Loads RegisterUpdates::loads_of(std::size_t cell, const Bits& n
   return loads;
 }
 
-/// Adds to `loads` what is loaded into the cell under `guard`. Returns whether the cell keeps its value in
+/// Add the values loaded into the cell under `guard` to `loads`. Return true if the cell keeps its value in
 /// some case.
 bool RegisterUpdates::split(std::size_t cell, const Bits& next, const Guard& guard, Loads& loads, int depth) {
   const Bits bits = simplify(next, guard);
@@ -69,7 +69,7 @@ bool RegisterUpdates::split(std::size_t cell, const Bits& next, const Guard& gua
     }
   }
 
-  // It never does: one load is enough.
+  // The cell never keeps its value: one load suffices.
   loads.emplace_back(guard, bits);
   return false;
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Phase 4 of the lane generator: turns what a register keeps into a condition.
-//
+// Phase 4 of the lane generator: turns "the register keeps its value" into a condition.
 // GHDL prints a register with an enable as one that is loaded in every clock: `q <= enable ? d : q`. Here it
-// becomes `if enable: q <= d`, so that the generated text skips the assignment, and all that is calculated
-// for it, while no lane needs it.
+// becomes `if enable: q <= d`, so that the generated text skips the assignment and its calculation while no
+// lane needs it.
 #pragma once
 
 #include <map>
@@ -14,7 +13,7 @@
 
 namespace halfway {
 
-/// Values of the graph where a guard is known to hold.
+/// Simplifies values of the graph under a guard that is known to be true.
 class KnownConditions {
  public:
   explicit KnownConditions(LaneGraph& graph) : graph_(graph) {}
@@ -22,8 +21,8 @@ class KnownConditions {
   /// The same value with each mask of the guard replaced by a constant.
   int simplify(int node, const Guard& guard);
 
-  /// Whether `bit` is never set while `mask` is false, so that `bit & mask` is `bit`: its number is too small
-  /// then.
+  /// True if `bit` is 0 whenever `mask` is false, because its operand then has too few bits. `bit & mask` is
+  /// `bit` in this case.
   bool implies(int bit, int mask);
 
  private:
@@ -39,7 +38,7 @@ class RegisterUpdates {
 
   using Loads = std::vector<std::pair<Guard, Bits>>;
 
-  /// What is loaded into the cell and when, if under `guard` its next value is `next`.
+  /// The values loaded into the cell and their conditions, if its next value under `guard` is `next`.
   Loads loads_of(std::size_t cell, const Bits& next, const Guard& guard);
 
  private:

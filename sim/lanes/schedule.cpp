@@ -15,7 +15,7 @@ bool is_cell(const LaneNode& node) {
   return node.op == LaneOp::cell || node.op == LaneOp::mask_cell;
 }
 
-/// What the places of banks become: the words of memories that share a bank, together.
+/// The new values of the places of banks: the words of memories that share a bank are combined.
 std::map<Guard, std::map<std::size_t, Store>> bank_stores(const Step& step, const MemoryWords& memory_words) {
   std::map<Guard, std::map<std::size_t, Store>> banks;
   for (const auto& [name, store] : step.stores) {
@@ -30,7 +30,7 @@ std::map<Guard, std::map<std::size_t, Store>> bank_stores(const Step& step, cons
   return banks;
 }
 
-/// What a cell becomes at each edge in both steps; empty if a condition decides.
+/// The new value of a cell at each edge in both steps; empty if it depends on a condition.
 std::optional<std::pair<int, int>> unconditional_values(const Step& step, const Step& reset_step,
                                                         std::size_t cell) {
   std::array<std::optional<int>, 2> values;
@@ -95,7 +95,7 @@ class Scheduler {
     return delay != delays_.end() && delay->second.age > 0;
   }
 
-  /// The cell that is a group's condition, and so is read where the group starts.
+  /// The cell that is a group's condition; it is read where the group starts.
   std::optional<std::size_t> condition_cell(const Group& group) const {
     const LaneNode& mask = step_.graph[group.condition];
     return mask.op == LaneOp::mask_cell ? std::optional<std::size_t>(mask.value) : std::nullopt;
@@ -139,7 +139,7 @@ class Scheduler {
   CellSet overwritten(const Group& first, const Group& later) const {
     CellSet cells;
     if (excludes(first.guard, later.guard)) {
-      // No lane runs both, but the later condition is read in all lanes.
+      // No lane runs both groups, but the later condition is read in all lanes.
       if (const auto cell = condition_cell(later); cell && first.writes.count(*cell) != 0)
         cells.insert(*cell);
     } else {
@@ -149,8 +149,8 @@ class Scheduler {
     return cells;
   }
 
-  /// Takes next the group that overwrites the fewest cells which remaining groups read. A bank is too large
-  /// to be saved, so it counts more than any number of cells.
+  /// Select as next group the one that overwrites the fewest cells read by remaining groups. A bank is too
+  /// large to be saved, so it counts more than any number of cells.
   void order() {
     std::vector<Group> ordered, remaining = std::move(schedule_.groups);
     while (!remaining.empty()) {

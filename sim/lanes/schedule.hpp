@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Phase 5 of the lane generator: the order in which one clock's updates are made.
-//
-// Updates with the same condition form a group, which runs only if some lane needs it: within a span only
-// what steps along it. A group that reads a register comes before one that writes it; where no such order
-// exists, the old value is saved.
+// Phase 5 of the lane generator: the order of the updates in a clock.
+// Updates with the same condition form a group, which runs only if some lane needs it. Within a span, for
+// example, only the updates of a step along the span run. A group that reads a register precedes a group that
+// writes it; if no such order exists, the old value is saved.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +37,7 @@ struct Group {
   Guard guard;
   int condition;  ///< the guard as one mask
   std::vector<Update> updates{};
-  std::map<std::size_t, Store> banks{};  ///< what their places become
+  std::map<std::size_t, Store> banks{};  ///< new values of their places
   CellSet reads{}, writes{};
 };
 
@@ -57,10 +56,10 @@ Delays find_delays(const Step& step, const Step& reset_step, const CellSet& live
 Result<Schedule> make_schedule(Step& step, const MemoryWords& memory_words, const CellSet& live,
                                const Delays& delays);
 
-/// An update as the lanes that change and what to: -1 and the value if all do.
+/// The mask of the lanes that change and the new value; -1 and the value if all change.
 std::pair<int, int> changed_lanes(const Step& step, const Delays& delays, const Update& update);
 
-/// Marks a node and all that it is calculated from, and collects the cells and banks among them.
+/// Mark a node and all nodes that it depends on, and collect the cells and banks among them.
 void mark_used(const LaneGraph& graph, int node, std::vector<bool>& used, CellSet& cells);
 
 }  // namespace halfway

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the hardware does in one clock, as a graph: the values of its outputs, and what its registers and
-// memories become at the rising edge under which condition. Each phase of the generator reads or refines it.
+// The hardware's behaviour in one clock, as a graph: the values of its outputs, and the new values of its
+// registers and memories at the rising edge with their conditions. Each phase of the generator reads or
+// refines it.
 #pragma once
 
 #include <cstddef>
@@ -44,16 +45,17 @@ struct Cell {
   bool mask;
 };
 
-/// A condition: masks that are all true, or all false, as given with each.
+/// A condition: masks and the value that each must have.
 using Guard = std::set<std::pair<int, bool>>;
 
-/// Adds a condition and, if they follow from it, its operands. Empty if the guard can then never hold.
+/// Add a condition and, if they follow from it, the values of its operands. Empty if the guard can then never
+/// be true.
 std::optional<Guard> narrow(const LaneGraph& graph, Guard guard, int mask, bool wanted);
 
-/// Whether the operands of a mask follow from its value: both operands of a true `and`, or of a false `or`.
+/// True if the operands of a mask follow from its value: both operands of a true `and`, or of a false `or`.
 bool implies_operands(const LaneNode& mask, bool wanted);
 
-/// Whether both guards can never hold at the same time.
+/// True if both guards can never be true at the same time.
 bool excludes(const Guard& a, const Guard& b);
 
 struct Update {
@@ -61,14 +63,14 @@ struct Update {
   int value;
 };
 
-/// What one place of a memory becomes.
+/// The new value of one place of a memory.
 struct Store {
   Guard guard;
   int address;
   Words words;
 };
 
-/// What is assigned to a register, and when. Registers with equal assignments are twins.
+/// Values assigned to a register, with their conditions. Registers with equal assignments are twins.
 using Assignments = std::vector<std::pair<Guard, Bits>>;
 
 /// One clock with `reset` either 0 or 1.

@@ -134,8 +134,8 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
         "set arrow from graph 0, first {0} to graph 1, first {0} nohead dashtype 3 linecolor rgb \"{1}\"\n"
         "set label {2} at graph 1, first {0} right offset 0, 0.5 textcolor rgb \"{1}\"\n",
         y.place(level.y), "#767676", quoted(level.name));
-  // Draw points of the front last in the SVG's z-order; the point on top receives the pointer. Sort the marks
-  // by series.
+  // Draw the front's line before the marks: the element drawn last receives the pointer. Sort the marks by
+  // series.
   std::vector<PlotPoint> points = plot.points;
   std::ranges::stable_sort(points, {}, &PlotPoint::series);
   std::string blocks = "$front << END\n";

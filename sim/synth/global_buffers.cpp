@@ -18,14 +18,14 @@
 namespace halfway::synth {
 namespace {
 
-using json = nlohmann::ordered_json;  // in Yosys's order: a placement hangs on it
+using json = nlohmann::ordered_json;  // keeps Yosys's order, because a placement depends on it
 using Net = std::int64_t;
 
 bool is_net(const json& bit) {
   return bit.is_number_integer();
-}  // else a constant, as "0"
+}  // otherwise a constant, such as "0"
 
-// None where the pin is not there or constant.
+// std::nullopt if the pin is missing or constant.
 std::optional<Net> net_at(const json& cell, const char* pin) {
   const json& pins = cell.at("connections");
   const auto found = pins.find(pin);
@@ -33,7 +33,7 @@ std::optional<Net> net_at(const json& cell, const char* pin) {
   return found->front().get<Net>();
 }
 
-// What the lookup tables of full sums drive.
+// The nets driven by the lookup tables of full sums.
 std::set<Net> full_sums(const json& cells) {
   std::set<Net> carries, sums;
   for (const json& cell : cells)

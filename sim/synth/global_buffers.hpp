@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which nets take an iCE40's global buffers. nextpnr 0.4 goes by fan-out alone, and so takes enables that
-// lookup tables make all the way to the die's edge.
+// Selects the nets for an iCE40's global buffers. nextpnr 0.4 decides by fan-out only, and would route
+// enables made by lookup tables to the edge of the die.
 #pragma once
 
 #include <cstddef>
@@ -11,21 +11,21 @@
 
 namespace halfway::synth {
 
-/// Of the device's eight global buffers, those that reach enables.
+/// Global buffers used for enables, of the device's eight.
 inline constexpr std::size_t kEnableBuffers = 4;
-/// Full sums that an enable has to be of for a buffer: a tile's cells.
+/// Minimum number of full sums for an enable to get a buffer: the cells of a tile.
 inline constexpr std::size_t kLeastSums = 8;
 
-/// Says in hashes what with_global_buffers does, so that nothing of another rule is taken: another one
-/// wherever its result changes, as a test of it asks.
+/// Version of with_global_buffers for hashes, so that results of another version are not used. Change it when
+/// the result of the function changes; a test checks this.
 inline constexpr const char* kBuffersRule = "flow 2";
 
-/// `netlist`, JSON by Yosys, with an SB_GB between port clk of module `wrapped` and all that it goes to, and
-/// one each in front of the registers of at most kEnableBuffers enables. What else such an enable goes to
-/// stays as it was: a buffer that reaches enables reaches no reset. Of enables those of the most full sums
-/// are chosen, of equal ones those first by name. A full sum is a register behind a lookup table of four nets
-/// of which I3 is a carry: a tile has room for 32 inputs, those of eight such cells, and for an enable beside
-/// them only where that is global; else nextpnr leads the carries through the fabric.
+/// `netlist` is Yosys's JSON. Insert an SB_GB after port clk of module `wrapped`, and one for each of at most
+/// kEnableBuffers enables. An enable's buffer drives only the registers' enable pins; other loads keep the
+/// original net, because a buffer that reaches enables reaches no reset. Enables with the most full sums are
+/// selected, in order of name if equal. A full sum is a register after a lookup table with four inputs, with
+/// I3 a carry. The local inputs of a tile are 32, all used by eight such cells. An enable fits only if it is
+/// global; otherwise nextpnr routes the carries through the fabric.
 Result<std::string> with_global_buffers(std::string_view netlist);
 
 }  // namespace halfway::synth

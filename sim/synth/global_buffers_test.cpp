@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which nets of small netlists get a buffer, and by the tools themselves, where they are there, how many of
-// the device's a design takes.
+// Checks which nets of small netlists get a buffer, and, if the tools are installed, how many of the device's
+// buffers a design uses.
 #include "sim/synth/global_buffers.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// A module with a clock, to which enables are added.
+// A module with a clock. Tests add enables.
 class Netlist {
  public:
   Netlist() {
@@ -42,7 +42,7 @@ class Netlist {
   }
   int net() { return last_++; }
 
-  /// Registers with this enable, each behind a lookup table with `inputs`, of which `x` is a carry.
+  /// Add registers with this enable, each after a lookup table with `inputs`; `x` is a carry.
   void registers(int enable, int count, const std::string& inputs = "aaax") {
     for (int i = 0; i < count; ++i) {
       const int carry = net(), sum = net(), output = net();
@@ -56,7 +56,7 @@ class Netlist {
       cell("SB_DFFE", {{"C", {kClock}}, {"D", {sum}}, {"E", {enable}}, {"Q", {output}}}, "Q");
     }
   }
-  /// An enable of that name and of so many full sums.
+  /// Add an enable with this name and number of full sums.
   int enable(const std::string& named, int sums) {
     const int enable = net();
     name(named, {enable});
@@ -78,7 +78,7 @@ class Netlist {
   int last_ = 4, cells_ = 0;
 };
 
-// Pins that each buffer drives, by its name.
+// Pins driven by each buffer, by the buffer's name.
 struct Buffered {
   std::map<std::string, int> pins;
   json cells;
@@ -96,7 +96,7 @@ struct Buffered {
                         bits == buffer["connections"]["GLOBAL_BUFFER_OUTPUT"];
     }
   }
-  /// What else than its buffer a net goes to.
+  /// Loads of a net except its buffer.
   std::vector<std::string> users(int net) const {
     std::vector<std::string> users;
     for (const json& cell : cells)
@@ -159,7 +159,8 @@ TEST(SynthGlobalBuffers, AreInFrontOfEveryRegisterOfAnEnableAndOfNothingElse) {
   EXPECT_THAT(buffered.users(other), ElementsAre("E", "E", "E"));
 }
 
-// All of the above: a hash of results stands for the rule, which other hashes know by its name alone.
+// A hash over results of all cases above. If it changes, kBuffersRule must change too, because other hashes
+// contain only that name.
 TEST(SynthGlobalBuffers, AreAnotherRulesWhereTheResultIsAnother) {
   Netlist many, few;
   many.enable("c", 12);
@@ -205,7 +206,7 @@ TEST(SynthGlobalBuffers, AreRefusedToWhatHasNoClock) {
   EXPECT_FALSE(with_global_buffers("[1]"));
 }
 
-// Two sums with an enable each, and registers with another, which nextpnr would give a buffer.
+// Two sums with one enable each, and registers with a third enable, to which nextpnr would give a buffer.
 constexpr const char* c_entity = R"(library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;

@@ -20,7 +20,8 @@ bool is_word(char c) {
   return is_digit(c) || is_lower(c) || (c >= 'A' && c <= 'Z') || c == '_' || c == '$';
 }
 
-// What follows the number in a name that GHDL made: nothing, or an underscore and lower-case letters.
+// True for the end of a name that GHDL made, after the number: nothing, or an underscore and lower-case
+// letters.
 bool is_numbered(std::string_view word) {
   if (word.size() < 2 || word[0] != 'n' || !is_digit(word[1])) return false;
   const auto rest = std::find_if_not(word.begin() + 1, word.end(), is_digit);
@@ -28,7 +29,7 @@ bool is_numbered(std::string_view word) {
          (*rest == '_' && rest + 1 != word.end() && std::all_of(rest + 1, word.end(), is_lower));
 }
 
-// The end of a comment that begins at `at`; `at` where none begins there.
+// End of a comment that starts at `at`; `at` if no comment starts there.
 std::size_t comment_end(std::string_view text, std::size_t at) {
   const std::string_view rest = text.substr(at);
   std::size_t end = at;
@@ -41,7 +42,7 @@ std::size_t comment_end(std::string_view text, std::size_t at) {
   return std::min(end, text.size());
 }
 
-// Ends a line: removes spaces before its end, and the line where nothing is left of it.
+// End a line: remove trailing spaces, and the line itself if it is empty.
 void end_line(std::string& text) {
   while (!text.empty() && text.back() == ' ') text.pop_back();
   if (!text.empty() && text.back() != '\n') text += '\n';
@@ -49,7 +50,7 @@ void end_line(std::string& text) {
 
 using Numbers = std::unordered_map<std::string_view, std::size_t>;
 
-// The modules of the netlist, numbered as they stand in it.
+// The modules of the netlist, numbered in their order.
 Numbers number_modules(std::string_view netlist) {
   constexpr std::string_view c_module = "module ";
   Numbers modules;

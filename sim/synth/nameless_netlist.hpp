@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text of a netlist without what says nothing of the hardware: comments, the names
-// of modules and the numbers that GHDL gives to nets without a name.
+// The text of a netlist without parts that do not describe hardware: comments, names of modules, and GHDL's
+// numbers for unnamed nets.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace halfway::synth {
 
-/// Removes comments and blank lines. Renumbers the nets that GHDL named itself (n123, n123_o) by their first
-/// use, and the modules by their place: GHDL counts all that it has looked at, and adds a hash of the
-/// generics to a module's name, so both change where no gate does. Netlists that differ in nothing else
-/// become the same text. Different names stay different.
+/// Remove comments and blank lines. Renumber the nets that GHDL named (n123, n123_o) by first use, and the
+/// modules by position. GHDL counts all objects that it has visited and adds a hash of the generics to a
+/// module's name, so both change without a change of the hardware. Netlists that differ only in these names
+/// become equal. Different names stay different.
 std::string nameless(std::string_view netlist);
 
 }  // namespace halfway::synth

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Netlists that differ in comments, GHDL's numbers and names of modules alone become one text, others do not.
+// Netlists that differ only in comments, GHDL's numbers and module names become equal; other netlists do not.
 #include "sim/synth/nameless_netlist.hpp"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ TEST(NamelessNetlist, NumbersModules) {
   EXPECT_EQ(with("sum_8", "sum_9_77", "sum_9_77"), one);
   EXPECT_NE(with("sum_8", "sum_9_77", "sum_8"), one);
   EXPECT_NE(one.find("  module$1 part (.x(x));\n"), std::string::npos) << one;
-  // A module that is used before it is defined.
+  // A module used before its definition.
   EXPECT_EQ(nameless("  a part ();\nmodule a\n"), nameless("  b part ();\nmodule b\n"));
 }
 

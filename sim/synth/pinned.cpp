@@ -15,7 +15,7 @@
 namespace halfway::synth {
 namespace {
 
-// A line of its own: of which flow the clocks are.
+// Start of a line with the flow that the clocks were made with.
 constexpr std::string_view c_flow = "flow ";
 constexpr std::string_view c_written_by = "\n# Written by `", c_written_with = "` with ";
 
@@ -24,7 +24,7 @@ bool is_hash(std::string_view text) {
   return text.size() == c_digits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-// `command` writes the file; `notes`: lines of comment on what it is held against.
+// `command` is the command that writes the file. `notes` are comment lines on how the pins are checked.
 Status write(const std::filesystem::path& path, const Pins& pins, const std::string& versions,
              std::string_view command, const std::string& notes) {
   std::string text = fmt::format(

@@ -103,7 +103,7 @@ TEST(SynthPins, HaveWhatThePapersPrintBeside) {
   EXPECT_FALSE(published_ns("accumulator_24"));
 }
 
-// Else a study knows no clock.
+// Otherwise a study would have no clocks.
 TEST(SynthPins, AreOfTheFlowAsItIs) {
   const auto pins = read_pins(std::filesystem::path(HALFWAY_SOURCE_DIR) / kPins);
   ASSERT_TRUE(pins) << pins.error().message;

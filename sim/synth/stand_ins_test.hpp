@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests with stand-ins for Yosys and nextpnr in a folder of their own; GHDL is itself.
+// Replacements for Yosys and nextpnr in a folder of their own, for tests. GHDL is the real one.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ class StandInTools : public ::testing::Test {
 
   std::filesystem::path root() const { return folder_->path(); }
   std::filesystem::path bin() const { return root() / "bin"; }
-  /// What PATH has to begin with them.
+  /// PATH with the replacements first.
   std::string path_before(const std::string& path) const { return bin().string() + ":" + path; }
   void put(const char* name, const std::string& text) const {
     ASSERT_TRUE(write_file(bin() / name, text));

@@ -26,10 +26,10 @@ using nlohmann::json;
 constexpr std::chrono::minutes kTimeout{60};
 constexpr const char* kNoEnd = "no_end";
 constexpr const char* kWrapped = "wrapped.json";
-constexpr unsigned kMostInputs = 256;  // flip-flops in front of a design
-constexpr int kFrequency = 200;        // MHz asked for: more than any design comes to
+constexpr unsigned kMostInputs = 256;  // flip-flops before a design
+constexpr int kFrequency = 200;        // target clock in MHz, higher than any design reaches
 
-// Before the file's name is looked up: nextpnr ends with it where logic cells run out.
+// nextpnr's error message if it runs out of logic cells.
 constexpr std::string_view kTooLarge = "Unable to place cell";
 
 Result<std::string> run(Command command, const std::string& doing) {
@@ -41,7 +41,7 @@ Result<std::string> run(Command command, const std::string& doing) {
                                  command.arguments.front(), end->how(), end->output, to_string(command)));
 }
 
-// The folder, filled by `make` where it is not there yet. Two who fill it at once do the same.
+// Return the folder. Call `make` to fill it if it is missing. Concurrent calls make equal contents.
 Result<std::filesystem::path> kept(const std::filesystem::path& folder,
                                    const std::function<Status(const std::filesystem::path&)>& make) {
   if (std::filesystem::exists(folder)) return folder;
@@ -65,8 +65,8 @@ std::string ice40_script(std::string_view entity) {
       entity);
 }
 
-// The wrapper first, then the design that it holds as it was counted: nothing of one is optimized into the
-// other.
+// Synthesize the wrapper separately and then insert the already synthesized design, so that no optimization
+// crosses the boundary.
 std::string wrapped_script(std::string_view entity) {
   return fmt::format(
       "read_rtlil mapped.il; blackbox {0}; setattr -mod -unset top {0}; read_verilog wrapper.v; "
@@ -80,7 +80,7 @@ std::vector<std::string> nextpnr_arguments() {
   return {"nextpnr-ice40",       "--hx8k", "--package", "ct256", "--freq", std::to_string(kFrequency),
           "--no-promote-globals"};
 }
-// Of those for a placement, what its result hangs on.
+// nextpnr's options for a placement that affect the result.
 std::vector<std::string> place_arguments(unsigned seed) {
   std::vector<std::string> arguments = nextpnr_arguments();
   arguments.insert(arguments.end(), {"--seed", std::to_string(seed), "--timing-allow-fail", "--quiet",
@@ -92,7 +92,7 @@ std::string first_line(std::string_view text) {
   return std::string(text.substr(0, text.find('\n')));
 }
 
-// "Yosys 0.23 (git ...)" and "nextpnr-ice40 -- ... (Version 0.4-1+b1)", with the tool's name alone before the
+// "Yosys 0.23 (git ...)" and "nextpnr-ice40 -- ... (Version 0.4-1+b1)": keep only the name before the
 // version.
 std::string version_of(std::string_view said) {
   const std::size_t digit = std::min(said.find_first_of("0123456789", said.find(' ')), said.size());
@@ -150,7 +150,7 @@ Result<std::vector<Port>> ports_of(std::string_view netlist, std::string_view to
   return ports;
 }
 
-// A figure of the whole design in what Yosys's stat wrote: cells by their type.
+// Read the statistics of the whole design from Yosys's stat: number of cells by type.
 Result<json> read_types(const std::filesystem::path& path) {
   const auto text = read_file(path);
   if (!text) return tool_failed(text.error().message);
@@ -171,7 +171,7 @@ class Registers {
  public:
   explicit Registers(const json& module) : cells_(module.at("cells")), names_(module.at("netnames")) {}
 
-  /// Its output's name in the RTL.
+  /// Name of the register's output in the RTL.
   std::string name(std::string cell) const {
     for (const std::string_view suffix : {"_DFFLC", "_LC", "_RAM", "$nextpnr_RAM"})
       if (cell.ends_with(suffix)) {
@@ -191,13 +191,13 @@ class Registers {
   }
 
  private:
-  // Without the wrapper, and without what Yosys appends.
+  // Remove the wrapper's prefix and Yosys's suffixes.
   static std::string tidy(std::string_view name) {
     if (name.starts_with("dut.")) name.remove_prefix(4);
     return std::string(name.substr(0, name.find("_SB_")));
   }
 
-  // GHDL's own names say nothing, Yosys's little.
+  // Preference among several names: names of the RTL, then names made by GHDL, then names made by Yosys.
   static int worth(std::string_view name) {
     if (name.find("_SB_") != std::string_view::npos) return 0;
     const std::string_view last = name.substr(name.rfind('.') + 1);
@@ -335,7 +335,7 @@ Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& desig
 
 std::string flow_hash() {
   constexpr std::string_view c_top = "top";
-  // A port of each kind, and more inputs than the wrapper has flip-flops for.
+  // A port of each kind, and more input bits than the wrapper's flip-flops.
   static_assert(kMostInputs < 300);
   const auto around = wrapper(
       "module top\n  (input  clk,\n   input  [299:0] a,\n   input  b,\n   output [1:0] c,\n   output d);\n"
@@ -438,7 +438,7 @@ Result<std::filesystem::path> Synthesizer::from_mapped(const Design& design, con
       });
 }
 
-// splitnets: Verilator takes a carry chain in one vector for a loop.
+// splitnets, because Verilator takes a carry chain in one vector for a combinational loop.
 Result<std::string> Synthesizer::simulated(const Design& design) const {
   const auto folder = from_mapped(
       design, "simulated",
@@ -474,7 +474,7 @@ Result<Ecp5Cells> Synthesizer::ecp5(const Design& design) const {
       cells.multipliers += n;
     else if (type == "TRELLIS_DPR16X4")
       cells.luts += 4 * n;
-    else if (type != "PFUMX" && type != "L6MUX21")  // between the LUTs of a slice
+    else if (type != "PFUMX" && type != "L6MUX21")  // multiplexers between the LUTs of a slice
       return unknown_cells(design, type);
   }
   return cells;
@@ -517,7 +517,7 @@ Result<Packing> Synthesizer::pack(const Design& design) const {
 Result<std::string> Synthesizer::no_room(const Design& design) const {
   const auto cells = ice40(design);
   if (!cells) return cells.error();
-  // Each takes a logic cell, and some share one.
+  // Each cell takes a logic cell; some share one.
   if (std::string why = does_not_fit(*cells); !why.empty()) return why;
   const auto packing = pack(design);
   if (!packing) return packing.error();
@@ -535,8 +535,8 @@ Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const 
   ContentHash hash;
   hash.add("placed 1").add(nextpnr_).add(wrapped->filename().string());
   for (const std::string& argument : arguments) hash.add(argument);
-  // A limit of the processor's time, by a shell: a loaded machine's clock says nothing. Soft, for the signal
-  // that it comes with.
+  // Limit the processor time by the shell's ulimit, because elapsed time depends on the machine's load. A
+  // soft limit, so that the process ends with SIGXCPU.
   std::vector<std::string> limited = {"sh", "-c", "ulimit -c 0 && ulimit -S -t \"$0\" && exec \"$@\"",
                                       std::to_string(place_time_.count())};
   limited.insert(limited.end(), arguments.begin(), arguments.end());
@@ -548,7 +548,7 @@ Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const 
              const Command command{.arguments = limited, .working_folder = fresh, .timeout = kTimeout};
              const auto end = run_process(command, kInstallTools);
              if (!end) return end.error();
-             // That there is no end is an answer, and so is too large, without a report.
+             // A timeout and a full device are valid results without a report.
              if (end->signal == SIGXCPU) return write_file(fresh / kNoEnd, "");
              if (end->succeeded() || end->output.find(kTooLarge) != std::string::npos) return Ok{};
              return tool_failed(fmt::format("{}: nextpnr-ice40 failed ({}):\n{}\n  while running: {}",

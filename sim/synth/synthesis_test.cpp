@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What needs no tool: the wrapper's text, nextpnr's report read.
+// Tests that need no tool: the wrapper's text, and reading nextpnr's report.
 #include "sim/synth/synthesis.hpp"
 
 #include <gmock/gmock.h>
@@ -38,7 +38,7 @@ TEST(SynthWrapper, RefusesWhatIsNotThere) {
   EXPECT_FALSE(wrapper(kNetlist, "other", 256));  // no output
 }
 
-// Two flip-flops with a lookup table and a carry between them.
+// Two flip-flops, with a lookup table and a carry between them.
 constexpr const char* kWrapped = R"({"modules": {"wrapped": {"cells": {
   "dut.first_SB_DFF_Q": {"type": "SB_DFF", "connections": {"C": [1], "D": [2], "Q": [3]}},
   "dut.x_SB_LUT4_I0": {"type": "SB_LUT4", "connections": {"I0": [3], "O": [4]}},

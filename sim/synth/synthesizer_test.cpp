@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is kept, and what has no room or no end: with stand-ins for Yosys and nextpnr, and GHDL itself
-// counted.
+// Caching, and designs that do not fit or whose placement does not end. Yosys and nextpnr are replaced, calls
+// of GHDL are counted.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ cp '{0}/cells.json' .
 echo >mapped.il
 echo '{{"modules": {{"wrapped": {{"ports": {{"clk": {{"bits": [2]}}}}, "cells": {{}}, "netnames": {{}}}}}}}}' >wrapped.json
 )";
-// Seed 2 has no end.
+// The placement with seed 2 does not end.
 constexpr const char* c_nextpnr = R"(#!/bin/sh
 [ "$1" = --version ] && echo 'nextpnr-ice40 (Version 0.4)' && exit
 case "$*" in
@@ -70,7 +70,7 @@ class SynthesizerTest : public StandInTools {
   }
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
 
-  // What the stand-ins come to from now on.
+  // Set the results of the replacements.
   void tell(const std::string& cells, int packed) const {
     ASSERT_TRUE(write_file(root() / "cells.json",
                            fmt::format("{{\"design\": {{\"num_cells_by_type\": {{{}}}}}}}", cells)));

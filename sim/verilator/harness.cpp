@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled against the verilated model (prefix Vshader) as one translation unit with it.
-//
-// A cycle, as in tb/frame_tb.vhd: inputs change after the rising edge, outputs are sampled just before the
-// next. The model is evaluated once for the edge; once more only where inputs changed, which at full speed is
-// once a vector.
+// Compiled in one translation unit with the verilated model (prefix Vshader).
+// A cycle is the same as in tb/frame_tb.vhd: inputs change after the rising edge, outputs are sampled just
+// before the next one. The model is evaluated once for the edge, and a second time only if inputs changed. At
+// full speed that is once per vector.
 #include <concepts>
 #include <cstring>
 #include <memory>
@@ -32,9 +31,9 @@ constexpr std::size_t words_of(std::size_t bits) {
   return (bits + 31) / 32;
 }
 constexpr std::size_t kInitWords = words_of(HALFWAY_INIT_BITS);
-constexpr int kLateCycles = 8;  // for a fault, as in tb/frame_tb.vhd
+constexpr int kLateCycles = 8;  // clocks to wait for a fault, as in tb/frame_tb.vhd
 
-// Ports of up to 64 bits are plain integers, wider ones arrays of words.
+// Ports of up to 64 bits are integers, wider ones arrays of words.
 template <class Port>
 void write_port(Port& port, const std::uint32_t* words) {
   if constexpr (std::is_integral_v<Port>) {
@@ -47,10 +46,10 @@ void write_port(Port& port, const std::uint32_t* words) {
   }
 }
 
-// Verilator's eval() evaluates all that depends on inputs and looks for edges, each time. Where the model has
-// one trigger, the clock's rising edge, and keeps to the names of Verilator 5.006, the harness calls what
-// lies behind it: the registers with all that depends on them, or only what depends on inputs. Other models
-// go through eval().
+// Verilator's eval() always evaluates all input-dependent logic and checks for edges. If the model has one
+// trigger, the clock's rising edge, and the function names of Verilator 5.006, the harness calls these
+// functions directly: the registers with all logic that depends on them, or only the logic that depends on
+// inputs. Other models use eval().
 template <class Root>
 concept HasOneTrigger = requires(Root& root) {
   { root.__VnbaTriggered } -> std::same_as<VlTriggerVec<1>&>;
@@ -125,7 +124,7 @@ class Model {
   }
 
  private:
-  // Inputs changed: what depends on them without a register follows.
+  // Inputs changed: update the logic that depends on them directly.
   void settle() {
     if constexpr (kDirect) {
       settle_directly(*shader_->rootp);
@@ -145,7 +144,7 @@ class Model {
     }
   }
 
-  std::uint32_t next_random() {  // xorshift32 (Marsaglia 2003), as in tb/frame_tb.vhd
+  std::uint32_t next_random() {  // xorshift32 (Marsaglia 2003), as in tb/frame_tb.vhd.
     random_ ^= random_ << 13;
     random_ ^= random_ >> 17;
     random_ ^= random_ << 5;
@@ -168,7 +167,7 @@ class Model {
     settle();
   }
 
-  // A counter may find out what was wrong with a token after that has gone.
+  // A counter may detect an error of a token after the token has left.
   bool faults_late() {
     for (int i = 0; i < kLateCycles && !shader_->fault; ++i) rising_edge();
     return shader_->fault;
@@ -213,7 +212,7 @@ class Model {
       const bool emit = valid && (!stall || shader_->fragment_ready);
       if (take && !started_) {
         started_ = true;
-        cycle = 0;  // cycles count from here
+        cycle = 0;  // cycles are counted from here
       }
       if constexpr (stall) {
         const HalfwayFragment now = fragment();
@@ -270,7 +269,7 @@ class Model {
   std::uint64_t cycle_ = 0, last_move_ = 0;
   std::uint32_t random_;
   bool started_ = false, offered_ = false, holding_ = false;
-  bool drive_due_ = true;  ///< the inputs of the coming cycle are still to be set
+  bool drive_due_ = true;  ///< the inputs of the next cycle are not set yet
   HalfwayFragment held_{};
 };
 

@@ -53,7 +53,7 @@ std::string_view take_name(std::string_view& text) {
   return name;
 }
 
-/// `[high:0] ` or nothing: the width.
+/// Read `[high:0] ` or nothing; return the width.
 unsigned take_width(std::string_view& text) {
   text = trim(text);
   if (!take(text, "[")) return 1;
@@ -78,7 +78,7 @@ Error refuse(std::size_t line_number, std::string_view line, std::string_view wh
       fmt::format("netlist.v:{}: {}; write the RTL without it: {}", line_number, what, trim(line)));
 }
 
-// The faults of GHDL 2.0.0 that the text shows. The first two are mended, the others are refused.
+// Faults of GHDL 2.0.0 that are visible in the text. The first two are repaired, the others are refused.
 
 /// GHDL prints a constant of more than 32 bits as a quoted string of its digits, which Verilog reads as
 /// characters: make it a binary number. False if the string holds anything else.

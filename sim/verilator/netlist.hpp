@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Verilog netlist that `ghdl --synth` writes, mended for Verilator. GHDL 2.0.0 miscompiles some
-// constructs without a message. Faults that the text shows are mended or refused here; the randomized test in
+// Repairs the Verilog netlist of `ghdl --synth` for Verilator. GHDL 2.0.0 miscompiles some constructs without
+// a message. Faults that are visible in the text are repaired or refused here. The randomized test in
 // tb/netlist/ finds the others.
 #pragma once
 
@@ -11,12 +11,12 @@
 
 namespace halfway {
 
-/// The width of a port of module `top`; 0 where it has no such port.
+/// The width of a port of module `top`; 0 if the port does not exist.
 unsigned port_bits(std::string_view netlist, std::string_view top, std::string_view port);
 
-/// Mends what GHDL prints wrong and changes nothing else: quoted constants become binary numbers, bits
-/// without a driver become unknown. Refuses (exit code tool_failed) what cannot be mended: any other quoted
-/// string, VHDL text, a right shift of a signed value, a signed division.
+/// Repair GHDL's faults and change nothing else: quoted constants become binary numbers, undriven bits become
+/// unknown. Refuse (exit code tool_failed) what cannot be repaired: any other quoted string, VHDL text, a
+/// right shift of a signed value, a signed division.
 Result<std::string> mend_netlist(std::string_view netlist);
 
 }  // namespace halfway

@@ -10,8 +10,8 @@
 
 namespace halfway {
 
-/// The mended netlist of a key. GHDL's output is cached by what it is made from, because synthesis takes
-/// longer than all other steps when nothing changed.
+/// The repaired netlist of a key. GHDL's output is cached by its inputs, because synthesis takes longer than
+/// all other steps of an unchanged build.
 Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders);
 
 }  // namespace halfway

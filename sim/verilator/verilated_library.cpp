@@ -13,9 +13,9 @@ namespace {
 
 constexpr const char* kLibraryName = "shader.so";
 
-// Every warning is an error but these: COMBDLY and CASEINCOMPLETE come from GHDL's way of printing state
-// machines. UNOPTFLAT says that parts of one vector depend on one another, as the copies of a grey colour do:
-// Verilator evaluates it more than once, which costs time only.
+// Every warning is an error, with these exceptions. COMBDLY and CASEINCOMPLETE are caused by GHDL's output of
+// state machines. UNOPTFLAT reports that parts of a vector depend on one another, such as the copies of a
+// grey colour. Verilator then evaluates it more than once, which only costs time.
 const std::vector<std::string> kVerilatorFlags = {
     "--cc",          "--prefix",   "Vshader", "--x-assign", "fast",         "--x-initial",
     "fast",          "--noassert", "-O3",     "--flatten",  "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE",
@@ -37,11 +37,11 @@ Result<std::vector<std::string>> generated_sources(const std::filesystem::path& 
   return names;
 }
 
-/// Verilator's runtime, most of what there is to compile for a small shader, and its header, most of what
-/// there is to read: once for all of them.
+/// Verilator's runtime and header, built once for all libraries. For a small shader they are most of the code
+/// to compile and to read.
 struct Runtime {
   std::filesystem::path object;
-  std::filesystem::path header;  ///< precompiled, which is there for clang++ alone
+  std::filesystem::path header;  ///< precompiled header, for clang++ only
 };
 
 Result<Runtime> runtime_of(const std::filesystem::path& parent, const std::string& key,
@@ -72,7 +72,7 @@ Result<Runtime> runtime_of(const std::filesystem::path& parent, const std::strin
 }  // namespace
 
 Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::filesystem::path& cache) {
-  // Side by side: each takes a while to start.
+  // Run these in parallel, because each takes long to start.
   auto asked_root =
       std::async(std::launch::async, ask, std::vector<std::string>{"verilator", "--getenv", "VERILATOR_ROOT"},
                  std::string(kInstallVerilator));
@@ -87,7 +87,7 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
   if (!harness) return tool_failed(harness.error().message);
 
   std::vector<std::string> flags = kCompilerFlags;
-  // g++ would let all libraries in the process share the inline variables of the first.
+  // g++ would share inline variables between all libraries of the process.
   if (compiler->program.find("clang") == std::string::npos) flags.emplace_back("-fno-gnu-unique");
   flags.emplace_back(build.waves ? "-DVM_TRACE=1" : "-DVM_TRACE=0");
   if (build.waves) flags.insert(flags.end(), {"-DVM_TRACE_FST=1", "-DHALFWAY_WAVES=1"});
@@ -129,10 +129,10 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
 
     const auto sources = generated_sources(fresh->path() / "verilated");
     if (!sources) return sources.error();
-    // The trace's templates are specialized where they are defined: before their first use.
+    // The trace's templates must be specialized before their first use.
     std::string unity = build.waves ? "#include \"verilated_fst_c.cpp\"\n" : "";
     for (const std::string& source : *sources) unity += fmt::format("#include \"verilated/{}\"\n", source);
-    // After the model, whose functions it may call.
+    // The harness calls functions of the model, so it must follow the model.
     unity += "#include \"harness.cpp\"\n";
     if (auto written = write_file(fresh->path() / "unity.cpp", unity); !written) return written.error();
     if (auto written = write_file(fresh->path() / "harness.cpp", *harness); !written) return written.error();
@@ -149,7 +149,7 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
     if (build.waves) arguments.emplace_back("-lz");
     bool compiled = false;
     if (std::filesystem::exists(runtime->header)) {
-      // clang++ refuses one whose headers have changed since.
+      // clang++ refuses a precompiled header whose sources have changed.
       Command quick = compile;
       quick.arguments.insert(quick.arguments.end(), {"-include-pch", runtime->header.string()});
       compiled = static_cast<bool>(run_tool(quick, kInstallCompiler, build.name));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the parts of halfway_bench share: folders, the repeated measurements, figures as text. Errors are
-// thrown as Failure.
+// Shared by the parts of halfway_bench: folders, repeated measurements, number formats. Errors are thrown as
+// Failure.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -30,24 +30,24 @@ inline const SimulatorFolders c_folders{c_source, c_source / "build" / "cache"};
 inline const std::filesystem::path c_scratch = c_source / "build" / "bench";
 
 Scene builtin(const char* name);
-/// Whether --benchmark_filter lets it through.
+/// True if --benchmark_filter matches the name.
 bool is_wanted(const std::string& name);
 
-/// Three digits.
+/// Three significant digits.
 std::string figure(double value);
 /// "12.3 %"
 std::string percent(double part);
 /// "1 000 000"
 std::string count(std::uint64_t n);
-/// Of at least one.
+/// `all` must not be empty.
 double median(std::vector<double> all);
 
-/// The same piece of work, again and again: how fast this core of a shared machine is just now.
+/// A fixed piece of work, timed repeatedly to determine the current speed of this core of a shared machine.
 class Pace {
  public:
   Pace();
   const InitBatches& work() const { return work_; }
-  /// Processor seconds.
+  /// Run the work and return its processor seconds.
   double take();
 
  private:
@@ -56,21 +56,21 @@ class Pace {
   std::vector<Fragment> fragments_;
 };
 
-/// Measurements that Google Benchmark repeats in random order, with the statistics that it computes of them.
+/// Measurements that Google Benchmark repeats in random order, and their statistics.
 class Measurements : public benchmark::ConsoleReporter {
  public:
   using Counters = std::map<std::string, double>;
 
   Measurements() : ConsoleReporter(OO_None) {}
-  /// `go` gives processor seconds as "seconds", and what else it counts.
+  /// `go` returns processor seconds as "seconds", and other counters.
   void add(const std::string& name, int repetitions, std::function<Counters()> go);
   void run() { benchmark::RunSpecifiedBenchmarks(this); }
 
   bool has(const std::string& name) const { return statistic(name, "mean", "seconds").has_value(); }
-  /// Statistic "mean", "median" or "best" of a counter; none where it was not measured.
+  /// Statistic "mean", "median" or "best" of a counter; std::nullopt if it was not measured.
   std::optional<double> statistic(const std::string& name, const std::string& statistic,
                                   const std::string& counter) const;
-  /// The median of all repetitions, each at the pace of the best moment.
+  /// Median of all repetitions, each scaled to the machine's best speed during the run.
   std::optional<double> seconds(const std::string& name) const;
   const Pace& pace() const { return pace_; }
 
@@ -82,13 +82,13 @@ class Measurements : public benchmark::ConsoleReporter {
   std::map<std::tuple<std::string, std::string, std::string>, double> statistics_;
 };
 
-// The sections of the page. Each writes its data into `speed`.
+// Sections of the page. Each writes its data into `speed`.
 
 class WayTable {
  public:
   WayTable(Measurements& measurements, unsigned jobs);
   void write(Json& speed) const;
-  /// What several threads gain.
+  /// Speed-up by several threads.
   void write_cores(Json& speed) const;
 
  private:
@@ -112,14 +112,14 @@ class Growth {
   std::vector<Series> series_;
 };
 
-/// Clocks, no time.
+/// Counts clocks; measures no time.
 void measure_small_triangles(Json& speed);
-/// `make sim` in a tree without a change: whether nothing was rebuilt.
+/// Run `make sim` in an unchanged tree. Returns true if nothing was rebuilt.
 bool measure_make(Json& speed);
-/// Frames a second, as `halfway view` prints them.
+/// Frames per second, as printed by `halfway view`.
 void measure_view(Json& speed);
 
-/// Appends rows of the table of cores: work on `batches` by 1 to 4 threads.
+/// Append rows to the table of cores: `batches` processed by 1 to 4 threads.
 void measure_cores(const char* shader, const InitBatches& batches, Json& rows);
 
 }  // namespace halfway

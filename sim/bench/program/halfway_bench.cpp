@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_bench [--page FILE] [--jobs N] [--benchmark_…]: speed, as ratios within one run. Every way to a
-// picture compared with the project's own; how time and memory grow with triangles, pixels and lights; small
-// triangles; cores; `make sim` as a whole. --page: writes the page. Figures are processor time, the median of
-// several repetitions in random order, at the pace of the best moment; absolute ones belong to the machine
-// that prints them.
+// halfway_bench [--page FILE] [--jobs N] [--benchmark_…]: measures speed as ratios within one run. It
+// compares all ways to draw a picture with the project's own; growth of time and memory with triangles,
+// pixels and lights; small triangles; cores; and whole runs of `make sim`. --page writes the page. Times are
+// processor times: the median of several repetitions in random order, scaled to the best speed of the run.
+// Absolute times are valid only for the machine that prints them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::string first_line(const std::vector<std::string>& question) {
   return end ? end->output.substr(0, end->output.find('\n')) : "not here";
 }
 
-/// Processes that would run: on average of the last 1, 5 and 15 minutes.
+/// Number of runnable processes: averages over the last 1, 5 and 15 minutes.
 std::array<double, 3> load() {
   std::array<double, 3> minutes{};
   if (::getloadavg(minutes.data(), 3) != 3) return {};
@@ -80,7 +80,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace halfway;
-  // The load of a shared machine comes and goes: repetitions of one measurement lie apart.
+  // The load of a shared machine varies, so interleave the repetitions of different measurements.
   std::vector<char*> arguments(argv, argv + argc);
   std::string interleave = "--benchmark_enable_random_interleaving=true";
   arguments.insert(arguments.begin() + 1, interleave.data());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole programs, as a user runs them: `make sim` and `halfway view`.
+// Whole programs as a user runs them: `make sim` and `halfway view`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ std::size_t cached_builds() {
   return count;
 }
 
-// What the command prints; throws where it fails.
+// The command's output; throws if it fails.
 std::string output_of(const Command& command) {
   const ProcessEnd end = must(run_process(command, "apt-get install make cmake"));
   if (!end.succeeded())
@@ -39,7 +39,7 @@ bool measure_make(Json& speed) {
   std::string line;
   bool rebuilt = false;
   std::size_t builds = 0;
-  for (int i = 0; i < 4; ++i) {  // the first may build
+  for (int i = 0; i < 4; ++i) {  // the first run may build
     const double before = children_seconds();
     const auto start = std::chrono::steady_clock::now();
     const std::string output = output_of(sim);
@@ -68,7 +68,7 @@ void measure_view(Json& speed) {
   struct View {
     const char *shader, *what;
     std::vector<std::string> options;
-    double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;  // frames a second
+    double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;  // frames per second
     std::string parts{};
   };
   std::vector<View> views = {
@@ -80,7 +80,7 @@ void measure_view(Json& speed) {
       {"spherical", "PPM, compared, `--simulator lanes`", {"--format", "ppm", "--simulator", "lanes"}},
   };
   const std::regex line(R"(\| ([0-9.]+) frames a second,[^\n]*\nprocessor time a frame: ([^\n]*))");
-  for (int repetition = 0; repetition < 4; ++repetition)  // the first may build
+  for (int repetition = 0; repetition < 4; ++repetition)  // the first run may build
     for (View& view : views) {
       Command command{.arguments = {(c_source / "build/halfway").string(), "view", "spheres", "--shader",
                                     view.shader, "--size", "1000x1000", "--frames", "36", "--threads", "2",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every way to a picture compared with the project's own.
+// Table of all ways to draw a picture, compared with the project's own.
 #include <fmt/format.h>
 
 #include "sim/bench/program/bench.hpp"
@@ -9,13 +9,13 @@
 namespace halfway {
 namespace {
 
-// What is measured: a shader, the shading processors in either form.
+// A hardware to measure: a shader; the shading processors in both forms.
 struct Hardware {
   const char* name;
   const char* heading;
   PlanRequest plan;
   bool lanes;
-  FrameSize size, ghdl_size;  // GHDL takes its time
+  FrameSize size, ghdl_size;  // smaller, because GHDL is slow
 };
 const Hardware c_hardware[] = {
     {"quadratic", "quadratic", {.shader = Shader::quadratic}, true, {1600, 1200}, {160, 120}},
@@ -37,7 +37,8 @@ bool in_ghdl(Way way) {
   return way == Way::ghdl_llvm || way == Way::ghdl_mcode;
 }
 
-// Software draws one picture, whatever the hardware; folded processors are there for their clocks.
+// Software draws the same picture for all hardware. Folded processors are measured for their number of
+// clocks.
 bool is_measured(Way way, std::size_t column) {
   if (!is_wanted(name_of(way, column)) || !lacking(way, c_folders).empty()) return false;
   if (way == Way::reference || way == Way::mesa) return column == 0;
@@ -82,7 +83,7 @@ WayTable::WayTable(Measurements& measurements, unsigned jobs) : measurements_(me
       if (is_measured(way, column))
         (way == Way::lanes_compared || way == Way::verilator_compared ? compared : alone)
             .push_back({way, column});
-  // The hardware of compared ways is built with that of the ways alone.
+  // Ways with comparison use the hardware built for the ways without comparison.
   for (std::vector<Job>* jobs_now : {&alone, &compared}) {
     must(for_each_on_threads(jobs, jobs_now->size(), [&](std::size_t i) -> Status {
       auto& [way, column, go] = (*jobs_now)[i];
@@ -107,7 +108,7 @@ WayTable::WayTable(Measurements& measurements, unsigned jobs) : measurements_(me
 
 void WayTable::write(Json& speed) const {
   const auto nanoseconds = [&](Way way, std::size_t column) -> std::optional<double> {
-    // One picture in software for all columns.
+    // Software has one picture for all columns.
     const std::size_t measured = way == Way::reference || way == Way::mesa ? 0 : column;
     const auto seconds = measurements_.seconds(name_of(way, measured));
     if (!seconds) return std::nullopt;
