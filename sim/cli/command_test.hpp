@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program, run by tests as a user runs it, in a folder of the test's own.
+// Runs the program as a user does, in the test's own folder.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@
 
 namespace halfway {
 
-/// An outcome with this exit code, whose output matches.
+/// Matches an outcome with this exit code and with matching output.
 MATCHER_P2(Ends, code, output, "") {
   *result_listener << "exit code " << arg.exit_code << ", output:\n" << arg.output;
   return arg.exit_code == code && ::testing::ExplainMatchResult(output, arg.output, result_listener);
@@ -28,8 +28,8 @@ class CommandTest : public ::testing::Test {
   using Environment = std::vector<std::pair<std::string, std::string>>;
 
   struct Outcome {
-    int exit_code;       ///< -1: was not started; -2: ended by a signal, or too slow
-    std::string output;  ///< both streams
+    int exit_code;       ///< -1: not started; -2: ended by a signal, or timed out
+    std::string output;  ///< standard output and standard error
   };
 
   void SetUp() override {
@@ -38,7 +38,8 @@ class CommandTest : public ::testing::Test {
     folder_.emplace(std::move(*folder));
   }
 
-  /// A checkout that a test may spoil. Its caches are this one's: what they hold goes by its content.
+  /// Copy the checkout, so that a test may change it. The caches are shared, because their entries are named
+  /// by content.
   std::filesystem::path copy_checkout() const {
     namespace fs = std::filesystem;
     const fs::path source = HALFWAY_SOURCE_DIR, copy = folder_->path() / "source";

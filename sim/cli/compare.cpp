@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway compare`: the traces and frames that `halfway sim` left, compared once more.
+// `halfway compare`: compares the stored traces and frames of `halfway sim` again.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -27,7 +27,7 @@ struct CompareCommand {
   std::vector<std::string> scenes;
 };
 
-// Feeds a comparator from two traces; gives the hardware key's name.
+// Feed two traces to a comparator. Return the name of the hardware key.
 Result<std::string> compare_traces(const std::filesystem::path& golden_path,
                                    const std::filesystem::path& rtl_path, StreamComparator& comparator) {
   auto golden = TraceReader::open(golden_path, {});
@@ -43,11 +43,11 @@ Result<std::string> compare_traces(const std::filesystem::path& golden_path,
   return golden->key_name();
 }
 
-// What the summary of a run says, which is written last.
+// Contents of a run's summary, which is the last file written.
 struct LeftSummary {
-  std::map<std::string, std::string> faults;  ///< of each simulator that it had; "": none
-  std::uint64_t in_view = 0;                  ///< triangles
-  std::uint64_t reference_pixels = 0;         ///< that the reference or the golden model covers
+  std::map<std::string, std::string> faults;  ///< by simulator; "": no fault
+  std::uint64_t in_view = 0;                  ///< number of triangles
+  std::uint64_t reference_pixels = 0;         ///< pixels covered by the reference or the golden model
 };
 
 Result<LeftSummary> read_summary(const std::filesystem::path& summary) {
@@ -67,7 +67,7 @@ Result<LeftSummary> read_summary(const std::filesystem::path& summary) {
   return left;
 }
 
-// What makes the results again.
+// The command that makes the results again.
 std::string make_sim(const std::string& scene, const CompareCommand& command) {
   std::string text = "make sim SCENE=" + scene;
   if (command.shader != CompareCommand{}.shader) text += " SHADER=" + command.shader;
@@ -76,7 +76,7 @@ std::string make_sim(const std::string& scene, const CompareCommand& command) {
   return text;
 }
 
-// Whether all that a run left of a scene is equal, and is something.
+// Compare all results of a scene. False if something differs or nothing was drawn.
 Result<bool> compare_scene(const std::string& scene, const CompareCommand& command, Shader shader) {
   if (const std::string name = result_name(scene); name.empty() || name == "." || name == "..")
     return bad_input(fmt::format("'{}' is no scene's name", scene));
@@ -96,7 +96,7 @@ Result<bool> compare_scene(const std::string& scene, const CompareCommand& comma
   if (!left) return left.error();
 
   bool equal = true;
-  std::uint64_t compared = 0;  // fragments
+  std::uint64_t compared = 0;  // number of fragments
   for (const std::string simulator : {"ghdl", "verilator", "lanes"}) {
     const auto fault = left->faults.find(simulator);
     if (fault == left->faults.end()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway figures`: the papers' figures and numbers, drawn and measured anew.
+// `halfway figures`: draws and measures the papers' figures and numbers again.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

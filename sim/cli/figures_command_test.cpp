@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway figures` as a user meets it. Its figures are the test `figures`.
+// Tests of the command `halfway figures`. The figures themselves are checked by the test `figures`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST_F(FiguresCommand, SaysWhatBringsGnuplot) {
               Ends(3, HasSubstr("gnuplot: not found; install it with: apt-get install gnuplot-nox")));
 }
 
-// A checkout whose committed table says something else.
+// A checkout with a changed number in the committed table.
 TEST_F(FiguresCommand, ACheckFindsANumberThatIsNotMeasured) {
   namespace fs = std::filesystem;
   const fs::path real = HALFWAY_SOURCE_DIR, source = folder_->path() / "source";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway init`: a scene's init vectors as a file, and what setup did.
+// `halfway init`: writes a scene's init vectors to a file and prints setup's counts.
 #include <fmt/format.h>
 
 #include "plan/plan.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway sim` and `compare` in lanes.
+// Tests of `halfway sim` and `compare` with lanes.
 #include <gmock/gmock.h>
 
 #include "sim/cli/command_test.hpp"

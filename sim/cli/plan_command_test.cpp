@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway plan`, and --all-effects of the commands that draw, as a user meets them.
+// Tests of `halfway plan`, and of --all-effects in the commands that draw.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using ::testing::Not;
 
 class PlanCommand : public CommandTest {
  protected:
-  /// PATH with a stand-in for Yosys: as many LUTs as the netlist has kilobytes.
+  /// PATH with a replacement for Yosys that reports one LUT per kilobyte of netlist.
   Environment path_with_yosys() const {
     const auto bin = folder_->path() / "bin";
     EXPECT_TRUE(make_folders(bin));
@@ -46,7 +46,7 @@ TEST_F(PlanCommand, ListsEveryEffectAndWhatIsLeftOut) {
   EXPECT_THAT(run({"plan", "lights"}).output,
               AllOf(ContainsRegex("\ncolour channels +yes +hardware +directional light 1 is coloured"),
                     ContainsRegex("\nperspective correction +yes +host .*; at each sample\n")));
-  // Elaborated all the same.
+  // All effects are elaborated, although the scene does not need them.
   const Outcome all = run({"plan", "matte", "--shader", "spherical", "--all-effects", "--lights", "4"});
   EXPECT_THAT(all.output,
               AllOf(HasSubstr("all effects    spherical_shader-exact-c3-l4-d-s3-cos1.2.4.8.16-rom9x8\n"),
@@ -64,7 +64,7 @@ TEST_F(PlanCommand, Table5OfTheLights) {
                     ContainsRegex("a pixel due in 33 ns +60 pipelines, 1260 processors\n"),
                     ContainsRegex("\\(14 R \\+ 4\\) O dt +11100 ns\n"),
                     ContainsRegex("\\(14 R \\+ 26 P \\+ 6\\) O dt +30900 ns\n")));
-  // Beside them those of this scene's own pipeline, at the clocks of table 4.
+  // The clocks of this scene's own pipeline, from table 4.
   EXPECT_THAT(
       asked.output,
       AllOf(ContainsRegex(
@@ -73,7 +73,7 @@ TEST_F(PlanCommand, Table5OfTheLights) {
             ContainsRegex(
                 "exact +folded +positional specular +30 +135 \\(135.00\\) +2835 \\(21 a pipeline\\)\n"),
             ContainsRegex("exact +unrolled +all alike +1 +5 \\(4.50\\) +105 \\(21 a pipeline\\)\n")));
-  // One of the two is enough.
+  // Either option suffices.
   EXPECT_THAT(run({"plan", "lights", "--rate", "60"}).output, HasSubstr("60 frames a second, O = 1"));
   EXPECT_THAT(run({"plan", "lights"}).output, Not(HasSubstr("table 5")));
 }
@@ -87,12 +87,12 @@ TEST_F(PlanCommand, Table5OfTheProcessorsThatAreThere) {
           ContainsRegex("published +folded +directional diffuse +6 +9 \\(9.00\\) +18 \\(2 a pipeline\\)\n"),
           ContainsRegex("published +unrolled +all alike +1 +2 \\(1.50\\) +4 \\(2 a pipeline\\)\n"),
           ContainsRegex("exact +folded +ambient, N normalized +9 +14 \\(13.50\\) +28 \\(2 a pipeline\\)\n")));
-  // Whatever shader the scene is planned for.
+  // Independent of the shader that the scene is planned for.
   EXPECT_THAT(
       run({"plan", "matte", "--rate", "30", "--size", "1000x1000", "--shader", "processors", "--all-effects"})
           .output,
       ContainsRegex("exact +folded +ambient, N normalized +9 "));
-  // A scene that is not for the shading processors says so.
+  // The output says if the scene is not suitable for the shading processors.
   const auto spheres =
       read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes" / "spheres.toml");
   ASSERT_TRUE(spheres);
@@ -149,7 +149,7 @@ TEST_F(PlanCommand, MeasuresCellsCyclesAndSeconds) {
             ContainsRegex("\nflip-flops +5 +5 +0 %\n"), ContainsRegex("\ncycles +[1-9][0-9]* +[1-9]"),
             ContainsRegex("\nprocessor seconds in GHDL +[0-9]"),
             ContainsRegex("\nprocessor seconds in Verilator +[0-9]"), HasSubstr("are equal bit for bit")));
-  // Each simulator counts the cycles alone as well.
+  // A single simulator also reports cycles.
   for (const std::string simulator : {"ghdl", "verilator"}) {
     const Outcome one = run(
         {"plan", "matte", "--shader", "spherical", "--measure", "--size", "64x48", "--simulator", simulator},
@@ -166,7 +166,7 @@ TEST_F(PlanCommand, MeasuresCellsCyclesAndSeconds) {
   }
 }
 
-// With all effects there are shadows, and so the object stage: fewer fragments, the same frame.
+// All effects include shadows and therefore the object stage: fewer fragments, the same frame.
 TEST_F(PlanCommand, MeasuresShadingProcessors) {
   const std::vector<std::string> arguments = {"plan",   "matte", "--shader",    "processors", "--measure",
                                               "--size", "64x48", "--simulator", "verilator"};
@@ -178,7 +178,7 @@ TEST_F(PlanCommand, MeasuresShadingProcessors) {
                     ContainsRegex("\n  power +0 +1 +100 %\n"))));
 }
 
-// RTL whose fault only hardware with all effects has: factors of zero that are not.
+// RTL with a fault that only appears in hardware with all effects: factors that should be zero are not.
 TEST_F(PlanCommand, MeasuringTellsFramesThatDiffer) {
   const std::filesystem::path copy = copy_checkout();
   const auto slice = copy / "rtl" / "illumination" / "specular_slice.vhd";

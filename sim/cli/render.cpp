@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway render`: software pictures alone, by reference, Gouraud, the golden model, or spherical
+// `halfway render`: software pictures only, by the reference, Gouraud shading, the golden model, or spherical
 // interpolation in double.
 #include <fmt/format.h>
 
@@ -50,7 +50,8 @@ Result<Frame> golden_frame(const Scene& scene, const DrawSettings& draw) {
 int run(const Folders& folders, const RenderCommand& command) {
   const bool spherical = command.method.starts_with("spherical-");
   DrawOptions options_given = command.draw;
-  if (spherical) options_given.shader = to_string(Shader::spherical);  // whose options these methods take
+  // these methods take the options of the spherical shader
+  if (spherical) options_given.shader = to_string(Shader::spherical);
   const auto draw = checked(options_given);
   if (!draw) return report(draw.error());
   if (std::find(c_methods.begin(), c_methods.end(), command.method) == c_methods.end())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway report`: one HTML page of all that the other commands left.
+// `halfway report`: one HTML page with the results of all other commands.
 #include "sim/report/report.hpp"
 
 #include <fmt/format.h>
@@ -16,10 +16,10 @@ namespace {
 struct ReportCommand {
   std::string out = "build/report/index.html";
   std::string results = "build/out", study = "build/study";
-  std::optional<std::string> figures;  ///< none: those of the last make figures, or the checkout's
+  std::optional<std::string> figures;  ///< std::nullopt: those of the last make figures, or the checkout's
   bool no_timing = false;
-  std::string front;   ///< a folder for the front, and no page
-  std::string readme;  ///< with it: the page whose part "front" it writes
+  std::string front;   ///< write the front to this folder, and no page
+  std::string readme;  ///< with `front`: also write the part "front" of this page
 };
 
 Status tell_front(const Table& front, const std::string& readme) {

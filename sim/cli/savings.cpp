@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway savings`: what README says of the hardware that scenes do not call for, measured anew.
+// `halfway savings`: measures README's savings in hardware for unused effects.
 #include "sim/costs/savings.hpp"
 
 #include <fmt/format.h>

@@ -28,13 +28,13 @@ namespace {
 
 constexpr std::size_t c_parts = 64;
 
-// In the folder for results. A question leaves the study's table as it is: `halfway report` shows that.
+// In the folder for results. A query does not change this table, because `halfway report` shows it.
 constexpr const char* c_study_table = "study.csv";
 constexpr const char* c_question_table = "question.csv";
 
 struct StudyCommand {
   std::string scene, space;
-  std::string size, tile;  ///< empty: the space's
+  std::string size, tile;  ///< empty: those of the space
   std::string error, psnr, time;
   std::optional<double> clock_mhz;
   bool place = false, pin = false;
@@ -42,12 +42,12 @@ struct StudyCommand {
   unsigned threads = 0;
   std::string executor = "local";
   std::string part;             ///< I/N
-  std::string set_up;           ///< a file of points' names
-  std::size_t parts = c_parts;  ///< of a job array
+  std::string set_up;           ///< a file with names of points
+  std::size_t parts = c_parts;  ///< parts of a job array
   std::vector<std::string> slurm_options;
 };
 
-// What a command asks for, checked.
+// The parsed and checked command.
 struct StudyPlan {
   study::StudySettings settings;
   study::Demand demand;
@@ -78,7 +78,7 @@ Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
   settings.threads =
       command.threads != 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency());
   settings.folders = {folders.source, folders.cache()};
-  // A question is about the scene as it is.
+  // A query is about the unchanged scene.
   plan.space = !command.space.empty()
                    ? command.space
                    : (studies / (plan.demand.any() ? "designs.toml" : "small.toml")).string();
@@ -101,7 +101,7 @@ Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
   return plan;
 }
 
-// Without what cannot draw the scene; `place`: with placements as pieces.
+// Remove the points that cannot draw the scene. `place`: include placements as pieces.
 Status leave_out(study::StudySettings& settings, const std::string& space, bool place) {
   if (const auto scene = load_scene(settings.scene, settings.folders.source / "sim" / "scenes"); !scene)
     return scene.error();
@@ -121,7 +121,7 @@ std::string absolute_path(const std::filesystem::path& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
 }
 
-// The program with what every worker is told; the same words wherever it runs.
+// The program with the arguments of all workers. They are the same on every machine.
 std::vector<std::string> worker_of(const Folders& folders, const StudyCommand& command,
                                    const std::string& space) {
   std::vector<std::string> words = {absolute_path(std::filesystem::read_symlink("/proc/self/exe")),
@@ -137,10 +137,10 @@ std::vector<std::string> worker_of(const Folders& folders, const StudyCommand& c
   return words;
 }
 
-// Makes the init vectors of points, for Callgrind to count.
+// Make the init vectors of points; Callgrind counts the instructions.
 int set_up(const study::StudySettings& settings, const std::string& names) {
   const std::filesystem::path scenes = settings.folders.source / "sim" / "scenes";
-  // Once before all, so that what each finds is the same, whichever they are.
+  // Load the scene once before all points, so that each point finds the same state of the process.
   if (const auto scene = load_scene(settings.scene, scenes); !scene) return report(scene.error());
   const Status done = study::in_processes(names, [&](const std::string& name) -> Status {
     const auto point = std::ranges::find(settings.points, name, &study::DesignPoint::name);
@@ -155,8 +155,8 @@ int set_up(const study::StudySettings& settings, const std::string& names) {
   return done ? 0 : report(done.error());
 }
 
-// Measures what is open in job arrays; what is left to do then is to gather. In the first, a task may be done
-// before the tiles are there, of other tasks, that it would have put together; a second one does that.
+// Measure all missing pieces in job arrays; the caller then assembles the points. In the first array, a task
+// may end before other tasks have drawn the tiles that it should assemble. A second array assembles them.
 Status run_on_slurm(study::StudySettings settings, const Folders& folders, const StudyCommand& command,
                     const std::string& space) {
   settings.parts = std::clamp<std::size_t>(command.parts, 1, study::most_parts(settings));
@@ -183,7 +183,7 @@ Status run_on_slurm(study::StudySettings settings, const Folders& folders, const
   return Ok{};
 }
 
-// The table, and the answer to what was asked of each picture, or the front of the main one.
+// Write the table. Print the answer for each picture, or without a demand the front of the main picture.
 int conclude(const StudyPlan& plan, const study::Study& made, const study::HardwareTable& hardware,
              study::Clock clock) {
   const std::vector<study::Market> markets = study::markets_of(made.records, hardware, clock);
@@ -196,7 +196,7 @@ int conclude(const StudyPlan& plan, const study::Study& made, const study::Hardw
     fmt::print("nothing meets it: none of the points is hardware\n");
     return static_cast<int>(ExitCode::differs);
   }
-  // Of a study's fronts the one that most of its hardware is held against.
+  // Without a demand, print the front with the most hardware only.
   const auto main = std::ranges::max_element(markets, {}, [](const auto& m) { return m.offers.size(); });
   bool met = true;
   for (auto market = markets.begin(); market != markets.end(); ++market) {
@@ -216,7 +216,8 @@ int run(const Folders& folders, const StudyCommand& command) {
   if (!command.set_up.empty()) return set_up(settings, command.set_up);
   settings.set_up = worker_of(folders, command, plan->space);
   const bool on_slurm = command.executor == "slurm";
-  // A run by itself places when it knows what has room: with no more synthesis than that takes.
+  // A run without parts places after the measurement, when it is known which hardware can fit; this saves
+  // synthesis.
   const bool place = command.place && (on_slurm || !command.part.empty());
   if (const Status left = leave_out(settings, plan->space, place); !left) return report(left.error());
   if (on_slurm)
@@ -235,7 +236,7 @@ int run(const Folders& folders, const StudyCommand& command) {
                       (settings.out / "points").string()));
     });
   const auto study = study::run_study(settings);
-  // Never had again once a signal has come: what it broke off is no error.
+  // Not acquired after a signal: the interrupted work must not be reported as an error.
   std::shared_lock<std::shared_timed_mutex> writing;
   if (interruption) writing = interruption->writing();
   progress.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway study` as a user meets it.
+// Tests of the command `halfway study`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,7 +59,7 @@ TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
               Ends(1, AllOf(HasSubstr("3 points, 0 measured anew"),
                             HasSubstr("none of 2 points of hardware meets it"),
                             HasSubstr("most accurate  adaptive exact"))));
-  // In three channels, which are pinned to have no room.
+  // With three channels; these are pinned as not fitting the device.
   EXPECT_THAT(study({"spheres", "--time", "1s"}),
               Ends(1, HasSubstr("2 points have no clock: the device has no room for them")));
   EXPECT_THAT(study({"--time", "1s", "--clock", "50"}),
@@ -76,7 +76,7 @@ TEST_F(StudyCommandTest, SoftwareAloneMeetsNoDemand) {
   EXPECT_EQ(made.exit_code, 0) << made.output;
 }
 
-// Of several pictures the one with most hardware.
+// Of several pictures, the one with the most hardware.
 TEST_F(StudyCommandTest, EndsWithTheFrontOfItsMainPicture) {
   ASSERT_TRUE(write_file(folder_->path() / "two.toml",
                          "[[sweep]]\nmethod = \"quadratic\"\nsize = \"80x60\"\n"
@@ -87,7 +87,7 @@ TEST_F(StudyCommandTest, EndsWithTheFrontOfItsMainPicture) {
                             HasSubstr("make report draws it"), Not(HasSubstr("80x60\n")))));
 }
 
-// The table that the report shows is the study's; the question's has its points, from the same records.
+// The report shows the study's table. A query has its own points from the same records.
 TEST_F(StudyCommandTest, AQuestionLeavesTheStudysTable) {
   const std::filesystem::path out = folder_->path() / "out";
   EXPECT_THAT(study({"--error", "3"}), Ends(0, HasSubstr("out/question.csv: 3 points, 3 measured anew")));
@@ -104,7 +104,7 @@ TEST_F(StudyCommandTest, AQuestionLeavesTheStudysTable) {
   EXPECT_THAT(*question, AllOf(HasSubstr(",80,60,"), Not(HasSubstr(",160,120,"))));
 }
 
-// What a task finds damaged is told where the study was started, not in the task's log alone.
+// Damaged files found by a task are reported where the study was started, not only in the task's log.
 TEST_F(StudyCommandTest, WhatTasksFindDamagedIsTold) {
   ASSERT_EQ(study({}).exit_code, 0);
   const std::filesystem::path points = folder_->path() / "out/points";

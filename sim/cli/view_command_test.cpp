@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway view` as a user meets it: the frames that `halfway sim` draws from there, and what is left where
-// something is missing, wrong or broken off.
+// Tests of `halfway view`: it draws the same frames as `halfway sim`, and handles missing, wrong and
+// interrupted output.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,13 +30,13 @@ using ::testing::Not;
 
 class ViewCommand : public CommandTest {
  protected:
-  /// At 64x48.
+  /// Runs at 64x48.
   Outcome view(std::vector<std::string> arguments, Environment environment = {}) const {
     arguments.insert(arguments.begin(), {"view", "--size", "64x48"});
     return run(std::move(arguments), std::move(environment));
   }
 
-  /// PATH with a stand-in for ffmpeg.
+  /// PATH with a replacement for ffmpeg.
   Environment path_with_ffmpeg(const std::string& script) const {
     const auto bin = folder_->path() / "bin";
     EXPECT_TRUE(write_file(bin / "ffmpeg", "#!/bin/sh\n" + script));
@@ -56,7 +56,7 @@ class ViewCommand : public CommandTest {
       if (entry.path().filename() != ".lock") found.insert(entry.path().filename().string());
     return found;
   }
-  /// A triangle that is seen from behind, in frame 2 of 4 from before.
+  /// A triangle that is seen from behind, except in frame 2 of 4.
   void write_averted() const {
     ASSERT_TRUE(write_file(at("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
     ASSERT_TRUE(
@@ -82,8 +82,7 @@ class ViewCommand : public CommandTest {
 
 const std::string c_copy = "for last; do :; done; echo \"$@\" >arguments; cat >\"$last\"\n";
 
-// To the last bit, by each shader, and whichever thread drew what: the hardware goes from place to place
-// without a reset.
+// Equal bit for bit, for each shader and any number of threads. The hardware is not reset between frames.
 TEST_F(ViewCommand, DrawsWhatSimDrawsFromEachPlace) {
   const std::filesystem::path scenes = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes";
   const auto text = read_file(scenes / "matte.toml");
@@ -140,10 +139,10 @@ TEST_F(ViewCommand, DrawsWhatSimDrawsFromEachPlace) {
   }
 }
 
-// What is loaded once does not count as frames' time: OpenImageIO comes before the hardware, and so before
-// the clock starts; for images that do not need it, not at all.
+// Loading OpenImageIO does not count as drawing time: it is loaded before the hardware, when the clock has
+// not started. If no image needs it, it is not loaded.
 TEST_F(ViewCommand, LoadsTheImageLibraryBeforeItDraws) {
-  ASSERT_EQ(view({"matte", "--frames", "1"}).exit_code, 0);  // builds the hardware
+  ASSERT_EQ(view({"matte", "--frames", "1"}).exit_code, 0);  // build the hardware
   for (const std::string format : {"png", "ppm"}) {
     const Environment trace = {{"LD_DEBUG", "files"}, {"LD_DEBUG_OUTPUT", at(format).string()}};
     const Outcome drawn = view({"matte", "--frames", "1", "--format", format, "--out", "out"}, trace);
@@ -179,7 +178,7 @@ TEST_F(ViewCommand, ReplacesOlderFramesAndNothingElse) {
   const Outcome drawn = view({"matte", "--frames", "2", "--format", "ppm", "--out", "turn"});
   EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
   EXPECT_THAT(names("turn"), ElementsAre("frame_0000.ppm", "frame_0001.ppm", "frame_x.png"));
-  // By default beside sim's results, under the scene and the shader.
+  // The default folder is next to sim's results, named by scene and shader.
   EXPECT_EQ(view({"matte", "--frames", "1"}).exit_code, 0);
   EXPECT_THAT(names("build/out/matte/quadratic/view"), ElementsAre("frame_0000.png"));
 }
@@ -194,7 +193,7 @@ TEST_F(ViewCommand, BadUsageExitsTwoAndSaysWhatToDo) {
       {{"matte", "--rate", "0", "--video", "a.mp4"}, "--rate: 0 is not 1 to 1000"},
       {{"matte", "--video", "turn"}, "--video: 'turn' names no video"},
       {{"matte", "--video", "turn.xyz"}, "--video: 'turn.xyz' does not end as a video; take one of .mp4"},
-      // Images: ffmpeg would write one over the other, or many, and none where the video is looked for.
+      // Image formats: ffmpeg would overwrite one file, or write several, and no file with the given name.
       {{"matte", "--video", "turn%d.png"}, "--video: 'turn%d.png' does not end as a video"},
       {{"matte", "--video", "out/frame_0000.png", "--out", "out"}, "does not end as a video"},
       {{"matte", "--video", "turn.h.jpg"}, "does not end as a video"},
@@ -202,7 +201,7 @@ TEST_F(ViewCommand, BadUsageExitsTwoAndSaysWhatToDo) {
       {{"matte", "--colours", "256"}, "--colours goes with --terminal"},
       {{"matte", "--terminal", "--columns", "9", "--colours", "16"}, "--colours: '16' is not a kind"},
       {{"matte", "--terminal"}, "standard output is no terminal"},
-      // Nobody may write there, root included.
+      // Nobody, not even root, can write there.
       {{"matte", "--out", "/proc/sys"}, "/proc/sys"},
       {{"matte", "--out", "file/out"}, "file/out"}};
   ASSERT_TRUE(write_file(at("file"), "not a folder"));
@@ -233,7 +232,7 @@ TEST_F(ViewCommand, NoFfmpegExitsThreeBeforeAnythingIsDrawn) {
   EXPECT_THAT(names("."), ElementsAre("empty"));
 }
 
-// It ends early, or only in the end: its words are told, and an older video stays.
+// ffmpeg fails early, or only at the end. Its message is printed, and an older video stays.
 TEST_F(ViewCommand, AVideoThatFailsLeavesNoHalf) {
   ASSERT_TRUE(write_file(at("films/turn.mp4"), "old"));
   for (const std::string& script :
@@ -246,7 +245,7 @@ TEST_F(ViewCommand, AVideoThatFailsLeavesNoHalf) {
   }
 }
 
-// With every ending that the refusal of others offers.
+// With every ending that the error message offers.
 TEST_F(ViewCommand, AVideoByFfmpegItselfPlays) {
   ASSERT_FALSE(find_program("ffmpeg").empty()) << "no ffmpeg: apt-get install ffmpeg";
   const std::string refused = view({"matte", "--video", "turn.xyz"}).output, offer = "take one of ";
@@ -295,16 +294,16 @@ TEST_F(ViewCommand, DrawsInTheTerminal) {
     from = drawn.output.find(picture, from);
     EXPECT_NE(from, std::string::npos) << n;
   }
-  // No cursor is moved where there is none.
+  // No cursor movement without a terminal.
   EXPECT_THAT(drawn.output, Not(HasSubstr("\033[H")));
   EXPECT_THAT(view({"matte", "--frames", "1", "--terminal", "--columns", "20", "--colours", "256"}).output,
               AllOf(HasSubstr("\033[38;5;"), Not(HasSubstr("\033[38;2;"))));
 }
 
-// A signal between two frames, or in one: each file that is there is whole, and the shell sees the signal.
+// A signal between two frames or during one: every existing file is complete, and the shell sees the signal.
 TEST_F(ViewCommand, BrokenOffLeavesNoHalfFile) {
   for (const std::string signal : {"INT", "TERM"}) {
-    // Job control, for a shell without it keeps INT from what it starts in the background.
+    // With job control, because a shell without it ignores INT in background processes.
     const Outcome outcome = run_as(
         {"bash", "-c",
          fmt::format(
@@ -326,12 +325,12 @@ TEST_F(ViewCommand, BrokenOffLeavesNoHalfFile) {
   }
 }
 
-// Hardware whose fault shows from the third place alone: the only triangle is averted before.
+// Hardware with a fault that is visible in frame 2 only: before it the only triangle is back-facing.
 TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
   const std::filesystem::path copy = copy_checkout();
   spoil(copy / "rtl/interpolation/part_interpolator.vhd", "sum_of(value, addend", "sum_of(value, not addend");
   write_averted();
-  // Lanes leave it to Verilator to tell.
+  // Lanes let Verilator find the difference.
   for (const std::string simulator : {"verilator", "lanes"}) {
     EXPECT_THAT(
         run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30", "--threads", "3",
@@ -348,14 +347,14 @@ TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
     EXPECT_FALSE(std::filesystem::exists(at("turn.mp4")));
   }
 
-  // Nothing is asked of the golden model, and nothing said of it.
+  // The golden model is not run, and the output does not mention it.
   EXPECT_THAT(run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30",
                    "--no-compare", "--out", "turn"}),
               Ends(0, AllOf(HasSubstr("verilator: not compared with the golden model"),
                             Not(HasSubstr("mismatches")), Not(HasSubstr("golden model 0")))));
 }
 
-// Lanes that stop in the middle of frame 0's triangles: Verilator draws the frame without a fault.
+// Lanes that stop in the middle of frame 0's triangles. Verilator draws the frame without a fault.
 TEST_F(ViewCommand, AFaultOfLanesAloneIsAnError) {
   const std::filesystem::path copy = copy_checkout();
   spoil(copy / "sim/lanes/lane_harness.cpp", "      const std::uint32_t moved = block();\n",
@@ -372,7 +371,7 @@ TEST_F(ViewCommand, AFaultOfLanesAloneIsAnError) {
   }
 }
 
-// By `auto` too, which takes lanes for as much as this.
+// Also with `auto`, which selects lanes for this amount of work.
 TEST_F(ViewCommand, WhereLanesCannotBeHadVerilatorDraws) {
   const std::filesystem::path copy = copy_checkout();
   ASSERT_TRUE(write_file(copy / "sim/lanes/lane_harness.cpp", "#error spoilt\n"));
@@ -384,7 +383,7 @@ TEST_F(ViewCommand, WhereLanesCannotBeHadVerilatorDraws) {
                              "64", "--video", "turn.mp4", "--no-compare"},
                             path_with_ffmpeg(c_copy));
   EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
-  // Without AVX-512 `auto` takes Verilator from the start.
+  // Without AVX-512, `auto` selects Verilator from the start.
   const bool tries_lanes = __builtin_cpu_supports("avx512f");
   EXPECT_THAT(drawn.output,
               AllOf(HasSubstr(tries_lanes ? "averted: Verilator draws, for lanes cannot be had: " : ""),
@@ -392,8 +391,8 @@ TEST_F(ViewCommand, WhereLanesCannotBeHadVerilatorDraws) {
 #endif
 }
 
-// Small triangles lead batches to hold many; then come layers that fill the frame. Of a thread, what is drawn
-// at a time takes some 50 MB; all layers' fragments take 800.
+// Small triangles lead to batches of many triangles; then layers that fill the frame follow. The fragments
+// being drawn take some 50 MB per thread; those of all layers take 800 MB.
 TEST_F(ViewCommand, MemoryDoesNotGrowWithTheMesh) {
   std::string text;
   int vertices = 0;
@@ -419,7 +418,7 @@ TEST_F(ViewCommand, MemoryDoesNotGrowWithTheMesh) {
       EXPECT_THAT(run(arguments), Ends(0, ContainsRegex(" 5[0-9]{7} fragments")));
       frames.push_back(frame("turn/frame_0000.png").rgb);
       EXPECT_EQ(frames.back(), frames.front()) << simulator << compare;
-      // The most of any program so far, in KiB.
+      // Largest resident size of any child process so far, in KiB.
       rusage used{};
       ASSERT_EQ(::getrusage(RUSAGE_CHILDREN, &used), 0);
       EXPECT_LT(used.ru_maxrss, 600'000) << simulator << compare;

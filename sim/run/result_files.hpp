@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the results of a scene and a shader lie.
+// Paths of the results of a scene and a shader.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace halfway {
 
-/// The files that a run leaves in <out>/<scene>/<shader>/; with all effects in <shader>-all-effects/, so that
-/// both can be compared.
+/// The files that a run writes to <out>/<scene>/<shader>/. With all effects the folder is
+/// <shader>-all-effects/, so that both can be compared.
 struct ResultFiles {
   std::filesystem::path folder;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stream is setup's prologue and units, whoever draws them: one golden model that has all of it, or
-// several that have the prologue and their own.
+// The stream is setup's prologue and units, independent of how they are drawn: by one golden model that has
+// all of it, or by several that have the prologue and a share of the units.
 #include "sim/run/scene_stream.hpp"
 
 #include <gmock/gmock.h>
@@ -76,10 +76,10 @@ std::vector<std::uint32_t> words_of(const Setup& setup, SetupCounts& counts) {
   return words;
 }
 
-// What comes out of a stream, batch by batch.
+// The output of a stream, batch by batch.
 struct Streamed {
   std::vector<std::uint32_t> words{};
-  std::size_t fragments = 0, largest = 0;  ///< of a batch
+  std::size_t fragments = 0, largest = 0;  ///< of one batch
 };
 Streamed streamed(SceneStream& stream) {
   Streamed all;
@@ -91,7 +91,7 @@ Streamed streamed(SceneStream& stream) {
   return all;
 }
 
-// What a frame's fragments take, 60 MB here, is not kept.
+// A frame's fragments would take 60 MB here. They are not all in memory at once.
 TEST(SceneStream, BatchesOfLargeTrianglesAreOfFew) {
   const auto scene = load_scene("spheres", std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
   ASSERT_TRUE(scene) << scene.error().message;
@@ -108,8 +108,8 @@ TEST(SceneStream, BatchesOfLargeTrianglesAreOfFew) {
   }
 }
 
-// Many small triangles make large batches, into which no more than one large triangle a thread past their
-// room goes.
+// Many small triangles make large batches. After them, at most one large triangle per thread exceeds the
+// limit of a batch.
 TEST(SceneStream, LargeTrianglesBehindSmallOnesEndTheirBatch) {
   constexpr FrameSize c_size{400, 400};
   constexpr int c_layers = 60;
@@ -145,7 +145,7 @@ TEST(SceneStream, LargeTrianglesBehindSmallOnesEndTheirBatch) {
   }
 }
 
-// Sheets behind one another before a wall, the light behind the eye.
+// Sheets one after the other before a wall, with the light behind the eye.
 Scene sheets(int count) {
   Scene scene;
   scene.name = "sheets";
@@ -184,7 +184,7 @@ TEST(SceneStream, MoreShadowVolumesThanAreCountedAreRefused) {
   }
 }
 
-// The eye behind all the sheets: none of their volumes begins before a pixel.
+// The eye is behind all sheets, so no shadow volume starts before a pixel.
 TEST(SceneStream, VolumesAroundTheEyeCount) {
   Scene scene = sheets(40);
   scene.camera = {.eye_world = {0.95, 0.18, -3.0},

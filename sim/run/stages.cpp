@@ -26,24 +26,24 @@ constexpr const char* c_clock = "frame_tb/clk";
 constexpr const char* c_first_valid = "frame_tb/init_valid";
 constexpr const char* c_first_ready = "frame_tb/init_ready";
 
-// A signal of the shader, in the testbench.
+// Path of a shader's signal in the testbench.
 std::string dut(std::string_view path) {
   return fmt::format("frame_tb/dut/{}", path);
 }
 
-// A register shows what its entity did with what it was given: a fault may lie on either side.
+// The entities on both sides of a register. A wrong value may be caused by either.
 std::string within(std::string_view entity, std::string_view around) {
   return fmt::format("{}, or {} around it", entity, around);
 }
 
-// How a word is a number.
+// Number format of a word.
 struct Number {
   int bits = 1, fraction_bits = 0;
   bool is_signed = false;
 };
 constexpr Number c_flag{};
 
-// The lowest `number.bits` bits from `low` on; nothing where one is neither 0 nor 1. GHDL writes a value in
+// `number.bits` bits from bit `low` up; std::nullopt if one of them is neither 0 nor 1. GHDL writes values in
 // full.
 std::optional<std::uint64_t> number_of(std::string_view value, int low, int bits) {
   std::uint64_t word = 0;
@@ -56,7 +56,7 @@ std::optional<std::uint64_t> number_of(std::string_view value, int low, int bits
   return word;
 }
 
-// The table of a shader's stages: what the golden model and what the RTL has for each word.
+// The table of a shader's stages: how to read each word in the golden model and in the RTL.
 template <class GoldenShader>
 class StagesOf : public ShaderStages {
  public:
@@ -89,8 +89,8 @@ class StagesOf : public ShaderStages {
     golden_.back().push_back(std::move(golden));
   }
 
-  // Line and span, as every shader has them. The walk is of the preset Walk; `depth_clocks`: from the
-  // walker's strobes to depth's words.
+  // Line and span stage of all shaders. The walker has preset Walk. `depth_clocks`: clocks from the walker's
+  // strobes to the words of depth.
   template <class Walk>
   void add_line_stage(const std::string& shader, int depth_clocks) {
     constexpr bool c_exact = std::is_same_v<Walk, Exact>;
@@ -142,7 +142,7 @@ class StagesOf : public ShaderStages {
     StagesOf& table;
     std::vector<GoldenEvent>& events;
     void line(const GoldenShader& shader) { add(shader, 0, shader.walker().start()); }
-    // The registers of all stages that a pixel comes to, but those of processors, each by its own.
+    // The registers of all stages that the pixel passes. Each shading processor reports separately.
     void span(const GoldenShader& shader, SpanXWord x) {
       constexpr bool c_alone = requires {
         shader.token();
@@ -167,11 +167,11 @@ class StagesOf : public ShaderStages {
   };
 
   GoldenShader shader_;
-  std::vector<std::vector<Golden>> golden_;  // beside the stages' words
+  std::vector<std::vector<Golden>> golden_;  // in the order of the stages' words
 };
 
-// The walker's strobes reach the interpolators through registers, and their words come in halves: a clock
-// after the strobe the lower half, the upper one a clock later.
+// The walker's strobes reach the interpolators through registers. An interpolator's words are skewed: the
+// lower half follows one clock after the strobe, the upper half one clock later.
 template <class P, int Channels>
 class QuadraticStages final : public StagesOf<golden::QuadraticShader<P, Channels>> {
   using Shader = golden::QuadraticShader<P, Channels>;
@@ -208,7 +208,7 @@ class QuadraticStages final : public StagesOf<golden::QuadraticShader<P, Channel
   }
 };
 
-// The slices take the walker's strobes themselves. Each stage behind the span is so many clocks after it.
+// The slices use the walker's strobes directly. Each stage after the span has a fixed delay.
 template <class P>
 class SphericalStages final : public StagesOf<golden::SphericalShader<P>> {
   using Shader = golden::SphericalShader<P>;
@@ -264,7 +264,7 @@ class SphericalStages final : public StagesOf<golden::SphericalShader<P>> {
     std::size_t light;
     int channels;
   };
-  // Calls use(slice, golden), where golden(shader) is the slice's twin, for every light's slices.
+  // Call use(slice, golden) for every light's slices. golden(shader) is the golden model of the slice.
   template <class Use>
   void for_each_slice(Use&& use) {
     for (int l = 0; l < config_.lights; ++l) {
@@ -300,7 +300,7 @@ std::vector<std::string> names_of(const golden::ProcessorsLayout<P>& layout) {
   return names;
 }
 
-// All words are in one part. A token is seen where it leaves a processor.
+// No word is skewed. A token is read at the output of a processor.
 template <class P>
 class ProcessorsStages final : public StagesOf<golden::ProcessorsShader<P>> {
   using Shader = golden::ProcessorsShader<P>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the table of stages says of golden model and RTL: in every stage both hold the same.
+// Golden model and RTL must have equal values in every stage of the table.
 #include "sim/run/stages.hpp"
 
 #include <gmock/gmock.h>
@@ -63,7 +63,7 @@ TEST_P(Stages, HoldTheSameInGoldenModelAndRtl) {
   const auto stages = make_stages(key_);
   std::vector<std::vector<GoldenEvent>> golden(stages->stages().size());
   for (GoldenEvent& event : stages->draw(vectors_.words)) golden[event.stage].push_back(std::move(event));
-  // Watched, the golden model draws the same.
+  // Observing the golden model does not change its fragments.
   ASSERT_THAT(golden.back(), SizeIs(golden_.size()));
   for (std::size_t i = 0; i < golden_.size(); ++i) {
     const Fragment& f = golden_[i];
@@ -102,7 +102,8 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-// Vectors of random bits, with few lines: registers wrap, spans run in both directions and past the frame.
+// Vectors of random bits with few lines: registers wrap, and spans run in both directions and outside the
+// frame.
 template <class Preset>
 void expect_watch_changes_nothing(const HardwareKey& key) {
   SCOPED_TRACE(key.name());

@@ -27,7 +27,7 @@ void TileSetup::append(std::uint32_t unit, std::vector<std::uint32_t>& words, Se
   frame_.append(units_[unit], all, of_unit);
   if (is_counted(reach))
     counted += of_unit;
-  else  // which each tile must know
+  else  // every tile needs this value
     counted.deepest_shadow = std::max(counted.deepest_shadow, of_unit.deepest_shadow);
   const std::size_t words_per_vector = (init_bits() + 31) / 32;
   for (std::span<const std::uint32_t> rest = all; !rest.empty();) {

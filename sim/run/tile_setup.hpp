@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of a frame's init vectors those that a tile of it takes.
+// Selects the init vectors of a frame that a tile of it needs.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,16 @@
 
 namespace halfway {
 
-/// The whole frame's vectors in its order, without the triangles that cover no pixel of the tile. A triangle
-/// is never cut: each pixel of the tile is drawn by the same vectors as in the whole frame, from which it
-/// gets the same fragments. Pixels beside the tile get some of theirs, and are not to be kept. So also where
-/// lines go through the shading processors' object stage and shadow counters, which look at a pixel at a
-/// time: a polygon that passes over a pixel of the tile is there for its depth, its shadow and its colour.
-///
-/// Of each unit one tile of a frame counts what it takes the host, that in which its reach begins: the tiles'
-/// counts together are the frame's, whatever their size.
+/// The frame's vectors in their order, without the triangles that cover no pixel of the tile. Triangles are
+/// never cut, so each pixel of the tile gets the same fragments as in the whole frame. Pixels outside the
+/// tile get only some of their fragments and must not be used. This also applies to lines with the shading
+/// processors' object stage and shadow counters, which work on one pixel at a time: every polygon that covers
+/// a pixel of the tile is included.
+/// The host's work for a unit is counted in one tile only, in which the unit's reach starts. The sum over the
+/// tiles therefore equals the frame's count, for any size of tiles.
 class TileSetup final : public Setup {
  public:
-  /// `golden` is of the frame's hardware. `frame` must outlive this.
+  /// `golden` is for the frame's hardware. `frame` must outlive this object.
   TileSetup(const Setup& frame, std::unique_ptr<GoldenModel> golden, const Tile& tile);
 
   unsigned init_bits() const override { return frame_.init_bits(); }
@@ -39,8 +38,8 @@ class TileSetup final : public Setup {
 
   const Setup& frame_;
   Tile tile_;
-  std::unique_ptr<GoldenModel> golden_;  ///< knows a triangle's vectors
-  std::vector<std::uint32_t> units_;     ///< the frame's that touch the tile or are counted in it
+  std::unique_ptr<GoldenModel> golden_;  ///< finds the vectors of a triangle
+  std::vector<std::uint32_t> units_;     ///< units of the frame that touch the tile or are counted in it
 };
 
 }  // namespace halfway

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles put together are the whole frame, bit for bit: in depth and colour, fragment by fragment, and in what
-// the host counts.
+// Tiles drawn separately equal the whole frame bit for bit: depth, colour, order of fragments, and the host's
+// counts.
 #include "sim/run/tile_setup.hpp"
 
 #include <fmt/format.h>
@@ -36,12 +36,12 @@ HardwareKey key_of(const Scene& scene, Shader shader, Preset preset) {
   return plan->key;
 }
 
-// What the golden model draws of a setup's stream, as a tile.
+// The golden model's fragments of a setup's stream, as a tile.
 struct Drawn {
   FrameAssembler assembler;
   std::vector<Fragment> inside;
   SetupCounts counts;
-  std::size_t vectors = 0;  // words of the stream
+  std::size_t vectors = 0;  // number of words
 
   Drawn(const Setup& setup, const HardwareKey& key, FrameSize frame, const Tile& tile)
       : assembler(frame, tile, glm::dvec3(0.25)) {
@@ -65,7 +65,7 @@ std::vector<std::uint64_t> numbers(const SetupCounts& c) {
           p.behind_near, p.outside,    p.degenerate, p.unrepresentable};
 }
 
-// How many fragments the frame has.
+// Returns the number of fragments of the frame.
 std::size_t expect_tiles_are_the_frame(const Scene& scene, const HardwareKey& key, FrameSize frame,
                                        FrameSize size) {
   SCOPED_TRACE(scene.name + " by " + key.name() + " in tiles of " + to_string(size));
@@ -105,14 +105,14 @@ TEST(TileSetup, TilesPutTogetherAreTheFrame) {
       for (const Preset preset : {Preset::exact, Preset::published}) {
         const Scene scene = scene_of(name);
         const auto plan = plan_scene(scene, {.shader = shader, .preset = preset});
-        if (!plan) continue;  // no hardware for it
+        if (!plan) continue;  // no hardware can draw it
         EXPECT_GT(expect_tiles_are_the_frame(scene, plan->key, c_frame, {20, 20}), 500U);
         if (preset == Preset::exact) expect_tiles_are_the_frame(scene, plan->key, c_frame, {17, 100});
       }
 }
 
-// Solids through one another and in each other's shadow, from afar and from among them: triangles behind the
-// eye, cut by the near plane, larger than the frame.
+// Intersecting solids in each other's shadow, from a distance and from the middle: triangles behind the eye,
+// clipped by the near plane, larger than the frame.
 TEST(TileSetup, WhateverTheScene) {
   RandomSolids random(9);
   std::size_t fragments = 0;
@@ -129,7 +129,7 @@ TEST(TileSetup, WhateverTheScene) {
   EXPECT_GT(fragments, 20'000U);
 }
 
-// One triangle over four tiles goes to each; what no triangle touches gets nothing.
+// A triangle over four tiles is in each of them. A tile without triangles gets no vectors.
 TEST(TileSetup, TakesATriangleIntoEachTileThatItTouches) {
   Scene scene = scene_of("matte");
   scene.positions_world = {{-0.9, -0.9, 0.0}, {0.9, -0.9, 0.0}, {0.0, 0.9, 0.0}};
@@ -150,7 +150,7 @@ TEST(TileSetup, TakesATriangleIntoEachTileThatItTouches) {
         continue;
       }
       ++middle;
-      EXPECT_EQ(drawn.assembler.fragments(), whole.assembler.fragments());  // never cut
+      EXPECT_EQ(drawn.assembler.fragments(), whole.assembler.fragments());  // triangles are never cut
     }
     EXPECT_GE(middle, 4U);
     EXPECT_GE(empty, 4U);

@@ -19,9 +19,9 @@ namespace halfway {
 namespace {
 
 constexpr const char* c_install = "apt-get install ffmpeg";
-constexpr std::chrono::seconds c_patience{2};  // with an ffmpeg that is to end at once
-// Of files that hold one video, at any rate; ffmpeg takes others for images, sound or playlists, or knows
-// them not at all.
+constexpr std::chrono::seconds c_patience{2};  // waiting time for ffmpeg's end
+// Endings of files that always contain one video. Other endings mean images, sound or playlists to ffmpeg, or
+// are unknown.
 constexpr std::string_view c_endings[] = {".mp4", ".m4v", ".mov", ".mkv", ".webm", ".avi",
                                           ".ogv", ".ts",  ".flv", ".wmv", ".gif"};
 
@@ -61,13 +61,13 @@ Status VideoWriter::check(const std::filesystem::path& file) {
 Result<VideoWriter> VideoWriter::open(const std::filesystem::path& file, FrameSize size, unsigned rate) {
   auto folder = temporary_beside(file);
   if (!folder) return folder.error();
-  // A socket, not a pipe: its writer can be told of ffmpeg's end without a signal.
+  // A socket instead of a pipe: writing after ffmpeg's end then returns an error without a signal.
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     return tool_failed(fmt::format("ffmpeg: cannot be given frames: {}", std::strerror(errno)));
   VideoWriter writer(file, std::move(*folder));
   writer.input_ = ends[0];
-  // Most players take 4:2:0 alone, which has even sides.
+  // Most players support only 4:2:0, which needs even sizes.
   Command command{.arguments = {"ffmpeg",
                                 "-nostdin",
                                 "-hide_banner",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames to a video file, by ffmpeg.
+// Write frames to a video file by ffmpeg.
 #pragma once
 
 #include <filesystem>
@@ -13,15 +13,15 @@
 
 namespace halfway {
 
-/// Writes beside the file, and renames with `commit`: else what was there stays. The format is what ffmpeg
-/// makes of the file's ending.
+/// Writes a temporary file next to `file`. `commit` renames it; without `commit` an existing file stays. The
+/// file's ending selects the format.
 class VideoWriter {
  public:
-  /// Whether a video could be written there: bad input where the folder or the name is none, or the ending no
-  /// video's, tool_failed without ffmpeg.
+  /// Check that a video can be written: bad_input for a wrong folder, name or ending, tool_failed without
+  /// ffmpeg.
   static Status check(const std::filesystem::path& file);
 
-  /// `rate` frames a second, all of this size.
+  /// All frames have the given size; `rate` frames per second.
   static Result<VideoWriter> open(const std::filesystem::path& file, FrameSize size, unsigned rate);
   VideoWriter(VideoWriter&& other) noexcept;
   VideoWriter& operator=(VideoWriter&&) = delete;
@@ -29,13 +29,13 @@ class VideoWriter {
 
   Status add(const Frame& frame);
   Status commit();
-  /// Ends ffmpeg and removes what is unfinished, from another thread that is about to end the process.
+  /// End ffmpeg and remove the unfinished file. Called from another thread that is about to end the process.
   void abandon() const;
 
  private:
   VideoWriter(std::filesystem::path file, TemporaryFolder folder)
       : file_(std::move(file)), folder_(std::move(folder)) {}
-  /// The end of the frames; ffmpeg's own.
+  /// Signal the end of the frames and wait for ffmpeg.
   Status finish();
   void close_input();
 

@@ -25,15 +25,15 @@ namespace halfway {
 namespace {
 
 constexpr std::string_view c_blank = " \t\r\v\f";
-/// A face of 32767 corners, the most that assimp takes, is far shorter.
+/// A line with a face of 32767 corners, assimp's limit, is far shorter.
 constexpr std::size_t c_longest_line = std::size_t{16} << 20;
 
-/// Ends the look through a file; check_mesh_file turns it into its error.
+/// Exception that stops the check. check_mesh_file returns its error.
 struct OverlongLine {
   Error error;
 };
 
-/// The lines of a text file, without their ends, with their numbers.
+/// The lines of a text file with their numbers, without line ends.
 class Lines {
  public:
   explicit Lines(const std::filesystem::path& path) : name_(path.string()), file_(path, std::ios::binary) {}
@@ -42,13 +42,13 @@ class Lines {
     ++number_;
     return get_line(line_);
   }
-  /// Takes the next word of the line; empty at its end.
+  /// Return the next word of the line; empty at its end.
   std::string_view word() {
     const std::size_t first = std::min(line_.find_first_not_of(c_blank, at_), line_.size());
     at_ = std::min(line_.find_first_of(c_blank, first), line_.size());
     return std::string_view(line_).substr(first, at_ - first);
   }
-  /// Rewinds to the line's first word; joins the lines that a backslash continues.
+  /// Read the next line, joined with its continuation lines (after a backslash).
   bool next_joined() {
     at_ = 0;
     if (!next()) return false;
@@ -79,13 +79,13 @@ class Lines {
   }
 
  private:
-  /// std::getline that does not take all memory for a file without line ends.
+  /// Like std::getline, with limited memory for a file without line ends.
   bool get_line(std::string& line) {
     line.clear();
     for (;;) {
       file_.getline(chunk_.data(), chunk_.size());
       const auto got = static_cast<std::size_t>(file_.gcount());
-      if (file_.good()) {  // the line's end is counted, and not in the chunk
+      if (file_.good()) {  // `got` includes the line end, which is not in the chunk
         line.append(chunk_.data(), got - 1);
         return true;
       }
@@ -93,7 +93,7 @@ class Lines {
       if (line.size() > c_longest_line) throw OverlongLine{overlong()};
       if (file_.eof() || file_.bad()) return !line.empty();
       if (got == 0) return false;
-      file_.clear();  // the chunk was too short
+      file_.clear();  // the line is longer than the chunk
     }
   }
   Error overlong() const {
@@ -110,14 +110,14 @@ class Lines {
   std::uint64_t first_number_ = 0;
 };
 
-/// A text for a message: damaged files hold words of any length and any bytes.
+/// A word for a message, shortened and printable, because damaged files contain any bytes.
 std::string quoted(std::string_view word) {
   std::string text = "'";
   for (const char c : word.substr(0, 40)) text += std::isprint(static_cast<unsigned char>(c)) ? c : '?';
   return text + (word.size() > 40 ? "...'" : "'");
 }
 
-/// Empty when the word is a number that a float holds, else what is wrong with it.
+/// Empty if the word is a number in the range of float; otherwise the reason.
 std::string number_fault(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0.0;
@@ -125,7 +125,7 @@ std::string number_fault(std::string_view word) {
   if (fault == std::errc::invalid_argument || end != word.data() + word.size()) {
     return fmt::format("{} is not a number", quoted(word));
   }
-  // Out of range is too small as well as too large; assimp reads the small ones as zero.
+  // Out of range also means too small; assimp reads such numbers as zero.
   if (fault == std::errc::result_out_of_range) {
     const std::size_t exponent = word.find_first_of("eE");
     if (exponent != std::string_view::npos && exponent + 1 < word.size() && word[exponent + 1] == '-')
@@ -174,7 +174,7 @@ class ObjCheck {
         uses_material_ = true;
       } else if (keyword == "mtllib") {
         const std::filesystem::path library = path_.parent_path() / std::string(lines_.rest());
-        // A pipe or a device may never end; the reader leaves them out too.
+        // Skip pipes and devices, which may never end; the reader skips them too.
         std::error_code fault;
         if (std::filesystem::is_regular_file(library, fault) && std::ifstream(library)) {
           ++libraries_;
@@ -338,7 +338,7 @@ Result<MeshFileSummary> check_stl(const std::filesystem::path& path) {
   if (!is_binary) {
     std::string_view start(header.data(), static_cast<std::size_t>(file.gcount()));
     start.remove_prefix(std::min(start.find_first_not_of(" \t\r\n"), start.size()));
-    // A binary header may begin with "solid" too; only text holds no zero byte.
+    // A binary header may start with "solid" too, but text contains no zero byte.
     if (start.starts_with("solid") && start.find('\0') == std::string_view::npos)
       return check_ascii_stl(path);
     if (size < c_header) return bad_input(path.string() + ": not an STL file, or cut off within its header");
@@ -357,8 +357,8 @@ Result<MeshFileSummary> check_stl(const std::filesystem::path& path) {
 
 struct PlyProperty {
   std::string name;
-  int size = 0;        // bytes of the value, or of a list's item
-  int count_size = 0;  // bytes of a list's length; 0: not a list
+  int size = 0;        // bytes of the value, or of each item of a list
+  int count_size = 0;  // bytes of the list's length; 0: not a list
   bool is_float = false;
   bool is_signed = false;
 };
@@ -401,12 +401,12 @@ class PlyCheck {
     std::error_code fault;
     const std::uint64_t size = std::filesystem::file_size(path_, fault);
     for (const PlyElement& element : elements_) {
-      // Each item takes a byte at the least: a count beyond the file's size need not be tried.
+      // Each item takes at least one byte, so a count above the file's size is wrong.
       if (element.count > size) {
         return bad_input(fmt::format("{}: its header calls for {} items of '{}', more than the file can hold",
                                      path_.string(), element.count, element.name));
       }
-      // Of none the file could call for any number.
+      // Items without properties take no bytes, so the file could request any number.
       if (element.properties.empty() && element.count > 0) {
         return bad_input(fmt::format("{}: its header gives the {} items of {} no property", path_.string(),
                                      element.count, quoted(std::string_view(element.name))));
@@ -532,7 +532,7 @@ class PlyCheck {
     return Ok{};
   }
 
-  /// The next value as a double, which holds each of PLY's types; false at the end of the file.
+  /// Read the next value as a double, which can represent all types of PLY. False at the end of the file.
   bool read_value(const PlyProperty& type, double& value) {
     const auto [size, is_float, is_signed] = std::tuple(type.size, type.is_float, type.is_signed);
     std::array<unsigned char, 8> bytes{};
@@ -623,7 +623,7 @@ Result<std::string> gltf_json(const std::filesystem::path& path) {
   return text;
 }
 
-/// The unsigned number under a key, or nothing.
+/// The unsigned number under a key; std::nullopt if there is none.
 std::optional<std::uint64_t> number_at(const nlohmann::json& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   if (!object.is_object() || found == object.end() || !found->is_number_unsigned()) return std::nullopt;
@@ -637,7 +637,7 @@ const nlohmann::json& array_at(const nlohmann::json& object, const char* key) {
   return object.is_object() && found != object.end() && found->is_array() ? *found : c_empty;
 }
 
-/// assimp leaves out faces whose index is out of range and says nothing: count what should come.
+/// assimp omits faces with an index out of range without a message, so count the expected faces.
 Result<MeshFileSummary> check_gltf(const std::filesystem::path& path) {
   Result<std::string> text = gltf_json(path);
   if (!text) return text.error();

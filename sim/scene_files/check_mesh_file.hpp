@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What assimp does not check, or not before it takes the memory: counts, indices, numbers, lengths.
+// Checks that assimp lacks or makes only after allocating memory: counts, indices, numbers, lengths.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,16 @@
 
 namespace halfway {
 
-/// What a look through the file found; assimp must find the same.
+/// Counts of a mesh file; assimp must find the same.
 struct MeshFileSummary {
-  std::optional<std::uint64_t> polygons;       ///< faces of three corners or more, where the format tells
-  std::optional<std::uint64_t> vertices;       ///< where assimp must deliver just as many
+  /// faces with three corners or more, if the format gives their number
+  std::optional<std::uint64_t> polygons;
+  std::optional<std::uint64_t> vertices;       ///< if assimp must return the same number
   std::vector<std::string> missing_libraries;  ///< OBJ: mtllib files that cannot be read
-  bool has_materials = false;                  ///< OBJ: it names materials, and a library to read them from
+  bool has_materials = false;                  ///< OBJ: the file uses materials and names a library
 };
 
-/// Looks through a mesh file of an ending that `is_mesh_file_name` knows: OBJ, PLY and STL whole and in
+/// Check a mesh file whose ending `is_mesh_file_name` accepts. OBJ, PLY and STL are read completely in
 /// constant memory, of glTF the JSON part.
 Result<MeshFileSummary> check_mesh_file(const std::filesystem::path& path);
 

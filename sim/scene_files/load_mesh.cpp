@@ -39,7 +39,7 @@ Material get_material(ReplySource& source) {
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-/// Runs the reader; the file that holds its reply.
+/// Run the reader and return the file with its reply.
 Result<File> run_reader(const std::filesystem::path& path, const MeshFileSummary& summary) {
   const std::string name = path.string();
   const int descriptor = ::memfd_create("halfway-mesh", MFD_CLOEXEC);

@@ -40,7 +40,7 @@ std::string base64(const std::string& data) {
   return text;
 }
 
-// The same square pyramid, apex (0, 0, 1), in every format: 4 triangles and a square base, or 6 triangles.
+// The same square pyramid with apex (0, 0, 1) in every format: 4 triangles and a square base, or 6 triangles.
 const std::string c_obj =
     "# pyramid\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 1\n"
     "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 4 3 2 1\n";
@@ -134,7 +134,7 @@ class LoadMesh : public ::testing::Test {
     return load_mesh(folder_ / name);
   }
 
-  /// The message without the folder, or "loaded".
+  /// The error message without the folder, or "loaded".
   std::string error(const std::string& name, const std::string& text) const {
     const Result<LoadedMesh> mesh = load(name, text);
     if (mesh) return "loaded";
@@ -226,7 +226,7 @@ TEST_F(LoadMesh, AMissingMaterialLibraryIsNoted) {
   EXPECT_NE(loaded->notes[0].find("gone.mtl cannot be read"), std::string::npos);
 }
 
-// Opening a pipe waits for a writer, and a device may never end: neither may be waited for.
+// Opening a pipe waits for a writer, and a device may never end. The loader must not wait for either.
 TEST_F(LoadMesh, PipesAndDevicesAreNeitherLibrariesNorBuffers) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   for (const std::string name : {"pipe", "/dev/zero"}) {
@@ -326,7 +326,7 @@ TEST_F(LoadMesh, PlyFaultsAreErrors) {
   expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nend_header\n",
                "calls for 99999999999 items");
   expect_error("a.ply", "nonsense\n", "a.ply:1: not a PLY file");
-  // Items without a property take no byte: any number of them could be called for.
+  // Items without a property take no bytes, so any number of them could be requested.
   expect_error("e.ply",
                "ply\nformat binary_little_endian 1.0\nelement nothing 50\nelement vertex 0\n"
                "property float x\nend_header\n",
@@ -365,7 +365,7 @@ TEST_F(LoadMesh, GltfFaultsAreErrors) {
       "a.gltf: ");
 }
 
-/// Whatever becomes of a damaged file: no crash, no index out of range, no number that is not finite.
+/// A damaged file must cause no crash, no index out of range and no infinite or undefined number.
 void expect_error_or_sound(const Result<LoadedMesh>& loaded, const std::string& what) {
   if (!loaded) {
     EXPECT_EQ(loaded.error().code, ExitCode::bad_input) << what;
@@ -393,7 +393,7 @@ TEST_F(LoadMesh, CutOffFilesAreErrors) {
       EXPECT_NE(error(name, text.substr(0, size)), "loaded") << name << " cut to " << size << " bytes";
     }
   }
-  // OBJ has no end mark: what is there is a mesh, or lacks a vertex or a corner.
+  // OBJ has no end mark: a truncated file is a valid mesh, or lacks a vertex or a corner.
   for (std::size_t size = 0; size < c_obj.size(); ++size) {
     expect_error_or_sound(load("p.obj", c_obj.substr(0, size)), "obj cut to " + std::to_string(size));
   }
@@ -427,7 +427,7 @@ TEST_F(LoadMesh, DamagedFilesAreErrorsOrMeshes) {
 }
 
 TEST_F(LoadMesh, AFileThatBreaksTheReaderIsAnError) {
-  // assimp's JSON reader takes some stack for each bracket and has no limit.
+  // assimp's JSON reader uses stack for each bracket, without a limit.
   const std::string deep = std::string(2'000'000, '[') + std::string(2'000'000, ']');
   std::string text = gltf();
   text.insert(1, R"("extras":)" + deep + ",");

@@ -31,16 +31,16 @@ namespace halfway {
 
 namespace {
 
-/// Beyond it, squares and products of a few numbers would leave the double's range.
+/// Larger numbers would overflow double in squares and products.
 constexpr double c_max_number = 1e15;
-/// Many may be left over that no triangle uses.
+/// Files may contain many positions that no triangle uses.
 constexpr std::size_t c_max_positions = 3 * std::size_t{c_max_triangles};
 constexpr std::uintmax_t c_max_scene_file_bytes = std::uintmax_t{16} << 20;
-/// A key has two parts at most, as `rotate.axis`; toml++ walks down its tables by recursion.
+/// The longest keys have two parts, such as `rotate.axis`. toml++ parses the parts recursively.
 constexpr int c_max_key_dots = 16;
 const glm::dvec3 c_default_to_eye{0.4, 0.3, 1.0};
 
-/// Ends the reading of a scene file; `load_scene` turns it into its error.
+/// Exception that stops reading a scene file. `load_scene` returns its error.
 class BadScene {
  public:
   explicit BadScene(Error error) : error_(std::move(error)) {}
@@ -57,11 +57,11 @@ std::string lower_ending(const std::filesystem::path& path) {
   return ending;
 }
 
-/// The line of a key of too many parts, or 0. toml++ bounds how deep values nest, but not keys, and their
-/// tables would overflow the stack. Where the text is no TOML the search may end early: so does toml++.
+/// The line of the first key with too many parts, or 0. toml++ limits the nesting of values, but not of keys,
+/// which would overflow the stack. If the text is not TOML the search may end early, as does toml++.
 std::size_t line_of_deep_key(std::string_view text) {
   std::size_t line = 1;
-  int dots = 0;  // since the last character that ends a key
+  int dots = 0;  // since the last character that cannot be part of a key
   const auto at = [&](std::size_t i) { return i < text.size() ? text[i] : '\n'; };
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -77,7 +77,7 @@ std::size_t line_of_deep_key(std::string_view text) {
       }
       if (many_lines) {
         i += 2;
-        // Up to two more belong to the text.
+        // Up to two more quotes belong to the text.
         for (int more = 0; more < 2 && at(i + 1) == c; ++more) ++i;
       }
     } else if (c == '#') {
@@ -92,7 +92,7 @@ std::size_t line_of_deep_key(std::string_view text) {
   return 0;
 }
 
-/// What a number may be.
+/// Allowed range of a number.
 struct Limits {
   double low = -c_max_number;
   double high = c_max_number;
@@ -115,10 +115,10 @@ constexpr Limits c_not_negative{.low = 0.0};
 constexpr Limits c_positive{.low = 0.0, .low_excluded = true};
 constexpr Limits c_at_least_1{.low = 1.0};
 
-/// One table of the scene file: hands out its values checked, and knows where each of them stands.
+/// A table of the scene file. Returns its values checked, and knows their line numbers.
 class Table {
  public:
-  /// `what` names the table in messages. Any key that is not in `known` is an error.
+  /// `what` names the table in messages. A key that is not in `known` is an error.
   Table(const toml::table& table, std::string file, std::string what,
         const std::vector<std::string_view>& known)
       : table_(table), file_(std::move(file)), what_(std::move(what)) {
@@ -193,7 +193,7 @@ class Table {
     return result / length;
   }
 
-  /// Three numbers, or one that stands for all three.
+  /// Three numbers, or one for all three.
   glm::dvec3 one_or_three(std::string_view key, const glm::dvec3& otherwise,
                           const Limits& limits = c_any) const {
     if (!has(key)) return otherwise;
@@ -201,7 +201,7 @@ class Table {
     return vector(key, limits);
   }
 
-  /// Radiance or reflectance; one number is grey.
+  /// Radiance or reflectance. One number means grey.
   glm::dvec3 colour(std::string_view key, const glm::dvec3& otherwise) const {
     return one_or_three(key, otherwise, c_not_negative);
   }
@@ -233,7 +233,7 @@ class Table {
 
 // ---- Reading a scene file
 
-/// What a camera that is fitted needs once the meshes are known.
+/// Data for fitting a camera after the meshes are loaded.
 struct Fit {
   glm::dvec3 to_eye_world = c_default_to_eye;
   glm::dvec3 up_world{0.0, 1.0, 0.0};
@@ -410,7 +410,8 @@ class SceneReader {
     scene_.materials.push_back(std::move(material));
   }
 
-  /// Only among the scene file's own: a mesh file's materials follow them in the list and may share names.
+  /// Search the scene file's own materials only. Materials of mesh files follow them in the list and may have
+  /// the same names.
   std::optional<std::uint32_t> named_material(const std::string& name) const {
     const auto found = named_materials_.find(name);
     return found == named_materials_.end() ? std::nullopt : std::optional(found->second);
@@ -462,7 +463,7 @@ class SceneReader {
     place(*table, loaded);
   }
 
-  // Of a mesh of our own making, at the tessellation asked for.
+  // Number of parts of a generated mesh, with the tessellation factor applied.
   std::uint32_t parts(const Table& table, std::string_view key, std::uint32_t otherwise,
                       std::uint32_t least) const {
     const double wanted = std::round(options_.tessellation * table.count(key, otherwise, least));
@@ -477,7 +478,7 @@ class SceneReader {
 
   LoadedMesh read_mesh_file(const Table& table) {
     const std::filesystem::path path = path_.parent_path() / table.text("file");
-    // These faults are the scene file's: the wrong path was typed there.
+    // Report these as errors of the scene file, because it contains the wrong path.
     if (!is_mesh_file_name(path)) {
       table.fail("file", "is not a mesh file by its name; .obj, .ply, .stl, .gltf and .glb can be read");
     }
@@ -552,8 +553,7 @@ class SceneReader {
   }
 
  public:
-  /// A fitted camera has no view of what is tiny and far from the origin: rounding puts its eye on its
-  /// target.
+  /// A fitted camera fails for a tiny object far from the origin: rounding makes its eye equal to its target.
   static Status check_view(const Scene& scene, const std::string& what) {
     if (has_view(scene.camera)) return Ok{};
     return bad_input(
@@ -562,7 +562,7 @@ class SceneReader {
         "origin, or scale it");
   }
 
-  /// Adds a mesh in world space to a scene, with its normals and materials in order. `what` begins its
+  /// Add a mesh in world space to a scene, with valid normals and materials. `what` is the prefix of
   /// messages.
   static Status add_mesh(Scene& scene, Mesh& mesh, const std::string& what, std::uint32_t first_material,
                          double crease_degrees, bool replace_normals) {
@@ -590,7 +590,7 @@ class SceneReader {
     const auto first_position = static_cast<std::uint32_t>(scene.positions_world.size());
     const auto first_normal = static_cast<std::uint32_t>(scene.normals_world.size());
     scene.positions_world.insert(scene.positions_world.end(), mesh.positions.begin(), mesh.positions.end());
-    // Those that nothing uses may be zero.
+    // Unused normals may be zero.
     for (const glm::dvec3& normal : mesh.normals) {
       scene.normals_world.push_back(normal == glm::dvec3(0.0) ? glm::dvec3(0.0, 0.0, 1.0) : normal);
     }
@@ -665,11 +665,11 @@ std::string known_scenes(const std::filesystem::path& folder) {
 Result<Scene> load_scene(std::string_view name_or_path, const std::filesystem::path& scenes_folder,
                          const LoadOptions& options) {
   if (name_or_path.empty()) return bad_input("the scene has no name; give a built-in name or a file");
-  // The system would take the part before a zero byte for the path.
+  // The system would use the part before a zero byte as the path.
   if (name_or_path.find('\0') != std::string_view::npos)
     return bad_input("the scene's name holds a zero byte");
   const std::filesystem::path path(name_or_path);
-  // Results lie in a folder of the scene's name.
+  // The scene's name is also the name of the results' folder.
   const std::string name = path.stem().string();
   if (name == "." || name == ".." ||
       std::ranges::any_of(name, [](unsigned char c) { return std::iscntrl(c); }))

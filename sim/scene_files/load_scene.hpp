@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a name, a scene file or a mesh file to a scene that is fit to be drawn.
+// Loads a valid scene from a name, a scene file or a mesh file.
 #pragma once
 
 #include <filesystem>
@@ -11,20 +11,17 @@
 namespace halfway {
 
 struct LoadOptions {
-  /// Slices, stacks and divisions of spheres, teapots and boxes are as many times those that the scene names,
-  /// rounded. A mesh file's triangles are what they are: another factor than 1 is an error there.
+  /// Factor for slices, stacks and divisions of spheres, teapots and boxes; results are rounded. With a mesh
+  /// file, a factor other than 1 is an error.
   double tessellation = 1.0;
 };
 
-/// Loads a built-in scene by name (`teapot`: scenes_folder/teapot.toml), a scene file (.toml), or a mesh file
-/// alone, which gets a camera that sees all of it, one white light from the camera's upper left, and its own
-/// or the default material.
-///
-/// What it promises of a scene: every number finite and in the range scene.hpp names, indices in range, unit
-/// normals, a camera with a view (camera.hpp: has_view), 1 to c_max_triangles triangles, none of zero area.
-/// Everything else is an error with the file and, where there is one, the line. What it mended stands in
-/// Scene::notes.
-///
+/// Load a built-in scene by name (`teapot`: scenes_folder/teapot.toml), a scene file (.toml), or a single
+/// mesh file. A mesh file gets a camera that sees all of it, one white light from the camera's upper left,
+/// and its own or the default material.
+/// Every loaded scene has: finite numbers within the ranges in scene.hpp, indices in range, unit normals, a
+/// camera with a view (camera.hpp: has_view), and 1 to c_max_triangles triangles, none of zero area.
+/// Everything else is an error with the file and, if known, the line. Scene::notes lists corrections.
 /// The keys of a scene file are listed in sim/scenes/README.md.
 Result<Scene> load_scene(std::string_view name_or_path, const std::filesystem::path& scenes_folder,
                          const LoadOptions& options = {});

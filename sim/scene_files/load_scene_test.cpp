@@ -37,7 +37,7 @@ class LoadScene : public ::testing::Test {
 
   Result<Scene> load(const std::string& toml) const { return load_scene(write("s.toml", toml), c_scenes); }
 
-  /// The message without the folder, or "loaded".
+  /// The error message without the folder, or "loaded".
   std::string error(const std::string& toml) const {
     const Result<Scene> scene = load(toml);
     if (scene) return "loaded";
@@ -183,7 +183,7 @@ material = "m"
   EXPECT_EQ(material.exponent, 1.0);
   EXPECT_EQ(material.roughness, 1.0);
   EXPECT_EQ(material.reflectance, 0.0);
-  // The pole (0, 2, 0): scaled to (0, 6, 0), rotated to (-6, 0, 0), moved to (4, 0, 0).
+  // The pole (0, 2, 0) is scaled to (0, 6, 0), rotated to (-6, 0, 0) and moved to (4, 0, 0).
   EXPECT_NEAR(glm::length(scene->positions_world.at(0) - glm::dvec3(4.0, 0.0, 0.0)), 0.0, 1e-14);
   EXPECT_NEAR(glm::length(scene->normals_world.at(0) - glm::dvec3(-1.0, 0.0, 0.0)), 0.0, 1e-14);
 }
@@ -245,7 +245,7 @@ TEST_F(LoadScene, CreaseAngleDecidesBetweenFlatAndSmooth) {
   EXPECT_EQ(normals_of(""), vertices);
   EXPECT_EQ(normals_of("normals = \"computed\"\n"), vertices);
   EXPECT_EQ(normals_of("crease_angle = 60\n"), vertices);
-  // Two triangles of a quad lie in a plane; nothing else does.
+  // Only the two triangles of a quad are in one plane.
   EXPECT_EQ(normals_of("crease_angle = 1\n"), 8 * 6 * 4 + 2 * 8 * 3);
 }
 
@@ -450,7 +450,7 @@ TEST_F(LoadScene, AMeshFileLiesBesideItsScene) {
             0u);
 }
 
-// toml++ goes down its tables by recursion, and up again to free them.
+// toml++ parses and frees nested tables recursively.
 TEST_F(LoadScene, KeysOfManyPartsAreRefused) {
   const std::string mesh = "[[mesh]]\nkind = \"box\"\n";
   std::string deep = "a";
@@ -459,13 +459,13 @@ TEST_F(LoadScene, KeysOfManyPartsAreRefused) {
   EXPECT_EQ(error("[" + deep + "]\n"), "s.toml:1: bad TOML: a key of more than 16 parts");
   EXPECT_EQ(error("a = [\n{ b = '''\n''', " + deep + " = 1 }]\n"),
             "s.toml:3: bad TOML: a key of more than 16 parts");
-  // Behind what only looks like a text's or a comment's begin or end.
+  // After characters that only look like the start or the end of a text or a comment.
   for (const std::string before :
        {R"(b = "\"")", R"(b = '\')", R"(b = """x""""")", R"(b = '''x''''')", R"(b = "")", R"(b = '')",
         R"(# ")", R"(b = "#")", R"(b = """\"""")", R"(b = """"""")", R"(b = """""")"})
     EXPECT_NE(error(before + "\n" + deep + " = 1\n").find("a key of more than 16 parts"), std::string::npos)
         << before;
-  // In texts and comments dots are no more than that.
+  // Dots in texts and comments do not count.
   const std::string dots(40, '.');
   for (const std::string& text :
        {'"' + dots + '"', "'" + dots + "'", "\"\"\"\n" + dots + "\"\"\"", "'''" + dots + "'''"})

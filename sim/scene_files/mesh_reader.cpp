@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_mesh_reader: assimp, in a process of its own, with limits on memory and time. `load_mesh` starts
+// halfway_mesh_reader: runs assimp in a separate process with limits on memory and time. `load_mesh` starts
 // it.
-//
 //   halfway_mesh_reader FILE POLYGONS VERTICES HAS_MATERIALS
-//
-// The numbers are check_mesh_file's of the file, '-' for what its format does not tell. The reply
-// (mesh_reply.hpp) goes to standard output, a file. Exit 0: a mesh, or the reason why there is none; else it
-// broke.
+// The numbers are check_mesh_file's, '-' if the format does not give them. The reply (mesh_reply.hpp) is
+// written to standard output, a file. Exit 0: a mesh, or the reason for refusing it; any other exit is a
+// crash.
 #include <assimp/BaseImporter.h>
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/importerdesc.h>
@@ -38,7 +36,7 @@
 namespace halfway {
 namespace {
 
-// What we may take. A million triangles of OBJ take assimp 240 MiB.
+// Memory limit. assimp takes 240 MiB for a million triangles of OBJ.
 constexpr rlim_t c_memory_bytes = rlim_t{8} << 30;
 
 class Refused {
@@ -61,8 +59,8 @@ void keep_four_readers(Assimp::Importer& importer) {
   }
 }
 
-/// Opens regular files alone, whatever a mesh file names as its materials or buffers: a pipe or a device may
-/// never end.
+/// Opens regular files only, also for materials and buffers that a mesh file names, because a pipe or a
+/// device may never end.
 class RegularFiles final : public Assimp::DefaultIOSystem {
  public:
   bool Exists(const char* file) const override {
@@ -90,13 +88,13 @@ std::vector<Instance> instances(const aiScene& scene) {
     const aiMatrix4x4 to_file = to_parent * node->mTransformation;
     for (unsigned i = 0; i < node->mNumMeshes; ++i) {
       found.push_back({scene.mMeshes[node->mMeshes[i]], to_file});
-      // Nodes may show one mesh any number of times.
+      // Several nodes may use the same mesh.
       faces += found.back().mesh->mNumFaces;
       if (faces > c_max_triangles) {
         throw Refused(fmt::format("more than {} triangles; reduce the mesh", c_max_triangles));
       }
     }
-    // From the back, so that they are taken in the file's order.
+    // In reverse, so that they are processed in the file's order.
     for (unsigned i = node->mNumChildren; i-- > 0;) pending.emplace_back(node->mChildren[i], to_file);
   }
   return found;
@@ -124,7 +122,7 @@ Material material_of(const aiMaterial& source, bool is_gltf, std::vector<std::st
     if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, number) == aiReturn_SUCCESS) {
       const double roughness = std::max(static_cast<double>(number), 0.05);
       exponent = 2.0 / std::pow(roughness, 4.0) - 2.0;
-      material.specular *= std::max(1.0 - roughness, 0.0);  // a rough surface spreads its highlight thin
+      material.specular *= std::max(1.0 - roughness, 0.0);  // a rough surface has a weak highlight
     }
   } else {
     material.diffuse = 1.0;
@@ -169,10 +167,10 @@ void put_material(ReplySink& sink, const Material& material) {
   sink.put(material.exponent);
 }
 
-/// Does the whole work; throws Refused with the reason, without the file's name.
+/// Read the file and write the reply. Throws Refused with the reason, without the file's name.
 void import_file(const std::filesystem::path& path, const MeshFileSummary& summary, ReplySink& sink) {
   Assimp::Importer importer;
-  importer.SetIOHandler(new RegularFiles);  // which the importer owns
+  importer.SetIOHandler(new RegularFiles);  // owned by the importer
   keep_four_readers(importer);
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
   if (scene == nullptr) throw Refused(importer.GetErrorString());
@@ -226,7 +224,7 @@ void import_file(const std::filesystem::path& path, const MeshFileSummary& summa
   if (polygons < triangles_expected) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (scene == nullptr) throw Refused(importer.GetErrorString());
 
-  // assimp gives a file without materials one of its own; ours is better.
+  // assimp adds a material of its own to a file without materials; use the default material instead.
   const bool has_materials = is_gltf || summary.has_materials;
   const std::vector<Instance> parts = instances(*scene);
   std::vector<std::uint32_t> new_index(scene->mNumMaterials, UINT32_MAX);
@@ -259,7 +257,8 @@ void import_file(const std::filesystem::path& path, const MeshFileSummary& summa
     sink.put(has_materials ? new_index.at(mesh.mMaterialIndex) : 0u);
     sink.put(mesh.mNumVertices);
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) sink.put(mesh.mVertices[v]);
-    const bool has_normals = mesh.HasNormals() && lower_ending(path) != ".stl";  // STL's are the facets'
+    // STL has normals per facet only
+    const bool has_normals = mesh.HasNormals() && lower_ending(path) != ".stl";
     sink.put(has_normals);
     if (has_normals) {
       for (unsigned v = 0; v < mesh.mNumVertices; ++v) sink.put(mesh.mNormals[v]);
@@ -305,7 +304,7 @@ int run(int argument_count, char** arguments) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, c_reader_cpu_seconds);
   if (!c_sanitized) limit(RLIMIT_AS, c_memory_bytes);
-  // What a library prints must not stand in the reply.
+  // Output of libraries must not get into the reply.
   const int reply = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   if (reply < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 1;
   std::string reason;
@@ -338,6 +337,6 @@ int run(int argument_count, char** arguments) {
 }  // namespace halfway
 
 int main(int argument_count, char** arguments) {
-  // Without the library's own clean-up, which a damaged file may have made impossible.
+  // Skip the libraries' clean-up, which may crash after a damaged file.
   ::_exit(halfway::run(argument_count, arguments));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What halfway_mesh_reader writes and `load_mesh` reads: plain values, one after the other.
+// Format of the data from halfway_mesh_reader to `load_mesh`: plain values in sequence.
 #pragma once
 
 #include <algorithm>
@@ -64,7 +64,7 @@ inline std::string lower_ending(const std::filesystem::path& path) {
   return ending;
 }
 
-/// The reader takes so much of a processor, then the system ends it.
+/// Limit of the reader's processor time, enforced by the system.
 inline constexpr unsigned c_reader_cpu_seconds = 300;
 
 }  // namespace halfway
