@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a loaded scene to pictures, as `halfway sim` and `halfway render` go, at a small size.
+// Draws a loaded scene at a small size, by the same steps as `halfway sim` and `halfway render`.
 #pragma once
 
 #include <string_view>
@@ -8,14 +8,14 @@
 
 namespace halfway::fuzz {
 
-/// Draws the scene by every shader and in software, and holds it to what load_scene promises of a scene.
-/// `choice` picks the frame's size, the preset, and the processors' form.
+/// Draws the scene by every shader and in software. Requires everything that load_scene guarantees for a
+/// scene. `choice` selects the frame's size, the preset and the processors' form.
 void draw(const Scene& scene, unsigned choice);
 
-/// What load_scene promises.
+/// Requires what load_scene guarantees.
 void demand_fit(const Scene& scene);
 
-/// A number that every byte of a text has a part in.
+/// A number that depends on every byte of the text.
 unsigned choice_of(std::string_view text);
 
 }  // namespace halfway::fuzz

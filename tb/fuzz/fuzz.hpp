@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fuzz targets share: the input as a file, and how a broken promise ends the process.
+// Common parts of the fuzz targets: the input as a file, and the end of the process if a guarantee does not
+// hold.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +10,8 @@
 
 #include "common/result.hpp"
 
-/// What libFuzzer calls for each input; replay.cpp calls it for each file. Gives 0, or -1 for an input that
-/// is not worth keeping.
+/// libFuzzer calls this function for each input; replay.cpp calls it for each file. Returns 0, or -1 for an
+/// input that need not be kept.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace halfway::fuzz {
@@ -19,16 +20,16 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// This process's own folder, empty at first.
+/// A folder for this process only, empty at first.
 const std::filesystem::path& folder();
 
-/// The bytes as a file of that name in the folder.
+/// Writes the bytes to a file of that name in the folder.
 std::filesystem::path write_input(std::string_view name, std::string_view bytes);
 
-/// Ends the process, as a crash, where the condition does not hold.
+/// Aborts the process if the condition does not hold.
 void demand(bool holds, std::string_view what);
 
-/// What an error about a file in the folder owes its reader: exit code 2, and the file's name first.
+/// Requires that an error about a file in the folder has exit code 2 and starts with the file's name.
 void demand_refusal(const Error& error);
 
 }  // namespace halfway::fuzz

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Init vectors: read whole or refused; what was read writes back to what reads the same; and whatever bits a
-// vector holds, the golden model of its hardware draws it and ends.
+// Init vectors. A file is read completely or refused. A file that was read, written and read again gives the
+// same vectors. For any bits in a vector, the golden model of its hardware draws it and terminates.
 #include <algorithm>
 #include <memory>
 #include <vector>
@@ -16,12 +16,12 @@
 namespace halfway::fuzz {
 namespace {
 
-/// Vectors of an input that are drawn, line records included.
+/// Most vectors of an input that are drawn, with line records.
 constexpr std::size_t c_most_vectors = 40;
-/// A walk of many lines is slow because it is long, which is no fault: counts of lines are cut to this.
+/// Limit of the line counts. A walk of many lines is slow, which is not a fault.
 constexpr std::uint64_t c_most_lines = 8;
 
-/// Two lights of each kind, a grey surface with a highlight and a coloured one.
+/// Two lights of each kind, a grey surface with a highlight and a coloured surface.
 Scene scene_with_all() {
   Scene scene;
   scene.name = "all";
@@ -81,7 +81,7 @@ void cut_lines(std::span<std::uint32_t> vector, const HardwareKey& key) {
     cut(golden::Published::init_header_at::upper_lines, 1, 0);
 }
 
-/// Whatever the vectors' width, as vectors of this hardware.
+/// Draws the words as vectors of this hardware, for any width of the words.
 void draw(const InitStream& stream, const HardwareKey& key) {
   const auto model = make_golden_model(key);
   const unsigned bits = model->init_bits();
@@ -89,7 +89,7 @@ void draw(const InitStream& stream, const HardwareKey& key) {
   const std::size_t count = std::min(c_most_vectors, (stream.words.size() + words - 1) / words);
   std::vector<std::uint32_t> vectors(stream.words);
   vectors.resize(count * words);
-  // Line records follow their header, whose counts tell how many.
+  // The counts in a header give the number of line records that follow it.
   for (std::size_t first = 0; first < count;) {
     const auto vector = std::span(vectors).subspan(first * words, words);
     if (bits % 32 != 0) vector.back() &= (1U << bits % 32) - 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mesh files, one target a format (HALFWAY_FUZZ_ENDING): each loads as a fit scene or is refused, and assimp,
-// in its own process, takes nobody down with it. What loads is drawn.
+// Mesh files, one target per format (HALFWAY_FUZZ_ENDING). Each file loads as a valid scene or is refused.
+// assimp runs in its own process and cannot crash this one. Scenes that load are drawn.
 #include "fuzz/draw.hpp"
 #include "fuzz/fuzz.hpp"
 #include "sim/scene_files/check_mesh_file.hpp"
@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace halfway::fuzz;
   constexpr std::size_t c_most_drawn = 100;
   const std::string_view bytes = text_of(data, size);
-  // What it names besides (materials, buffers) must lie beside it.
+  // Ignore files that refer to others (materials, buffers) outside their folder.
   if (bytes.find("../") != std::string_view::npos || bytes.find(" /") != std::string_view::npos ||
       bytes.find("\"/") != std::string_view::npos)
     return -1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mutations that bytes alone seldom hit, for text formats: a number becomes another, of any size; a line
-// goes, comes twice, or changes places.
+// Mutations for text formats that random bytes rarely reach: replace a number by one of any size; remove,
+// duplicate or move a line.
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line of every command that draws, an argument a line: taken or refused, and what is taken is in
-// its range.
+// The command line of every command that draws, one argument per line. It is accepted or refused; accepted
+// values are in their ranges.
 #include "sim/cli/options.hpp"
 
 #include <algorithm>
@@ -15,13 +15,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace halfway::fuzz;
   std::vector<std::string> arguments{""};
   for (const char c : text_of(data, size)) {
-    if (c == '\0') return -1;  // no argument holds one
+    if (c == '\0') return -1;  // an argument cannot contain this character
     if (c == '\n')
       arguments.emplace_back();
     else
       arguments.back() += c;
   }
-  // As CLI11 wants them.
+  // CLI11 expects the arguments in reverse order.
   std::reverse(arguments.begin(), arguments.end());
   CLI::App app{"", "halfway"};
   cli::DrawOptions options;

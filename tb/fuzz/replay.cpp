@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a target on every file of the folders given, without libFuzzer: seeds and regressions in `make test`.
+// Runs a target on every file of the given folders, without libFuzzer: seeds and regressions in `make test`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace {
 
-/// A small file that takes longer is a fault by itself.
+/// A small file that takes longer is a fault.
 constexpr std::chrono::seconds c_longest{20};
 
 }  // namespace
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "{}\n", bytes.error().message);
         return 2;
       }
-      // Before the run: where it crashes, this is the last that is seen.
+      // Print the name before the run: after a crash it is the last line of the output.
       fmt::print("{}\n", file.string());
       std::fflush(stdout);
       const auto start = std::chrono::steady_clock::now();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene files: whatever stands in a .toml loads as a fit scene or is refused; what loads is drawn.
+// Scene files. Any .toml text loads as a valid scene or is refused; scenes that load are drawn.
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
@@ -12,11 +12,11 @@
 namespace halfway::fuzz {
 namespace {
 
-/// Beyond these a scene is slow because it is large, which is no fault.
+/// Scenes above these limits are slow because they are large, which is not a fault.
 constexpr std::int64_t c_most_of_a_mesh = 12;
 constexpr std::size_t c_most_meshes = 8, c_most_lights = 40, c_most_drawn = 600;
 
-/// toml++ itself must not be let loose on keys of many parts, which load_scene refuses.
+/// toml++ must not read keys of many parts; load_scene refuses them.
 bool may_have_deep_key(std::string_view text) {
   constexpr int c_most_dots = 200;
   int dots = 0;
@@ -27,7 +27,7 @@ bool may_have_deep_key(std::string_view text) {
   return false;
 }
 
-/// Whether the scene file would read nothing outside of the folder, and make no large mesh.
+/// The scene file reads no file outside of the folder, and makes no large mesh.
 bool is_small_and_here(const toml::table& scene) {
   const toml::array* meshes = scene["mesh"].as_array();
   if (meshes == nullptr) return true;
@@ -42,7 +42,7 @@ bool is_small_and_here(const toml::table& scene) {
   return true;
 }
 
-/// A mesh for `file = "triangle.obj"` to name.
+/// Writes a mesh to which `file = "triangle.obj"` can refer.
 void write_meshes() {
   static const bool written = [] {
     write_input("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n");
@@ -68,7 +68,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     if (const toml::table parsed = toml::parse(text); !is_small_and_here(parsed)) return -1;
   } catch (const toml::parse_error&) {
-    // load_scene must come to the same.
+    // load_scene must refuse the file, too.
     const auto loaded = load_scene(path.string(), folder());
     demand(!loaded, "a scene from bad TOML");
     demand_refusal(loaded.error());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traces: read whole or refused; what was read writes back to what reads the same, compares equal with
-// itself, and assembles to a frame of its size.
+// Traces. A file is read completely or refused. A trace that was read, written and read again is the same,
+// compares equal with itself, and assembles to a frame of its size.
 #include "sim/stream_files/trace.hpp"
 
 #include "frame/assemble.hpp"

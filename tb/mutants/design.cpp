@@ -14,7 +14,7 @@ Stream read_stream(const toml::table& table) {
           table["columns"].value_or(std::string()), table["prompt"].value_or(false)};
 }
 
-/// The file's table, or an error with file and line.
+/// Reads the file's table. An error names file and line.
 Result<toml::table> parse(const std::filesystem::path& file) {
   try {
     return toml::parse_file(file.string());

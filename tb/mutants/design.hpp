@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What designs.toml says: the netlists that get faults, and which columns of which vector files drive and
-// check their ports.
+// The content of designs.toml: the netlists that get faults, and which columns of which vector files drive
+// and check their ports.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +15,9 @@ namespace halfway::mutants {
 /// A valid/ready stream, or strobes without `ready`, with the vector files that drive or check it.
 struct Stream {
   std::string port;     ///< <port>_valid and <port>_ready, or a strobe
-  std::string file;     ///< a set's name and this name a file
+  std::string file;     ///< the file is called <set><this name>
   std::string columns;  ///< names of ports, in the order of the file's words
-  bool prompt = false;  ///< at full speed every vector is taken at once
+  bool prompt = false;  ///< at full speed every vector is accepted immediately
 };
 
 struct Design {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-/// A port of the netlist. The value lies in little-endian order at `data`; `bits` of it count.
+/// A port of the netlist. Its value is at `data` in little-endian order, in the lowest `bits` bits.
 struct ModelPort {
   const char* name;
   void* data;
@@ -16,6 +16,6 @@ extern "C" {
 void* mutant_create();
 void mutant_destroy(void* model);
 void mutant_eval(void* model);
-/// Writes the model's ports to `ports`, which has room for all of them, and returns how many there are.
+/// Writes the model's ports to `ports`, which must have room for all of them. Returns their number.
 std::uint32_t mutant_ports(void* model, ModelPort* ports);
 }

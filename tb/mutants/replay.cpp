@@ -14,7 +14,7 @@
 namespace halfway::mutants {
 namespace {
 
-constexpr unsigned c_idle_limit = 10'000;  ///< clocks in which no stream moves: a hang
+constexpr unsigned c_idle_limit = 10'000;  ///< clocks without a transfer that count as a hang
 constexpr unsigned c_idle_clocks = 10;     ///< checked after each pass
 constexpr unsigned c_reset_clocks = 3;
 constexpr unsigned c_most_ports = 64;
@@ -73,7 +73,7 @@ Word parse_word(std::string_view digits) {
   return word;
 }
 
-/// The words of a column, each of which starts at a byte, without the bits between them.
+/// Removes the padding between the words of a column; each word starts at a byte.
 Word packed(const Word& padded, unsigned words, std::uint32_t bits) {
   const std::size_t each = bits / words;
   const std::size_t stride = padded.size() / words * 8;
@@ -90,7 +90,7 @@ Word packed(const Word& padded, unsigned words, std::uint32_t bits) {
 class Random {
  public:
   explicit Random(std::uint32_t seed) : state_(seed) {}
-  /// True once in `one_in` calls.
+  /// True with probability 1 / one_in.
   bool chance(unsigned one_in) {
     state_ ^= state_ << 13;
     state_ ^= state_ >> 17;
@@ -138,7 +138,7 @@ class Model {
           static_cast<std::uint8_t>((1U << port->bits % 8) - 1);
   }
 
-  /// Inputs changed: update what depends on them without a register.
+  /// Updates everything that depends on changed inputs without a register.
   void settle() { netlist_.eval(model_); }
   void rising_edge() {
     if (clk_ == nullptr) return;
@@ -173,7 +173,7 @@ class Columns {
     }
   }
 
-  /// The word of the column `name`; none where there is no such column.
+  /// The word of the column `name`; null if there is no such column.
   const Word* find(const std::string& name, const std::vector<Word>& row) const {
     for (std::size_t i = 0; i < columns_.size(); ++i)
       if (columns_[i].name == name) return &row[i];
@@ -190,7 +190,7 @@ class Columns {
     for (const Bound& bound : bound_)
       if (bound.port != nullptr && bound.port->is_input != 0) Model::fill_with_ones(bound.port);
   }
-  /// Compares the outputs; `last_only` is a port that is left out.
+  /// Compares the outputs, except the port `left_out`.
   Difference compare(const std::vector<Word>& row, std::string_view left_out = {}) const {
     if (!is_checked(row)) return {};
     for (std::size_t i = 0; i < bound_.size(); ++i) {
@@ -232,7 +232,7 @@ void reset(Model& model) {
   Model::set(model.reset(), 0);
 }
 
-/// One row per clock: the inputs of a clock and the outputs before its edge.
+/// One row per clock: the inputs of the clock and the outputs before its edge.
 Difference replay_rows(const Design& design, const VectorFile& file, Model& model) {
   const Columns columns(model, design.rows);
   reset(model);
@@ -244,7 +244,7 @@ Difference replay_rows(const Design& design, const VectorFile& file, Model& mode
     };
     columns.drive(row);
     model.settle();
-    // Let the clocks pass in which the entity is not ready.
+    // Wait while the entity is not ready.
     if (const Word* waits = columns.find("waits", row)) {
       std::uint32_t clocks = 0;
       std::memcpy(&clocks, waits->data(), std::min<std::size_t>(waits->size(), 4));
@@ -261,20 +261,20 @@ Difference replay_rows(const Design& design, const VectorFile& file, Model& mode
 }
 
 struct Pace {
-  unsigned offer = 1;  ///< a vector is offered in one clock of so many
-  unsigned take = 1;   ///< an output is taken in one clock of so many
+  unsigned offer = 1;  ///< a vector is offered in one of so many clocks
+  unsigned take = 1;   ///< an output is accepted in one of so many clocks
   std::uint32_t seed = 1;
-  unsigned reset_at = 0;  ///< the clock of a reset that ends the pass; 0: none
+  unsigned reset_at = 0;  ///< clock of a reset that ends the pass; 0: no reset
   bool full() const { return offer == 1 && take == 1 && reset_at == 0; }
 };
 
-/// A stream on its way through a pass.
+/// A stream during a pass.
 struct Lane {
   const Stream& stream;
   const VectorFile& file;
   Columns columns;
   const ModelPort *valid, *ready;
-  std::size_t next = 0;  ///< the row that is offered, or expected
+  std::size_t next = 0;  ///< the row that is offered, or expected next
   bool waiting = false;
 
   Lane(const Model& model, const Stream& its_stream, const VectorFile& its_file)
@@ -315,7 +315,7 @@ class StreamPass {
         faulty_(set.name.ends_with("fault")) {
     for (std::size_t i = 1; i < set.files.size(); ++i) {
       outputs_.emplace_back(model, design.outputs[i - 1], set.files[i]);
-      // The last row says whether the entity has found a fault by the end.
+      // The last row gives the expected fault at the end.
       if (const Word* last = outputs_.back().columns.find("fault", set.files[i].rows.back())) {
         faulty_ = (*last)[0] != 0;
         fault_at_end_ = true;
@@ -346,7 +346,7 @@ class StreamPass {
   void drive(bool resets) {
     Model::set(model_.reset(), resets);
     Model::set(stalled_, random_.chance(pace_.take));
-    // A clear stands alone, between tokens.
+    // A clear is given between tokens, with no token offered.
     const bool clears = clear_ != nullptr && !input_.at_end() && input_.is_set("clear");
     clears_now_ = clears && was_idle_;
     clearing_ = clearing_ || clears_now_;
@@ -408,7 +408,7 @@ class StreamPass {
     }
   }
 
-  /// Moves on to the next vector where this clock's edge took one.
+  /// Advances to the next vector if this clock's edge took one.
   void after_edge() {
     if (!taken_ && !clears_now_) return;
     input_.waiting = false;
@@ -416,7 +416,7 @@ class StreamPass {
     still_ = 0;
   }
 
-  /// Nothing is left to offer, and nothing is left to come out.
+  /// All inputs are taken and all outputs are received.
   bool done() const {
     if (!input_.at_end()) return false;
     for (const Lane& lane : outputs_)
@@ -454,8 +454,8 @@ class StreamPass {
   std::vector<Lane> outputs_;
   bool faulty_, fault_at_end_ = false, was_idle_ = false, clearing_ = true, clears_now_ = false,
                 taken_ = false;
-  std::int64_t clock_ = -1;  ///< 0: the first vector is taken
-  unsigned still_ = 0;       ///< clocks in which nothing moved
+  std::int64_t clock_ = -1;  ///< 0: the first vector is accepted
+  unsigned still_ = 0;       ///< clocks without a transfer
 };
 
 constexpr std::array c_paces = {

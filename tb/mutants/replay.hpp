@@ -19,7 +19,7 @@ namespace halfway::mutants {
 /// The bits of a port, lowest byte first.
 using Word = std::vector<std::uint8_t>;
 
-/// One vector file: a row of words for each line.
+/// One vector file, with one row of words per line.
 struct VectorFile {
   std::string name;
   std::vector<std::vector<Word>> rows;
@@ -28,11 +28,11 @@ struct VectorFile {
 /// Reads a file in the format of tb/vectors/vector_file.hpp. A column "name/3" joins three words.
 Result<VectorFile> read_vectors(const std::filesystem::path& file, const std::string& columns, unsigned skip);
 
-/// The vector files of a design, read once for all its faults.
+/// The vector files of a design. They are read once for all faults.
 struct DesignVectors {
   struct Set {
     std::string name;
-    std::vector<VectorFile> files;  ///< rows: one; streams: of the inputs, then of the outputs
+    std::vector<VectorFile> files;  ///< rows: one file; streams: the files of the inputs, then of the outputs
   };
   std::vector<Set> sets;
 };
@@ -53,8 +53,7 @@ class CompiledNetlist {
   SharedLibrary library_;
 };
 
-/// The first difference that the vectors show with fault number `fault` (0: no fault); none where all is
-/// equal.
+/// The first difference that the vectors show with fault number `fault` (0: no fault). Empty if all is equal.
 std::optional<std::string> replay(const Design& design, const DesignVectors& vectors,
                                   const CompiledNetlist& netlist, std::uint32_t fault);
 

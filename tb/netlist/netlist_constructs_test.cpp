@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Guards the way from VHDL to Verilator: random vectors through GHDL's simulation and through the netlist,
-// every bit equal; and constructs known to be miscompiled, each caught.
+// Tests the path from VHDL to Verilator. Random vectors go through GHDL's simulation and through the netlist;
+// every bit must be equal. Constructs that GHDL is known to miscompile must be detected.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -35,8 +35,8 @@ std::string to_hex(std::span<const std::uint32_t> words, unsigned bits) {
   return text;
 }
 
-/// Uniform bits, and where comparisons and saturation turn: runs of zeros and ones, equal operands, small
-/// values.
+/// Uniform bits, and inputs at the limits of comparisons and saturation: runs of zeros and ones, equal
+/// operands, small values.
 std::vector<std::uint32_t> make_stimuli() {
   std::mt19937 random(20240229);
   constexpr std::size_t words = kStimulusBits / 32;
@@ -54,10 +54,10 @@ std::vector<std::uint32_t> make_stimuli() {
         const auto from = static_cast<unsigned>(random() % 72);
         for (unsigned k = from; k < 72; ++k) set_bit(low + k, bit(low + from));
       }
-    } else if (kind == 3) {  // b = a, or nearly
+    } else if (kind == 3) {  // b is equal to a, or almost
       for (unsigned k = 0; k < 72; ++k) set_bit(88 + k, bit(16 + k));
       if (random() % 2 == 0) set_bit(88 + static_cast<unsigned>(random() % 72), random() % 2 == 0);
-    } else if (kind == 4) {  // all ones, all zeros, the smallest and the greatest
+    } else if (kind == 4) {  // all ones, all zeros, the least and the greatest number
       for (const unsigned low : {16U, 88U}) {
         const auto choice = static_cast<unsigned>(random() % 4);
         for (unsigned k = 0; k < 72; ++k) set_bit(low + k, (choice & 1U) != 0);
@@ -96,7 +96,7 @@ class NetlistConstructs : public testing::Test {
     return found;
   }
 
-  /// GHDL's own simulation: a hexadecimal line a vector.
+  /// GHDL's own simulation: one hexadecimal line per vector.
   std::vector<std::string> simulate(const Generics& generics) {
     const auto library = GhdlLibrary::open(*tool_, sources(true), "netlist_constructs_tb", HALFWAY_CACHE_DIR);
     EXPECT_TRUE(library) << library.error().message;
@@ -126,7 +126,7 @@ class NetlistConstructs : public testing::Test {
     return lines;
   }
 
-  /// The same through the netlist and Verilator.
+  /// The same vectors through the netlist and Verilator.
   Result<std::vector<std::string>> verilate(const std::string& entity, const Generics& generics,
                                             Netlist kind) {
     const auto library = GhdlLibrary::for_synthesis(*tool_, sources(false), HALFWAY_CACHE_DIR);
@@ -162,7 +162,7 @@ class NetlistConstructs : public testing::Test {
     return lines;
   }
 
-  /// The lanes in which any vector differs, with the first of them.
+  /// The lanes in which a vector differs, each with its first difference.
   static std::string differences(const std::vector<std::string>& ghdl,
                                  const std::vector<std::string>& verilator) {
     std::string found;
@@ -191,7 +191,7 @@ TEST_F(NetlistConstructs, EveryConstructOfTheRtlIsEqual) {
     const auto found = verilate("netlist_constructs", generics, Netlist::mended);
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(differences(expected, *found), "") << generics[0].second;
-    // Every lane must have done something.
+    // The value of every lane must have changed.
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const std::size_t at = (kLanes - 1 - lane) * kLaneBits / 4;
       std::vector<std::string> values;
@@ -204,7 +204,7 @@ TEST_F(NetlistConstructs, EveryConstructOfTheRtlIsEqual) {
   }
 }
 
-// Its products and memories are other text where GHDL simulates them than where it synthesizes them.
+// GHDL simulates other text for its products and memories than it synthesizes.
 TEST_F(NetlistConstructs, TheShadingArithmeticIsEqual) {
   const auto expected = simulate({{"g_shading", "true"}});
   const auto found = verilate("netlist_shading", {}, Netlist::mended);
@@ -223,7 +223,7 @@ TEST_F(NetlistConstructs, KnownBadConstructsAreCaught) {
   struct Case {
     int construct;
     const char* name;
-    const char* refusal;  ///< in the driver's message; null: seen as a difference
+    const char* refusal;  ///< part of the driver's message; null: detected as a difference
   };
   for (const Case& bad : {Case{1, "shift_right of a signed", "shift_right"},
                           Case{2, "narrowing resize", nullptr}, Case{3, "abs", "VHDL text"},

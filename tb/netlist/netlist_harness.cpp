@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the verilated netlist_constructs as tb/netlist/netlist_constructs_tb.vhd does.
+// Runs the verilated netlist_constructs like tb/netlist/netlist_constructs_tb.vhd.
 #include <cstdint>
 #include <cstring>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The RTL keeps off the constructs that GHDL 2.0.0 miscompiles and that its text shows: shift_right and
-// shifts by operator of a signed, division, mod, rem, abs, minimum, maximum; and off Verilog's words as
-// names.
+// The RTL does not use the constructs that GHDL 2.0.0 miscompiles and that are visible in its text:
+// shift_right and shift operators of a signed, division, mod, rem, abs, minimum, maximum. It uses no reserved
+// word of Verilog as a name.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ bool is_word(char c) {
   return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// Lower case, without comments, strings and character literals.
+/// The line in lower case, without comments, strings and character literals.
 std::string code_of(std::string_view line) {
   std::string code;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -49,14 +49,14 @@ bool has_word(std::string_view code, std::string_view word) {
   return false;
 }
 
-/// Text above the architecture or inside a package may compute constants as it likes: they are folded by
-/// GHDL, not put into hardware. What is not hardware says so on its line: `-- elaboration only`.
+/// All constructs are allowed above the architecture and inside a package: GHDL folds these constants, and
+/// they are not hardware. Other lines that are not hardware are marked with `-- elaboration only`.
 constexpr std::string_view kElaborationOnly = "-- elaboration only";
-/// Comments by which a synthesizer leaves text out. GHDL simulates exactly the text that is synthesized.
+/// Comments that make a synthesizer skip text. GHDL simulates exactly the text that is synthesized.
 constexpr std::array<std::string_view, 3> kDirectives = {"translate_off", "synthesis_off", "pragma"};
 
 std::vector<std::string> faults_in(const std::string& name, std::string_view text) {
-  // Reserved in Verilog or SystemVerilog, free in VHDL: GHDL prints them as they are.
+  // Reserved in Verilog or SystemVerilog, but not in VHDL. GHDL writes them unchanged.
   constexpr std::array<std::string_view, 96> verilog_words = {
       "always",   "and2",    "assume",   "automatic", "bind",    "bins",      "bit_",     "bufif0",
       "byte",     "casex",   "casez",    "cell",      "chandle", "checker",   "class",    "clocking",
@@ -96,9 +96,9 @@ std::vector<std::string> faults_in(const std::string& name, std::string_view tex
         fault("division: GHDL prints a signed one as unsigned");
       }
     }
-    // A declaration gives a name to hardware: signal, port, entity, instance, record field.
+    // A declaration names hardware: signal, port, entity, instance, record field.
     const std::size_t colon = code.find(':');
-    // Functions and what they are given leave no name in the netlist.
+    // Functions and their parameters have no names in the netlist.
     if (colon != std::string::npos && code.substr(colon, 2) != ":=" && !has_word(code, "function")) {
       std::string_view names = std::string_view(code).substr(0, colon);
       for (const std::string_view word : verilog_words) {

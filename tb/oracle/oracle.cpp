@@ -24,7 +24,7 @@ Vector operator-(const Vector& a, const Vector& b) {
 Vector operator*(Real s, const Vector& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
-/// Channel by channel.
+/// Multiplies channel by channel.
 Vector operator*(const Vector& a, const Vector& b) {
   return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
@@ -139,8 +139,8 @@ const char* name(Fault fault) {
   return c_names[static_cast<std::size_t>(fault)];
 }
 
-// The camera's axes by Gram-Schmidt, and the slope that fills the frame: a point at the distance w along the
-// viewing axis and h above it lies (h/w) (height/2) / tan(fov/2) pixels above the frame's centre.
+// The camera's axes are found by Gram-Schmidt. The slope fills the frame: a point at distance w along the
+// viewing axis and h above it is (h/w) (height/2) / tan(fov/2) pixels above the centre of the frame.
 Oracle::Oracle(World world, unsigned width, unsigned height, Fault fault)
     : world_(std::move(world)), width_(width), height_(height), fault_(fault) {
   forward_ = unit(world_.target - world_.eye);
@@ -167,8 +167,8 @@ Real Oracle::distance(const Vector& position) const {
   return dot(position - world_.eye, forward_);
 }
 
-// Corners snap to the nearest 1/16 pixel, halves up. A triangle is seen where its corners, counter-clockwise
-// from outside, go counter-clockwise on the screen.
+// Corners snap to the nearest 1/16 pixel, halves up. Corners are counter-clockwise seen from outside. A
+// triangle is visible if they are counter-clockwise on the screen.
 void Oracle::project(std::size_t triangle) {
   ScreenTriangle corners;
   for (int i = 0; i < 3; ++i) {
@@ -190,13 +190,13 @@ void Oracle::project(std::size_t triangle) {
     corners[i] = {snapped(x), snapped(y), 1 / w};
   }
   const auto& [a, b, c] = corners;
-  // Twice the area in a frame whose y grows downwards: negative where the corners go counter-clockwise.
+  // Twice the area in a frame with y downwards: negative for counter-clockwise corners.
   const std::int64_t area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   if (area < 0 || (has(Fault::back_faces_shown) && area != 0)) screen_[triangle] = corners;
 }
 
-// The point is inside where it lies on the inner side of each edge; on an edge where that is a top edge
-// (level, the triangle below it) or a left edge (the triangle to the right of it).
+// A point is inside if it is on the inner side of each edge, or on a top edge (horizontal, the triangle below
+// it) or a left edge (the triangle to its right).
 bool Oracle::covers(std::size_t triangle, int x, int y) const {
   if (!screen_[triangle]) return false;
   ScreenTriangle t = *screen_[triangle];
@@ -217,7 +217,7 @@ bool Oracle::covers(std::size_t triangle, int x, int y) const {
   return true;
 }
 
-// Barycentric weights by areas, as rationals.
+// Barycentric weights by areas, as rational numbers.
 std::array<mpq_class, 3> Oracle::weights(const ScreenTriangle& t, int x, int y) const {
   const auto number = [](std::int64_t v) { return mpz_class(static_cast<long>(v)); };
   const mpz_class px = number(std::int64_t{c_units} * x + c_units / 2),
@@ -243,8 +243,8 @@ Real real(const mpq_class& q) {
 
 }  // namespace
 
-// 1/w is linear on the screen; so is depth = far/(far - near) (1 - near/w), 0 at the near plane and 1 at the
-// far one.
+// 1/w is linear on the screen, and so is depth = far/(far - near) (1 - near/w). Depth is 0 at the near plane
+// and 1 at the far plane.
 Real Oracle::depth_of(const Corner& corner) const {
   const Real w = distance(corner.position), near = world_.near, far = world_.far;
   if (has(Fault::depth_of_distance)) return (w - near) / (far - near);
@@ -258,8 +258,8 @@ Real Oracle::depth_steps(std::size_t triangle, int x, int y) const {
   return depth * c_last_depth + (has(Fault::depth_one_step_deeper) ? 1 : 0);
 }
 
-// What is linear on the surface is linear on the screen once it is divided by w: the weights on the surface
-// are those on the screen times 1/w, scaled to the sum 1.
+// An attribute that is linear on the surface is linear on the screen after division by w. The weights on the
+// surface are those on the screen times 1/w, scaled to the sum 1.
 Oracle::Surface Oracle::surface(std::size_t triangle, int x, int y) const {
   const ScreenTriangle& t = *screen_[triangle];
   const auto weight = weights(t, x, y);
@@ -280,7 +280,7 @@ Oracle::Surface Oracle::surface(std::size_t triangle, int x, int y) const {
   return s;
 }
 
-// The factor of k_s: what follows (N.L > 0 is known).
+// The factor of k_s. N.L > 0 is known.
 Real Oracle::highlight(const Material& m, const Vector& n, const Vector& l, const Vector& v) const {
   const Real nl = dot(n, l), exponent = m.exponent + (has(Fault::exponent_plus_one) ? 1 : 0);
   // R = 2 (N.L) N - L; (R.V)^n.
@@ -291,7 +291,7 @@ Real Oracle::highlight(const Material& m, const Vector& n, const Vector& l, cons
   const Vector h = has(Fault::halfway_not_unit) ? 0.5L * sum : unit(sum);
   const Real nh = dot(n, h);
   if (m.reflection == Reflection::blinn) return power(nh, exponent);
-  // P F G / (4 (N.L)(N.V)), times the N.L of irradiance.
+  // P F G / (4 (N.L)(N.V)), times N.L for the irradiance.
   const Real nv = dot(n, v), vh = dot(v, h), lh = dot(l, h);
   if (!(nv > 0) || !(nh > 0)) return 0;
   // P = exp(-tan^2/m^2) / (pi m^2 cos^4).
@@ -308,14 +308,14 @@ Real Oracle::highlight(const Material& m, const Vector& n, const Vector& l, cons
   return density * fresnel * masking / (4 * nl * nv) * nl;
 }
 
-// A light reaches a point where the point's triangle faces it, and no triangle that is averted from it lies
-// between.
+// A light reaches a point if the point's triangle faces the light and no triangle that is averted from the
+// light lies between.
 bool Oracle::is_shadowed(std::size_t triangle, const Vector& from, const Light& light, bool* doubtful) const {
   const bool far = light.kind == Kind::directional;
   const auto doubt = [&](Real margin) {
     if (std::abs(margin) < c_doubt && doubtful != nullptr) *doubtful = true;
   };
-  // How far its outside turns to the light: the sine of the angle.
+  // Sine of the angle by which the outside faces the light.
   const auto facing = [&](const Triangle& t) {
     const Vector normal =
         cross(t.corner[1].position - t.corner[0].position, t.corner[2].position - t.corner[0].position);
@@ -326,7 +326,7 @@ bool Oracle::is_shadowed(std::size_t triangle, const Vector& from, const Light& 
   doubt(own);
   if (own < 0 && !has(Fault::averted_faces_lit)) return true;
 
-  // from + s way, s from 0 to 1, or without an end.
+  // The ray from + s way, with s from 0 to 1, or without an upper limit.
   const Vector way = far ? light.place : light.place - from;
   bool shadowed = false;
   for (std::size_t i = 0; i < world_.triangles.size(); ++i) {
@@ -343,15 +343,16 @@ bool Oracle::is_shadowed(std::size_t triangle, const Vector& from, const Light& 
     // The margin by which the ray passes inside (above 0) or outside.
     const Real least = s * length(way) / radius_, most = far || has(Fault::shadows_beyond_light) ? 1 : 1 - s;
     const Real margin = std::min({u, v, 1 - u - v, least - c_doubt, most});
-    // The start lies on another triangle where two meet in an edge: such touching ones do not count.
+    // If two triangles share an edge, the start may lie on the other one. Such touching triangles do not
+    // count.
     doubt(std::min({u, v, 1 - u - v, most}) > -c_doubt && std::abs(least) < 100 * c_doubt ? 0 : margin);
     shadowed |= margin > 0;
   }
   return shadowed;
 }
 
-// I = k_a I_a + sum over lights I_in (k_d (N.L) + k_s highlight), N.L > 0; ambient and diffuse parts in the
-// material's colour, highlights in their own.
+// I = k_a I_a + sum over lights of I_in (k_d (N.L) + k_s highlight), for N.L > 0. The ambient and diffuse
+// parts have the material's colour; highlights have their own.
 Vector Oracle::radiance(std::size_t triangle, const Surface& surface, bool* doubtful) const {
   const Material& m = world_.materials[world_.triangles[triangle].material];
   const Vector& n = surface.normal;
@@ -368,7 +369,7 @@ Vector Oracle::radiance(std::size_t triangle, const Surface& surface, bool* doub
     Vector intensity = light.intensity;
     if (has(Fault::falls_off_by_distance) && !far) intensity = (1 / dot(way, way)) * intensity;
     if (light.kind == Kind::spot) {
-      // Full within the inner cone, none outside the outer one, 3 t^2 - 2 t^3 of the cosine between.
+      // 1 within the inner cone, 0 outside the outer cone, 3 t^2 - 2 t^3 of the cosine between.
       const Real cosine = dot(l, light.axis) * (has(Fault::spot_backwards) ? 1 : -1);
       const Real width = light.cos_inner - light.cos_outer;
       const Real t = width > 0 ? std::clamp((cosine - light.cos_outer) / width, Real(0), Real(1))
@@ -382,7 +383,7 @@ Vector Oracle::radiance(std::size_t triangle, const Surface& surface, bool* doub
       intensity = share * intensity;
     }
     const Real nl = dot(n, l);
-    // A highlight need not vanish at the horizon.
+    // A highlight may be non-zero at the horizon.
     if (std::abs(nl) < c_doubt && doubtful != nullptr) *doubtful = true;
     const bool lit = nl > 0;
     if (lit || has(Fault::averted_faces_lit))
@@ -400,7 +401,7 @@ Vector Oracle::radiance(std::size_t triangle, const Surface& surface, bool* doub
   return sum;
 }
 
-// The nearest triangle's radiance, as a byte: 255 times it, rounded, halves up.
+// The radiance of the nearest triangle as a byte: 255 times the radiance, rounded, halves up.
 Oracle::Pixel Oracle::pixel(int x, int y) const {
   Pixel pixel{.triangle = std::nullopt, .colour = world_.background};
   Real nearest = 0;

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of a scene by its equations alone: a second opinion on projection, coverage, depth,
-// illumination and shadows. It shares no code with model/: it only copies the plain fields of a scene. Slow,
-// and simple instead: every pixel looks at every triangle. Geometry on the screen is in integers and
-// rationals (GMP), all else in long double, whose rounding is 2000 times finer than that of what it judges.
+// Computes the picture of a scene from its equations only, as an independent check of projection, coverage,
+// depth, illumination and shadows. The oracle shares no code with model/; it only copies the plain fields of
+// a scene. It is slow and simple: every pixel tests every triangle. Screen geometry is in integers and
+// rationals (GMP). Everything else is in long double, with a rounding 2000 times finer than that of the
+// tested code.
 //
-// Equations, each stated again where it is used:
-//   perspective and depth     Akenine-Moller, Haines, Hoffman: Real-Time Rendering, 4th ed., sections 4.7
-//   and 23.7 coverage, top-left rule   the same, section 23.1; Pineda: A Parallel Algorithm for Polygon
-//   Rasterization (1988) perspective correction    Heckbert, Moreton: Interpolation for Polygon Texture
-//   Mapping and Shading (1991) Blinn, Phong              spherical, equations 4 and 5; Blinn: Models of Light
-//   Reflection (1977) Cook-Torrance             spherical, equation 7; Cook, Torrance: A Reflectance Model
-//   for Computer Graphics (1982),
-//                             with Beckmann's distribution and Schlick's approximation of Fresnel's term
-//                             (1994)
-//   lights with a place       processors, table of terms; without a fall-off by distance
-//   ray against triangle      Moller, Trumbore: Fast, Minimum Storage Ray/Triangle Intersection (1997)
+// Equations. Each is repeated where it is used.
+//  perspective and depth          Akenine-Moller, Haines, Hoffman: Real-Time Rendering, 4th ed.,
+//                                 sections 4.7 and 23.7
+//  coverage, top-left rule        the same, section 23.1; Pineda: A Parallel Algorithm for Polygon
+//                                 Rasterization (1988)
+//  perspective correction         Heckbert, Moreton: Interpolation for Polygon Texture Mapping and Shading
+//                                 (1991)
+//  Blinn, Phong                   spherical, equations 4 and 5; Blinn: Models of Light Reflection (1977)
+//  Cook-Torrance                  spherical, equation 7; Cook, Torrance: A Reflectance Model for Computer
+//                                 Graphics (1982), with Beckmann's distribution and Schlick's approximation
+//                                 of Fresnel's term (1994)
+//  positional lights, spots       processors, table of terms; no fall-off with distance
+//  ray against triangle           Moller, Trumbore: Fast, Minimum Storage Ray/Triangle Intersection (1997)
 #pragma once
 
 #include <gmpxx.h>
@@ -47,9 +50,9 @@ struct Material {
 enum class Kind { directional, positional, spot };
 struct Light {
   Kind kind;
-  Vector place;  ///< of a directional light: the direction to it
+  Vector place;  ///< of a directional light: the direction to the light
   Vector intensity;
-  Vector axis;  ///< of a spot: the way it points
+  Vector axis;  ///< of a spot: the direction in which it shines
   Real cos_inner = 0, cos_outer = 0;
 };
 
@@ -69,34 +72,34 @@ struct World {
   std::vector<Light> lights;
   std::vector<Triangle> triangles;
 };
-/// The only place that reads a Scene. Its camera must state near and far.
+/// Only this function reads a Scene. The scene's camera must give near and far.
 World copy(const Scene& scene);
 
-/// Faults that can be put into the oracle: the comparison must find each.
+/// Faults that can be put into the oracle. The comparison must detect each one.
 enum class Fault {
   none,
   // Projection
-  mirrored,               ///< right is left
-  upside_down,            ///< y grows upwards
-  fov_is_horizontal,      ///< the angle of view spans the width
-  fov_is_half,            ///< the angle is taken from the axis
-  snapped_down,           ///< to the next 1/16 pixel below instead of the nearest
-  depth_of_distance,      ///< linear in the distance instead of its reciprocal
+  mirrored,               ///< right and left are exchanged
+  upside_down,            ///< y increases upwards
+  fov_is_horizontal,      ///< the angle of view is that of the width
+  fov_is_half,            ///< the angle is measured from the axis
+  snapped_down,           ///< rounded down to 1/16 pixel instead of to the nearest
+  depth_of_distance,      ///< linear in the distance instead of in its reciprocal
   depth_one_step_deeper,  ///< by 2^-24
   // Coverage
-  bottom_right_rule,  ///< pixels on bottom and right edges instead of top and left ones
+  bottom_right_rule,  ///< pixels on bottom and right edges instead of on top and left edges
   closed_edges,       ///< pixels on every edge
   pixel_corners,      ///< a pixel's sample is its top left corner
   back_faces_shown,
-  last_of_depth,  ///< the farthest triangle is seen
+  last_of_depth,  ///< the farthest triangle is visible
   // Interpolation
-  linear_on_screen,  ///< without the perspective correction
+  linear_on_screen,  ///< without perspective correction
   normal_not_unit,
-  flat_normal,  ///< of the first corner
+  flat_normal,  ///< normal of the first corner
   // Illumination
   ambient_missing,
-  diffuse_unclamped,        ///< lights below the horizon take light away
-  highlight_below_horizon,  ///< where N.L <= 0
+  diffuse_unclamped,        ///< lights below the horizon reduce the radiance
+  highlight_below_horizon,  ///< also where N.L <= 0
   eye_at_infinity,          ///< V is the viewing axis
   halfway_not_unit,
   halfway_of_normal,  ///< N + V instead of L + V
@@ -106,8 +109,8 @@ enum class Fault {
   beckmann_squared_cosine,  ///< cos^2 instead of cos^4
   fresnel_of_fourth_power,
   masking_missing,          ///< G = 1
-  specular_takes_colour,    ///< the diffuse colour
-  diffuse_in_all_channels,  ///< red for every channel
+  specular_takes_colour,    ///< highlights have the diffuse colour
+  diffuse_in_all_channels,  ///< all channels have the red coefficient
   // Lights
   positional_is_directional,
   falls_off_by_distance,
@@ -118,49 +121,50 @@ enum class Fault {
   // Shadows
   shadows_missing,
   lit_faces_cast,        ///< triangles that face the light cast shadows
-  averted_faces_lit,     ///< a triangle averted from the light is lit where its normal says so
-  shadows_beyond_light,  ///< triangles past the light cast shadows
+  averted_faces_lit,     ///< a triangle averted from the light is lit if its normal faces the light
+  shadows_beyond_light,  ///< triangles beyond the light cast shadows
   // Frame
   truncated_to_byte,
   end,
 };
 const char* name(Fault fault);
 
-/// A corner on the screen: in 1/16 pixel, and the reciprocal of its distance along the viewing axis.
+/// A corner on the screen: its position in 1/16 pixel, and the reciprocal of its distance along the viewing
+/// axis.
 struct ScreenCorner {
   std::int64_t x, y;
   Real inverse_w;
 };
 using ScreenTriangle = std::array<ScreenCorner, 3>;
 
-/// Where the real number that decides is this near to the edge of its decision, rounding may decide
-/// otherwise.
+/// A decision is in doubt if the real number that decides is this close to the limit: rounding may then
+/// decide differently.
 inline constexpr Real c_doubt = 1e-9L;
 
 class Oracle {
  public:
   Oracle(World world, unsigned width, unsigned height, Fault fault);
 
-  /// The triangle on the screen; none where it is seen from behind or edge-on. No corner may be nearer than
-  /// the near plane: see is_clipped.
+  /// The triangle on the screen; empty if it is seen from behind or edge-on. No corner may be nearer than the
+  /// near plane: see is_clipped.
   const std::optional<ScreenTriangle>& on_screen(std::size_t triangle) const { return screen_[triangle]; }
-  /// Some corner is out of what the oracle projects: before the near plane or past the far one.
+  /// A corner lies outside of what the oracle projects: before the near plane or beyond the far plane.
   bool is_clipped() const { return clipped_; }
-  /// Corners whose coordinates lie in doubt between two steps of 1/16 pixel.
+  /// Number of corners with a coordinate in doubt between two steps of 1/16 pixel.
   std::size_t doubtful_corners() const { return doubtful_corners_; }
 
-  /// Does the triangle cover the pixel? Exact.
+  /// Returns whether the triangle covers the pixel. Exact.
   bool covers(std::size_t triangle, int x, int y) const;
   /// Depth of the triangle's plane at the pixel's centre, in steps: 0 at the near plane, 2^24 - 1 at the far
-  /// one. The weights of the corners are exact.
+  /// plane. The weights of the corners are exact.
   Real depth_steps(std::size_t triangle, int x, int y) const;
 
-  /// Where a pixel's centre lies on a triangle.
+  /// The point of a triangle at a pixel's centre.
   struct Surface {
     Vector position, normal;
   };
   Surface surface(std::size_t triangle, int x, int y) const;
-  /// `doubtful`, where it is given, is set where a decision (a horizon, a shadow's edge) is in doubt.
+  /// Sets `doubtful`, unless it is null, if a decision (a horizon, a shadow's edge) is in doubt.
   Vector radiance(std::size_t triangle, const Surface& surface, bool* doubtful) const;
 
   struct Pixel {

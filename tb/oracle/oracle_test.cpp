@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference renderer, illumination model, setup and golden model against the oracle. Three comparisons:
-//   picture    each byte of the reference picture, and its mask. Equal, but where the oracle's real number
-//   lies within
-//              1e-9 of the edge between two bytes (or of a horizon, a shadow's edge): there double may round
-//              otherwise.
-//   radiance   the illumination model in double at the oracle's surface points: within 1e-9 of the oracle's.
-//   fragments  the golden model's fragments of preset exact: each triangle's pixels equal; the depth within
-//   0.5 + 0.19
-//              steps of the exact one, rounding to whole steps and what formats state for depth_sum.
-// A fault that is put into the oracle must be found by one of them.
+// Compares reference renderer, illumination model, setup and golden model with the oracle. Three comparisons:
+//  picture    each byte of the reference picture, and its mask: equal. Exception: the oracle's real number
+//             is within 1e-9 of the limit between two bytes, of a horizon or of a shadow's edge, where double
+//             may round differently.
+//  radiance   the illumination model in double at the oracle's surface points: within 1e-9 of the oracle's.
+//  fragments  the golden model's fragments of preset exact: the pixels of each triangle equal; the depth
+//             within 0.5 + 0.19 steps of the exact one: rounding to whole steps, and the error bound of
+//             depth_sum in formats.
+// One of them must detect each fault that is put into the oracle.
 #include "oracle/oracle.hpp"
 
 #include <fmt/format.h>
@@ -42,11 +41,11 @@ using oracle::Real;
 constexpr double c_radiance_tolerance = 1e-9;
 constexpr Real c_depth_tolerance = 0.5L + 0.19L;
 
-/// What a comparison came to.
+/// Result of a comparison.
 struct Findings {
   std::uint64_t compared = 0, wrong = 0, doubtful = 0;
-  double largest = 0.0;  ///< difference
-  std::string first;     ///< that is wrong
+  double largest = 0.0;  ///< greatest difference
+  std::string first;     ///< the first wrong element
   void note_wrong(const std::string& what) {
     if (wrong++ == 0) first = what;
   }
@@ -200,7 +199,7 @@ void add_triangle(Scene& scene, const std::array<glm::dvec3, 3>& positions,
   scene.triangles.push_back(triangle);
 }
 
-/// A dented octahedron, each side in four; normals somewhat off its own.
+/// A dented octahedron, each side divided into four, with normals that differ slightly from its own.
 void add_solid(Scene& scene, Random& random, glm::dvec3 centre, double radius, std::uint32_t material) {
   const glm::dvec3 seed = random.cube(9);
   const auto corner = [&](glm::dvec3 v) {
@@ -261,7 +260,7 @@ Scene random_scene(unsigned seed, Brdf brdf, Lights lights, bool shadows) {
   return scene;
 }
 
-/// Triangles whose corners lie on whole and half pixels, so that edges pass through centres of pixels.
+/// Triangles with corners on whole and half pixels, so that edges pass through pixel centres.
 Scene half_pixel_scene(unsigned seed, FrameSize size) {
   Random random(seed);
   Scene scene = random_scene(seed, Brdf::blinn, Lights::directional, false);
@@ -324,7 +323,7 @@ std::vector<Case> builtin_cases() {
     auto scene = load_scene(entry.path().string(), folder);
     EXPECT_TRUE(scene) << scene.error().message;
     if (!scene) continue;
-    // The oracle has no rule for what the scene leaves open.
+    // Set near and far: the oracle has no rule for their default values.
     scene->camera.near = 1.0;
     scene->camera.far = 100.0;
     cases.push_back({entry.path().stem().string(), std::make_shared<Scene>(std::move(*scene)), {61, 47}});
@@ -336,7 +335,7 @@ bool is_drawn_by(const Scene& scene, Shader shader) {
   const auto of = [&](auto test) { return std::ranges::any_of(scene.materials, test); };
   if (shader == Shader::quadratic) return true;
   if (of([](const Material& m) { return m.brdf == Brdf::cook_torrance; })) return false;
-  // With shadows the processors draw a pixel's surfaces one after the other, and triangles of their own.
+  // With shadows the processors draw several surfaces per pixel, and triangles of shadow volumes.
   return shader == Shader::spherical ||
          (!scene.shadows && !of([](const Material& m) { return m.brdf == Brdf::phong; }));
 }
@@ -352,7 +351,7 @@ void compare_all(const Case& one, AllFindings& found) {
   ASSERT_EQ(oracle.doubtful_corners(), 0U) << "take another size or seed";
   AllFindings here;
   here.picture = compare_picture(*one.scene, one.size, oracle);
-  // radiance() itself knows no shadows.
+  // radiance() does not compute shadows.
   oracle::World lit = copy(*one.scene);
   lit.shadows = false;
   here.radiance =
@@ -398,7 +397,7 @@ TEST(Oracle, AgreesOnBuiltInScenes) {
 
 class OracleFault : public ::testing::TestWithParam<int> {};
 
-// The fault in the oracle stands for the same fault in both that it is compared with.
+// A fault in the oracle is equivalent to the same fault in everything that is compared with it.
 TEST_P(OracleFault, IsFound) {
   static const std::vector<Case> cases = random_cases(1);
   const auto fault = static_cast<Fault>(GetParam());
@@ -406,7 +405,7 @@ TEST_P(OracleFault, IsFound) {
     const Oracle oracle(copy(*one.scene), one.size.width, one.size.height, fault);
     if (compare_picture(*one.scene, one.size, oracle).wrong != 0) return;
   }
-  // What the picture does not show: depth.
+  // Compare depth, which the picture does not show.
   for (const Case& one : cases) {
     const Oracle oracle(copy(*one.scene), one.size.width, one.size.height, fault);
     if (compare_fragments(*one.scene, one.size, oracle, Shader::quadratic).wrong != 0) return;

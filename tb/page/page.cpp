@@ -31,7 +31,7 @@ std::string joined(std::span<const std::vector<std::string>> rows) {
   return text;
 }
 
-// Why the test has no row; empty: it has one.
+// The reason for which the test has no row; empty if it has one.
 std::string fault_of(const pugi::xml_node& test, const std::vector<std::string>& columns) {
   if (test.child("failure")) return "failed";
   if (std::string_view(test.attribute("result").value()) != "completed") return "did not run";

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway_streams`: whether init vectors and golden fragments are still those that streams.txt records.
+// `halfway_streams`: compares the hashes of init vectors and golden fragments with those in streams.txt.
 //
-//   halfway_streams SOURCE_DIR            compare; exit code 1 where a stream differs
-//   halfway_streams --renew SOURCE_DIR    write the hashes of today's streams, and print each that changed
+//  halfway_streams SOURCE_DIR            compares; exit code 1 if a stream differs
+//  halfway_streams --renew SOURCE_DIR    writes today's hashes, and prints each one that changed
 //
 // Each row of streams.txt is a case: the arguments of `halfway sim`, and the hashes of the two files that it
 // writes, init.txt and golden.trace. Each case is drawn by one thread and by three.
@@ -30,7 +30,7 @@ namespace {
 constexpr unsigned c_thread_counts[] = {1, 3};
 constexpr const char* c_no_hash = "-";
 
-/// What a case draws: the hashes of its two files, and how many fragments the second one holds.
+/// The result of a case: the hashes of its two files, and the number of fragments in the second one.
 struct Streams {
   std::string init = c_no_hash, golden = c_no_hash;
   std::uint64_t fragments = 0;
@@ -45,7 +45,7 @@ struct Case {
   std::string text() const { return scene + " " + options; }
 };
 
-/// streams.txt: its comment lines, and its cases.
+/// The content of streams.txt: its comment lines and its cases.
 struct Record {
   std::string comments;
   std::vector<Case> cases;
@@ -102,7 +102,7 @@ Result<std::string> hash_of(const std::filesystem::path& path) {
   return ContentHash().add(*text).hex();
 }
 
-/// Setup and golden model of one case; leaves init.txt and golden.trace in `folder`.
+/// Runs setup and golden model of one case. Writes init.txt and golden.trace to `folder`.
 Result<Streams> draw(const Scene& scene, const cli::DrawSettings& settings, unsigned threads,
                      const std::filesystem::path& folder) {
   const auto plan = plan_scene(scene, settings.plan);
@@ -132,12 +132,12 @@ Result<Streams> draw(const Scene& scene, const cli::DrawSettings& settings, unsi
   return streams;
 }
 
-/// The case's streams; an error where they depend on the number of threads.
+/// The case's streams. Fails if they depend on the number of threads.
 Result<Streams> draw(const Case& one, const std::filesystem::path& source,
                      const std::filesystem::path& folder) {
   const auto settings = parse(one.options);
   if (!settings) return settings.error();
-  // A scene with an ending is one of this folder's own.
+  // A scene name with a file ending is a file of this folder.
   const bool own = std::filesystem::path(one.scene).has_extension();
   const auto scene =
       load_scene(own ? (source / "tb/pinned" / one.scene).string() : one.scene, source / "sim/scenes");
@@ -154,7 +154,7 @@ Result<Streams> draw(const Case& one, const std::filesystem::path& source,
   return *first;
 }
 
-/// Whether every built-in scene is recorded with every shader and preset.
+/// Fails unless every built-in scene is recorded with every shader and preset.
 Status check_cover(const Record& record, const std::filesystem::path& source) {
   std::set<std::string> recorded;
   for (const Case& one : record.cases) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quadratic paper's figure 7, register by register in the golden model and, clock by clock, in GHDL; in
-// Verilator fragment by fragment.
+// Figure 7 of the quadratic paper: every register in the golden model and, clock by clock, in GHDL; every
+// fragment in Verilator.
 #include "sim/figures/figure7.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ Figure read_figure() {
   return figure ? *figure : Figure{};
 }
 
-// The published words, as far as they go, are what the registers held.
+// The published words, as many as are printed, must be equal to the registers' values.
 void expect_figure(const Figure& figure, const Trace& trace) {
   EXPECT_TRUE(trace.known);
   for (const auto& [kind, published, seen, count] :
@@ -54,8 +54,8 @@ void expect_figure(const Figure& figure, const Trace& trace) {
   EXPECT_EQ(trace.pixel_y, y);
 }
 
-// One pixel a clock, each line handed over in the clock of the last line's last pixel. The first pixel is in
-// the span stage 4 clocks after the vector is taken: buffer, edge stage, line stage, span stage.
+// One pixel per clock. A line is handed over in the clock of the previous line's last pixel. The first pixel
+// is in the span stage 4 clocks after the vector is accepted: buffer, edge stage, line stage, span stage.
 void expect_clocks(const Trace& trace) {
   std::vector<std::uint64_t> lines, pixels;
   std::uint64_t clock = 4;
@@ -78,8 +78,7 @@ SimulatorFolders folders() {
   return {HALFWAY_SOURCE_DIR, HALFWAY_CACHE_DIR};
 }
 
-// The figure against itself: each register is the sum of its own start and of the differences printed beside
-// it.
+// Checks the figure itself: each register is the sum of its start and of the differences printed next to it.
 TEST(figure7, published_numbers_agree_with_their_differences) {
   const Figure figure = read_figure();
   ASSERT_EQ(figure.step.size(), 3U);
@@ -115,7 +114,7 @@ TEST(figure7, golden_model) {
   expect_figure(figure, figures::golden_figure7(figure));
   const std::vector<Fragment> fragments = golden_fragments(figure);
   ASSERT_EQ(fragments.size(), c_pixels);
-  // 06AF.. to 06D3..: 20 bits of fraction leave 106 to 109.
+  // The words are 06AF.. to 06D3... Without their 20 fraction bits they are 106 to 109.
   const Words& pixel = figure.pixel.at("I(X,Y)");
   for (std::size_t i = 0; i < pixel.size(); ++i) {
     EXPECT_EQ(fragments[i].red, pixel[i] >> 20);

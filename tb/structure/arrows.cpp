@@ -12,7 +12,7 @@
 namespace halfway::structure {
 namespace {
 
-// Which folders may be included: those of a smaller or the same number.
+// Layers of the top folders. A file may include folders of the same or a smaller number.
 int layer(std::string_view path) {
   if (path.starts_with("model/")) return 0;
   return path.starts_with("sim/") ? 1 : 2;
@@ -22,13 +22,13 @@ bool is_test(std::string_view path) {
   return path.ends_with("_test.cpp") || path.ends_with("_test.hpp") || path.find("/test/") != path.npos;
 }
 
-// model/setup of model/setup/edge.hpp and of model/setup/test/random_scenes.hpp.
+// Returns model/setup for model/setup/edge.hpp and for model/setup/test/random_scenes.hpp.
 std::string folder_of(const std::string& path) {
   const std::size_t top = path.find('/'), end = path.find('/', top + 1);
   return path.substr(0, end == path.npos ? top : end);
 }
 
-// What stands between the quotes of an include line; none of another line.
+// The text between the quotes of an include line; empty for any other line.
 std::optional<std::string> included_name(std::string_view line) {
   const auto skip_blanks = [&] { line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size())); };
   skip_blanks();
@@ -41,7 +41,7 @@ std::optional<std::string> included_name(std::string_view line) {
   return std::string(line.substr(begin + 1, end - begin - 1));
 }
 
-// The file that is included; none of what lies outside the checkout.
+// The included file; empty if it is outside the checkout.
 std::optional<std::string> included_file(const Sources& sources, const std::string& file,
                                          const std::string& name) {
   for (const std::string& start :

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which folder includes which. Arrows point one way: tb -> sim -> model, and no folders form a cycle.
+// Which folder includes which. Dependencies go one way, tb -> sim -> model, and folders form no cycle.
 #pragma once
 
 #include <map>
@@ -8,13 +8,14 @@
 
 namespace halfway::structure {
 
-/// C++ files of a checkout: their paths, such as model/setup/edge.hpp, and their text.
+/// C++ files of a checkout: their text by path, such as model/setup/edge.hpp.
 using Sources = std::map<std::string, std::string>;
 
-/// Every include line that breaks a rule, as `file:line: what, and what to do`, then every cycle of folders:
+/// Every include line that breaks a rule, as `file:line: the fault, and how to mend it`, then every cycle of
+/// folders:
 /// - model/ includes nothing of sim/ or tb/, and sim/ nothing of tb/.
-/// - Outside tests, no folder reaches itself through the folders that it includes.
-/// - Helpers in folders named test are included by tests and by tb/ alone.
+/// - Outside tests, no folder depends on itself through the folders that it includes.
+/// - Only tests and tb/ include the files of folders named test.
 /// - No source file (.cpp) is included.
 std::vector<std::string> wrong_arrows(const Sources& sources);
 

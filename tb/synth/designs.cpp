@@ -132,7 +132,7 @@ std::vector<ListedDesign> all_designs() {
     add("power", {is_exact});
     add("unit_vector", {is_exact, {"g_vector_bits", of("vector")}});
     add("spot_cone", {is_exact});
-    // The same in both presets; a token without what the stage hands on and does not read.
+    // Both presets are the same. The token has no fields that the stage only passes on.
     if (exact) add("object_stage", {{"g_bits", std::to_string(golden::Exact::c_pixel_header_bits)}});
     if (exact) add("shadow_counter", {});
     for (const char* entity : {"shading_processor", "unrolled_shading_processor"}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `make synth` synthesizes: shaders, every entity, and what bounds them. designs_test.cpp holds the list
-// against rtl/.
+// The designs of `make synth`: shaders, every entity, and limits for comparison. designs_test.cpp compares
+// the list with rtl/.
 #pragma once
 
 #include <string>
@@ -10,15 +10,16 @@
 
 namespace halfway::synth {
 
-inline constexpr const char* kAccumulator = "tb/synth/accumulator.vhd";  ///< beside rtl/
+inline constexpr const char* kAccumulator = "tb/synth/accumulator.vhd";  ///< not in rtl/
 
 struct ListedDesign {
-  Design design;       ///< its name in the page and in the file of pinned figures
-  bool quick = false;  ///< a second or two of Yosys: in `make test` too
-  bool ice40 = true;   ///< false: far past the device, and long in the making; for ECP5 alone, and not pinned
+  Design design;       ///< its name in the page and in pinned.txt
+  bool quick = false;  ///< one or two seconds of Yosys: also in `make test`
+  bool ice40 =
+      true;  ///< false: much too large for the device and slow to synthesize; only for ECP5, and not pinned
 };
 
-/// All of them, in the order of the page.
+/// All designs, in the order of the page.
 std::vector<ListedDesign> all_designs();
 
 }  // namespace halfway::synth

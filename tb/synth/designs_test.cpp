@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of designs against rtl/, and what is pinned and printed of them against the list.
+// Compares the list of designs with rtl/, and the pinned and printed figures with the list.
 #include "designs.hpp"
 
 #include <fmt/format.h>
@@ -58,8 +58,8 @@ TEST(SynthDesigns, ArePinnedEachOnceAndNothingElseIs) {
   EXPECT_THAT(pinned, ::testing::ContainerEq(listed));
 }
 
-// A clock is of a netlist, and so of the RTL that it was placed from. GHDL alone: seconds, and next to
-// nothing where the netlists are in the cache.
+// A clock is valid for one netlist, and so for the RTL from which the netlist was placed. Runs GHDL only:
+// seconds, and almost no time if the netlists are in the cache.
 TEST(SynthDesigns, HaveTheNetlistsThatArePinned) {
   const auto tool = GhdlTool::find();
   ASSERT_TRUE(tool) << tool.error().message;
@@ -90,7 +90,7 @@ TEST(SynthDesigns, HaveTheNetlistsThatArePinned) {
   EXPECT_EQ(fmt::format("{}", fmt::join(others, "")), "");
 }
 
-// Within what may differ: the page may be of another run, and of other seeds.
+// Within the permitted difference: the page may be from another run with other seeds.
 TEST(SynthDesigns, HaveTheirRowsInThePage) {
   const auto page = read_file(c_root / "tb/synth/README.md");
   ASSERT_TRUE(page) << page.error().message;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The netlist after synthesis for iCE40, lookup tables and flip-flops, draws a small frame: every fragment
-// equals the golden model's.
+// Draws a small frame with the netlist after synthesis for iCE40, that is, lookup tables and flip-flops.
+// Every fragment must be equal to the golden model's.
 #include <gtest/gtest.h>
 
 #include <ostream>

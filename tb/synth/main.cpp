@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_synth: every design of the list through Yosys for two FPGA families and through nextpnr for an
-// iCE40 HX8K, into one table, and its figures against those pinned in tb/synth/pinned.txt.
+// halfway_synth: synthesizes every design of the list by Yosys for two FPGA families, and places it by
+// nextpnr for an iCE40 HX8K. Writes one table, and compares the figures with those pinned in
+// tb/synth/pinned.txt.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +31,7 @@
 namespace halfway::synth {
 namespace {
 
-constexpr std::string_view kTable = "## Figures\n";  // of the page: what stands behind it is written anew
+constexpr std::string_view kTable = "## Figures\n";  // of the page; the text after it is rewritten
 constexpr std::string_view kHead =
     "| design | LUTs | carries | flip-flops | RAMs | clock, MHz | seeds, MHz | ns a pixel | published, ns | "
     "critical path | ECP5: LUTs | flip-flops | RAMs | multipliers |\n"
@@ -47,14 +48,14 @@ struct Options {
   std::string part{};
 };
 
-// What a design came to.
+// The figures of a design.
 struct Figures {
   std::optional<Ice40Cells> ice40{};
   std::optional<Ecp5Cells> ecp5{};
   std::string netlist{};
   std::string no_room{};                ///< Synthesizer::no_room
-  unsigned endless = 0;                 ///< placements without an end
-  std::vector<Placement> placements{};  ///< slowest first, once all are there
+  unsigned endless = 0;                 ///< placements that did not end
+  std::vector<Placement> placements{};  ///< sorted by clock, slowest first, once all have ended
   const Placement* median() const {
     return placements.empty() ? nullptr : &placements[placements.size() / 2];
   }
@@ -78,7 +79,7 @@ std::string not_placed(const Figures& f) {
   return f.endless > 0 ? fmt::format("not placed: {} with {} seeds", kEndless, f.endless) : "not placed";
 }
 
-// Of how many seeds the clock is the median.
+// The range and number of the seeds of which the clock is the median.
 std::string seeds_text(const Figures& f) {
   return fmt::format("{:.0f} to {:.0f} of {}{}", f.placements.front().mhz, f.placements.back().mhz,
                      f.placements.size(),
@@ -107,7 +108,7 @@ std::string row(const ListedDesign& listed, const Figures& f) {
   return text;
 }
 
-// What is written once all is measured, which takes long: that it can be is told before.
+// Check before the long measurement that its results can be written.
 Status check_written(const Options& options) {
   if (!options.page.empty())
     if (const auto page = read_file(options.page); !page) return page.error();
@@ -119,7 +120,7 @@ Status check_written(const Options& options) {
   return Ok{};
 }
 
-// The rows of designs measured before stay, those of designs that are no more go.
+// Keep the rows of designs that were measured before, and drop those of designs that no longer exist.
 Status write_page(const std::filesystem::path& path, const std::map<std::string, std::string>& rows,
                   const std::string& versions) {
   auto text = read_file(path);
@@ -140,14 +141,14 @@ Status write_page(const std::filesystem::path& path, const std::map<std::string,
                                       operating_system(), table));
 }
 
-// A part is pinned beside what is there; all anew, or where nothing is.
+// With a part, the other pins are kept. Without one, or without a file, all are written again.
 Result<Pins> pins_before(const Options& options) {
   const auto path = options.folders.source / kPins;
   if (options.pin && (options.part.empty() || !std::filesystem::exists(path))) return Pins{};
   return read_pins(path);
 }
 
-// By the pins as they are read again: they are rounded there.
+// Uses the pins as read from the file, where they are rounded.
 Status write_readme(const std::filesystem::path& path, const std::filesystem::path& pinned) {
   const auto pins = read_pins(pinned);
   if (!pins) return pins.error();
@@ -166,7 +167,7 @@ class Run {
         figures_(designs_.size()),
         pins_(std::move(pins)) {}
 
-  /// Large designs first, by what is pinned of them: else the last job is the longest.
+  /// Start large designs first, by their pinned size, so that the last job is not the longest one.
   ExitCode run() {
     std::vector<std::size_t> order(designs_.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -198,7 +199,7 @@ class Run {
     unsigned seed = 0;
   };
 
-  // Of a design that is new, more than of any other.
+  // A new design counts as the largest.
   std::uint64_t pinned_luts(std::size_t design) const {
     const auto pin = pins_.find(designs_[design].design.name);
     return pin == pins_.end() ? ~std::uint64_t{0} : pin->second.cells.luts;
@@ -210,7 +211,7 @@ class Run {
     return fmt::format("{}, {}", name, job.kind == Job::Kind::ice40 ? "iCE40" : "ECP5");
   }
 
-  // A line a job on stdout; on a terminal what is under way, below them.
+  // Prints one line per job on stdout. A terminal also shows the running jobs below them.
   void work(const std::vector<Job>& jobs, const std::string& figures) {
     std::size_t done = 0;
     cli::Progress progress(figures);
@@ -220,7 +221,7 @@ class Run {
       for (const std::size_t at : under_way) texts.push_back(what(jobs[at]));
       progress.show(fmt::format("{} of {}; {}", done, jobs.size(), fmt::join(texts, "; ")));
     };
-    // One that breaks does not keep the others: all come back as done.
+    // A job that fails does not stop the others: each returns as done.
     static_cast<void>(for_each_on_threads(options_.jobs, jobs.size(), [&](std::size_t at) -> Status {
       {
         const std::lock_guard lock(mutex_);
@@ -313,7 +314,7 @@ class Run {
       ++pinned;
       Pin& pin = pins_[designs_[i].design.name];
       pin.cells = *f.ice40;
-      // Where no placement has come to an end the clock stays, and what it is of.
+      // If no placement has ended, keep the clock and its netlist.
       if (f.fits() || f.endless == 0 || pin.mhz == 0) {
         pin.mhz = f.mhz();
         pin.netlist = f.netlist;
@@ -410,7 +411,7 @@ int main(int argc, char** argv) {
   app.add_flag("--check", options.check, "measure nothing: only look whether what is asked for can be");
   app.add_option("--seeds", options.seeds, "of placement")->check(CLI::Range(1, 999))->capture_default_str();
   app.add_option("--jobs", options.jobs, "at a time")->check(CLI::Range(1, 999))->capture_default_str();
-  // Rows would have holes.
+  // The rows of the page would be incomplete.
   app.add_option("--page", options.page, "file whose table is written anew")
       ->excludes(quick)
       ->excludes(cells);

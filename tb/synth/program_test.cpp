@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What halfway_synth says, and where: with stand-ins for Yosys and nextpnr.
+// The output of halfway_synth, with stand-ins for Yosys and nextpnr.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ esac
 echo >mapped.il
 echo '{"modules": {"wrapped": {"ports": {"clk": {"bits": [2]}}, "cells": {}, "netnames": {}}}}' >wrapped.json
 )";
-// Seed 2 has no end: that is how a limit of the processor's time ends it.
+// Seed 2 does not end; a limit of processor time then stops the real program.
 constexpr const char* c_nextpnr = R"(#!/bin/sh
 [ "$1" = --version ] && echo 'nextpnr-ice40 (Version 0.4)' && exit
 case "$*" in
@@ -57,7 +57,7 @@ class SynthProgram : public StandInTools {
     for (const char* name : {"tb/synth", "cache"}) ASSERT_TRUE(make_folders(root() / name));
     fs::create_directory_symlink(c_source / "rtl", root() / "rtl");
     fs::create_symlink(c_source / kAccumulator, root() / kAccumulator);
-    // The VHDL's check is GHDL's own, and takes longest.
+    // GHDL itself checks the VHDL, which takes most of the time.
     ASSERT_TRUE(make_folders(c_source / "build/cache/ghdl"));
     fs::create_directory_symlink(c_source / "build/cache/ghdl", root() / "cache/ghdl");
     put("yosys", c_yosys);
@@ -75,7 +75,7 @@ class SynthProgram : public StandInTools {
     arguments.insert(arguments.end(), {root().string(), (root() / "cache").string(), part});
     return outcome_of(arguments);
   }
-  /// Both streams are its output.
+  /// stdout and stderr both are its output.
   Outcome run_on_terminal(const std::vector<std::string>& options) const {
     Command program{.arguments = {HALFWAY_SYNTH}};
     program.arguments.insert(program.arguments.end(), options.begin(), options.end());
@@ -114,7 +114,7 @@ TEST_F(SynthProgram, PinsOfHowManySeedsAClockIs) {
   auto pins = read_pins(root() / kPins);
   ASSERT_TRUE(pins) << pins.error().message;
   EXPECT_EQ(pins->at("accumulator_24").seeds, 1U);
-  // One of four has no end.
+  // One of four placements does not end.
   const Outcome enough = run({"--pin", "--seeds", "4"});
   EXPECT_EQ(enough.exit_status, 0) << enough.errors;
   EXPECT_EQ(enough.errors, "");
@@ -124,7 +124,7 @@ TEST_F(SynthProgram, PinsOfHowManySeedsAClockIs) {
   EXPECT_THAT(*read_file(root() / kPins), Not(::testing::ContainsRegex("[0-9a-f]{32} 3\n")));
 }
 
-// One of the two is for ECP5 alone.
+// One of the two designs is for ECP5 only.
 TEST_F(SynthProgram, CountsWhatItPins) {
   const Outcome outcome = run({"--pin", "--seeds", "1"}, "shading_pipeline");
   EXPECT_EQ(outcome.exit_status, 0) << outcome.errors;
@@ -132,7 +132,7 @@ TEST_F(SynthProgram, CountsWhatItPins) {
               AllOf(HasSubstr("shading_pipeline_exact, ECP5"), HasSubstr("\n1 designs are pinned\n")));
 }
 
-// Of a part of the designs README's figures cannot be had: it stays as it is.
+// A part of the designs does not have all of README's figures: README stays unchanged.
 TEST_F(SynthProgram, PinsAndLeavesReadmeWhereItLacksAClock) {
   const fs::path readme = root() / "readme.md";
   const std::string before = "\n<!-- clocks: written -->\nold\n<!-- end of clocks -->\n";
@@ -144,7 +144,8 @@ TEST_F(SynthProgram, PinsAndLeavesReadmeWhereItLacksAClock) {
   EXPECT_EQ(run({"--readme", readme.string()}).exit_status, 2) << "without pinning";
 }
 
-// Measuring takes minutes to hours: what cannot be had or written is told before, and by --check without it.
+// Measuring takes minutes to hours. Missing or unwritable files are reported before; with --check nothing is
+// measured.
 TEST_F(SynthProgram, TellsWhatCannotBeBeforeItMeasures) {
   const fs::path missing = root() / "none.md";
   ASSERT_TRUE(write_file(root() / "readme.md", "no such part\n"));
@@ -173,7 +174,7 @@ TEST_F(SynthProgram, TellsWhatCannotBeBeforeItMeasures) {
   EXPECT_FALSE(fs::exists(root() / "cache/synth"));
 }
 
-// With it a reader of `make synth` is told at once: the frames, minutes of them, come behind it.
+// Wrong arguments are reported immediately. The frames take minutes and are drawn after that.
 TEST(SynthMakefile, LooksAtTheArgumentsBeforeItDrawsFrames) {
   const auto makefile = read_file(c_source / "Makefile");
   ASSERT_TRUE(makefile);
@@ -196,7 +197,7 @@ TEST_F(SynthProgram, SaysOnStderrWhatIsNotAsPinnedAndWhere) {
   EXPECT_THAT(outcome.output, HasSubstr("1 of 1 designs are not as pinned"));
 }
 
-// What is under way stands on one line that is written over; elsewhere nothing of it is.
+// Running jobs are shown in one line that is overwritten. Without a terminal they are not shown.
 TEST_F(SynthProgram, ShowsOnATerminalAloneWhatIsUnderWay) {
   ASSERT_FALSE(find_program("script").empty()) << "no script: apt-get install bsdutils";
   const std::vector<std::string> arguments = {"--seeds", "1", "--jobs", "1"};
@@ -212,7 +213,7 @@ TEST_F(SynthProgram, ShowsOnATerminalAloneWhatIsUnderWay) {
   for (const char* said : {"[1/2] accumulator_24, iCE40: 24 LUTs", "[2/2] accumulator_24, ECP5: 24 LUTs",
                            "[1/1] accumulator_24, seed 1: 90.0 MHz"})
     EXPECT_THAT(terminal.output, HasSubstr(over + said)) << said;
-  // Nothing is left below the table.
+  // Nothing remains below the table.
   EXPECT_GT(terminal.output.find("| design |"), terminal.output.rfind(over));
 }
 
