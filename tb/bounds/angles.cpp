@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far an angle drifts along a span: start and slope are rounded, and the slope's rounding adds up.
+// Drift of an angle along a span: start and slope are rounded, and the slope's rounding error accumulates.
 #include <fmt/format.h>
 
 #include <random>
@@ -14,18 +14,18 @@ namespace {
 using golden::Exact, golden::Published;
 
 // The largest difference between a golden interpolator and start + k slope over so many steps, for real
-// starts and slopes rounded as setup rounds them; the angles that wrap are taken modulo the word.
+// starts and slopes that are rounded as in setup. Angles that wrap are compared modulo the word.
 template <int Bits>
 Finding drift(int fraction, std::int64_t steps, int tries) {
   std::mt19937_64 random(2);
   Finding finding;
   const long double wrap = std::ldexp(1.0L, Bits - fraction);
   for (int i = 0; i < tries; ++i) {
-    // From -1 to 1 over the span, as a bell has it.
+    // From -1 to 1 over the span, like a bell.
     const auto real = [&] { return std::ldexp(static_cast<long double>(random()), -63) - 1.0L; };
     long double start = real(), slope = (real() - start) / static_cast<long double>(steps);
     if (i == 0) {
-      // Nearly half a unit up, both.
+      // Both are rounded up by almost half a unit.
       start = std::ldexp(-0.4999L, -fraction);
       slope = std::ldexp(-0.4999L, -fraction);
     }

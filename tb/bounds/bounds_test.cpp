@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every bound that model/tables states of a format or a table: its derivation comes to no more, nothing found
-// or proved exceeds it, and something comes within a factor of two of it. Each test records its row of the
-// page, or its table.
+// Checks every bound that model/tables states for a format or a table: its derivation does not exceed it,
+// nothing found or proved exceeds it, and the worst case found is at least half of it. Each test records its
+// row of the page, or its table.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ std::string number(double value) {
                                                              : fmt::format("{:.4g}", value);
 }
 
-constexpr double c_tight = 0.5;      // of a bound that means something
-constexpr double c_rounding = 1e-9;  // of the doubles that both sides are computed in, relative
+constexpr double c_tight = 0.5;      // least worst case as a part of its bound
+constexpr double c_rounding = 1e-9;  // relative rounding of the doubles in which both sides are computed
 
 std::string number_or_dash(double value) {
   return value > 0 ? number(value) : "–";
@@ -65,7 +65,7 @@ struct StatedBound {
   const tables::PresetFormats* preset;
   const tables::Format* format;
   const tables::Bound* bound;
-  Check check;  ///< its `run` is empty if nothing checks the bound
+  Check check;  ///< without `run` nothing checks the bound
 
   friend void PrintTo(const StatedBound& b, std::ostream* out) {
     *out << b.format->name << ' ' << b.bound->of;
@@ -112,7 +112,7 @@ class FormatBounds : public testing::TestWithParam<StatedBound> {
     EXPECT_LE(ratio, 1 + c_rounding) << "of what is stated at " << finding.where;
     EXPECT_GE(ratio, c_tight) << "of the bound: nothing comes closer, at " << finding.where;
     if (bound->kind == tables::Bound::Kind::range) {
-      // A signed format holds one more below zero.
+      // A signed format holds one more value below zero.
       const double capacity =
           std::ldexp(1.0, format->integer_bits) - (format->is_signed ? 0 : format->unit());
       EXPECT_LE(bound->value, capacity) << "the format's largest number";
@@ -165,7 +165,7 @@ TEST(Checks, EachFormatStatesABoundAndEachCheckHasOne) {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-// Each is a test of its own suite, so that its table is a section of its own.
+// Each table is a test of its own suite, so that it has its own section in the page.
 struct Table {
   std::string name;
   std::vector<std::string> columns;
@@ -212,7 +212,7 @@ Rows rows_of_rule(const Context& context) {
   Rows rows;
   for (const RuleRow& row : rule_rows(context)) {
     expect_near_bound(row.our_error, row.our_bound, fmt::format("M = {}", row.walked));
-    // With the rule's bits the error would stay below half a step if the rule were right.
+    // If the rule were right, the error with the rule's bits would be below half a step.
     EXPECT_GE(row.rule_error, 0.5) << "M = " << row.walked << ": the published rule holds";
     EXPECT_GE(row.rule_shown, 2) << "M = " << row.walked << ": the published rule holds";
     rows.push_back({fmt::format("{}", row.walked), fmt::format("{}", row.rule_bits),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forward differences in two dimensions at the largest frame: that their stated errors hold (Gappa, for every
-// start word), and triangles of the real setup, walked by the golden interpolators, that come near them; and
-// what the published rule of fraction bits leaves.
+// Forward differences in two dimensions at the largest frame. Gappa proves the stated errors for every start
+// word. Triangles of the real setup, walked by the golden interpolators, come close to them. Also computes
+// the errors that the published rule of fraction bits leaves.
 #include <fmt/format.h>
 
 #include <array>
@@ -20,7 +20,7 @@ using golden::Exact, golden::Published;
 
 constexpr std::int32_t c_side = 4096, c_unit_bits = 4, c_unit = 1 << c_unit_bits;
 
-// The quadratic's or the plane's truth at a pixel's centre, in units of a numerator over `divisor`.
+// The exact quadratic or plane at a pixel's centre, in units: numerators over d^2.
 struct Truth {
   std::array<ScreenPoint, 3> points;
   Int128 d;                       // twice the area, in units squared
@@ -51,15 +51,15 @@ struct Truth {
   }
 };
 
-// A triangle whose start edge carries on every line but leans left: as many steps as there can be, and the
-// span runs back over all of them.
+// A triangle with the most steps: its start edge leans left and carries on every line, and the span runs back
+// over all carries.
 constexpr std::array<ScreenPoint, 3> c_longest_walk = {
     {{1, 0}, {c_side * c_unit, c_side* c_unit}, {0, c_side* c_unit}}};
-// The same where edges do not carry: lines + pixels.
+// The same without carries: lines + pixels.
 constexpr std::array<ScreenPoint, 3> c_plain_walk = {
     {{0, 0}, {c_side * c_unit, c_side* c_unit}, {0, c_side* c_unit}}};
 
-// Where on a walk the error is largest: `line_value` and steps from there by `at`.
+// The largest error on a walk and its pixel.
 struct Worst {
   double error = 0;  ///< units
   std::int64_t x = 0, y = 0;
@@ -68,10 +68,10 @@ struct Worst {
   }
 };
 
-// How far along the walk lines and spans are drawn: all, or the lines and pixels near the far end.
+// Which lines and spans of the walk are drawn: all, or every 97th and those near the far end.
 constexpr std::int64_t c_every = 1, c_seldom = 97;
 
-// Steps a golden interpolator over the one walk of preset exact that the triangle has.
+// Steps a golden interpolator over the triangle's only walk in preset exact.
 template <class Interpolator, class Error>
 Worst drawn(const Walk& walk, Interpolator& interpolator, std::int64_t stride, Error&& error) {
   std::vector<std::uint32_t> words;
@@ -97,7 +97,7 @@ Worst drawn(const Walk& walk, Interpolator& interpolator, std::int64_t stride, E
   }
 }
 
-// Words of a channel for an interpolator whose formats say where each lies.
+// The words of a channel, at the positions that the interpolator's formats give.
 template <class P>
 std::vector<std::uint32_t> channel_words(const QuadraticWords& w) {
   using At = typename P::init_channel_at;
@@ -120,7 +120,7 @@ std::vector<std::uint32_t> channel_words(const QuadraticWords& w) {
   return words;
 }
 
-// Of random samples in [0, 255] those whose rounded words leave the largest error at the walk's far end.
+// Random samples in [0, 255]: those with the largest error of the rounded words at the far end of the walk.
 struct Case {
   SixSamples samples;
   QuadraticWords words;
@@ -134,7 +134,7 @@ std::string text_of(const SixSamples& s, int fraction_bits) {
                      sample(s.vertex[2]), sample(s.edge12), sample(s.edge13), sample(s.edge23));
 }
 
-// `sample_bits`: of the samples' own fraction, the fewer the plainer.
+// `sample_bits`: fraction bits of the samples. Few bits make the samples easy to read.
 Case worst_case(std::array<ScreenPoint, 3> points, const Walk& walk, int fraction_bits, int sample_bits,
                 int tries, std::uint64_t seed, const WalkLine& line, std::int64_t steps) {
   const QuadraticFit fit(points, c_unit_bits);
@@ -148,7 +148,7 @@ Case worst_case(std::array<ScreenPoint, 3> points, const Walk& walk, int fractio
     };
     SixSamples s{{sample(), sample(), sample()}, sample(), sample(), sample()};
     const QuadraticWords w = fit.words(s, start, 0);
-    // Newton's form: L lines of which C carry, and K steps of a span.
+    // Newton's form: L lines, C of them with a carry, and K steps of a span.
     const Int128 l = line.steps, c = line.carries, k = steps, way = walk.backward ? -1 : 1;
     const Int128 xx = w.dxx, xe = way * w.dxe0, dx_right = walk.backward ? w.dxx - w.dx : w.dx;
     const Int128 along =
@@ -169,7 +169,7 @@ Walk only_walk(std::array<ScreenPoint, 3> points, FrameSize frame) {
 
 constexpr FrameSize c_frame{c_side, c_side};
 
-// Whatever the coefficients: the words' errors through Newton's form.
+// Holds for any coefficients: the errors of the words in Newton's form.
 std::string quadratic_script(int fraction, double limit, double lines, double steps) {
   return fmt::format(
       "@fx = fixed<-{},ne>;\n"
@@ -193,7 +193,7 @@ std::string plane_script(int fraction, double limit, double lines, double steps)
       fraction, lines, steps, limit);
 }
 
-// Runs Gappa on the script; without one nothing is proved, and the formula stands alone.
+// Runs Gappa on the script. Without Gappa nothing is proved, and only the formula is reported.
 void prove(const Context& context, const std::string& script, double limit, Finding& finding) {
   const auto said = gappa(context, script);
   if (!said) return;
@@ -205,7 +205,8 @@ void prove(const Context& context, const std::string& script, double limit, Find
 
 constexpr double c_lines = c_side - 1, c_pixels = c_side - 1, c_carries = c_side - 1;
 
-// Preset exact: a triangle through setup and golden interpolator, every pixel compared with exact rationals.
+// Preset exact: a triangle through setup and golden interpolator. Every pixel is compared with exact
+// rationals.
 Finding exact_intensity(const Context& context, const tables::PresetFormats&, const tables::Format& format,
                         const tables::Bound& bound) {
   constexpr int c_fraction = Exact::c_intensity_fraction_bits;
@@ -230,7 +231,7 @@ Finding exact_intensity(const Context& context, const tables::PresetFormats&, co
   return finding;
 }
 
-// So many fraction bits in the published interpolator: an edge's whole step, no carry.
+// So many fraction bits in the published interpolator: the whole step of the edge, no carry.
 template <int FractionBits>
 struct Narrow {
   static constexpr int c_intensity_bits = 12 + FractionBits;
@@ -248,14 +249,14 @@ struct Narrow {
 };
 
 struct Drawn {
-  double error = 0;  ///< colour steps, the words' alone
-  int shown = 0;     ///< colour steps between the pixel and what is right there
+  double error = 0;  ///< in colour steps, from the words only
+  int shown = 0;     ///< in colour steps, between the drawn and the correct pixel
   std::int64_t x = 0, y = 0;
   std::string samples;
 };
 
 // A right triangle of `side` lines and pixels with a vertical start edge, drawn with so many fraction bits.
-// Half a colour step stands in the value, as setup puts it there.
+// As in setup, the value contains half a colour step for rounding.
 template <class P, int FractionBits>
 Drawn right_triangle(int side, int sample_bits, int tries, std::int64_t stride) {
   const std::array<ScreenPoint, 3> points = {{{0, 0}, {side * c_unit, side * c_unit}, {0, side * c_unit}}};
@@ -286,7 +287,7 @@ Drawn right_triangle(int side, int sample_bits, int tries, std::int64_t stride) 
   return result;
 }
 
-// With a number that is known when the program runs.
+// Calls a template with a number that is known at run time only.
 template <int... Bits, class Call>
 auto with_bits(int bits, std::integer_sequence<int, Bits...>, Call&& call) {
   decltype(call.template operator()<1>()) result{};
@@ -298,7 +299,7 @@ constexpr double newton_bound(double walked, int bits) {
   return (1 + walked + walked * (walked - 1) / 2) * 0.5 / static_cast<double>(std::int64_t{1} << bits);
 }
 
-// The same, published: without carries.
+// Preset published, without carries.
 Finding published_intensity(const Context& context, const tables::PresetFormats&,
                             const tables::Format& format, const tables::Bound& bound) {
   const Drawn found = right_triangle<Published, Published::c_intensity_fraction_bits>(
@@ -312,11 +313,11 @@ Finding published_intensity(const Context& context, const tables::PresetFormats&
   return finding;
 }
 
-// The sum of what a quadratic takes of its six samples, over the triangle: by halving it, with the largest of
-// each part's shape functions.
+// The sum of the absolute weights of a quadratic's six samples, over the triangle: on small boxes, with the
+// largest value of each shape function.
 Finding sample_weights(const Context&, const tables::PresetFormats&, const tables::Format& format,
                        const tables::Bound&) {
-  // |l (2l - 1)| and 4 l m on boxes of two barycentrics.
+  // |l (2l - 1)| and 4 l m on boxes of two barycentric coordinates.
   constexpr int c_cells = 3000;
   const auto vertex = [](double low, double high) {
     double most = std::max(std::fabs(low * (2 * low - 1)), std::fabs(high * (2 * high - 1)));
@@ -331,7 +332,7 @@ Finding sample_weights(const Context&, const tables::PresetFormats&, const table
       bound = std::max(bound,
                        vertex(a0, a1) + vertex(b0, b1) + vertex(c0, c1) + 4 * (a1 * b1 + a1 * c1 + b1 * c1));
     }
-  // At the centre each vertex counts -1/9, each edge 4/9.
+  // At the centre each vertex has the weight -1/9, each edge 4/9.
   const double centre = 3.0 / 9 + 3 * 4.0 / 9;
   return {.worst = centre * format.unit() / 2,
           .where = "the triangle's centre, samples at odd half units",
@@ -404,7 +405,7 @@ Finding plane(const Context& context, const tables::PresetFormats&, const tables
   return finding;
 }
 
-// A published edge's start and slope, each as far from a unit as it may be, by the golden walker's own adder.
+// Start and slope of a published edge, each with the largest rounding error, in the golden walker's adder.
 Finding edge(const Context& context, const tables::PresetFormats&, const tables::Format& format,
              const tables::Bound& bound) {
   constexpr int c_fraction = Published::c_edge_x_fraction_bits;
@@ -448,8 +449,8 @@ std::vector<Check> difference_checks() {
 }
 
 RuleCase published_rule_case() {
-  // Preset published has vertices at whole pixels, and draws the pixels on either end of an edge: (0, 0), (1,
-  // 4095), (0, 4095). The second differences add up down the edge.
+  // Preset published has vertices at whole pixels and draws the pixels at both ends of an edge: (0, 0), (1,
+  // 4095), (0, 4095). The second differences accumulate down the edge.
   constexpr int c_fraction = Published::c_intensity_fraction_bits,
                 c_x_fraction = Published::c_edge_x_fraction_bits;
   constexpr std::int32_t c_middle = c_unit / 2, c_foot = (c_side - 1) * c_unit + c_middle;
@@ -485,12 +486,12 @@ RuleCase published_rule_case() {
 std::vector<RuleRow> rule_rows(const Context& context) {
   std::vector<RuleRow> rows;
   for (int walked = 64; walked <= 4096; walked *= 2) {
-    // Lines and pixels together are M, and a divisor that is no power of two.
+    // The sum of lines and pixels is M, and the divisor is not a power of two.
     const int side = walked / 2 - 1;
     const std::int64_t stride = context.quick && side > 256 ? c_seldom : c_every;
     RuleRow row;
     row.walked = walked;
-    row.rule_bits = std::bit_width(static_cast<unsigned>(walked));  // the least above log2 M
+    row.rule_bits = std::bit_width(static_cast<unsigned>(walked));  // the least integer above log2 M
     row.our_bits = 1;
     while (newton_bound(2 * (side - 1), row.our_bits) >= 0.5) ++row.our_bits;
     row.our_bound = newton_bound(2 * (side - 1), row.our_bits);

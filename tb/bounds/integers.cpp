@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formats that hold whole numbers: the largest that the program can put there, against what the entry says.
+// Formats of whole numbers: the largest number that the program can store, compared with the stated
+//             bound.
 #include <fmt/format.h>
 
 #include <bit>
@@ -16,7 +17,7 @@
 namespace halfway::bounds {
 namespace {
 
-// The largest is a limit that other code has by its own name.
+// The largest number is a limit that other code defines by name.
 Check limit(std::string_view preset, std::string_view name, double largest, std::string where,
             std::string_view roomy = {}) {
   return {preset,
@@ -31,7 +32,7 @@ Check limit(std::string_view preset, std::string_view name, double largest, std:
 
 constexpr std::int32_t c_unit = 16, c_side = static_cast<std::int32_t>(c_max_frame_side);
 
-// The largest pixel among a walk's, of triangles that fill the largest frame or run past it.
+// The largest pixel coordinate of a walk, for triangles that fill the largest frame or extend beyond it.
 Finding largest_pixel(const Context&, const tables::PresetFormats&, const tables::Format& format,
                       const tables::Bound&) {
   Finding finding;
@@ -55,11 +56,11 @@ Finding largest_pixel(const Context&, const tables::PresetFormats&, const tables
             if (walk.lower_lines > 0) see(walk.lower.pixel, "a stop", p);
           }
         }
-  finding.proved = finding.worst;  // a pixel is held to the frame's sides
+  finding.proved = finding.worst;  // setup clamps a pixel to the frame's sides
   return finding;
 }
 
-// The edge's height is the divisor.
+// The divisor is the edge's height.
 Finding largest_divisor(const Context&, const tables::PresetFormats&, const tables::Format& format,
                         const tables::Bound&) {
   const std::int32_t top = c_guard_begin * c_unit, bottom = c_guard_end * c_unit;

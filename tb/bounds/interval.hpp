@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real functions at rational places between two doubles, by MPFR rounded outwards.
+// Encloses real functions at rational arguments between two doubles, by MPFR with outward rounding.
 #pragma once
 
 #include <mpfr.h>
@@ -14,7 +14,7 @@ struct Enclosure {
   double low, high;
 };
 
-/// The farthest that a number may be from `value`, rounded up.
+/// The greatest distance of the number from `value`, rounded up.
 inline double farthest(double value, Enclosure e) {
   const double away = std::max(std::fabs(value - e.low), std::fabs(value - e.high));
   return std::nextafter(away, HUGE_VAL);
@@ -38,11 +38,11 @@ struct Dyadic {
   int shift;
 };
 
-/// cos(pi/2 * x)^power for x in [0, 1]: falls with x.
+/// cos(pi/2 * x)^power for x in [0, 1]. Decreases with x.
 inline Enclosure cosine_power(Dyadic x, int power) {
   const auto one_side = [&](mpfr_rnd_t outward, mpfr_rnd_t inward) {
     Real v;
-    mpfr_const_pi(v, inward);  // a larger angle, a smaller cosine
+    mpfr_const_pi(v, inward);  // a larger angle has a smaller cosine
     mpfr_mul_si(v, v, x.number, inward);
     mpfr_div_2si(v, v, x.shift + 1, inward);
     mpfr_cos(v, v, outward);
@@ -53,7 +53,7 @@ inline Enclosure cosine_power(Dyadic x, int power) {
   return {one_side(MPFR_RNDD, MPFR_RNDU), one_side(MPFR_RNDU, MPFR_RNDD)};
 }
 
-/// f(x) by one of MPFR's functions, which rounds correctly.
+/// f(x) by a function of MPFR, which rounds correctly.
 template <class Function>
 Enclosure enclosed(Dyadic x, Function&& f) {
   const auto one_side = [&](mpfr_rnd_t outward) {

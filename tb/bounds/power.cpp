@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// base^m by tables of log2 and 2^-x, for every exponent m; a spot's share.
+// base^m by tables of log2 and 2^-x, for every exponent m; and the factor of a spot's cone.
 //
-// With t = -log2(base) the hardware has t + a, the product with m cut by a unit of 2^-20, then 2^-x from its
-// table, shifted and rounded. Preset exact's error is bounded for every base and every m: over each part of
-// the logarithm, a between its least and its most there, and each short range of m, the power falls by
-//   2^-mt (1 - 2^-ma) at most,
-// and rises likewise; and what comes behind the product is known for every x.
+// With t = -log2(base) the hardware computes t + a, with an error a of its table. It multiplies by m, cuts
+// the product to units of 2^-20, and looks up 2^-x in its table, shifted and rounded. The error of preset
+// exact is bounded for every base and every m, over parts of the logarithm, with the least and greatest a of
+// each part, and over short ranges of m. The power decreases by at most
+//  2^-mt (1 - 2^-ma),
+// and increases likewise. The error of the steps after the product is known for every x.
 #include "golden/power.hpp"
 
 #include <fmt/format.h>
@@ -36,8 +37,8 @@ struct Range {
   double most() const { return std::max(-low, high); }
 };
 
-// What the golden model has as -log2 less what it is, for every base from 1/2 to 1, by equal parts. With more
-// zeros before them bases have the same mantissas, or fewer.
+// Error of the golden model's -log2 for every base from 1/2 to 1, by equal parts. Bases with more leading
+// zeros have the same mantissas, or fewer.
 constexpr int c_part_bits = 15;
 std::vector<Range> logarithm_errors() {
   constexpr std::uint32_t c_half = Power<Exact>::c_one / 2;
@@ -49,11 +50,11 @@ std::vector<Range> logarithm_errors() {
   return errors;
 }
 
-// What the golden model has as 2^-x less what it is, from x on: by equal parts of [0, 1), every word of them;
-// and past 1, where less is left and so less is off, but for the rounding.
+// Error of the golden model's 2^-x for all arguments from x on: for every word of [0, 1), by equal parts; and
+// above 1, where the value and so the error is smaller, except for rounding.
 constexpr int c_decay_part_bits = 10;
 struct DecayErrors {
-  std::vector<Range> from;  // of all x from the part's beginning on
+  std::vector<Range> from;  // for all x from the start of the part on
   Range from_one;
 };
 DecayErrors decay_errors(std::uint64_t stride_past_one) {
@@ -63,7 +64,7 @@ DecayErrors decay_errors(std::uint64_t stride_past_one) {
            std::exp2(-std::ldexp(static_cast<double>(x), -c_fraction));
   };
   DecayErrors errors{std::vector<Range>(std::size_t{1} << c_decay_part_bits), {}};
-  // From 20 on less than an eighth of a weight's unit is left.
+  // From 20 on, the value is below an eighth of a weight's unit.
   for (std::uint64_t x = std::uint64_t{1} << c_fraction; x < std::uint64_t{20} << c_fraction;
        x += stride_past_one)
     errors.from_one.add(error(x));
@@ -78,23 +79,23 @@ DecayErrors decay_errors(std::uint64_t stride_past_one) {
   return errors;
 }
 
-// The greatest ratio of what the error can be to what is stated, over all m and all bases.
+// The greatest ratio of the possible error to the stated error, over all m and all bases.
 double exact_ratio(bool quick) {
   const std::vector<Range> logarithm = logarithm_errors();
   const DecayErrors decay = decay_errors(quick ? 101 : 1);
   const auto parts = static_cast<double>(logarithm.size());
-  const double cut = std::ldexp(1.0, -Power<Exact>::c_decay_fraction);  // the product's
+  const double cut = std::ldexp(1.0, -Power<Exact>::c_decay_fraction);  // of the product
   double most = 0;
   constexpr double c_slack = 1e-13, c_ln2 = std::numbers::ln2;  // of doubles
   for (double m = 0; m < 8192;) {
     const double next = std::max(m + 1.0 / 16, m * 1.005);
     const double stated = std::ldexp(1.0, -15) + m * std::ldexp(1.0, -23);
     for (std::size_t part = logarithm.size(); part-- > 0;) {
-      // The part's greatest base has the least loss. A base with more zeros before it has more, and its power
-      // is smaller still.
+      // Use the greatest base of the part: it has the least loss. A base with more leading zeros has a
+      // greater loss and a smaller power.
       const double least_loss = 1 - std::log2(1 + (static_cast<double>(part) + 1) / parts);
       const double peak = std::exp2(-m * least_loss);
-      // More loss, less power; the product's cut gives some back.
+      // A greater loss gives a smaller power; the cut of the product increases it again.
       const double down = peak * -std::expm1(-c_ln2 * next * logarithm[part].high),
                    up = peak * std::expm1(c_ln2 * (next * -logarithm[part].low + cut));
       const double x = std::max(0.0, m * (least_loss + logarithm[part].low) - cut);
@@ -130,7 +131,7 @@ Finding power(const Context& context, const tables::PresetFormats& preset, const
     for (int i = 0; i < (context.quick ? 3'000 : 60'000); ++i) {
       const auto exponent = static_cast<std::uint32_t>(1 + random() % c_largest) >> random() % 16;
       const double stated = stated_at(exponent);
-      // Where the power still is something.
+      // Choose bases whose power is not almost 0.
       const auto width = std::max<std::uint64_t>(1, c_one / (1 + (exponent >> P::c_exponent_fraction_bits)));
       std::uint32_t base =
           c_one - static_cast<std::uint32_t>(random() % std::min<std::uint64_t>(c_one, 8 * width));
@@ -157,7 +158,7 @@ Finding power(const Context& context, const tables::PresetFormats& preset, const
   return finding;
 }
 
-// The share by its cubic, in real numbers.
+// The cone's factor by its cubic, in real numbers.
 template <class P>
 double share_error(std::int64_t over, std::uint32_t slope) {
   constexpr int c_fraction = P::c_direction_fraction_bits;
@@ -181,7 +182,7 @@ Finding spot(const Context& context, const tables::PresetFormats&, const tables:
         static_cast<std::uint32_t>(1 + (random() % (1ULL << c_slope_bits) >> random() % c_slope_bits));
     if (i % 2 == 0) slope = (1U << c_slope_bits) - static_cast<std::uint32_t>(random() % 4096);
     const long double s = std::ldexp(static_cast<long double>(slope), -P::c_spot_slope_fraction_bits);
-    // Where the share rises most.
+    // Choose arguments where the factor rises most.
     const long double t = 0.5L + (static_cast<long double>(random() % 1'000'000) / 1'000'000 - 0.5L) * 0.3L;
     const auto over = static_cast<std::int64_t>(std::ldexp(std::min(t / s, 2.0L), c_sum));
     const double error = std::fabs(share_error<P>(over, slope));
@@ -189,9 +190,9 @@ Finding spot(const Context& context, const tables::PresetFormats&, const tables:
     finding.worst = error;
     finding.where = fmt::format("slope word {}, cosine {} / 2^{} above the edge", slope, over, c_sum);
   }
-  // t is within [0, 1] or held; beside that the cuts alone, and the rounding.
+  // t is within [0, 1] or clamped. The other errors are the cuts and the rounding.
   const int weight = P::c_weight_fraction_bits;
-  // The cubic's rise between t and T is at most its slope where it is steepest.
+  // The cubic's rise between t and T is bounded by its greatest slope between them.
   const auto said = gappa(
       context,
       fmt::format("O = fixed<-{},dn>(R); o = fixed<-{},dn>(O); t = fixed<-{},dn>(o * s); T = O * s;\n"
@@ -205,7 +206,8 @@ Finding spot(const Context& context, const tables::PresetFormats&, const tables:
   return finding;
 }
 
-// A diffuse term's weight is its cosine, rounded: every cosine of preset published, a stride of exact's.
+// The weight of a diffuse term is its rounded cosine. All cosines of preset published, a stride of preset
+// exact's.
 template <class P>
 Finding diffuse(const Context&, const tables::PresetFormats&, const tables::Format&, const tables::Bound&) {
   constexpr int c_drop = P::c_direction_fraction_bits - P::c_weight_fraction_bits;

@@ -14,7 +14,7 @@ std::optional<std::string> gappa(const Context& context, std::string_view script
   const auto end = run_process({.arguments = {"gappa", file.string()}, .timeout = std::chrono::minutes(1)},
                                "apt-get install gappa");
   if (!end) return end.error().message;
-  // What it says last is what it could not show.
+  // The last part of Gappa's output names what it could not prove.
   return end->succeeded() ? std::string()
                           : end->output.substr(std::min(end->output.rfind("Error"), end->output.size()));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1/sqrt(x) over every x, and what becomes of vectors that are made unit ones by it.
+// 1/sqrt(x) for every x, and the unit vectors that are computed with it.
 #include <fmt/format.h>
 
 #include <numbers>
@@ -14,7 +14,7 @@ namespace {
 
 using golden::Axes, golden::Exact, golden::Published, golden::ReciprocalRoot;
 
-// Of the table alone: each entry over its whole cell.
+// The table only: each entry over its whole cell.
 template <class P>
 Finding entry(const Context&, const tables::PresetFormats&, const tables::Format&,
               const tables::Bound& bound) {
@@ -27,7 +27,7 @@ Finding entry(const Context&, const tables::PresetFormats&, const tables::Format
       const Dyadic x =
           end < cells / 2 ? Dyadic{cells + 2 * end, table.address_bits} : Dyadic{4 * end, table.address_bits};
       const Enclosure truth = reciprocal_root(x);
-      // Relative to the root; as x^-1/2 falls, both are largest at an end.
+      // Relative to the root. x^-1/2 decreases, so both errors are largest at an end of the cell.
       const double error = bound.of == "relative" ? farthest(value, truth) / truth.low * (1 + 0x1p-51)
                                                   : farthest(value, truth);
       if (error <= finding.worst) continue;
@@ -39,7 +39,7 @@ Finding entry(const Context&, const tables::PresetFormats&, const tables::Format
   return finding;
 }
 
-// y sqrt(x) - 1 without the cancellation: (y^2 x - 1) / (y sqrt(x) + 1), y^2 x a whole number.
+// y sqrt(x) - 1 without cancellation: (y^2 x - 1) / (y sqrt(x) + 1), where y^2 x is a whole number.
 template <class P>
 double relative_error(std::uint32_t x) {
   constexpr int c_root = P::c_root_fraction_bits, c_square = P::c_square_fraction_bits;
@@ -54,7 +54,8 @@ Finding root(const Context& context, const tables::PresetFormats&, const tables:
              const tables::Bound&) {
   constexpr std::uint32_t c_one = std::uint32_t{1} << P::c_square_fraction_bits;
   constexpr bool c_newton = P::c_root_fraction_bits > P::c_root_entry_fraction_bits;
-  // The Newton step cuts x to 22 bits of fraction: its error is largest at an end of each stretch cut alike.
+  // The Newton step cuts x to 22 fraction bits. Its error is largest at an end of each range of equal cut
+  // values.
   constexpr std::uint32_t c_stretch = c_newton ? 1U << (P::c_square_fraction_bits - 22) : 1;
   const std::uint32_t stride = c_newton && context.quick ? 41 * c_stretch : c_stretch;
   Finding finding;
@@ -72,7 +73,7 @@ Finding root(const Context& context, const tables::PresetFormats&, const tables:
   return finding;
 }
 
-// The square is the exact one's upper bits.
+// The square is the upper bits of the exact one.
 template <class P>
 Finding square(const Context&, const tables::PresetFormats&, const tables::Format& format,
                const tables::Bound&) {
@@ -113,7 +114,7 @@ Unit errors_of(const Axes& v) {
           static_cast<double>(std::asin(std::sqrt(a * a + b * b + c * c) / std::sqrt(square) / length))};
 }
 
-// From random vectors uphill: a few units of one component or of all, up or down.
+// Hill climbing from random vectors: changes one component or all by a few units.
 template <class P, int VectorBits>
 void climb(bool of_length, int starts, Finding& finding) {
   std::mt19937_64 random(VectorBits + (of_length ? 100 : 0));
@@ -126,7 +127,7 @@ void climb(bool of_length, int starts, Finding& finding) {
     Axes v;
     for (std::int64_t& c : v)
       c = (static_cast<std::int64_t>(random()) >> (64 - VectorBits)) >> random() % (VectorBits - 1);
-    // Many are worst next to an axis, just above a half.
+    // The worst vectors are often close to an axis, with a component just above 1/2.
     if (i % 2 == 0)
       v[random() % 3] = (c_largest >> random() % 3 >> 1) + static_cast<std::int64_t>(random() % 4096);
     if (v == Axes{}) continue;
@@ -154,7 +155,7 @@ Finding length(const Context& context, const tables::PresetFormats& preset, cons
   const int starts = context.quick ? 3'000 : 200'000;
   climb<P, P::c_vector_bits>(true, starts, finding);
   climb<P, P::c_offset_bits>(true, starts, finding);
-  // The derivation with the root's error as it is over every x.
+  // The derivation, with the error of the root over every x.
   const double all_roots = root<P>(context, preset, format, bound).proved;
   if (all_roots > 0)
     finding.proved =
@@ -162,10 +163,9 @@ Finding length(const Context& context, const tables::PresetFormats& preset, cons
   return finding;
 }
 
-// The largest angle between v and what is made of it, by the shape of the two roundings alone: v is cut by e
-// in [0, cut)^3 from where its largest component is 1/2 or more, then rounded by r in [-half, half]^3.
-// Bounded on boxes of directions (1, p, q) with interval steps, for every corner of the cut and of the
-// rounding.
+// The largest angle between v and its unit vector, from the two roundings only. v is scaled so that its
+// largest component is at least 1/2, cut by e in [0, cut)^3, then rounded by r in [-half, half]^3. Bounded on
+// boxes of directions (1, p, q) by intervals, for every corner of cut and rounding.
 double angle_bound(double cut, double half) {
   constexpr int c_cells = 1000;
   double most = 0;
@@ -173,7 +173,7 @@ double angle_bound(double cut, double half) {
   for (int i = -c_cells; i < c_cells; ++i)
     for (int j = i < 0 ? -c_cells : 0; j < c_cells; ++j) {
       const double p = (i + 0.5) / c_cells, q = (j + 0.5) / c_cells;
-      // What moves by at most this from the box's middle, in angle.
+      // Bound of the angle between the box's centre and its points.
       const double slack = std::numbers::sqrt2 / 2 / c_cells;
       const double square = 1 + p * p + q * q, size = std::sqrt(square);
       const auto across = [&](double a, double b, double c) {
@@ -187,7 +187,7 @@ double angle_bound(double cut, double half) {
         by_cut = std::max(by_cut, across(a, b, c));
         by_rounding = std::max(by_rounding, across(2 * a - 1, 2 * b - 1, 2 * c - 1));
       }
-      // The shortest vector of the box's directions whose largest component is a half.
+      // The shortest vector in the box's directions with a largest component of 1/2.
       const double shortest = 0.5 * (size - slack);
       most = std::max(most, cut * by_cut / shortest + half * by_rounding);
     }
@@ -201,17 +201,17 @@ Finding angle(const Context& context, const tables::PresetFormats&, const tables
   const int starts = context.quick ? 3'000 : 200'000;
   climb<P, P::c_vector_bits>(false, starts, finding);
   climb<P, P::c_offset_bits>(false, starts, finding);
-  // Of the longest vectors, whose lowest bits are the ones cut.
+  // Use the longest vectors: their lowest bits are cut.
   constexpr int c_cut = std::max(0, P::c_offset_bits - P::c_direction_bits);
-  const double unit = format.unit() / 2;  // of a vector that is shifted
+  const double unit = format.unit() / 2;  // unit of a shifted vector
   const double shrunk = std::is_same_v<P, Exact> ? 1.42e-6 : 0.0094;
   const double across = angle_bound(unit * (1 - std::ldexp(1.0, -c_cut)), format.unit() / 2 / (1 - shrunk));
   finding.proved = std::asin(across);
   return finding;
 }
 
-// A cosine, rounded to a direction's fraction: of what the processors make of a dot product; and any
-// component that is rounded where a vector is made.
+// The rounding of a cosine to a direction's fraction, for the processors' dot products; and the rounding of a
+// component of a vector.
 template <class P>
 Finding component(const Context&, const tables::PresetFormats&, const tables::Format& format,
                   const tables::Bound&) {
@@ -231,8 +231,8 @@ Finding component(const Context&, const tables::PresetFormats&, const tables::Fo
   return finding;
 }
 
-// From the surface to a light: place times 1/w, rounded, less a place that is shifted, as shading_processor
-// has it.
+// The offset from the surface to a light: place times 1/w, rounded, minus the shifted place, as in
+// shading_processor.
 Finding offset(const Context&, const tables::PresetFormats&, const tables::Format& format,
                const tables::Bound&) {
   using P = Exact;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The published rule of fraction bits, b > log2 M, in the RTL: figure 7's 20 bits on a triangle of 4096
-// lines, where the rule asks for 13. Golden model, GHDL and Verilator are off by the same colour steps.
+// The published rule of fraction bits, b > log2 M, in the RTL: the 20 bits of figure 7 on a triangle of 4096
+// lines, for which the rule requires 13. Golden model, GHDL and Verilator must have the same error in colour
+// steps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace {
 
 using Shader = golden::QuadraticShader<golden::Published, 1>;
 
-// As tb/published's, so that they share a build.
+// The key of tb/published, so that both use one build.
 const HardwareKey c_key{.preset = Preset::published, .channels = 1};
 
 SimulatorFolders folders() {
@@ -34,8 +35,7 @@ std::vector<Fragment> golden_fragments(const bounds::RuleCase& rule) {
   return fragments;
 }
 
-// Colour steps between the worst pixel and what is right there; every pixel within the bound and its
-// rounding.
+// The greatest error of a pixel in colour steps. Every pixel must be within the bound plus rounding.
 int worst_pixel(const bounds::RuleCase& rule, const std::vector<Fragment>& fragments) {
   int worst = 0;
   for (const Fragment& f : fragments) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of a scene that setup rounds into words: random scenes, each word against the number that it stands
-// for. Each is rounded once, to half a unit at most.
+// Numbers of a scene that setup rounds to words. Random scenes: each word is compared with its number. Each
+// number is rounded once, by at most half a unit.
 #include <fmt/format.h>
 
 #include <glm/common.hpp>
@@ -23,7 +23,7 @@ using golden::Exact, golden::Published;
 
 constexpr FrameSize c_small{64, 64};
 
-// Seen from (0, 0, 5) view space is the world's but for the eye.
+// The eye is at (0, 0, 5), so that view space is world space with another origin.
 struct RandomScene {
   Scene scene;
   std::mt19937_64 random;
@@ -61,7 +61,7 @@ struct RandomScene {
   }
 };
 
-// The worst word of some, of `fraction` bits, against its number.
+// Compares words of `fraction` fraction bits with their numbers and keeps the worst.
 struct Seen {
   Finding& finding;
   int fraction;
@@ -73,7 +73,7 @@ struct Seen {
   }
 };
 
-// What a scene's words tell, of the processors.
+// The lights and words that setup makes from a scene for the processors.
 template <class P>
 struct Told {
   std::vector<golden::ShadingLight> lights;  // 0: ambient
@@ -92,7 +92,7 @@ Told<P> told(const Scene& scene) {
   std::vector<std::uint32_t> prologue;
   SetupCounts counts;
   setup->append_prologue(prologue, counts);
-  for (std::size_t at = words; at + words <= prologue.size(); at += words)  // behind new_frame
+  for (std::size_t at = words; at + words <= prologue.size(); at += words)  // after new_frame
     out.lights.push_back(
         golden::ShadingToken<P>::decode_light(out.config, std::span(prologue).subspan(at, words)));
   setup->append(0, out.draw, counts);
@@ -112,11 +112,11 @@ Finding over_scenes(const Context& context, const tables::Format& format, See&& 
     }
     see(seen, random.scene, words);
   }
-  finding.proved = format.unit() / 2;  // of one rounding
+  finding.proved = format.unit() / 2;  // one rounding
   return finding;
 }
 
-// Lights follow in the order directional, positional, spots.
+// Lights are in the order directional, positional, spots.
 template <class P>
 Finding light_intensity(const Context& context, const tables::PresetFormats&, const tables::Format& format,
                         const tables::Bound&) {
@@ -136,7 +136,7 @@ Finding light_place(const Context& context, const tables::PresetFormats&, const 
   return over_scenes<P>(context, format, [&](const Seen& seen, const Scene& scene, const Told<P>& words) {
     for (std::size_t i = 0; i < 4; ++i) {
       const glm::dvec3 place = scene.positional[i].position_world - scene.camera.eye_world;
-      // Its power of two is the setup's: what brings the largest component nearest.
+      // Setup chooses the power of two by which the largest component has the most bits.
       const golden::Axes& axes = words.lights[5 + i].place;
       int largest = 0;
       for (int axis = 1; axis < 3; ++axis)
@@ -162,7 +162,7 @@ Finding spot_slope(const Context& context, const tables::PresetFormats&, const t
             seen.word(words.lights[9 + i].slope, slope, "a slope");
             continue;
           }
-          // The share at the edge's two thirds, by the word and by the number.
+          // The cubic at two thirds of the cone's edge, by the word and by the number.
           const auto cubic = [](double t) { return t * t * (3 - 2 * t); };
           const double is = std::ldexp(words.lights[9 + i].slope, -format.fraction_bits), t = 2.0 / 3;
           const double error = std::fabs(cubic(std::min(1.0, t * is / slope)) - cubic(t));
@@ -172,7 +172,7 @@ Finding spot_slope(const Context& context, const tables::PresetFormats&, const t
         }
       });
   if (share) {
-    // The least slopes there are, next to the middle between two words.
+    // The smallest slopes, next to the middle between two words.
     for (int word = 32; word < 40; ++word) {
       const double slope = (word + 0.5 - 1e-9) * format.unit(), is = word * format.unit(), t = 2.0 / 3;
       const auto cubic = [](double x) { return x * x * (3 - 2 * x); };
@@ -208,7 +208,8 @@ template <class P>
 Finding exponent(const Context& context, const tables::PresetFormats&, const tables::Format& format,
                  const tables::Bound& bound) {
   if (bound.of == "highlight") {
-    // x^n falls most where x = 1/e^(1/n): from the least exponent on, next to the middle between two words.
+    // The slope of x^n is steepest at x = 1/e^(1/n). Start at the smallest exponent, next to the middle
+    // between two words.
     Finding finding;
     for (double n = 1; n < 4; n += format.unit()) {
       const double word = n, real = n + format.unit() / 2 - 1e-9, x = std::exp(-1 / real);
@@ -228,7 +229,7 @@ Finding exponent(const Context& context, const tables::PresetFormats&, const tab
   });
 }
 
-// A plane's value with half a step of vector in it, cut to a vector, as processors_shader has it.
+// The value of a plane plus half a step of vector, cut to a vector, as in processors_shader.
 template <class P>
 Finding vector(const Context&, const tables::PresetFormats&, const tables::Format& format,
                const tables::Bound&) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where terms are added and what is stored: products are exact, each term of the processors is cut once, and
-// the colour and the depth that leave are rounded once.
+// Sums of terms and stored results. Products are exact. Each term of the processors is cut once. Output
+// colour and depth are rounded once.
 #include <fmt/format.h>
 
 #include <random>
@@ -28,8 +28,8 @@ Finding colour_range(const Context&, const tables::PresetFormats&, const tables:
       .worst = double(most), .where = "the largest sum and the largest value, held", .proved = double(most)};
 }
 
-// The half that setup puts into the value and the cut behind it: every fraction of preset published, and
-// those next to a half of either.
+// The half step that setup adds to the value, and the cut of the result: every fraction of preset published;
+// in preset exact the fractions next to both halves.
 Finding colour_rounded(const Context&, const tables::PresetFormats&, const tables::Format&,
                        const tables::Bound&) {
   constexpr int c_bits = Published::c_intensity_bits, c_fraction = Published::c_intensity_fraction_bits;
@@ -48,7 +48,7 @@ Finding colour_rounded(const Context&, const tables::PresetFormats&, const table
   return finding;
 }
 
-// Setup keeps depths a step clear of either end, so that with half a step they stay in the format.
+// Setup keeps depths one step away from both ends, so that depth plus half a step stays in the format.
 Finding depth_range(const Context&, const tables::PresetFormats&, const tables::Format& format,
                     const tables::Bound&) {
   const double most = std::ldexp(1.0, format.integer_bits) - 1;
@@ -72,8 +72,8 @@ Finding depth_rounded(const Context&, const tables::PresetFormats&, const tables
   return finding;
 }
 
-// k I by the processor's own rounding: an ambient one, whose weight is 1, over random k and I; what it adds
-// below the format of radiance is seen where that has as many bits.
+// k I with the processor's own rounding: an ambient term, with weight 1, over random k and I. All bits of the
+// term are visible, since radiance has at least as many fraction bits.
 template <class P>
 Finding reflected(const Context&, const tables::PresetFormats&, const tables::Format& format,
                   const tables::Bound&) {
@@ -105,9 +105,8 @@ Finding reflected(const Context&, const tables::PresetFormats&, const tables::Fo
   return finding;
 }
 
-// Each term's product is cut; the ambient one's weight is 1, which cuts nothing. Sixteen lights whose diffuse
-// and specular terms lose all but one of the bits below a unit: weights w that are odd, and reflected lights
-// r with r w = -1 modulo a unit.
+// Each term's product is cut, except the ambient one's, with weight 1. Uses sixteen lights with the greatest
+// cut of the diffuse and specular terms: odd weights w, and reflected lights r with r w = -1 modulo a unit.
 template <class P>
 Finding radiance(const Context&, const tables::PresetFormats&, const tables::Format& format,
                  const tables::Bound&) {
@@ -121,7 +120,7 @@ Finding radiance(const Context&, const tables::PresetFormats&, const tables::For
     while (((std::uint64_t{r} * w + 1) & ((1ULL << c_cut) - 1)) != 0) ++r;
     return r;
   };
-  // L = V, so that H is along them; of all angles the one with the least light, which is far from held.
+  // L = V, so that H = L = V. Chooses the angle with the least light, to stay far from the clamp.
   struct Chosen {
     golden::Axes to_light{};
     std::uint32_t diffuse = 0, specular = 0;                    // weights
@@ -146,7 +145,7 @@ Finding radiance(const Context&, const tables::PresetFormats&, const tables::For
     next.specular_light = inverse(next.specular);
     if (next.diffuse_light + next.specular_light < best.diffuse_light + best.specular_light) best = next;
   }
-  // k I: in preset exact I is a colour step, in preset published k is 1.
+  // k I: in preset exact I is one colour step, in preset published k is 1.
   constexpr int c_product =
       P::c_coefficient_fraction_bits + P::c_light_intensity_fraction_bits - P::c_reflected_fraction_bits;
   constexpr bool c_exact = std::is_same_v<P, Exact>;

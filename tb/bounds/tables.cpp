@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables over whole cells, not at samples of them: a function that falls or rises over a cell is farthest
-// from a value at one of its ends; and a chord's distance from a concave or convex one is largest at one
-// point between, bounded by the tangents at the two ends.
+// The tables over whole cells instead of at samples. A function that is monotonic over a cell has its
+// greatest distance from a constant at an end of the cell. The distance of a chord from a concave or convex
+// function has one maximum inside the cell; the tangents at both ends bound it.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -16,12 +16,12 @@ namespace {
 
 using tables::CosineTable, tables::Function, tables::FunctionTable;
 
-// Asks Sollya for the largest distance between f and each cell's constant or chord.
+// Computes by Sollya the largest distance between f and each cell's constant or chord.
 class SollyaScript {
  public:
   explicit SollyaScript(std::string f)
       : text_(fmt::format("prec = 120!;\nverbosity = 0!;\nf = {};\nm = 0;\n", f)) {}
-  /// On [low, high] / 2^shift. (supnorm knows no polynomial that is zero, infnorm takes long for chords.)
+  /// On [low, high] / 2^shift. (supnorm does not accept the zero polynomial, infnorm is slow for chords.)
   void constant(const std::string& value, long low, long high, int shift) {
     text_ += fmt::format("m = max(m, sup(infnorm({} - f, [{} * 2^-{}; {} * 2^-{}])));\n", value, low, shift,
                          high, shift);
@@ -42,7 +42,8 @@ class SollyaScript {
   std::string text_;
 };
 
-// A value is the nearest to its function where it stands, not only within the table's bound there.
+// A table value must be the nearest one to its function at its argument, and not only within the table's
+// bound.
 void expect_nearest(double value, double unit, Enclosure truth, int index, TableFinding& finding) {
   if (farthest(value, truth) > unit / 2 * (1 + 0x1p-40))
     finding.failure = fmt::format("value {} is not the nearest", index);
@@ -67,7 +68,7 @@ TableFinding cosine_finding(const CosineTable& table) {
     for (const int end : {low, low + 1}) {
       const int away = std::abs(end);
       const Enclosure truth = away >= quarter ? Enclosure{0, 0} : cosine_power({away, shift}, table.power);
-      // The quotient is rounded as well.
+      // The rounding of the quotient is added.
       const double error = farthest(value, truth) + 0x1p-52;
       if (error <= finding.worst) continue;
       finding.worst = error;
@@ -77,7 +78,7 @@ TableFinding cosine_finding(const CosineTable& table) {
   return finding;
 }
 
-// Argument `index` cells from the first cell's beginning.
+// The argument `index` cells after the start of the first cell.
 Dyadic argument(const FunctionTable& table, int index) {
   const int cells = 1 << table.address_bits;
   if (table.function == Function::logarithm) return {cells + index, table.address_bits};
@@ -91,7 +92,7 @@ Enclosure value_at(const FunctionTable& table, Dyadic x) {
   return reciprocal_root(x);
 }
 
-// A value at a cell's middle.
+// The value is that of the cell's centre.
 TableFinding step_finding(const FunctionTable& table, TableFinding finding) {
   for (int i = 0; i < 1 << table.address_bits; ++i) {
     const double value = std::ldexp(table.values[static_cast<std::size_t>(i)], -table.fraction_bits);
@@ -109,8 +110,8 @@ TableFinding step_finding(const FunctionTable& table, TableFinding finding) {
   return finding;
 }
 
-// Values at a cell's ends and the chord between them, cut to a unit below towards the first value. On each of
-// many parts of a cell all three are monotonic.
+// The values are those of the cell's ends. The chord between them is cut to the unit below, towards the first
+// value. All three are monotonic on each of many parts of a cell.
 TableFinding chord_finding(const FunctionTable& table, TableFinding finding) {
   constexpr int c_part_bits = 6, c_parts = 1 << c_part_bits;
   const double unit = std::ldexp(1.0, -table.fraction_bits);
@@ -128,7 +129,8 @@ TableFinding chord_finding(const FunctionTable& table, TableFinding finding) {
     expect_nearest(last, unit, at(c_parts), i + 1, finding);
     for (int part = 0; part < c_parts; ++part) {
       const Enclosure to = at(part + 1);
-      // At the parts' ends the distance is that of doubles; between them it is off by the part's own bend.
+      // At the ends of a part the distance is computed in doubles. Between them it differs by the bend of the
+      // part.
       const double bend = std::ldexp(1.0, -2 * (table.address_bits + c_part_bits) - 3) * 1.4427;
       double high = -1, low = 1;  // chord - truth
       for (const auto& [p, truth] : {std::pair{part, from}, std::pair{part + 1, to}}) {
@@ -152,7 +154,7 @@ void ask_sollya(const Context& context, const CosineTable& table, TableFinding& 
   SollyaScript script(fmt::format("cos(pi / 2 * x)^{}", table.power));
   for (int entry = 0; entry < cells; ++entry) {
     const int low = table.exact || entry < cells / 2 ? entry : entry - cells;
-    if (low < -(1 << shift) || low >= 1 << shift) continue;  // zero in table and function
+    if (low < -(1 << shift) || low >= 1 << shift) continue;  // both table and function are zero
     script.constant(fmt::format("{} / {}", table.entries[static_cast<std::size_t>(entry)], full), low,
                     low + 1, shift);
   }
@@ -179,7 +181,7 @@ void ask_sollya(const Context& context, const FunctionTable& table, TableFinding
     }
   }
   script.run(context, finding);
-  // Ours has what is cut besides, along a chord, and the bend of its parts.
+  // Our result also includes the cut along a chord and the bend of its parts.
   const double cut = table.slope_bits > 0 ? std::ldexp(1.0, -table.fraction_bits) : 0;
   if (finding.sollya > finding.worst * (1 + 0x1p-18) ||
       (finding.sollya > 0 && finding.sollya + cut < finding.worst * (1 - 0x1p-10)))
@@ -196,7 +198,7 @@ std::vector<TableFinding> cosine_tables(const Context& context) {
     findings.push_back(cosine_finding(table));
     ask_sollya(context, table, findings.back());
   }
-  // Any other size that `make tables` may be asked for.
+  // All other sizes that `make tables` accepts.
   TableFinding others{.table = "the other sizes, 3/2 to 12/12"};
   double nearest = 0, farthest_away = 1;
   int count = 0;

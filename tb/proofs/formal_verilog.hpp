@@ -21,8 +21,7 @@ struct FormalVerilog {
   PropertyCounts counts;
 };
 
-/// Fails where GHDL has changed the meaning: a wide constant below zero, an assertion in a form that is not
-/// known.
+/// Fails if GHDL has changed the meaning: a negative wide constant, or an assertion of an unknown form.
 Result<FormalVerilog> formal_verilog(std::string_view netlist);
 
 /// The labelled statements `: assert ` and `: assume ` of a unit, outside comments.

@@ -24,7 +24,7 @@
 namespace halfway::proofs {
 namespace {
 
-constexpr std::size_t kQuickFaults = 4;  // per proof: all faults of a walker take longer than all proofs
+constexpr std::size_t kQuickFaults = 4;  // per proof; all faults of a walker take longer than all proofs
 constexpr unsigned kThreads = 2;
 
 struct Options {

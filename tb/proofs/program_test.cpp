@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_proofs: its exit codes and its page, by the proof of a small entity.
+// halfway_proofs: its exit codes and its page, with the proof of a small entity.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// A proof that has all that it needs; tests add keys or replace them.
+// A complete proof; tests add keys or replace them.
 constexpr const char* kProof =
     "entity = \"box\"\n"
     "[[proof]]\n"

@@ -27,7 +27,7 @@ struct StreamPort {
   bool out;
 };
 
-// Ports of a valid/ready stream. All declarations stand one a line.
+// Ports of a valid/ready stream. Every declaration is on its own line.
 std::vector<StreamPort> stream_ports(const std::string& vhdl) {
   std::vector<StreamPort> ports;
   const std::string text = without_comments(vhdl);
@@ -44,7 +44,7 @@ bool has_word(const std::string& text, const std::string& word) {
   return std::regex_search(text, std::regex("\\b" + word + "\\b"));
 }
 
-// Statements that assert, without the rest.
+// Only the statements that assert.
 std::string assertions(const std::string& unit) {
   std::string result;
   const std::regex assertion(": assert [^;]*;");

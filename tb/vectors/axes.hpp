@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random vectors of three components, and how many of them.
+// Random vectors of three components, and their number.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace halfway::vectors {
 
-// At full speed first, then with pauses.
+// Number of vectors at full speed, and after that with pauses.
 inline constexpr int c_running = 3000, c_pausing = 1000;
 
 inline std::int64_t signed_word(Random& random, int bits) {
   return static_cast<std::int64_t>(random.word(bits) << (64 - bits)) >> (64 - bits);
 }
 
-// Components of one magnitude or of three, none often.
+// The components have one common magnitude or three, and are often zero.
 inline golden::Axes random_axes(Random& random, int bits) {
   golden::Axes v;
   const auto smaller = random.between(0, bits - 1);
@@ -36,7 +36,7 @@ void run(Random& random, const Add& add) {
   for (int i = 0; i < c_pausing; ++i) add(random.one_in(2));
 }
 
-/// Two unit vectors in format direction whose cosine is of any size, often near 1; or any words.
+/// Two unit vectors of format direction with any cosine, often close to 1; or random words.
 template <class Preset>
 std::array<golden::Axes, 2> random_directions(Random& random) {
   if (random.one_in(8))

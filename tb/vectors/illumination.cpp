@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light's slices, clock by clock. Every combination of strobes comes up, though the shader does not give
-// them all.
+// The slices of a light, clock by clock. Uses every combination of strobes, also those that the shader never
+// drives.
 #include <fmt/format.h>
 
 #include <array>
@@ -22,7 +22,7 @@ struct Strobes {
   bool span_load, span_step, sample_step;
 };
 
-/// The first three fill the stages one after the other.
+/// The first three strobes fill the stages one after the other.
 constexpr int c_filling = 3;
 Strobes random_strobes(Random& random, int i) {
   if (i < c_filling) return {i == 0, i == 1, i == 2};
@@ -31,7 +31,7 @@ Strobes random_strobes(Random& random, int i) {
           flowing || !random.one_in(3)};
 }
 
-/// A pixel's products, in the sample stage or behind it.
+/// The products of a pixel: in the sample stage, or in a stage after it.
 using Products = std::array<std::uint64_t, 3>;
 
 struct SliceSize {
@@ -60,7 +60,7 @@ Status write_diffuse(const std::filesystem::path& folder, const SliceSize& size)
     file.flag(twin.lit());
     add_products(file, multiplied, size.channels, Preset::c_factor_bits + size.data_bits);
     file.end_vector();
-    // Each stage takes what the one before held, so the last goes first.
+    // Each stage loads the previous stage's old value, so update the last stage first.
     multiplied = halves;
     halves = quarters;
     if (s.sample_step) quarters = sampled;
@@ -117,7 +117,7 @@ Status write_cosine_rom(const std::filesystem::path& folder) {
     Random random(table.entries.size());
     const golden::CosineRom twin(table.exact, table.power, table.address_bits, table.data_bits);
     std::uint32_t sample = 0;
-    // Every entry a clock after the other, then at random with pauses.
+    // Read every entry, one per clock, then at random with pauses.
     const int entries = 1 << table.address_bits;
     for (int i = 0; i < 2 * entries + 2; ++i) {
       const bool enable = i < entries || random.one_in(2);

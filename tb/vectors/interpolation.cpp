@@ -36,7 +36,7 @@ Status write_line(const std::filesystem::path& folder) {
   return file.write(folder / (std::to_string(W) + ".txt"));
 }
 
-// A line: checked, load, start, step, increment, carry_in; value, whether a step was the last, its carry,
+// A line: checked, load, start, step, increment, carry_in; value, whether the last clock stepped, its carry,
 // before the edge that may load or step.
 template <int W>
 Status write_part(const std::filesystem::path& folder) {
@@ -57,8 +57,8 @@ Status write_part(const std::filesystem::path& folder) {
   return file.write(folder / (std::to_string(W) + ".txt"));
 }
 
-// Writes BITS_PARTS.txt. `vector(i)` writes a vector but its first column, `checked`: all parts hold words of
-// the file.
+// Writes BITS_PARTS.txt. `vector(i)` writes a vector except its first column, `checked`, which is 1 once all
+// parts hold words of the file.
 template <class Vector>
 Status write_skewed(const std::filesystem::path& folder, VectorFile& file, int bits, int parts,
                     Vector&& vector) {
@@ -89,7 +89,7 @@ Status write_skewed_interpolator(const std::filesystem::path& folder, int parts)
   });
 }
 
-// A line: checked, load, start, value, before the edge that may load; two words side by side.
+// A line: checked, load, start, value, before the edge that may load. Contains two words next to each other.
 Status write_skewed_register(const std::filesystem::path& folder, int bits, int parts) {
   Random random(static_cast<std::uint64_t>(bits));
   VectorFile file;
@@ -120,7 +120,7 @@ Status write_skewed_multiplexer(const std::filesystem::path& folder, int bits, i
   });
 }
 
-// A line: checked, strobe; strobes, before the edge. A word of a bit per part: the strobe's.
+// A line: checked, strobe; strobes, before the edge. The strobes are a word with one bit per part.
 Status write_skewed_strobe(const std::filesystem::path& folder, int parts) {
   Random random(static_cast<std::uint64_t>(parts));
   VectorFile file;
@@ -144,16 +144,16 @@ Status write_deskew(const std::filesystem::path& folder, int bits, int parts) {
   });
 }
 
-// What the walker tells the interpolators in one clock.
+// The walker's strobes in one clock.
 struct Strobes {
   bool line_load, line_step, line_carry, span_load, span_step;
 };
 
-// For so many clocks behind a load the words stand still: a word's parts, three at most, load one by one.
+// Clocks after a load in which the words do not change: a word's parts, at most three, are loaded one by one.
 constexpr int c_held = 2;
 
-// Every combination that the contract has comes up, though the walker does not give them all. The first two
-// fill the registers.
+// Every combination that the contract allows, also those that the walker never drives. The first two fill the
+// registers.
 Strobes random_strobes(Random& random, int i) {
   if (i == 0) return {true, false, false, false, false};
   if (i == 1) return {false, false, false, true, false};
@@ -163,7 +163,7 @@ Strobes random_strobes(Random& random, int i) {
           !span_load && !random.one_in(4)};
 }
 
-// The span stage takes what the line stage held before this edge, so it goes first.
+// The span stage loads the line stage's old value, so update it first.
 template <class Twin, class LineLoad>
 void strobe(Twin& twin, const Strobes& s, LineLoad&& line_load) {
   if (s.span_load)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random words for a light's parts of a line record.
+// Random words for the parts of a line record that belong to a light.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace halfway::vectors {
 
-/// Colour steps of which a few add up to white, `terms` of them in a pixel; some are any word.
+/// Colour terms, a few of which add up to white, for `terms` terms per pixel. Some are random words.
 inline void put_colour(InitVector& vector, const golden::Field& field, Random& random, int terms, int low) {
   const std::int64_t most = (std::int64_t{300} << field.fraction_bits) / terms;
   const auto word =
@@ -19,7 +19,8 @@ inline void put_colour(InitVector& vector, const golden::Field& field, Random& r
   set_bits(vector, field, word, low);
 }
 
-/// An angle about the bell's ends that moves a little a pixel; some are any words, of any slope.
+/// An angle around the ends of the bell that changes a little per pixel. Some are random words with any
+/// slope.
 template <class At>
 void put_angle(InitVector& vector, Random& random, int low) {
   if (random.one_in(8)) {
@@ -33,7 +34,7 @@ void put_angle(InitVector& vector, Random& random, int low) {
   set_bits(vector, At::slope, static_cast<std::uint64_t>(slope), low);
 }
 
-/// A light's diffuse part at bit `low`; `terms` as in put_colour.
+/// The diffuse part of a light at bit `low`. `terms` as in put_colour.
 template <class Preset>
 void put_diffuse_part(InitVector& vector, Random& random, int channels, int terms, int low) {
   put_angle<typename Preset::diffuse_header_at>(vector, random, low);
@@ -42,7 +43,7 @@ void put_diffuse_part(InitVector& vector, Random& random, int channels, int term
                low + Preset::c_diffuse_header_bits + c * Preset::c_diffuse_channel_bits);
 }
 
-/// A light's specular part; in one of six any power, a table or not.
+/// The specular part of a light. One of six has any power, with or without a table.
 template <class Preset>
 void put_specular_part(InitVector& vector, Random& random, int channels, int terms, int low) {
   put_angle<typename Preset::specular_header_at>(vector, random, low);

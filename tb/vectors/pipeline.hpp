@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of an entity that takes words in each clock with enable and shows what they come to a fixed number
-// of such clocks later.
+// Vectors of an entity with a fixed latency: it takes words in each enabled clock and outputs their result a
+// fixed number of enabled clocks later.
 #pragma once
 
 #include <initializer_list>
@@ -12,7 +12,7 @@
 
 namespace halfway::vectors {
 
-/// Words side by side, the first lowest.
+/// Words next to each other, the first one lowest.
 struct Flat {
   std::vector<std::uint32_t> words;
   int bits = 0;
@@ -33,7 +33,7 @@ inline Flat flat(const golden::Axes& v, int bits) {
   return all;
 }
 
-/// First line: latency. Then a line per clock: checked, enable, inputs; the result, before the edge.
+/// First line: latency. Then one line per clock: checked, enable, inputs; the result, before the edge.
 class Pipeline {
  public:
   explicit Pipeline(int latency) : latency_(latency), due_(latency) {
@@ -46,7 +46,8 @@ class Pipeline {
     file_.words_of(shown.words, shown.bits).end_vector();
     if (enable && latency_ > 0) due_.step(result);
   }
-  /// An input that must stand still while a word is in the stages changes: the words in them do not count.
+  /// An input changes that must be stable while words are in the stages: the words in the stages are not
+  /// checked.
   void restart() { due_ = golden::DelayLine<Flat>(latency_); }
   Status write(const std::filesystem::path& path) const { return file_.write(path); }
 

@@ -18,8 +18,8 @@ namespace {
 
 using golden::Axes, golden::Command, golden::Exact, golden::ProcessorsConfig, golden::Published, golden::Term;
 
-/// Tokens such as a scene's: directions all near one, which changes now and then, so that cosines lie between
-/// their ends; and any words among them.
+/// Tokens like those of a scene: directions are close to one direction, which changes from time to time, so
+/// that cosines are mostly between 0 and 1. Some tokens are random words.
 template <class Preset>
 class TokenMaker {
  public:
@@ -27,7 +27,7 @@ class TokenMaker {
 
   TokenMaker(const ProcessorsConfig& config, std::uint64_t seed) : config_(config), random_(seed) { turn(); }
 
-  /// Of its lights `light` comes up most often.
+  /// Most tokens are for light `light`.
   Token token(int light) {
     if (random_.one_in(40)) turn();
     const auto number = static_cast<std::uint32_t>(random_.one_in(4) ? random_.between(0, config_.lights())
@@ -68,7 +68,7 @@ class TokenMaker {
     token.opens = random_.one_in(2);
     return token;
   }
-  /// A polygon that opens a volume at a column which no random token asks for.
+  /// A shadow polygon that opens a volume at a column that no random token uses.
   Token opening(std::uint32_t light) {
     Token token = shadow(light);
     token.x = 17;
@@ -96,7 +96,8 @@ class TokenMaker {
       channel = static_cast<std::uint32_t>(random_.word(Preset::c_radiance_bits));
     return token;
   }
-  /// Behind the ambient processor N is a direction; some tokens come with any words there, as out of none.
+  /// After the ambient processor N is a direction. Some tokens have random words there, as after a processor
+  /// without normalization.
   Token behind_ambient(Token token) {
     if (token.is_object() && !random_.one_in(10))
       token.normal = near(Preset::c_direction_fraction_bits, Preset::c_direction_bits, 1);
@@ -125,7 +126,7 @@ class TokenMaker {
     } while (length < 0.1);
     for (double& axis : base_) axis /= length;
   }
-  /// A vector of about `length` near the base, or any words at all.
+  /// A vector of approximately `length` near the base, or random words.
   Axes near(int fraction_bits, int bits, double length) {
     Axes words;
     const double spread = random_.one_in(3) ? 0.02 : 0.4;
@@ -161,10 +162,10 @@ std::string name_of(const ProcessorsConfig& c) {
                      c.specular, c.normalize, c.shadows);
 }
 
-// Shadow polygons of one column, until its count leaves its format, and some more.
+// Shadow polygons of one column until its count leaves its format, and some more.
 constexpr int c_too_many = (1 << (Exact::c_shadow_count_bits - 1)) + 8;
 
-// A line: token; the token that comes out, fault once it has.
+// A line: token; the output token, fault afterwards.
 template <class Preset>
 Status write_processor(const std::filesystem::path& folder, const ProcessorsConfig& config, Term term,
                        int light, int tokens, bool faults) {
@@ -172,10 +173,10 @@ Status write_processor(const std::filesystem::path& folder, const ProcessorsConf
   TokenMaker<Preset> maker(config, static_cast<std::uint64_t>(bits * 8 + static_cast<int>(term) * 3 + light));
   golden::ShadingProcessor<Preset> twin(config, term, light);
   VectorFile file;
-  // In the end more volumes than the counter holds, if at all.
+  // At the end, with faults: more volumes than the counter can count.
   const int last = tokens + (faults ? c_too_many : 0);
   for (int done = 0; done < last; ++done) {
-    // At first no light is valid; then it is defined, and comes back after it was deleted.
+    // No light is valid at first. Later the light is defined, and defined again after it was deleted.
     const bool defines = done == 20 || (done > 20 && done % 25 == 0);
     auto token = done >= tokens ? maker.opening(static_cast<std::uint32_t>(light))
                  : defines      ? maker.load(Command::define, static_cast<std::uint32_t>(light))
@@ -195,8 +196,8 @@ struct ProcessorCase {
   std::vector<int> lights;
 };
 
-// tb/illumination/shading_processor_tb.vhd has the same list: everything that there can be, versions I and II
-// without what else belongs to ours, and single effects.
+// The list of tb/illumination/shading_processor_tb.vhd: one configuration with all effects, the paper's
+// versions I and II, and two with single effects.
 const std::vector<ProcessorCase>& processor_cases() {
   static const std::vector<ProcessorCase> cases = {
       {{3, 1, 1, 1, true, true, true, true}, {1, 2, 3}}, {{3, 1, 0, 0, true, true, false, false}, {1}},
@@ -223,7 +224,7 @@ Status write_processors(const std::filesystem::path& folder, int tokens) {
   return Ok{};
 }
 
-// What the parts of a processor take: tokens of one configuration, several lights.
+// Tokens for the parts of a processor: one configuration with several lights.
 const ProcessorsConfig& part_config() {
   static const ProcessorsConfig config{3, 1, 1, 1, true, true, true, true};
   return config;
@@ -244,7 +245,7 @@ Flat flat(const golden::Terms& terms) {
   return all;
 }
 
-// A light's words: those of the token that defines it, behind the header.
+// The words of a light: those of the token that defines it, without the header.
 template <class Preset>
 Flat light_words(TokenMaker<Preset>& maker, const golden::ShadingLight& light) {
   using Layout = golden::ProcessorsLayout<Preset>;
@@ -263,7 +264,7 @@ Flat light_words(TokenMaker<Preset>& maker, const golden::ShadingLight& light) {
   return all;
 }
 
-// Inputs: light, token; of the token that leaves: terms, N, view vector (published: 0).
+// Inputs: light, token; of the output token: terms, N, view vector (published: 0).
 template <class Preset>
 Status write_ambient_term_of(const std::filesystem::path& folder) {
   constexpr bool c_exact = golden::ProcessorsLayout<Preset>::c_exact;
@@ -291,7 +292,7 @@ Status write_ambient_term_of(const std::filesystem::path& folder) {
   return pipeline.write(folder / fmt::format("{}.txt", Preset::c_name));
 }
 
-// Inputs: light, token; above, terms (0 where the light is not above).
+// Inputs: light, token; above, terms (0 if the light is not above the horizon).
 template <class Preset>
 Status write_light_term_of(const std::filesystem::path& folder, Term term, int light_number, int latency) {
   const int bits = golden::ProcessorsLayout<Preset>(part_config()).token_bits();
@@ -318,8 +319,8 @@ Status write_light_term_of(const std::filesystem::path& folder, Term term, int l
                         fmt::format("{}_{}{}.txt", Preset::c_name, static_cast<int>(term), light_number));
 }
 
-// A line: token; object, changes; after it was taken defined, light (meant where defined), lit (meant where
-// object and defined), fault.
+// A line: token; object, changes; after the token was accepted: defined, light (valid if defined), lit (valid
+// if object and defined), fault.
 template <class Preset>
 Status write_light_state_of(const std::filesystem::path& folder) {
   constexpr int c_tokens = 1500;
@@ -345,7 +346,7 @@ Status write_light_state_of(const std::filesystem::path& folder) {
   return file.write(folder / fmt::format("{}.txt", Preset::c_name));
 }
 
-// A line: token, comes; the object that comes out (meant where it comes), fault once it has.
+// A line: token, comes; the output object (valid if comes), fault afterwards.
 template <class Preset>
 Status write_pipeline(const std::filesystem::path& folder, const ProcessorsConfig& config, bool faults) {
   constexpr int c_tokens = 360;
@@ -356,7 +357,7 @@ Status write_pipeline(const std::filesystem::path& folder, const ProcessorsConfi
   const int last = c_tokens + (faults ? c_too_many : 0);
   for (int done = 0; done < last; ++done) {
     const int light = static_cast<int>(maker.random().between(0, config.lights()));
-    // First all lights.
+    // Define all lights first.
     auto token = done >= c_tokens          ? maker.opening(static_cast<std::uint32_t>(config.lights()))
                  : done <= config.lights() ? maker.load(Command::define, static_cast<std::uint32_t>(done))
                                            : maker.token(light);
@@ -372,7 +373,7 @@ Status write_pipeline(const std::filesystem::path& folder, const ProcessorsConfi
 
 template <class Preset>
 Status write_pipelines(const std::filesystem::path& folder) {
-  // tb/shaders/shading_pipeline_tb.vhd has the same list.
+  // The list of tb/shaders/shading_pipeline_tb.vhd.
   const ProcessorsConfig configs[] = {{3, 1, 1, 1, true, true, true, true},
                                       {3, 2, 0, 0, true, true, false, false},
                                       {1, 0, 1, 1, false, true, true, false},
@@ -394,7 +395,7 @@ Status write_light_term(const std::filesystem::path& folder) {
     Term term;
     int light, exact, published;  // clocks
   };
-  // A directional light, a positional one, a spot. tb/illumination/light_term_tb.vhd has the same list.
+  // A directional light, a positional light, a spot. The list of tb/illumination/light_term_tb.vhd.
   constexpr Case c_cases[] = {{Term::diffuse, 1, 3, 3},   {Term::specular, 1, 17, 4},
                               {Term::diffuse, 2, 13, 9},  {Term::specular, 2, 27, 10},
                               {Term::diffuse, 3, 17, 13}, {Term::specular, 3, 28, 13}};
@@ -410,22 +411,22 @@ Status write_light_state(const std::filesystem::path& folder) {
   return write_light_state_of<Published>(folder);
 }
 
-// A line: reset, step, clear, counts, opens, takes, x, and around_eye for the column before, clocks until
-// ready; then before the edge: counted, lit (meant where counted), fault.
+// A line: reset, step, clear, counts, opens, takes, x, around_eye for the previous column, clocks until
+// ready; then, before the edge: counted, lit (valid if counted), fault.
 Status write_shadow_counter(const std::filesystem::path& folder) {
   constexpr int c_columns = 1 << Exact::c_pixel_x_bits;
   constexpr int c_most = (1 << (Exact::c_shadow_count_bits - 1)) - 1;
   Random random(9);
   VectorFile file;
   golden::ShadowCounter twin;
-  std::uint32_t last = 0;   // counted since the last clear
-  std::uint32_t waits = 0;  // until ready
-  bool counted = false;     // the last step was one of a column
-  int around_eye = 0;       // until the next step
+  std::uint32_t last = 0;   // highest column counted since the last clear
+  std::uint32_t waits = 0;  // clocks until ready
+  bool counted = false;     // the last step was for a column
+  int around_eye = 0;       // constant until the next step
   bool lit = false;
-  bool fault = false;  // as seen two clocks after the step
-  // What goes with a column that holds `held`: often the one that makes the object lit, else one beside it or
-  // any.
+  bool fault = false;  // visible two clocks after the step
+  // Choose around_eye for a column with count `held`: often the greatest value with which the object is lit,
+  // else one next to it or any.
   const auto choose_light = [&](int held) {
     around_eye = random.one_in(4)
                      ? static_cast<int>(random.between(-c_most - 1, c_most))
@@ -473,7 +474,7 @@ Status write_shadow_counter(const std::filesystem::path& folder) {
       line(true, random.one_in(2), false, true, true, false, 0);
       continue;
     }
-    // Few columns, so that they come again at once; two that count past either end, each for a part alone.
+    // Use few columns, so that they repeat soon. Two of them count beyond each end, each in its own part.
     const int first = part < 4 ? 100 : 101;
     const auto x = static_cast<std::uint32_t>(random.one_in(8) ? random.between(0, c_columns - 1)
                                                                : random.between(first, first + part % 3));
@@ -484,7 +485,8 @@ Status write_shadow_counter(const std::filesystem::path& folder) {
     const bool takes = !clear && random.one_in(far ? 3000 : 4);
     line(false, step, clear, !clear && !takes && !random.one_in(10), opens, takes, x);
   }
-  // A column up to its limit, where nothing is wrong yet, and past it, with steps around that count nothing.
+  // Count one column up to its limit, which is not a fault, and beyond it, with steps around that do not
+  // count.
   for (const bool opens : {true, false}) {
     line(true, false, false, false, false, false, 0);
     for (int i = 0; i < (opens ? c_most : c_most + 1); ++i) line(false, true, false, true, opens, false, 100);

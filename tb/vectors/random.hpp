@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random words, the same on every machine.
+// Random words that are equal on all machines.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class Random {
     return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1));
   }
   bool one_in(int count) { return between(1, count) == 1; }
-  /// A word that finds faults: an extreme one, a small one, one of any magnitude and sign, or any at all.
+  /// A word that is likely to find faults: extreme, small, of any magnitude and sign, or uniform.
   std::uint64_t word(int count) {
     const std::uint64_t top = std::uint64_t{1} << (count - 1);
     switch (between(0, 9)) {

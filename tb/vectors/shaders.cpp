@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// For each shader and set of triangles: init: the vector, and the clock in which it is taken at full speed;
-// fragments: triangle, y, x, z, red, green, blue, and the clock in which it is given out at full speed.
+// Files for each shader and set of triangles. init: the vector, and the clock in which it is accepted at full
+// speed. fragments: triangle, y, x, z, red, green, blue, and the clock in which the fragment is output at
+// full speed.
 #include <fmt/format.h>
 
 #include <array>
@@ -32,14 +33,14 @@ void add_fragment(VectorFile& file, const Fragment& f, std::int64_t clock) {
   add_clock(file, clock);
 }
 
-// Colours that cross the range slowly; one channel in six is left as it is, random words.
+// Colours that change slowly over the triangle. One channel in six keeps random words.
 template <class Preset>
 void put_colours(InitVector& init, Random& random, int channels) {
   for (int c = 0; c < channels; ++c) {
     if (random.one_in(6)) continue;
     const int low = Preset::c_init_header_bits + c * Preset::c_init_channel_bits;
     for (const golden::Field& field : Preset::c_init_channel) {
-      // 512 steps for the value, 16 for first differences, 1 for second ones.
+      // Limits: 512 steps for the value, 16 for first differences, 1 for second differences.
       const bool value = field.name == "value", second = field.name.size() > 3 || field.name == "dxx";
       const std::int64_t most = std::int64_t{1} << (field.fraction_bits + (value ? 9 : second ? 0 : 4));
       const std::int64_t word = random.between(value ? -most / 8 : -most, most);
@@ -48,27 +49,27 @@ void put_colours(InitVector& init, Random& random, int channels) {
   }
 }
 
-// When the quadratic shader takes vectors and gives fragments out at full speed, from what its header
-// promises. Clocks count from the first init vector taken.
+// The clocks in which the quadratic shader accepts vectors and outputs fragments at full speed, as its header
+// promises. Clocks count from the first accepted init vector.
 class QuadraticClock {
  public:
-  /// The clocks that may be lost after a triangle of so many pixels.
+  /// Most clocks that are lost after a triangle of so many pixels.
   static std::int64_t may_lose(std::int64_t pixels) { return std::max<std::int64_t>(2 - pixels, 0); }
 
-  /// The clock in which the next vector is taken.
+  /// The clock in which the next vector is accepted.
   std::int64_t take_init() {
-    // The buffer in front takes it a clock after the walker has read the one before.
+    // The init buffer accepts it one clock after the walker has read the previous one.
     const std::int64_t taken = first_ ? 0 : clock_.read() + 2 + c_held;
     first_ = false;
     clock_.take_init();
     return taken;
   }
-  /// The clock of the line's first fragment. A clock in the buffer in front, one in the edge stage, one to
-  /// the span stage, two for both halves of the words, two in the queue.
+  /// The clock of the line's first fragment: one clock in the init buffer, one in the edge stage, one to the
+  /// span stage, two for both halves of the words, two in the queue.
   std::int64_t take_line(std::int64_t pixels) { return clock_.take_line(pixels) + 7; }
 
  private:
-  static constexpr std::int64_t c_held = 1;  // clocks in the buffer when read
+  static constexpr std::int64_t c_held = 1;  // clocks in the buffer when it is read
   WalkerClock clock_{false, c_held};
   bool first_ = true;
 };
@@ -94,7 +95,7 @@ Status write_quadratic(const std::filesystem::path& folder) {
         const std::int64_t first = clock.take_line(line.pixels());
         for (std::int64_t i = 0; i < line.pixels(); ++i) clocks.push_back(first + i);
       }
-      // What the header of quadratic_shader.vhd promises.
+      // Check the promise in the header of quadratic_shader.vhd.
       if (mix == Mix::dense) {
         const auto pixels = static_cast<std::int64_t>(clocks.size());
         const std::int64_t lost = losses.triangle(clocks.front(), pixels);
@@ -113,7 +114,7 @@ Status write_quadratic(const std::filesystem::path& folder) {
   return Ok{};
 }
 
-// A configuration of the spherical shader; tb/shaders/spherical_shader_tb.vhd has the same.
+// A configuration of the spherical shader. tb/shaders/spherical_shader_tb.vhd has the same list.
 struct Spherical {
   const char* name;
   golden::SphericalConfig config;
@@ -154,7 +155,8 @@ template <class Preset>
 Status write_spherical(const std::filesystem::path& folder, const Spherical& spherical) {
   using Shader = golden::SphericalShader<Preset>;
   const golden::SphericalLayout<Preset> layout(spherical.config);
-  // A seed with which each set's first triangle covers a pixel on its first line, for the checker's latency.
+  // Choose the seed so that the first triangle of each set covers a pixel on its first line: the checker
+  // measures the latency there.
   Random random(static_cast<std::uint64_t>(layout.init_bits() + 3));
   for (const auto& [mix, name] : c_sets) {
     VectorFile inits, fragments;
@@ -170,7 +172,7 @@ Status write_spherical(const std::filesystem::path& folder, const Spherical& sph
         put_colour(group, Preset::ambient_channel_at::ambient, random, 5, layout.ambient_low(c));
       const auto lines = walk_lines<Preset>(group);
       add_init(group);
-      // As in write_quadratic; a line's record leaves the buffer with its line.
+      // As in write_quadratic. The record of a line leaves the buffer with its line.
       taken = clock.take_init() + 2;
       std::vector<std::int64_t> clocks;
       for (const WalkedLine& line : lines) {
@@ -181,7 +183,7 @@ Status write_spherical(const std::filesystem::path& folder, const Spherical& sph
           group.insert(group.end(), record.begin(), record.end());
           taken = line_taken + 2;
         }
-        // A clock in the buffer in front, one in the edge stage, one to the span stage, one for the samples,
+        // One clock in the init buffer, one in the edge stage, one to the span stage, one for the samples,
         // two for the products, one for their sum, two in the queue.
         const std::int64_t first = line_taken + 10;
         for (std::int64_t i = 0; i < line.pixels(); ++i) clocks.push_back(first + i);
@@ -189,10 +191,11 @@ Status write_spherical(const std::filesystem::path& folder, const Spherical& sph
       if (twin.group(group) * twin.init_words() != group.size())
         return tool_failed(fmt::format("{}: a group of {} vectors, expected {}", spherical.name,
                                        twin.group(group), group.size() / twin.init_words()));
-      // What the header of spherical_shader.vhd promises.
+      // Check the promise in the header of spherical_shader.vhd.
       for (std::size_t i = 0; mix == Mix::dense && i < clocks.size(); ++i) {
         const std::int64_t lost = given == 0 ? 0 : clocks[i] - given - 1;
-        // With records always, without only where nothing was ahead of the triangle before.
+        // With records exactly this number is lost. Without records no clock is lost if the previous
+        // triangle had to wait for the one before it.
         const std::int64_t most = i > 0                       ? 0
                                   : layout.record_bits() != 0 ? std::max<std::int64_t>(3 - last_pixels, 0)
                                   : pixels_before == 1        ? 1

@@ -68,7 +68,7 @@ Status write_vector_multiply_of(const std::filesystem::path& folder, int a_bits,
   return pipeline.write(folder / fmt::format("{}_{}.txt", a_bits, b_bits));
 }
 
-// Each shift, by each component and either sign; then vectors of any kind.
+// Each shift, for each component and both signs; then vectors of any kind.
 template <int Bits, class Add>
 void run_axes(Random& random, const Add& add) {
   for (int bit = 0; bit < Bits; ++bit)
@@ -127,7 +127,7 @@ Status write_reciprocal_root_of(const std::filesystem::path& folder, int latency
   if constexpr (c_bits <= 16) {
     for (std::uint64_t square = 0; square < std::uint64_t{1} << c_bits; ++square) add(true, square);
   } else {
-    // About each cell's ends, from 1/4 to 4.
+    // Squares around the ends of each cell, from 1/4 to 4.
     for (std::uint64_t cell = 0; cell < 1024; ++cell)
       for (const std::uint64_t offset : {~std::uint64_t{0}, std::uint64_t{0}, random.bits(c_bits - 10)})
         add(true, (cell << (c_bits - 10)) + offset);
@@ -148,7 +148,7 @@ Status write_power_of(const std::filesystem::path& folder, int latency) {
     pipeline.clock(enable, {{base, Power::c_base_fraction + 1}, {m, Preset::c_exponent_bits}},
                    {Power::power(base, m), Preset::c_weight_bits});
   };
-  // Highlights of any exponent, and of any height: where the power is neither 0 nor 1 nearly everywhere.
+  // Highlights of any exponent and height, where the power is mostly neither 0 nor 1.
   const auto any = [&](bool enable) {
     const std::uint64_t exponent =
         random.bits(Preset::c_exponent_bits) >> random.between(0, Preset::c_exponent_bits - 1);
@@ -196,7 +196,7 @@ Status write_spot_cone_of(const std::filesystem::path& folder) {
     const std::int64_t outer = signed_word(random, Preset::c_direction_bits);
     const std::uint64_t slope =
         std::max<std::uint64_t>(1, random.bits(c_slope_bits) >> random.between(0, c_slope_bits - 1));
-    // Between the edges and a little outside, or anywhere.
+    // Cosines between the edges of the rim and a little outside, or anywhere.
     const std::int64_t width = (std::int64_t{1} << (2 * c_fraction + Preset::c_spot_slope_fraction_bits)) /
                                static_cast<std::int64_t>(slope);
     const std::int64_t edge = -outer * (std::int64_t{1} << c_fraction);

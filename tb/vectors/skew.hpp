@@ -7,7 +7,7 @@
 
 namespace halfway::vectors {
 
-/// Skews a word that changes from clock to clock: part p is that of the word p clocks ago.
+/// Skews a word that changes every clock: part p is that of the word p clocks ago.
 class Skew {
  public:
   Skew(int bits, int parts) : bits_(bits), history_(static_cast<std::size_t>(parts)) {}

@@ -37,7 +37,7 @@ Status write_parameter(const std::filesystem::path& folder) {
   return file.write(folder / (std::to_string(Bits) + ".txt"));
 }
 
-// A line: reset, in_valid, in_data, out_ready; in_ready, out_valid, out_data (meant where out_valid).
+// A line: reset, in_valid, in_data, out_ready; in_ready, out_valid, out_data (valid if out_valid).
 template <int Bits>
 Status write_stream(const std::filesystem::path& folder) {
   Random random(Bits);
@@ -45,7 +45,7 @@ Status write_stream(const std::filesystem::path& folder) {
   golden::StreamRegister<FlatWord<Bits>> twin;
   constexpr int c_vectors = 3000;
   for (int i = 0; i < c_vectors; ++i) {
-    // Full speed, then a fast source, a fast sink, both at random, with a reset now and then.
+    // Full speed, then a fast source, a fast sink, and both at random, with resets.
     const int part = i * 4 / c_vectors;
     const bool in_valid = part < 2 || random.one_in(2),
                out_ready = part == 0 || part == 2 || random.one_in(2);
@@ -58,18 +58,17 @@ Status write_stream(const std::filesystem::path& folder) {
   return file.write(folder / (std::to_string(Bits) + ".txt"));
 }
 
-// A line: reset, claim, in_valid, in_data, out_ready; room, holds, out_valid, out_data (meant where
-// out_valid).
+// A line: reset, claim, in_valid, in_data, out_ready; room, holds, out_valid, out_data (valid if out_valid).
 template <int Bits, int IndexBits>
 Status write_queue(const std::filesystem::path& folder) {
   Random random(Bits);
   VectorFile file;
   golden::StreamQueue<FlatWord<Bits>> twin((1 << IndexBits) - 1);
   constexpr int c_vectors = 4000, c_soon = 2;
-  int claimed = 0;                    // words to come
+  int claimed = 0;                    // claimed words that have not entered
   std::array<bool, c_soon> before{};  // the claims of the last clocks
   for (int i = 0; i < c_vectors; ++i) {
-    // Full speed, each word a fixed time behind its claim; then a fast source, a fast sink, both at random.
+    // Full speed, each word a fixed time after its claim; then a fast source, a fast sink, both at random.
     const int part = i * 4 / c_vectors;
     const bool reset = i == 0 || (i > c_vectors / 8 && random.one_in(80));
     const bool claim = twin.room() && (part < 2 || random.one_in(2));

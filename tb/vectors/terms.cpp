@@ -18,7 +18,7 @@ namespace {
 
 using golden::Axes, golden::Exact, golden::Published;
 
-// A light stands still for as many points.
+// Number of points for which a light is constant; number of lights.
 constexpr int c_points = 100, c_lights = 40;
 
 // add(first of a light, enable)
@@ -37,7 +37,7 @@ std::uint32_t unsigned_word(Random& random, int bits) {
   return static_cast<std::uint32_t>(random.word(bits));
 }
 
-// Inputs: positional, place, shift, point, distance. The light can have a place, or not.
+// Inputs: positional, place, shift, point, distance. `can`: the light may be positional.
 template <class Preset>
 Status write_light_vector_of(const std::filesystem::path& folder, bool can) {
   constexpr bool c_exact = Preset::c_light_shift_bits > 0;
@@ -68,7 +68,7 @@ Status write_light_vector_of(const std::filesystem::path& folder, bool can) {
   return pipeline.write(folder / fmt::format("{}_{:d}.txt", Preset::c_name, can));
 }
 
-// Inputs: positional, to_light, to_eye. H depends on the point, or not.
+// Inputs: positional, to_light, to_eye. `depends`: H depends on the point.
 template <class Preset>
 Status write_half_vector_of(const std::filesystem::path& folder, bool depends) {
   constexpr bool c_exact = Preset::c_light_shift_bits > 0;
@@ -111,7 +111,7 @@ Status write_cosine_power_of(const std::filesystem::path& folder, bool highlight
   return pipeline.write(folder / fmt::format("{}_{:d}.txt", Preset::c_name, highlight));
 }
 
-// Inputs: spot, axis, outer, slope, to_light, cosine. The cosine comes `lead` clocks after to_light.
+// Inputs: spot, axis, outer, slope, to_light, cosine. The cosine follows to_light after `lead` clocks.
 template <class Preset>
 Status write_light_weight_of(const std::filesystem::path& folder, int lead) {
   Random random(static_cast<std::uint64_t>(Preset::c_spot_slope_bits + lead));
@@ -130,7 +130,7 @@ Status write_light_weight_of(const std::filesystem::path& folder, int lead) {
       slope = static_cast<std::uint32_t>(random.bits(10));
       pipeline.restart();
     }
-    // Within the cone most often.
+    // Mostly points within the cone.
     if (!random.one_in(3))
       for (std::size_t i = 0; i < axis.size(); ++i)
         to_light[i] = std::clamp(
@@ -153,7 +153,7 @@ Status write_light_weight_of(const std::filesystem::path& folder, int lead) {
   return pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, lead));
 }
 
-// Inputs: coefficients, intensities, weight. The weight comes a clock after its coefficients.
+// Inputs: coefficients, intensities, weight. The weight follows its coefficients after one clock.
 template <class Preset>
 Status write_reflected_term_of(const std::filesystem::path& folder, int channels, bool weighted) {
   Random random(static_cast<std::uint64_t>(Preset::c_coefficient_bits + channels));
@@ -204,7 +204,7 @@ Status write_radiance_sum_of(const std::filesystem::path& folder, int channels) 
   return pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, channels));
 }
 
-// The same for both presets.
+// Runs both presets.
 template <class ForExact, class ForPublished>
 Status both(const ForExact& exact, const ForPublished& published) {
   if (auto s = exact(); !s) return s;
@@ -241,7 +241,7 @@ Status write_cosine_power(const std::filesystem::path& folder) {
 }
 
 Status write_light_weight(const std::filesystem::path& folder) {
-  // Diffuse, where the share of the cone comes last, and specular.
+  // Diffuse, where the factor of the cone is ready last, and specular.
   for (const int lead : {2, 16})
     if (auto s = both([&] { return write_light_weight_of<Exact>(folder, lead); },
                       [&] { return write_light_weight_of<Published>(folder, lead); });

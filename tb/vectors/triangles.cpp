@@ -15,13 +15,13 @@ InitVector random_words(Random& random, int init_bits) {
   return init;
 }
 
-// Any words in the header, but few lines.
+// Random words in the header, but few lines.
 void put_garbage_lines(InitVector& init, Random& random) {
   using At = Exact::init_header_at;
   set_bits(init, At::upper_lines, static_cast<std::uint64_t>(random.between(1, 6)));
   set_bits(init, At::lower_lines, static_cast<std::uint64_t>(random.between(0, 4)));
   if (random.one_in(4)) return;
-  // Spans short enough to be many: the stop edge near the start edge.
+  // Keep spans short, so that many fit: put the stop edge near the start edge.
   const auto start = get_bits(init, At::start_x);
   for (const golden::Field* stop : {&At::upper_x, &At::lower_x})
     set_bits(init, *stop, start + static_cast<std::uint64_t>(random.between(-9, 9)));
@@ -50,29 +50,29 @@ std::vector<Walk> random_walks(Random& random) {
                        static_cast<std::int32_t>(random.between(y_low * unit, y_high * unit))};
   };
   const std::int64_t width = frame.width, height = frame.height;
-  // Where small triangles lie: anywhere, the frame's last corner included.
+  // Positions of small triangles: anywhere, or at the frame's last corner.
   const std::int64_t x = random.one_in(3) ? width - 12 : random.between(0, width - 1);
   const std::int64_t y = random.one_in(3) ? height - 12 : random.between(0, height - 1);
   std::array<ScreenPoint, 3> p;
   switch (random.between(0, 6)) {
-    case 0:  // about a pixel
+    case 0:  // approximately one pixel
       for (ScreenPoint& corner : p) corner = point(x, x + 2, y, y + 2);
       break;
-    case 1: {  // sliver: the third corner beside the middle of the other two
+    case 1: {  // sliver: the third corner is next to the middle of the other two
       p[0] = point(x, x + 3, y - 30, y);
       p[1] = point(x - 20, x + 40, y, y + 30);
       p[2] = {static_cast<std::int32_t>((p[0].x + p[1].x) / 2 + random.between(-unit, unit)),
               static_cast<std::int32_t>((p[0].y + p[1].y) / 2 + random.between(-unit, unit))};
       break;
     }
-    case 2:  // a flat side
+    case 2:  // one horizontal side
       for (ScreenPoint& corner : p) corner = point(x - 8, x + 8, y - 8, y + 8);
       p[1].y = p[0].y;
       break;
     case 3:  // cut by the frame
       for (ScreenPoint& corner : p) corner = point(-3 * 64, 3 * 64, -3 * 48, 3 * 48);
       break;
-    case 4:  // wide and low, over the frame's whole width
+    case 4:  // wide and flat, over the frame's whole width
       for (ScreenPoint& corner : p) corner = point(-width / 2, width + width / 2, y, y + 3);
       break;
     default:
@@ -87,7 +87,7 @@ void put_walk(InitVector& init, const Walk& walk) {
     set_bits(init, field, static_cast<std::uint64_t>(value));
   };
   const auto put_section = [&](const EdgeSection& s, const golden::Field* x) {
-    // The fields of a section follow one another: x, quotient, remainder, divisor, error, carry.
+    // The fields of a section in their order: x, quotient, remainder, divisor, error, carry.
     const std::int64_t values[] = {s.pixel, s.quotient, s.remainder, s.divisor, s.error, s.carry};
     for (std::size_t i = 0; i < std::size(values); ++i) put(x[i], values[i]);
   };
@@ -127,7 +127,7 @@ InitVector random_triangle<Published>(Random& random, Mix mix, int init_bits) {
   const std::int64_t start = random.between(0, 4095 * c_one), slope = random.between(-3 * c_one, 3 * c_one);
   put(At::start_x, start);
   put(At::start_slope, slope);
-  // Apex above, apex below, or neither; some with the edges crossed, whose lines are empty.
+  // The apex above, below, or neither. In some the edges cross, so that lines are empty.
   const std::int64_t wide = random.between(-c_one, 12 * c_one), widening = random.between(-c_one, c_one);
   put(At::upper_x, start + (random.one_in(2) ? 0 : wide));
   put(At::upper_slope, slope + widening);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random triangles as init vectors, what the golden walker makes of them, and when the hardware must show it.
+// Random triangles as init vectors, the golden walker's output for them, and the clocks of the hardware.
 #pragma once
 
 #include <algorithm>
@@ -17,16 +17,17 @@ namespace halfway::vectors {
 using golden::WalkerClock;
 using InitVector = std::vector<std::uint32_t>;
 
-/// `bits` random bits; those above are zero.
+/// `bits` random bits; the bits above are zero.
 InitVector random_vector(Random& random, int bits);
 
-/// Walks of one random triangle: ordinary, sliver, about a pixel, flat-sided, subdivided or cut by the frame.
+/// Walks of one random triangle: ordinary, sliver, one pixel, one horizontal side, subdivided or cut by the
+/// frame.
 std::vector<Walk> random_walks(Random& random);
 
-/// `init` with the walk in its header; its other bits stay.
+/// Writes the walk to the header of `init`. Other bits do not change.
 void put_walk(InitVector& init, const Walk& walk);
 
-/// One line as the walker goes over it.
+/// One line of the walker.
 struct WalkedLine {
   std::uint32_t triangle, y;
   golden::SpanXWord start, stop;
@@ -50,10 +51,10 @@ std::vector<WalkedLine> walk_lines(const InitVector& init) {
   }
 }
 
-/// The clocks that are lost between triangles of which every line covers a pixel, held against a promise.
+/// Counts the clocks that are lost between triangles whose lines all cover a pixel.
 class LostClocks {
  public:
-  /// A triangle's fragments come out from `first` on, one a clock, `pixels` in all.
+  /// The fragments of a triangle are output from clock `first` on, one per clock, `pixels` in total.
   std::int64_t triangle(std::int64_t first, std::int64_t pixels) {
     const std::int64_t lost = next_ == c_none ? 0 : first - next_;
     next_ = first + pixels;
@@ -65,11 +66,11 @@ class LostClocks {
   std::int64_t next_ = c_none;
 };
 
-/// What a set of triangles is for.
+/// The kind of a set of triangles.
 enum class Mix {
-  dense,  ///< every line covers a pixel: not a clock may be lost
-  small,  ///< the same, and three pixels at most
-  mixed   ///< with empty lines, and with words that setup would never write
+  dense,  ///< every line covers a pixel: no clock may be lost
+  small,  ///< the same, with at most three pixels
+  mixed   ///< with empty lines, and with words that setup never writes
 };
 
 template <class Preset>
@@ -79,8 +80,8 @@ InitVector random_triangle<golden::Exact>(Random& random, Mix mix, int init_bits
 template <>
 InitVector random_triangle<golden::Published>(Random& random, Mix mix, int init_bits);
 
-/// Triangles of about `pixels` pixels altogether. Header bits that the walker does not read, and all behind
-/// the header, are random words.
+/// Triangles of approximately `pixels` pixels in total. Header bits that the walker does not read, and all
+/// bits after the header, are random.
 template <class Preset>
 std::vector<InitVector> random_triangles(Random& random, Mix mix, int init_bits, std::int64_t pixels) {
   std::vector<InitVector> set;
@@ -92,7 +93,7 @@ std::vector<InitVector> random_triangles(Random& random, Mix mix, int init_bits,
       covered += line.pixels();
       empty |= line.pixels() == 0;
     }
-    // Long spans of garbage are rare: they tell no more than short ones.
+    // Long spans of random words are rare: they find no more faults than short ones.
     if (covered > 400 && (mix != Mix::mixed || !random.one_in(40) || covered > pixels)) continue;
     if (mix != Mix::mixed && empty) continue;
     if (mix == Mix::small && covered > 3) continue;
