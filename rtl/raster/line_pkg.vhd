@@ -37,11 +37,12 @@ end package;
 package body line_pkg is
 
   function flag (condition : boolean) return std_logic is
+    variable result : std_logic := '0';
   begin
     if condition then
-      return '1';
+      result := '1';
     end if;
-    return '0';
+    return result;
   end function;
 
 end package body;

@@ -235,7 +235,7 @@ Result<std::vector<bool>> prove_equivalent(const FaultyNetlist& netlist,
   const std::string script =
       "read_verilog mutated.v miter.v\nhierarchy -top miter\nproc\nflatten\nopt -full\nmemory_map\n"
       "setundef -undriven -zero\nsetundef -init -zero\nopt -full\nasync2sync\ntechmap\nopt\ndffunmap\n"
-      "opt_clean\naigmap\nopt_clean\nwrite_aiger -ascii -symbols -zinit miter.aag\n";
+      "setundef -zero\nopt_clean\naigmap\nopt_clean\nwrite_aiger -ascii -symbols -zinit miter.aag\n";
   if (auto s = write_file(netlist.folder / "miter.ys", script); !s) return s.error();
   if (auto s = run_in(netlist.folder, {"yosys", "-q", "miter.ys"}, "miter of " + netlist.top); !s)
     return s.error();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "golden/edge_pair.hpp"
 #include "golden/edge_walker.hpp"
 #include "golden/line_counter.hpp"
@@ -117,8 +120,8 @@ Status write_walker(const std::filesystem::path& folder) {
   return Ok{};
 }
 
-// A line: reset, init_valid, init, advance; init_ready, step, load, section_change, valid, first, triangle, y, before the
-// clock's edge.
+// A line: reset, init_valid, init, advance; init_ready, step, load, section_change, valid, first, triangle,
+// y, before the clock's edge.
 template <class Preset>
 Status write_counter(const std::filesystem::path& folder) {
   Random random(61);
@@ -156,8 +159,8 @@ Status write_counter(const std::filesystem::path& folder) {
   return file.write(folder / (std::string(Preset::c_name) + ".txt"));
 }
 
-// A line: checked, load, init, section_change, step; empty, start, stop, remaining, backward, carry, before the clock's
-// edge. Where load or section_change waits for its step, init need not be the one that is loaded.
+// A line: checked, load, init, section_change, step; empty, start, stop, remaining, backward, carry, before
+// the clock's edge. Where load or section_change waits for its step, init need not be the one that is loaded.
 template <class Preset>
 Status write_pair(const std::filesystem::path& folder) {
   Random random(62);
@@ -170,23 +173,27 @@ Status write_pair(const std::filesystem::path& folder) {
     file.word(twin.pixels() - 1, Preset::c_span_x_bits).flag(twin.backward()).flag(twin.carry()).end_vector();
   };
   const auto garbage = [&] { return random_vector(random, Preset::c_init_header_bits); };
+  std::vector<InitVector> triangles;
   for (const Mix mix : {Mix::dense, Mix::mixed})
-    for (const InitVector& init : walker_triangles<Preset>(random, mix)) {
-      while (random.one_in(3)) clock(true, garbage(), random.one_in(2), false);
-      clock(true, init, random.one_in(2), true);
-      twin.load(init);
-      checked = true;
-      golden::LineCounter<Preset> lines;
-      lines.load(init);
-      // Not all lines of the greatest triangles.
-      for (int line = 0; !lines.last() && line < 600; ++line) {
-        const bool section_change = lines.section_last();
-        while (random.one_in(4)) clock(false, garbage(), section_change, false);
-        clock(false, garbage(), section_change, true);
-        twin.step(section_change);
-        lines.step();
-      }
+    std::ranges::move(walker_triangles<Preset>(random, mix), std::back_inserter(triangles));
+  // Spans of any length.
+  for (int i = 0; i < 300; ++i) triangles.push_back(garbage());
+  for (const InitVector& init : triangles) {
+    while (random.one_in(3)) clock(true, garbage(), random.one_in(2), false);
+    clock(true, init, random.one_in(2), true);
+    twin.load(init);
+    checked = true;
+    golden::LineCounter<Preset> lines;
+    lines.load(init);
+    // Not all lines of the greatest triangles.
+    for (int line = 0; !lines.last() && line < 40; ++line) {
+      const bool section_change = lines.section_last();
+      while (random.one_in(4)) clock(false, garbage(), section_change, false);
+      clock(false, garbage(), section_change, true);
+      twin.step(section_change);
+      lines.step();
     }
+  }
   return file.write(folder / (std::string(Preset::c_name) + ".txt"));
 }
 
@@ -197,8 +204,14 @@ struct LineRecord {
 
   static LineRecord any(Random& random) {
     const auto x = [&] { return random.word(Exact::c_span_x_bits); };
-    return {random.word(Exact::c_triangle_bits), random.word(Exact::c_pixel_y_bits), x(), x(), x(),
-            random.one_in(3), random.one_in(2), random.one_in(2)};
+    return {random.word(Exact::c_triangle_bits),
+            random.word(Exact::c_pixel_y_bits),
+            x(),
+            x(),
+            x(),
+            random.one_in(3),
+            random.one_in(2),
+            random.one_in(2)};
   }
   void add_to(VectorFile& file) const {
     file.word(triangle, Exact::c_triangle_bits).word(y, Exact::c_pixel_y_bits);
@@ -332,8 +345,8 @@ Status write_edge_pair(const std::filesystem::path& folder) {
   return write_pair<Published>(folder);
 }
 
-// A line: reset, enable, in_valid, in_line, line_ready, span_last_next; advance, step, span_load, valid, line, before
-// the clock's edge.
+// A line: reset, enable, in_valid, in_line, line_ready, span_last_next; advance, step, span_load, valid,
+// line, before the clock's edge.
 Status write_line_stage(const std::filesystem::path& folder) {
   Random random(63);
   VectorFile file;
@@ -365,8 +378,8 @@ Status write_line_stage(const std::filesystem::path& folder) {
   return file.write(folder / "lines.txt");
 }
 
-// A line: reset, enable, load, line; last_next, valid, triangle, y, x, before the clock's edge. Spans of up to six pixels,
-// and a few of any length.
+// A line: reset, enable, load, line; last_next, valid, triangle, y, x, before the clock's edge. Spans of up
+// to six pixels, and a few of any length.
 Status write_span_stage(const std::filesystem::path& folder) {
   Random random(64);
   VectorFile file;
