@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formats of whole numbers: the largest number that the program can store, compared with the stated
-//             bound.
+// Formats of whole numbers: the largest number that the program can store, compared with the stated bound.
 #include <fmt/format.h>
 
 #include <bit>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The units that the shading processors are made of, at the ends of their ranges, at the borders of their
-// tables' cells and one last place beside them. What a vector of the host can bring to a unit goes through
-// the RTL as well, a pixel each.
+// The units of the shading processors at the ends of their ranges, at the limits of their tables' cells, and
+// one unit in the last place next to them. Inputs that a vector of the host can produce also run through the
+// RTL, one pixel each.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ long double real(std::int64_t value, int fraction_bits) {
 template <class P>
 constexpr Preset c_preset = std::is_same_v<P, Exact> ? Preset::exact : Preset::published;
 
-// 1/sqrt(x) by a table alone, and by a table and a Newton step; the bound is reciprocal_root.vhd's.
+// 1/sqrt(x) by a table, and by a table and a Newton step. The bound is that of reciprocal_root.vhd.
 template <class P>
 void roots_of(Trial& trial) {
   using Root = golden::ReciprocalRoot<P>;
@@ -45,7 +45,7 @@ void roots_of(Trial& trial) {
     trial.measure(c_preset<P>, std::abs(root / exact - 1.0L), 0x1p-19L,
                   [&] { return fmt::format("1/sqrt({})", static_cast<double>(real(x, c_fraction))); });
   };
-  // Borders of the cells, from 1/4 to 4, in each octave.
+  // Ends of the cells, from 1/4 to 4, in each octave.
   for (int octave = -2; octave < 2; ++octave)
     for (std::int64_t cell = 0; cell <= 1 << bits; ++cell)
       for (const std::int64_t beside : {-1, 0, 1})
@@ -58,14 +58,14 @@ void roots(Trial& trial) {
   roots_of<golden::Published>(trial);
 }
 
-// A draw's words of one pixel.
+// The words of one pixel of a draw.
 struct Pixel {
   Axes normal{};              ///< in format vector
   std::int64_t exponent = 0;  ///< in its format
   bool normalize = true;
 };
 
-// Each a pixel of its own, with a light from the eye: what the hardware makes of the words.
+// Draws each entry as a pixel of its own with the given words; `to_light` replaces the light's place.
 template <class P>
 std::vector<Fragment> draw_pixels(Trial& trial, const Scene& scene, ProcessorForm form,
                                   const std::vector<Pixel>& pixels,
@@ -80,7 +80,7 @@ std::vector<Fragment> draw_pixels(Trial& trial, const Scene& scene, ProcessorFor
   const golden::ProcessorsLayout<P> layout(config);
   const Stream stream = stream_of(*setup);
   std::vector<std::uint32_t> words = stream.prologue, draw = stream.units;
-  // Behind new_frame and the ambient light, whatever the scene says.
+  // The light's vector follows new_frame and the ambient light.
   const auto light = std::span(words).subspan(2 * stream.vector_words());
   for (int axis = 0; to_light && axis < golden::c_axes; ++axis)
     golden::set_bits(light, P::light_axes_channel_at::place,
@@ -105,7 +105,7 @@ std::vector<Fragment> draw_pixels(Trial& trial, const Scene& scene, ProcessorFor
   return trial.draw(plan->key, words);
 }
 
-// A wall before the eye, lit from there; its normals turn, so that they are normalized.
+// A wall in front of the eye, lit from the eye. Its normals differ, so that they are normalized.
 Scene lit_wall(double diffuse, double specular) {
   Scene scene;
   scene.name = "wall";
@@ -119,7 +119,7 @@ Scene lit_wall(double diffuse, double specular) {
   return scene;
 }
 
-// Components that are powers of two and beside them, of either sign, and the least there is.
+// Components that are powers of two and their neighbours, of both signs, and the least component.
 template <int Bits>
 std::vector<Axes> hard_vectors(int random_ones) {
   constexpr std::int64_t c_least = -(std::int64_t{1} << (Bits - 1)), c_most = -c_least - 1;
@@ -140,7 +140,7 @@ std::vector<Axes> hard_vectors(int random_ones) {
   return vectors;
 }
 
-// Length and angle: the sum of both errors, which unit_vector.hpp's bounds are for.
+// Length and angle: the bounds of unit_vector.hpp apply to the sum of both errors.
 template <class P, int Bits>
 void unit_vectors_of(Trial& trial) {
   const std::vector<Axes> vectors = hard_vectors<Bits>(trial.rounds(2'000, 1'000'000));
@@ -170,7 +170,7 @@ void draw_unit_vectors(Trial& trial) {
       const LongVec n(v[0], v[1], v[2]);
       const long double length = glm::length(n),
                         wanted = length > 0.0L ? 255.0L * std::max(n.z / length, 0.0L) : 0.0L;
-      // The cosine's error, in halves of a step more than rounding.
+      // The error of the cosine, in half steps beyond rounding.
       trial.require(std::abs(wanted - fragments[i].red) < 0.5L + 0x1p-10L, [&] {
         return fmt::format("({}, {}, {}): drawn {}", v[0], v[1], v[2], fragments[i].red);
       });
@@ -188,7 +188,7 @@ void unit_vectors(Trial& trial) {
   draw_unit_vectors<golden::Published>(trial);
 }
 
-// The bound is power.vhd's, in weights; exponents in their own format.
+// The bound of power.vhd, in weights. Exponents are in their own format.
 template <class P>
 void powers_of(Trial& trial) {
   using Power = golden::Power<P>;
@@ -219,13 +219,13 @@ void powers_of(Trial& trial) {
         return fmt::format("{} of {} to the {}", base, Power::c_one, static_cast<double>(exponent));
       };
       trial.measure(c_preset<P>, std::abs(power - wanted), 0x1p-15L + exponent * 0x1p-23L, where);
-      // No exponent takes anything from 1, or leaves anything of 0.
+      // For every exponent, the power of 1 is 1 and the power of 0 is 0.
       if (base == Power::c_one) trial.require(power == 1.0L, where);
       if (base == 0) trial.require(power == 0.0L, where);
     }
 }
 
-// N.H is N's own z here, and past 1 where N is: it counts as 1.
+// N.H is the z of N. Values above 1 count as 1.
 void powers(Trial& trial) {
   powers_of<Exact>(trial);
   powers_of<golden::Published>(trial);
@@ -245,7 +245,7 @@ void powers(Trial& trial) {
       const long double m = real(pixels[i].exponent, Exact::c_exponent_fraction_bits),
                         cosine =
                             std::clamp(real(pixels[i].normal[2], Exact::c_vector_fraction_bits), 0.0L, 1.0L);
-      // H's own error is that of a unit vector.
+      // The error of H is that of a unit vector.
       const long double wanted = 255.0L * std::pow(cosine, m),
                         least = 255.0L * std::pow(std::max(cosine - 0x1p-18L, 0.0L), m),
                         most = 255.0L * std::pow(std::min(cosine + 0x1p-18L, 1.0L), m),
@@ -258,7 +258,7 @@ void powers(Trial& trial) {
   }
 }
 
-// N.L and N.H of vectors that are unit but for their rounding, and of any.
+// N.L and N.H for vectors of length 1 except for rounding, and for any vectors.
 void cosines(Trial& trial) {
   constexpr int c_fraction = Exact::c_direction_fraction_bits;
   constexpr std::int64_t c_one = std::int64_t{1} << (2 * c_fraction),
@@ -273,13 +273,13 @@ void cosines(Trial& trial) {
     const long double exact = std::clamp(real(dot, 2 * c_fraction), 0.0L, 1.0L);
     const long double cosine = real(golden::cosine<Exact>(dot), c_fraction);
     const auto where = [&] { return fmt::format("a sum of {}", dot); };
-    // As published: without the bounds.
+    // The published form has no clamps.
     trial.both(std::ldexp(std::abs(cosine - exact), c_fraction),
                std::ldexp(std::abs(real(dot, 2 * c_fraction) - exact), c_fraction), 0.5, where);
   }
 }
 
-// The largest products there are, and the sums of three of them.
+// The largest products, and sums of three of them.
 template <int Bits>
 void products_of(Trial& trial) {
   constexpr std::int64_t c_least = -(std::int64_t{1} << (Bits - 1)), c_most = -c_least - 1;
@@ -298,7 +298,7 @@ void products(Trial& trial) {
   products_of<Exact::c_direction_bits>(trial);
   products_of<Exact::c_direction_bits + 1>(trial);
   products_of<golden::Published::c_direction_bits>(trial);
-  // N.L of the least words that there are, and beside them.
+  // N.L of the least words, and of their neighbours.
   const Scene scene = lit_wall(1.0, 0.0);
   constexpr std::int64_t c_least_place = -(std::int64_t{1} << (Exact::c_light_place_bits - 1));
   constexpr std::int64_t c_least = -(std::int64_t{1} << (Exact::c_vector_bits - 1));
@@ -315,7 +315,7 @@ void products(Trial& trial) {
   }
 }
 
-// Halves, of either sign, go up.
+// Halves of both signs are rounded up.
 void ties(Trial& trial) {
   for (int bits = 0; bits <= 40; ++bits)
     for (std::int64_t whole = -3; whole <= 3; ++whole)
@@ -328,7 +328,7 @@ void ties(Trial& trial) {
       }
 }
 
-// Sums past a colour's ends.
+// Sums beyond both ends of a colour.
 void saturation(Trial& trial) {
   const auto clamped_floor = [](long double v) { return std::clamp(std::floor(v), 0.0L, 255.0L); };
   using Sum = golden::Word<40>;
@@ -349,8 +349,9 @@ void saturation(Trial& trial) {
   }
 }
 
-// A surface's place shifted right by every shift that a light can have, components of either sign: an
-// arithmetic shift. A logical one, which GHDL's synthesis makes of shift_right, turns -13 to 19 in six bits.
+// A surface's place shifted right by every shift of a light, with components of both signs. The shift must be
+// arithmetic. A logical shift, which GHDL's synthesis makes from shift_right, gives 19 instead of -13 in six
+// bits.
 void shifts(Trial& trial) {
   for (const ProcessorForm form : c_forms)
     for (int exponent = 0; exponent <= 33; ++exponent) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers that are none, infinite, huge, denormal or -0 at every conversion from real to integer: in the
-// functions that convert, in scenes made in memory, in scene files and in mesh files.
+// NaN, infinite, huge, denormal and negative zero at every conversion from real to integer: in the functions
+// that convert, in scenes in memory, in scene files and in mesh files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,11 +73,11 @@ std::vector<double> hostile_numbers() {
   return all;
 }
 
-// ---- Where they stand
+// ---- List of the conversions
 
-// Calls of to_integer: every conversion from real to integer of the code that ships, but for those of
-// integer-valued words in the golden model, which has no real numbers. The functions that hold them, and the
-// case here that brings hostile numbers to them.
+// Calls of to_integer: every conversion from real to integer in the shipped code, except those of
+// integer-valued words in the golden model, which has no real numbers. Each entry gives the functions with
+// the calls, and the case of this file that tests them with hostile numbers.
 struct Site {
   std::string_view file;
   int calls;
@@ -118,7 +118,8 @@ std::size_t closing(const std::string& text, std::size_t open) {
   return text.size();
 }
 
-// Casts to integers of what is, by its words, a real number; and the library's roundings to integers.
+// Casts to integers of expressions that look like real numbers, and the library's functions that round to
+// integers.
 int other_conversions(const std::string& text) {
   static const std::regex c_rounding(R"(\bl?l(round|rint)\w*\s*\()");
   static const std::regex c_cast(
@@ -145,7 +146,7 @@ std::vector<std::filesystem::path> shipped_sources(const std::filesystem::path& 
   return files;
 }
 
-// The compiler's word for it, in the full sweep, where clang-query is there.
+// In the full sweep the compiler's own analysis is compared, if clang-query is installed.
 void ask_clang(Trial& trial, const std::filesystem::path& file, const std::string& name) {
   const auto end = run_process(
       {.arguments =
@@ -188,9 +189,9 @@ void sites(Trial& trial) {
   trial.require(listed.empty(), [&] { return listed.begin()->first + " is listed and not there"; });
 }
 
-// ---- The functions
+// ---- Functions
 
-// A double of any bits.
+// A double with random bits.
 class AnyDouble {
  public:
   double next() { return std::bit_cast<double>(random_()); }
@@ -212,7 +213,7 @@ mpz_class as_mpz(std::uint64_t v) {
   return to_mpz(static_cast<Int128>(v));
 }
 
-// The integer part, held; exactly.
+// The integer part, clamped to Integer; exact.
 template <class Integer>
 mpz_class held_part(double v) {
   const mpz_class least = as_mpz(std::numeric_limits<Integer>::min()),
@@ -240,7 +241,8 @@ void integers(Trial& trial) {
   integers_of<Int128>(trial, "int128");
 }
 
-// fixed() is held within 64 bits, ties away from zero; wrapped_word() modulo its width, ties to even.
+// fixed() clamps to 64 bits and rounds ties away from zero. wrapped_word() wraps modulo its width and rounds
+// ties to even.
 void words(Trial& trial) {
   AnyDouble any;
   any.sweep(trial.rounds(5000, 1'000'000), [&](double v) {
@@ -250,9 +252,9 @@ void words(Trial& trial) {
       const mpz_class truth = held_part<std::int64_t>(std::round(scaled));
       trial.ours(mpz_class(abs(as_mpz(fixed(v, fraction)) - truth)).get_d(), 0, where);
       for (const int bits : {12, 32, 40}) {
-        mpz_class word = 0;  // of what is no number
+        mpz_class word = 0;  // the result for NaN
         if (std::isfinite(scaled)) word = mpz_class(std::nearbyint(scaled));
-        // Past 2^1023 a multiple of every modulus.
+        // Above 2^1023 a number is a multiple of every modulus.
         mpz_class off = as_mpz(wrapped_word(v, fraction, bits)) - word;
         mpz_fdiv_r_2exp(off.get_mpz_t(), off.get_mpz_t(), static_cast<mp_bitcnt_t>(bits));
         trial.ours(off.get_d(), 0, where);
@@ -261,7 +263,7 @@ void words(Trial& trial) {
   });
 }
 
-// Half a step, and what 255 v + 0.5 rounds: 2^-45 below 256.
+// Half a step, and the rounding of 255 v + 0.5: 2^-45 below 256.
 void channels(Trial& trial) {
   AnyDouble any;
   const auto measure = [&](double v) {
@@ -326,8 +328,8 @@ std::vector<Number> numbers_of(Scene& scene) {
   return all;
 }
 
-// Calls f(scene, name) for the base scene with each of its numbers replaced by each value; in a quick sweep
-// by every fourth, others for the next number.
+// Calls f(scene, name) for the base scene with each number replaced by each value. A quick sweep uses every
+// fourth value, others for the next number.
 template <class F>
 void with_each_number(const Trial& trial, std::span<const double> values, F&& f) {
   Scene counted = base_scene();
@@ -364,14 +366,15 @@ double outside(std::span<const Fragment> fragments) {
       fragments, [](const Fragment& f) { return f.x >= c_frame.width || f.y >= c_frame.height; }));
 }
 
-// Setup and golden model alone, whatever the plan would say; fragments outside of the frame.
+// Runs setup and golden model without the plan's checks. Returns the number of fragments outside of the
+// frame.
 double fragments_outside(const Scene& scene, const HardwareKey& key) {
   std::vector<Fragment> fragments;
   make_golden_model(key)->draw(stream_of(*make_setup(scene, c_frame, key, {})).words(), fragments);
   return outside(fragments);
 }
 
-// Refused by the plan; and whoever sets it up all the same stays in the frame.
+// The plan refuses the scene. If it is set up without the plan, it still stays in the frame.
 void no_numbers(Trial& trial) {
   const Scene base = base_scene();
   for (const ShaderAndPreset& s : c_shaders_and_presets) {
@@ -393,8 +396,8 @@ std::uint64_t left_out(const ProjectionCounts& c) {
   return c.back_facing + c.behind_near + c.outside + c.degenerate + c.unrepresentable;
 }
 
-// Refused, left out and counted, or drawn as the illumination model has it. Light past white is held, and
-// counted; then a bound says nothing.
+// The scene is refused, or left out and counted, or drawn like the illumination model. Radiance above white
+// is clamped and counted; the bound then does not apply.
 void extremes(Trial& trial) {
   with_each_number(trial, c_extremes, [&](const Scene& scene, const std::string& name) {
     if (!check_numbers(scene)) {
@@ -419,7 +422,7 @@ void extremes(Trial& trial) {
   });
 }
 
-// The other shaders and presets: what is accepted stays in the frame, in the RTL too.
+// The other shaders and presets: accepted scenes stay in the frame, also in the RTL.
 void extremes_elsewhere(Trial& trial) {
   int turn = 0;
   for (const ShaderAndPreset& s : std::span(c_shaders_and_presets).subspan(1))
@@ -431,7 +434,7 @@ void extremes_elsewhere(Trial& trial) {
         trial.check(plan.error().code == ExitCode::bad_input, where);
         return;
       }
-      // The RTL in turns: a build for each shader is for the full sweep.
+      // Use the RTL in turns. Only the full sweep builds each shader.
       if (s.shader == Shader::spherical ? ++turn % 16 == 0 : !trial.quick() && ++turn % 8 == 0) {
         trial.ours(outside(trial.draw(scene, {.plan = s.plan(), .frame = c_frame}).fragments), 0, where);
         return;
@@ -440,8 +443,8 @@ void extremes_elsewhere(Trial& trial) {
     });
 }
 
-// The reference picture, shadows and all; and the tree that its shadow rays go through, with bins for many
-// triangles, against every triangle in turn.
+// The reference picture with shadows; and the tree of its shadow rays, with bins for many triangles, compared
+// with a test of every triangle.
 void extremes_in_the_reference(Trial& trial) {
   with_each_number(trial, hostile_numbers(), [&](Scene& scene, const std::string& name) {
     scene.shadows = true;
@@ -475,8 +478,8 @@ void extremes_in_the_reference(Trial& trial) {
     }
 }
 
-// Every snapped vertex within the guard band, its depth in [0, 1], its distance in front of the eye; what
-// does not come so far is counted.
+// Every snapped vertex is within the guard band, with its depth in [0, 1] and in front of the eye. Triangles
+// that are discarded before are counted.
 void snapped(Trial& trial) {
   with_each_number(trial, hostile_numbers(), [&](const Scene& scene, const std::string& name) {
     for (const int bits : {0, 4, c_max_subpixel_bits})
@@ -544,7 +547,7 @@ rotate = { degrees = 30.0, axis = [0.0, 1.0, 0.3] }
 translate = [0.1, 0.2, 0.3]
 )";
 
-// Every number of the text, replaced by every word: f(text, what).
+// Calls f(text, what) for every number of the text, replaced by every word.
 template <class F>
 void with_each_word(std::string_view text, const std::regex& number, F&& f) {
   const std::string whole(text);
@@ -558,7 +561,7 @@ void with_each_word(std::string_view text, const std::regex& number, F&& f) {
   }
 }
 
-// Whether a file's scene is refused with file and line, or is one to be drawn.
+// The scene of a file is refused with file and line, or it can be drawn.
 bool is_refused_or_sound(const std::filesystem::path& path, bool by_line) {
   const auto scene = load_scene(path.string(), path.parent_path());
   if (scene) return bool(check_numbers(*scene));
@@ -633,10 +636,10 @@ void mesh_files(Trial& trial) {
   const std::regex number(R"(-?\d+\.\d+(?= |\n))");
   files_of(trial, "hostile.obj", c_obj, number, false);
   files_of(trial, "hostile.stl", c_stl, number, false);
-  // The version in the header is no number of the mesh.
+  // The version in the header is not a number of the mesh.
   files_of(trial, "hostile.ply", c_ply, std::regex(R"(-?\d+\.\d+(?= |\n(?!element)))"), false);
 
-  // Lengths of lists that no double, and no index, holds.
+  // Lengths of lists that exceed every double and every index.
   const auto folder = TemporaryFolder::make(trial.source() / "build");
   if (!folder) return;
   const std::filesystem::path path = folder->path() / "polygon.ply";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pixels a triangle covers: exact by integers in preset exact, by a stepped real slope as published.
+// The pixels that a triangle covers: by exact integers in preset exact, by a stepped real slope in preset
+// published.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace halfway::stability {
 
 namespace {
 
-// Triangles that cover each of their pixels once, drawn as pieces that should do the same.
+// Triangles that cover each pixel once, and pieces that must cover the same pixels when drawn.
 struct Shape {
   std::vector<ScreenPiece> whole, pieces;
 };
@@ -29,13 +30,13 @@ Shape shape_of(const Points& p) {
 }
 
 enum class Wrong {
-  any,     ///< pixels too many and too few
-  missing  ///< too few: cracks
+  any,     ///< too many or too few pixels
+  missing  ///< too few pixels: cracks
 };
 
 using Pixel = std::tuple<std::uint32_t, std::uint16_t, std::uint16_t>;  // shape, y, x
 
-// How many pixels of each shape are drawn otherwise than covered.
+// The number of pixels of each shape that are drawn and not covered, or covered and not drawn.
 std::vector<std::size_t> wrong_pixels(const std::vector<Shape>& shapes, FrameSize frame,
                                       const std::vector<Fragment>& fragments, Wrong wrong) {
   std::vector<Pixel> drawn, covered, other;
@@ -58,7 +59,7 @@ std::vector<std::size_t> wrong_pixels(const std::vector<Shape>& shapes, FrameSiz
   return count;
 }
 
-// Preset published: of the shapes that lie in the frame.
+// In preset published only the shapes within the frame are drawn.
 void cover(Trial& trial, Preset preset, std::vector<Shape> shapes, FrameSize frame,
            Wrong wrong = Wrong::any) {
   const bool exact = preset == Preset::exact;
@@ -102,7 +103,7 @@ void random_ones(Trial& trial) {
   cover_both(trial, shapes, c_frame);
 }
 
-// Within the frame, and out to the guard band's ends.
+// Within the frame, and up to the ends of the guard band.
 void a_line_high(Trial& trial) {
   std::vector<Shape> shapes = random_shapes<TriangleKind::one_line>(trial, c_frame, 300, 20'000);
   RandomTriangles random(2);
@@ -116,7 +117,7 @@ void a_line_high(Trial& trial) {
   cover_both(trial, shapes, c_frame);
 }
 
-// Over the guard band, and so over any frame.
+// Triangles that extend over the whole guard band, and so over every frame.
 void wide_ones(Trial& trial) {
   constexpr TriangleKind c_kind = TriangleKind::crossing;
   cover_exact(trial, random_shapes<c_kind>(trial, c_frame, 300, 20'000), c_frame);
@@ -125,7 +126,8 @@ void wide_ones(Trial& trial) {
   if (!trial.quick()) cover_exact(trial, random_shapes<c_kind>(trial, c_largest, 0, 6), c_largest);
 }
 
-// From one end of the guard band through the frame to the other, the third corner a few units off.
+// From one end of the guard band through the frame to the other, with the third corner a few units off the
+// edge.
 void wide_slivers(Trial& trial) {
   RandomTriangles random(11);
   for (const FrameSize frame : {c_frame, FrameSize{4096, 3}, FrameSize{3, 4096}}) {
@@ -158,7 +160,7 @@ void wide_slivers(Trial& trial) {
   }
 }
 
-// Both ends of the frame's 4096 pixels, and the third corner a sixteenth of a pixel off the edge between
+// Two corners at both ends of the frame's 4096 pixels, and the third corner 1/16 pixel off the edge between
 // them.
 void slivers(Trial& trial) {
   RandomTriangles random(3);
@@ -179,12 +181,12 @@ void slivers(Trial& trial) {
   cover_both(trial, shapes, c_largest);
 }
 
-// Collinear corners, two that are one, all three.
+// Collinear corners, two equal corners, three equal corners.
 void no_area(Trial& trial) {
   RandomTriangles random(4);
   std::vector<Shape> shapes;
   for (int i = 0; i < trial.rounds(500, 20'000); ++i) {
-    const int unit = i % 2 == 0 ? 1 : 8;  // on pixel centres' lines as well
+    const int unit = i % 2 == 0 ? 1 : 8;  // also on the lines of the pixel centres
     const ScreenPoint a{8 * random.within(0, 120), 8 * random.within(0, 80)},
         step{unit * random.within(-40, 40), unit * random.within(-40, 40)};
     const auto at = [&](int n) { return ScreenPoint{a.x + n * step.x, a.y + n * step.y}; };
@@ -193,12 +195,12 @@ void no_area(Trial& trial) {
   cover_both(trial, shapes, c_frame);
 }
 
-// Two triangles on an edge, or several around a corner.
+// Two triangles with a common edge, or several around a corner.
 void neighbours(Trial& trial) {
   RandomTriangles random(5);
   std::vector<Shape> shapes;
   for (int i = 0; i < trial.rounds(200, 10'000); ++i) {
-    const int grid = i % 3 == 0 ? 16 : i % 3 == 1 ? 8 : 1;  // coarse ones meet pixel centres
+    const int grid = i % 3 == 0 ? 16 : i % 3 == 1 ? 8 : 1;  // coarse grids contain pixel centres
     const auto snapped = [&](double v) {
       return static_cast<std::int32_t>(std::floor(v / grid)) * grid + (grid == 16 ? 8 : 0);
     };
@@ -221,7 +223,7 @@ void neighbours(Trial& trial) {
   cover_both(trial, shapes, c_frame);
 }
 
-// Two triangles on an edge: one whole, the other split throughout.
+// Two triangles with a common edge: one is whole, the other is fully split.
 Shape half_split(const Points& whole, const Points& split, int level) {
   Shape shape{{{.points = whole}, {.points = split}}, {{.points = whole}}};
   for (const Points& p : stability::split(split, level))
@@ -231,7 +233,7 @@ Shape half_split(const Points& whole, const Points& split, int level) {
 
 void t_junctions(Trial& trial) {
   RandomTriangles random(6);
-  // Corners anywhere; and, as vertices are pixels in the published form, on pixels' centres for that.
+  // Corners anywhere. For the published form, whose vertices are pixels, corners on pixel centres.
   for (const bool on_centres : {false, true}) {
     const auto corner = [&](int left, int right, int above, int below) {
       const ScreenPoint p{random.within(left * 16, right * 16), random.within(above * 16, below * 16)};
@@ -239,7 +241,7 @@ void t_junctions(Trial& trial) {
     };
     std::vector<Shape> shapes;
     for (int i = 0; i < trial.rounds(60, 4'000); ++i) {
-      // The shared edge runs down the middle.
+      // The shared edge runs down the middle of the frame.
       const ScreenPoint top = corner(40, 56, 0, 8), bottom = corner(40, 56, 50, 60);
       shapes.push_back(
           half_split({top, bottom, corner(0, 36, 0, 60)}, {top, bottom, corner(60, 96, 0, 60)}, 1 + i % 5));
@@ -249,7 +251,7 @@ void t_junctions(Trial& trial) {
   }
 }
 
-// Every triangle with its corners at, or a unit inside, the guard band's corners and the frame's.
+// Triangles with their corners at the corners of guard band and frame, or up to half a pixel off.
 void guard_band(Trial& trial) {
   std::vector<std::int32_t> places;
   for (const int at : {c_guard_begin, 0, 61, 97, 4096, c_guard_end})
@@ -270,7 +272,7 @@ void guard_band(Trial& trial) {
   if (!trial.quick()) cover_exact(trial, some(0, 8), c_largest);
 }
 
-// A steep ramp of colour behind edges of every slope.
+// A steep colour ramp next to edges of every slope.
 void fractional_edges(Trial& trial) {
   RandomTriangles random(9);
   std::vector<ScreenPiece> pieces;
@@ -278,7 +280,7 @@ void fractional_edges(Trial& trial) {
     const Points p = random.next(TriangleKind::on_centres, c_subpixel_bits, c_frame);
     ScreenPiece piece{.points = p};
     if (!in_frame(piece, c_frame)) continue;
-    // Linear, in x and y, from dark to white over the triangle.
+    // Linear in x and y, from dark to white over the triangle.
     const auto ramp = [&](ScreenPoint a, ScreenPoint b) { return 255.0 * (a.x + b.x) / (2.0 * 97 * 16); };
     piece.sample = {ramp(p[0], p[0]), ramp(p[1], p[1]), ramp(p[2], p[2]),
                     ramp(p[0], p[1]), ramp(p[0], p[2]), ramp(p[1], p[2])};
@@ -292,7 +294,7 @@ void fractional_edges(Trial& trial) {
     measure_colours(trial, preset, pieces, c_frame);
 }
 
-// A wide floor of random triangles under the eye and behind it.
+// A wide floor of random triangles below and behind the eye.
 struct Floor {
   Scene scene;
   double half_side;
@@ -342,9 +344,10 @@ Floor random_floor(std::mt19937& random) {
   return floor;
 }
 
-// Pixels of the floor between near and far plane, by rays, that are not drawn exactly once. Those within a
-// pixel of its outline may be drawn or not; or twice, where a triangle at the horizon is less than 1/16 pixel
-// high and turns over when its corners are snapped, so that its neighbours overlap.
+// Counts the pixels of the floor between near and far plane, found by rays, that are not drawn exactly once.
+// Pixels within one pixel of its outline may or may not be drawn. They may also be drawn twice: a triangle at
+// the horizon that is less than 1/16 pixel high can turn over when its corners are snapped, so that its
+// neighbours overlap.
 double holes(const Floor& floor, FrameSize frame, const std::vector<Fragment>& fragments) {
   const Camera& camera = floor.scene.camera;
   const LongVec eye(camera.eye_world), forward = glm::normalize(LongVec(camera.target_world) - eye),
@@ -382,7 +385,7 @@ void near_plane(Trial& trial) {
     const Floor floor = random_floor(random);
     const auto where = [&] { return fmt::format("floor {}", i); };
     DrawOptions options{.frame = c_frame};
-    // Split here and there as well.
+    // Also split some triangles.
     options.setup.quadratic.threshold = i % 2 == 0 ? 2.0 : 0.05;
     trial.ours(holes(floor, c_frame, trial.draw(floor.scene, options).fragments), 0, where);
     options.plan.preset = Preset::published;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hard cases: where a published formula breaks, what is done about it, and what then holds. Each family is a
-// file that lists its cases and instantiates the tests HardCases with them.
+// Hard cases: where a published formula breaks, how the hardware avoids it, and the property that then holds.
+// Each family is a file that lists its cases and instantiates the tests HardCases with them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,19 +17,19 @@ namespace halfway::stability {
 struct HardCase {
   std::string_view id;  ///< the test's name
   std::string_view name;
-  std::string_view breaks;  ///< the formula, and where it stands
+  std::string_view breaks;  ///< the formula and its place in the paper
   std::string_view remedy;
   std::string_view holds;  ///< the property that the figures measure
   std::string_view unit;   ///< of figures and bounds
   PublishedForm published;
-  /// Gives every figure and its bound to the trial, and draws what reaches the hardware.
+  /// Adds every figure and its bound to the trial, and draws the scenes that reach the hardware.
   void (*sweep)(Trial&);
 
   friend void PrintTo(const HardCase& c, std::ostream* out) { *out << c.name; }
 };
 
-/// Two tests for each case: `Quick` takes part of a second, `Full` up to minutes. Both record the row of the
-/// page. A family's cases share simulators.
+/// Two tests for each case: `Quick` takes part of a second, `Full` up to minutes. Both record the case's row
+/// of the page. The cases of a family share simulators.
 class HardCases : public testing::TestWithParam<HardCase> {
  protected:
   static void SetUpTestSuite() { s_simulators = std::make_unique<Simulators>(); }

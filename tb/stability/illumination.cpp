@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The illumination model at one point: the reference renderer's and every host's doubles against long double,
-// where directions have no length, cosines leave [0, 1], and a scene is far too large or too small.
+// The illumination model at one point. The doubles of the reference renderer and of the host are compared
+// with long double, for directions without length, cosines outside of [0, 1], and scenes that are much too
+// large or too small.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ namespace {
 
 constexpr double c_epsilon = std::numeric_limits<double>::epsilon();
 
-// ---- As printed, in double
+// ---- The printed formulas in double
 
 glm::dvec3 unit_as_printed(glm::dvec3 v) {
   return v / std::sqrt(glm::dot(v, v));
@@ -34,11 +35,11 @@ double reflected_as_printed(const Material& m, glm::dvec3 n, glm::dvec3 l, glm::
   return m.specular * std::pow(glm::dot(n, h), m.exponent) + m.diffuse * glm::dot(n, l);
 }
 
-// ---- How far doubles may be off
+// ---- Error bounds of doubles
 
-// Every rounding on the way counted: a direction is good to 7 halves of an epsilon (difference, scale,
-// square, root, quotient), a dot product adds 3; a sum of two directions is good to 8 epsilons, so H to
-// 16/|L + V| and N.H to 20/|L + V|; R to 16 and R.V to 21.
+// All roundings are counted, in units of half an epsilon. A direction has an error of 7 (difference, scale,
+// square, root, quotient), and a dot product adds 3. In epsilons: a sum of two directions has an error of 8,
+// so H has 16/|L + V| and N.H 20/|L + V|; R has 16 and R.V 21.
 struct CosineErrors {
   double light = 5 * c_epsilon;  // N.L
   double highlight;              // N.H or R.V
@@ -47,14 +48,14 @@ struct CosineErrors {
                                         : 20 * c_epsilon / static_cast<double>(std::min(l_plus_v, 2.0L))) {}
 };
 
-// Of what stands beside k_s; past 1 nothing is known of a power.
+// The error of the factor of k_s: at most 1 for a power, possibly infinite for Cook and Torrance.
 long double specular_error(const Material& m, const LongVec& n, const LongVec& l, const LongVec& v) {
   const long double length = glm::length(l + v);
   const CosineErrors errors(m, length);
   const long double h_error = errors.highlight;
   if (m.brdf != Brdf::cook_torrance)  // d cos^n = n cos^(n - 1) d cos
     return std::min(1.0L, (long double)m.exponent * h_error) + 2 * c_epsilon;
-  // Relative errors of P, and of min{...}/(4 N.V); and what F is off by.
+  // Relative errors of P and of min{...}/(4 N.V), and the error of F.
   const long double n_dot_l = glm::dot(n, l), n_dot_v = glm::dot(n, v);
   if (!(n_dot_l > errors.light) || !(n_dot_v > errors.light) || !(length > 0)) return c_infinity;
   const LongVec h = (l + v) / length;
@@ -70,14 +71,15 @@ long double specular_error(const Material& m, const LongVec& n, const LongVec& l
   return relative * specular(m, n, l, v) + 40 * c_epsilon * specular(mirror, n, l, v) * (1 + relative);
 }
 
-// The whole radiance, in colour steps.
+// The error of the radiance in colour steps.
 double radiance_error(const Scene& scene, const Material& m, const LongVec& position, const LongVec& normal) {
   const LongVec to_eye = LongVec(scene.camera.eye_world) - position;
   const LongVec v = glm::length(to_eye) > 0 ? glm::normalize(to_eye) : normal;
   long double error = 0;
   const auto add = [&](const LongVec& l, const glm::dvec3& intensity) {
     if (!(glm::dot(normal, l) > -5 * c_epsilon)) return;
-    // Below the horizon there is no highlight; a rounding above it there may be all of one.
+    // Below the horizon there is no highlight. A cosine that is rounded to above the horizon may give a full
+    // one.
     const long double highlight =
         glm::dot(normal, l) < 5 * c_epsilon ? 1.0L + c_epsilon : specular_error(m, normal, l, v);
     error += (long double)std::max({intensity.x, intensity.y, intensity.z}) *
@@ -91,8 +93,8 @@ double radiance_error(const Scene& scene, const Material& m, const LongVec& posi
   return static_cast<double>(255 * (error + 8 * c_epsilon * std::max({sum.x, sum.y, sum.z})));
 }
 
-// Measures the reference renderer's radiance against the specification, within counted roundings, or exactly
-// where `is_exact`.
+// Compares the reference renderer's radiance with the specification. The bound is that of the counted
+// roundings, or 0 with `is_exact`.
 void compare(Trial& trial, const Scene& scene, const Material& m, glm::dvec3 position, glm::dvec3 normal,
              const std::function<std::string()>& where, bool is_exact = false) {
   const LongVec truth = radiance(scene, m, LongVec(position), LongVec(normal));
@@ -107,7 +109,7 @@ Scene dark() {
   return scene;
 }
 
-// The same of a positional light alone; and the printed formula against the same bound.
+// The same with one positional light. Also compares the printed formula with the same bound.
 void compare_light(Trial& trial, const Material& m, glm::dvec3 position, glm::dvec3 normal,
                    glm::dvec3 light_world, glm::dvec3 eye_world, const std::function<std::string()>& where) {
   Scene scene = dark();
@@ -142,8 +144,8 @@ ScreenTriangle flat_triangle(const std::array<glm::dvec3, 3>& normals) {
   return t;
 }
 
-// How far a normal is from unit length, wherever the interpolated one is short, vanishes, or was nothing from
-// the start.
+// Distance of a normal from unit length, where the interpolated normal is short, vanishes, or was zero
+// before.
 void normals_that_vanish(Trial& trial) {
   RandomScenes random(21);
   const auto measure = [&](const ScreenTriangle& t, glm::dvec3 barycentric, const std::string& name) {
@@ -195,7 +197,7 @@ void normals_not_made_unit(Trial& trial) {
 
 // ---- Cosines
 
-// Of a direction with itself, made unit by other ways.
+// Cosines of a direction with itself, normalized in different ways.
 void cosines_past_one(Trial& trial) {
   RandomScenes random(22);
   for (int i = 0; i < trial.rounds(20'000, 2'000'000); ++i) {
@@ -209,7 +211,7 @@ void cosines_past_one(Trial& trial) {
   }
 }
 
-// Lights behind the surface, and highlights whose N.H is negative.
+// Lights behind the surface, and highlights with a negative N.H.
 void cosines_below_zero(Trial& trial) {
   RandomScenes random(23);
   for (int i = 0; i < trial.rounds(5000, 500'000); ++i) {
@@ -222,9 +224,9 @@ void cosines_below_zero(Trial& trial) {
   }
 }
 
-// ---- Places
+// ---- Positions
 
-// A light at each of the distances from a point, which is the origin itself where `at_origin`.
+// A light at each of the distances from a point; with `at_origin` the point is the origin.
 void light_at_distances(Trial& trial, unsigned seed, std::span<const double> distances, bool at_origin) {
   RandomScenes random(seed);
   for (int i = 0; i < trial.rounds(200, 20'000); ++i)
@@ -248,7 +250,7 @@ void light_far_away(Trial& trial) {
   light_at_distances(trial, 25, c_far, false);
 }
 
-// As a directional light draws it.
+// The result must be that of a directional light.
 void light_far_away_drawn(Trial& trial) {
   for (const double distance : c_far) {
     if (trial.quick() && distance != 1e6 && distance != 1e12 && distance != 1e308) continue;
@@ -273,7 +275,7 @@ void light_behind_the_eye(Trial& trial) {
     }
 }
 
-// Any lights, points, materials: what the doubles of the reference renderer are off by.
+// Any lights, points and materials: the error of the reference renderer's doubles.
 void reference_renderer(Trial& trial) {
   RandomScenes random(27);
   for (int i = 0; i < trial.rounds(20'000, 2'000'000); ++i) {
@@ -296,7 +298,7 @@ void reference_renderer(Trial& trial) {
 
 // ---- Cook and Torrance, spots
 
-// Light and eye graze the surface from opposite sides: the printed quotient by N.L N.V has no bound.
+// Light and eye graze the surface from opposite sides. The printed quotient by N.L N.V is not bounded.
 void grazing(Trial& trial) {
   RandomScenes random(28);
   for (int i = 0; i < trial.rounds(2000, 200'000); ++i) {
@@ -323,7 +325,7 @@ void grazing(Trial& trial) {
   }
 }
 
-// A step where the cone's edges are one; nothing is divided by their distance.
+// The factor is a step if both edges of the cone are equal. Nothing is divided by their distance.
 void spots_without_an_edge(Trial& trial) {
   RandomScenes random(29);
   for (int i = 0; i < trial.rounds(20'000, 2'000'000); ++i) {
@@ -337,7 +339,7 @@ void spots_without_an_edge(Trial& trial) {
     const long double t = inner > outer ? ((long double)cosine - outer) / ((long double)inner - outer) : 0.0L;
     const long double truth = cosine >= inner ? 1.0L : cosine <= outer ? 0.0L : t * t * (3 - 2 * t);
     const auto where = [&] { return fmt::format("cosine {} between {} and {}", cosine, outer, inner); };
-    // Two differences, a quotient, and the polynomial, whose slope is 3/2 at most: 8 roundings.
+    // Two differences, a quotient, and a polynomial of slope 3/2 at most: 8 roundings.
     const double printed = std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
     const auto off = [&](double share) { return or_infinity(std::fabs(share - truth)); };
     trial.both(off(cone_share(cone, cosine)), off(printed * printed * (3 - 2 * printed)), 8 * c_epsilon,
@@ -347,7 +349,7 @@ void spots_without_an_edge(Trial& trial) {
 
 // ---- Size
 
-// Lengths times a power of two: the same picture, or none and the triangle counted as left out.
+// All lengths times a power of two: the picture stays the same, or the triangle is left out and counted.
 void sizes(Trial& trial) {
   Scene scene = stage({{{0.3, 0.1, 1}, {-0.3, 0.2, 1}, {0, -0.3, 1}}});
   add_side_lights(scene);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the families measure alike: fragments against radiances, and the surface that a fragment shows.
+// Common measurements of the families: fragments compared with radiances, and the surface that a fragment
+// shows.
 #pragma once
 
 #include <cmath>
@@ -27,10 +28,10 @@ inline std::array<std::uint8_t, 3> channels(const Fragment& f) {
   return {f.red, f.green, f.blue};
 }
 
-/// Of the channel that is farthest from the radiance clamped to white, in colour steps.
+/// The error in colour steps of the worst channel, compared with the radiance clamped to white.
 long double colour_error(const Fragment& f, const LongVec& radiance);
 
-/// A scene's triangles on the screen. Clipping makes several pieces of one triangle.
+/// The triangles of a scene on the screen. Clipping makes several pieces of one triangle.
 class Pieces {
  public:
   Pieces(const Scene& scene, FrameSize frame);
@@ -38,15 +39,16 @@ class Pieces {
   /// The piece of triangle `source` of the scene that covers the pixel, or nullptr.
   const ScreenTriangle* covering(std::uint32_t source, std::int64_t x, std::int64_t y) const;
   const ScreenTriangle* covering(const Fragment& f) const { return covering(f.triangle, f.x, f.y); }
-  /// The piece of triangle `source` whose smallest barycentric at the pixel's centre is the largest.
+  /// The piece of triangle `source` with the largest minimum of its barycentric coordinates at the pixel's
+  /// centre.
   const ScreenTriangle& nearest(std::uint32_t source, std::int64_t x, std::int64_t y) const;
 
  private:
   std::vector<ScreenTriangle> pieces_;  ///< in order of their sources
 };
 
-/// Measures each channel of the shading processors' fragments against the illumination model at the pixel's
-/// centre, with ShadingBound's bounds.
+/// Compares each channel of the shading processors' fragments with the illumination model at the pixel's
+/// centre, with the bounds of ShadingBound.
 void measure_shading(Trial& trial, Preset preset, const Scene& scene, FrameSize frame,
                      std::span<const Fragment> fragments, std::string_view name);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shading processors: halfway vectors, unit vectors, perspective, and what their words can hold. Every
-// scene goes through both forms of the processors, folded and unrolled, which must emit the same fragments.
+// The shading processors: halfway vectors, unit vectors, perspective, and the ranges of their words. Every
+// scene runs through both forms of the processors, folded and unrolled, which must emit the same fragments.
 #include <fmt/format.h>
 
 #include <glm/trigonometric.hpp>
@@ -57,7 +57,7 @@ Scene lit(Material material = {}) {
 
 const Material c_shiny{.colour = {0.9, 0.6, 0.3}, .diffuse = 0.5, .specular = 0.5, .exponent = 60.0};
 
-// Corners counter-clockwise, a normal each.
+// Corners counter-clockwise, with one normal each.
 void add_quad(Scene& scene, const std::array<glm::dvec3, 4>& corners,
               const std::array<glm::dvec3, 4>& normals) {
   const auto p = static_cast<std::uint32_t>(scene.positions_world.size());
@@ -121,7 +121,7 @@ void perspective(Trial& trial) {
   }
 }
 
-// Onto a pixel's own point, and from there away.
+// A light at the point of a pixel, and at increasing distances from it.
 void light_at_the_surface(Trial& trial) {
   constexpr FrameSize c_frame{48, 36};
   Scene scene = bent(c_shiny, 40.0);
@@ -159,7 +159,7 @@ void light_at_the_eye(Trial& trial) {
   }
 }
 
-// Normals that the eye is behind: a light right behind the surface shines on them.
+// Normals that face away from the eye: a light behind the surface shines on them.
 void no_halfway(Trial& trial) {
   for (const double turned : {95.0, 120.0, 179.0})
     for (const double exponent : {1.0, 60.0, 8000.0}) {
@@ -169,7 +169,7 @@ void no_halfway(Trial& trial) {
       const double angle = glm::radians(turned);
       const glm::dvec3 n(std::sin(angle), 0.0, std::cos(angle));
       add_wall(scene, {n, n, n, n});
-      // A pixel's middle, the eye and the sun in a line.
+      // A pixel's centre, the eye and the sun on one line.
       scene.camera.eye_world = {0.03, 0.02, 3.0};
       scene.camera.target_world = {0.03, 0.02, 0.0};
       scene.directional = {{{0.0, 0.0, -1.0}, glm::dvec3(0.9)}};
@@ -221,7 +221,7 @@ void exponents(Trial& trial) {
   }
 }
 
-// Onto the middle of a wall that the cone fills a good part of.
+// A spot that shines on the middle of a wall; its cone fills a large part of the wall.
 Scene narrow_spot(double inner, double outer) {
   const double radius = 3.0 * std::tan(glm::radians(outer));
   Scene scene = lit({.ambient = 0.0, .diffuse = 1.0, .specular = 0.0});
@@ -269,7 +269,7 @@ Scene many_lights(int count, double each) {
 }
 
 void sums_past_white(Trial& trial) {
-  // Sixteen lights are 33 processors, which take minutes to build.
+  // Sixteen lights need 33 processors, which take minutes to build.
   const int count = trial.rounds(3, 16);
   for (const double sum : {0.32, 0.96, 0.992, 3.2, 4.16, 16.0, 1024.0})
     shade(trial, many_lights(count, sum / count), fmt::format("{} lights of {}", count, sum / count),
@@ -281,7 +281,7 @@ void products_held(Trial& trial) {
     for (const double intensity : {1.0, 16.0, 64.0, 65.0, 1000.0}) {
       Scene scene = bent(
           {.colour = {1.0, 0.3, 0.01}, .ambient = 0.0, .diffuse = k, .specular = k, .exponent = 500.0}, 10.0);
-      // A hundredth of it, so that what is held shows.
+      // Use a hundredth of the light, so that a clamped intensity is visible.
       scene.directional = {{unit(1.0, 0.0, 0.01), glm::dvec3(intensity)}};
       shade(trial, scene, fmt::format("k {} of a light of {}", k, intensity));
     }
@@ -303,7 +303,7 @@ void scales(Trial& trial) {
     }
 }
 
-// Surfaces from a thousandth of the scene's size before the eye on, and lights as near.
+// Surfaces at distances from a thousandth of the scene's size on, and lights just as near.
 void near_the_eye(Trial& trial) {
   RandomScenes random(4);
   for (int i = 0; i < trial.rounds(6, 200); ++i) {
@@ -348,7 +348,7 @@ Frame frame_of(const Scene& scene, FrameSize size, Preset preset, ProcessorForm 
   return {plan->key, stream_of(*make_setup(scene, size, plan->key, {}))};
 }
 
-// A frame after another frame must be what it is on its own, whatever the lights were.
+// A frame after another frame must be equal to the frame on its own, for any lights before.
 void lights_between_frames(Trial& trial) {
   constexpr FrameSize c_frame{24, 18};
   RandomScenes random(7);
@@ -365,7 +365,7 @@ void lights_between_frames(Trial& trial) {
                     b = frame_of(with_lights(2), c_frame, preset, form),
                     dark = frame_of(with_lights(0), c_frame, preset, form);
         const std::size_t size = a.stream.vector_words();
-        // The lights' vectors with another command. They follow new_frame and the ambient light.
+        // The vectors of the lights with another command. They follow new_frame and the ambient light.
         const auto command = [&](std::vector<std::uint32_t> words, golden::Command c) {
           for (std::size_t at = size; at < words.size(); at += size)
             golden::set_bits(std::span(words).subspan(at, size), Request::command,

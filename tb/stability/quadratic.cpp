@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colour and depth behind a triangle's pixels: by one division and forward differences that wrap, against the
-// published five divisions and 20 fraction bits.
+// Colour and depth of a triangle's pixels: by one division and forward differences that wrap, compared with
+// the published five divisions and 20 fraction bits.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 using golden::Exact;
 
 constexpr FrameSize c_frame{97, 61}, c_largest{4096, 4096};
-constexpr double c_nearest = 1, c_farthest = (1 << 24) - 3;  // steps, as setup keeps them
+constexpr double c_nearest = 1, c_farthest = (1 << 24) - 3;  // steps, the range that setup keeps
 
 std::array<double, 6> random_samples(RandomTriangles& random, double most = 255.0) {
   std::array<double, 6> sample;
@@ -30,8 +30,8 @@ std::array<double, 6> random_samples(RandomTriangles& random, double most = 255.
   return sample;
 }
 
-// Section 3 as printed, in double: T0 to T5 by five divisions, then equation 4. (X1, Y1) is the origin, where
-// drawing starts.
+// Section 3 as printed, in double: T0 to T5 by five divisions, then equation 4. (X1, Y1) is the origin and
+// the start of the drawing.
 double five_divisions(const ScreenPiece& piece, std::int64_t x, std::int64_t y) {
   const double unit = 1 << piece.unit_bits;
   std::array<std::size_t, 3> n = {0, 1, 2};
@@ -68,7 +68,7 @@ void five_division_colours(Trial& trial, const std::vector<ScreenPiece>& pieces,
     });
 }
 
-// An edge from the first vertex that is level, or nearly.
+// The first edge is level or almost level.
 void level_edge(Trial& trial) {
   RandomTriangles random(1);
   std::vector<ScreenPiece> pieces;
@@ -87,7 +87,7 @@ std::vector<ScreenPiece> slivers(RandomTriangles& random, int count, FrameSize f
   std::vector<ScreenPiece> pieces;
   while (std::ssize(pieces) < count) {
     const Points p = random.next(TriangleKind::sliver, c_subpixel_bits, frame);
-    // A level edge is a case of its own.
+    // Level edges are a case of their own.
     if (p[0].y == p[1].y || p[0].y == p[2].y || p[1].y == p[2].y) continue;
     const Wide area = barycentric(p, 0, 0).sum / 4;
     if (area > most || -area > most || plan_walks(p, c_subpixel_bits, frame).empty()) continue;
@@ -105,7 +105,8 @@ constexpr std::array c_words = {&QuadraticWords::value, &QuadraticWords::dx,    
                                 &QuadraticWords::dxe1,  &QuadraticWords::de0e0, &QuadraticWords::de0e1,
                                 &QuadraticWords::de1e1};
 
-// The same vectors with each word held at its format's ends instead of wrapping. Returns how many were held.
+// The same vectors, with each word clamped to its format instead of wrapped. Returns the number of clamped
+// words.
 int hold_words(const ScreenPiece& piece, FrameSize frame, std::vector<std::uint32_t>& words) {
   constexpr std::size_t c_vector_words = (Exact::c_init_header_bits + Exact::c_init_channel_bits + 31) / 32;
   constexpr Int128 c_most = Int128{1} << (Exact::c_intensity_bits - 1);
@@ -136,7 +137,7 @@ void sliver_colours(Trial& trial) {
     measure_colours(trial, Preset::exact, pieces, frame);
   }
   five_division_colours(trial, slivers(random, trial.rounds(800, 10'000), c_largest, 4096), c_largest);
-  // Held at their format's ends, words that wrap would be wrong wherever they are stepped with.
+  // Words that wrap would give wrong pixels if they were clamped instead.
   int wrapped = 0, wrong = 0;
   for (const ScreenPiece& piece : slivers(random, 1'000, c_largest)) {
     std::vector<std::uint32_t> words;
@@ -163,7 +164,7 @@ void sliver_depths(Trial& trial) {
   }
 }
 
-// Corners at the near and at the far plane, in any combination.
+// Corners at the near and at the far plane, in all combinations.
 void depth_ends(Trial& trial) {
   RandomTriangles random(4);
   std::vector<ScreenPiece> pieces;
@@ -177,8 +178,8 @@ void depth_ends(Trial& trial) {
   measure_depths(trial, Preset::published, pieces, c_frame);
 }
 
-// Upright start edges on pixel centres, where the published form has no fault but its rounding: so many
-// pixels wide, so many lines high.
+// Triangles with vertical start edges on pixel centres, where the published form has no error except
+// rounding; so many pixels wide and so many lines high.
 std::vector<ScreenPiece> upright(RandomTriangles& random, int count, int width, int height) {
   std::vector<ScreenPiece> pieces;
   for (int i = 0; i < count; ++i) {
@@ -190,7 +191,7 @@ std::vector<ScreenPiece> upright(RandomTriangles& random, int count, int width, 
   return pieces;
 }
 
-// The paper's own bound of the published form: M steps, off by 2^-b each.
+// The paper's own bound of the published form: M steps, each with an error of 2^-b.
 void published_drift(Trial& trial, const std::vector<ScreenPiece>& pieces, FrameSize frame) {
   for (const Fragment& f : draw_pieces(trial, Preset::published, pieces, frame)) {
     const ScreenPiece& piece = pieces[f.triangle];
@@ -213,7 +214,7 @@ void tall_triangles(Trial& trial) {
   const FrameSize frame{8, 4096};
   auto pieces = upright(random, trial.rounds(30, 1'500), 8, 4096);
   published_drift(trial, pieces, frame);
-  // And leaning either way: a carry on most lines.
+  // Also lean the edges to either side: they then carry on most lines.
   for (ScreenPiece& piece : pieces) {
     piece.points[0].x = random.within(0, 8 * 16);
     piece.points[2].x = random.within(0, 8 * 16);
@@ -241,7 +242,7 @@ void largest_triangles(Trial& trial) {
   }
 }
 
-// Dark and white samples in every combination.
+// Dark and white samples in all combinations.
 void overshoot(Trial& trial) {
   RandomTriangles random(8);
   std::vector<ScreenPiece> pieces;
@@ -253,7 +254,7 @@ void overshoot(Trial& trial) {
       pieces.push_back(piece);
     }
   measure_colours(trial, Preset::published, pieces, c_frame);
-  // And the brightest that setup lets pass.
+  // Also the brightest samples that setup accepts.
   for (std::size_t i = pieces.size(); i-- > 0;) {
     pieces.push_back(pieces[i]);
     for (double& s : pieces.back().sample) s *= c_largest_sample / 255;
@@ -268,7 +269,7 @@ void overshoot(Trial& trial) {
   trial.require(below && above, [] { return std::string("nothing overshoots"); });
 }
 
-// A triangle of a surface as the eye sees it, and light from somewhere.
+// A triangle of a surface as seen by the eye, with a light.
 struct Patch {
   Scene scene;
   ScreenTriangle seen;
@@ -279,7 +280,7 @@ class RandomPatches {
   explicit RandomPatches(unsigned seed) : random_(seed) {}
   double within(double a, double b) { return std::uniform_real_distribution<double>(a, b)(random_); }
 
-  /// Normals up to 40 degrees apart, and a highlight somewhere on it.
+  /// Normals up to 40 degrees apart, with a highlight on the triangle.
   Patch highlighted(FrameSize frame) {
     for (;;) {
       Patch patch;
@@ -330,7 +331,7 @@ void between_samples(Trial& trial) {
                                       glm::normalize(s.normal_world)));
     };
     DrawOptions options{.frame = c_patch_frame};
-    // Twice the threshold is what the test is calibrated to (setup/highlight_bound.hpp), and rounding.
+    // The test is calibrated to twice the threshold (setup/highlight_bound.hpp). The rest is rounding.
     const double bound = 2 * options.setup.quadratic.threshold + colour_bound(Preset::exact, 3 * 80);
     const Drawing ours = trial.draw(patch.scene, options);
     split += ours.counts.subdivided;
@@ -344,8 +345,8 @@ void between_samples(Trial& trial) {
   trial.require(split > 10, [] { return std::string("nothing is split"); });
 }
 
-// Light without measure, on part of a patch or on all of it. Where the quadratic through the samples, held at
-// four times white, is past white everywhere, the frame must be white.
+// Unlimited light on a part of a patch or on all of it. If the quadratic through the samples, clamped to four
+// times white, is above white everywhere, the frame must be white.
 void overexposed(Trial& trial) {
   constexpr FrameSize c_patch_frame{80, 80};
   RandomPatches random(10);
@@ -367,14 +368,14 @@ void overexposed(Trial& trial) {
   trial.require(held > 0, [] { return std::string("no sample is held"); });
 }
 
-// Pieces of all levels whose samples lie on one quadratic: they must draw that quadratic, split or not.
+// Pieces of all levels with samples on one quadratic. They must draw that quadratic, split or not.
 void split_alike(Trial& trial) {
   RandomTriangles random(11);
   std::vector<ScreenPiece> whole, pieces;
   std::vector<std::size_t> whole_of;
   for (int i = 0; i < trial.rounds(25, 1'500); ++i) {
     const int level = 1 + i % 5;
-    // As published vertices are pixels: on their centres, no form has to move them.
+    // In preset published vertices are pixels: use pixel centres, so that both forms use the same points.
     ScreenPiece parent{.points = random.next(TriangleKind::on_centres, c_subpixel_bits, c_frame),
                        .sample = random_samples(random)};
     if (!in_frame(parent, c_frame)) continue;
@@ -388,12 +389,12 @@ void split_alike(Trial& trial) {
             {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
         const ScreenPoint &a = p[c_ends[n][0]], &b = p[c_ends[n][1]];
         const ExactBarycentric at_sample = barycentric(parent.points, Wide{a.x} + b.x, Wide{a.y} + b.y);
-        if (at_sample.sum == 0) break;  // of no area: nothing is drawn
+        if (at_sample.sum == 0) break;  // without area nothing is drawn
         std::array<long double, 6> sample;
         std::ranges::copy(parent.sample, sample.begin());
         piece.sample[n] = static_cast<double>(quadratic(at_sample.real(), sample));
       }
-      // Setup never has samples below nothing.
+      // Setup never has negative samples.
       if (std::ranges::any_of(piece.sample, [](double s) { return s < 0; })) continue;
       pieces.push_back(piece);
       whole_of.push_back(whole.size() - 1);

@@ -18,13 +18,13 @@
 namespace halfway::stability {
 namespace {
 
-// Of a scene in whole numbers.
+// Number formats of a scene's integers.
 constexpr int c_place_bits = 12, c_part_bits = 8, c_cosine_bits = 16, c_exponent_bits = 4;
 constexpr std::int64_t c_farthest = std::int64_t{1} << 20, c_unit = std::int64_t{1} << c_place_bits,
                        c_full = std::int64_t{1} << c_part_bits, c_one = std::int64_t{1} << c_cosine_bits;
 constexpr std::size_t c_triangles = 8;
 
-// Where what stands in an input.
+// Indices of the values in an input.
 enum At : std::size_t {
   width,
   height,
@@ -43,7 +43,7 @@ enum At : std::size_t {
   lights = ambient_light + 3,
   first_light
 };
-// Within a light and within a triangle's vertex.
+// Offsets within a light, and within a triangle's vertex.
 enum AtLight : std::size_t {
   kind,
   place,
@@ -57,7 +57,7 @@ constexpr std::size_t c_vertex = 6, c_triangle = 3 * c_vertex;
 constexpr std::size_t c_triangle_count = first_light + c_most_lights * light_size,
                       c_first_triangle = c_triangle_count + 1;
 
-// Names that the parameters' views look into.
+// Owns the names to which the parameters' views refer.
 class Parameters {
  public:
   Parameters() {
@@ -184,7 +184,7 @@ Preset preset_of(const Input& input) {
   return input[At::preset] == 0 ? Preset::exact : Preset::published;
 }
 
-// Light goes by the scene's own order of kinds; the hardware is the same for many scenes.
+// A scene with lights of fixed kinds in order: many scenes share the same hardware.
 PlanRequest request_of(Shader shader, const Input& input) {
   PlanRequest request{.shader = shader, .preset = preset_of(input), .all_effects = true};
   request.lights = input[At::lights] <= 3 ? 3 : 16;
@@ -193,7 +193,7 @@ PlanRequest request_of(Shader shader, const Input& input) {
   return request;
 }
 
-// How many pieces cover each pixel, of each triangle and of all.
+// Counts the pieces that cover each pixel, for each triangle and for all.
 class Cover {
  public:
   Cover(const Pieces& pieces, FrameSize frame) {
@@ -203,7 +203,8 @@ class Cover {
         ++pixels_[{x, y}];
       });
   }
-  /// Pixels too many and too few: each piece's once, or with an object stage each pixel.
+  /// Pixels that are drawn too often or not often enough. Each piece draws its pixels once; with an object
+  /// stage each pixel is drawn once.
   std::uint64_t wrong(const std::vector<Fragment>& fragments, bool nearest_alone) const {
     std::map<std::tuple<std::uint32_t, std::int64_t, std::int64_t>, int> drawn;
     std::map<std::pair<std::int64_t, std::int64_t>, int> pixels;
@@ -237,7 +238,7 @@ class SceneChecker : public Checker {
     if (!drawing) return Failure{"plan", drawing.error().message};
     tally.fragments += drawing->fragments.size();
     if (drawing->fault) return Failure{"fault", "a count of shadow volumes left its format"};
-    // Spans of preset published's spherical shader cover by other rules.
+    // The spans of preset published's spherical shader cover by other rules.
     if (shader_ == Shader::spherical && preset_of(input) == Preset::published) return {};
     InputFigures figures(tally);
     const Pieces pieces(scene, frame);
@@ -257,7 +258,7 @@ class SceneChecker : public Checker {
 
   Result<std::optional<Failure>> check_rtl(std::span<const Input> inputs, Tally& tally) override {
     for (const Input& input : inputs) {
-      // Sixteen lights take a minute to build: in one form of the hardware.
+      // Sixteen lights take a minute to build: use only one form of the hardware.
       const bool many = input[At::lights] > 3;
       if (many && (quick_ || preset_of(input) == Preset::published || input[At::form] == 0)) continue;
       Trial trial(folders_, rtl_, true);
@@ -278,12 +279,12 @@ class SceneChecker : public Checker {
     return request;
   }
 
-  // A light may reach a pixel or not, as its shadow has it: some set of lights must give the colour.
+  // With shadows a light may or may not reach a pixel. The colour must match for some set of lights.
   static void against_range(const Scene& scene, FrameSize frame, const Drawing& drawing, const Pieces& pieces,
                             Worst& worst) {
     const ShadingBound bound(scene, frame);
     const std::size_t lights = bound.lights().size();
-    if (drawing.key.processors.shadows && lights > 6) return;  // too many
+    if (drawing.key.processors.shadows && lights > 6) return;  // too many sets
     const std::uint32_t all = drawing.key.processors.shadows ? (1U << lights) - 1 : 0;
     for (const Fragment& f : drawing.fragments) {
       const ScreenTriangle* piece = pieces.covering(f);
@@ -350,7 +351,7 @@ class SceneSearch final : public Search {
     input[At::form] = !processors || random.one_in(2);
     Scene scene;
     const int count = random.one_in(20) ? 16 : random.whole(0, 3);
-    // A pixel in shadow is looked for among all sets of lights.
+    // With shadows each pixel is compared for all sets of lights, so keep their number small.
     input[At::shadows] = processors && count <= 3 && random.one_in(3);
     random.add_triangles(scene, random.whole(1, int{c_triangles}), random.log_within(0.05, 1.0),
                          random.one_in(3) ? 0.0 : random.log_within(0.01, 1.0));
@@ -369,7 +370,7 @@ class SceneSearch final : public Search {
     input[At::specular] = random.one_in(5) ? 0 : part(m.specular);
     input[At::exponent] = std::llround(std::ldexp(m.exponent, c_exponent_bits));
     put(input, At::ambient_light, random.colour(false), c_part_bits, 0, c_full);
-    // By kinds, as scenes have them.
+    // Add the lights by kind, in the order of scenes.
     const auto light = [&](int of_kind, glm::dvec3 where, glm::dvec3 intensity) {
       const std::size_t at = light_at(static_cast<std::size_t>(input[At::lights]++));
       input[at + AtLight::kind] = of_kind;
@@ -398,7 +399,7 @@ class SceneSearch final : public Search {
 
   std::vector<Input> simpler(const Input& input) const override {
     std::vector<Input> out;
-    // Without the i-th of some blocks, the others moved up.
+    // Removes the i-th of several blocks and moves the following ones up.
     const auto drop = [&](std::size_t count_at, std::size_t first, std::size_t size, std::size_t i) {
       const auto count = static_cast<std::size_t>(input[count_at]);
       Input less = input;
@@ -415,7 +416,7 @@ class SceneSearch final : public Search {
     if (input[c_triangle_count] > 1)
       for (std::size_t i = 0; i < static_cast<std::size_t>(input[c_triangle_count]); ++i)
         drop(c_triangle_count, c_first_triangle, c_triangle, i);
-    // One normal for a triangle; round numbers for every place.
+    // Use one normal per triangle, and round all positions.
     for (std::size_t t = 0; t < static_cast<std::size_t>(input[c_triangle_count]); ++t) {
       Input flat = input;
       for (std::size_t v = 1; v < 3; ++v)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles given on the screen, drawn by the quadratic shader in both presets through the setup's own code.
+// Triangles given on the screen, drawn by the quadratic shader in both presets with the setup's own code.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ inline constexpr HardwareKey c_exact_key{.shader = Shader::quadratic, .preset = 
 inline constexpr HardwareKey c_published_key{
     .shader = Shader::quadratic, .preset = Preset::published, .channels = 1};
 
-/// A triangle or a piece of one, with samples of one channel in colour steps and depths in steps.
+/// A triangle or a piece of one, with samples of one channel in colour steps and depths in depth steps.
 struct ScreenPiece {
   Points points{};  ///< in 1/2^unit_bits pixels
   int unit_bits = c_subpixel_bits;
@@ -44,7 +44,7 @@ inline void append_exact(const ScreenPiece& piece, std::uint32_t tag, FrameSize 
                  DepthFit(piece.points, piece.unit_bits, {depth(0), depth(1), depth(2)}), {piece.sample});
 }
 
-/// The vertices of preset published: each names the pixel that it falls in.
+/// The vertices of preset published: each is the pixel in which the point lies.
 inline std::array<HalfVertex, 3> published_vertices(const ScreenPiece& piece) {
   const auto vertex = [&](std::size_t i) {
     const std::int32_t half_pixel = 1 << (piece.unit_bits - 1);
@@ -58,7 +58,7 @@ inline void append_published(const ScreenPiece& piece, std::uint32_t tag, std::v
   append_vectors(words, 1, tag, published_vertices(piece), {piece.sample});
 }
 
-/// Whether preset published can draw it without cutting it at the frame.
+/// Returns whether preset published can draw the piece without cutting it at the frame.
 inline bool in_frame(const ScreenPiece& piece, FrameSize frame) {
   return std::ranges::all_of(piece.points, [&](ScreenPoint p) {
     return p.x >= 0 && p.y >= 0 && p.x < std::int64_t{frame.width} << piece.unit_bits &&
@@ -66,7 +66,7 @@ inline bool in_frame(const ScreenPiece& piece, FrameSize frame) {
   });
 }
 
-/// How many steps of forward differences come before a pixel of the piece at most: a line each, a carry each,
+/// The greatest number of forward-difference steps before a pixel of the piece: one per line, one per carry,
 /// and the pixels of a span.
 inline double most_steps(const ScreenPiece& piece, FrameSize frame) {
   const auto pixels = [&](std::int32_t ScreenPoint::*axis, std::uint32_t side) {
@@ -78,15 +78,15 @@ inline double most_steps(const ScreenPiece& piece, FrameSize frame) {
                              pixels(&ScreenPoint::x, frame.width));
 }
 
-/// How far a colour may be off: rounding, and what k steps of second differences add whose words are rounded
-/// to half of the preset's last bit each: (1 + k + k (k - 1) / 2) of that. Samples are rounded alike; the
-/// quadratic takes 5/3 of that from them at most.
+/// Bound of the error of a colour: rounding, and k steps of second differences whose words have an error of
+/// half of the preset's last bit each, (1 + k + k (k - 1) / 2) times that half. Samples are rounded in the
+/// same way; the quadratic multiplies their error by 5/3 at most.
 inline double colour_bound(Preset preset, double k) {
   const int fraction_bits = preset == Preset::exact ? golden::Exact::c_intensity_fraction_bits
                                                     : golden::Published::c_intensity_fraction_bits;
   return 0.5 + std::ldexp(1 + k + k * (k - 1) / 2 + 5.0 / 3, -fraction_bits - 1);
 }
-/// The same of a depth, which has first differences alone.
+/// The same for a depth, which has only first differences.
 inline double depth_bound(double k) {
   return 0.5 + std::ldexp(1 + k + 1, -golden::Exact::c_depth_sum_fraction_bits - 1);
 }
@@ -103,7 +103,7 @@ inline long double exact_depth(const ScreenPiece& piece, std::int64_t x, std::in
                 {piece.depth[0], piece.depth[1], piece.depth[2]});
 }
 
-/// The four quarters, each point in units of half the size, as the setup splits.
+/// The four quarters of a triangle, with points in units of half the size, as in the setup's split.
 inline std::array<Points, 4> quarters(const Points& p) {
   const auto middle = [](ScreenPoint a, ScreenPoint b) { return ScreenPoint{a.x + b.x, a.y + b.y}; };
   const ScreenPoint a = middle(p[0], p[0]), b = middle(p[1], p[1]), c = middle(p[2], p[2]),
@@ -111,10 +111,10 @@ inline std::array<Points, 4> quarters(const Points& p) {
   return {{{ab, bc, ac}, {a, ab, ac}, {ab, b, bc}, {ac, bc, c}}};
 }
 
-/// The pieces of a triangle that is split `level` times throughout, in 1/2^level of its units.
+/// The pieces of a triangle that is fully split `level` times, in 1/2^level of its units.
 std::vector<Points> split(const Points& whole, int level);
 
-/// How far a fragment of the piece is off, in colour steps and in depth steps.
+/// The error of a fragment of the piece, in colour steps and in depth steps.
 inline double colour_off(const Fragment& f, const ScreenPiece& piece) {
   return static_cast<double>(std::abs(f.red - std::clamp(exact_colour(piece, f.x, f.y), 0.0L, 255.0L)));
 }
@@ -124,12 +124,12 @@ inline double depth_off(const Fragment& f, const ScreenPiece& piece) {
 
 std::string pixel_of(const ScreenPiece& piece, std::int64_t x, std::int64_t y);
 
-/// The fragments that the preset draws of the pieces: their triangle is the piece's index. Preset published
-/// draws the pieces that lie in the frame.
+/// The fragments that the preset draws for the pieces; `triangle` is the index of the piece. Preset published
+/// draws only the pieces within the frame.
 std::vector<Fragment> draw_pieces(Trial& trial, Preset preset, std::span<const ScreenPiece> pieces,
                                   FrameSize frame);
 
-/// Draws the pieces and measures each fragment against the bound of its differences.
+/// Draws the pieces and compares the error of each fragment with the bound of its differences.
 void measure_colours(Trial& trial, Preset preset, std::span<const ScreenPiece> pieces, FrameSize frame);
 void measure_depths(Trial& trial, Preset preset, std::span<const ScreenPiece> pieces, FrameSize frame);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_search: tries random inputs, or those that are kept. What fails is shrunk, printed, and written
-// down.
+// halfway_search: tries random inputs, or the kept ones. A failing input is shrunk, printed and written to a
+// file.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -39,29 +39,29 @@ std::vector<std::unique_ptr<Search>> all_searches() {
   return searches;
 }
 
-// Inputs that a thread takes at a time, and that go through the RTL together.
+// Number of inputs that a thread takes at a time and draws together in the RTL.
 constexpr std::uint64_t c_batch = 100;
 
 struct Options {
   bool quick = false;
   std::uint32_t seed = 1;
-  std::map<std::string_view, std::uint64_t> counts{};  ///< by search's name; none: all of them
+  std::map<std::string_view, std::uint64_t> counts{};  ///< by name of the search; empty: all searches
   std::filesystem::path page{}, keep{}, replay{}, source{};
   SimulatorFolders folders() const { return {source, source / "build" / "cache"}; }
 };
 
-// Neighbouring seeds of a run, and runs of neighbouring seeds, have no input in common.
+// Different seeds of a run, and runs with neighbouring seeds, share no input.
 std::uint32_t seed_of(std::uint32_t run, std::uint64_t index) {
   return run * 0x9E37'79B9U + static_cast<std::uint32_t>(index);
 }
 
 struct Found {
-  std::uint64_t index;  ///< of the input, or of its batch's first
+  std::uint64_t index;  ///< of the input, or of the first one of its batch
   bool in_rtl;
   Failure failure;
 };
 
-// All that the threads of one search share.
+// State that all threads of one search share.
 class Run {
  public:
   Run(const Search& search, const Options& options, std::uint64_t count)
@@ -71,7 +71,7 @@ class Run {
     const auto checker = search_.checker(options_.folders(), options_.quick);
     Tally tally;
     std::vector<Input> batch;
-    // Batches are handed out in order: the first failure is the same however many threads there are.
+    // Batches are taken in order, so that the first failure does not depend on the number of threads.
     for (std::uint64_t at; !stop_ && (at = next_.fetch_add(c_batch)) < count_;) {
       const std::uint64_t end = std::min(at + c_batch, count_);
       batch.clear();
@@ -120,7 +120,7 @@ class Run {
   Status tools_ = Ok{};
 };
 
-// Shrinks what was found, prints it and keeps it.
+// Shrinks the failing input, prints it and writes it to a file.
 Status report(const Search& search, const Options& options, const Found& found) {
   const auto checker = search.checker(options.folders(), options.quick);
   Tally ignored;
@@ -179,7 +179,7 @@ ExitCode run_search(const Search& search, const Options& options, std::uint64_t 
   const auto seconds = [&] { return seconds_since(began); };
   Run run(search, options, count);
   {
-    // Outlives the workers, which count it down last of all.
+    // Must outlive the workers: each one decrements it at its end.
     std::atomic<unsigned> working = options.quick ? 1 : std::max(1U, std::thread::hardware_concurrency());
     std::vector<std::jthread> workers;
     for (unsigned i = working; i > 0; --i)

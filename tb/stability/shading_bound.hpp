@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What preset exact of the shading processors promises of a pixel: the colours between which every unit and
-// every format may leave it, each at the error that its own page states, in long double. The way from the
-// errors of vectors to those of colours is by interval: what a light's edge, a horizon or a highlight's flank
-// makes of a small error is in it.
+// The error bound of preset exact's shading processors: the range of colours that a pixel may have if every
+// unit and every format has its stated error, in long double. Errors of vectors are converted to errors of
+// colours by intervals. This includes the effect of a small error at the edge of a light, at a horizon or on
+// the flank of a highlight.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace halfway::stability {
 struct Interval {
   long double low, high;
   friend Interval operator+(Interval a, Interval b) { return {a.low + b.low, a.high + b.high}; }
-  /// Of numbers that are not negative.
+  /// Both intervals must not be negative.
   friend Interval operator*(Interval a, Interval b) { return {a.low * b.low, a.high * b.high}; }
 };
 inline Interval about(long double value, long double error) {
@@ -35,11 +35,11 @@ inline Interval clamped(Interval i, long double low, long double high) {
   return {std::clamp(i.low, low, high), std::clamp(i.high, low, high)};
 }
 
-/// In colour steps, before they are rounded to eight bits.
+/// In colour steps, before the rounding to eight bits.
 struct Promise {
-  std::array<long double, 3> exact;  ///< by the illumination model, of what the formats can hold
+  std::array<long double, 3> exact;  ///< by the illumination model, for values that the formats can represent
   std::array<Interval, 3> range;
-  /// How far an eight-bit colour may be from exact.
+  /// The greatest distance of an eight-bit colour from exact.
   long double bound(std::size_t c) const {
     return std::max(range[c].high - exact[c], exact[c] - range[c].low) + 0.5L;
   }
@@ -50,7 +50,7 @@ class ShadingBound {
   /// The scene must outlive it.
   ShadingBound(const Scene& scene, FrameSize frame) : scene_(scene), lights_(reflected_lights(scene)) {
     const double height = std::tan(0.5 * glm::radians(scene.camera.vertical_fov_degrees));
-    // Powers of two: at least half of what would just fit.
+    // A power of two that is at least half of the largest possible scale.
     ray_scale_ = 0.5L / std::max({1.0, height, height * frame.width / frame.height});
     const ViewBasis basis = view_basis(scene.camera);
     const DepthRange range = depth_range(scene.camera, bounding_sphere(scene));
@@ -64,7 +64,7 @@ class ShadingBound {
 
   const std::vector<LightRef>& lights() const { return lights_; }
 
-  /// Of the surface behind the pixel's centre; lit(i): whether lights()[i] reaches it.
+  /// For the surface at the pixel's centre. lit(i): lights()[i] reaches it.
   template <class Lit>
   Promise at(const ScreenTriangle& t, std::int64_t x, std::int64_t y, Lit&& lit) const {
     const Material& m = scene_.materials[t.material];
@@ -89,14 +89,14 @@ class ShadingBound {
   static constexpr long double c_white = 255.0L, c_root3 = 1.7320508075688772935L;
   // unit_vector.vhd: length and angle.
   static constexpr long double c_unit = 0x1.6ap-20L + 0x1.26p-21L;
-  // A component of a direction, rounded to 2^-22; and a cosine.
+  // A component of a direction, rounded to 2^-22, and a cosine.
   static constexpr long double c_direction = c_root3 * 0x1p-23L, c_cosine = 0x1p-23L;
-  // A step of vector, and how far a plane's value is off when it has been cut to it (formats.hpp, plane_sum).
+  // A step of format vector, and the error of a plane's value that is cut to it (formats.hpp, plane_sum).
   static constexpr long double c_step = 0x1p-28L, c_plane = 0.9L * c_step;
-  // Of a component of the way to a light: its place's last bit, the distance's and the ray's errors, the
-  // product's rounding, what the shift drops.
+  // Errors of a component of the offset to a light: last bit of its place, errors of distance and ray,
+  // rounding of the product, bits dropped by the shift.
   static constexpr long double c_way = c_root3 * (2.0L * c_step + c_plane + 0.5L * c_step + c_plane + c_step);
-  static constexpr long double c_nothing_known = 2.0L;  // of a unit vector
+  static constexpr long double c_nothing_known = 2.0L;  // greatest possible error of a unit vector
 
   struct Surface {
     LongVec position, normal, to_eye;  // to_eye is unit
@@ -120,7 +120,7 @@ class ShadingBound {
     const long double length = glm::length(s.normal_world);
     if (length > 0.0L) {
       out.normal = s.normal_world / length;
-      // Scaled so that the largest component at a vertex is 1/2 to 1.
+      // The normals are scaled so that the largest component at a vertex is 1/2 to 1.
       out.normal_error =
           std::min(c_unit + c_root3 * c_plane * 2.0L * most / (length * inverse_w), c_nothing_known);
     } else {
@@ -186,11 +186,11 @@ class ShadingBound {
   Interval highlight_of(long double n_dot_h, long double half_length, long double half_error,
                         long double normal_error, Interval lambert, long double exponent) const {
     if (lambert.high <= 0.0L) return {0.0L, 0.0L};
-    // The direction of a sum that is off by less than half of itself.
+    // The direction of a sum whose error is below half of its length.
     const long double turned =
         half_length > 2.0L * half_error ? 1.2L * half_error / half_length + c_unit : c_nothing_known;
     const Interval cosine = clamped(about(n_dot_h, normal_error + turned + c_cosine), 0.0L, 1.0L);
-    // power.vhd; an exponent is rounded to 2^-8.
+    // The bound of power.vhd. An exponent is rounded to 2^-8.
     const long double power_error = 0x1p-15L + exponent * 0x1p-23L;
     Interval range = clamped({std::pow(cosine.low, exponent + 0x1p-9L) - power_error,
                               std::pow(cosine.high, std::max(exponent - 0x1p-9L, 0.0L)) + power_error},
@@ -199,8 +199,8 @@ class ShadingBound {
     return range;
   }
 
-  // spot_cone.vhd: t^2 (3 - 2 t), off by 3.5 2^-16; and more for the steepest; one over the width is
-  // rounded to 2^-6, and held at 2^18.
+  // spot_cone.vhd: t^2 (3 - 2 t), with an error of 3.5 2^-16, and more for the steepest slopes. The
+  // reciprocal of the width is rounded to 2^-6 and clamped to 2^18.
   static void share_of(const LightCone& spot, long double cosine, long double error, long double& share,
                        Interval& range) {
     const auto smooth = [](long double t) {
@@ -224,7 +224,7 @@ class ShadingBound {
     range = clamped(range, 0.0L, 1.0L);
   }
 
-  // k I weight, in colour steps: k in 2^-16, I in 2^-4, k I in 2^-8, the term cut to 2^-12.
+  // k I weight, in colour steps: k in 2^-16, I in 2^-4, k I in 2^-8, and the term is cut to 2^-12.
   static void add(Promise& promise, int channel, long double k, long double in, long double weight,
                   Interval weight_range) {
     const auto c = static_cast<std::size_t>(channel);

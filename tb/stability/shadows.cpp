@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadows by counted volumes, against rays in long double. Each light has a colour of its own, so that a
-// pixel's channels say which lights reach it.
+// Shadows by counted volumes, compared with rays in long double. Each light has its own colour channel, so a
+// pixel's channels show which lights reach it.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -34,8 +34,8 @@ FrameSize frame_of(const Trial& trial) {
   return trial.quick() ? FrameSize{64, 48} : FrameSize{120, 90};
 }
 
-// What lies on the ways to the lights. A triangle that turns its outside away from a light casts, and is dark
-// itself.
+// Traces rays from points to lights. A triangle whose outside faces away from a light casts a shadow and is
+// dark itself.
 class Rays {
  public:
   explicit Rays(const Scene& scene)
@@ -88,10 +88,10 @@ struct Seen {
   const ScreenTriangle* piece = nullptr;
   std::array<bool, c_lights> drawn{}, wanted{};
   std::array<double, c_lights> steps{};    ///< that the light would add
-  std::array<double, c_lights> grazing{};  ///< sine of its angle over the triangle
+  std::array<double, c_lights> grazing{};  ///< sine of the light's angle over the triangle
 };
 
-// All that a frame shows, by pixel.
+// The drawn frame by pixel.
 std::vector<Seen> look(Trial& trial, const Scene& scene, FrameSize frame,
                        const std::vector<Fragment>& fragments, const Pieces& pieces) {
   const ShadingBound bound(scene, frame);
@@ -109,7 +109,7 @@ std::vector<Seen> look(Trial& trial, const Scene& scene, FrameSize frame,
       pixel.steps[i] = static_cast<double>(promise.exact[i]);
       pixel.grazing[i] = static_cast<double>(rays.grazing(i, point, f.triangle));
       const auto lit = static_cast<double>(std::abs(promise.exact[i] - drawn[i]));
-      // Where a light would add less than a step there is nothing to be seen of it.
+      // A light that would add less than one step is not visible.
       const bool hidden = promise.range[i].low < 1.0L;
       pixel.drawn[i] = hidden ? pixel.wanted[i] : lit <= static_cast<double>(promise.bound(i));
       trial.require(hidden || pixel.drawn[i] || drawn[i] == 0, [&] {
@@ -124,8 +124,8 @@ struct Sum {
   std::uint64_t pixels = 0, at_edge = 0, differ = 0, dark = 0, bright = 0;
 };
 
-// Pixels that a light reaches or not, other than by rays, and whose neighbours' rays all agree with the
-// pixel's own.
+// Calls wrong() for pixels where a light is drawn differently from the rays, although the rays of the pixel
+// and of its neighbours all agree.
 template <class Wrong>
 void off_the_edge(const std::vector<Seen>& seen, FrameSize frame, Sum& sum, Wrong&& wrong) {
   for (std::uint32_t y = 0; y < frame.height; ++y)
@@ -151,8 +151,8 @@ void off_the_edge(const std::vector<Seen>& seen, FrameSize frame, Sum& sum, Wron
     }
 }
 
-// As a published walk would count: vertices on whole pixels, lines and spans inclusive at both ends, so that
-// what polygons share is counted twice.
+// The published walk: vertices on whole pixels, lines and spans inclusive at both ends. Pixels that polygons
+// share are counted twice.
 template <class Pixel>
 void for_each_inclusive(const ScreenTriangle& t, FrameSize frame, Pixel&& pixel) {
   std::array<std::int64_t, 3> x, y;
@@ -211,14 +211,15 @@ void set_colours(Scene& scene) {
   scene.spots.at(0).intensity = {0.0, 0.0, 1.0};
 }
 
-// Off the shadows' edges light may be wrong where it grazes a triangle: a volume's side rises from it by the
-// light's angle there, a, and both are on the screen as their vertices are, each up to a 32nd of a pixel off
-// in x and in y. Seen under an angle b, d pixels from the side's foot their depths are d a / cos^2 b apart,
-// and off by tan b sqrt(2) / 16: the side is behind the triangle where d < sqrt(2) / 16 sin b cos b / a. So
-// a pixel off an edge, d >= 1, has a < sqrt(2) / 32, and as much again for the edge's own place.
+// Off the edges of shadows, light may be wrong where it grazes a triangle. The side of a volume rises from
+// the triangle by the light's angle a. On the screen, the vertices of both have errors of up to 1/32 pixel in
+// x and in y. Seen under an angle b, their depths at d pixels from the foot of the side differ by d a / cos^2
+// b, with an error of tan b sqrt(2) / 16. So the side is behind the triangle if d < sqrt(2) / 16 sin b cos b
+// / a. A pixel off an edge has d >= 1, and so a < sqrt(2) / 32. The error of the edge's own position adds the
+// same again.
 constexpr double c_grazing = 1.4143 / 16;
 
-// The light's angle over the triangle where a pixel is wrong off the shadows' edges.
+// Measures the light's angle over the triangle for pixels that are wrong off the edges of shadows.
 void cast(Trial& trial, Scene scene, std::string_view name, Sum& sum, bool with_published = true) {
   set_colours(scene);
   const FrameSize frame = frame_of(trial);
@@ -244,7 +245,7 @@ void cast(Trial& trial, Scene scene, std::string_view name, Sum& sum, bool with_
   measure(Preset::published, counted_as_published(scene, frame, seen, drawing.fragments), published);
 }
 
-// A vertex on the screen is up to a 32nd of a pixel off, so that an edge sweeps a 16th of its pixels at most.
+// A vertex on the screen has an error of up to 1/32 pixel, so an edge moves over at most 1/16 of its pixels.
 void finish(Trial& trial, const Sum& sum) {
   trial.require(sum.differ * 16 <= sum.at_edge, [&] {
     return fmt::format("{} pixels differ of {} along edges, {} in all", sum.differ, sum.at_edge, sum.pixels);
@@ -254,7 +255,7 @@ void finish(Trial& trial, const Sum& sum) {
   });
 }
 
-/// A floor on which solids stand.
+/// A floor with solids on it.
 Scene on_a_floor(RandomSolids& random, int solids) {
   Scene scene = random.scene(solids);
   Mesh floor = make_box({30.0, 0.5, 30.0}, 2);
@@ -276,7 +277,7 @@ void cast_all(Trial& trial, unsigned seed, Make&& make, bool with_published = tr
     cast(trial, make(random, i), fmt::format("scene {}", i), sum, with_published);
   finish(trial, sum);
 }
-// The same in scenes that stand on a floor, changed by change(random, scene, round).
+// The same in scenes with a floor, changed by change(random, scene, round).
 template <class Change>
 void cast_on_floors(Trial& trial, unsigned seed, Change&& change) {
   cast_all(trial, seed, [&](RandomSolids& random, int i) {
@@ -318,7 +319,7 @@ void open_meshes(Trial& trial) {
 
 void light_inside(Trial& trial) {
   cast_on_floors(trial, 11, [](RandomSolids& random, Scene& scene, int) {
-    // Put the light right behind the first solid's first triangle.
+    // Put the light just behind the first triangle of the first solid.
     const CornersWorld c = corners_world(scene, scene.triangles[0]);
     scene.positional[0].position_world =
         (c[0] + c[1] + c[2]) / 3.0 -
@@ -326,7 +327,7 @@ void light_inside(Trial& trial) {
   });
 }
 
-// Smooth spheres: where the surface turns away from the light, triangles do so one by one.
+// Smooth spheres: the triangles turn away from the light one by one.
 void terminators(Trial& trial) {
   const auto sphere = [](RandomSolids& random, int) {
     Scene scene = random.scene(0);
@@ -342,7 +343,7 @@ void terminators(Trial& trial) {
   cast_all(trial, 12, sphere, false);
 }
 
-// Plates that touch and lie on one another, the lights almost in their plane.
+// Plates that touch and lie on each other, with lights almost in their plane.
 void plates(Trial& trial) {
   cast_all(trial, 13, [](RandomSolids& random, int) {
     Scene scene = random.scene(0);
@@ -368,7 +369,7 @@ void plates(Trial& trial) {
   });
 }
 
-// Of a wall, which casts nothing.
+// Adds a wall that casts no shadow.
 void add_front(Scene& scene, double z) {
   Mesh wall = make_box({40.0, 40.0, 0.1}, 1);
   for (glm::dvec3& p : wall.positions) p.z += z;
@@ -382,7 +383,7 @@ using Request = golden::Exact::request_header_at;
 using Axes = golden::Exact::light_axes_header_at;
 using Walked = golden::Exact::init_header_at;
 
-// A wall's stream, a line high, with so many polygons of light 1 before it that open and that close.
+// The stream of a wall of one line, with so many polygons of light 1 before it that open and close volumes.
 std::vector<std::uint32_t> counted(const Scene& scene, FrameSize frame, ProcessorForm form, int around,
                                    int opening, int closing, HardwareKey& key) {
   std::vector<std::uint32_t> words;
@@ -457,7 +458,7 @@ void counters(Trial& trial) {
       const int around = c.around, opening = c.opening, closing = c.closing;
       const int count = around + opening - closing;
       const bool fault = opening > c_most || opening - closing < -c_most - 1;
-      // Behind a fault the hardware is opened anew.
+      // After a fault the simulator is opened again.
       if (trial.quick() && fault && form == ProcessorForm::folded && opening > 0) continue;
       HardwareKey key;
       const auto words = counted(scene, c_frame, form, around, opening, closing, key);
@@ -475,7 +476,7 @@ void counters(Trial& trial) {
     }
 }
 
-// Sheets behind one another before a wall, the sun behind the eye.
+// Sheets one behind the other in front of a wall, with the sun behind the eye.
 Scene sheets(int count) {
   Scene scene;
   scene.directional.resize(1);
@@ -500,7 +501,7 @@ void deep_shadows(Trial& trial) {
     if (trial.quick() && (count == 500 || count == 512)) continue;
     const Scene scene = sheets(count);
     const Drawing drawing = trial.draw(scene, {.plan = request_of(ProcessorForm::unrolled), .frame = frame});
-    // What setup counts may be more, by sides that are thinner than a pixel: never less.
+    // Setup may count more volumes, because of sides thinner than a pixel, but never fewer.
     const std::uint64_t deepest = drawing.counts.deepest_shadow;
     const bool refused = deepest > c_most_shadows;
     trial.check(deepest >= static_cast<std::uint64_t>(count) && !(refused && count < 500),

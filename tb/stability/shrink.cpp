@@ -20,8 +20,8 @@ std::uint64_t distance(std::int64_t a, std::int64_t b) {
                : static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b);
 }
 
-// How many parameters are not at their simplest, how many are between grains, how long they are to write in
-// bits, how far off they are: every step makes this smaller, so that shrinking ends.
+// In this order: the number of parameters that are not at their simplest value, those between grains, the
+// bits of their values, and their distances. Every step reduces it, so that shrinking terminates.
 using Complexity = std::tuple<std::size_t, std::size_t, int, unsigned __int128>;
 
 Complexity complexity(std::span<const Parameter> parameters, const Input& input) {
@@ -44,7 +44,8 @@ bool in_range(std::span<const Parameter> parameters, const Input& input) {
   return input.size() == parameters.size();
 }
 
-// Towards the simplest: all the way, to the grains beside it, to ever fewer zeros, by ever smaller steps.
+// Values towards the simplest: the simplest itself, the neighbouring grains, fewer and fewer zero bits at the
+// end, smaller and smaller steps.
 std::vector<std::int64_t> simpler_values(std::int64_t value, const Parameter& p) {
   std::vector<std::int64_t> values;
   const std::uint64_t by = distance(value, p.simplest), grain = static_cast<std::uint64_t>(p.grain);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The specification: what the papers' formulas come to at one pixel, in exact integers or long double,
-// without any of the code under test. It gives the value that a figure is measured from.
+// The specification: the papers' formulas at one pixel, in exact integers or long double, without any of the
+// tested code. Figures are measured against its values.
 #pragma once
 
 #include <algorithm>
@@ -23,8 +23,8 @@ namespace halfway::stability {
 using Wide = __int128;
 using LongVec = glm::vec<3, long double>;
 
-/// Barycentrics of a point over one divisor, which is twice the area: exact. The point is in 1/2^(unit_bits +
-/// 1) pixels, the vertices in 1/2^unit_bits.
+/// Exact barycentric coordinates of a point over one divisor, which is twice the area. The point is in
+/// 1/2^(unit_bits + 1) pixels, the vertices in 1/2^unit_bits pixels.
 struct ExactBarycentric {
   std::array<Wide, 3> weight;
   Wide sum;
@@ -46,13 +46,13 @@ inline ExactBarycentric barycentric(const std::array<ScreenPoint, 3>& p, Wide x_
       twice_area(x[0], y[0], x[1], y[1], x[2], y[2])};
 }
 
-/// The middle of pixel `at`, in 1/2^(unit_bits + 1) pixels.
+/// The centre of pixel `at`, in 1/2^(unit_bits + 1) pixels.
 constexpr Wide centre(std::int64_t at, int unit_bits) {
   return (2 * Wide{at} + 1) << unit_bits;
 }
 
-/// Whether the pixel's centre lies in the triangle, by the top-left rule: on an edge it belongs to the
-/// triangle to the right of the edge, or below it where the edge is level.
+/// Returns whether the pixel's centre lies in the triangle, by the top-left rule: a centre on an edge belongs
+/// to the triangle to the right of the edge, or below it if the edge is level.
 inline bool covers(std::array<ScreenPoint, 3> p, int unit_bits, std::int64_t x, std::int64_t y) {
   ExactBarycentric b = barycentric(p, centre(x, unit_bits), centre(y, unit_bits));
   if (b.sum == 0) return false;
@@ -63,8 +63,8 @@ inline bool covers(std::array<ScreenPoint, 3> p, int unit_bits, std::int64_t x, 
   for (std::size_t i = 0; i < 3; ++i) {
     if (b.weight[i] < 0) return false;
     if (b.weight[i] > 0) continue;
-    // The edge opposite vertex i; clockwise on a screen whose y runs down, so the inside is to the right of
-    // its way.
+    // The edge opposite to vertex i. Corners are clockwise on a screen with y downwards, so the inside is to
+    // the right of the edge's direction.
     const ScreenPoint from = p[(i + 1) % 3], to = p[(i + 2) % 3];
     const bool left = to.y < from.y, top = to.y == from.y && to.x > from.x;
     if (!left && !top) return false;
@@ -72,8 +72,8 @@ inline bool covers(std::array<ScreenPoint, 3> p, int unit_bits, std::int64_t x, 
   return true;
 }
 
-/// Calls span(y, begin, end) for each line of the frame on which the triangle covers pixels: `covers` solved
-/// for x, edge by edge.
+/// Calls span(y, begin, end) for each line of the frame with covered pixels: `covers` solved for x, edge by
+/// edge.
 template <class Span>
 void for_each_covered_span(std::array<ScreenPoint, 3> p, int unit_bits, FrameSize frame, Span&& span) {
   ExactBarycentric origin = barycentric(p, centre(0, unit_bits), centre(0, unit_bits));
@@ -93,7 +93,7 @@ void for_each_covered_span(std::array<ScreenPoint, 3> p, int unit_bits, FrameSiz
     for (std::size_t i = 0; i < 3; ++i) {
       const ScreenPoint from = p[(i + 1) % 3], to = p[(i + 2) % 3];
       const bool owns_edge = to.y < from.y || (to.y == from.y && to.x > from.x);
-      // weight + x step >= 0 on a left or top edge, > 0 on another.
+      // weight + x step >= 0 for a left or top edge, > 0 for the others.
       const Wide step = right.weight[i] - origin.weight[i],
                  weight =
                      origin.weight[i] + Wide{y} * (down.weight[i] - origin.weight[i]) - (owns_edge ? 0 : 1);
@@ -116,14 +116,14 @@ void for_each_covered(const std::array<ScreenPoint, 3>& p, int unit_bits, FrameS
   });
 }
 
-/// Through the values at three vertices.
+/// Interpolates between the values at three vertices.
 inline long double linear(const std::array<long double, 3>& barycentric,
                           const std::array<long double, 3>& value) {
   return barycentric[0] * value[0] + barycentric[1] * value[1] + barycentric[2] * value[2];
 }
 
-/// Through the values at three vertices and at the midpoints of the edges 1-2, 1-3, 2-3 (quadratic, the
-/// element of six samples).
+/// Interpolates between the values at three vertices and at the midpoints of the edges 1-2, 1-3, 2-3
+/// (quadratic element with six samples).
 inline long double quadratic(const std::array<long double, 3>& barycentric,
                              const std::array<long double, 6>& value) {
   const auto& [a, b, c] = barycentric;
@@ -131,7 +131,7 @@ inline long double quadratic(const std::array<long double, 3>& barycentric,
          4 * (value[3] * a * b + value[4] * a * c + value[5] * b * c);
 }
 
-/// The surface behind a pixel's centre, perspective-correct.
+/// The surface at a pixel's centre, perspective-correct.
 struct ExactSurface {
   LongVec position_world, normal_world;  ///< the normal is not unit; it may vanish
   long double z;
@@ -153,7 +153,7 @@ inline ExactSurface surface(const ScreenTriangle& t, int unit_bits, std::int64_t
   return s;
 }
 
-/// Of the surface behind a pixel; where the interpolated normal is rounding noise, the triangle's own.
+/// The unit normal at a pixel. If the interpolated normal is only rounding noise, returns the triangle's own.
 inline LongVec unit_normal(const ScreenTriangle& t, const ExactSurface& s) {
   constexpr long double c_noise = 1e-8L;
   const long double length = glm::length(s.normal_world);
@@ -162,8 +162,8 @@ inline LongVec unit_normal(const ScreenTriangle& t, const ExactSurface& s) {
   return glm::normalize(glm::cross(c - a, b - a));
 }
 
-/// What stands beside k_s: (N.H)^n, (R.V)^n, or Cook and Torrance's P F G/(4 N.V), N.L having taken itself
-/// away (spherical, equations 4 to 7). All vectors unit; not bounded.
+/// The factor of k_s: (N.H)^n, (R.V)^n, or P F G/(4 N.V) of Cook and Torrance, where N.L is cancelled
+/// (spherical, equations 4 to 7). All vectors have unit length. The result is not bounded.
 inline long double specular(const Material& m, const LongVec& n, const LongVec& l, const LongVec& v) {
   const auto power = [&](long double base) {
     return base > 0 ? std::pow(std::min(base, 1.0L), (long double)m.exponent) : 0.0L;
@@ -188,9 +188,9 @@ inline long double specular(const Material& m, const LongVec& n, const LongVec& 
   return density * fresnel * std::min(shadowed, 1.0L) / (4 * n_dot_v);
 }
 
-/// The radiance, I_a k_a + sum of I (k_d N.L + k_s specular) over the lights before the surface (spherical,
-/// equations 1 to 3; processors, section 2), unclamped; `normal` is unit. A light at the point, so near as
-/// doubles tell, has no direction and gives nothing.
+/// The radiance I_a k_a + sum of I (k_d N.L + k_s specular) over the lights in front of the surface
+/// (spherical, equations 1 to 3; processors, section 2), not clamped. `normal` has unit length. A light at
+/// the point, within the precision of doubles, has no direction and adds nothing.
 inline LongVec radiance(const Scene& scene, const Material& m, const LongVec& position,
                         const LongVec& normal) {
   LongVec sum = LongVec(scene.ambient) * LongVec(m.colour) * (long double)m.ambient;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spherical shader: where its formulas are 0/0, its angles nearly half a turn, its words nearly full, its
-// bells off the mark.
+// The spherical shader where its formulas are 0/0, its angles are almost half a turn, its words are almost
+// full, and its bells differ from the exact power.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,21 +25,21 @@ namespace {
 using golden::Exact;
 constexpr double c_pi = std::numbers::pi;
 
-// ---- Cosines along an arc: doubles against 250 bits
+// ---- Cosines along an arc: doubles compared with 250 bits
 
 constexpr double c_arc_bound = 3e-15;  // arc.hpp's contract
 
-// Angles near 0 by decades.
+// Angles close to 0, by decades.
 constexpr double c_small[] = {1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8,
                               1e-7,  1e-6,  1e-5,  1e-4,  1e-3,  1e-2,  0.1,   1.0};
-// Closer than this to opposed, two directions do not tell their plane to the eighth digit.
+// If two directions are closer than this to opposite, their plane is uncertain in the eighth digit.
 constexpr double c_least_known = 1e-13;
 
 struct Ends {
   glm::dvec3 u1, u2, v1, v2;
 };
 
-// Equations 11 to 16 as they are printed; with `equation15` A sin phi as its last line has it.
+// Equations 11 to 16 as printed. With `equation15`, A sin phi is that of its last line.
 CosineArc arc_as_published(const Ends& e, bool equation15 = false) {
   const glm::dvec3 c = glm::cross(e.v1, e.v2);
   const double cos_gamma_v = glm::dot(e.v1, e.v2);
@@ -58,8 +58,8 @@ double largest_error(const CosineArc& arc, const std::array<double, 9>& expected
   return largest;
 }
 
-// Cosines at the eighths of the way, and at the ends by the dot products themselves. An arc between turned
-// ends is rounded with them, and told the worse the nearer it is to half a turn.
+// Measures the cosines at every eighth of the arc, and those at both ends against the dot products. If both
+// vectors turn, the arc depends on their rounding, and it is less certain the closer it is to half a turn.
 void try_arc(Trial& trial, const Ends& e, double at, bool is_known = true) {
   const bool still = e.v1 == e.v2;
   const CosineArc ours = still ? cosine_arc(e.u1, e.u2, e.v1) : cosine_arc(e.u1, e.u2, e.v1, e.v2);
@@ -95,7 +95,7 @@ void gamma_to_pi(Trial& trial) {
     const glm::dvec3 u1 = random.any(), u2 = random.at(u1, left, true), v1 = random.any();
     const bool known = left >= c_least_known;
     try_arc(trial, {u1, u2, v1, v1}, left, known);
-    // Opposed only when it is turned back.
+    // If both vectors turn, they are opposite only after u2 is turned back.
     const glm::dvec3 v2 = random.at(v1, 0.7);
     const auto ahead = turned_back(Vector<long double>(u2), Vector<long double>(v2), Vector<long double>(v1));
     try_arc(trial, {u1, {double(ahead.x), double(ahead.y), double(ahead.z)}, v1, v2}, left, known);
@@ -114,7 +114,7 @@ void gamma_v_to_pi(Trial& trial) {
   sweep_small(trial, 6, [&](Directions& random, double left) {
     const glm::dvec3 u1 = random.any(), v1 = random.any();
     try_arc(trial, {u1, random.at(u1, 1.0), v1, random.at(v1, left, true)}, left, left >= c_least_known);
-    // u stands still: seen from v it turns as far the other way.
+    // u is constant: relative to v it turns by the same angle in the other direction.
     try_arc(trial, {v1, v1, u1, random.at(u1, left, true)}, left, false);
   });
 }
@@ -164,9 +164,9 @@ void equation_15(Trial& trial) {
   }
 }
 
-// Both turn about fixed axes, or v is held still and u turned back: the same at the ends. Each way has an
-// acceleration of (gamma + gamma_v)^2 at most, so between the ends they are (gamma + gamma_v)^2/4 apart at
-// most; 1/8 of the difference's acceleration.
+// Both vectors turn about fixed axes, or v is constant and u is turned back: the cosines at the ends are
+// equal. Each has a second derivative of (gamma + gamma_v)^2 at most, so between the ends the two differ by
+// (gamma + gamma_v)^2/4 at most: 1/8 of the difference of the second derivatives.
 void both_at_once(Trial& trial) {
   Directions random(18);
   for (int i = 0; i < trial.rounds(2000, 200'000); ++i) {
@@ -211,8 +211,8 @@ double largest_difference(double exponent, const Bell& bell, int samples) {
   return 255.0 * largest;
 }
 
-// bell.hpp: below 2 no bell of the family is good, and 8.7 of 255 is its worst; from 2 on they were fitted so
-// that with table, drift and rounding, 1.4 steps together, no colour is off by more than 5.
+// bell.hpp: below exponent 2 no bell of the family is good, and the worst error is 8.7 of 255. From 2 on the
+// bells are fitted so that no colour has an error above 5, including 1.4 steps for table, drift and rounding.
 double bell_bound(double exponent) {
   return exponent < 2.0 ? 8.7 : 5.0 - 1.4;
 }
@@ -252,7 +252,7 @@ void past_the_bell(Trial& trial) {
   }
 }
 
-// A highlight of a fraction of a pixel shows where a pixel's centre meets it.
+// A highlight smaller than a pixel is visible if it contains a pixel's centre.
 void narrow_bells(Trial& trial) {
   constexpr FrameSize c_small_frame{40, 30};
   for (const double exponent : {1e4, 1e5, 1e6})
@@ -262,7 +262,7 @@ void narrow_bells(Trial& trial) {
       scene.materials[0].exponent = exponent;
       const SurfacePoint p = surface_at(scene, c_small_frame, random.whole(17, 23), random.whole(13, 17));
       const glm::dvec3 v = glm::normalize(scene.camera.eye_world - p.position_world);
-      // Its peak at one pixel's centre.
+      // The peak is at the centre of one pixel.
       scene.directional.push_back({2.0 * glm::dot(p.normal_world, v) * p.normal_world - v, glm::dvec3(1.0)});
       show(trial, scene, fmt::format("exponent {:g}, place {}", exponent, i),
            {.frame = c_small_frame, .least_red = 201});
@@ -270,7 +270,7 @@ void narrow_bells(Trial& trial) {
 }
 
 void four_bit_tables(Trial& trial) {
-  // Exponent 2: cos^2 itself, so that the table alone is seen.
+  // Exponent 2 is cos^2 itself, so that only the table's error is visible.
   for (const Brdf brdf : {Brdf::blinn, Brdf::phong}) {
     Scene scene = stage({{{0.8, 0.1, 1}, {-0.8, 0.2, 1}, {0, -0.8, 1}}});
     scene.materials[0] = {
@@ -293,7 +293,7 @@ void gamma_to_zero_drawn(Trial& trial) {
       add_side_lights(scene);
       const std::string name = fmt::format("normals {:g} apart", apart);
       show(trial, scene, name, {.least_red = 101});
-      // A light and an eye that are far away as well: nothing turns at all.
+      // Also move light and eye far away: then no vector turns.
       scene.positional.clear();
       scene.spots.clear();
       move_eye_away(scene);
@@ -306,7 +306,7 @@ void gamma_to_pi_drawn(Trial& trial) {
   RandomScenes random(2);
   for (const double apart : {0.0, 1e-16, 1e-12, 1e-6, 1e-2}) {
     if (trial.quick() && apart != 0.0 && apart != 1e-12) continue;
-    // Opposed along the lowest edge; all three of them across it.
+    // Normals that are opposite along the lowest edge, and normals of which all three are opposite across it.
     for (const auto& normals : {std::array<glm::dvec3, 3>{{{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}}},
                                 {{{0, 0, 1}, {0, 0, -1}, {0, 1, 0}}},
                                 {{{0, 0.6, 0.8}, {0, -0.6, -0.8}, {0, 0.6, 0.8}}},
@@ -319,7 +319,7 @@ void gamma_to_pi_drawn(Trial& trial) {
   }
 }
 
-// L turns half a turn at once where the light lies in the surface.
+// L turns by half a turn at once if the light lies in the surface.
 void gamma_v_to_pi_drawn(Trial& trial) {
   for (const double height : {0.0, 1e-15, 1e-9, 1e-6, 1e-3, 1e-2})
     for (const double between : {0.5, 0.25, 1e-3, 1e-9}) {
@@ -333,7 +333,7 @@ void gamma_v_to_pi_drawn(Trial& trial) {
     }
 }
 
-// N turns in a plane across L: N.L = 0, and L is the axis of its turn.
+// N turns in a plane perpendicular to L: N.L = 0, and L is the axis of the turn.
 void amplitude_zero(Trial& trial) {
   Scene scene = stage({{{0, -0.5, 1}, {0, 0, 1}, {0, 0.5, 1}}});
   scene.directional.push_back({{1, 0, 0}, glm::dvec3(1.0)});
@@ -343,7 +343,7 @@ void amplitude_zero(Trial& trial) {
     const Shown shown = show(trial, scene, name);
     trial.require(shown.brightest == 0, [&] { return name + ": is not dark"; });
   }
-  // The highlight's amplitude alone: R across V everywhere.
+  // Only the highlight's amplitude is zero: R is perpendicular to V everywhere.
   Scene mirror = stage();
   mirror.materials[0].brdf = Brdf::phong;
   move_eye_away(mirror);
@@ -357,7 +357,7 @@ void powers_underflow(Trial& trial) {
     Scene scene = stage({{{0.0, 1.6, 1}, {0.3, 1.7, 1}, {0.1, 1.8, 1}}});
     scene.materials[0].exponent = exponent;
     scene.directional.push_back({{0, 0, 1}, glm::dvec3(1.0)});
-    // Diffuse light alone: N.H is about a half.
+    // With diffuse light only, N.H is about 1/2.
     show(trial, scene, fmt::format("exponent {:g}", exponent), {.least_red = 41});
   }
 }
@@ -379,7 +379,7 @@ void halfway_of_zero(Trial& trial) {
 
 void light_at_the_surface(Trial& trial) {
   const Scene dark = stage({{{0.6, 0, 1}, {-0.6, 0, 1}, {0, 0.1, 1}}});
-  // The line through the middle: its first pixels, one in the middle, its last.
+  // On the line through the middle: its first pixels, one in the middle, its last.
   const ScreenTriangle t = Pieces(dark, c_stage_frame).all().at(0);
   int first = -1, last = -1;
   for (int x = 0; x < static_cast<int>(c_stage_frame.width); ++x)
@@ -435,7 +435,7 @@ void one_pixel_spans(Trial& trial) {
       });
 }
 
-// N.L < 0 < N.H: what exact hides and published shows.
+// N.L < 0 < N.H: preset exact hides the highlight, preset published shows it.
 void behind_the_horizon(Trial& trial) {
   for (const double diffuse : {0.5, 0.0}) {
     Scene scene = stage({{{-0.5, 0, 1}, {-0.5, 0.05, 1}, {-0.5, -0.05, 1}}});
@@ -447,7 +447,7 @@ void behind_the_horizon(Trial& trial) {
     trial.require(shown.brightest == 0 && shown.published_brightest > 10,
                   [&] { return name + ": no highlight behind the horizon, or one in preset exact"; });
 
-    // The horizon across the triangle: a highlight that ends at once, at the right pixel.
+    // The horizon crosses the triangle: the highlight must end abruptly at the right pixel.
     Scene half = stage({{{-0.6, 0, 1}, {0.8, 0.1, 1}, {0, -0.1, 1}}});
     half.materials[0].diffuse = diffuse;
     half.materials[0].exponent = 1.0;
@@ -466,22 +466,22 @@ void spots_that_end_at_once(Trial& trial) {
   }
 }
 
-// Where the red is past white. A table's last entry is 0, and stays so however bright the light: pixels that
-// the light grazes do not count.
+// Pixels with a red above white. A table's last entry is 0, however bright the light, so pixels that the
+// light grazes are not counted.
 void over_exposure(Trial& trial) {
   constexpr long double c_clearly_white = 1.05L, c_grazing = 1.0L / 128;
   for (const double intensity : {10.0, 1e9, 1e306, 1.7e308}) {
     Scene scene = stage({{{-2.9, -0.3, 1}, {0.5, 0, 1}, {0, 0.1, 1}}});
     add_side_lights(scene);
     scene.directional[0].intensity = {intensity, 0.0, 0.0};
-    scene.materials[0].colour = {0.9, 0.0, 0.9};  // inf * 0 is no number
+    scene.materials[0].colour = {0.9, 0.0, 0.9};  // inf * 0 is NaN
     const Truth truth(scene, c_stage_frame);
     for (const Preset preset : {Preset::exact, Preset::published}) {
       const Drawing drawing = trial.draw(
           scene, {.plan = {.shader = Shader::spherical, .preset = preset, .all_effects = true, .lights = 3},
                   .frame = c_stage_frame});
       const std::string name = fmt::format("intensity {:g}, preset {}", intensity, to_string(preset));
-      // Preset exact has room for 10 times white.
+      // Preset exact represents up to 10 times white.
       const bool held = preset == Preset::published || intensity > 10.0;
       trial.require((drawing.counts.overexposed > 0) == held,
                     [&] { return name + ": held, or not, and not counted so"; });
@@ -514,7 +514,7 @@ void wide_triangles(Trial& trial) {
 
 void many_lights(Trial& trial) {
   RandomScenes random(4);
-  // Sixteen take a build of their own.
+  // Sixteen lights need a build of their own.
   const int count = trial.quick() ? 3 : 16;
   for (int i = 0; i < trial.rounds(3, 30); ++i) {
     Scene scene;
@@ -530,13 +530,13 @@ void many_lights(Trial& trial) {
   }
 }
 
-// ---- Long spans: how far the angle's register has drifted at a span's last pixel
+// ---- Long spans: drift of the angle's register at the last pixel of a span
 
-// Calls figure(angle, first, last, y) for every line of so many pixels: the diffuse angle in half bells at
-// the last pixel, as the line's words step it.
+// Calls figure(angle, first, last, y) for every line of so many pixels. `angle` is the diffuse angle in half
+// bells at the last pixel, stepped from the line's words.
 template <class P>
 void measure_drift(const Drawing& drawing, std::int64_t pixels, auto&& figure) {
-  // The published cosine table goes all the way round: its angles are in half turns.
+  // The published cosine table covers a full turn: its angles are in half turns.
   constexpr double c_unit = std::is_same_v<P, Exact> ? 1.0 : 2.0;
   const int low = golden::SphericalLayout<P>(golden_config(drawing.key)).diffuse_low(0);
   for_each_line<P>(drawing,
@@ -550,7 +550,7 @@ void measure_drift(const Drawing& drawing, std::int64_t pixels, auto&& figure) {
                    });
 }
 
-// An arc's angle at its end in half bells: equations 15 to 17 in long double.
+// The angle at the end of an arc in half bells: equations 15 to 17 in long double.
 long double angle_at_end(const LongVec& u1, const LongVec& u2, const LongVec& v) {
   const long double gamma = 2 * std::atan2(glm::length(u2 - u1), glm::length(u2 + u1));
   const long double cos1 = glm::dot(u1, v), b = (glm::dot(u2, v) - cos1 * std::cos(gamma)) / std::sin(gamma);
@@ -567,14 +567,15 @@ Scene lit_from_somewhere(RandomScenes& random, const std::array<glm::dvec3, 3>& 
   return scene;
 }
 
-// Twice the frame's width at 4096 by 24 pixels, and within the guard band: not clipped.
+// Twice as wide as the frame at 4096 by 24 pixels, and within the guard band, so not clipped.
 constexpr std::array<glm::dvec3, 3> c_twice_as_wide{
     {{-2.944, 0.0815, 0}, {0, -4.355, 0}, {2.947, 0.0815, 0}}};
-// Its level edge from the first to the last pixel of a line, at 1024 by 24 pixels.
+// A level edge from the first to the last pixel of a line, at 1024 by 24 pixels.
 constexpr std::array<glm::dvec3, 3> c_from_side_to_side{
     {{-0.372, 0.004, 0}, {0, -0.008, 0}, {0.372, 0.004, 0}}};
 
-// The bound: half of the last of 22 fraction bits on 4096 pixels. A 9-bit table's cell is four times as wide.
+// The bound is half of the last of 22 fraction bits on each of 4096 pixels. A cell of a 9-bit table is four
+// times as wide.
 void drift(Trial& trial) {
   constexpr double c_bound = 4096 * 0x1p-23;
   for (int i = 0; i < trial.rounds(2, 40); ++i) {
@@ -584,7 +585,7 @@ void drift(Trial& trial) {
     const auto off = [&](double angle, const LongVec& u1, const LongVec& u2, const Scene& scene) {
       const long double difference =
           angle - angle_at_end(u1, u2, LongVec(scene.directional[0].to_light_world));
-      return static_cast<double>(std::fabs(std::remainder(difference, 4.0L)));  // a turn
+      return static_cast<double>(std::fabs(std::remainder(difference, 4.0L)));  // modulo one turn
     };
     const auto where = [&] { return fmt::format("scene {}", i); };
 

@@ -16,7 +16,7 @@ namespace {
 
 using golden::Exact, golden::Published;
 
-// Every record's words stay in their formats, on every pixel of its line.
+// All words of every record stay in their formats, on every pixel of its line.
 template <class P>
 void require_words_in_range(Trial& trial, const Drawing& drawing, const std::string& name) {
   constexpr bool c_exact = std::is_same_v<P, Exact>;
@@ -37,7 +37,7 @@ void require_words_in_range(Trial& trial, const Drawing& drawing, const std::str
                                 std::span<const std::uint32_t> record) {
     const std::int64_t steps = std::abs(walker.stop().value() - walker.start().value()) - 1;
     const auto require_angle = [&](const golden::Field& angle, const golden::Field& slope, int low) {
-      if (!c_exact || walker.line_empty()) return;  // published wraps
+      if (!c_exact || walker.line_empty()) return;  // words of preset published wrap
       trial.require(std::abs(angle_after<P>(record, angle, slope, low, steps)) < std::int64_t{1}
                                                                                      << (P::c_angle_bits - 1),
                     [&] { return name + ": an angle wraps"; });
@@ -118,7 +118,7 @@ Shown show(Trial& trial, const Scene& scene, const std::string& name, const Show
     trial.require(f.x < options.frame.width && f.y < options.frame.height,
                   [&] { return where(f) + ": published leaves the frame"; });
     shown.published_brightest = std::max(shown.published_brightest, int{f.red});
-    // Vertices on whole pixels: not on the others' pixels all along the edges.
+    // Vertices on whole pixels: along the edges the pixels differ from the exact ones.
     const auto found = there.find({f.triangle, f.x, f.y});
     if (found != there.end())
       trial.published(colour_error(f, found->second), bound, [&] { return where(f); });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes through the spherical shader, both presets, each fragment beside the illumination model.
+// Draws scenes by the spherical shader in both presets and compares each fragment with the illumination
+// model.
 #pragma once
 
 #include <array>
@@ -19,15 +20,15 @@
 
 namespace halfway::stability {
 
-/// The first triangle's surface behind a pixel's centre, as setup has it.
+/// The surface of the first triangle at a pixel's centre, as in setup.
 SurfacePoint surface_at(const Scene& scene, FrameSize frame, std::int64_t x, std::int64_t y);
 
-/// What the illumination model gives behind the pixels of a scene; exponents held as the shader holds them.
+/// The illumination model at the pixels of a scene, with exponents clamped as in the shader.
 class Truth {
  public:
   /// The scene must outlive it.
   Truth(const Scene& scene, FrameSize frame);
-  /// Of triangle `source` of the scene; linear, not clamped.
+  /// For triangle `source` of the scene; linear, not clamped.
   LongVec radiance_at(std::uint32_t source, std::int64_t x, std::int64_t y) const;
   LongVec normal_at(std::uint32_t source, std::int64_t x, std::int64_t y) const;
 
@@ -38,20 +39,20 @@ class Truth {
 
 struct Shown {
   std::uint64_t fragments = 0;
-  int brightest = 0, published_brightest = 0;  ///< of the red
+  int brightest = 0, published_brightest = 0;  ///< of the red channel
   SetupCounts counts{};
 };
 
 struct ShowOptions {
   FrameSize frame = c_stage_frame;
   double threshold = 2.0;
-  int least_red = 0;      ///< that the brightest pixel must have
-  unsigned lights = 3;    ///< of the hardware: the same for most cases, so that one build serves
-  bool published = true;  ///< draw it by preset published too
+  int least_red = 0;      ///< least red of the brightest pixel
+  unsigned lights = 3;    ///< of the hardware; equal for most cases, so that they share one build
+  bool published = true;  ///< also draw the scene in preset published
   std::optional<TableSize> published_tables{};
 };
 
-/// Calls line(walker, record) for each line record of preset P's stream: the walker stands on that line.
+/// Calls line(walker, record) for each line record of preset P's stream, with the walker on that line.
 template <class P, class Line>
 void for_each_line(const Drawing& drawing, Line&& line) {
   const auto model = make_golden_model(drawing.key);
@@ -79,10 +80,10 @@ std::int64_t angle_after(std::span<const std::uint32_t> record, const golden::Fi
          steps * Angle::from_bits(golden::get_bits(record, slope, low)).value();
 }
 
-/// The scene by preset exact, ends on the surface: each fragment's largest error of a channel against what
-/// setup's threshold, bells and tables allow (promised_steps), in colour steps. And the same pixels as preset
-/// published has them, against the same bound. No word leaves its format; ends by slerp cover the same
-/// pixels.
+/// Draws the scene in preset exact, with ends on the surface. Compares each fragment's largest channel error
+/// with the bound that setup's threshold, bells and tables guarantee (promised_steps), in colour steps.
+/// Compares the same pixels of preset published with the same bound. No word leaves its format; ends by slerp
+/// cover the same pixels.
 Shown show(Trial& trial, const Scene& scene, const std::string& name, const ShowOptions& options = {});
 
 }  // namespace halfway::stability

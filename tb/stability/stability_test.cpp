@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the hard cases and searches stand on: the shrinker, its files, the verdict on figures, the
+// Tests of the parts that hard cases and searches use: the shrinker, its files, the verdict on figures, the
 // specification's spans.
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ constexpr Parameter c_abcd[] = {
     {"a", 0, -1000, 1000}, {"b", 0, -1000, 1000}, {"c", 1, 1, 4096}, {"d", 0, 0, 9}};
 
 TEST(Shrink, FindsTheSmallestInputThatFails) {
-  // The least that fails: a = 37, b = -5, c = 12, d at its simplest.
+  // The least failing input: a = 37, b = -5, c = 12, d at its simplest.
   const auto fails = [](const Input& i) { return i[0] >= 37 && i[1] <= -5 && i[2] * 3 > 33 + i[3]; };
   for (const Input& from : {Input{999, -1000, 4096, 9}, Input{37, -1000, 13, 0}, Input{512, -5, 100, 7}}) {
     ASSERT_TRUE(fails(from));
@@ -30,7 +30,7 @@ TEST(Shrink, FindsTheSmallestInputThatFails) {
 
 TEST(Shrink, PrefersWholeGrains) {
   constexpr Parameter c_grained[] = {{"a", 0, -1000, 1000, 16}, {"b", 3, 0, 1000, 10}, {"c", 0, 0, 1000, 16}};
-  // Up to the next grain where the one below passes; where no grain will do, the least that fails.
+  // The nearest grain if it fails; the least failing value if no grain fails.
   const auto fails = [](const Input& i) { return i[0] <= -37 && i[1] > 25 && i[2] % 16 == 5; };
   EXPECT_EQ(shrink(c_grained,
                    {
@@ -43,14 +43,14 @@ TEST(Shrink, PrefersWholeGrains) {
 }
 
 TEST(Shrink, PrefersFewAndShortParameters) {
-  // Either will do; rounding comes before small steps.
+  // Either parameter may be reduced; rounding is tried before small steps.
   const auto fails = [](const Input& i) { return i[0] + i[1] >= 100; };
   const Input shrunk = shrink(c_abcd, {90, 80, 50, 3}, fails, {});
   EXPECT_EQ(shrunk, (Input{20, 80, 1, 0}));
 }
 
 TEST(Shrink, TakesStepsOfSeveralParametersWhereTheyAreOffered) {
-  // No parameter alone can move: a and b differ by 10.
+  // No single parameter can change: a and b differ by 10.
   const auto fails = [](const Input& i) { return i[0] - i[1] == 10; };
   EXPECT_EQ(shrink(c_abcd, {510, 500, 1, 0}, fails, {}), (Input{510, 500, 1, 0}));
   const auto together = [](const Input& i) {
@@ -139,7 +139,7 @@ TEST(Refutation, ComesFromPublishedFiguresThatAreNotAsExpected) {
             "has a figure of the published form, and says that there is none");
 }
 
-// The spans are the definition, pixel by pixel.
+// The spans are equal to the definition, pixel by pixel.
 TEST(Specification, SpansHoldThePixelsThatAreCovered) {
   std::size_t pixels = 0;
   for (const TriangleKind kind : c_triangle_kinds) {

@@ -17,10 +17,10 @@
 namespace halfway::stability {
 namespace {
 
-// What GHDL draws in a few seconds.
+// Number of fragments that GHDL draws in a few seconds.
 constexpr std::size_t c_most_for_ghdl = 4000;
 
-// Of the shading processors, which keep lights from a stream to the next: as if it had just been reset.
+// The shading processors keep lights between streams. These words delete them, as after a reset.
 std::vector<std::uint32_t> forget_lights(const HardwareKey& key, unsigned words_each) {
   using Request = golden::Exact::request_header_at;
   static_assert(golden::Exact::c_request_header_bits == golden::Published::c_request_header_bits);
@@ -40,7 +40,7 @@ std::vector<std::uint32_t> forget_lights(const HardwareKey& key, unsigned words_
 
 void Worst::add(double next, double next_bound, const std::function<std::string()>& where_of) {
   ++count;
-  // By how much of the bound, without dividing by a bound of nothing.
+  // Compares the figures relative to their bounds, without a division by a bound of 0.
   const auto nearer = [&] {
     if (!std::isfinite(figure)) return false;
     if (within() != (next <= next_bound)) return within();
@@ -128,7 +128,7 @@ void Trial::compare_rtl(const HardwareKey& key, unsigned init_bits, std::span<co
       return fault ? fmt::format("{}: {} sees no fault, the golden model does", key.name(), name)
                    : fmt::format("{}: {}: {}", key.name(), name, status.error().message);
     });
-    if (fault) return;  // the fragments are worth nothing
+    if (fault) return;  // after a fault the fragments have no meaning
     StreamComparator comparator;
     comparator.add_golden(golden);
     comparator.add_rtl(drawn);
@@ -163,7 +163,7 @@ Status Trial::run_verilator(const HardwareKey& key, unsigned init_bits, std::spa
   if (key.shader == Shader::processors) status = run(forget_lights(key, words_each));
   if (status) status = run(words);
   if (status) status = rtl.finish(drawn, most);
-  if (!status) rtl_.verilated.erase(found);  // it has gone astray
+  if (!status) rtl_.verilated.erase(found);  // its state is undefined
   return status;
 }
 

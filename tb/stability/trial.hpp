@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a hard case is tried with: figures against bounds, and drawings whose golden model the RTL must equal.
+// Figures and bounds of a hard case, and drawings for which the RTL must equal the golden model.
 #pragma once
 
 #include <cstdint>
@@ -21,25 +21,25 @@
 
 namespace halfway::stability {
 
-/// The figure that comes nearest to its bound, or is farthest past it.
+/// The figure with the greatest ratio to its bound.
 struct Worst {
   double figure = 0.0, bound = 0.0;
   std::string where{};
-  std::uint64_t count = 0;  ///< figures in all
+  std::uint64_t count = 0;  ///< number of figures
 
   bool within() const { return figure <= bound; }
-  /// A figure that is no number is past every bound.
+  /// NaN exceeds every bound.
   void add(double next, double next_bound, const std::function<std::string()>& where_of);
 };
 
-/// What the published form does in the case.
+/// Behaviour of the published form in the case.
 enum class PublishedForm {
-  breaks,  ///< one of its figures must exceed the bound
-  holds,   ///< its figures must stay within the bound
-  silent   ///< no paper has such a form, so it has no figure
+  breaks,  ///< at least one of its figures must exceed the bound
+  holds,   ///< all its figures must be within the bound
+  silent   ///< no paper has such a form; it has no figure
 };
 
-/// Why the figures refute the case; empty: they do not.
+/// The reason for which the figures refute the case; empty if they do not.
 std::string refutation(PublishedForm expected, const Worst& ours, const Worst& published);
 
 struct DrawOptions {
@@ -48,7 +48,7 @@ struct DrawOptions {
   SetupOptions setup{};
 };
 
-/// Everything that the setup sends to the hardware for one frame.
+/// All words that the setup sends to the hardware for one frame.
 struct Stream {
   unsigned init_bits = 0;
   std::vector<std::uint32_t> prologue{}, units{};
@@ -59,7 +59,7 @@ struct Stream {
 };
 Stream stream_of(const Setup& setup);
 
-/// A scene's stream and what the golden model makes of it.
+/// A scene's stream and the golden model's fragments for it.
 struct Drawing {
   HardwareKey key{};
   unsigned init_bits = 0;
@@ -70,28 +70,29 @@ struct Drawing {
   bool fault = false;
 };
 
-/// The scene through plan, setup and golden model.
+/// Runs plan, setup and golden model on the scene.
 Result<Drawing> draw_golden(const Scene& scene, const DrawOptions& options);
 
-/// What goes from one case to the next; for one thread.
+/// Simulators that the cases share; for one thread.
 struct Simulators {
   std::map<std::string, VerilatorSimulator> verilated{};  ///< RTL that runs in this process, by key
-  std::set<std::string> through_ghdl{};                   ///< keys of which GHDL has drawn something
+  std::set<std::string> through_ghdl{};                   ///< keys for which GHDL has already drawn
 };
 
 class Trial {
  public:
-  /// A quick sweep takes part of a second, a full one up to a minute. `rtl` goes from one case to the next.
+  /// A quick sweep takes part of a second, a full one up to a minute. The cases share `rtl`.
   Trial(SimulatorFolders folders, Simulators& rtl, bool quick)
       : folders_(std::move(folders)), rtl_(rtl), quick_(quick) {}
 
   bool quick() const { return quick_; }
   /// The project's root.
   const std::filesystem::path& source() const { return folders_.source; }
-  /// Rounds of a random sweep.
+  /// Number of rounds of a random sweep.
   int rounds(int quick, int full) const { return quick_ ? quick : full; }
 
-  /// A figure of our form, of the published form, or of the preset's form, and the bound of the property.
+  /// Adds a figure of our form, of the published form, or of the preset's form, and the bound of the
+  /// property.
   void ours(long double figure, long double bound, const std::function<std::string()>& where) {
     ours_.add(static_cast<double>(figure), static_cast<double>(bound), where);
   }
@@ -102,29 +103,29 @@ class Trial {
                const std::function<std::string()>& where) {
     preset == Preset::exact ? ours(figure, bound, where) : published(figure, bound, where);
   }
-  /// Figures of both forms, which have one bound.
+  /// Adds figures of both forms, which share one bound.
   void both(long double ours_figure, long double published_figure, long double bound,
             const std::function<std::string()>& where) {
     ours(ours_figure, bound, where);
     published(published_figure, bound, where);
   }
-  /// A figure of our form that is 0 where the property holds, else 1.
+  /// Adds a figure of our form: 0 if the property holds, else 1.
   void check(bool holds, const std::function<std::string()>& where) { ours(holds ? 0 : 1, 0, where); }
-  /// A property without a figure.
+  /// Requires a property that has no figure.
   void require(bool holds, const std::function<std::string()>& what) {
     if (!holds && failure_.empty()) failure_ = what();
   }
 
-  /// draw_golden; the RTL must emit the same fragments.
+  /// As draw_golden. The RTL must emit the same fragments.
   Drawing draw(const Scene& scene, const DrawOptions& options);
-  /// Vectors made by hand, whole triangles, of hardware that takes no prologue.
+  /// Draws hand-made vectors, in whole triangles, on hardware without a prologue.
   std::vector<Fragment> draw(const HardwareKey& key, std::span<const std::uint32_t> words);
 
   const Worst& ours() const { return ours_; }
   const Worst& published() const { return published_; }
-  /// Why the case failed whatever the figures say; empty: it did not.
+  /// The reason for which the case failed independently of the figures; empty if it did not.
   const std::string& failure() const { return failure_; }
-  /// A tool that is missing or broke.
+  /// The error of a tool that is missing or broke.
   const Status& tools() const { return tools_; }
   std::uint64_t golden_fragments() const { return golden_fragments_; }
   std::uint64_t rtl_fragments() const { return rtl_fragments_; }

@@ -39,8 +39,8 @@ constexpr Parameter sample(std::string_view name) {
   return {name, 0, 0, c_greatest_sample, 1 << c_sample_bits};
 }
 
-// A triangle's corners in 1/16 pixel; how often it is split, and which quarter is taken each time, two bits
-// each; depths in 2^-15 steps, samples of that quarter in 2^-28 colour steps.
+// The corners of a triangle in 1/16 pixel; the number of splits, and the quarter taken by each split, in two
+// bits; depths in 2^-15 steps, and samples of the last quarter in 2^-28 colour steps.
 constexpr Parameter c_parameters[] = {{"width", 1, 1, 4096},
                                       {"height", 1, 1, 4096},
                                       {"colours", 1, 1, 3},
@@ -136,7 +136,7 @@ class TriangleChecker final : public Checker {
     const auto place_of = [](const Fragment& f) { return std::tuple(f.y, f.x); };
     if (!std::ranges::is_sorted(fragments_, {}, place_of)) std::ranges::sort(fragments_, {}, place_of);
     std::string wrong;
-    std::uint64_t pixels = 0;  // too many and too few
+    std::uint64_t pixels = 0;  // too many or too few
     const auto uncovered = [&](const Fragment& f) {
       if (pixels++ == 0)
         wrong = fmt::format("pixel {},{} is drawn, and is not covered or drawn before", f.x, f.y);
@@ -196,10 +196,10 @@ class TriangleChecker final : public Checker {
 
  private:
   static constexpr std::uint32_t c_tag = 0xA5C3'0F96;
-  // The largest frames have 256 MB of fragments; few threads hold as many at once.
+  // A largest frame has 256 MB of fragments; limit the number of threads that hold so many.
   static constexpr std::size_t c_most_kept = 1 << 20;
 
-  // One line of the specification: barycentrics stepped as whole numbers.
+  // One line of the specification: barycentric coordinates stepped as integers.
   class Row {
    public:
     Row(const Subject& s, std::int64_t y, std::int64_t begin, std::int64_t pixels, std::int64_t lines)
@@ -208,14 +208,14 @@ class TriangleChecker final : public Checker {
           begin_(begin),
           piece_(s.piece, s.unit_bits, begin, y),
           whole_(s.whole, s.unit_bits, begin, y) {
-      // A pixel is reached by at most so many steps: lines, a carry each, and the line's pixels, from
-      // whichever end. Each word is rounded to half its last place (formats: intensity, depth_sum); samples
-      // and depths are what they are here. And what long double itself may be off by.
+      // Bound of the steps to a pixel: lines, one carry each, and the line's pixels from either end. Each
+      // word is rounded to half its last place (formats: intensity, depth_sum). Samples and depths are exact
+      // here. The last term is the error of long double.
       const long double k = static_cast<long double>(2 * lines + pixels - 1);
       colour_bound_ = std::ldexp(1 + k + k * (k - 1) / 2, -c_sample_bits - 1) + 0x1p-48L;
       depth_bound_ = std::ldexp(1 + k, -c_depth_bits - 1) + 0x1p-34L;
     }
-    // Measures what is more than the half step of rounding.
+    // Measures the error beyond the half step of rounding.
     void compare(const Fragment& f, std::int64_t x, Worst& colour, Worst& z) const {
       const std::array<long double, 3> p = piece_.at(x - begin_), w = whole_.at(x - begin_);
       const auto add = [&](Worst& worst, long double off, long double bound) {
@@ -241,7 +241,7 @@ class TriangleChecker final : public Checker {
       std::array<std::int64_t, 3> start, step;
       long double reciprocal;
       Steps(const Points& p, int unit_bits, std::int64_t x, std::int64_t y) {
-        // Below 2^50 each: the guard band has 2^22 units at the deepest level.
+        // Each is below 2^50: the guard band has 2^22 units at the deepest level.
         const ExactBarycentric here = barycentric(p, centre(x, unit_bits), centre(y, unit_bits)),
                                next = barycentric(p, centre(x + 1, unit_bits), centre(y, unit_bits));
         for (std::size_t i = 0; i < 3; ++i) {
@@ -313,10 +313,10 @@ class TriangleSearch final : public Search {
     const int bright = random.within(0, 3);
     for (std::size_t i = At::samples; i < input.size(); ++i) {
       const std::int64_t any = wide(random, 0, c_greatest_sample);
-      input[i] = bright == 0   ? (any & 1) * any                        // nothing, or odd
+      input[i] = bright == 0   ? (any & 1) * any                        // 0 or odd
                  : bright == 1 ? (any & 1) * c_greatest_sample          // an end of the range
-                 : bright == 2 ? any >> c_sample_bits << c_sample_bits  // whole
-                               : any / 4;                               // within what a frame stores
+                 : bright == 2 ? any >> c_sample_bits << c_sample_bits  // an integer
+                               : any / 4;  // within the range that a frame stores
     }
     if (input[At::colours] == 1) std::fill(input.begin() + At::samples + 6, input.end(), 0);
     return input;
@@ -329,13 +329,13 @@ class TriangleSearch final : public Search {
       how(out.back());
     };
     change([](Input& i) { i[At::colours] = 1, std::fill(i.begin() + At::samples + 6, i.end(), 0); });
-    for (const std::size_t other : {6, 12})  // one colour alone, as red
+    for (const std::size_t other : {6, 12})  // all colours equal to red
       change([&](Input& i) {
         i[At::colours] = 1;
         std::copy_n(input.begin() + At::samples + other, 6, i.begin() + At::samples);
         std::fill(i.begin() + At::samples + 6, i.end(), 0);
       });
-    // The piece as a triangle of its own, where its corners are of whole units.
+    // Use the piece as a triangle of its own, if its corners are whole units.
     if (input[At::level] > 0)
       change([&](Input& i) {
         const Subject s = subject_of(input);
@@ -348,7 +348,7 @@ class TriangleSearch final : public Search {
     for (const std::size_t axis : {0, 1}) {
       std::array<std::int64_t, 3> at;
       for (std::size_t n = 0; n < 3; ++n) at[n] = input[At::corners + 2 * n + axis];
-      for (const std::int64_t to : at)  // one corner at the frame's corner
+      for (const std::int64_t to : at)  // move one corner to a corner of the frame
         change([&](Input& i) {
           for (std::size_t n = 0; n < 3; ++n) i[At::corners + 2 * n + axis] -= to;
         });
@@ -370,7 +370,7 @@ class TriangleSearch final : public Search {
         std::int64_t{random.within(0, (1 << 24) - 1)} << 24 | random.within(0, (1 << 24) - 1);
     return least + any % (greatest - least + 1);
   }
-  // Moves the triangle so that a place on its piece lies over the frame; as far as the guard band goes.
+  // Moves the triangle so that a point of its piece lies in the frame, within the limits of the guard band.
   static void bring_into_frame(RandomTriangles& random, Input& input) {
     const Subject s = subject_of(input);
     const int share = random.within(0, 64), other = random.within(0, 64 - share);
@@ -386,7 +386,7 @@ class TriangleSearch final : public Search {
       for (std::size_t n = 0; n < 3; ++n) corner(n) += by;
     }
   }
-  // Mostly small ones, so that many triangles fit into a minute; all sizes that there are.
+  // All sizes, but mostly small frames, so that many triangles fit into a minute.
   static FrameSize random_frame(RandomTriangles& random) {
     const auto side = [&](int most) { return static_cast<std::uint32_t>(random.within(1, most)); };
     const int draw = random.within(0, 99'999);

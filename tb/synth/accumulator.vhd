@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     A lone sum of the width of a shader's: the clock that no such sum exceeds on a device, however little
---             stands around it. Measured beside the shaders by `make synth`; no part of the hardware.
+-- Purpose     A single sum as wide as a shader's. Its clock is the upper limit for every design with such a sum on the
+--             device. `make synth` measures it with the shaders; it is no part of the hardware.
 -- Formats     g_bits of two's complement; the sum wraps
 -- Latency     1 clock from step to value
--- Throughput  1 step a clock
+-- Throughput  1 step per clock
 
 library ieee;
 use ieee.std_logic_1164.all;
