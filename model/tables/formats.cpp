@@ -329,27 +329,41 @@ const Format& format_of(const PresetFormats& preset, std::string_view name) {
 // line and light a diffuse and a specular part. Angles are in units of half a bell: 1 is where the bell has
 // come down to zero.
 std::vector<Layout> spherical_layouts(bool exact) {
-  std::vector<Field> specular = {{"angle", "angle"}, {"slope", "angle"}};
-  if (exact) specular.push_back({"power", "power"});
+  std::vector<Field> specular = {{"angle", "angle", "angle at the first pixel of the line"},
+                                 {"slope", "angle", "its step per pixel"}};
+  if (exact) specular.push_back({"power", "power", "which power of the cosine: its table"});
   return {
-      {"ambient", {}, {{"ambient", "factor"}}},
-      {"diffuse", {{"angle", "angle"}, {"slope", "angle"}}, {{"factor", "factor"}}},
-      {"specular", specular, {{"factor", "factor"}}},
+      {"ambient", {}, {{"ambient", "factor", "ambient light of the triangle, in colour steps"}}},
+      {"diffuse",
+       {{"angle", "angle", "angle at the first pixel of the line"}, {"slope", "angle", "its step per pixel"}},
+       {{"factor", "factor", "light times coefficient, in colour steps"}}},
+      {"specular", specular, {{"factor", "factor", "light times coefficient, in colour steps"}}},
   };
 }
 
 // What the shading processors have beside the walk; processors_pkg says where the blocks lie.
 std::vector<Layout> processors_layouts(bool exact) {
-  std::vector<Field> axis = {{"place", "light_place"}, {"axis", "direction"}};
-  if (!exact) axis.push_back({"half", "direction"});
-  std::vector<Field> light = {{"positional", "flag"}, {"spot", "flag"}};
-  if (exact) light.push_back({"shift", "light_shift"});
-  light.insert(light.end(),
-               {{"outer", "direction"}, {"slope", "spot_slope"}, {"around_eye", "shadow_count"}});
+  std::vector<Field> axis = {{"place", "light_place", "direction to the light, or its place"},
+                             {"axis", "direction", "axis of the cone"}};
+  if (!exact) axis.push_back({"half", "direction", "half vector of a constant eye"});
+  std::vector<Field> light = {{"positional", "flag", "1: the light has a place"},
+                              {"spot", "flag", "1: it has a cone"}};
+  if (exact) light.push_back({"shift", "light_shift", "places that P - P_light is shifted by"});
+  light.insert(light.end(), {{"outer", "direction", "cosine of the cone's outer edge"},
+                             {"slope", "spot_slope", "1 / width of the cone's soft edge, in cosines"},
+                             {"around_eye", "shadow_count", "shadow volumes around the eye"}});
   return {
-      {"request", {{"command", "command"}, {"light", "light"}, {"opens", "flag"}, {"normalize", "flag"}}, {}},
+      {"request",
+       {{"command", "command", "draw, depth, shadow, new_frame, define, redefine or delete"},
+        {"light", "light", "number of the light; 0: ambient"},
+        {"opens", "flag", "shadow polygon: 1 opens a volume, 0 closes it"},
+        {"normalize", "flag", "1: the ambient processor normalizes N"}},
+       {}},
       {"plane",
-       {{"value", "plane_sum"}, {"dx", "plane_sum"}, {"de0", "plane_sum"}, {"de1", "plane_sum"}},
+       {{"value", "plane_sum", "value at the first pixel"},
+        {"dx", "plane_sum", "step per pixel"},
+        {"de0", "plane_sum", "step per line where the start edge does not carry"},
+        {"de1", "plane_sum", "step per line where it carries"}},
        {}},
       {"pixel",
        {{"command", "command"},
@@ -362,7 +376,7 @@ std::vector<Layout> processors_layouts(bool exact) {
         {"z", "depth"}},
        {}},
       {"light_axes", light, axis},
-      {"light_colour", {}, {{"intensity", "light_intensity"}}},
+      {"light_colour", {}, {{"intensity", "light_intensity", "intensity of the light"}}},
   };
 }
 
@@ -374,65 +388,65 @@ std::vector<Layout> joined(std::vector<Layout> a, const std::vector<Layout>& b) 
 std::vector<Layout> exact_layouts() {
   return {
       {"init",
-       {{"triangle", "triangle"},
-        {"y", "pixel_y"},
-        {"upper_lines", "lines"},
-        {"lower_lines", "lines"},
-        {"backward", "flag"},
-        {"start_x", "span_x"},
-        {"start_quotient", "span_x"},
-        {"start_remainder", "edge_error"},
-        {"start_divisor", "edge_error"},
-        {"start_error", "edge_error"},
-        {"start_carry", "flag"},
-        {"upper_x", "span_x"},
-        {"upper_quotient", "span_x"},
-        {"upper_remainder", "edge_error"},
-        {"upper_divisor", "edge_error"},
-        {"upper_error", "edge_error"},
-        {"upper_carry", "flag"},
-        {"lower_x", "span_x"},
-        {"lower_quotient", "span_x"},
-        {"lower_remainder", "edge_error"},
-        {"lower_divisor", "edge_error"},
-        {"lower_error", "edge_error"},
-        {"lower_carry", "flag"},
-        {"z", "depth_sum"},
-        {"z_dx", "depth_sum"},
-        {"z_de0", "depth_sum"},
-        {"z_de1", "depth_sum"}},
-       {{"value", "intensity"},
-        {"dx", "intensity"},
-        {"de0", "intensity"},
-        {"de1", "intensity"},
-        {"dxx", "intensity"},
-        {"dxe0", "intensity"},
-        {"dxe1", "intensity"},
-        {"de0e0", "intensity"},
-        {"de0e1", "intensity"},
-        {"de1e1", "intensity"}}},
+       {{"triangle", "triangle", "number of the triangle in the scene; copied to its fragments"},
+        {"y", "pixel_y", "first line"},
+        {"upper_lines", "lines", "lines in the upper section of the stop edge, at least 1"},
+        {"lower_lines", "lines", "lines in its lower section; 0: there is none"},
+        {"backward", "flag", "1: spans run to smaller x"},
+        {"start_x", "span_x", "first pixel of the first line"},
+        {"start_quotient", "span_x", "whole pixels per line of the start edge, rounded down"},
+        {"start_remainder", "edge_error", "rest of that division, in 1/start_divisor pixel"},
+        {"start_divisor", "edge_error", "height of the start edge, in 1/16 pixel"},
+        {"start_error", "edge_error", "sum of remainders after the first step"},
+        {"start_carry", "flag", "1: the first step moves one pixel further"},
+        {"upper_x", "span_x", "pixel after the last one of the first line"},
+        {"upper_quotient", "span_x", "whole pixels per line of the stop edge, upper section, rounded down"},
+        {"upper_remainder", "edge_error", "rest of that division, in 1/upper_divisor pixel"},
+        {"upper_divisor", "edge_error", "height of that section, in 1/16 pixel"},
+        {"upper_error", "edge_error", "sum of remainders after the first step"},
+        {"upper_carry", "flag", "1: the first step moves one pixel further"},
+        {"lower_x", "span_x", "pixel after the last one of the lower section's first line"},
+        {"lower_quotient", "span_x", "whole pixels per line of the stop edge, lower section, rounded down"},
+        {"lower_remainder", "edge_error", "rest of that division, in 1/lower_divisor pixel"},
+        {"lower_divisor", "edge_error", "height of that section, in 1/16 pixel"},
+        {"lower_error", "edge_error", "sum of remainders after the first step"},
+        {"lower_carry", "flag", "1: the first step moves one pixel further"},
+        {"z", "depth_sum", "depth at the first pixel"},
+        {"z_dx", "depth_sum", "its step per pixel"},
+        {"z_de0", "depth_sum", "its step per line where the start edge moves by start_quotient"},
+        {"z_de1", "depth_sum", "its step per line where the start edge carries one pixel more"}},
+       {{"value", "intensity", "value at the first pixel"},
+        {"dx", "intensity", "first step along a span"},
+        {"de0", "intensity", "first step to the next line"},
+        {"de1", "intensity", "the same where the start edge carries"},
+        {"dxx", "intensity", "what a step along a span adds to dx"},
+        {"dxe0", "intensity", "what a line adds to dx"},
+        {"dxe1", "intensity", "the same where the edge carries"},
+        {"de0e0", "intensity", "what a line adds to de0"},
+        {"de0e1", "intensity", "what a line adds to de1, and a carrying line to de0"},
+        {"de1e1", "intensity", "what a carrying line adds to de1"}}},
   };
 }
 
 std::vector<Layout> published_layouts() {
   return {
       {"init",
-       {{"triangle", "triangle"},
-        {"y", "pixel_y"},
-        {"upper_lines", "lines"},
-        {"start_x", "edge_x"},
-        {"start_slope", "edge_x"},
-        {"upper_x", "edge_x"},
-        {"upper_slope", "edge_x"},
-        {"z", "depth_sum"},
-        {"z_dx", "depth_sum"},
-        {"z_de0", "depth_sum"}},
-       {{"value", "intensity"},
-        {"dx", "intensity"},
-        {"de0", "intensity"},
-        {"dxx", "intensity"},
-        {"dxe0", "intensity"},
-        {"de0e0", "intensity"}}},
+       {{"triangle", "triangle", "number of the triangle in the scene; copied to its fragments"},
+        {"y", "pixel_y", "first line"},
+        {"upper_lines", "lines", "lines of the triangle"},
+        {"start_x", "edge_x", "x of the start edge on the first line"},
+        {"start_slope", "edge_x", "pixels per line of the start edge"},
+        {"upper_x", "edge_x", "x of the stop edge on the first line"},
+        {"upper_slope", "edge_x", "pixels per line of the stop edge"},
+        {"z", "depth_sum", "depth at the first pixel"},
+        {"z_dx", "depth_sum", "its step per pixel"},
+        {"z_de0", "depth_sum", "its step per line"}},
+       {{"value", "intensity", "value at the first pixel"},
+        {"dx", "intensity", "first step along a span"},
+        {"de0", "intensity", "first step to the next line"},
+        {"dxx", "intensity", "what a step along a span adds to dx"},
+        {"dxe0", "intensity", "what a line adds to dx"},
+        {"de0e0", "intensity", "what a line adds to de0"}}},
   };
 }
 

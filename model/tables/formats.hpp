@@ -31,6 +31,7 @@ struct Format {
 struct Field {
   std::string_view name;
   std::string_view format;
+  std::string_view meaning{};  ///< for docs/rtl/init-vectors.md; empty in vectors between entities
 };
 
 /// A flat vector: one header, then one block per colour channel.

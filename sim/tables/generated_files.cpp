@@ -8,6 +8,7 @@
 #include "sim/system/file.hpp"
 #include "tables/formats.hpp"
 #include "tables/functions.hpp"
+#include "tables/layout_page.hpp"
 
 namespace halfway::tables {
 
@@ -18,7 +19,8 @@ std::vector<GeneratedFile> generated_files(const CosineSizes& sizes) {
           {"rtl/tables/cosine_pkg.vhd", cosine_vhdl_package(sizes)},
           {"model/golden/cosine_tables.hpp", cosine_cpp_header(sizes)},
           {"rtl/tables/function_pkg.vhd", function_vhdl_package()},
-          {"model/golden/function_tables.hpp", function_cpp_header()}};
+          {"model/golden/function_tables.hpp", function_cpp_header()},
+          {"docs/rtl/init-vectors.md", layout_page(presets)}};
 }
 
 std::size_t first_different_line(const std::filesystem::path& checkout, const GeneratedFile& file) {
