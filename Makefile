@@ -22,6 +22,8 @@ takes_gallery := THREADS JOBS
 takes_tables := PRESET ADDRESS_BITS DATA_BITS JOBS
 takes_check-tables := $(takes_tables)
 takes_test := TESTS JOBS
+takes_testbench := ENTITY JOBS
+takes_lint := FILES JOBS
 takes_sanitize := TESTS JOBS
 takes_fuzz := SECONDS TARGET JOBS
 takes_kills := JOBS
@@ -68,6 +70,8 @@ about_PARTS := tasks of the job array   (default: 64)
 about_ADDRESS_BITS := address bits of the cosine tables   (default: 9; published 6)
 about_DATA_BITS := data bits of the cosine tables   (default: 8; published 6)
 about_TESTS := a regular expression: only the tests that match
+about_ENTITY := the entity whose testbench runs, such as triangle_walker
+about_FILES := only C++ files with this in their paths   (default: all)
 about_SECONDS := seconds for each fuzzer   (default: 60)
 about_TARGET := one fuzzer alone
 about_TRIANGLES := random triangles   (default: 10000000)
@@ -113,11 +117,11 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
   $(call option,OUT,--out)
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
-synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme README.md) \
-  --page tb/synth/README.md . build/cache $${DESIGN:+"$$DESIGN"}
+synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme docs/performance.md) \
+  --page docs/results/synthesis.md . build/cache $${DESIGN:+"$$DESIGN"}
 
 .PHONY: help sim view compare why plan savings study slurm-test figures report check-report diagrams gallery tables \
-  check-tables test sanitize fuzz kills mutate prove stability search bounds synth bench build program generator mcode configure \
+  check-tables test testbench lint sanitize fuzz kills mutate prove stability search bounds synth bench build program generator mcode configure \
   setup doctor format check-format clean
 
 help: ## this list
@@ -148,7 +152,7 @@ plan: program ## the hardware that a scene calls for, and why (SCENE; MEASURE=1:
 	@build/halfway plan $(run_options) $(call flag,MEASURE,--measure) $(call option,SIMULATOR,--simulator) \
 	  $(call option,OBJECTS,--objects) $(call option,RATE,--rate) $(call option,THREADS,--threads) $(scene)
 
-savings: program ## what README tells of hardware left out, measured anew and written there: minutes
+savings: program ## the tables of docs/effects.md, measured again: minutes
 	@build/halfway savings $(call option,THREADS,--threads)
 
 study: program ## accuracy against time over the design space (FULL=1; SCENE; ERROR, PSNR, TIME ask; EXECUTOR=slurm)
@@ -162,8 +166,8 @@ slurm-test: configure ## a study as a job array on a Slurm that the test starts 
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway
 	@tb/slurm/slurm.sh build/halfway . build/tb/slurm
 
-figures: program ## what the papers print, drawn and measured anew: published beside measured, in sim/figures
-	@build/halfway figures --out build/figures --page sim/figures
+figures: program ## what the papers print, drawn and measured anew: published beside measured, in docs/results/figures
+	@build/halfway figures --out build/figures --page docs/results/figures
 
 # What the page is made of is made first where it is missing; GHDL draws by shading processors for minutes.
 report: program ## one HTML page: frames, accuracy against time, effects, figures, waveforms, tables
@@ -171,7 +175,7 @@ report: program ## one HTML page: frames, accuracy against time, effects, figure
 	  [ -f "build/out/$$name/$$shader/summary.json" ] || build/halfway sim --shader $$shader \
 	    $$([ $$shader != processors ] || echo --simulator verilator) -- "$$name" || [ $$? = 1 ] || exit 3; done; done
 	@[ -f build/study/study.csv ] || $(MAKE) study
-	@[ -f build/figures/figures.json ] || [ -f sim/figures/figures.json ] || $(MAKE) figures
+	@[ -f build/figures/figures.json ] || [ -f docs/results/figures/figures.json ] || $(MAKE) figures
 	@build/halfway report
 
 check-report: build ## the page of make report in headless Chromium, by mouse and by keys
@@ -180,10 +184,10 @@ check-report: build ## the page of make report in headless Chromium, by mouse an
 diagrams: setup ## the shaders' block diagrams in rtl/diagrams, drawn from their text
 	@scripts/diagrams.sh build/diagrams
 
-gallery: program ## the pictures in sim/gallery, drawn anew by the RTL; README.md's front, measured anew
+gallery: program ## the pictures in docs/results/gallery, drawn again by the RTL; README.md's plot, measured again
 	@scripts/gallery.sh build/gallery
 	@build/halfway study --out build/gallery/study $(call option,THREADS,--threads)
-	@build/halfway report --study build/gallery/study --front sim/gallery --readme README.md
+	@build/halfway report --study build/gallery/study --front docs/results/gallery --readme README.md
 
 tables: generator ## write ROMs and formats anew
 	@build/halfway_generator tables $(table_options)
@@ -193,6 +197,17 @@ check-tables: generator ## fail if make tables would change anything
 
 test: build mcode ## every test
 	@unset MAKEFLAGS; flock -o build/test.lock ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
+
+testbench: configure ## one VHDL testbench in GHDL, on vectors from the golden model (ENTITY)
+	@[ -n "$$ENTITY" ] || { echo 'testbench: give ENTITY=name, such as make testbench ENTITY=triangle_walker' >&2; exit 2; }
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_vectors
+	@ctest --test-dir build --output-on-failure --no-tests=error -R "^tb\.$$ENTITY\$$"
+
+# Warnings of clang-tidy and of GHDL are errors.
+lint: configure ## clang-tidy on the C++ (FILES: only some), GHDL's warnings on the VHDL
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_vectors
+	@scripts/lint.sh build "$(jobs)" "$$FILES"
+	@ctest --test-dir build --output-on-failure --no-tests=error -R '^tb\.analysis$$|^RtlLint'
 
 sanitize: setup ## every test with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitize
 	@$(sanitized)
@@ -210,11 +225,11 @@ kills: build ## the long form of the tests with kill -9: 60 moments in place of 
 mutate: configure ## thousands of small faults in the hardware, which the tests must find
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_mutants halfway_vectors
 	@build/tb/halfway_vectors all build/tb/vectors
-	@build/tb/halfway_mutants --jobs "$(jobs)" --page tb/mutants/README.md . build/tb/vectors build/tb/mutants
+	@build/tb/halfway_mutants --jobs "$(jobs)" --page docs/results/mutants.md . build/tb/vectors build/tb/mutants
 
 prove: configure ## formal proofs on the RTL, each with faults that it must refute (PROOF: only some, and no page)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_proofs
-	@build/tb/halfway_proofs $$([ -n "$$PROOF" ] || echo --page tb/proofs/README.md) . build/proofs $${PROOF:+"$$PROOF"}
+	@build/tb/halfway_proofs $$([ -n "$$PROOF" ] || echo --page docs/results/proofs.md) . build/proofs $${PROOF:+"$$PROOF"}
 
 families := edges quadratic spherical processors shadows illumination arithmetic conversions
 stability: configure ## hard cases, in specification, golden model and RTL: what breaks, and what holds
@@ -222,17 +237,17 @@ stability: configure ## hard cases, in specification, golden model and RTL: what
 	@rm -rf build/stability
 	@printf '%s\n' $(families) | xargs -P "$(jobs)" -I{} build/tb/halfway_stability --gtest_brief=1 \
 	  '--gtest_filter={}/HardCases.Full/*' --gtest_output=xml:build/stability/{}.xml
-	@build/tb/halfway_page tb/stability/README.md $(families:%=build/stability/%.xml)
+	@build/tb/halfway_page docs/results/hard_cases.md $(families:%=build/stability/%.xml)
 
 search: configure ## random triangles in golden model and RTL; what fails is shrunk and kept (TRIANGLES, SEED)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_search
 	@build/tb/halfway_search $(call option,TRIANGLES,--triangles) $(call option,SEED,--seed) \
-	  --page=tb/stability/README.md --keep=tb/stability/regressions .
+	  --page=docs/results/hard_cases.md --keep=tb/stability/regressions .
 
 bounds: configure ## every bound of formats and tables: derived, proved, and how near the worst found comes
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds halfway_page
 	@build/tb/halfway_bounds --gtest_brief=1 '--gtest_filter=*.Full/*:Checks.*' --gtest_output=xml:build/bounds.xml
-	@build/tb/halfway_page tb/bounds/README.md build/bounds.xml
+	@build/tb/halfway_page docs/results/bounds.md build/bounds.xml
 
 synth: configure ## cells on two FPGAs, and the clock on one, against what is pinned (DESIGN, SEEDS, PIN=1)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth synth_frames
@@ -242,7 +257,7 @@ synth: configure ## cells on two FPGAs, and the clock on one, against what is pi
 
 bench: configure mcode ## speed: other ways to the same picture, growth, small triangles, cores; writes its page
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_bench
-	@build/halfway_bench --jobs "$(jobs)" --page sim/bench/README.md
+	@build/halfway_bench --jobs "$(jobs)" --page docs/results/speed.md
 
 # GHDL's other back end, beside the installed one.
 mcode: setup
@@ -265,7 +280,7 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
 # Installs what scripts/packages.txt lists and the machine lacks: for every target the groups build and sim.
-with_tools := bench bounds check-report diagrams figures format check-format fuzz gallery mutate prove report sanitize \
+with_tools := bench bounds check-report diagrams figures format check-format fuzz gallery lint mutate prove report sanitize \
   savings slurm-test study synth test
 setup:
 	@$(lock) scripts/setup.sh $(if $(filter $(with_tools),$(MAKECMDGOALS)),tools) \

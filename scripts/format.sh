@@ -37,7 +37,7 @@ report() { # file what
 # Files written by hand whose names match, one a line. What `make tables` writes is check-tables' business.
 sources() { # pattern
   # grep -L's exit code means different things in different versions.
-  find model sim rtl tb -type f | grep -E "$1" | tr '\n' '\0' |
+  find model sim rtl tb docs -type f | grep -E "$1" | tr '\n' '\0' |
     { xargs -0 grep -L '^\(//\|--\) Made by .make tables' || true; } | sort
 }
 
@@ -60,7 +60,7 @@ format_cpp() {
 compile_order() {
   sed -e 's/[#].*//' -e 's/--.*//' -e 's/ *$//' -e '/^$/d' -e 's|^|rtl/|' rtl/files.f
   find rtl tb -type f -name '*_pkg.vhd' | sort
-  find rtl tb -type f -name '*.vhd' ! -name '*_tb.vhd' | sort
+  find rtl tb docs -type f -name '*.vhd' ! -name '*_tb.vhd' | sort
   find rtl tb -type f -name '*_tb.vhd' | sort
 }
 

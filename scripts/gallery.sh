@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Makes the pictures of sim/gallery from GHDL's frames of `halfway sim`.
+# Makes the pictures of docs/results/gallery from GHDL's frames of `halfway sim`.
 #
 #   scripts/gallery.sh [--check] FOLDER   FOLDER takes what is made on the way; --check writes nothing else, draws by
 #                                         the golden model alone, and fails where the gallery has another picture
@@ -23,7 +23,7 @@ case "$#:${1-}" in
 esac
 root=$(cd "$(dirname "$0")/.." && pwd)
 halfway=${HALFWAY:-$root/build/halfway}
-gallery=$root/sim/gallery
+gallery=$root/docs/results/gallery
 mkdir -p "$1"
 cd "$1"
 command -v idiff >/dev/null || {
@@ -52,9 +52,9 @@ bad=0
 for picture in spheres teapot shadows; do
   if ! $check; then
     cp $picture.png "$gallery"
-    echo "sim/gallery/$picture.png: written"
+    echo "docs/results/gallery/$picture.png: written"
   elif ! idiff $picture.png "$gallery/$picture.png" >$picture.log; then
-    echo "gallery: sim/gallery/$picture.png is not what is drawn: run make gallery" >&2
+    echo "gallery: docs/results/gallery/$picture.png is not what is drawn: run make gallery" >&2
     bad=1
   fi
 done

@@ -85,10 +85,10 @@ int run(const Folders& folders, const FiguresCommand& command) try {
   const std::vector<figures::Entry> entries = draw(some, context);
   if (command.check) {
     std::vector<std::string> notes;
-    const auto wrong =
-        must(figures::stale(entries, folders.source / "sim" / "figures", context.out, folders.source, notes));
+    const auto wrong = must(
+        figures::stale(entries, folders.source / "docs/results/figures", context.out, folders.source, notes));
     for (const std::string& note : notes) say(note);
-    return report_all(wrong, "sim/figures: run make figures");
+    return report_all(wrong, "docs/results/figures: run make figures");
   }
   const std::vector<std::string> wrong = figures::faults(entries);
   std::ptrdiff_t rows = 0, agreeing = 0;
@@ -124,9 +124,9 @@ void add_figures(CLI::App& app, const Folders& folders, int& exit_code) {
   auto* page = sub->add_option(
       "--page", command->page,
       "folder that takes them too, once all is well; times there stay until a verdict changes");
-  sub->add_flag(
-         "--check", command->check,
-         "draw by the golden model, measure what is quick, and fail where sim/figures has anything else")
+  sub->add_flag("--check", command->check,
+                "draw by the golden model, measure what is quick, and fail where docs/results/figures has "
+                "anything else")
       ->excludes(page);
   sub->add_option("--threads", command->threads, "threads (0: all cores)")->capture_default_str();
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });

@@ -48,10 +48,11 @@ TEST_F(FiguresCommand, ACheckFindsANumberThatIsNotMeasured) {
   const fs::path real = HALFWAY_SOURCE_DIR, source = folder_->path() / "source";
   fs::create_directories(source / "sim");
   fs::create_directories(source / "build");
-  for (const char* name : {"rtl", "tb", "sim/scenes", "build/cache"})
+  for (const char* name : {"rtl", "tb", "sim/scenes", "sim/figures", "build/cache"})
     fs::create_directory_symlink(real / name, source / name);
-  fs::copy(real / "sim" / "figures", source / "sim" / "figures");
-  const fs::path json = source / "sim" / "figures" / "figures.json";
+  fs::create_directories(source / "docs/results");
+  fs::copy(real / "docs/results/figures", source / "docs/results/figures");
+  const fs::path json = source / "docs/results/figures/figures.json";
   auto text = read_file(json);
   ASSERT_TRUE(text) << text.error().message;
   const std::string measured = "\"measured\": \"2.7582\"";

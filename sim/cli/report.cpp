@@ -23,9 +23,13 @@ struct ReportCommand {
 };
 
 Status tell_front(const Table& front, const std::string& readme) {
-  const auto words = report::readme_front(front);
-  if (!words) return words.error();
-  return rewrite_page(readme, [&](const std::string& page) { return with_page_part(page, "front", *words); });
+  const auto plot = report::readme_front(front), shaders = report::readme_shaders(front);
+  if (!plot) return plot.error();
+  if (!shaders) return shaders.error();
+  return rewrite_page(readme, [&](const std::string& page) -> Result<std::string> {
+    const auto with_plot = with_page_part(page, "front", *plot);
+    return with_plot ? with_page_part(*with_plot, "shaders", *shaders) : with_plot;
+  });
 }
 
 int write_front(const ReportCommand& command) {
@@ -49,7 +53,7 @@ int run(const Folders& folders, const ReportCommand& command) {
   if (!command.front.empty()) return write_front(command);
   std::filesystem::path figures = command.figures.value_or("build/figures");
   if (!command.figures && !std::filesystem::exists(figures / "figures.json"))
-    figures = folders.source / "sim" / "figures";
+    figures = folders.source / "docs/results/figures";
   auto scenes = builtin_scenes(folders);
   if (!scenes) return report(scenes.error());
   Progress progress("report");
@@ -78,12 +82,14 @@ void add_report(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("--out", command->out, "file to write")->capture_default_str();
   sub->add_option("--results", command->results, "what sim left")->capture_default_str();
   sub->add_option("--study", command->study, "what study left")->capture_default_str();
-  sub->add_option("--figures", command->figures, "what figures left (build/figures, else sim/figures)");
+  sub->add_option("--figures", command->figures,
+                  "what figures left (build/figures, else docs/results/figures)");
   sub->add_flag("--no-timing", command->no_timing, "no timing diagrams, and so no GHDL");
   sub->add_option(
       "--front", command->front,
       "folder for front.svg and front.csv, the plot of a study's error against cells, and no page");
-  sub->add_option("--readme", command->readme, "with --front: a page whose part \"front\" is written anew");
+  sub->add_option("--readme", command->readme,
+                  "with --front: a page whose parts \"front\" and \"shaders\" are written");
   sub->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway savings`: measures README's savings in hardware for unused effects.
+// `halfway savings`: measures the tables of docs/effects.md.
 #include "sim/costs/savings.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ Result<std::vector<Savings>> savings_of(const Folders& folders, const SavingsCom
 int run(const Folders& folders, const SavingsCommand& command) {
   const auto savings = savings_of(folders, command);
   if (!savings) return report(savings.error());
-  const Status written = rewrite_page(folders.source / "README.md",
+  const Status written = rewrite_page(folders.source / "docs/effects.md",
                                       [&](const std::string& page) { return with_savings(page, *savings); });
   return written ? 0 : report(written.error());
 }
@@ -48,8 +48,8 @@ int run(const Folders& folders, const SavingsCommand& command) {
 }  // namespace
 
 void add_savings(CLI::App& app, const Folders& folders, int& exit_code) {
-  CLI::App* sub = app.add_subcommand(
-      "savings", "measure what README tells of hardware left out, in some minutes, and write it there");
+  CLI::App* sub =
+      app.add_subcommand("savings", "measure the tables of docs/effects.md again and write them: minutes");
   const auto command = std::make_shared<SavingsCommand>();
   sub->add_option("--threads", command->threads, "at a time (0: all cores)")->capture_default_str();
   sub->add_flag("--draw", command->draw, fmt::format("measure nothing: write what {} has", kSavings));

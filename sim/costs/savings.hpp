@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Savings in hardware for unused effects: the scenes of README's two tables, the measured costs as a file,
-// and the tables.
+// Savings in hardware for unused effects: the scenes of the two tables of docs/effects.md, the measured costs
+// as a file, and the tables.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,12 @@
 
 namespace halfway {
 
-inline constexpr const char* kSavings = "sim/gallery/savings.csv";  ///< relative to the project's root
+inline constexpr const char* kSavings =
+    "docs/results/gallery/savings.csv";  ///< relative to the project's root
 
 struct SavingsCase {
   const char* scene;  ///< a built-in scene
-  const char* what;   ///< description of the scene in README
+  const char* what;   ///< description of the scene in docs/effects.md
   Shader shader;
   Preset preset;
 
@@ -54,7 +55,7 @@ std::string to_csv(std::span<const Savings> savings);
 /// An error if the file has other cases.
 Result<std::vector<Savings>> read_savings(const std::filesystem::path& csv);
 
-/// README with its parts "savings" and "savings of processors" written from these costs.
+/// The page with its parts "savings" and "savings of processors" written from these costs.
 Result<std::string> with_savings(const std::string& readme, std::span<const Savings> savings);
 
 }  // namespace halfway

@@ -18,14 +18,14 @@ using ::testing::HasSubstr;
 
 const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
 
-TEST(Savings, AreWhatReadmeSays) {
+TEST(Savings, AreWhatThePageSays) {
   const auto savings = read_savings(c_root / kSavings);
   ASSERT_TRUE(savings) << savings.error().message;
-  const auto readme = read_file(c_root / "README.md");
-  ASSERT_TRUE(readme);
-  const auto drawn = with_savings(*readme, *savings);
+  const auto page = read_file(c_root / "docs/effects.md");
+  ASSERT_TRUE(page);
+  const auto drawn = with_savings(*page, *savings);
   ASSERT_TRUE(drawn) << drawn.error().message;
-  EXPECT_EQ(*readme, *drawn) << "make savings writes it";
+  EXPECT_EQ(*page, *drawn) << "make savings writes it";
 }
 
 TEST(Savings, AreOfTheHardwareThatIsPlanned) {

@@ -97,7 +97,7 @@ class GalleryFront : public FrontTest {
   void SetUp() override {
     FrontTest::SetUp();
     if (IsSkipped()) return;
-    auto table = read_csv(c_source / "sim/gallery/front.csv");
+    auto table = read_csv(c_source / "docs/results/gallery/front.csv");
     ASSERT_TRUE(table) << table.error().message;
     front_ = std::move(*table);
     auto space = study::read_space(c_source / "sim/studies/small.toml");
@@ -113,7 +113,7 @@ class GalleryFront : public FrontTest {
 };
 
 TEST_F(GalleryFront, IsDrawnFromItsTable) {
-  const auto drawn = read_file(c_source / "sim/gallery/front.svg");
+  const auto drawn = read_file(c_source / "docs/results/gallery/front.svg");
   ASSERT_TRUE(drawn) << drawn.error().message;
   const auto svg = draw_front(front_, here());
   ASSERT_TRUE(svg) << svg.error().message;
@@ -128,10 +128,13 @@ TEST_F(GalleryFront, IsDrawnFromItsTable) {
 TEST_F(GalleryFront, IsWhatReadmeSays) {
   const auto readme = read_file(c_source / "README.md");
   ASSERT_TRUE(readme) << readme.error().message;
-  const auto part = page_part(*readme, "front"), told = readme_front(front_);
-  ASSERT_TRUE(part) << part.error().message;
-  ASSERT_TRUE(told) << told.error().message;
-  EXPECT_EQ(*part, *told) << c_anew;
+  for (const auto& [name, told] :
+       {std::pair{"front", readme_front(front_)}, {"shaders", readme_shaders(front_)}}) {
+    const auto part = page_part(*readme, name);
+    ASSERT_TRUE(part) << part.error().message;
+    ASSERT_TRUE(told) << told.error().message;
+    EXPECT_EQ(*part, *told) << c_anew;
+  }
 }
 
 TEST_F(GalleryFront, IsOfTheCheckoutsDesigns) {

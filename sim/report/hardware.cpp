@@ -14,14 +14,12 @@ namespace {
 struct ShaderPart {
   Shader shader;
   const char* title;
-  const char* heading;  // of rtl/README.md
+  const char* heading;  // of docs/rtl/<shader>.md
 };
 constexpr std::array c_parts = {
-    ShaderPart{Shader::quadratic, "The quadratic shader", "How a fragment comes about"},
-    ShaderPart{Shader::spherical, "The spherical shader",
-               "How a fragment comes about in the spherical shader"},
-    ShaderPart{Shader::processors, "The shading processors",
-               "How a fragment comes about in the shading processors"},
+    ShaderPart{Shader::quadratic, "The quadratic shader", "From the init vector to a pixel"},
+    ShaderPart{Shader::spherical, "The spherical shader", "From the line record to a pixel"},
+    ShaderPart{Shader::processors, "The shading processors", "One term"},
 };
 
 // The text from a second-level heading to the next.
@@ -39,8 +37,6 @@ Result<std::string> under(const std::string& markdown, const std::string& headin
 
 Status add_hardware(Page& page) {
   const std::filesystem::path rtl = page.settings.folders.source / "rtl";
-  const auto text = read_file(rtl / "README.md");
-  if (!text) return text.error();
   Json& shaders = page.view["hardware"] = Json::array();
   for (const ShaderPart& part : c_parts) {
     const std::string name = to_string(part.shader);
@@ -49,7 +45,10 @@ Status add_hardware(Page& page) {
     const auto svg = inline_svg(*diagram, name + "-",
                                 fmt::format("{}: its entities, and what goes between them", part.title));
     if (!svg) return svg.error();
-    const auto words = under(*text, part.heading, rtl / "README.md");
+    const std::filesystem::path file = page.settings.folders.source / "docs/rtl" / (name + ".md");
+    const auto text = read_file(file);
+    if (!text) return text.error();
+    const auto words = under(*text, part.heading, file);
     if (!words) return words.error();
     Json& shader = shaders.emplace_back(Json{{"name", name},
                                              {"title", part.title},

@@ -14,12 +14,12 @@ struct OtherPage {
   const char* command;  // the command that writes it
 };
 constexpr std::array c_pages = {
-    OtherPage{"stability", "Hard cases", "tb/stability/README.md", "make stability"},
-    OtherPage{"proofs", "Proofs", "tb/proofs/README.md", "make prove"},
-    OtherPage{"mutants", "Mutants", "tb/mutants/README.md", "make mutate"},
-    OtherPage{"bounds", "Bounds", "tb/bounds/README.md", "make bounds"},
-    OtherPage{"synthesis", "Synthesis", "tb/synth/README.md", "make synth"},
-    OtherPage{"bench", "Speed of simulation", "sim/bench/README.md", "make bench"},
+    OtherPage{"stability", "Hard cases", "docs/results/hard_cases.md", "make stability"},
+    OtherPage{"proofs", "Proofs", "docs/results/proofs.md", "make prove"},
+    OtherPage{"mutants", "Mutants", "docs/results/mutants.md", "make mutate"},
+    OtherPage{"bounds", "Bounds", "docs/results/bounds.md", "make bounds"},
+    OtherPage{"synthesis", "Synthesis", "docs/results/synthesis.md", "make synth"},
+    OtherPage{"bench", "Speed of simulation", "docs/results/speed.md", "make bench"},
 };
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
 }
 
 TEST_F(ReportCommand, NamesTheStudysSceneAndSpace) {
-  const auto front = read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/gallery/front.csv");
+  const auto front = read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / "docs/results/gallery/front.csv");
   ASSERT_TRUE(front);
   put("study/study.csv", *front);
   const Outcome outcome = report();
@@ -163,7 +163,7 @@ TEST_F(ReportCommand, MakeDrawsEveryFrameThatIsMissing) {
     put(fmt::format("build/out/{}/summary.json", drawn), "{}");
   put("build/out/matte/spherical/init.txt", "");
   put("build/study/study.csv", "");
-  put("sim/figures/figures.json", "");
+  put("docs/results/figures/figures.json", "");
   put("build/halfway", "#!/bin/sh\necho \"$@\" >>said\n[ \"$1\" != sim ]\n");  // 1: a difference
   std::filesystem::permissions(here / "build/halfway", std::filesystem::perms::owner_all);
   const auto made =

@@ -111,20 +111,20 @@ TEST(SynthPins, AreOfTheFlowAsItIs) {
       << "of another flow than " << flow_hash() << ": make synth PIN=1";
 }
 
-TEST(SynthPins, AreWhatReadmeSays) {
+TEST(SynthPins, AreWhatThePageSays) {
   const std::filesystem::path root = HALFWAY_SOURCE_DIR;
   const auto pins = read_pins(root / kPins);
   ASSERT_TRUE(pins) << pins.error().message;
   const auto clocks = readme_clocks(*pins);
   ASSERT_TRUE(clocks) << clocks.error().message;
-  const auto readme = read_file(root / "README.md");
+  const auto readme = read_file(root / "docs/performance.md");
   ASSERT_TRUE(readme);
   const auto part = page_part(*readme, "clocks");
   ASSERT_TRUE(part) << part.error().message;
   EXPECT_EQ(*part, *clocks) << "make synth PIN=1 writes it";
 }
 
-TEST(SynthPins, AllHaveAClockThatReadmeTells) {
+TEST(SynthPins, AllHaveAClockThatThePageShows) {
   const auto pins = read_pins(std::filesystem::path(HALFWAY_SOURCE_DIR) / kPins);
   ASSERT_TRUE(pins) << pins.error().message;
   Pins others = *pins;

@@ -31,7 +31,7 @@ class ProofProgram : public ::testing::Test {
   }
   std::filesystem::path source() const { return folder_->path() / "source"; }
 
-  std::string page() const { return source() / "tb/proofs/README.md"; }
+  std::string page() const { return source() / "docs/results/proofs.md"; }
 
   void replace(const std::string& file, const std::string& from, const std::string& to) const {
     auto text = read_file(source() / file);

@@ -92,7 +92,7 @@ TEST(SynthDesigns, HaveTheNetlistsThatArePinned) {
 
 // Within the permitted difference: the page may be from another run with other seeds.
 TEST(SynthDesigns, HaveTheirRowsInThePage) {
-  const auto page = read_file(c_root / "tb/synth/README.md");
+  const auto page = read_file(c_root / "docs/results/synthesis.md");
   ASSERT_TRUE(page) << page.error().message;
   const auto pins = read_pins(c_root / kPins);
   ASSERT_TRUE(pins) << pins.error().message;

@@ -379,8 +379,8 @@ int main_of(const Options& options) {
     if ((listed.quick || !options.quick) && listed.design.name.find(options.part) != std::string::npos)
       designs.push_back(std::move(listed));
   if (designs.empty()) {
-    return cli::report(bad_input(
-        fmt::format("{}: no design has this in its name; tb/synth/README.md lists them", options.part)));
+    return cli::report(bad_input(fmt::format(
+        "{}: no design has this in its name; docs/results/synthesis.md lists them", options.part)));
   }
   if (const Status written = check_written(options); !written) return cli::report(written.error());
   auto pins = pins_before(options);
