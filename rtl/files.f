@@ -70,4 +70,7 @@ shaders/word_buffer.vhd
 shaders/quadratic_shader.vhd
 shaders/spherical_pkg.vhd
 shaders/spherical_shader.vhd
+shaders/token_rasterizer.vhd
+shaders/token_order.vhd
+shaders/fragment_output.vhd
 shaders/processors_shader.vhd

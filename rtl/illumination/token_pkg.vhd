@@ -46,6 +46,9 @@ package token_pkg is
   -- The colour so far, a word per channel.
   function radiance_of (c : config_t; token : std_logic_vector) return std_logic_vector;
 
+  -- The colour before the first processor: the half that rounds the last one, where it has a fraction.
+  function first_radiance (c : config_t) return std_logic_vector;
+
   -- The token with another N (directions, sign extended), view vector or colour.
   function with_direction (c : config_t; token, directions : std_logic_vector) return std_logic_vector;
 
@@ -186,6 +189,19 @@ package body token_pkg is
     constant c_bits : positive := formats(c.exact).radiance.bits;
   begin
     return words_of(token, radiance_low(c, 0), c_bits, c.channels, c_bits);
+  end function;
+
+  function first_radiance (c : config_t) return std_logic_vector is
+    constant c_format : format_t := formats(c.exact).radiance;
+
+    variable radiance : std_logic_vector(c.channels * c_format.bits - 1 downto 0) := (others => '0');
+  begin
+    for channel in 0 to c.channels - 1 loop
+      if c_format.fraction > 0 then
+        radiance(channel * c_format.bits + c_format.fraction - 1) := '1';
+      end if;
+    end loop;
+    return radiance;
   end function;
 
   function with_direction (c : config_t; token, directions : std_logic_vector) return std_logic_vector is

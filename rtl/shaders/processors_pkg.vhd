@@ -53,6 +53,12 @@ package processors_pkg is
   function config (exact : boolean; channels : positive; directional, positional, spots : natural;
     diffuse, specular, normalize, shadows : boolean) return config_t;
 
+  -- One directional light.
+  constant c_default_config : config_t := (
+    exact => true, channels => 3, directional => 1, positional => 0, spots => 0, diffuse => true, specular => true,
+    normalize => true, shadows => false
+  );
+
   function lights (c : config_t) return natural;
 
   -- Processors in the pipeline: ambient, and for each light a diffuse and a specular one.

@@ -92,34 +92,34 @@ class StagesOf : public ShaderStages {
   // Line and span stage of all shaders. The walker has preset Walk. `depth_clocks`: clocks from the walker's
   // strobes to the words of depth.
   template <class Walk>
-  void add_line_stage(const std::string& shader, int depth_clocks) {
+  void add_line_stage(const std::string& around, int depth_clocks, const std::string& front = {}) {
     constexpr bool c_exact = std::is_same_v<Walk, Exact>;
     const std::string edges = within(c_exact ? "edge_walker" : "slope_walker", "triangle_walker");
     constexpr Number c_x{Walk::c_span_x_bits, 0, true};
-    begin_stage({"line", "triangle_walker", {dut("span_load")}});
-    add("line_y", {Walk::c_pixel_y_bits}, within("triangle_walker", shader),
-        [](const auto& s, SpanXWord) { return s.walker().y(); }, {dut("walker/line_y")});
+    begin_stage({"line", "triangle_walker", {dut(front + "span_load")}});
+    add("line_y", {Walk::c_pixel_y_bits}, within("triangle_walker", around),
+        [](const auto& s, SpanXWord) { return s.walker().y(); }, {dut(front + "walker/line_y")});
     add("line_start", c_x, edges, [](const auto& s, SpanXWord) { return s.walker().start().bits(); },
-        {dut("walker/line_start")});
+        {dut(front + "walker/line_start")});
     add("line_stop", c_x, edges, [](const auto& s, SpanXWord) { return s.walker().stop().bits(); },
-        {dut("walker/line_stop")});
+        {dut(front + "walker/line_stop")});
     if constexpr (c_exact)
       add("line_carry", c_flag, edges, [](const auto& s, SpanXWord) { return s.walker().carry(); },
-          {dut("line_carry")});
-    add("line_z", c_depth<Walk>, within("z_interpolator", shader),
+          {dut(front + "line_carry")});
+    add("line_z", c_depth<Walk>, within("z_interpolator", around),
         [](const auto& s, SpanXWord) { return s.depth().line_value().bits(); },
-        {dut("depth/depth/edge_value"), 0, depth_clocks, depth_clocks > 0});
+        {dut(front + "depth/depth/edge_value"), 0, depth_clocks, depth_clocks > 0});
   }
   template <class Walk>
-  void add_span_stage(const std::string& shader, int depth_clocks) {
-    begin_stage({"span", "triangle_walker", {dut("span_step")}});
-    add("span_y", {Walk::c_pixel_y_bits}, within("triangle_walker", shader),
-        [](const auto& s, SpanXWord) { return s.walker().y(); }, {dut("y")});
-    add("span_x", {Walk::c_span_x_bits, 0, true}, within("triangle_walker", shader),
-        [](const auto&, SpanXWord x) { return x.bits(); }, {dut("x")});
-    add("span_z", c_depth<Walk>, within("z_interpolator", shader),
+  void add_span_stage(const std::string& around, int depth_clocks, const std::string& front = {}) {
+    begin_stage({"span", "triangle_walker", {dut(front + "span_step")}});
+    add("span_y", {Walk::c_pixel_y_bits}, within("triangle_walker", around),
+        [](const auto& s, SpanXWord) { return s.walker().y(); }, {dut(front + "y")});
+    add("span_x", {Walk::c_span_x_bits, 0, true}, within("triangle_walker", around),
+        [](const auto&, SpanXWord x) { return x.bits(); }, {dut(front + "x")});
+    add("span_z", c_depth<Walk>, within("z_interpolator", around),
         [](const auto& s, SpanXWord) { return s.depth().value().bits(); },
-        {dut("depth/depth/span_value"), 0, depth_clocks, depth_clocks > 0});
+        {dut(front + "depth/depth/span_value"), 0, depth_clocks, depth_clocks > 0});
   }
 
   void add_fragment_stage(std::string_view colours) {
@@ -308,9 +308,9 @@ class ProcessorsStages final : public StagesOf<golden::ProcessorsShader<P>> {
  public:
   ProcessorsStages(const golden::ProcessorsConfig& config, bool folded)
       : StagesOf<Shader>(config), config_(config), folded_(folded) {
-    const std::string shader = "processors_shader";
-    this->template add_line_stage<Exact>(shader, 0);
-    this->template add_span_stage<Exact>(shader, 0);
+    const std::string around = "token_rasterizer", front = "rasterizer/";
+    this->template add_line_stage<Exact>(around, 0, front);
+    this->template add_span_stage<Exact>(around, 0, front);
     const golden::ProcessorsLayout<P> layout(config);
     const std::vector<std::string> planes = names_of(layout);
     for (int p = 0; p < layout.planes(); ++p)
@@ -319,7 +319,7 @@ class ProcessorsStages final : public StagesOf<golden::ProcessorsShader<P>> {
                 [p](const Shader& s, SpanXWord) {
                   return golden::low_bits(static_cast<std::uint64_t>(s.plane_value(p)), P::c_vector_bits);
                 },
-                {dut("vectors"), p * P::c_vector_bits});
+                {dut(front + "vectors"), p * P::c_vector_bits});
     add_processor("ambient");
     for (int light = 1; light <= config.lights(); ++light) {
       if (config.diffuse) add_processor(fmt::format("diffuse {}", light));
@@ -337,7 +337,7 @@ class ProcessorsStages final : public StagesOf<golden::ProcessorsShader<P>> {
     const Signal command{path + "out_token", At::command.low};
     this->begin_stage({std::move(name), entity, {path + "out_valid", path + "out_ready"}, 0, {}, command});
     this->add(
-        "command", {At::command.bits}, "processors_shader",
+        "command", {At::command.bits}, "token_order",
         [](const Shader& s, SpanXWord) { return static_cast<std::uint64_t>(s.token().command); }, command);
     const golden::ProcessorsLayout<P> layout(config_);
     for (int c = 0; c < config_.channels; ++c)

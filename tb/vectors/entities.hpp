@@ -60,6 +60,9 @@ Status write_shading_processor(const std::filesystem::path& folder);
 Status write_shading_pipeline(const std::filesystem::path& folder);
 Status write_quadratic_shader(const std::filesystem::path& folder);
 Status write_spherical_shader(const std::filesystem::path& folder);
+Status write_token_rasterizer(const std::filesystem::path& folder);
+Status write_token_order(const std::filesystem::path& folder);
+Status write_fragment_output(const std::filesystem::path& folder);
 Status write_processors_shader(const std::filesystem::path& folder);
 
 }  // namespace halfway::vectors

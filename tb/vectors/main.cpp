@@ -68,6 +68,9 @@ int main(int argc, char** argv) {
       std::pair{"shading_pipeline", &write_shading_pipeline},
       std::pair{"quadratic_shader", &write_quadratic_shader},
       std::pair{"spherical_shader", &write_spherical_shader},
+      std::pair{"token_rasterizer", &write_token_rasterizer},
+      std::pair{"token_order", &write_token_order},
+      std::pair{"fragment_output", &write_fragment_output},
       std::pair{"processors_shader", &write_processors_shader},
   };
   bool found = false;

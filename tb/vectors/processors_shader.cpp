@@ -48,6 +48,7 @@ class Host {
       : p_(processors),
         layout_(processors.config),
         twin_(processors.config),
+        rasterizer_(processors.config),
         random_(static_cast<std::uint64_t>(layout_.init_bits())) {}
 
   // What a set is made of.
@@ -114,6 +115,17 @@ class Host {
   }
   bool fault() const { return twin_.fault(); }
 
+  // For the testbenches of the shader's parts.
+  Status write_rasterizer(const std::filesystem::path& folder) const {
+    if (auto s = triangles_.write(folder / fmt::format("{}_init.txt", p_.name)); !s) return s;
+    return tokens_.write(folder / fmt::format("{}_tokens.txt", p_.name));
+  }
+  Status write_order(const std::filesystem::path& folder) const {
+    return ordered_.write(folder / fmt::format("{}.txt", p_.name));
+  }
+  Status write_output(const std::filesystem::path& folder) const {
+    return shaded_.write(folder / fmt::format("{}.txt", p_.name));
+  }
   Status write(const std::filesystem::path& folder, const char* set) {
     const std::string stem = fmt::format("{}_{}", p_.name, set);
     if (fragments_.size() == 0) return tool_failed(stem + ": no fragment");
@@ -122,9 +134,62 @@ class Host {
   }
 
  private:
+  std::vector<std::uint32_t> words_of(const golden::ShadingToken<Preset>& token) const {
+    std::vector<std::uint32_t> words(static_cast<std::size_t>(layout_.token_bits() + 31) / 32);
+    token.encode(p_.config, words);
+    return words;
+  }
+  int load_bits() const {
+    using Layout = golden::ProcessorsLayout<Preset>;
+    return Layout::light_colour_low(p_.config.channels);
+  }
+  // What the parts of the shader make of the vector.
+  void send_to_parts(const InitVector& vector) {
+    const auto command = static_cast<Command>(golden::get_bits(vector, Preset::request_header_at::command));
+    const bool loads = command >= Command::new_frame && command <= Command::remove;
+    const auto order = [&](bool load, const std::vector<std::uint32_t>& in,
+                           const std::vector<std::uint32_t>& out) {
+      ordered_.flag(load).words_of(in, layout_.token_bits()).words_of(out, layout_.token_bits());
+      ordered_.flag(command == Command::new_frame).end_vector();
+    };
+    if (loads) {
+      if (command == Command::new_frame) order_.new_frame();
+      std::vector<std::uint32_t> words(static_cast<std::size_t>(layout_.token_bits() + 31) / 32);
+      for (int low = 0; low < load_bits(); low += 8) {
+        const Field field{"", low, std::min(8, load_bits() - low), false, 0};
+        set_bits(words, field, golden::get_bits(vector, field));
+      }
+      order(true, words, words);
+      return;
+    }
+    triangles_.words_of(vector, layout_.init_bits()).end_vector();
+    rasterizer_.draw(
+        vector, [] {},
+        [&](golden::SpanXWord) {
+          auto token = rasterizer_.token();
+          // The command of the host's vector and of its token are the same word; `decode` would not read all
+          // of its fields.
+          const Command walk = token.command;
+          token.command = Command::new_pixel;
+          auto words = words_of(token);
+          set_bits(words, Preset::request_header_at::command, static_cast<std::uint32_t>(walk));
+          tokens_.words_of(words, layout_.token_bits()).end_vector();
+          const auto before = words;
+          if (walk != Command::shadow)
+            set_bits(words, Preset::request_header_at::command,
+                     static_cast<std::uint32_t>(order_.place(token.y, token.x)));
+          order(false, before, words);
+        });
+  }
   void send(const InitVector& vector) {
+    send_to_parts(vector);
     inits_.words_of(vector, layout_.init_bits()).word(0, 32).end_vector();
     twin_.draw(vector, [&](const Fragment& f) {
+      shaded_.words_of(words_of(twin_.token()), layout_.token_bits());
+      shaded_.word(f.triangle, Preset::c_triangle_bits).word(f.y, Preset::c_pixel_y_bits);
+      shaded_.word(f.x, Preset::c_pixel_x_bits).word(f.z, Preset::c_depth_bits);
+      for (const std::uint8_t colour : {f.red, f.green, f.blue}) shaded_.word(colour, Preset::c_colour_bits);
+      shaded_.end_vector();
       fragments_.word(f.triangle, Preset::c_triangle_bits).word(f.y, Preset::c_pixel_y_bits);
       fragments_.word(f.x, Preset::c_pixel_x_bits).word(f.z, Preset::c_depth_bits);
       for (const std::uint8_t colour : {f.red, f.green, f.blue})
@@ -241,9 +306,35 @@ class Host {
   const Processors& p_;
   golden::ProcessorsLayout<Preset> layout_;
   Shader twin_;
+  golden::TokenRasterizer<Preset> rasterizer_;
   Random random_;
   VectorFile inits_, fragments_;
+  golden::TokenOrder order_;
+  VectorFile triangles_, tokens_, ordered_, shaded_;
 };
+
+template <class Preset>
+void draw_set(Host<Preset>& host, const Processors& processors, Mix mix) {
+  host.define_all();
+  if (processors.config.shadows)
+    for (std::int64_t line = 0; line < processors.pixels / 8; ++line) host.draw_line();
+  else
+    host.draw_triangles(mix);
+  host.finish();
+}
+
+// The parts of the shader, with all words of tokens and with shadows, in both presets.
+template <class Write>
+Status write_parts(const Write& write) {
+  for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{4}}) {
+    Host<Exact> host(c_exact_shaders[i]);
+    draw_set(host, c_exact_shaders[i], Mix::mixed);
+    if (auto s = write(host); !s) return s;
+  }
+  Host<Published> host(c_published_shaders[0]);
+  draw_set(host, c_published_shaders[0], Mix::mixed);
+  return write(host);
+}
 
 template <class Preset>
 Status write_set(const std::filesystem::path& folder, const Processors& processors, const char* set) {
@@ -253,13 +344,7 @@ Status write_set(const std::filesystem::path& folder, const Processors& processo
     if (!host.fault()) return tool_failed(fmt::format("{}: nothing went wrong", processors.name));
     return host.write(folder, set);
   }
-  const Mix mix = set == std::string_view("dense") ? Mix::dense : Mix::mixed;
-  host.define_all();
-  if (processors.config.shadows)
-    for (std::int64_t line = 0; line < processors.pixels / 8; ++line) host.draw_line();
-  else
-    host.draw_triangles(mix);
-  host.finish();
+  draw_set(host, processors, set == std::string_view("dense") ? Mix::dense : Mix::mixed);
   if (host.fault()) return tool_failed(fmt::format("{}: a fault in the set {}", processors.name, set));
   return host.write(folder, set);
 }
@@ -275,6 +360,18 @@ Status write_all(const std::filesystem::path& folder, std::span<const Processors
 }
 
 }  // namespace
+
+Status write_token_rasterizer(const std::filesystem::path& folder) {
+  return write_parts([&](const auto& host) { return host.write_rasterizer(folder); });
+}
+
+Status write_token_order(const std::filesystem::path& folder) {
+  return write_parts([&](const auto& host) { return host.write_order(folder); });
+}
+
+Status write_fragment_output(const std::filesystem::path& folder) {
+  return write_parts([&](const auto& host) { return host.write_output(folder); });
+}
 
 Status write_processors_shader(const std::filesystem::path& folder) {
   if (auto s = write_all<Exact>(folder, c_exact_shaders); !s) return s;

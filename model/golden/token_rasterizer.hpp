@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of rtl/shaders/token_rasterizer.vhd: a triangle as tokens, one for each pixel that it covers.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "golden/plane_interpolator.hpp"
+#include "golden/shading_token.hpp"
+#include "golden/triangle_walker.hpp"
+#include "golden/z_interpolator.hpp"
+
+namespace halfway::golden {
+
+template <class Preset>
+class TokenRasterizer {
+ public:
+  using Token = ShadingToken<Preset>;
+
+  explicit TokenRasterizer(const ProcessorsConfig& config)
+      : config_(config), layout_(config), planes_(static_cast<std::size_t>(layout_.planes())) {}
+
+  /// Calls line() when the span stage loads a line, and pixel(x) at each pixel of it, whose token is token().
+  template <class Line, class Pixel>
+  void draw(std::span<const std::uint32_t> vector, Line&& line, Pixel&& pixel) {
+    using At = typename Preset::request_header_at;
+    token_.command = static_cast<Command>(get_bits(vector, At::command));
+    token_.light_number = static_cast<std::uint32_t>(get_bits(vector, At::light));
+    token_.opens = get_bits(vector, At::opens) != 0;
+    token_.normalize = get_bits(vector, At::normalize) != 0;
+    for (line_load(vector);; line_step()) {
+      if (!walker_.line_empty()) draw_line(line, pixel);
+      if (walker_.line_last()) return;
+    }
+  }
+
+  /// The token of a pixel; its command is the vector's. Who shades it changes it.
+  Token& token() { return token_; }
+  const Token& token() const { return token_; }
+  const TriangleWalker<Exact>& walker() const { return walker_; }
+  /// As a vector that draws, or passes over the line, loads it.
+  TriangleWalker<Exact> walker_of(std::span<const std::uint32_t> vector) const {
+    TriangleWalker<Exact> walker;
+    walker.line_load(walk_of(vector));
+    return walker;
+  }
+  const ZInterpolator<Exact>& depth() const { return depth_; }
+  /// The plane's top bits: the host has added half a step of what they drop.
+  std::int64_t plane_value(int plane) const {
+    constexpr int c_drop = Preset::c_plane_sum_bits - Preset::c_vector_bits;
+    return planes_[static_cast<std::size_t>(plane)].value().value() >> c_drop;
+  }
+
+ private:
+  using PlaneAt = typename Preset::plane_header_at;
+  using Plane = PlaneInterpolator<Preset::c_plane_sum_bits>;
+
+  static constexpr std::size_t words_of(int bits) { return static_cast<std::size_t>(bits + 31) / 32; }
+  /// The colour before the first processor: the half that rounds the last one, where it has a fraction.
+  static constexpr std::uint32_t c_first_radiance =
+      Preset::c_radiance_fraction_bits == 0 ? 0 : 1U << (Preset::c_radiance_fraction_bits - 1);
+
+  // It begins amid a word.
+  std::array<std::uint32_t, words_of(Exact::c_init_header_bits)> walk_of(
+      std::span<const std::uint32_t> vector) const {
+    std::array<std::uint32_t, words_of(Exact::c_init_header_bits)> walk;
+    for (std::size_t i = 0; i < walk.size(); ++i)
+      walk[i] = static_cast<std::uint32_t>(
+          get_bits(vector, {"", 32 * static_cast<int>(i), 32, false, 0}, layout_.walk_low()));
+    static_assert(Exact::c_init_header_bits % 32 == 0);
+    return walk;
+  }
+
+  void line_load(std::span<const std::uint32_t> vector) {
+    const auto walk = walk_of(vector);
+    walker_.line_load(walk);
+    depth_.line_load(walk);
+    for (int p = 0; p < layout_.planes(); ++p) {
+      const auto word = [&](const Field& field) {
+        return Plane::Value::from_bits(get_bits(vector, field, layout_.plane_low(p)));
+      };
+      planes_[static_cast<std::size_t>(p)].line_load(word(PlaneAt::value), word(PlaneAt::dx),
+                                                     word(PlaneAt::de0), word(PlaneAt::de1));
+    }
+    const auto material = [&](int low, int bits) {
+      return static_cast<std::uint32_t>(
+          get_bits(vector, {"", low, bits, false, 0}, layout_.init_material_low()));
+    };
+    constexpr int c_k = Preset::c_coefficient_bits;
+    if (config_.specular) token_.exponent = material(layout_.exponent_low(), Preset::c_exponent_bits);
+    for (int i = 0; i < config_.channels; ++i) {
+      const auto channel = static_cast<std::size_t>(i);
+      token_.ambient[channel] = material(layout_.ambient_low(i), c_k);
+      if (config_.diffuse) token_.diffuse[channel] = material(layout_.diffuse_low(i), c_k);
+      if (config_.specular) token_.specular[channel] = material(layout_.specular_low(i), c_k);
+    }
+  }
+  void line_step() {
+    const bool carry = walker_.carry();
+    walker_.line_step();
+    depth_.line_step(carry);
+    for (auto& plane : planes_) plane.line_step(carry);
+  }
+  void span_load() {
+    depth_.span_load();
+    for (auto& plane : planes_) plane.span_load();
+  }
+  void span_step() {
+    depth_.span_step();
+    for (auto& plane : planes_) plane.span_step();
+  }
+
+  template <class Line, class Pixel>
+  void draw_line(Line& line, Pixel& pixel) {
+    line();
+    span_load();
+    token_.triangle = walker_.triangle();
+    token_.y = walker_.y();
+    const Command command = token_.command;
+    const SpanXWord stop = walker_.stop(), step = walker_.pixel_step();
+    for (SpanXWord x = walker_.start(); x != stop; x += step) {
+      token_.command = command;
+      token_.x = static_cast<std::uint32_t>(low_bits(x.bits(), Preset::c_pixel_x_bits));
+      token_.z = depth_.z();
+      for (int i = 0; i < c_axes; ++i) token_.normal[static_cast<std::size_t>(i)] = plane_value(i);
+      if (layout_.has_place())
+        for (int i = 0; i < c_axes; ++i) token_.place[static_cast<std::size_t>(i)] = plane_value(c_axes + i);
+      if (layout_.has_distance()) token_.distance = plane_value(2 * c_axes);
+      token_.radiance.fill(c_first_radiance);
+      pixel(x);
+      span_step();
+    }
+    token_.command = command;
+  }
+
+  ProcessorsConfig config_;
+  ProcessorsLayout<Preset> layout_;
+  TriangleWalker<Exact> walker_;
+  ZInterpolator<Exact> depth_;
+  std::vector<Plane> planes_;  // N, P or the view ray, 1/w
+  Token token_;
+};
+
+}  // namespace halfway::golden

@@ -1,0 +1,217 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     A triangle as tokens: a token for each pixel that it covers, with depth, N, P and 1/w there, and the
+--             material. The triangle's words go with its lines: the line stage may hold the next triangle already, while
+--             the span stage walks this one.
+--
+--               init --> triangle_walker --> z_interpolator, a plane_interpolator per word of N, P and 1/w --> token
+--                  \--> request and material, of line and span --------------------------------------------/
+--
+-- Contract    Both streams are valid/ready. init_ready comes when the triangle's first line is loaded, so init stands
+--             still from the clock before, in which the walker reads it. A token stands still while it waits.
+-- Formats     init: processors_pkg, a triangle's vector; token: token_pkg, its command that of the request
+-- Latency     3 clocks from a vector offered to its first token (its first line covering a pixel)
+-- Throughput  1 token per clock, with no bubble between spans, lines and triangles, but that a triangle takes 2 clocks at
+--             least, and a line that covers no pixel one where no span is drawn meanwhile
+-- Error       see plane_sum in formats_pkg
+-- Source      processors paper, section 2: the object processors interpolate N and P linearly
+-- Golden twin model/golden/triangle_walker.hpp, model/golden/plane_interpolator.hpp
+
+library ieee;
+use ieee.std_logic_1164.all;
+use work.formats_pkg.all;
+use work.processors_pkg.all;
+use work.token_pkg.all;
+
+entity token_rasterizer is
+  generic (
+    g_config : config_t := c_default_config
+  );
+  port (
+    clk         : in  std_logic;
+    reset       : in  std_logic;
+    init_valid  : in  std_logic;
+    init_ready  : out std_logic;
+    init        : in  std_logic_vector(init_bits(g_config) - 1 downto 0);
+    token_valid : out std_logic;
+    token_ready : in  std_logic;
+    token       : out std_logic_vector(token_bits(g_config) - 1 downto 0);
+    busy        : out std_logic
+  );
+end entity;
+
+architecture rtl of token_rasterizer is
+
+  constant c_exact       : boolean          := g_config.exact;
+  constant c_formats     : formats_t        := formats(c_exact);
+  constant c_request     : request_header_t := request_header(c_exact);
+  constant c_pixel       : pixel_header_t   := pixel_header(c_exact);
+  constant c_planes      : positive         := planes(g_config);
+  constant c_plane_bits  : positive         := plane_channel_low(c_exact, 0);
+  constant c_vector_bits : positive         := c_formats.vector.bits;
+
+  subtype request_t is std_logic_vector(c_request.normalize.high downto 0);
+  subtype material_t is std_logic_vector(material_bits(g_config) - 1 downto 0);
+
+  -- The walk is that of preset exact in either preset.
+  signal walk          : std_logic_vector(init_channel_low(true, 0) - 1 downto 0);
+  signal walk_ready    : std_logic; -- the walker reads the triangle
+  signal line_load     : std_logic;
+  signal line_step     : std_logic;
+  signal line_carry    : std_logic;
+  signal line_advance  : std_logic; -- a step that is no load, too
+  signal span_load     : std_logic;
+  signal span_step     : std_logic;
+  signal span_advance  : std_logic;
+  signal triangle      : std_logic_vector(c_formats.triangle.bits - 1 downto 0);
+  signal y             : std_logic_vector(c_formats.pixel_y.bits - 1 downto 0);
+  signal x             : std_logic_vector(c_formats.span_x.bits - 1 downto 0);
+  signal z             : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
+  signal vectors       : std_logic_vector(c_planes * c_vector_bits - 1 downto 0); -- N lowest
+  signal line_request  : request_t;
+  signal line_material : material_t;
+  signal span_request  : request_t;
+  signal span_material : material_t;
+
+begin
+
+  walk       <= init(walk_low(g_config) + walk'high downto walk_low(g_config));
+  init_ready <= line_load;
+
+  walker : entity work.triangle_walker
+    generic map (
+      g_exact => true
+      )
+    port map (
+      clk            => clk,
+      reset          => reset,
+      init_valid     => init_valid,
+      init_ready     => walk_ready,
+      init           => walk,
+      line_ready     => '1',
+      line_held      => open,
+      line_load      => line_load,
+      line_step      => line_step,
+      line_carry     => line_carry,
+      span_load      => span_load,
+      span_step      => span_step,
+      line_y         => open,
+      line_start     => open,
+      line_stop      => open,
+      fragment_valid => token_valid,
+      fragment_ready => token_ready,
+      triangle       => triangle,
+      y              => y,
+      x              => x,
+      busy           => busy
+      );
+
+  line_advance <= line_step and not line_load;
+  span_advance <= span_step and not span_load;
+
+  depth : entity work.z_interpolator
+    generic map (
+      g_exact => true
+      )
+    port map (
+      clk        => clk,
+      init       => walk,
+      line_load  => line_load,
+      line_step  => line_advance,
+      line_carry => line_carry,
+      span_load  => span_load,
+      span_step  => span_advance,
+      value      => z
+      );
+
+  interpolated : for plane in 0 to c_planes - 1 generate
+
+    constant c_sum_bits : positive := c_formats.plane_sum.bits;
+    constant c_low      : natural  := plane_low(g_config, plane);
+
+    signal value : std_logic_vector(c_sum_bits - 1 downto 0);
+
+    begin
+
+      interpolator : entity work.plane_interpolator
+        generic map (
+          g_bits => c_sum_bits
+          )
+        port map (
+          clk        => clk,
+          plane      => init(c_low + c_plane_bits - 1 downto c_low),
+          line_load  => line_load,
+          line_step  => line_advance,
+          line_carry => line_carry,
+          span_load  => span_load,
+          span_step  => span_advance,
+          value      => value
+          );
+
+      -- The host has added half a step of what this drops.
+      vectors((plane + 1) * c_vector_bits - 1 downto plane * c_vector_bits) <=
+        value(c_sum_bits - 1 downto c_sum_bits - c_vector_bits);
+
+  end generate;
+
+  line_request_register : entity work.parameter_register
+    generic map (
+      g_bits => request_t'length
+      )
+    port map (
+      clk   => clk,
+      load  => line_load,
+      start => init(request_t'range),
+      value => line_request
+      );
+
+  line_material_register : entity work.parameter_register
+    generic map (
+      g_bits => material_t'length
+      )
+    port map (
+      clk   => clk,
+      load  => line_load,
+      start => init(init_material_low(g_config) + material_t'high downto init_material_low(g_config)),
+      value => line_material
+      );
+
+  span_request_register : entity work.parameter_register
+    generic map (
+      g_bits => request_t'length
+      )
+    port map (
+      clk   => clk,
+      load  => span_load,
+      start => line_request,
+      value => span_request
+      );
+
+  span_material_register : entity work.parameter_register
+    generic map (
+      g_bits => material_t'length
+      )
+    port map (
+      clk   => clk,
+      load  => span_load,
+      start => line_material,
+      value => span_material
+      );
+
+  make_token : process (all)
+    variable v : std_logic_vector(token'range);
+  begin
+    v := (others => '0');
+    v(request_t'range)                                   := span_request;
+    v(c_pixel.triangle.high downto c_pixel.triangle.low) := triangle;
+    v(c_pixel.y.high downto c_pixel.y.low)               := y;
+    v(c_pixel.x.high downto c_pixel.x.low)               := x(c_formats.pixel_x.bits - 1 downto 0);
+    v(c_pixel.z.high downto c_pixel.z.low)               :=
+      z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction);
+    -- N, P and 1/w follow one another in a token too
+    v(normal_low(g_config, 0) + vectors'high downto normal_low(g_config, 0))  := vectors;
+    v(material_low(g_config) + material_t'high downto material_low(g_config)) := span_material;
+    token <= with_radiance(g_config, v, first_radiance(g_config));
+  end process;
+
+end architecture;
