@@ -1,18 +1,19 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     One light's diffuse term, a product a channel: factor * cos(angle), the angle going linearly along the
---             span.
---               span stage     angle, by a line_interpolator; lit where it is not behind the light's horizon
---               sample stage   the cosine_rom's sample, in_range and factors beside it
---               product stage  factor * sample, zero where not in_range
---             g_channels = 0: no factor and no table, only the horizon, which ends the light's highlight too; products, as
---             many bits as one, are zero.
--- Contract    span_load takes the light's part of the line record; span_step hands the pixel to the sample stage and
---             goes to the next one; sample_step hands the pixel from there to the product stage.
--- Formats     formats_pkg: angle in units of half a bell (preset published: of a whole one), factor; product:
---             factor's bits and g_data_bits together
+-- Purpose     One light's diffuse term, one product per channel: factor * cos(angle), where the angle is linear along
+--             the span.
+--               span stage     the angle, from a line_interpolator; lit is '1' if the pixel is above the light's horizon
+--               sample stage   the cosine_rom's sample, with in_range and the factors
+--               product stage  factor * sample, or zero if in_range = '0'
+--             g_channels = 0: there are no factors and no table. The slice only computes the horizon, at which the
+--             light's highlight ends. products is as wide as one product and zero.
+-- Contract    span_load takes the light's part of the line record. span_step passes the pixel to the sample stage and
+--             advances the span to the next pixel. sample_step passes the pixel from the sample stage to the product
+--             stage.
+-- Formats     formats_pkg: angle in units of half a bell (preset published: of a whole bell), factor; product: bits of
+--             factor plus g_data_bits
 -- Latency     1 clock from span_load to lit, 1 from span_step to the sample stage, 3 from sample_step to products
--- Throughput  1 pixel a clock
+-- Throughput  1 pixel per clock
 -- Error       angle: see formats_pkg; sample: see cosine_rom
 -- Source      spherical paper, section 5 and figure 12 (diffuse part)
 -- Golden twin model/golden/diffuse_slice.hpp
@@ -31,7 +32,7 @@ entity diffuse_slice is
   port (
     clk         : in  std_logic;
     part        : in  std_logic_vector(diffuse_bits(g_exact, g_channels) - 1 downto 0); -- of the line record
-    span_load   : in  std_logic;                                                        -- begin the line
+    span_load   : in  std_logic;                                                        -- start the line
     span_step   : in  std_logic;                                                        -- go to the next pixel
     sample_step : in  std_logic;
     lit         : out std_logic; -- preset published: always '1'
@@ -55,7 +56,7 @@ architecture rtl of diffuse_slice is
 
 begin
 
-  -- The init buffer holds the next line's record already, so the span keeps its own slope.
+  -- Keep the slope of the span: the init buffer already holds the next line's record.
   slope_register : entity work.parameter_register
     generic map (
       g_bits => c_angle_bits
@@ -148,12 +149,12 @@ begin
 
         begin
 
-          -- The sample first: numeric_std's product takes a sum a bit of its left side.
+          -- The sample is the first operand: numeric_std's product adds one sum per bit of its left operand.
           product : entity work.multiplier
             generic map (
               g_a_bits => g_data_bits,
               g_b_bits => formats(g_exact).factor.bits,
-              g_gated  => g_exact -- in preset published nothing is out of range
+              g_gated  => g_exact -- in preset published no angle is out of range
               )
             port map (
               clk     => clk,

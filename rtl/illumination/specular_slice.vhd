@@ -1,22 +1,23 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     One light's highlight, a product a channel: factor * cos(angle) ** power, the angle going linearly along
---             the span in units of half a bell.
---               span stage     angle, by a line_interpolator
---               sample stage   samples of all tables, read at once; in_range (not past the bell's ends, and lit),
---                              factors and power beside them
---               product stage  factor * the power's sample, zero where not in_range
--- Contract    span_load takes the light's part of the line record; span_step hands the pixel, lit or not, to the sample
---             stage and goes to the next one; sample_step hands the pixel from there to the product stage.
---             Bit i of g_powers: the table of cosine to the power 2**i is there. With one table there is nothing to
---             select, and the record's power is not read; else the sample of a power without a table is zero.
--- Formats     formats_pkg: angle, power, factor; product: factor's bits and g_data_bits together
+-- Purpose     One light's highlight, one product per channel: factor * cos(angle) ** power, where the angle is linear
+--             along the span, in units of half a bell.
+--               span stage     the angle, from a line_interpolator
+--               sample stage   the samples of all tables, read at the same time, with in_range (inside the bell, and lit),
+--                              the factors and the power
+--               product stage  factor * the power's sample, or zero if in_range = '0'
+-- Contract    span_load takes the light's part of the line record. span_step passes the pixel, lit or not, to the
+--             sample stage and advances the span to the next pixel. sample_step passes the pixel from the sample stage
+--             to the product stage.
+--             Bit i of g_powers: the slice has the table of cosine to the power 2**i. With one table the record's power
+--             is not read. With several, the sample of a power without a table is zero.
+-- Formats     formats_pkg: angle, power, factor; product: bits of factor plus g_data_bits
 -- Latency     1 clock from span_load to the span stage, 1 from span_step to the sample stage, 3 from sample_step to
 --             products
--- Throughput  1 pixel a clock
+-- Throughput  1 pixel per clock
 -- Error       angle: see formats_pkg; sample: see cosine_rom
--- Source      spherical paper, section 5 and figure 12 (specular part): cosine squared alone, and no end to the
---             bells, in preset published; other powers and in_range are ours
+-- Source      spherical paper, section 5 and figure 12 (specular part): preset published has only cosine squared, and
+--             its bells have no ends. Other powers and in_range are ours
 -- Golden twin model/golden/specular_slice.hpp
 
 library ieee;
@@ -35,10 +36,10 @@ entity specular_slice is
   port (
     clk         : in  std_logic;
     part        : in  std_logic_vector(specular_bits(g_exact, g_channels) - 1 downto 0); -- of the line record
-    span_load   : in  std_logic;                                                         -- begin the line
+    span_load   : in  std_logic;                                                         -- start the line
     span_step   : in  std_logic;                                                         -- go to the next pixel
     sample_step : in  std_logic;
-    lit         : in  std_logic; -- at the span stage: not behind the light's horizon
+    lit         : in  std_logic; -- at the span stage: the pixel is above the light's horizon
     products    : out std_logic_vector(g_channels * (formats(g_exact).factor.bits + g_data_bits) - 1 downto 0)
   );
 end entity;
@@ -63,7 +64,7 @@ architecture rtl of specular_slice is
     return count;
   end function;
 
-  -- Where there is one table.
+  -- The only table's power.
   function only_power return natural is
     variable found : natural := 0;
   begin
@@ -89,7 +90,7 @@ architecture rtl of specular_slice is
 
   signal slope, angle  : std_logic_vector(c_angle_bits - 1 downto 0);
   signal address       : std_logic_vector(g_address_bits - 1 downto 0);
-  signal near          : std_logic; -- not past the bell's ends
+  signal near          : std_logic; -- inside the bell
   signal carried_in    : std_logic_vector(c_factors_bits downto 0); -- in_range lowest
   signal carried       : std_logic_vector(carried_in'range);
   signal in_range      : std_logic;
@@ -105,7 +106,7 @@ begin
     report "specular_slice: g_powers is " & integer'image(g_powers) & ", but preset published has no power to select by"
     severity failure;
 
-  -- The init buffer holds the next line's record already, so the span keeps its own slope and factors.
+  -- Keep the slope and factors of the span: the init buffer already holds the next line's record.
   slope_register : entity work.parameter_register
     generic map (
       g_bits => c_angle_bits
@@ -244,12 +245,12 @@ begin
 
     begin
 
-      -- The sample first: numeric_std's product takes a sum a bit of its left side.
+      -- The sample is the first operand: numeric_std's product adds one sum per bit of its left operand.
       product : entity work.multiplier
         generic map (
           g_a_bits => g_data_bits,
           g_b_bits => formats(g_exact).factor.bits,
-          g_gated  => g_exact -- in preset published nothing is out of range
+          g_gated  => g_exact -- in preset published no angle is out of range
           )
         port map (
           clk     => clk,

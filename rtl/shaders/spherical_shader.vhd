@@ -1,24 +1,25 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The spherical shader: a header a triangle and a record for each of its lines in, a fragment for each
---             pixel that the triangle covers out.
---             stream_register -> triangle_walker -> z_interpolator, a diffuse_slice and a specular_slice a light
---             -> a saturating_sum a channel -> stream_queue
---             The walker alone waits for whoever takes the fragments; all behind it runs on, and the queue has a place
---             for every pixel that is on its way.
---             What no effect asks for is not there: no diffuse_slice where neither diffuse light nor (preset exact) the
---             horizon of a highlight needs one, no line records where a light has no part in them.
--- Contract    Both streams are valid/ready; a fragment stands still while it waits. A triangle's header (walk, depth,
---             ambient) is followed by a record for every line of its walk, those without a pixel included;
---             spherical_pkg says where the lights' parts lie. One channel (g_channels = 1) is given out as red, green
---             and blue.
+-- Purpose     The spherical shader: one header per triangle and one record per line in, one fragment per covered pixel
+--             out.
+--               stream_register -> triangle_walker -> z_interpolator, and per light a diffuse_slice and a specular_slice
+--               -> per channel a saturating_sum -> stream_queue
+--             Only the walker waits when fragments are not taken. The stages after it never stall: the queue has a
+--             place for every pixel that the walker has started.
+--             Hardware that no effect needs does not exist: there is no diffuse_slice without diffuse light and (preset
+--             exact) without highlights, which need its horizon; there are no line records if no light has a part in
+--             them.
+-- Contract    Both streams are valid/ready; a fragment does not change while it waits. A triangle's header (walk,
+--             depth, ambient) is followed by one record for every line of its walk, also for lines without a pixel.
+--             spherical_pkg gives the positions of the lights' parts. With one channel (g_channels = 1) red, green and
+--             blue are equal.
 -- Formats     formats_pkg: init (header), ambient, diffuse, specular, depth, colour
--- Latency     11 clocks from a header taken to the triangle's first fragment (its first line covering a pixel)
--- Throughput  1 fragment a clock, with no bubble between spans and lines; between triangles two clocks are lost where
---             the last span has a single pixel, one where it has two; without line records one behind a triangle of a
---             single pixel. Lines that cover no pixel cost a clock each
---             where no span is being drawn meanwhile.
--- Error       the sum of the terms is exact, and rounded once; their factors and samples: see formats_pkg, cosine_rom
+-- Latency     11 clocks from an accepted header to the triangle's first fragment (its first line covering a pixel)
+-- Throughput  1 fragment per clock, with no bubble between spans and lines. With line records, two clocks are lost
+--             between triangles if the last span has a single pixel, and one if it has two. Without line records, one
+--             clock is lost after a triangle of a single pixel. A line without a pixel costs one clock if no span is
+--             drawn meanwhile
+-- Error       the sum of the terms is exact and rounded once; for factors and samples see formats_pkg and cosine_rom
 -- Source      spherical paper, section 5 and figure 12
 -- Golden twin model/golden/spherical_shader.hpp
 
@@ -35,8 +36,8 @@ entity spherical_shader is
     g_lights             : natural  := 1;
     g_diffuse            : boolean  := true;
     g_specular           : boolean  := true;
-    g_highlight_channels : positive := 3;    -- 1: every highlight is grey, one multiplier a light does
-    g_powers             : natural  := 2;    -- bit i: the table of cosine to the power 2**i is there
+    g_highlight_channels : positive := 3;    -- 1: highlights are grey, with one multiplier per light
+    g_powers             : natural  := 2;    -- bit i: the table of cosine to the power 2**i exists
     g_address_bits       : positive := 9;
     g_data_bits          : positive := 8
   );
@@ -56,8 +57,8 @@ entity spherical_shader is
     fragment_red      : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     fragment_green    : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     fragment_blue     : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
-    busy              : out std_logic; -- something is on its way
-    fault             : out std_logic -- nothing here can go wrong
+    busy              : out std_logic; -- a vector or a fragment is inside
+    fault             : out std_logic -- always '0'
   );
 end entity;
 
@@ -75,7 +76,7 @@ architecture rtl of spherical_shader is
   constant c_records          : boolean := record_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
     g_highlight_channels) > 0;
 
-  -- What a channel sums: ambient, then for each light its diffuse and its specular product.
+  -- The terms of a channel: ambient, then for each light its diffuse and its specular product.
   constant c_term_bits   : positive := c_formats.factor.bits + g_data_bits;
   constant c_light_terms : natural  := boolean'pos(g_diffuse) + boolean'pos(g_specular);
   constant c_terms       : positive := 1 + g_lights * c_light_terms;
@@ -93,7 +94,7 @@ architecture rtl of spherical_shader is
   signal header_valid, header_ready   : std_logic;
   signal line_ready, line_held        : std_logic;
   signal line_load, line_step         : std_logic;
-  signal header_load                  : std_logic; -- the triangle's words, with line_load or before
+  signal header_load                  : std_logic; -- load the triangle's words, with line_load or before
   signal line_carry                   : std_logic;
   signal span_load, span_step         : std_logic;
   signal y                            : std_logic_vector(fragment_y'range);
@@ -104,12 +105,12 @@ architecture rtl of spherical_shader is
   signal room, coming                 : std_logic;
   signal pixel_valid                  : std_logic;
 
-  -- Behind the span stage, clock by clock: samples, products in three, sums.
+  -- Clocks after the span stage: samples, products (three clocks), sums.
   constant c_sampled    : positive := 1;
   constant c_multiplied : positive := 4;
   constant c_summed     : positive := 5;
 
-  -- Depth comes two clocks behind its pixel: its words are in halves, and it takes the strobes from registers.
+  -- Depth is two clocks later than its pixel: its words have two parts, and registers drive its strobes.
   constant c_depth : positive := 2;
 
   type places_t is array (1 to c_summed) of place_t;
@@ -124,10 +125,10 @@ architecture rtl of spherical_shader is
     line_step  : std_logic;
     line_carry : std_logic;
     span_load  : std_logic;
-    span_goes  : std_logic; -- a step that is no load, too
+    span_goes  : std_logic; -- a step without a load
   end record;
 
-  -- Where a fragment's fields begin in the queue's words.
+  -- The lowest bits of a fragment's fields in the queue's words.
   constant c_x_low        : natural := 0;
   constant c_y_low        : natural := c_x_low + fragment_x'length;
   constant c_triangle_low : natural := c_y_low + fragment_y'length;
@@ -207,7 +208,7 @@ begin
       busy           => walking
       );
 
-    -- While the line stage holds a line, the buffer's vector is that line's record; else it is a header.
+    -- If the line stage holds a line, the vector in the init buffer is that line's record; otherwise it is a header.
   with_records : if c_records generate
 
     header_valid <= waiting and not line_held;
@@ -250,7 +251,8 @@ begin
     end if;
   end process;
 
-  -- A record takes the header's place in the buffer at once. A header comes while no line is held, so that alone lets it in.
+  -- Keep the header: a record may replace it in the init buffer immediately. Load while no line is held, when only
+  -- headers arrive.
   header_register : entity work.parameter_register
     generic map (
       g_bits => c_header_bits
@@ -289,7 +291,7 @@ begin
       value => line_ambient
       );
 
-    -- The line stage may hold the next triangle already.
+    -- Keep the ambient light of the span: the line stage may already hold the next triangle.
   span_ambient_register : entity work.parameter_register
     generic map (
       g_bits => ambient_t'length
@@ -313,8 +315,8 @@ begin
 
     begin
 
-      -- Slices step wherever the walker may, be there a pixel or not, so that a register enables them: filled says which
-      -- clocks have one.
+      -- Step the slices whenever the walker may step, with or without a pixel, so that a register enables them.
+      -- r.filled marks the clocks with a pixel.
 
       diffuse : if c_diffuse_part generate
 
@@ -379,7 +381,7 @@ begin
 
           highlight_terms : for channel in 0 to g_channels - 1 generate
 
-            -- A grey highlight goes to every channel.
+            -- A grey highlight is added to every channel.
             constant c_from : natural := channel * boolean'pos(g_highlight_channels > 1) * c_term_bits;
 
             begin
@@ -400,7 +402,7 @@ begin
 
     begin
 
-      -- As many fraction bits as a product has.
+      -- Append zeros, so that ambient has the fraction bits of a product.
       terms(channel)(c_term_bits - 1 downto 0) <=
         ambients(c_multiplied)(c_low + c_ambient.high downto c_low + c_ambient.low) & (g_data_bits - 1 downto 0 => '0');
 
@@ -422,7 +424,7 @@ begin
 
   to_colours : for colour in 0 to 2 generate
 
-    -- One channel is all three.
+    -- With one channel, copy it to all three colours.
     constant c_from : natural := colour * boolean'pos(g_channels > 1) * c_colour;
 
     begin
@@ -434,7 +436,7 @@ begin
   pixel_valid <= r.filled(c_summed);
   pixel       <= colours & depths(c_summed) & places(c_summed);
 
-  -- A pixel comes five clocks after its claim: seven places would not do.
+  -- A pixel arrives five clocks after its claim, so seven places are not sufficient.
   queue : entity work.stream_queue
     generic map (
       g_bits       => pixel'length,
