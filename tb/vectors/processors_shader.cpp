@@ -75,6 +75,15 @@ class Host {
     const std::int64_t x = random_.between(0, 4095);
     for (const std::uint32_t line : {y, y, y - 1, y - 1, y}) draw(line_walk(line, x, x + 1, 1 << 20, 3));
   }
+  // An object again at its pixel: after a load that starts a frame, and after another one.
+  void draw_again() {
+    const InitVector object = line_walk(7, 20, 21, 1 << 20, 3);
+    for (const Command command : {Command::new_frame, Command::define}) {
+      draw(object);
+      load(command, 1);
+      draw(object);
+    }
+  }
   // A line in its rounds. A volume's exit lies behind its entry, or before it, as rounding may have it.
   void draw_line() {
     const std::uint32_t y = static_cast<std::uint32_t>(random_.between(0, 4095));
@@ -329,10 +338,12 @@ Status write_parts(const Write& write) {
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{4}}) {
     Host<Exact> host(c_exact_shaders[i]);
     draw_set(host, c_exact_shaders[i], Mix::mixed);
+    host.draw_again();
     if (auto s = write(host); !s) return s;
   }
   Host<Published> host(c_published_shaders[0]);
   draw_set(host, c_published_shaders[0], Mix::mixed);
+  host.draw_again();
   return write(host);
 }
 
