@@ -3,7 +3,7 @@
 -- Purpose     One light's highlight, one product per channel: factor * cos(angle) ** power, where the angle is linear
 --             along the span, in units of half a bell.
 --               span stage     the angle, from a line_interpolator
---               sample stage   the samples of all tables, read at the same time, with in_range (inside the bell, and lit),
+--               sample stage   the samples of all tables, read together, with in_range (inside the bell, and lit),
 --                              the factors and the power
 --               product stage  factor * the power's sample, or zero if in_range = '0'
 -- Contract    span_load takes the light's part of the line record. span_step passes the pixel, lit or not, to the

@@ -40,13 +40,13 @@ package token_pkg is
 
   function exponent_of (c : config_t; token : std_logic_vector) return std_logic_vector;
 
-  -- k of a kind of processor, a word per channel.
+  -- k of one kind of processor, one word per channel.
   function coefficients_of (c : config_t; kind : natural; token : std_logic_vector) return std_logic_vector;
 
-  -- The colour so far, a word per channel.
+  -- The sum of the colours so far, one word per channel.
   function radiance_of (c : config_t; token : std_logic_vector) return std_logic_vector;
 
-  -- The colour before the first processor: the half that rounds the last one, where it has a fraction.
+  -- The colour before the first processor: the half for the final rounding, if the colour has a fraction.
   function first_radiance (c : config_t) return std_logic_vector;
 
   -- The token with another N (directions, sign extended), view vector or colour.
@@ -70,22 +70,22 @@ package token_pkg is
   -- Preset published, format direction: H of a directional light, E of a positional one.
   function light_half (exact : boolean; light : std_logic_vector) return std_logic_vector;
 
-  -- How far the points' places are shifted: at least one bit, 0 in preset published.
+  -- Number of bits by which the points' places are shifted: at least one bit, 0 in preset published.
   function shift_bits (exact : boolean) return positive;
 
   function light_shift (exact : boolean; light : std_logic_vector) return std_logic_vector;
 
-  -- I, a word per channel.
+  -- I, one word per channel.
   function intensities_of (c : config_t; light : std_logic_vector) return std_logic_vector;
 
-  -- A signed word in more bits.
+  -- Sign-extends a word to more bits.
   function extended (word : std_logic_vector; bits : positive) return std_logic_vector;
 
 end package;
 
 package body token_pkg is
 
-  -- `count` words of `bits` bits: from `low` on, one every `distance` bits.
+  -- `count` words of `bits` bits. The first one is at `low`; they are `distance` bits apart.
   function words_of (word : std_logic_vector; low, distance : natural; count, bits : positive) return std_logic_vector is
     alias flat : std_logic_vector(word'length - 1 downto 0) is word;
 
@@ -108,7 +108,7 @@ package body token_pkg is
     return c_none;
   end function;
 
-  -- `word` with other bits from `low` on.
+  -- Replaces the bits of `word` from `low` on.
   function replaced (word, bits : std_logic_vector; low : natural) return std_logic_vector is
     variable changed : std_logic_vector(word'length - 1 downto 0) := word;
   begin
@@ -236,7 +236,7 @@ package body token_pkg is
     return words_of(token, light_axes_low(c), light_bits(c), 1, light_bits(c));
   end function;
 
-  -- A vector of the light whose components lie at `field` of its blocks, one per axis.
+  -- A vector of the light. Its components are at `field` of the light's blocks, one block per axis.
   function light_vector_of (exact : boolean; light : std_logic_vector; field : slice_t) return std_logic_vector is
   begin
     return words_of(light, light_axes_channel_low(exact, 0) + field.low,

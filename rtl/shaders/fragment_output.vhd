@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The last stage of the shading processors' shader: a shaded object becomes a fragment. Its colour is cut to
---             eight bits, limited to the largest; one channel is given out as red, green and blue. The half that makes
---             the cut a rounding is in the colour from the first processor on (first_radiance of token_pkg).
--- Contract    Both streams are valid/ready; a fragment stands still while it waits
+-- Purpose     The last stage of the processors shader: converts a shaded object to a fragment. The colour is cut to
+--             eight bits and clamped to the largest value. With one channel, red, green and blue are equal. The colour
+--             already contains the half that turns the cut into rounding (first_radiance of token_pkg).
+-- Contract    Both streams are valid/ready; a fragment does not change while it waits
 -- Formats     token: token_pkg; fragment: formats_pkg, colour and depth
 -- Latency     1 clock
 -- Throughput  1 fragment per clock
@@ -85,7 +85,7 @@ begin
 
   to_colours : for colour in 0 to 2 generate
 
-    -- One channel is all three.
+    -- With one channel, copy it to all three colours.
     constant c_from : natural := colour * boolean'pos(g_config.channels > 1) * c_colour;
 
     begin

@@ -1,22 +1,22 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- What of the shading processors is there, and where the blocks lie in their flat vectors.
+-- The configuration of the shading processors, and the positions of the blocks in their flat vectors.
 --
--- A vector of the host is a request (command, light, flags), then
---   draw, depth, shadow   the walk (header of init); for draw besides: planes of N, P (or the view ray) and 1/w, and the
---                         material
---   define, redefine      the light: axes, colour
---   new_frame, delete     nothing
--- A token from processor to processor is a pixel header, N, P, 1/w, the view vector, the material, and the colour so
--- far; one that loads carries the light behind command and flags, where the host's vector has it.
+-- The host's vector is a request (command, light, flags) followed by
+--  draw, depth, shadow   the walk (header of init); for draw also the planes of N, P (or the view ray) and 1/w, and the
+--                        material
+--  define, redefine      the light: axes, colour
+--  new_frame, delete     nothing
+-- A token between processors is a pixel header, N, P, 1/w, the view vector, the material, and the sum of the colours so
+-- far. A token that loads has the light after command and flags, at the same position as in the host's vector.
 -- Golden twin model/golden/processors_layout.hpp
 
 use work.formats_pkg.all;
 
 package processors_pkg is
 
-  -- Of the host, and of tokens. In tokens the three that carry an object to shade say where it lies: a further object
-  -- of the same pixel, or the first one of another pixel, or of another line.
+  -- Commands of the host's vectors and of tokens. In a token, the first three mean an object to shade: the first object
+  -- of another pixel, a further object of the same pixel, the first object of another line.
   constant c_new_pixel    : natural := 0;
   constant c_new_object   : natural := 1;
   constant c_new_scanline : natural := 2;
@@ -26,7 +26,7 @@ package processors_pkg is
   constant c_delete       : natural := 6;
   constant c_shadow       : natural := 7;
 
-  -- Of the host: a triangle to be shaded, and one of which the object stage only keeps the depths.
+  -- Only in the host's vectors: a triangle to shade, and a triangle for the object stage's depths.
   constant c_draw  : natural := 0;
   constant c_depth : natural := 1;
 
@@ -35,16 +35,16 @@ package processors_pkg is
   constant c_diffuse  : natural := 1;
   constant c_specular : natural := 2;
 
-  -- X, y and z of a vector.
+  -- Components x, y and z of a vector.
   constant c_axes : positive := 3;
 
   type config_t is record
     exact       : boolean;
     channels    : positive;
-    directional : natural; -- lights of each kind: 1 to directional, then positional ones, then spots
+    directional : natural; -- lights of each kind; numbered from 1: directional, positional, spots
     positional  : natural;
     spots       : natural;
-    diffuse     : boolean; -- each light has a processor for it
+    diffuse     : boolean; -- each light has a diffuse processor
     specular    : boolean;
     normalize   : boolean; -- the ambient processor can normalize N
     shadows     : boolean;
@@ -61,39 +61,39 @@ package processors_pkg is
 
   function lights (c : config_t) return natural;
 
-  -- Processors in the pipeline: ambient, and for each light a diffuse and a specular one.
+  -- Number of processors: one ambient, and for each light a diffuse and a specular one.
   function processors (c : config_t) return positive;
 
-  -- P is interpolated: the surface point (preset published), or the view ray through the pixel (exact).
+  -- P is interpolated: the surface point (preset published) or the view ray through the pixel (preset exact).
   function has_place (c : config_t) return boolean;
 
-  -- 1/w is: with it the view ray becomes a point.
+  -- 1/w is interpolated: it gives the point on the view ray.
   function has_distance (c : config_t) return boolean;
 
-  -- The ambient processor makes the unit vector to the eye.
+  -- The ambient processor computes the unit vector to the eye.
   function has_view (c : config_t) return boolean;
 
-  -- Planes in a vector that draws.
+  -- Number of planes in a vector that draws.
   function planes (c : config_t) return positive;
 
-  -- Lowest bits of the blocks of a host's vector.
+  -- Lowest bits of the blocks of the host's vector.
   function walk_low (c : config_t) return natural;
 
   function plane_low (c : config_t; plane : natural) return natural;
 
   function init_material_low (c : config_t) return natural;
 
-  -- Behind the request, in the host's vector and in a token.
+  -- After the request, in the host's vector and in a token.
   function light_axes_low (c : config_t) return natural;
 
   function light_colour_low (c : config_t) return natural;
 
-  -- Of a vector, or token, that loads.
+  -- Bits of a vector or token that loads.
   function load_bits (c : config_t) return positive;
 
   function init_bits (c : config_t) return positive;
 
-  -- Within a material.
+  -- Positions within a material.
   function exponent_low (c : config_t) return natural;
 
   function ambient_low (c : config_t; channel : natural) return natural;
@@ -104,8 +104,8 @@ package processors_pkg is
 
   function material_bits (c : config_t) return positive;
 
-  -- Lowest bits of the blocks of a token. N is a vector up to the ambient processor, a direction (its sign extended)
-  -- behind it.
+  -- Lowest bits of the blocks of a token. N has format vector up to the ambient processor, and is a sign-extended
+  -- direction after it.
   function normal_low (c : config_t; axis : natural) return natural;
 
   function place_low (c : config_t; axis : natural) return natural;
@@ -165,7 +165,7 @@ package body processors_pkg is
     return request_channel_low(c.exact, 0);
   end function;
 
-  -- The walk is that of preset exact in either.
+  -- The walk is that of preset exact in both presets.
   function plane_low (c : config_t; plane : natural) return natural is
   begin
     return walk_low(c) + init_channel_low(true, 0) + plane * plane_channel_low(c.exact, 0);

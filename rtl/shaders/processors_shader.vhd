@@ -1,24 +1,23 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The pipeline of shading processors: triangles to draw and lights to load in, a fragment for each pixel that
---             the triangles cover out.
+-- Purpose     The processors shader: triangles to draw and lights to load in, one fragment per covered pixel out.
 --
 --               init --> stream_register --+--> token_rasterizer --> object_stage --+--> token_order --> shading_pipeline
 --                                          |     triangles         (with shadows)   |                          |
 --                                          +------ loads ---------------------------+      fragment_output <---+
 --
--- Contract    Both streams are valid/ready; a fragment stands still while it waits. A vector is a triangle, or it loads
---             (define, redefine, delete, new_frame): a load waits until the objects before it are in the pipeline, so
---             that all come to the processors in order. With shadows the host sends the triangles line by line, and a
---             line in the rounds that object_stage names; without, it sends neither depth nor shadow. An object's
---             command says whether it lies on another line than the one before (the first of a frame too), at the same
---             pixel, or at another one. One channel (g_channels = 1) is given out as red, green and blue.
---             fault stays '1' from when a shadow counter has left its range: the fragments are worth nothing then.
--- Formats     formats_pkg: depth, colour; processors_pkg says where the blocks of a vector lie
--- Latency     4 clocks from a vector taken to its first object at the pipeline (its first line covering a pixel), 1 more
---             with shadows; then shading_pipeline's, and 1
--- Throughput  what shading_pipeline takes: unrolled 1 fragment a clock, with no bubble between spans, lines and
---             triangles, but that a triangle takes 2 clocks at least; a load costs 3 clocks, a line that covers no pixel one where no span is drawn meanwhile
+-- Contract    Both streams are valid/ready; a fragment does not change while it waits. A vector is a triangle or a load
+--             (define, redefine, delete, new_frame). A load waits until the objects before it are in the pipeline, so
+--             that all reach the processors in order. With shadows, the host sends the triangles line by line, and each
+--             line in the rounds of object_stage; without shadows it sends neither depth nor shadow. With one channel
+--             (g_channels = 1) red, green and blue are equal.
+--             fault stays '1' once a shadow counter has left its range. On a fault, discard all fragments.
+-- Formats     formats_pkg: depth, colour; processors_pkg gives the positions of the blocks of a vector
+-- Latency     4 clocks from an accepted vector to its first object at the pipeline (its first line covering a pixel), 1
+--             more with shadows; then that of shading_pipeline, and 1
+-- Throughput  that of shading_pipeline: in the unrolled form 1 fragment per clock, with no bubble between spans, lines
+--             and triangles. Exceptions: a triangle takes at least 2 clocks, a load takes 3 clocks, and a line without
+--             a pixel takes 1 clock if no span is drawn meanwhile
 -- Error       see plane_sum in formats_pkg, shading_processor; the colour is rounded once
 -- Source      processors paper, sections 3 and 4
 -- Golden twin model/golden/processors_shader.hpp
@@ -40,7 +39,7 @@ entity processors_shader is
     g_specular    : boolean  := true;
     g_normalize   : boolean  := true;  -- the ambient processor can normalize N
     g_shadows     : boolean  := false;
-    g_unrolled    : boolean  := true   -- a token a clock; false: a processor as published
+    g_unrolled    : boolean  := true   -- unrolled: 1 token per clock; false: folded, as published
   );
   port (
     clk               : in  std_logic;
@@ -58,7 +57,7 @@ entity processors_shader is
     fragment_red      : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     fragment_green    : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
     fragment_blue     : out std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
-    busy              : out std_logic; -- something is on its way
+    busy              : out std_logic; -- a vector, an object or a fragment is inside
     fault             : out std_logic -- a shadow counter has left its range
   );
 end entity;
@@ -88,7 +87,7 @@ architecture rtl of processors_shader is
   signal object_ready : std_logic;
   signal object       : token_t;
   signal objects_busy : std_logic;
-  signal objects_idle : std_logic; -- nothing is in the object stage, and it is not being cleared
+  signal objects_idle : std_logic; -- the object stage is empty and is not being cleared
   signal frame_start  : std_logic;
   signal token_valid  : std_logic;
   signal token_ready  : std_logic;
@@ -124,11 +123,11 @@ begin
       out_data  => init
       );
 
-  -- A request has its command where a token has it.
+  -- The command has the same position in a request and in a token.
   command <= command_of(g_exact, init);
   loads   <= '1' when command = c_new_frame or command = c_define or command = c_redefine or command = c_delete else '0';
 
-  -- A load passes the rasterizer, which is empty then.
+  -- A load bypasses the rasterizer, which is empty at that time.
   draw_valid <= waiting and not loads;
   load_valid <= waiting and loads and not drawing and objects_idle;
   taken      <= load_ready and load_valid when loads = '1' else draw_ready;

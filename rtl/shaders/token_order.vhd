@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Loads and objects in one stream to the processors. A load is a vector of the host as it came. An object gets
---             the command that says where it lies:
---               new_scanline  on another line than the object before it, or the first object of a frame
+-- Purpose     Merges loads and objects into one stream for the processors. A load is the host's vector, unchanged. An
+--             object gets a command by its position:
+--               new_scanline  on another line than the previous object, or the first object of a frame
 --               new_object    at the same pixel
 --               new_pixel     at another pixel of the line
 --             A shadow polygon keeps its command.
--- Contract    All streams are valid/ready. No object is offered together with a load. frame_start is '1' in the clock in
---             which a load of new_frame is taken.
+-- Contract    All streams are valid/ready. Objects and loads are not offered at the same time. frame_start is '1' in
+--             the clock in which a new_frame load is accepted.
 -- Formats     load: processors_pkg, a vector of the host; object, token: token_pkg
 -- Latency     0
 -- Throughput  1 token per clock
@@ -48,9 +48,9 @@ architecture rtl of token_order is
 
   subtype word_t is std_logic_vector(c_pixel.command.high downto c_pixel.command.low);
 
-  -- Where the last object lies.
+  -- Position of the last object.
   type reg_t is record
-    drawn : std_logic; -- there is one in this frame
+    drawn : std_logic; -- the frame has an object
     y     : std_logic_vector(formats(c_exact).pixel_y.bits - 1 downto 0);
     x     : std_logic_vector(formats(c_exact).pixel_x.bits - 1 downto 0);
   end record;

@@ -1,18 +1,18 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     A triangle as tokens: a token for each pixel that it covers, with depth, N, P and 1/w there, and the
---             material. The triangle's words go with its lines: the line stage may hold the next triangle already, while
---             the span stage walks this one.
+-- Purpose     Converts a triangle to tokens: one token per covered pixel, with the depth, N, P and 1/w of the pixel,
+--             and the material. Line and span keep their own copy of the triangle's words: the line stage may already
+--             hold the next triangle while the span stage walks this one.
 --
 --               init --> triangle_walker --> z_interpolator, a plane_interpolator per word of N, P and 1/w --> token
 --                  \--> request and material, of line and span --------------------------------------------/
 --
--- Contract    Both streams are valid/ready. init_ready comes when the triangle's first line is loaded, so init stands
---             still from the clock before, in which the walker reads it. A token stands still while it waits.
--- Formats     init: processors_pkg, a triangle's vector; token: token_pkg, its command that of the request
--- Latency     3 clocks from a vector offered to its first token (its first line covering a pixel)
--- Throughput  1 token per clock, with no bubble between spans, lines and triangles, but that a triangle takes 2 clocks at
---             least, and a line that covers no pixel one where no span is drawn meanwhile
+-- Contract    Both streams are valid/ready. init_ready is '1' when the triangle's first line is loaded. init must be
+--             stable from the clock before, in which the walker reads it. A token does not change while it waits.
+-- Formats     init: processors_pkg, a triangle's vector; token: token_pkg, with the request's command
+-- Latency     3 clocks from an offered vector to its first token (its first line covering a pixel)
+-- Throughput  1 token per clock, with no bubble between spans, lines and triangles. Exceptions: a triangle takes at
+--             least 2 clocks, and a line without a pixel takes 1 clock if no span is drawn meanwhile
 -- Error       see plane_sum in formats_pkg
 -- Source      processors paper, section 2: the object processors interpolate N and P linearly
 -- Golden twin model/golden/triangle_walker.hpp, model/golden/plane_interpolator.hpp
@@ -59,7 +59,7 @@ architecture rtl of token_rasterizer is
   signal line_load     : std_logic;
   signal line_step     : std_logic;
   signal line_carry    : std_logic;
-  signal line_advance  : std_logic; -- a step that is no load, too
+  signal line_advance  : std_logic; -- a step without a load
   signal span_load     : std_logic;
   signal span_step     : std_logic;
   signal span_advance  : std_logic;
@@ -148,7 +148,7 @@ begin
           value      => value
           );
 
-      -- The host has added half a step of what this drops.
+      -- The host has added half a step of the dropped bits.
       vectors((plane + 1) * c_vector_bits - 1 downto plane * c_vector_bits) <=
         value(c_sum_bits - 1 downto c_sum_bits - c_vector_bits);
 

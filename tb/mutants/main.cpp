@@ -26,16 +26,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Of one proof. The quick form ends the same on a busy machine.
+// Limit of one proof. The quick form has a longer one, so that a busy machine does not change its result.
 constexpr std::chrono::seconds c_proof_time{2}, c_quick_proof_time{60};
 constexpr unsigned c_quick_step = 8;  // the quick form replays every eighth fault
 constexpr std::size_t c_shown = 3;    // survivors of a VHDL line that the page names
 
 struct Options {
   std::filesystem::path source, vectors, scratch, page;
-  std::string part;  ///< only netlists, and testbenches, whose names hold it
+  std::string part;  ///< only netlists and testbenches whose name contains it
   unsigned jobs = 1, seed = 1;
-  unsigned step = 1;      ///< every so many faults of a netlist one is replayed
+  unsigned step = 1;      ///< replay one of so many faults of each netlist
   std::uint32_t one = 0;  ///< the number of the only fault; 0: all
   bool prove = true, netlists = true, sources = true, quick = false;
 };
@@ -44,7 +44,7 @@ enum class End { found, equivalent, survived };
 
 struct Outcome {
   Fault fault;
-  std::uint32_t number;  ///< what `mutsel` selects it by
+  std::uint32_t number;  ///< value of `mutsel` that selects the fault
   End end;
   std::string difference{};
 };
@@ -75,14 +75,14 @@ Result<NetlistResult> run_netlist(const Options& options, const Design& design, 
   if (!model) return model.error();
   const auto vectors = read_design_vectors(design, options.vectors);
   if (!vectors) return vectors.error();
-  // Without a fault all is equal.
+  // Without a fault all outputs must be equal.
   if (const auto difference = replay(design, *vectors, *model, 0))
     return Error{ExitCode::differs, fmt::format("{}: without a fault: {}", design.name, *difference)};
   NetlistResult result;
   std::vector<std::uint32_t> survivors;
   for (std::uint32_t number = 1; number <= netlist->faults.size(); ++number) {
     const Fault& fault = netlist->faults[number - 1];
-    // Replay has no time between edges, which an inverted clock would show.
+    // Skip faults of clocks: a replay has no time between edges, in which an inverted clock would be visible.
     if (fault.port == "CLK" || (options.one != 0 && number != options.one)) continue;
     if (number % options.step != 0) continue;
     const auto difference = replay(design, *vectors, *model, number);
@@ -112,7 +112,7 @@ class Reasons {
     if (!listed) return listed.error();
     return Reasons(source, *listed);
   }
-  /// The reason for survivors of the line `place` ("file:line"); empty where there is none.
+  /// The reason for survivors of the line `place` ("file:line"); empty if there is none.
   std::string of(const std::string& place) {
     const std::string text = text_of(place);
     for (const Survivor& survivor : listed_)
@@ -196,7 +196,7 @@ class Run {
     std::erase_if(*faults, [&](const SourceFault& f) {
       return f.test.find(options_.part) == std::string::npos || (options_.quick && !f.quick);
     });
-    // Without a fault each testbench passes.
+    // Without a fault each testbench must pass.
     std::map<std::string, SourceFault> tests;
     for (const SourceFault& fault : *faults) tests[fault.test].test = fault.test;
     std::vector<SourceFault> all;
@@ -220,7 +220,7 @@ class Run {
     });
   }
 
-  /// Prints what is wrong, writes the page where one is wanted, and says how the program ends.
+  /// Prints all faults, writes the page if requested, and returns the exit code.
   ExitCode judge() {
     auto reasons = Reasons::read(options_.source);
     if (!reasons) return fail(reasons.error());

@@ -20,8 +20,8 @@ constexpr const char* c_install_yosys = "apt-get install yosys";
 constexpr std::chrono::seconds c_yosys_time{600};
 constexpr std::chrono::seconds c_reduction_time{20};  // of one fault, before the proof
 
-// {0}: top, {1}: faults, {2}: seed. Faults are made in what remains after optimization: in logic that no
-// output depends on, or that is constant, a fault would have no effect.
+// {0}: top, {1}: faults, {2}: seed. Make the faults after optimization: a fault in logic that is constant, or
+// that no output depends on, would have no effect.
 constexpr const char* c_mutate =
     "read_verilog netlist.v\n"
     "hierarchy -top {0}\n"
@@ -31,7 +31,7 @@ constexpr const char* c_mutate =
     "opt_clean\n"
     "write_verilog -noattr mutated.v\n";
 
-// Widths are implied in the Verilog that Yosys writes.
+// The Verilog that Yosys writes has implicit widths.
 constexpr const char* c_lint = "/* verilator lint_off WIDTH */\n";
 
 Status run_in(const std::filesystem::path& folder, std::vector<std::string> arguments,
@@ -65,7 +65,7 @@ Fault read_fault(const std::string& line, const std::vector<std::string>& netlis
               option(line, "port"),
               fmt::format("{}[{}]", option(line, "wire"), option(line, "wirebit")),
               {}};
-  // Of the statement itself, or of the instance that it is in.
+  // The line of the statement itself, or of the instance that contains it.
   static const std::regex source(R"( -src netlist\.v:(\d+)\.)");
   for (auto at = std::sregex_iterator(line.begin(), line.end(), source); at != std::sregex_iterator(); ++at) {
     const std::size_t number = std::stoul((*at)[1]) - 1;
@@ -77,8 +77,8 @@ Fault read_fault(const std::string& line, const std::vector<std::string>& netlis
   return fault;
 }
 
-/// Both netlists with the same inputs, one without a fault and one with fault `select`. What they write into
-/// a memory counts as well, since the memory is mapped to registers.
+/// Both netlists with the same inputs, one without a fault and one with fault `select`. Writes to a memory
+/// are compared, too, since the memory is mapped to registers.
 std::string miter(const FaultyNetlist& netlist) {
   std::string header, gold, gate, differences;
   std::string declared = "  input [15:0] select;\n  output differs;\n";
@@ -103,8 +103,8 @@ std::string miter(const FaultyNetlist& netlist) {
       header, declared, netlist.top, gold, gate, differences);
 }
 
-/// The and-gates of the miter with the input `select` at `number`: from AIGER's text to its binary form,
-/// which ABC reads.
+/// The and-gates of the miter with the input `select` set to `number`: converts AIGER's text to its binary
+/// form, which ABC reads.
 std::string select_fault(const std::string& text, std::uint32_t number) {
   std::istringstream in(text);
   std::string word;
@@ -158,10 +158,10 @@ std::vector<std::string> vhdl_places(const std::string& printed) {
       const std::string file = found[1];
       last = fmt::format("{}:{}", file.substr(file.starts_with("rtl/") ? 4 : 0), found[2].str());
     }
-    // The mended netlist has no line of comments alone.
+    // Lines with only comments are not in the mended netlist.
     if (std::regex_replace(line, comment, "").find_first_not_of(" \t\r") == std::string::npos) continue;
     places.push_back(last);
-    // A comment is about the next statement, which ends with a semicolon.
+    // A comment belongs to the next statement, which ends with a semicolon.
     if (line.find(';') != std::string::npos && !line.starts_with("    ")) last.clear();
   }
   return places;
@@ -175,7 +175,7 @@ Result<FaultyNetlist> make_faulty_netlist(const Design& design, const GhdlLibrar
   if (!text) return text.error();
   FaultyNetlist netlist{scratch / design.name, design.entity, {}, {}};
   const std::string script = fmt::format(c_mutate, design.entity, design.faults, seed);
-  // Keep what an earlier run made of the same netlist.
+  // Reuse the result of an earlier run on the same netlist.
   const std::string key = ContentHash().add(*text).add(script).add(c_lint).hex();
   const auto kept = read_file(netlist.folder / "key");
   if (!kept || *kept != key) {

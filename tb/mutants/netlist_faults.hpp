@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts faults into a design's netlist with Yosys, all in one Verilog text: the input `mutsel` selects one.
+// Puts faults into a design's netlist by Yosys. One Verilog text contains all faults; the input `mutsel`
+// selects one.
 #pragma once
 
 #include <chrono>
@@ -18,12 +19,12 @@ namespace halfway::mutants {
 struct Fault {
   std::string kind;   ///< Yosys's mode: inv, const0, const1, cnot0, cnot1
   std::string port;   ///< of a cell
-  std::string wire;   ///< at that port, with its bit
-  std::string place;  ///< VHDL file and line; empty where the netlist does not say
+  std::string wire;   ///< connected to the port, with its bit
+  std::string place;  ///< VHDL file and line; empty if the netlist does not give them
 };
 
 struct FaultyNetlist {
-  std::filesystem::path folder;  ///< which holds mutated.v
+  std::filesystem::path folder;  ///< contains mutated.v
   std::string top;
   struct Port {
     std::string name;
@@ -31,14 +32,14 @@ struct FaultyNetlist {
     bool is_input = false;
   };
   std::vector<Port> ports;
-  std::vector<Fault> faults;  ///< `mutsel` is the index and 1
+  std::vector<Fault> faults;  ///< `mutsel` is the index plus 1
 };
 
-/// For each line of the mended netlist the VHDL file and line that GHDL's comments give; empty where there is
-/// none. `printed` is the netlist as GHDL prints it.
+/// For each line of the mended netlist, the VHDL file and line from GHDL's comments; empty without a comment.
+/// `printed` is GHDL's netlist.
 std::vector<std::string> vhdl_places(const std::string& printed);
 
-/// `scratch` keeps the result; `seed` selects other faults.
+/// `scratch` keeps the result. Each `seed` selects other faults.
 Result<FaultyNetlist> make_faulty_netlist(const Design& design, const GhdlLibrary& library,
                                           const std::filesystem::path& scratch, unsigned seed);
 
@@ -46,8 +47,8 @@ Result<FaultyNetlist> make_faulty_netlist(const Design& design, const GhdlLibrar
 Result<CompiledNetlist> compile(const Design& design, const FaultyNetlist& netlist,
                                 const std::filesystem::path& source, const std::filesystem::path& scratch);
 
-/// For each of the fault numbers: true where a proof says that no output ever differs, from registers that
-/// are all zero on and for all inputs. `time` limits each proof.
+/// For each of the fault numbers: true if a proof shows that no output ever differs, for all inputs, with all
+/// registers zero at the start. `time` limits each proof.
 Result<std::vector<bool>> prove_equivalent(const FaultyNetlist& netlist,
                                            const std::vector<std::uint32_t>& numbers,
                                            std::chrono::seconds time);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::chrono::seconds c_time{600};
 
-/// The testbench of the entity, from the project's root.
+/// The path of the entity's testbench, relative to the project's root.
 Result<std::string> testbench_of(const std::string& entity, const std::filesystem::path& source) {
   const auto files = files_below(source / "tb", ".vhd");
   if (!files) return files.error();
@@ -94,7 +94,7 @@ Result<bool> fails(const SourceFault& fault, const std::filesystem::path& source
     if (auto s = write_file(folder->path() / one.name, one.content); !s) return s.error();
     import.push_back(one.name);
   }
-  // Link to the vectors, but to a faulty copy of the faulty file.
+  // Link to the vectors; copy only the faulty file.
   std::error_code error;
   const auto its_vectors = folder->path() / "vectors";
   std::filesystem::create_directory(its_vectors, error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults in the text of the sources and of the vector files, which a testbench in GHDL must find.
+// Faults in the text of the sources and of the vector files. A testbench in GHDL must detect them.
 #pragma once
 
 #include <filesystem>
@@ -11,19 +11,19 @@
 namespace halfway::mutants {
 
 struct SourceFault {
-  std::string file;  ///< from the project's root, or from the folder of vectors
+  std::string file;  ///< relative to the project's root, or to the folder of vectors
   std::string old_text, new_text;
   unsigned line = 0, word = 0;  ///< of a vector file; both 0: the file ends early
   bool in_vectors = false;
-  std::string test;    ///< the entity whose testbench fails
+  std::string test;    ///< the entity whose testbench must fail
   bool quick = false;  ///< part of the quick form
 };
 
 /// Reads source_faults.toml.
 Result<std::vector<SourceFault>> read_source_faults(const std::filesystem::path& file);
 
-/// The file's text with the fault in it. An error where the old text does not stand in it exactly once, or
-/// the vector file has no such word.
+/// The file's text with the fault. Fails if the old text does not occur exactly once, or if the vector file
+/// does not have the word.
 Result<std::string> with_fault(const SourceFault& fault, const std::string& text);
 
 /// Whether the testbench of `fault.test` fails, in a copy of the sources and vectors. Without a file the copy

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Shaded objects of scenes, at full speed, with a slow source, with a slow sink, and with both.
+-- Shaded objects of scenes: at full speed, with a slow source, with a slow sink, and with both.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -17,7 +17,7 @@ entity fragment_output_run is
     g_specular    : boolean;
     g_normalize   : boolean;
     g_shadows     : boolean;
-    g_file        : string -- its name, or how its name begins
+    g_file        : string -- file name, or its start
   );
   port (
     finished : out boolean := false
@@ -27,7 +27,7 @@ end entity;
 architecture sim of fragment_output_run is
   constant c_config : config_t := config(g_exact, g_channels, g_directional, g_positional, g_spots, true, g_specular,
     g_normalize, g_shadows);
-  -- Words at one pace.
+  -- Number of words between changes of the pace.
   constant c_pace : positive := 60;
 
   constant c_formats : formats_t := formats(g_exact);
@@ -139,7 +139,7 @@ begin
     wait;
   end process;
 
-  -- A fragment comes a clock after its token, and a token is taken whenever there is room.
+  -- A fragment is output one clock after its token. A token is accepted whenever the output register is free.
   pace : process (clk) is
     variable taken : boolean := false;
   begin
@@ -158,7 +158,7 @@ entity fragment_output_tb is
   );
 end entity;
 
--- As write_parts of tb/vectors/processors_shader.cpp.
+-- The configurations are those of write_parts in tb/vectors/processors_shader.cpp.
 architecture sim of fragment_output_tb is
   signal finished : boolean_vector(0 to 3);
 begin

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Loads, objects and shadow polygons of scenes, at full speed and with pauses of the pipeline.
+-- Loads, objects and shadow polygons of scenes: at full speed, and with stalls of the pipeline.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -17,7 +17,7 @@ entity token_order_run is
     g_specular    : boolean;
     g_normalize   : boolean;
     g_shadows     : boolean;
-    g_file        : string -- its name, or how its name begins
+    g_file        : string -- file name, or its start
   );
   port (
     finished : out boolean := false
@@ -27,7 +27,7 @@ end entity;
 architecture sim of token_order_run is
   constant c_config : config_t := config(g_exact, g_channels, g_directional, g_positional, g_spots, true, g_specular,
     g_normalize, g_shadows);
-  -- Words at one pace.
+  -- Number of words between changes of the pace.
   constant c_pace : positive := 60;
 
   signal clk          : std_logic := '0';
@@ -114,7 +114,7 @@ entity token_order_tb is
   );
 end entity;
 
--- As write_parts of tb/vectors/processors_shader.cpp.
+-- The configurations are those of write_parts in tb/vectors/processors_shader.cpp.
 architecture sim of token_order_tb is
   signal finished : boolean_vector(0 to 3);
 begin

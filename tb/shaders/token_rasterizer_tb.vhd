@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Triangles of any kind, lines and piles of objects: every token in full, at full speed, with a slow source, with a slow
--- sink, and with both.
+-- Triangles of all kinds, lines and piles of objects. Every token is compared completely: at full speed, with a slow
+-- source, with a slow sink, and with both.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -18,7 +18,7 @@ entity token_rasterizer_run is
     g_specular    : boolean;
     g_normalize   : boolean;
     g_shadows     : boolean;
-    g_file        : string -- its name, or how its name begins
+    g_file        : string -- file name, or its start
   );
   port (
     finished : out boolean := false
@@ -28,7 +28,7 @@ end entity;
 architecture sim of token_rasterizer_run is
   constant c_config : config_t := config(g_exact, g_channels, g_directional, g_positional, g_spots, true, g_specular,
     g_normalize, g_shadows);
-  -- Words at one pace.
+  -- Number of words between changes of the pace.
   constant c_pace : positive := 60;
 
   signal clk         : std_logic := '0';
@@ -139,7 +139,7 @@ begin
     end if;
   end process;
 
-  -- The first token of a file comes 3 clocks after its triangle is offered.
+  -- The first token of a file is output 3 clocks after its triangle is offered.
   latency : process is
     variable clocks : natural := 0;
   begin
@@ -161,7 +161,7 @@ entity token_rasterizer_tb is
   );
 end entity;
 
--- As write_parts of tb/vectors/processors_shader.cpp.
+-- The configurations are those of write_parts in tb/vectors/processors_shader.cpp.
 architecture sim of token_rasterizer_tb is
   signal finished : boolean_vector(0 to 3);
 begin

@@ -27,7 +27,7 @@ Status write_saturate(const std::filesystem::path& folder) {
   } else {
     Random random(W);
     constexpr std::uint64_t c_one = std::uint64_t{1} << FractionBits;
-    // Each whole result with the fractions around it, and every power of two with its neighbours.
+    // Each integer result with the fractions next to it, and every power of two with its neighbours.
     for (std::uint64_t whole = 0; whole <= std::uint64_t{1} << ResultBits; ++whole) {
       add(whole * c_one - 1);
       add(whole * c_one);
@@ -60,7 +60,7 @@ Status write_multiplier_of(const std::filesystem::path& folder, int a_bits, int 
         .word(product, a_bits + b_bits)
         .end_vector();
     ++filled;
-    // The quarters of the last product become halves, and these one.
+    // The quarters of the last product become halves, and the halves become the product.
     product = halves;
     halves = quarters;
     if (enable) quarters = golden::multiply(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
@@ -89,7 +89,7 @@ Status write_angle_address(const std::filesystem::path& folder, int address_bits
     for (std::uint64_t bits = 0; bits < std::uint64_t{1} << c_bits; ++bits) add(bits);
   } else {
     Random random(static_cast<std::uint64_t>(address_bits));
-    // Both ends of every cell within three half bells of the top, and something between; every power of two
+    // Both ends of every cell within three half bells of the top, and an angle between; every power of two
     // with its neighbours.
     const std::uint64_t cell = std::uint64_t{1} << (c_fraction - address_bits);
     for (int k = -(3 << address_bits); k < 3 << address_bits; ++k) {
@@ -109,7 +109,7 @@ Status write_angle_address(const std::filesystem::path& folder, int address_bits
   return file.write(folder / fmt::format("{}_{}.txt", Preset::c_name, address_bits));
 }
 
-// A line: the terms, the last first as one flat word; result.
+// A line: the terms as one flat word, the last term first; result.
 Status write_sum_of(const std::filesystem::path& folder, int terms, int term_bits, int fraction_bits,
                     int result_bits) {
   Random random(static_cast<std::uint64_t>(terms * term_bits));
@@ -159,7 +159,7 @@ Status write_sum_of(const std::filesystem::path& folder, int terms, int term_bit
 
 Status write_saturate(const std::filesystem::path& folder) {
   if (auto s = write_saturate<16, 4, 8>(folder); !s) return s;
-  if (auto s = write_saturate<12, 2, 8>(folder); !s) return s;  // no bit to spare
+  if (auto s = write_saturate<12, 2, 8>(folder); !s) return s;  // the fewest bits: no spare bit
   if (auto s = write_saturate<11, 0, 8>(folder); !s) return s;
   if (auto s =
           write_saturate<Exact::c_intensity_bits, Exact::c_intensity_fraction_bits, Exact::c_colour_bits>(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stimulus and expected answers of each testbench, from the golden twin. `folder` is the entity's own.
+// Writes stimulus and expected results for each testbench, from the golden model. `folder` belongs to the
+// entity.
 #pragma once
 
 #include <filesystem>

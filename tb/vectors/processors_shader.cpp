@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For each configuration of the processors shader and set of vectors: init and fragments as in shaders.cpp;
-// the clocks stand there for the file's sake, as 0. A set leaves nothing behind: no light, no object.
+// Files for each configuration of the processors shader and set of vectors: init and fragments as in
+// shaders.cpp. The clocks are 0; they only keep the format. After a set no light and no object is left.
 #include "golden/processors_shader.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 
 using golden::Command, golden::Exact, golden::Field, golden::Published, golden::set_bits;
 
-// tb/shaders/processors_shader_tb.vhd has the same.
+// tb/shaders/processors_shader_tb.vhd has the same list.
 struct Processors {
   const char* name;
   golden::ProcessorsConfig config;
@@ -51,13 +51,13 @@ class Host {
         rasterizer_(processors.config),
         random_(static_cast<std::uint64_t>(layout_.init_bits())) {}
 
-  // What a set is made of.
+  // The elements of a set.
   void define_all() {
     for (int light = 0; light <= p_.config.lights(); ++light) load(Command::define, light);
   }
   void some_load() {
     constexpr Command c_loads[] = {Command::define, Command::redefine, Command::remove, Command::new_frame};
-    // Of lights that are not there, too.
+    // Also for lights that do not exist.
     load(c_loads[random_.between(0, 3)], static_cast<int>(random_.between(0, p_.config.lights() + 1)));
   }
   void draw(const InitVector& walk) { send(walk_vector(Command::draw, walk)); }
@@ -69,13 +69,13 @@ class Host {
       draw(walk);
     }
   }
-  // Objects that meet: at one pixel, and at its neighbour above.
+  // Objects at one pixel, and at the pixel above.
   void draw_pile() {
     const auto y = static_cast<std::uint32_t>(random_.between(1, 4095));
     const std::int64_t x = random_.between(0, 4095);
     for (const std::uint32_t line : {y, y, y - 1, y - 1, y}) draw(line_walk(line, x, x + 1, 1 << 20, 3));
   }
-  // An object again at its pixel: after a load that starts a frame, and after another one.
+  // Draws an object twice at its pixel, with a load between that starts a frame, or with another load.
   void draw_again() {
     const InitVector object = line_walk(7, 20, 21, 1 << 20, 3);
     for (const Command command : {Command::new_frame, Command::define}) {
@@ -84,7 +84,8 @@ class Host {
       draw(object);
     }
   }
-  // A line in its rounds. A volume's exit lies behind its entry, or before it, as rounding may have it.
+  // A line in its rounds. The exit of a volume lies behind its entry, or in front of it, as rounding may
+  // cause.
   void draw_line() {
     const std::uint32_t y = static_cast<std::uint32_t>(random_.between(0, 4095));
     const std::int64_t left = random_.one_in(4) ? 4096 - 12 : random_.between(0, 4000);
@@ -108,7 +109,7 @@ class Host {
     if (random_.one_in(8)) some_load();
     for (const InitVector& object : objects) draw(object);
   }
-  // More volumes before an object than a counter holds.
+  // More volumes in front of an object than a counter can count.
   void go_wrong() {
     define_all();
     const InitVector object = line_walk(5, 3, 4, 1 << 20, 1);
@@ -124,7 +125,7 @@ class Host {
   }
   bool fault() const { return twin_.fault(); }
 
-  // For the testbenches of the shader's parts.
+  // Files of the testbenches of the shader's parts.
   Status write_rasterizer(const std::filesystem::path& folder) const {
     if (auto s = triangles_.write(folder / fmt::format("{}_init.txt", p_.name)); !s) return s;
     return tokens_.write(folder / fmt::format("{}_tokens.txt", p_.name));
@@ -152,7 +153,7 @@ class Host {
     using Layout = golden::ProcessorsLayout<Preset>;
     return Layout::light_colour_low(p_.config.channels);
   }
-  // What the parts of the shader make of the vector.
+  // The expected outputs of the shader's parts for the vector.
   void send_to_parts(const InitVector& vector) {
     const auto command = static_cast<Command>(golden::get_bits(vector, Preset::request_header_at::command));
     const bool loads = command >= Command::new_frame && command <= Command::remove;
@@ -176,8 +177,8 @@ class Host {
         vector, [] {},
         [&](golden::SpanXWord) {
           auto token = rasterizer_.token();
-          // The command of the host's vector and of its token are the same word; `decode` would not read all
-          // of its fields.
+          // The command has the same bits in the host's vector and in its token. `decode` would not read all
+          // fields for this command.
           const Command walk = token.command;
           token.command = Command::new_pixel;
           auto words = words_of(token);
@@ -254,7 +255,7 @@ class Host {
     return vector;
   }
 
-  // Vectors that turn slowly; one plane in twelve is left as it is, random words.
+  // Vectors that change slowly. One plane in twelve keeps random words.
   void put_planes(InitVector& vector) {
     using At = typename Preset::plane_header_at;
     const auto normal = direction(), place = direction();
@@ -332,7 +333,7 @@ void draw_set(Host<Preset>& host, const Processors& processors, Mix mix) {
   host.finish();
 }
 
-// The parts of the shader, with all words of tokens and with shadows, in both presets.
+// The parts of the shader with all words of tokens and with shadows, in both presets.
 template <class Write>
 Status write_parts(const Write& write) {
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{4}}) {

@@ -38,8 +38,8 @@ EdgeStart garbage_edge(Random& random) {
           random.one_in(2)};
 }
 
-// Of a set of triangles: lines: y, start, stop, empty, last, carry; fragments: triangle, y, x, and the clock
-// in which it is given out at full speed.
+// The files of a set of triangles. lines: y, start, stop, empty, last, carry. fragments: triangle, y, x, and
+// the clock in which the fragment is output at full speed.
 struct WalkFiles {
   VectorFile inits, lines, fragments;
 
@@ -48,7 +48,7 @@ struct WalkFiles {
     lines.word(line.y, Preset::c_pixel_y_bits).word(line.start).word(line.stop);
     lines.flag(line.pixels() == 0).flag(line.last).flag(line.carry).end_vector();
   }
-  // The first of them in clock `first`.
+  // The first fragment is output in clock `first`.
   template <class Preset>
   void add_fragments(const WalkedLine& line, std::int64_t first) {
     for (std::int64_t i = 0; i < line.pixels(); ++i) {
@@ -70,7 +70,7 @@ std::vector<InitVector> walker_triangles(Random& random, Mix mix) {
   using At = typename Preset::init_header_at;
   auto set = random_triangles<Preset>(random, mix, Preset::c_init_header_bits, 5000);
   if (mix != Mix::mixed) return set;
-  // No line at all counts as all that the counter holds; here they are empty.
+  // A count of 0 upper lines means as many lines as the counter can count; here these lines are empty.
   InitVector none = set.front();
   set_bits(none, At::upper_lines, 0);
   if constexpr (std::is_same_v<Preset, Exact>) {
@@ -87,8 +87,8 @@ std::vector<InitVector> walker_triangles(Random& random, Mix mix) {
   return set;
 }
 
-// init: the header, and the clock in which it is taken at full speed. Clocks count from the first init vector
-// taken, a clock before its triangle begins.
+// init: the header, and the clock in which it is accepted at full speed. Clocks count from the first accepted
+// init vector, one clock before its triangle starts.
 template <class Preset>
 Status write_walker(const std::filesystem::path& folder) {
   Random random(Preset::c_init_header_bits);
@@ -109,7 +109,7 @@ Status write_walker(const std::filesystem::path& folder) {
         pixels += line.pixels();
         files.add_fragments<Preset>(line, first);
       }
-      // What the header of triangle_walker.vhd promises: a triangle takes two clocks at least.
+      // Check the promise in the header of triangle_walker.vhd: a triangle takes at least two clocks.
       if (const std::int64_t lost = losses.triangle(first_clock, pixels);
           mix == Mix::dense && (lost < 0 || lost > (pixels_before == 1 ? 1 : 0)))
         return tool_failed(fmt::format("triangle_walker: {} clocks lost before clock {}", lost, first_clock));
@@ -133,7 +133,7 @@ Status write_counter(const std::filesystem::path& folder) {
     std::size_t taken = 0;
     for (int clock = 0; taken < triangles.size() || valid; ++clock) {
       const bool full_speed = clock / 500 % 2 == 0;
-      // A triangle of all 2**bits lines, of the mixed ones, is counted to its end.
+      // In the mixed set, a triangle of 2**bits lines is counted to its end.
       const bool reset = mix == Mix::dense && random.one_in(200);
       const bool advance = full_speed || random.one_in(2);
       offered = taken < triangles.size() && (offered || full_speed || random.one_in(3));
@@ -160,7 +160,8 @@ Status write_counter(const std::filesystem::path& folder) {
 }
 
 // A line: checked, load, init, section_change, step; empty, start, stop, remaining, backward, carry, before
-// the clock's edge. Where load or section_change waits for its step, init need not be the one that is loaded.
+// the clock's edge. While load or section_change waits for its step, init may differ from the init vector
+// that is loaded.
 template <class Preset>
 Status write_pair(const std::filesystem::path& folder) {
   Random random(62);
@@ -185,7 +186,7 @@ Status write_pair(const std::filesystem::path& folder) {
     checked = true;
     golden::LineCounter<Preset> lines;
     lines.load(init);
-    // Not all lines of the greatest triangles.
+    // Walk only the first lines of the largest triangles.
     for (int line = 0; !lines.last() && line < 40; ++line) {
       const bool section_change = lines.section_last();
       while (random.one_in(4)) clock(false, garbage(), section_change, false);
@@ -197,7 +198,7 @@ Status write_pair(const std::filesystem::path& folder) {
   return file.write(folder / (std::string(Preset::c_name) + ".txt"));
 }
 
-// A walked line with words of all kinds, as line_pkg has it.
+// A line record as in line_pkg, with random words.
 struct LineRecord {
   std::uint64_t triangle, y, start, stop, remaining;
   bool empty, backward, carry;
@@ -220,7 +221,7 @@ struct LineRecord {
   }
 };
 
-// In: clear, token; out: the tokens that leave.
+// In: clear, token; out: the output tokens.
 template <class Preset>
 Status write_objects(const std::filesystem::path& folder) {
   using At = typename Preset::pixel_header_at;
@@ -282,7 +283,7 @@ Status write_edge_walker(const std::filesystem::path& folder) {
   VectorFile file;
   golden::EdgeWalker twin;
   std::vector<EdgeStart> edges;
-  bool waits = false;  // a load, for its step
+  bool waits = false;  // a load waits for its step
   for (int i = 0; i < 6000; ++i) {
     if (edges.empty()) {
       for (const Walk& walk : random_walks(random))
@@ -307,13 +308,13 @@ Status write_edge_walker(const std::filesystem::path& folder) {
   return file.write(folder / "edges.txt");
 }
 
-// A line: checked, load, x, slope, step; x, before the edge. Words of all kinds: sums wrap.
+// A line: checked, load, x, slope, step; x, before the edge. Random words, so that sums wrap.
 Status write_slope_walker(const std::filesystem::path& folder) {
   using EdgeX = golden::SlopeWalker::EdgeX;
   Random random(15);
   VectorFile file;
   golden::SlopeWalker twin;
-  bool waits = false;  // a load, for its step
+  bool waits = false;  // a load waits for its step
   bool taken = false;
   EdgeX x, slope;
   for (int i = 0; i < 6000; ++i) {
@@ -384,7 +385,7 @@ Status write_span_stage(const std::filesystem::path& folder) {
   Random random(64);
   VectorFile file;
   LineRecord line{};
-  std::uint64_t drawn = 0;  // pixels of the line before this one
+  std::uint64_t drawn = 0;  // pixels of the previous line
   bool valid = false;
   const auto last = [&] { return !valid || drawn == line.remaining; };
   for (int clock = 0; clock < 20000; ++clock) {
