@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     An angle's address in a cosine table. Preset exact: the upper fraction bits of its magnitude, and
---             whether it lies between the bell's ends, -1 <= angle < 1. The magnitude is the ones' complement, so
---             that both sides of the bell's top meet the same entries at the same distance. Preset published: the
---             upper bits of the word, which goes round where the table does.
+-- Purpose     The address of an angle in a cosine table. Preset exact: the upper fraction bits of the magnitude;
+--             in_range is '1' if the angle is inside the bell, -1 <= angle < 1. The magnitude is the ones' complement
+--             of a negative angle, so that both sides of the bell read the same entries at the same distance from the
+--             top. Preset published: the upper bits of the word; it wraps where the table does.
 -- Formats     formats_pkg: angle
 -- Latency     0 (combinational)
 -- Throughput  1 address per clock
--- Error       none: an address is its cell of the angle, exactly
--- Source      spherical paper, section 5: the upper bits of the line interpolator address the ROM; in_range is ours
+-- Error       none: the address is exactly the cell that contains the angle
+-- Source      spherical paper, section 5: the upper bits of the line interpolator address the ROM. in_range is ours
 -- Golden twin model/golden/angle_address.hpp
 
 library ieee;

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Dot product of two vectors of three.
--- Formats     a, b: components of g_bits, signed, x lowest; sum: signed, twice as many bits and one
+-- Purpose     Dot product of two vectors of three components.
+-- Formats     a, b: components of g_bits, signed, x lowest; sum: signed, 2 g_bits + 1
 -- Latency     1 clock with enable (shading_pkg)
 -- Throughput  1 vector per clock
 -- Error       none

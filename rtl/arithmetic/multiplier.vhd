@@ -1,10 +1,9 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Product of two unsigned words: the quarters of a times b in one clock, their sums by two in the next, and
---             the sum of these in the one after.
--- Contract    no reset: what was in its stages comes out; the product stands still but where operands came three clocks
---             before
--- Formats     a: g_a_bits, b: g_b_bits, product: as many as both together
+-- Purpose     Product of two unsigned words in three stages: each quarter of a times b; the sums of two quarters; the
+--             sum of both halves.
+-- Contract    There is no reset: words in the stages are output. product changes only three clocks after enable.
+-- Formats     a: g_a_bits, b: g_b_bits, product: g_a_bits + g_b_bits; unsigned
 -- Latency     3 clocks from operands with enable to their product
 -- Throughput  1 product per clock
 -- Error       none
@@ -19,7 +18,7 @@ entity multiplier is
   generic (
     g_a_bits : positive;
     g_b_bits : positive;
-    g_gated  : boolean := true -- a comes through a gate, not straight from registers
+    g_gated  : boolean := true -- a comes through a gate and not directly from registers
   );
   port (
     clk     : in  std_logic;
@@ -32,7 +31,7 @@ end entity;
 
 architecture rtl of multiplier is
 
-  -- Of a with zeros before it: no quarter is without a bit.
+  -- Bits of a quarter of a. a is padded with zeros, so that no quarter is empty.
   constant c_digit : positive := (g_a_bits + 3) / 4; -- elaboration only
 
   subtype digit_t is unsigned(c_digit + g_b_bits - 1 downto 0);
@@ -44,21 +43,21 @@ architecture rtl of multiplier is
   type halves_t is array (0 to 1) of half_t;
 
   type reg_t is record
-    filled  : std_logic_vector(1 to 2); -- quarters, or halves, are of new operands
+    filled  : std_logic_vector(1 to 2); -- the quarters, or the halves, belong to new operands
     digits  : digits_t;
     halves  : halves_t;
     product : whole_t;
   end record;
 
-  -- A quarter of a, times b.
+  -- Multiply a quarter of a by b.
   function product_of (digit, word : unsigned) return digit_t is
     variable result : digit_t;
   begin
     if g_gated then
       return digit * word;
     end if;
-    -- The sums' own cells choose whether b is added, and lookup tables stand in front of one term alone. With a gate in
-    -- front of a as well a cell would have an input too many.
+    -- Add b under an `if`: the cells of the sum then include the gate for b, and only one term needs lookup tables. If
+    -- a gate drives a, such a cell would need one input too many.
     result := (others => '0');
     for place in digit'range loop
       result := shift_left(result, 1);
@@ -87,7 +86,8 @@ begin
         for i in digits_t'range loop
           digit  := unsigned(padded((i + 1) * c_digit - 1 downto i * c_digit));
           result := product_of(digit, unsigned(b));
-          -- Without the quarter's highest bit nothing carries so far. As that is said, a cell of the sum's own gives it.
+          -- If the quarter's highest bit is zero, so is the highest bit of its product. With this gate written out,
+          -- that bit is the sum's own cell.
           result(digit_t'high) := result(digit_t'high) and digit(digit'high);
           r.digits(i) <= result;
         end loop;

@@ -1,14 +1,16 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     base ** exponent as 2 ** (exponent * log2(base)). The base's leading zeros are the whole part of its
---             logarithm, a table gives the rest; the product's whole part shifts what a table gives for its fraction.
---             Preset exact interpolates in both tables; preset published takes a cell's middle, and 1 for base 1.
--- Formats     base: direction's fraction bits and a whole one, 0 to 1; exponent: format exponent; result: weight
--- Latency     power_latency of shading_pkg, clocks with enable: 6, in preset published 2
+-- Purpose     base ** exponent as 2 ** (exponent * log2(base)). The number of leading zeros of the base is the whole
+--             part of the negative logarithm; a table gives the rest. The product's whole part shifts the value that a
+--             second table gives for its fraction. Preset exact interpolates in both tables. Preset published reads the
+--             value at the middle of a cell, and gives 1 for base 1.
+-- Formats     base: 0 to 1, one whole bit and direction's fraction bits; exponent: format exponent; result: weight
+-- Latency     power_latency of shading_pkg, in clocks with enable: 6, in preset published 2
 -- Throughput  1 per clock
--- Error       exact 2**-15 + exponent * 2**-23; published, of 255: 2.0 at exponent 1, 9.8 at 10, 45 at 50, 83 at 100,
---             because a cell of the logarithm is 1/64 wide
--- Source      processors paper, section 3 (the power by a table); logarithms are ours: a table of all exponents is not
+-- Error       exact 2**-15 + exponent * 2**-23; published, in steps of 1/255: 2.0 at exponent 1, 9.8 at 10, 45 at 50,
+--             83 at 100, because a cell of the logarithm is 1/64 wide
+-- Source      processors paper, section 3 (the power by a table). The logarithms are ours, because a table for all
+--             exponents is too large
 -- Golden twin model/golden/power.hpp
 
 library ieee;
@@ -40,7 +42,7 @@ architecture rtl of power is
   constant c_exponent  : positive          := c_formats.exponent.bits;
   constant c_weight    : positive          := c_formats.weight.bits;
 
-  -- Stages that count leading zeros: of 2**0, 2**1 and so on.
+  -- Stages that count leading zeros. Stage i removes 2**i zeros.
   function stages return positive is
     variable count : positive := 1;
   begin
@@ -58,13 +60,13 @@ architecture rtl of power is
     return b;
   end function;
 
-  -- Of -log2(base), and of its product with the exponent.
+  -- Widths of -log2(base), and of its product with the exponent.
   constant c_loss_bits      : positive := stages + c_log.fraction_bits;
   constant c_decay_fraction : positive := smaller(c_log.fraction_bits, 20);
   constant c_cut            : natural  := c_log.fraction_bits + c_formats.exponent.fraction - c_decay_fraction;
   constant c_product_bits   : positive := c_loss_bits + c_exponent - c_cut;
   constant c_whole_bits     : positive := c_product_bits - c_decay_fraction;
-  -- The decay as it is shifted: bits below a weight, one whole bit.
+  -- The decay before the shift: one whole bit, and guard bits below a weight.
   constant c_guard      : positive := 2;
   constant c_decay_bits : positive := c_formats.weight.fraction + c_guard + 1;
   constant c_shifts     : positive := 5;
@@ -81,7 +83,7 @@ architecture rtl of power is
     mantissa : std_logic_vector(c_fraction - 1 downto 0);
   end record;
 
-  -- The base without its leading zeros, and without the bit behind them.
+  -- Remove the leading zeros of the base and the one that follows them.
   function normalize (word : std_logic_vector(c_fraction downto 0)) return normalized_t is
     constant c_zeros  : std_logic_vector(c_fraction downto 0) := (others => '0');
 
@@ -97,7 +99,7 @@ architecture rtl of power is
     return (lead, shifted(c_fraction - 1 downto 0));
   end function;
 
-  -- Shifted right by a product's whole part, and rounded half up.
+  -- Shift the decay right by the product's whole part, and round half up.
   function shifted_weight (decay : decay_t; whole : unsigned(c_whole_bits - 1 downto 0)) return weight_t is
     constant c_zeros  : unsigned(c_whole_bits + c_decay_bits - 1 downto 0) := (others => '0');
 

@@ -1,12 +1,13 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     1 / sqrt(square): what a vector is multiplied with to become a unit vector. From 1 to 4 it is read from a
---             table, a cell's middle for all of the cell, as many cells from 1 to 2 as from 2 to 4; preset exact adds a
---             Newton step, y = T (3 - x T**2) / 2. Below 1 it is twice that of 4 square.
--- Formats     square: format square, 1/4 to 4 (0 gives a number, too); reciprocal: format root and a whole bit more
--- Latency     reciprocal_root_latency of shading_pkg, clocks with enable: 4, in preset published 1
+-- Purpose     1 / sqrt(square), by which a vector is multiplied to become a unit vector. Between 1 and 4 a table gives
+--             the value at the middle of each cell, with as many cells from 1 to 2 as from 2 to 4. Preset exact adds a
+--             Newton step, y = T (3 - x T**2) / 2. Below 1 the result is twice that for 4 square.
+-- Formats     square: format square, 1/4 to 4 (0 also gives a number); reciprocal: format root with one more whole bit
+-- Latency     reciprocal_root_latency of shading_pkg, in clocks with enable: 4, in preset published 1
 -- Throughput  1 per clock
--- Error       relative: 2**-19.7 exact, 2**-6.89 published; a unit vector is as long within 2**-19.5, or 2**-6.86
+-- Error       relative: 2**-19.7 exact, 2**-6.89 published. The length of a unit vector is within 2**-19.5, or
+--             2**-6.86, of 1
 -- Source      processors paper, section 3 (1/sqrt by a table); the Newton step is ours
 -- Golden twin model/golden/reciprocal_root.hpp
 
@@ -46,7 +47,7 @@ begin
   below_one <= '1' when square(c_high downto c_fraction) = (c_high downto c_fraction => '0') else '0';
   x     <= square(c_high - 2 downto 0) & "00" when below_one = '1' else square;
 
-  -- The bits below the highest that is set: the one of 2, or the one of 1.
+  -- Use the bits below the highest one that is set, of weight 2 or of weight 1.
   address <= '1' & x(c_high - 1 downto c_high - c_address + 1) when x(c_high) = '1' else
     '0' & x(c_high - 2 downto c_high - c_address);
 
@@ -70,11 +71,11 @@ begin
     constant c_rest_fraction : positive := c_rest_bits - 2;
     constant c_entry_bits    : positive := c_formats.root_entry.bits;
     constant c_square_bits   : positive := 2 * c_entry_bits;
-    constant c_cut           : natural  := c_x_fraction + c_square_bits - c_rest_fraction; -- of x T**2
-    -- The step falls short of the root by up to 3/2 of the entry's error squared: raised by half of that.
+    constant c_cut           : natural  := c_x_fraction + c_square_bits - c_rest_fraction; -- bits cut from x T**2
+    -- The Newton step is below the root by up to 3/2 of the entry's error squared. Add half of that.
     constant c_raised : natural                            := 3 * 2 ** c_rest_fraction + root_raise(g_exact);
     constant c_three  : unsigned(c_rest_bits - 1 downto 0) := to_unsigned(c_raised, c_rest_bits);
-    -- Of T (3 - x T**2), which is twice the root.
+    -- The lowest bit of the root in T (3 - x T**2), which is twice the root.
     constant c_root_low : natural := c_entry_bits + c_rest_fraction + 1 - c_formats.root.fraction;
 
     subtype entry_t is unsigned(c_entry_bits - 1 downto 0);

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Sum of unsigned fixed-point terms, as an integer of fewer bits. The sum is wide enough for all terms at their
---             largest, so it never wraps. Its fraction is dropped; sums above the largest result give the largest.
---             One of the terms contains the 0.5 that turns this into rounding.
+-- Purpose     Sum of unsigned fixed-point terms as an integer of fewer bits. The sum is wide enough for the largest
+--             terms, so it never wraps. Its fraction is dropped. Sums above the largest result give the largest. One of
+--             the terms contains the 0.5 that turns this into rounding.
 -- Contract    result does not change without enable
--- Formats     terms: g_terms of g_term_bits each, g_fraction_bits of them fraction, the first lowest; result: unsigned,
---             g_result_bits
+-- Formats     terms: g_terms of g_term_bits each, of which g_fraction_bits are fraction, the first lowest; result:
+--             unsigned, g_result_bits
 -- Latency     1 clock from terms with enable to their result
 -- Throughput  1 result per clock
 -- Error       [0, 1) below the sum inside the range
@@ -65,8 +65,8 @@ begin
         for i in 1 to g_terms - 1 loop
           v := v + resize(unsigned(terms((i + 1) * g_term_bits - 1 downto i * g_term_bits)), c_sum_bits);
         end loop;
-        -- Clear the sum's highest bit if no term has its highest bit set: it is zero then, and so the sum's highest cell is
-        -- a lookup table with its carry.
+        -- Clear the sum's highest bit if no term has its highest bit set. The bit is zero in that case. The sum's
+        -- highest cell then is a lookup table with its carry.
         high := '0';
         for i in 0 to g_terms - 1 loop
           high := high or terms((i + 1) * g_term_bits - 1);

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- What the shading processors' arithmetic shares: latencies, rounding, cosines.
+-- Common functions of the shading processors' arithmetic: latencies, rounding, cosines.
 -- Golden twins model/golden/vector_multiply.hpp (round_half_up), model/golden/unit_vector.hpp (cosine, positive)
 
 library ieee;
@@ -12,7 +12,7 @@ use work.processors_pkg.all;
 
 package shading_pkg is
 
-  -- Clocks with enable from an entity's inputs to what it makes of them.
+  -- Clocks with enable from an entity's inputs to its result.
   constant c_vector_shift_latency    : positive := 1;
   constant c_dot_product_latency     : positive := 1;
   constant c_vector_multiply_latency : positive := 1;
@@ -22,24 +22,24 @@ package shading_pkg is
 
   function power_latency (exact : boolean) return positive;
 
-  -- Without the lowest `bits` bits, to the nearest, halves up; a bit more than the others are.
+  -- Drop the lowest `bits` bits and round to the nearest, halves up. The result has one more bit than the others.
   function round_half_up (value : signed; bits : natural) return signed;
 
   function round_half_up (value : unsigned; bits : natural) return unsigned;
 
-  -- The lowest `bits` bits, or the largest word of them where the value is larger.
+  -- Clamp to the largest word of `bits` bits.
   function held (value : unsigned; bits : positive) return unsigned;
 
   -- The component of axis `axis` of a flat vector of c_axes.
   function axis_of (vector : std_logic_vector; axis : natural) return signed;
 
-  -- A dot product of directions as a cosine, 0 to 1: one whole bit and direction's fraction. Positive: there is light
-  -- from there.
+  -- A dot product of directions as a cosine, clamped to 0 to 1: one whole bit and direction's fraction. is_positive:
+  -- the light is above the horizon.
   function cosine (exact : boolean; dot : signed) return unsigned;
 
   function is_positive (dot : signed) return std_logic;
 
-  -- Of the words of function_rom: the value lowest, above it, where there is one, the slope.
+  -- The width of function_rom's words: the value is lowest, the slope, if there is one, above it.
   function sample_bits (exact : boolean; which : natural) return positive;
 
 end package;

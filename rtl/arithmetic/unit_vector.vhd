@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     A unit vector in a vector's direction, a vector a clock: block shift, dot product with itself, 1/sqrt, vector
---             product, rounding.
--- Formats     components: of g_vector_bits each, signed, of any scale, x lowest; unit: format direction
--- Latency     unit_vector_latency of terms_pkg, clocks with enable
+-- Purpose     The unit vector in the direction of a vector: block shift, dot product with itself, 1/sqrt,
+--             multiplication, rounding.
+-- Formats     components: g_vector_bits each, signed, of any scale, x lowest; unit: format direction
+-- Latency     unit_vector_latency of terms_pkg, in clocks with enable
 -- Throughput  1 vector per clock
--- Error       its length: see reciprocal_root; its direction: 2**-20.7 exact, 2**-13.2 published, see direction in
---             formats_pkg
+-- Error       of the length: see reciprocal_root; of the direction: 2**-20.7 exact, 2**-13.2 published, see direction
+--             in formats_pkg
 -- Source      processors paper, figure 2
 -- Golden twin model/golden/unit_vector.hpp (normalized)
 

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Multiplies two vectors of three component by component: a vector by a scalar, a colour by a colour.
+-- Purpose     Multiplies two vectors of three components component by component: a vector by a scalar, a colour by a
+--             colour.
 -- Formats     a: components of g_a_bits, b: of g_b_bits, products: of g_a_bits + g_b_bits; signed, x lowest
 -- Latency     1 clock with enable (shading_pkg)
 -- Throughput  1 vector per clock

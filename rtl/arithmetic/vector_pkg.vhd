@@ -13,7 +13,7 @@ package vector_pkg is
   -- The lowest bits of a signed word.
   function low_bits (value : signed; bits : positive) return std_logic_vector;
 
-  -- A sum of vectors, of `bits` bits per component.
+  -- The sum of two vectors, with `bits` bits per component.
   function sums (a, b : std_logic_vector; bits : positive) return std_logic_vector;
 
   -- Each component of a vector sign-extended to `bits` bits.
@@ -28,7 +28,7 @@ package vector_pkg is
   -- The vector in the opposite direction.
   function negated (vector : std_logic_vector) return std_logic_vector;
 
-  -- A word per channel, unsigned, as the components of a vector: with a sign bit, 0 where there is no channel.
+  -- One unsigned word per channel as the components of a vector. Adds a sign bit; unused components are 0.
   function positive_words (words : std_logic_vector; channels : positive) return std_logic_vector;
 
 end package;

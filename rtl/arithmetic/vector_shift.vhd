@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Block shift: shifts the three components of a vector left by the same number of bits, as far as no component
---             loses its sign. The largest component is then from 1/2 to 1, so a normalization need not handle
---             other lengths. A zero vector stays zero.
--- Formats     components: of g_vector_bits each, signed, of any scale, x lowest; shifted: of g_result_bits, signed, all
---             bits but the sign fraction
+-- Purpose     Block shift: shifts the three components of a vector left by the same number of bits, as far as no
+--             component loses its sign. The magnitude of the largest component is then from 1/2 to 1, so a
+--             normalization need not handle other lengths. A zero vector stays zero.
+-- Formats     components: g_vector_bits each, signed, of any scale, x lowest; shifted: g_result_bits each, signed, all
+--             bits except the sign are fraction
 -- Latency     1 clock with enable (shading_pkg)
 -- Throughput  1 vector per clock
 -- Error       (-1, 0] of the result's last bit: lower bits are dropped
@@ -30,7 +30,7 @@ end entity;
 
 architecture rtl of vector_shift is
 
-  -- Stages that shift by 2**0, 2**1 and so on, as many as reach a word's length.
+  -- Stages that shift by 2**0, 2**1 and so on, up to the length of a word.
   function stages return positive is
     variable count : positive := 1;
   begin

@@ -1,19 +1,20 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     One light's shadow volumes around the surfaces of a line: a count for each column, one more where a
---             shadow polygon opens a volume, one less where it closes it. An object takes its column's count, which
---             then starts anew at 0; with the volumes that hold the eye it says whether the light reaches the object.
---             Less than none is none: a volume thinner than its depths' rounding may end before it begins.
--- Contract    At a rising edge with step and ready, column x is counted (counts, with opens), taken (takes), or all
---             columns are cleared (clear); at most one of the three. Until the next step lit is '1' where what column x
---             held before and around_eye make 0 or less; so long around_eye stands still. Any columns may follow each
---             other. After reset and a clear ready is '0' until all columns are 0: a clock for each column up to the
---             last counted one, after reset for all. A count that would leave its format is held; fault stays '1'
---             from then on.
+-- Purpose     Counts one light's shadow volumes in front of the surfaces of a line, with one count per column. A shadow
+--             polygon that opens a volume adds one, a polygon that closes a volume subtracts one. An object takes the
+--             count of its column, which is then 0 again. The count plus the number of volumes around the eye shows
+--             whether the light reaches the object. A negative sum counts as 0: a volume thinner than the rounding of
+--             its depths may be closed before it is opened.
+-- Contract    At a rising edge with step and ready, column x is counted (counts, with opens) or taken (takes), or all
+--             columns are cleared (clear); at most one of the three. Until the next step, lit is '1' if the sum of
+--             around_eye and the previous count of column x is 0 or less; around_eye must be stable for that time.
+--             Columns may be in any order. After reset and after clear, ready is '0' until all columns are 0: one clock
+--             per column up to the last counted one, after reset one clock per column of all. A count that would
+--             leave its format does not change; fault is '1' from then on.
 -- Formats     formats_pkg: x: pixel_x, around_eye: shadow_count; the same in both presets
 -- Latency     1 clock from step to lit, 2 to fault
--- Throughput  1 column a clock
--- Source      processors paper, section 3.3 (a single counter: there a stage holds a pixel at a time)
+-- Throughput  1 column per clock
+-- Source      processors paper, section 3.3 (a single counter: there a stage holds one pixel at a time)
 -- Golden twin model/golden/shadow_counter.hpp
 
 library ieee;
@@ -48,12 +49,12 @@ architecture rtl of shadow_counter is
 
   type reg_t is record
     clearing  : std_logic;
-    last      : column_t; -- counted last of all, or where clearing stands
+    last      : column_t; -- the highest column that was counted; while clearing, the column to clear
     counts    : std_logic;
     opens     : std_logic;
     takes     : std_logic;
     column    : column_t;
-    forwarded : std_logic; -- the column before was this one: its count is not in the memory yet
+    forwarded : std_logic; -- the previous column was this one: its count is not yet in the memory
     forward   : count_t;
     fault     : std_logic;
   end record;
@@ -61,11 +62,11 @@ architecture rtl of shadow_counter is
   signal r, r_next : reg_t;
 
   signal moved    : std_logic;
-  signal memory_q : count_t; -- read
+  signal memory_q : count_t; -- data read from the memory
   signal held     : count_t;
   signal around   : signed(count_t'length downto 0); -- volumes around the object
   signal changed  : count_t;
-  signal leaves   : std_logic; -- its format
+  signal leaves   : std_logic; -- the count leaves its format
   signal writes   : std_logic;
   signal write_at : column_t;
   signal written  : count_t;
@@ -100,7 +101,7 @@ begin
     end if;
   end process;
 
-  -- While the column stands still it is written again, the same.
+  -- While the column waits, it is written again with the same count.
   writes   <= r.clearing or r.counts or r.takes;
   write_at <= r.last when r.clearing = '1' else r.column;
   written  <= (others => '0') when r.clearing = '1' else changed;
@@ -150,7 +151,7 @@ begin
     end if;
   end process;
 
-  -- A variable: GHDL would keep a signal's history for every bit.
+  -- A variable, because GHDL keeps a driver for every bit of a signal.
   memory : process (clk)
     type memory_t is array (2 ** x'length - 1 downto 0) of count_t;
 

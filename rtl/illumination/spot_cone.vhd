@@ -1,17 +1,17 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     A spot light's share by the cosine of the angle at its cone's axis: 0 from the outer edge on, 1 from the
---             inner one in, t**2 (3 - 2 t) between, t linear in the cosine.
---               clock 1  over = -axis_sum - outer, cut to 28 fraction bits; 0 where that is negative
+-- Purpose     The factor of a spot light's cone, from the cosine of the angle to the cone's axis: 0 outside the outer
+--             edge, 1 inside the inner edge, t**2 (3 - 2 t) between them, where t is linear in the cosine.
+--               clock 1  over = -axis_sum - outer, cut to 28 fraction bits; 0 if negative
 --               clock 2  t = over * slope, at most 1, cut to weight's fraction bits
 --               clock 3  t**2
 --               clock 4  t**2 (3 - 2 t), rounded half up
--- Formats     axis_sum: dot product of the direction *to* the light and the axis, exact; outer: direction; slope:
+-- Formats     axis_sum: exact dot product of the direction *to* the light and the axis; outer: direction; slope:
 --             spot_slope; factor: weight
 -- Latency     4 clocks with enable (shading_pkg)
--- Throughput  1 a clock
--- Error       3.5 * 2**-16 exact, 2 * 2**-8 published, for slopes up to 2**12: what is cut from over and t, and rounding;
---             1.5 * 2**-28 * slope more for steeper ones, where the directions' own errors are larger
+-- Throughput  1 factor per clock
+-- Error       3.5 * 2**-16 exact, 2 * 2**-8 published, for slopes up to 2**12: the cuts of over and t, and rounding.
+--             1.5 * 2**-28 * slope more for steeper slopes, where the errors of the directions are larger
 -- Source      ours: the processors paper has no spot lights
 -- Golden twin model/golden/spot_cone.hpp
 
@@ -43,7 +43,7 @@ architecture rtl of spot_cone is
   constant c_slope         : positive  := c_formats.spot_slope.bits;
   constant c_weight        : positive  := c_formats.weight.bits;
   constant c_over_fraction : positive  := 28;
-  -- Sum and outer edge are wider by a bit than the sum; over is what of that is not dropped, without the sign.
+  -- axis_sum plus outer has one bit more than axis_sum. `over` has its bits that are not cut, without the sign.
   constant c_sum_high  : positive := 2 * c_direction + 1;
   constant c_over_low  : natural  := 2 * c_fraction - c_over_fraction;
   constant c_over_bits : positive := c_sum_high - c_over_low;

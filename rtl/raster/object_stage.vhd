@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     Finds the nearest object at each pixel of a line before any object is shaded. The tokens of a line come in
---             three rounds, distinguished by their command:
+--             three rounds. The command gives the round:
 --               depth     all objects: the stage stores the nearest z of each column with its triangle, the first one if
 --                         several are equal, and drops the token
 --               shadow    shadow polygons: passed on where an object is stored and the polygon is strictly nearer
 --               any other all objects again: passed on where z and triangle are the stored ones. This clears the column,
---                         so each pixel is shaded once and no column stays occupied for the next line.
+--                         so each pixel is shaded once and no column is in use when the next line starts.
 -- Contract    valid/ready; tokens leave in order and do not change while they wait. clear is '1' only where idle = '1' and
 --             in_valid = '0'; it clears all columns. After clear, in_ready and idle are '0' for one clock per column up to
 --             the last stored one; after reset, for one clock per column of all.
@@ -14,7 +14,7 @@
 -- Formats     formats_pkg: pixel (the token's header); the other bits are not read
 -- Latency     1 clock
 -- Throughput  1 token per clock, for any order of columns
--- Source      processors paper, section 3.3: shadow polygons count where they are nearer than the object
+-- Source      processors paper, section 3.3: shadow polygons count if they are nearer than the object
 -- Golden twin model/golden/object_stage.hpp
 
 library ieee;
@@ -67,7 +67,7 @@ architecture rtl of object_stage is
     clearing  : std_logic;
     last      : column_t; -- the highest column that was stored; while clearing, the column to clear
     valid     : std_logic;
-    forwarded : std_logic; -- the token before changed this column: use `forward`, the memory is not yet written
+    forwarded : std_logic; -- the previous token changed this column: use `forward`, the memory is not yet written
     forward   : entry_t;
   end record;
 

@@ -16,11 +16,11 @@
 --             red, green and blue are equal.
 -- Formats     formats_pkg: init (header, then one block per channel), depth, colour
 -- Latency     8 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel)
--- Throughput  1 fragment per clock, with no bubble between spans, lines and triangles, except that a triangle takes at
---             least 2 clocks. A line without a pixel costs a clock if no span is drawn meanwhile
+-- Throughput  1 fragment per clock, with no bubble between spans, lines and triangles. Exceptions: a triangle takes at
+--             least 2 clocks, and a line without a pixel takes 1 clock if no span is drawn meanwhile
 -- Error       preset exact: the colour is within 0.65 steps of the quadratic through the six samples (0.5 rounding,
---             0.15 differences), depth within 0.69 of the triangle's plane, and a step more within a step of 0 or of
---             its largest value, which setup keeps clear
+--             0.15 differences), and depth within 0.69 of the triangle's plane. Within one step of 0 or of the largest
+--             value the error is one step larger; setup avoids these values
 -- Source      quadratic paper, section 5 and figure 6
 -- Golden twin model/golden/quadratic_shader.hpp
 
@@ -195,7 +195,7 @@ begin
   begin
     v := r;
     v.walk_taken := walk_valid and walk_ready;
-    -- Delay the strobes by one clock: a register drives the interpolators. A load wins over a step.
+    -- Delay the strobes by one clock, so that a register drives the interpolators. A load has priority over a step.
     v.line_load  := line_load;
     v.line_step  := line_step and not line_load;
     v.line_carry := line_carry;

@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The shading processors of all lights, one behind the other: the ambient one, then the diffuse and the
---             specular one of light 1, of light 2 and so on, in either form. Only objects come out behind the last.
--- Contract    A token moves where valid and ready are both '1' at a rising edge; out_token does not change while it
---             waits. Tokens run in order through all processors; loads and shadow polygons are dropped behind the last.
---             busy: a processor holds a token. fault stays '1': shading_processor.
---             Unrolled, out_ready reaches in_ready through every processor without a register between; who needs a
---             faster clock puts a stream_register between two of them.
+-- Purpose     The chain of the shading processors of all lights: the ambient one, then the diffuse and the specular one
+--             of light 1, of light 2 and so on, in either form. After the last processor only objects are output.
+-- Contract    A token is transferred if valid and ready are both '1' at a rising edge; out_token does not change while
+--             it waits. Tokens stay in order. Loads and shadow polygons are dropped after the last processor. busy: a
+--             processor holds a token. fault stays '1', as in shading_processor.
+--             In the unrolled form there is no register between out_ready and in_ready. For a faster clock, add a
+--             stream_register between two processors.
 -- Formats     processors_pkg
--- Latency     the sum of the processors'
--- Throughput  that of the slowest processor; unrolled a token a clock
+-- Latency     the sum of the processors' latencies
+-- Throughput  that of the slowest processor; in the unrolled form 1 token per clock
 -- Source      processors paper, section 3.2: 2 (P + R) + 1 processors
 -- Golden twin model/golden/shading_pipeline.hpp
 
@@ -54,18 +54,18 @@ architecture rtl of shading_pipeline is
     g_specular, g_normalize, g_shadows);
   constant c_header     : pixel_header_t := pixel_header(g_exact);
   constant c_processors : positive       := processors(c_config);
-  -- Of a light; 1 where there is none.
+  -- Processors per light; 1 if there is none.
   constant c_terms : positive := boolean'pos(g_diffuse and g_specular) + 1;
 
   type tokens_t is array (0 to c_processors) of std_logic_vector(in_token'range);
 
-  -- In front of each processor, and behind the last.
+  -- Before each processor, and after the last.
   signal valid  : std_logic_vector(0 to c_processors);
   signal ready  : std_logic_vector(0 to c_processors);
   signal tokens : tokens_t;
   signal works  : std_logic_vector(0 to c_processors - 1);
   signal faults : std_logic_vector(0 to c_processors - 1);
-  signal object : std_logic; -- behind the last
+  signal object : std_logic; -- the last processor outputs an object
 
   subtype command_t is std_logic_vector(c_header.command.high downto c_header.command.low);
 

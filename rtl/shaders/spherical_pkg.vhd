@@ -1,20 +1,20 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Where a light's parts lie in a line record of the spherical shader. A line record holds for every light its diffuse
--- part, then its specular part.
+-- Positions of a light's parts in a line record of the spherical shader. A line record holds for every light its
+-- diffuse part, then its specular part.
 -- Golden twin model/golden/spherical_layout.hpp
 
 use work.formats_pkg.all;
 
 package spherical_pkg is
 
-  -- The light's diffuse angle is needed: for its cosine, or as the horizon that ends the highlight.
+  -- The light's diffuse angle is needed for its cosine, or as the horizon of its highlight.
   function has_diffuse_part (exact, diffuse, specular : boolean) return boolean;
 
-  -- Colours that a light's diffuse part has a factor for.
+  -- Number of colours for which a light's diffuse part has a factor.
   function diffuse_channels (channels : positive; diffuse : boolean) return natural;
 
-  -- Bits of one light's part; 0 where it is not there.
+  -- Bits of one light's part; 0 if it does not exist.
   function diffuse_part_bits (exact : boolean; channels : positive; diffuse, specular : boolean) return natural;
 
   function specular_part_bits (exact, specular : boolean; highlight_channels : positive) return natural;
@@ -23,7 +23,7 @@ package spherical_pkg is
   function record_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
     highlight_channels : positive) return natural;
 
-  -- Of a vector: a triangle's header, or a line record.
+  -- Bits of a vector: a triangle's header, or a line record.
   function init_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
     highlight_channels : positive) return positive;
 

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Delays a word by g_depth clocks, for words that accompany a pipeline. A circular buffer of g_depth - 1 words
---             and a register, so that each clock writes one word at any depth.
--- Contract    until g_depth words have been taken, `delayed` is undefined
+-- Purpose     Delays a word by g_depth clocks, for words that accompany a pipeline. Contains a circular buffer of
+--             g_depth - 1 words and a register, so that each clock writes only one word at any depth.
+-- Contract    `delayed` is undefined until g_depth words have been taken
 -- Formats     g_bits of any format
 -- Latency     g_depth clocks with enable
 -- Throughput  1 word per clock
--- Source      ours: the papers have no pipeline as deep
+-- Source      ours: the papers have no pipeline of this depth
 -- Golden twin model/golden/delay_line.hpp
 
 library ieee;
@@ -79,7 +79,7 @@ begin
 
     subtype index_t is unsigned(index_bits - 1 downto 0);
 
-    -- A power of two words: every index is in the array.
+    -- Round up to a power of two, so that every index is in the array.
     type memory_t is array (2 ** index_bits - 1 downto 0) of word_t;
 
     signal index : index_t;

@@ -1,12 +1,13 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     A table of a power of the cosine. Preset exact: entry k is
---             cos(pi/2 * (k + 1/2) / 2**address_bits) ** power, half of the bell, from its top on. Preset published: the
---             address is signed and wraps: cos**2 over half bells, or cos over whole ones, with negative values zero.
--- Formats     sample: unsigned, of 2**g_data_bits - 1; table: cosine_pkg
+--             cos(pi/2 * (k + 1/2) / 2**address_bits) ** power, for half of the bell, from the top on. Preset
+--             published: the address is signed and wraps. The table is cos**2 over half bells, or cos over whole bells
+--             with 0 for negative values.
+-- Formats     sample: unsigned, in units of 1 / (2**g_data_bits - 1); table: cosine_pkg
 -- Latency     1 clock from an address with enable to its sample
 -- Throughput  1 sample per clock
--- Error       half a step of the sample, and half a cell of the angle where the power is steepest: see cosine_pkg
+-- Error       half a step of the sample, plus half a cell of the angle times the greatest slope: see cosine_pkg
 -- Source      spherical paper, section 5 and figure 11
 -- Golden twin model/golden/cosine_rom.hpp
 

@@ -6,8 +6,8 @@
 -- Formats     sample: slope_bits above value_bits, both unsigned; function_pkg
 -- Latency     1 clock from an address with enable to its sample
 -- Throughput  1 sample per clock
--- Error       half a step of the value where it stands; over its cell: see function_pkg
--- Source      processors paper, figures 1 and 2: its tables of x**m and of 1/sqrt(x)
+-- Error       half a step of the value at its argument; for the error over a cell see function_pkg
+-- Source      processors paper, figures 1 and 2: the tables of x**m and of 1/sqrt(x)
 -- Golden twin model/golden/function_rom.hpp
 
 library ieee;
