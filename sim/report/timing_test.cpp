@@ -31,7 +31,10 @@ TEST_P(Timing, ShowsTheGoldenModelsFragmentsInVerilatorsClocks) {
 
   const auto scene = load_scene((c_source / "sim/report/timing.toml").string(), {});
   ASSERT_TRUE(scene);
-  WhySettings why{.plan = {.shader = GetParam()}, .size = {16, 12}, .folders = folders};
+  WhySettings why;
+  why.plan.shader = GetParam();
+  why.size = {16, 12};
+  why.folders = folders;
   why.setup.quadratic.test = HighlightTest::none;
   const auto plan = plan_scene(*scene, why.plan);
   ASSERT_TRUE(plan);
