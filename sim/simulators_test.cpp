@@ -209,7 +209,7 @@ class Simulators : public testing::Test {
       const std::size_t count = std::min(piece, init_.size() - i);
       const auto words =
           std::span(init_.words).subspan(i * init_.words_per_vector(), count * init_.words_per_vector());
-      if (auto run = simulator->run(words, count, trace.fragments, most); !run) return run.error();
+      if (auto run = simulator->run(words, trace.fragments, most); !run) return run.error();
     }
     if (auto done = simulator->finish(trace.fragments, most); !done) return done.error();
     trace.cycles = simulator->cycles();
@@ -221,7 +221,7 @@ class Simulators : public testing::Test {
     auto simulator = LaneSimulator::open(key_, folders_, options);
     if (!simulator) return simulator.error();
     std::vector<Fragment> fragments;
-    if (auto run = simulator->run(init_.words, init_.size(), fragments, most); !run) return run.error();
+    if (auto run = simulator->run(init_.words, fragments, most); !run) return run.error();
     return fragments;
   }
 

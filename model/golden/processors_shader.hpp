@@ -70,6 +70,10 @@ class ProcessorsShader {
         });
   }
 
+  /// Whether a vector is for the processors alone: it covers no pixel.
+  static bool is_load(std::span<const std::uint32_t> vector) {
+    return is_load(static_cast<Command>(get_bits(vector, RequestAt::command)));
+  }
   const TriangleWalker<Exact>& walker() const { return rasterizer_.walker(); }
   TriangleWalker<Exact> walker_of(std::span<const std::uint32_t> vector) const {
     return rasterizer_.walker_of(vector);
@@ -87,7 +91,6 @@ class ProcessorsShader {
 
   static constexpr std::size_t words_of(int bits) { return static_cast<std::size_t>(bits + 31) / 32; }
 
-  /// For the processors alone: the vector covers no pixel.
   static bool is_load(Command command) {
     return command == Command::new_frame || command == Command::define || command == Command::redefine ||
            command == Command::remove;

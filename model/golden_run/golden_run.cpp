@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "golden_run/golden_run.hpp"
 
+#include <algorithm>
+
 #include "golden_run/shader_model.hpp"
 
 namespace halfway {
@@ -14,6 +16,26 @@ std::unique_ptr<GoldenModel> make(const HardwareKey& key) {
 }
 
 }  // namespace
+
+std::span<const std::uint32_t> GoldenModel::take_group(std::span<const std::uint32_t>& init_words) const {
+  const std::size_t words = group(init_words) * ((init_bits() + 31) / 32);
+  const auto triangle = init_words.first(std::min(words, init_words.size()));
+  init_words = init_words.subspan(triangle.size());
+  return triangle;
+}
+
+std::uint64_t GoldenModel::all_pixels(std::span<const std::uint32_t> init_words) const {
+  std::uint64_t sum = 0;
+  while (!init_words.empty()) sum += pixels(take_group(init_words));
+  return sum;
+}
+
+std::span<const Fragment> GoldenModel::draw_next(std::span<const std::uint32_t>& init_words,
+                                                 std::size_t count) {
+  drawn_.clear();
+  while (drawn_.size() < count && !init_words.empty()) draw(take_group(init_words), drawn_);
+  return drawn_;
+}
 
 std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key) {
   return key.preset == Preset::exact ? make<golden::Exact>(key) : make<golden::Published>(key);

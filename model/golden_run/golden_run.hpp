@@ -23,6 +23,8 @@ class GoldenModel {
   virtual bool touches(std::span<const std::uint32_t> init_words, const Tile& tile) const = 0;
   /// How many they cover.
   virtual std::uint64_t pixels(std::span<const std::uint32_t> init_words) const = 0;
+  /// The same of any number of whole triangles.
+  std::uint64_t all_pixels(std::span<const std::uint32_t> init_words) const;
   /// Appends the fragments of whole triangles' vectors.
   virtual void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) = 0;
   /// The same fragments in a vector of the model, valid until the next call.
@@ -31,11 +33,17 @@ class GoldenModel {
     draw(init_words, drawn_);
     return drawn_;
   }
+  /// The same of whole triangles that it takes off the front of `init_words`, until they have `count`
+  /// fragments or none is left.
+  std::span<const Fragment> draw_next(std::span<const std::uint32_t>& init_words, std::size_t count);
   /// A shadow counter of the processors shader has left its range, and the fragments are worth nothing.
   virtual bool fault() const = 0;
   virtual unsigned init_bits() const = 0;
 
  private:
+  /// Takes a triangle's vectors off the front.
+  std::span<const std::uint32_t> take_group(std::span<const std::uint32_t>& init_words) const;
+
   std::vector<Fragment> drawn_;
 };
 

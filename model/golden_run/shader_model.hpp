@@ -48,6 +48,8 @@ class ShaderModel final : public GoldenModel {
     return touched;
   }
   std::uint64_t pixels(std::span<const std::uint32_t> init_words) const override {
+    if constexpr (requires { shader_.is_load(init_words); })
+      if (shader_.is_load(init_words)) return 0;
     std::uint64_t count = 0;
     auto walker = shader_.walker_of(init_words);
     walker.walk([&] {

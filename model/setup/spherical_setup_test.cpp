@@ -961,7 +961,7 @@ std::string notes(const Scene& scene, Preset preset = Preset::exact) {
   settings.plan.shader = Shader::spherical;
   settings.plan.preset = preset;
   settings.size = {161, 121};
-  settings.ghdl = settings.verilator = false;
+  settings.engines.clear();
   const auto out = TemporaryFolder::make(testing::TempDir());
   EXPECT_TRUE(out) << out.error().message;
   if (!out) return "";

@@ -17,13 +17,12 @@
 #include "sim/bench/outside_model.hpp"
 #include "sim/compare/stream_comparator.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
-#include "sim/lanes/lane_simulator.hpp"
+#include "sim/run/open_engine.hpp"
 #include "sim/stream_files/init_file.hpp"
 #include "sim/stream_files/trace.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/subprocess.hpp"
-#include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {
 namespace {
@@ -58,35 +57,26 @@ std::string ghdl_program(Way way, const SimulatorFolders& folders) {
   return way == Way::ghdl_llvm ? "ghdl-llvm" : ghdl_mcode(folders);
 }
 
-/// RTL in this process, batch by batch; with the golden model and a comparison of every field on this thread,
-/// or alone.
+/// RTL in this process; with the golden model and a comparison of every field on this thread, or alone.
 Result<Go> in_process(Way way, const WayInput& input) {
   const bool lanes = way == Way::lanes || way == Way::lanes_compared;
   const bool compared = way == Way::lanes_compared || way == Way::verilator_compared;
-  auto opened = RtlModel::open(input.batches->key, input.folders, lanes, input.fast);
+  auto opened = open_engine(lanes ? EngineKind::lanes : EngineKind::verilator, input.batches->key,
+                            input.folders, {.fast = input.fast});
   if (!opened) return opened.error();
-  const auto rtl = std::make_shared<RtlModel>(std::move(*opened));
   const std::shared_ptr<GoldenModel> golden = make_golden_model(input.batches->key);
-  return Go([=, &s = *input.batches]() -> Result<double> {
+  return Go([=, engine = *opened, &s = *input.batches]() -> Result<double> {
     StreamComparator comparator;
-    std::span<const Fragment> expected;
+    std::span<const std::uint32_t> words = s.words;  // for which the golden model has not drawn
     std::size_t count = 0;
-    // Lanes take all at once, and hand on part by part; Verilator goes from batch to batch.
-    const auto draw = [&](const RtlModel::OnDrawn& on_drawn) -> Status {
-      auto rest = std::span<const std::uint32_t>(s.words);
-      if (lanes) return rtl->draw(rest, true, on_drawn);
-      for (std::size_t i = 0; i < s.batches.size(); ++i) {
-        const auto words = rest.first(s.batches[i] * s.words_per_vector());
-        rest = rest.subspan(words.size());
-        if (compared) expected = golden->draw(words);
-        if (Status ran = rtl->draw(words, i + 1 == s.batches.size(), on_drawn); !ran) return ran;
-      }
-      return Ok{};
+    const auto draw = [&](const Engine::OnDrawn& on_drawn) -> Status {
+      if (Status ran = engine->draw(s.words, SIZE_MAX, on_drawn); !ran) return ran;
+      return engine->drain(SIZE_MAX, on_drawn);
     };
     const double start = process_seconds();
-    const Status ran = draw([&](auto words, auto drawn) {
+    const Status ran = draw([&](std::span<const Fragment> drawn) {
       count += drawn.size();
-      if (compared) comparator.add(lanes ? golden->draw(words) : expected, drawn);
+      if (compared) comparator.add(golden->draw_next(words, drawn.size()), drawn);
     });
     const double seconds = process_seconds() - start;
     if (!ran) return ran.error();
@@ -96,7 +86,7 @@ Result<Go> in_process(Way way, const WayInput& input) {
     // Once more, not timed.
     std::size_t known = 0;
     bool same = true;
-    if (Status again = draw([&](auto, std::span<const Fragment> drawn) {
+    if (Status again = draw([&](std::span<const Fragment> drawn) {
           same =
               same && drawn.size() <= s.golden.size() - known &&
               std::equal(drawn.begin(), drawn.end(), s.golden.begin() + static_cast<std::ptrdiff_t>(known));

@@ -10,6 +10,7 @@
 
 #include "sim/bench/workload.hpp"
 #include "sim/bench/yardstick.hpp"
+#include "sim/run/open_engine.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
 
@@ -80,9 +81,9 @@ TEST(BenchWorkload, AFrameIsDrawnWholeAndComparedInEveryField) {
   const Scene scene = *load_scene("matte", c_source / "sim/scenes");
   const auto batches = make_batches(scene, c_size, {.shader = Shader::quadratic});
   ASSERT_TRUE(batches);
-  auto rtl = RtlModel::open(batches->key, folders, false);
-  ASSERT_TRUE(rtl) << rtl.error().message;
-  const auto cost = draw_frame([&] { return scene; }, c_size, batches->key, *rtl, *batches);
+  const auto engine = open_engine(EngineKind::verilator, batches->key, folders);
+  ASSERT_TRUE(engine) << engine.error().message;
+  const auto cost = draw_frame([&] { return scene; }, c_size, batches->key, *engine, *batches);
   ASSERT_TRUE(cost) << cost.error().message;
   EXPECT_EQ(cost->mismatches, 0U);
   EXPECT_EQ(cost->fragments, batches->golden.size());
@@ -97,7 +98,7 @@ TEST(BenchWorkload, AFrameIsDrawnWholeAndComparedInEveryField) {
   // Hardware for three channels: other vectors.
   const auto other = make_batches(*load_scene("spheres", c_source / "sim/scenes"), c_size, {});
   ASSERT_TRUE(other);
-  EXPECT_FALSE(draw_frame([&] { return scene; }, c_size, other->key, *rtl, *batches));
+  EXPECT_FALSE(draw_frame([&] { return scene; }, c_size, other->key, *engine, *batches));
 }
 
 TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {
@@ -109,17 +110,18 @@ TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {
     const WalkCounts walk = count_walk(*batches);
     EXPECT_EQ(walk.pixels, batches->golden.size());
     EXPECT_EQ(walk.lines, walk.spans + walk.empty_lines);
-    auto rtl = RtlModel::open(batches->key, folders, false);
-    ASSERT_TRUE(rtl) << rtl.error().message;
+    const auto engine = open_engine(EngineKind::verilator, batches->key, folders);
+    ASSERT_TRUE(engine) << engine.error().message;
     std::vector<Fragment> drawn;
-    ASSERT_TRUE(rtl->draw(batches->words, true, drawn));
+    ASSERT_TRUE((*engine)->run(batches->words, drawn, SIZE_MAX));
+    ASSERT_TRUE((*engine)->finish(drawn, SIZE_MAX));
     ASSERT_EQ(drawn, batches->golden);
     const std::uint64_t expected = walk.pixels + walk.lost_to_lines + walk.lost_to_headers;
     EXPECT_GT(walk.lost_to_lines, 0U);
     EXPECT_GT(walk.lost_to_headers, 0U);
-    EXPECT_GE(rtl->cycles(), expected);
+    EXPECT_GE((*engine)->cycles(), expected);
     // The pipeline once, and the processors' lights.
-    EXPECT_LE(rtl->cycles(), expected + (shader == Shader::processors ? 40 : 11)) << to_string(shader);
+    EXPECT_LE((*engine)->cycles(), expected + (shader == Shader::processors ? 40 : 11)) << to_string(shader);
   }
 }
 

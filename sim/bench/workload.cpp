@@ -18,19 +18,16 @@
 #include <string>
 
 #include "common/to_integer.hpp"
-#include "frame/assemble.hpp"
 #include "golden/processors_layout.hpp"
 #include "golden/triangle_walker.hpp"
 #include "golden/walker_clock.hpp"
 #include "golden_run/golden_run.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
-#include "sim/compare/stream_comparator.hpp"
-#include "sim/lanes/lane_simulator.hpp"
+#include "sim/run/rtl_frame.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/seconds.hpp"
-#include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {
 namespace {
@@ -63,63 +60,40 @@ constexpr double c_warm_seconds = 0.25;
 
 /// Draws the scene into a frame of before, `between` the batches something else; no further when the
 /// processor has worked for `most_seconds`.
-Status draw_scene(const Scene& scene, FrameSize size, const HardwareKey& key, RtlModel& rtl,
-                  FrameAssembler& assembler, const std::function<void()>& between, double most_seconds,
-                  FrameCost& cost) {
+Status draw_scene(const Scene& scene, FrameSize size, const HardwareKey& key, RtlFrame& rtl,
+                  const std::function<void()>& between, double most_seconds, FrameCost& cost) {
   const double setup_start = thread_seconds();
   const std::unique_ptr<Setup> setup = make_setup(scene, size, key, {});
-  cost.setup = thread_seconds() - setup_start;
-  // Lanes tell whose fragments they are: the golden model draws the same where they are compared.
-  const std::unique_ptr<GoldenModel> model = rtl.tells_vectors() ? make_golden_model(key) : nullptr;
-  SceneStream stream(*setup, key, 1, {.golden = model == nullptr, .ahead = false});
-  StreamComparator comparator;
   const double clear_start = thread_seconds();
-  assembler.clear();
-  cost.assemble = thread_seconds() - clear_start;
-  Batch batch;
-  for (bool more = true; more;) {
-    more = cost.drawing() + stream.setup_seconds() < most_seconds && stream.next(batch);
-    if (!more) batch = {};
-    auto golden = std::span<const Fragment>(batch.golden);
-    Status added = Ok{};
-    double golden_seconds = 0.0, compare_seconds = 0.0, assemble_seconds = 0.0;
-    Stretch drawing;
-    const Status ran = drawing.add([&] {
-      return rtl.draw(batch.init_words, !more, [&](auto words, std::span<const Fragment> drawn) {
-        const auto start = Stretch::now();
-        if (model) golden = model->draw(words);
-        const auto drew = Stretch::now();
-        const auto expected = golden.first(model ? golden.size() : std::min(golden.size(), drawn.size()));
-        golden = golden.subspan(expected.size());
-        comparator.add(expected, drawn);
-        const auto compared = Stretch::now();
-        if (Status status = assembler.add(drawn); !status) added = status;
-        cost.fragments += drawn.size();
-        golden_seconds += seconds_between(start, drew);
-        compare_seconds += seconds_between(drew, compared);
-        assemble_seconds += seconds_since(compared);
-      });
-    });
-    if (!ran) return ran;
-    if (!added) return added;
-    cost.golden += drawing.share(golden_seconds);
-    cost.compare += drawing.share(compare_seconds);
-    cost.assemble += drawing.share(assemble_seconds);
-    cost.rtl += drawing.processor() - drawing.share(golden_seconds + compare_seconds + assemble_seconds);
-    comparator.add_golden(golden);  // what Verilator draws with the next batch
-    between();
-  }
-  comparator.finish();
-  cost.mismatches = comparator.mismatches();
+  cost.setup = clear_start - setup_start;
+  rtl.clear();
+  const double clear_seconds = thread_seconds() - clear_start;
+  SceneStream stream(*setup, key, 1, {.golden = false, .ahead = false});
+  const auto drawing = [&] {
+    const RtlFrame::Seconds s = rtl.seconds();
+    cost.golden = s.golden;
+    cost.rtl = s.rtl;
+    cost.compare = s.compare;
+    cost.assemble = clear_seconds + s.assemble;
+    return cost.drawing();
+  };
+  for (Batch batch; drawing() + stream.setup_seconds() < most_seconds && stream.next(batch); between())
+    if (Status added = rtl.add(batch.init_words); !added) return added;
+  if (Status ended = rtl.finish(); !ended) return ended;
+  drawing();
+  between();
+  const SimulatorRun run = rtl.result();
+  if (!run.fault.empty()) return Error{ExitCode::differs, run.fault};
+  cost.fragments = run.fragments;
+  cost.mismatches = run.mismatches;
   cost.setup += stream.setup_seconds();
-  cost.golden += stream.golden_seconds();
   cost.vectors = stream.counts().vectors;
   cost.records = stream.counts().records;
   return Ok{};
 }
 
 Status draw_frame_here(const std::function<Scene()>& make_scene, FrameSize size, const HardwareKey& key,
-                       RtlModel& rtl, const InitBatches& pace, FrameCost& cost) {
+                       const std::shared_ptr<Engine>& engine, const InitBatches& pace, FrameCost& cost) {
   const Scene scene = make_scene();
   const std::unique_ptr<GoldenModel> pacer = make_golden_model(pace.key);
   std::vector<Fragment> paced;
@@ -138,14 +112,14 @@ Status draw_frame_here(const std::function<Scene()>& make_scene, FrameSize size,
   ::malloc_trim(0);
   forget_peak();
   const std::uint64_t before = resident_bytes();
-  FrameAssembler assembler(size, scene.background);
+  RtlFrame rtl(engine, size, scene.background, {.golden = make_golden_model(key)});
   FrameCost first;
   if (Status status = draw_scene(
-          scene, size, key, rtl, assembler, [] {}, c_warm_seconds, first);
+          scene, size, key, rtl, [] {}, c_warm_seconds, first);
       !status)
     return status;
-  if (Status status = draw_scene(scene, size, key, rtl, assembler, take_pace,
-                                 std::numeric_limits<double>::infinity(), cost);
+  if (Status status =
+          draw_scene(scene, size, key, rtl, take_pace, std::numeric_limits<double>::infinity(), cost);
       !status)
     return status;
   cost.triangles = scene.triangles.size();
@@ -244,46 +218,15 @@ Result<InitBatches> make_batches(const Scene& scene, FrameSize size, const PlanR
   return all;
 }
 
-Result<RtlModel> RtlModel::open(const HardwareKey& key, const SimulatorFolders& folders, bool lanes,
-                                bool fast) {
-  RtlModel model;
-  if (lanes) {
-    auto opened = LaneSimulator::open(key, folders, {.fast = fast});
-    if (!opened) return opened.error();
-    const auto simulator = std::make_shared<LaneSimulator>(std::move(*opened));
-    model.tells_vectors_ = true;
-    model.draw_ = [=](auto words, bool, const OnDrawn& on_drawn) {
-      return words.empty() ? Status(Ok{}) : simulator->run(words, SIZE_MAX, on_drawn);
-    };
-    model.cycles_ = [=] { return simulator->cycles(); };
-    return model;
-  }
-  auto opened = VerilatorSimulator::open(key, folders);
-  if (!opened) return opened.error();
-  const auto simulator = std::make_shared<VerilatorSimulator>(std::move(*opened));
-  const auto drawn = std::make_shared<std::vector<Fragment>>();
-  model.draw_ = [=](auto words, bool last, const OnDrawn& on_drawn) -> Status {
-    drawn->clear();
-    const std::size_t vectors = words.size() / ((simulator->init_bits() + 31) / 32);
-    if (Status ran = simulator->run(words, vectors, *drawn, SIZE_MAX); !ran) return ran;
-    if (last)
-      if (Status ended = simulator->finish(*drawn, SIZE_MAX); !ended) return ended;
-    on_drawn({}, *drawn);
-    return Ok{};
-  };
-  model.cycles_ = [=] { return simulator->cycles(); };
-  return model;
-}
-
 Result<FrameCost> draw_frame(const std::function<Scene()>& make_scene, FrameSize size, const HardwareKey& key,
-                             RtlModel& rtl, const InitBatches& pace) {
+                             const std::shared_ptr<Engine>& engine, const InitBatches& pace) {
   int ends[2];
   if (::pipe(ends) != 0) return tool_failed("no pipe");
   const pid_t child = ::fork();
   if (child < 0) return tool_failed("no process");
   if (child == 0) {
     FrameCost cost;
-    const Status drawn = draw_frame_here(make_scene, size, key, rtl, pace, cost);
+    const Status drawn = draw_frame_here(make_scene, size, key, engine, pace, cost);
     if (!drawn) fmt::print(stderr, "{}\n", drawn.error().message);
     const bool told = drawn && ::write(ends[1], &cost, sizeof cost) == sizeof cost;
     ::_exit(told ? 0 : 1);

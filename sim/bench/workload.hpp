@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,8 +14,7 @@
 #include "frame/frame_size.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
-#include "sim/lanes/lane_simulator.hpp"
+#include "sim/engine/engine.hpp"
 
 namespace halfway {
 
@@ -42,31 +42,6 @@ inline constexpr std::size_t c_batch = 512;
 Result<InitBatches> make_batches(const Scene& scene, FrameSize size, const PlanRequest& plan,
                                  bool draw = true);
 
-/// The RTL on this core: in lanes where there are lanes for it, else in Verilator.
-class RtlModel {
- public:
-  static Result<RtlModel> open(const HardwareKey& key, const SimulatorFolders& folders, bool lanes,
-                               bool fast = true);
-  /// Vectors and their fragments, in the stream's order and in the model's own room; Verilator, which goes on
-  /// from batch to batch, does not tell whose fragments they are.
-  using OnDrawn = LaneSimulator::OnDrawn;
-  /// Hands on fragments of this and earlier vectors; with `last` all that are left.
-  Status draw(std::span<const std::uint32_t> words, bool last, const OnDrawn& on_drawn) {
-    return draw_(words, last, on_drawn);
-  }
-  /// The same, appended to `out`.
-  Status draw(std::span<const std::uint32_t> words, bool last, std::vector<Fragment>& out) {
-    return draw(words, last, [&](auto, auto drawn) { out.insert(out.end(), drawn.begin(), drawn.end()); });
-  }
-  std::uint64_t cycles() const { return cycles_(); }
-  bool tells_vectors() const { return tells_vectors_; }
-
- private:
-  bool tells_vectors_ = false;
-  std::function<Status(std::span<const std::uint32_t>, bool, const OnDrawn&)> draw_;
-  std::function<std::uint64_t()> cycles_;
-};
-
 /// Processor seconds of the parts of a frame, and what it took beside them.
 struct FrameCost {
   double setup = 0, golden = 0, rtl = 0, compare = 0, assemble = 0;
@@ -86,7 +61,7 @@ struct FrameCost {
 /// `pace` is drawn by its golden model between the batches: the same work all the time, by which one can
 /// tell how quick the machine was meanwhile.
 Result<FrameCost> draw_frame(const std::function<Scene()>& make_scene, FrameSize size, const HardwareKey& key,
-                             RtlModel& rtl, const InitBatches& pace);
+                             const std::shared_ptr<Engine>& engine, const InitBatches& pace);
 
 /// What the walker of preset exact makes of the vectors: the same for every shader that has it.
 struct WalkCounts {

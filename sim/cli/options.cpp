@@ -200,21 +200,20 @@ Result<DrawSettings> checked(const DrawOptions& o) {
   return s;
 }
 
-Result<Simulators> checked_simulators(const std::vector<std::string>& names, bool with_lanes) {
-  Simulators chosen;
-  if (names.empty()) return chosen;
-  chosen.ghdl = chosen.verilator = false;
-  for (const std::string& name : names) {
-    if (name == "ghdl")
-      chosen.ghdl = true;
-    else if (name == "verilator")
-      chosen.verilator = true;
-    else if (with_lanes && name == "lanes")
-      chosen.lanes = true;
-    else
-      return bad_input(fmt::format("--simulator: '{}' is not a simulator; take ghdl{} verilator{}", name,
-                                   with_lanes ? "," : " or", with_lanes ? " or lanes" : ""));
+Result<std::vector<EngineKind>> checked_simulators(const std::vector<std::string>& names,
+                                                   std::span<const EngineKind> known) {
+  if (names.empty()) return std::vector{EngineKind::ghdl, EngineKind::verilator};
+  std::vector<EngineKind> chosen;
+  std::vector<std::string> known_names;
+  for (const EngineKind kind : known) {
+    known_names.emplace_back(to_string(kind));
+    if (std::ranges::find(names, known_names.back()) != names.end()) chosen.push_back(kind);
   }
+  for (const std::string& name : names)
+    if (std::ranges::find(known_names, name) == known_names.end())
+      return bad_input(fmt::format("--simulator: '{}' is not a simulator; take {} or {}", name,
+                                   fmt::join(known_names.begin(), known_names.end() - 1, ", "),
+                                   known_names.back()));
   return chosen;
 }
 

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "common/result.hpp"
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
+#include "sim/engine/engine.hpp"
 #include "sim/program/program.hpp"
 
 namespace halfway::cli {
@@ -56,11 +58,9 @@ Result<Shader> checked_shader(const std::string& name);
 /// Why an option is refused that is another shader's; `owners`: such as "the quadratic shader".
 std::string of_other_hardware(std::string_view option, std::string_view owners, Shader shader);
 
-struct Simulators {
-  bool ghdl = true, verilator = true, lanes = false;
-};
-/// By their names; none given: GHDL and Verilator. `with_lanes`: these are one, too.
-Result<Simulators> checked_simulators(const std::vector<std::string>& names, bool with_lanes = false);
+/// By their names, which must be of `known`, in its order; none given: GHDL and Verilator.
+Result<std::vector<EngineKind>> checked_simulators(const std::vector<std::string>& names,
+                                                   std::span<const EngineKind> known = c_engine_kinds);
 
 /// The built-in scenes' names, in alphabetical order.
 Result<std::vector<std::string>> builtin_scenes(const Folders& folders);

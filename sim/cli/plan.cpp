@@ -248,7 +248,8 @@ void print_processors(const Scene& scene, const PlanCommand& command, FrameSize 
 int run(const Folders& folders, const PlanCommand& command) {
   const auto draw = checked(command.draw);
   if (!draw) return report(draw.error());
-  const auto simulators = checked_simulators(command.simulators);
+  constexpr EngineKind c_measured[] = {EngineKind::ghdl, EngineKind::verilator};
+  const auto simulators = checked_simulators(command.simulators, c_measured);
   if (!simulators) return report(simulators.error());
   for (const auto& [name, given, most] : {std::tuple{"--objects", command.objects, c_most_objects},
                                           std::tuple{"--rate", command.rate, c_most_rate}})
@@ -279,8 +280,8 @@ int run(const Folders& folders, const PlanCommand& command) {
     const CostSettings settings{.size = draw->size,
                                 .setup = draw->setup,
                                 .threads = draw->threads,
-                                .ghdl = simulators->ghdl,
-                                .verilator = simulators->verilator,
+                                .ghdl = std::ranges::count(*simulators, EngineKind::ghdl) != 0,
+                                .verilator = std::ranges::count(*simulators, EngineKind::verilator) != 0,
                                 .folders = simulator_folders,
                                 .on_progress = [&](const std::string& what) { progress.show(what); }};
     for (const auto& [key, cost] :

@@ -119,11 +119,9 @@ int run(const Folders& folders, const SimOptions& options) {
   settings.out = draw->out;
   settings.stall_seed = options.stall_seed;
   settings.folders = {folders.source, folders.cache()};
-  const auto simulators = checked_simulators(options.simulators, true);
+  const auto simulators = checked_simulators(options.simulators);
   if (!simulators) return report(simulators.error());
-  settings.ghdl = simulators->ghdl;
-  settings.verilator = simulators->verilator;
-  settings.lanes = simulators->lanes;
+  settings.engines = *simulators;
   std::vector<std::string> scenes = options.scenes;
   if (scenes.empty()) {
     auto builtin = builtin_scenes(folders);

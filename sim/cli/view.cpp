@@ -122,6 +122,14 @@ Result<Outputs> checked(const ViewCommand& c) {
   return o;
 }
 
+// None: the fastest that can be had.
+Result<std::optional<EngineKind>> checked_engine(const std::string& name) {
+  if (name == "auto") return std::optional<EngineKind>();
+  for (const EngineKind kind : {EngineKind::verilator, EngineKind::lanes})
+    if (name == to_string(kind)) return std::optional(kind);
+  return bad_input(fmt::format("--simulator: '{}' is none of auto, verilator and lanes", name));
+}
+
 // Frames of an earlier turn, which may have been a longer one, must not pass for this one's; nor what a
 // killed run left unfinished.
 Status forget_frames(const std::filesystem::path& folder) {
@@ -191,8 +199,8 @@ void print_difference(const ViewSummary& s) {
 
 class View {
  public:
-  View(const ViewCommand& command, const Folders& folders, const DrawSettings& draw, RtlEngine engine,
-       Outputs outputs)
+  View(const ViewCommand& command, const Folders& folders, const DrawSettings& draw,
+       std::optional<EngineKind> engine, Outputs outputs)
       : c_(command),
         folders_(folders),
         draw_(draw),
@@ -220,9 +228,8 @@ class View {
     settings.compare = !c_.no_compare;
     settings.folders = {folders_.source, folders_.cache()};
     settings.engine = engine_;
-    settings.on_build = [&](const std::string& key, RtlEngine engine) {
-      progress_.show(
-          fmt::format("building {} {}", key, engine == RtlEngine::lanes ? "in lanes" : "for Verilator"));
+    settings.on_build = [&](const std::string& key, EngineKind engine) {
+      progress_.show(fmt::format("building {} for {}", key, title(engine)));
     };
     std::optional<Interruption> interruption;
     settings.on_ready = [&]() -> Status {
@@ -306,7 +313,7 @@ class View {
   const ViewCommand& c_;
   const Folders& folders_;
   const DrawSettings& draw_;
-  RtlEngine engine_;
+  std::optional<EngineKind> engine_;
   Outputs o_;
   Screen screen_;
   Progress progress_;
@@ -317,7 +324,7 @@ class View {
 int run(const Folders& folders, const ViewCommand& command) {
   const auto draw = checked(command.draw);
   if (!draw) return report(draw.error());
-  const auto engine = parse_rtl_engine(command.engine);
+  const auto engine = checked_engine(command.engine);
   if (!engine) return report(engine.error());
   auto outputs = checked(command);
   if (!outputs) return report(outputs.error());

@@ -8,11 +8,12 @@
 #include "frame/assemble.hpp"
 #include "sim/compare/limits.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/run/open_engine.hpp"
+#include "sim/run/rtl_frame.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/stream_files/init_file.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/seconds.hpp"
-#include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {
 namespace {
@@ -81,39 +82,17 @@ class Measurement {
 
   Result<double> verilator_pass() {
     s_.on_progress(fmt::format("Verilator simulates {}", key_.name()));
-    auto simulator = VerilatorSimulator::open(key_, s_.folders, {.idle_limit = c_idle_limit});
-    if (!simulator) return simulator.error();
-    FrameAssembler assembler(s_.size, scene_.background);
-    const std::size_t words_per_vector = (setup_->init_bits() + 31) / 32;
-    std::uint64_t golden = 0;
-    double seconds = 0.0;
-    std::vector<Fragment> drawn;
-    const auto timed = [&](auto&& simulate) -> Status {
-      const double begin = thread_seconds();
-      const Status ran = simulate(
-          static_cast<std::size_t>(golden + c_most_surplus - std::min(golden, assembler.fragments())));
-      seconds += thread_seconds() - begin;
-      if (!ran) return ran;
-      const Status added = assembler.add(drawn);
-      drawn.clear();
-      if (added) return Ok{};
-      return Error{ExitCode::differs, fmt::format("{} in Verilator: {}", key_.name(), added.error().message)};
-    };
+    auto engine = open_engine(EngineKind::verilator, key_, s_.folders);
+    if (!engine) return engine.error();
+    RtlFrame rtl(std::move(*engine), s_.size, scene_.background);
     SceneStream stream(*setup_, key_, s_.threads);
-    for (Batch batch; stream.next(batch);) {
-      golden += batch.golden.size();
-      const std::size_t vectors = batch.init_words.size() / words_per_vector;
-      if (Status status =
-              timed([&](std::size_t most) { return simulator->run(batch.init_words, vectors, drawn, most); });
-          !status)
-        return status.error();
-    }
-    if (Status status = timed([&](std::size_t most) { return simulator->finish(drawn, most); }); !status)
-      return status.error();
-    cost_.fragments = assembler.fragments();
-    cost_.cycles = simulator->cycles();
-    cost_.frame = assembler.frame();
-    return seconds;
+    if (Status status = rtl.draw(scene_, stream); !status) return status.error();
+    const SimulatorRun run = rtl.result();
+    if (!run.fault.empty()) return Error{ExitCode::differs, fmt::format("{}: {}", key_.name(), run.fault)};
+    cost_.fragments = run.fragments;
+    cost_.cycles = *run.cycles;
+    cost_.frame = rtl.assembler().frame();
+    return rtl.seconds().rtl;
   }
 
   const Scene& scene_;

@@ -11,7 +11,6 @@
 #include <system_error>
 
 #include "sim/system/file.hpp"
-#include "sim/system/seconds.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway {
@@ -136,7 +135,6 @@ Result<GhdlRunner> GhdlRunner::open(const HardwareKey& key, const SimulatorFolde
 Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
                                 const std::filesystem::path& trace_file,
                                 const GhdlRunOptions& options) const {
-  if (options.on_begin) options.on_begin();
   const auto absolute_trace = std::filesystem::absolute(trace_file);
   if (auto made = make_folders(absolute_trace.parent_path()); !made) return made.error();
   ScratchFile trace(fmt::format("{}.part-{}", absolute_trace.string(), ::getpid()));
@@ -177,10 +175,8 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
     };
   }
 
-  const auto start = std::chrono::steady_clock::now();
   const auto end = run_process(command, kInstallGhdl);
   if (!end) return end.error();
-  const double seconds = seconds_since(start);
 
   if (end->timed_out) {
     return tool_failed(
@@ -208,7 +204,6 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
         fmt::format("{}: GHDL ended without an error, but the trace is not whole; is the disk full?",
                     absolute_trace.string()));
   }
-  run->seconds = seconds;
   if (auto renamed = trace.rename_to(absolute_trace); !renamed) return renamed.error();
   return *run;
 }

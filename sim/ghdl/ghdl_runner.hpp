@@ -22,7 +22,6 @@ struct GhdlRunOptions {
   std::uint32_t stall_seed = 0;        ///< 0: full speed; else both streams stall at random
   std::optional<std::chrono::milliseconds> timeout{};
   std::function<void(std::uintmax_t trace_bytes)> on_progress{};  ///< with the bytes of trace written so far
-  std::function<void()> on_begin{};                               ///< of parts once each, several at a time
   std::filesystem::path wave_file{};                              ///< .ghw, .fst or .vcd; empty: none
   /// What goes into it, such as frame_tb/dut/walker/x; empty: every signal. Of a generate loop all are
   /// written.
@@ -31,7 +30,6 @@ struct GhdlRunOptions {
 
 struct GhdlRun {
   std::uint64_t fragments = 0, cycles = 0;
-  double seconds = 0;  ///< of the simulation alone
 };
 
 class GhdlRunner {

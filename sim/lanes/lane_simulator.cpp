@@ -99,8 +99,8 @@ struct LaneSimulator::State : Hardware {
 // first ones that are whole are handed on.
 class LaneSimulator::Passage {
  public:
-  Passage(State& state, std::span<const std::uint32_t> init_words, std::size_t max_fragments)
-      : s_(state), words_(init_words), left_(max_fragments) {}
+  Passage(State& state, std::span<const std::uint32_t> init_words, std::uint64_t most)
+      : s_(state), words_(init_words), left_(most) {}
 
   /// Enough for a run, unless too many wait already; false where none are left.
   bool add_parts();
@@ -111,7 +111,7 @@ class LaneSimulator::Passage {
   std::size_t threads() const { return s_.threads.size(); }
   std::size_t lanes() const { return s_.lanes * threads(); }
   void look_ahead();
-  Error too_many(std::size_t limit) const {
+  Error too_many(std::uint64_t limit) const {
     return {ExitCode::differs, fmt::format("{} in lanes: more than {} fragments", s_.key.name(), limit)};
   }
 
@@ -120,7 +120,7 @@ class LaneSimulator::Passage {
   std::deque<Triangle> ahead_;  ///< behind the last part
   std::vector<HalfwayPart> parts_;
   std::vector<std::size_t> pixels_;  ///< that each covers
-  std::size_t left_;                 ///< fragments that may still be handed on
+  std::uint64_t left_;               ///< fragments that may still be handed on
   std::size_t seen_ = 0;             ///< vectors that are ahead or before
   std::size_t vector_ = 0;           ///< behind the last part
   std::size_t work_ahead_ = 0;       ///< of the triangles ahead
@@ -168,10 +168,9 @@ bool LaneSimulator::Passage::add_parts() {
 }
 
 Status LaneSimulator::Passage::draw() {
-  std::size_t limit = left_;
+  std::uint64_t limit = left_;
   if (s_.knows_pixels)
-    limit = std::min<std::size_t>(
-        limit, std::accumulate(pixels_.begin(), pixels_.end(), std::size_t{c_most_surplus}));
+    limit = std::min(limit, std::accumulate(pixels_.begin(), pixels_.end(), c_most_surplus));
   const HalfwayBatch batch{.words = words_.data(),
                            .parts = parts_.data(),
                            .first = first_,
@@ -209,18 +208,15 @@ Status LaneSimulator::Passage::draw() {
 }
 
 Status LaneSimulator::Passage::hand_on(const OnDrawn& on_drawn) {
-  const std::size_t words_per_vector = s_.vector_words();
   std::size_t whole = 0;
   for (; whole < parts_.size() && parts_[whole].ended != 0; ++whole) {
     const HalfwayPart& part = parts_[whole];
-    const std::size_t limit =
-        s_.knows_pixels ? std::min<std::size_t>(left_, pixels_[whole] + c_most_surplus) : left_;
+    const std::uint64_t limit = s_.knows_pixels ? std::min(left_, pixels_[whole] + c_most_surplus) : left_;
     if (part.fragments > limit) return too_many(limit);
     left_ -= part.fragments;
     const auto* first =
         reinterpret_cast<const Fragment*>(s_.take(s_.threads[part.owner], part.lane, part.fragments));
-    on_drawn(words_.subspan(part.vector * words_per_vector, part.vectors * words_per_vector),
-             {first, part.fragments});
+    on_drawn({first, part.fragments});
   }
   first_ += whole;
   parts_.erase(parts_.begin(), parts_.begin() + static_cast<std::ptrdiff_t>(whole));
@@ -276,65 +272,33 @@ Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const Simulato
         fmt::format("{}: of another version; delete it and try again", hardware.library.file().string()));
   }
   hardware.lanes = count();
-  return with_lanes(std::move(hardware));
-}
-
-LaneSimulator LaneSimulator::with_lanes(Hardware hardware) {
   return LaneSimulator(std::make_shared<State>(std::move(hardware)));
 }
 
-LaneSimulator LaneSimulator::another() const {
-  return with_lanes(*state_);
+Result<std::shared_ptr<Engine>> LaneSimulator::another() const {
+  const auto state = std::make_shared<State>(static_cast<const Hardware&>(*state_));
+  return shared_engine(Result<LaneSimulator>(LaneSimulator(state)));
 }
 
-unsigned LaneSimulator::init_bits() const {
-  return state_->init_bits;
-}
-
-std::uint64_t LaneSimulator::cycles() const {
+std::uint64_t LaneSimulator::lane_cycles() const {
   return state_->cycles_of_all();
 }
 
-Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t max_fragments,
-                          const OnDrawn& on_drawn) {
+Status LaneSimulator::draw(std::span<const std::uint32_t> init_words, std::uint64_t most,
+                           const OnDrawn& on_drawn) {
   State& s = *state_;
   if (init_words.size() % s.vector_words() != 0)
     return bad_input(fmt::format("{}: {} words are no whole vectors of {} bits", s.key.name(),
                                  init_words.size(), s.init_bits));
   if (s.drawing) s.replace_lanes();
   s.drawing = true;
-  // Count the vectors of the parts: a part that is lost here is missed by no comparison of parts.
-  std::size_t counted = 0;
-  bool in_order = true;
-  const OnDrawn count = [&](std::span<const std::uint32_t> words, std::span<const Fragment> fragments) {
-    in_order = in_order && words.data() == init_words.data() + counted;
-    counted += words.size();
-    on_drawn(words, fragments);
-  };
-  Passage passage(s, init_words, max_fragments);
+  Passage passage(s, init_words, most);
   while (passage.add_parts()) {
     if (Status drawn = passage.draw(); !drawn) return drawn;
-    if (Status taken = passage.hand_on(count); !taken) return taken;
+    if (Status taken = passage.hand_on(on_drawn); !taken) return taken;
   }
-  if (!in_order || counted != init_words.size())
-    return Error{ExitCode::differs,
-                 fmt::format("{} in lanes: {} init vectors in, parts of {} out{}; please report it",
-                             s.key.name(), init_words.size() / s.vector_words(), counted / s.vector_words(),
-                             in_order ? "" : ", in another order")};
   s.drawing = false;
   return Ok{};
-}
-
-Status LaneSimulator::run(std::span<const std::uint32_t> init_words, std::size_t vectors,
-                          std::vector<Fragment>& out, std::size_t max_fragments) {
-  const std::size_t words_per_vector = (state_->init_bits + 31) / 32;
-  if (init_words.size() != words_per_vector * vectors)
-    return bad_input(fmt::format("{}: {} words are not {} vectors of {} bits", state_->key.name(),
-                                 init_words.size(), vectors, state_->init_bits));
-  return run(init_words, max_fragments - std::min(max_fragments, out.size()),
-             [&](auto, std::span<const Fragment> fragments) {
-               out.insert(out.end(), fragments.begin(), fragments.end());
-             });
 }
 
 }  // namespace halfway

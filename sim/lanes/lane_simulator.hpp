@@ -5,15 +5,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "common/result.hpp"
-#include "frame/fragment.hpp"
 #include "plan/hardware_key.hpp"
+#include "sim/engine/engine.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
 namespace halfway {
@@ -29,7 +29,7 @@ struct LaneOptions {
   std::string compiler{};  ///< empty: clang++ where it is installed, else g++
 };
 
-class LaneSimulator {
+class LaneSimulator final : public Engine {
  public:
   /// Why there are no lanes for hardware of this key, whatever its netlist; empty where there may be.
   static std::string refused(const HardwareKey& key);
@@ -41,40 +41,31 @@ class LaneSimulator {
   static Result<LaneSimulator> open(const HardwareKey& key, const SimulatorFolders& folders,
                                     const LaneOptions& options = {});
 
-  unsigned init_bits() const;
-
-  /// Other lanes of the same hardware, reset, for another thread; with the same options.
-  LaneSimulator another() const;
-
-  /// A part of a call's vectors, and the fragments that lanes drew for them, in the lanes' own room.
-  using OnDrawn =
-      std::function<void(std::span<const std::uint32_t> init_words, std::span<const Fragment> fragments)>;
-
-  /// Draws whole triangles from idle to idle, and hands on their fragments part by part in the order of a
-  /// single stream, whatever the number of lanes and threads; this thread calls `on_drawn`. More than
-  /// `max_fragments` is an error, and so are more than the vectors cover, and some. A fault of the hardware
-  /// (a hang) has the exit code `differs`, and so has a part of the vectors that was not handed on, or not in
-  /// its place; some parts may have been handed on then. After an error the next call begins with lanes just
-  /// reset. More vectors in a call are faster: thousands.
+  EngineKind kind() const override { return EngineKind::lanes; }
+  Result<std::shared_ptr<Engine>> another() const override;
+  /// Draws from idle to idle, and hands on fragments part by part in the order of a single stream, whatever
+  /// the number of lanes and threads; this thread calls `on_drawn`. More fragments than the vectors cover,
+  /// and some, are a fault. After an error the next call begins with lanes just reset. More vectors in a call
+  /// are faster: thousands.
   ///
   /// Lanes go on from part to part and wait for one another at a call's end alone, and where `most_waiting`
   /// fragments wait. Memory does not grow with a call's vectors: a thread's lanes hold that many and a part
   /// or triangle that covers more, in room for four times as many at most; room for 2^21 in all stays for
   /// what comes next.
-  Status run(std::span<const std::uint32_t> init_words, std::size_t max_fragments, const OnDrawn& on_drawn);
-  /// The same, appended to `out`, which holds no more than `max_fragments`.
-  Status run(std::span<const std::uint32_t> init_words, std::size_t vectors, std::vector<Fragment>& out,
-             std::size_t max_fragments);
+  Status draw(std::span<const std::uint32_t> init_words, std::uint64_t most,
+              const OnDrawn& on_drawn) override;
+  Status drain(std::uint64_t, const OnDrawn&) override { return Ok{}; }
+  /// None: the clocks of lanes are not the stream's.
+  std::optional<std::uint64_t> cycles() const override { return std::nullopt; }
 
   /// Clocks of all lanes while they had something to draw, summed: more than one hardware would need, as each
   /// part ends with the pipeline running empty.
-  std::uint64_t cycles() const;
+  std::uint64_t lane_cycles() const;
 
  private:
   struct Hardware;  // what others of the same share
   struct State;
   class Passage;
-  static LaneSimulator with_lanes(Hardware hardware);
   explicit LaneSimulator(std::shared_ptr<State> state) : state_(std::move(state)) {}
   std::shared_ptr<State> state_;
 };

@@ -59,35 +59,38 @@ class ShadersInLanes : public testing::TestWithParam<Case> {
 };
 
 TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
-  const std::size_t vectors = words_.size() / words_per_vector_;
   for (const unsigned threads : {1U, 3U}) {
     auto lanes = LaneSimulator::open(key_, kFolders, {.threads = threads, .fast = false});
     ASSERT_TRUE(lanes) << lanes.error().message;
     std::vector<Fragment> drawn;
-    const Status ran = lanes->run(words_, vectors, drawn, kMost);
+    const Status ran = lanes->run(words_, drawn, kMost);
     ASSERT_TRUE(ran) << ran.error().message;
     EXPECT_TRUE(drawn == expected_);
-    EXPECT_GE(lanes->cycles(), drawn.size());
+    EXPECT_GE(lanes->lane_cycles(), drawn.size());
 
-    // Part by part, each with its own vectors, by other lanes of the same hardware.
-    LaneSimulator others = lanes->another();
+    // Part by part, each of whole triangles, by other lanes of the same hardware.
+    const auto others = lanes->another();
+    ASSERT_TRUE(others) << others.error().message;
+    std::span<const std::uint32_t> ahead = words_;
     std::size_t at = 0, parts = 0;
-    const auto take = [&](std::span<const std::uint32_t> words, std::span<const Fragment> fragments) {
-      const std::span<const Fragment> own = golden_->draw(words);
+    const auto take = [&](std::span<const Fragment> fragments) {
+      const std::span<const Fragment> own = golden_->draw_next(ahead, fragments.size());
       EXPECT_TRUE(std::equal(fragments.begin(), fragments.end(), own.begin(), own.end()));
       at += fragments.size();
       ++parts;
     };
-    ASSERT_TRUE(others.run(words_, kMost, take));
+    ASSERT_TRUE((*others)->draw(words_, kMost, take));
     EXPECT_EQ(at, expected_.size());
     EXPECT_GT(parts, 8U);
-    EXPECT_FALSE(others.run(words_, expected_.size() - 1, take));
+    const auto ignore = [](std::span<const Fragment>) {};
+    EXPECT_FALSE((*others)->draw(words_, expected_.size() - 1, ignore));
     // Broken off in the middle of triangles, which come in no later call.
-    EXPECT_FALSE(others.run(words_, 1, take));
+    EXPECT_FALSE((*others)->draw(words_, 1, ignore));
+    ahead = words_;
     at = 0;
-    ASSERT_TRUE(others.run(words_, kMost, take));
+    ASSERT_TRUE((*others)->draw(words_, kMost, take));
     EXPECT_EQ(at, expected_.size());
-    const Status cut = others.run(std::span(words_).first(words_.size() - 1), kMost, take);
+    const Status cut = (*others)->draw(std::span(words_).first(words_.size() - 1), kMost, ignore);
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().code, ExitCode::bad_input);
 
@@ -98,7 +101,7 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
       std::size_t count = 0;
       for (std::size_t i = 0; i < triangles * triangles && count * words_per_vector_ < rest.size(); ++i)
         count += golden_->group(rest.subspan(count * words_per_vector_));
-      const Status part = lanes->run(rest.first(count * words_per_vector_), count, drawn, kMost);
+      const Status part = lanes->run(rest.first(count * words_per_vector_), drawn, kMost);
       ASSERT_TRUE(part) << part.error().message;
       rest = rest.subspan(count * words_per_vector_);
     }
@@ -111,11 +114,11 @@ TEST_P(ShadersInLanes, DrawTheSameWithRandomStalls) {
     auto lanes = LaneSimulator::open(key_, kFolders, {.threads = 2, .stall_seed = seed, .fast = false});
     ASSERT_TRUE(lanes) << lanes.error().message;
     std::vector<Fragment> drawn;
-    const Status ran = lanes->run(words_, words_.size() / words_per_vector_, drawn, kMost);
+    const Status ran = lanes->run(words_, drawn, kMost);
     ASSERT_TRUE(ran) << ran.error().message;
     EXPECT_TRUE(drawn == expected_) << "seed " << seed;
     // Half of all fragments wait a clock or more.
-    EXPECT_GT(lanes->cycles(), 2 * drawn.size());
+    EXPECT_GT(lanes->lane_cycles(), 2 * drawn.size());
   }
 }
 
@@ -130,7 +133,7 @@ TEST_P(ShadersInLanes, WaitForWhatIsInFrontOrGoOn) {
       std::vector<std::uint32_t> words;
       for (std::size_t i = 0; i < kTurns; ++i) words.insert(words.end(), words_.begin(), words_.end());
       std::vector<Fragment> drawn;
-      const Status ran = lanes->run(words, words.size() / words_per_vector_, drawn, kMost);
+      const Status ran = lanes->run(words, drawn, kMost);
       ASSERT_TRUE(ran) << ran.error().message;
       ASSERT_EQ(drawn.size(), kTurns * expected_.size());
       for (std::size_t i = 0; i < kTurns; ++i)

@@ -138,17 +138,14 @@ Drawing draw(const Scene& scene, const HardwareKey& key, bool with_rtl = false) 
     if (!opened) throw std::runtime_error(opened.error().message);
     rtl.emplace(std::move(*opened));
   }
-  const std::size_t words_per_vector = (setup->init_bits() + 31) / 32;
   SceneStream stream(*setup, key, 1);
   for (Batch batch; stream.next(batch);) {
     out.golden.insert(out.golden.end(), batch.golden.begin(), batch.golden.end());
-    if (rtl)
-      sure(rtl->run(batch.init_words, batch.init_words.size() / words_per_vector, out.rtl,
-                    out.golden.size() + c_most_surplus));
+    if (rtl) sure(rtl->run(batch.init_words, out.rtl, out.golden.size() + c_most_surplus));
   }
   if (rtl) {
     sure(rtl->finish(out.rtl, out.golden.size() + c_most_surplus));
-    out.cycles = rtl->cycles();
+    out.cycles = *rtl->cycles();
   }
   return out;
 }

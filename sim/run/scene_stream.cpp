@@ -26,17 +26,6 @@ std::size_t bytes(const Batch& batch) {
          batch.golden.size() * sizeof(batch.golden[0]);
 }
 
-// What the golden model is going to draw for a unit's vectors.
-std::size_t fragment_bytes(const GoldenModel& golden, std::span<const std::uint32_t> words) {
-  const std::size_t vector_words = (golden.init_bits() + 31) / 32;
-  std::uint64_t pixels = 0;
-  while (!words.empty()) {
-    pixels += golden.pixels(words);
-    words = words.subspan(std::min(words.size(), golden.group(words) * vector_words));
-  }
-  return static_cast<std::size_t>(pixels) * sizeof(Fragment);
-}
-
 }  // namespace
 
 SceneStream::SceneStream(const Setup& setup, const HardwareKey& key, unsigned threads,
@@ -125,7 +114,8 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batc
         const std::size_t begins = part.batch.init_words.size();
         setup_.append(part.end, part.batch.init_words, part.counts);
         const auto words = std::span(part.batch.init_words).subspan(begins);
-        holds += words.size_bytes() + (golden ? fragment_bytes(*golden, words) : 0);
+        holds += words.size_bytes();
+        if (golden) holds += static_cast<std::size_t>(golden->all_pixels(words)) * sizeof(Fragment);
       }
       const double golden_start = thread_seconds();
       part.setup_seconds += golden_start - setup_start;
@@ -168,14 +158,14 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batc
   return all;
 }
 
-Status check_shadow_counts(const Scene& scene, const SceneStream& stream) {
+Status check_shadow_counts(const Scene& scene, const SceneStream& stream, bool fault) {
   if (const std::uint64_t deepest = stream.counts().deepest_shadow; deepest > c_most_shadows)
     return bad_input(
         fmt::format("{}: {} shadow volumes of one light begin or end before one another at a pixel, and the "
                     "processors count up "
                     "to {}; leave out casters in others' shadow, or the shadows",
                     scene.name, deepest, c_most_shadows));
-  if (stream.fault())
+  if (stream.fault() || fault)
     return tool_failed(
         fmt::format("{}: a count of shadow volumes left its format; please report it", scene.name));
   return Ok{};

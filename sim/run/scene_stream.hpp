@@ -78,8 +78,8 @@ class SceneStream {
 };
 
 /// Whether, in all batches taken so far, each pixel's shadow volumes could be counted; bad input where there
-/// are too many.
-Status check_shadow_counts(const Scene& scene, const SceneStream& stream);
+/// are too many. `fault`: of a golden model that draws the batches elsewhere.
+Status check_shadow_counts(const Scene& scene, const SceneStream& stream, bool fault = false);
 /// Whether, in all batches taken so far, each triangle projects to finite points; bad input where one does
 /// not.
 Status check_projection(const Scene& scene, const SceneStream& stream);

@@ -9,18 +9,15 @@
 #include <cmath>
 #include <future>
 #include <nlohmann/json.hpp>
+#include <ranges>
 
 #include "frame/assemble.hpp"
 #include "reference/renderer.hpp"
 #include "scene/lights.hpp"
 #include "setup/spherical_setup.hpp"
 #include "shading/effects.hpp"
-#include "sim/compare/limits.hpp"
-#include "sim/ghdl/ghdl_runner.hpp"
 #include "sim/pictures/image.hpp"
-#include "sim/run/ghdl_parts.hpp"
-#include "sim/run/lane_feed.hpp"
-#include "sim/run/rtl_stream.hpp"
+#include "sim/run/open_engine.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/run/waveform.hpp"
 #include "sim/stream_files/init_file.hpp"
@@ -29,15 +26,12 @@
 #include "sim/system/folder_lock.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/threads.hpp"
-#include "sim/verilator/verilator_simulator.hpp"
 #include "tables/cosine.hpp"
 
 namespace halfway {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr std::size_t c_chunk = 1 << 16;  // fragments
 
 // Times white, past which a light's brightness is worth a note.
 constexpr double c_bright = 2.0;
@@ -67,34 +61,20 @@ class Simulation {
     if (Status status = forget_old_results(); !status) return status.error();
     std::future<ReferenceImage> reference =
         std::async(std::launch::async, [this] { return draw_reference(); });
-    std::future<Result<GhdlRunner>> ghdl_runner;
-    if (s_.ghdl) {
-      s_.on_progress(fmt::format("building {} for GHDL", summary_.plan.key.name()), -1.0);
-      ghdl_runner =
-          std::async(std::launch::async, [this] { return GhdlRunner::open(summary_.plan.key, s_.folders); });
-    }
+    if (Status status = open_engines(); !status) return status.error();
     if (Status status = stream(); !status) return status.error();
-    // GHDL takes the longest: all else is done meanwhile.
-    std::future<Result<SimulatorRun>> ghdl;
-    if (s_.ghdl) {
-      if (ghdl_runner.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-        s_.on_progress(fmt::format("building {} for GHDL", summary_.plan.key.name()), -1.0);
-      const auto runner = ghdl_runner.get();
-      if (!runner) return runner.error();
-      ghdl = std::async(std::launch::async, [this, runner = *runner] { return run_ghdl(runner); });
-      wait_for_threads_of(ghdl);
-    }
+    // Engines that draw late take the longest: all else is done meanwhile.
+    for (Drawing& drawing : drawings_)
+      drawing.finished = std::async(std::launch::async, [&drawing] { return drawing.frame.finish(); });
+    wait_for_threads();
     if (Status status = count_units(); !status) return status.error();
     if (Status status = write_png(files_.frame("golden"), golden_.frame()); !status) return status.error();
-    for (auto& [run, frame] : drawn_)
-      if (Status status = draw_pictures(run, frame); !status) return status.error();
     if (Status status = compare_with(reference.get()); !status) return status.error();
-    if (s_.ghdl) {
-      auto run = ghdl.get();
+    for (Drawing& drawing : drawings_ | std::views::reverse) {
+      auto run = keep(drawing);
       if (!run) return run.error();
-      summary_.runs.push_back(std::move(*run));
+      summary_.runs.insert(summary_.runs.begin(), std::move(*run));
     }
-    for (auto& [run, frame] : drawn_) summary_.runs.push_back(std::move(run));
     for (SimulatorRun& run : summary_.runs)
       if (!run.equal())
         if (Status status = keep_evidence(run); !status) return status.error();
@@ -105,9 +85,18 @@ class Simulation {
   }
 
  private:
+  // An engine, what it draws, and where its fragments are written.
+  struct Drawing {
+    RtlFrame frame;
+    std::shared_ptr<TraceWriter> trace;
+    std::future<Status> finished;
+  };
+
   // What a broken run leaves must not pass for this run's.
   Status forget_old_results() const {
-    for (const char* who : {"golden", "ghdl", "verilator", "lanes"}) {
+    std::vector<std::string> drawers{"golden"};
+    for (const EngineKind kind : c_engine_kinds) drawers.emplace_back(to_string(kind));
+    for (const std::string& who : drawers) {
       if (Status status = forget(files_.trace(who)); !status) return status;
       if (Status status = forget(files_.frame(who)); !status) return status;
       if (Status status = forget(files_.frame(fmt::format("mismatch-{}", who))); !status) return status;
@@ -134,7 +123,7 @@ class Simulation {
 
   // Count the hardware's entities, where any hardware is simulated.
   Status count_units() {
-    if (!s_.ghdl && !s_.verilator && !s_.lanes) return Ok{};
+    if (s_.engines.empty()) return Ok{};
     auto counter = UnitCounter::open(s_.folders);
     if (!counter) return counter.error();
     auto units = counter->count(summary_.plan.key);
@@ -221,39 +210,36 @@ class Simulation {
                             {.frame = s_.size, .subpixel_bits = 4, .workers = on_threads(s_.threads)});
   }
 
-  // Setup, golden model and Verilator, batch by batch; init file and traces written on the way.
+  // Side by side, for some take long.
+  Status open_engines() {
+    const HardwareKey& key = summary_.plan.key;
+    std::vector<std::future<Result<std::shared_ptr<Engine>>>> opening;
+    for (const EngineKind kind : s_.engines)
+      opening.push_back(std::async(std::launch::async, [this, &key, kind] {
+        return open_engine(kind, key, s_.folders,
+                           {.threads = s_.threads,
+                            .stall_seed = s_.stall_seed,
+                            .on_progress = [this, kind](std::uintmax_t bytes) { show_late(kind, bytes); }});
+      }));
+    for (std::size_t i = 0; i < opening.size(); ++i) {
+      s_.on_progress(fmt::format("building {} for {}", key.name(), title(s_.engines[i])), -1.0);
+      auto engine = opening[i].get();
+      if (!engine) return engine.error();
+      auto opened = TraceWriter::open(files_.trace(to_string(s_.engines[i])), key.name());
+      if (!opened) return opened.error();
+      const auto trace = std::make_shared<TraceWriter>(std::move(*opened));
+      RtlFrameOptions frame{.on_drawn = [trace](std::span<const Fragment> drawn) { trace->write(drawn); }};
+      if ((*engine)->draws_late()) frame.golden_trace = files_.trace("golden");
+      drawings_.push_back(
+          {RtlFrame(std::move(*engine), s_.size, scene_.background, std::move(frame)), trace, {}});
+    }
+    return Ok{};
+  }
+
+  // Setup, golden model and engines, batch by batch; init file and traces written on the way.
   Status stream() {
     const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, summary_.plan.key, s_.setup);
-    std::optional<VerilatorSimulator> verilator;
-    std::optional<TraceWriter> verilator_trace;
-    RtlStream rtl(s_.size, scene_.background);
     const std::string key = summary_.plan.key.name();
-    if (s_.verilator) {
-      s_.on_progress(fmt::format("building {} for Verilator", key), -1.0);
-      auto opened = VerilatorSimulator::open(summary_.plan.key, s_.folders,
-                                             {.stall_seed = s_.stall_seed, .idle_limit = c_idle_limit});
-      if (!opened) return opened.error();
-      verilator.emplace(std::move(*opened));
-      auto trace = TraceWriter::open(files_.trace("verilator"), key);
-      if (!trace) return trace.error();
-      verilator_trace.emplace(std::move(*trace));
-    }
-    std::optional<LaneSimulator> lanes;
-    std::optional<TraceWriter> lanes_trace;
-    RtlStream rtl_in_lanes(s_.size, scene_.background);
-    if (s_.lanes) {
-      if (const auto possible = use_lanes(RtlEngine::lanes, summary_.plan.key, 0.0); !possible)
-        return possible.error();
-      s_.on_progress(fmt::format("building {} in lanes", key), -1.0);
-      auto opened = LaneSimulator::open(
-          summary_.plan.key, s_.folders,
-          {.threads = s_.threads, .idle_limit = c_idle_limit, .stall_seed = s_.stall_seed});
-      if (!opened) return opened.error();
-      lanes.emplace(std::move(*opened));
-      auto trace = TraceWriter::open(files_.trace("lanes"), key);
-      if (!trace) return trace.error();
-      lanes_trace.emplace(std::move(*trace));
-    }
     for (const std::string& held : setup->notes()) note(held);
     auto init_file = InitFileWriter::open(files_.init(), key, setup->init_bits());
     if (!init_file) return init_file.error();
@@ -261,28 +247,17 @@ class Simulation {
     if (!golden_trace) return golden_trace.error();
 
     SceneStream stream(*setup, summary_.plan.key, s_.threads);
-    Cuts cuts(summary_.plan.key);
-    std::optional<VerilatorFeed> feed;
-    if (verilator) feed.emplace(*verilator, rtl, [&](auto drawn) { verilator_trace->write(drawn); });
-    std::optional<LaneFeed> lane_feed;
-    if (lanes) lane_feed.emplace(*lanes, rtl_in_lanes, [&](auto drawn) { lanes_trace->write(drawn); });
     for (Batch batch; stream.next(batch);) {
       s_.on_progress("setup, golden model, Verilator", batch.done);
       if (Status status = check_shadow_counts(scene_, stream); !status) return status;
       init_file->write(batch.init_words);
-      if (s_.ghdl) cuts.add(batch.init_words);
       golden_trace->write(batch.golden);
       if (Status status = golden_.add(batch.golden); !status)
         return tool_failed(fmt::format("{}: setup made a fragment outside the frame: {}; please report it",
                                        scene_.name, status.error().message));
-      if (lane_feed)
-        if (Status status = lane_feed->add(batch.init_words, batch.golden); !status) return status;
-      if (!feed) continue;
-      rtl.add_golden(batch.golden);
-      if (Status status = feed->add(batch.init_words); !status) return status;
+      for (Drawing& drawing : drawings_)
+        if (Status status = drawing.frame.add(batch.init_words, batch.golden); !status) return status;
     }
-    if (feed)
-      if (Status status = feed->finish(); !status) return status;
     if (Status status = init_file->commit(); !status) return status;
     if (Status status = golden_trace->commit(); !status) return status;
     summary_.setup = stream.counts();
@@ -290,103 +265,35 @@ class Simulation {
     summary_.setup_seconds = stream.setup_seconds();
     summary_.golden_seconds = stream.golden_seconds();
     summary_.fragments = golden_.fragments();
-    first_vectors_ = cuts.parts();
-    if (feed)
-      if (Status status = keep_run("verilator", rtl, feed->alive() ? &*verilator_trace : nullptr,
-                                   verilator->cycles(), feed->seconds());
-          !status)
-        return status;
-    // Lanes' clocks are not the stream's: each part of it runs from idle to idle.
-    if (lane_feed)
-      return keep_run("lanes", rtl_in_lanes, lane_feed->alive() ? &*lanes_trace : nullptr, std::nullopt,
-                      lane_feed->seconds());
     return Ok{};
   }
 
-  // What a simulator in this process leaves, but for its pictures. A run that was broken off has no trace,
-  // which could pass for whole.
-  Status keep_run(const std::string& simulator, RtlStream& rtl, TraceWriter* trace,
-                  std::optional<std::uint64_t> cycles, double seconds) {
-    if (trace != nullptr)
-      if (Status status = trace->commit(cycles); !status) return status;
-    SimulatorRun run = rtl.finish(simulator);
-    run.cycles = cycles;
-    run.seconds = seconds;
-    drawn_.push_back({std::move(run), rtl.assembler().frame()});
-    return Ok{};
-  }
-
-  Status draw_pictures(SimulatorRun& run, const Frame& frame) const {
-    if (Status status = write_png(files_.frame(run.simulator), frame); !status) return status;
-    return show_difference(run, frame);
-  }
-
-  // While the pictures' library loads, 0.3 s, no thread can be made: so GHDL's are made first.
-  void wait_for_threads_of(const std::future<Result<SimulatorRun>>& ghdl) const {
-    const auto threads = std::min<std::size_t>(s_.threads, first_vectors_.size());
-    while (ghdl_begun_ < threads &&
-           ghdl.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
-    }
-  }
-
-  // Beside the pictures of the others.
-  Result<SimulatorRun> run_ghdl(const GhdlRunner& runner) {
-    const std::string key = summary_.plan.key.name();
+  // How far an engine is that draws late: its trace is about as long as the golden one.
+  void show_late(EngineKind kind, std::uintmax_t bytes) {
+    late_began_ = true;
     std::error_code ignored;
-    const auto golden_bytes =
-        static_cast<double>(std::filesystem::file_size(files_.trace("golden"), ignored));
-    GhdlRunOptions options;
-    options.idle_limit = c_idle_limit;
-    options.stall_seed = s_.stall_seed;
-    options.max_fragments = static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(summary_.fragments + c_most_surplus, std::uint64_t{0x7fffffff}));
-    options.on_progress = [&](std::uintmax_t bytes) {
-      s_.on_progress("GHDL", std::min(1.0, static_cast<double>(bytes) / golden_bytes));
-    };
-    options.on_begin = [&] { ++ghdl_begun_; };
-    s_.on_progress("GHDL", 0.0);
-    RtlStream rtl(s_.size, scene_.background);
-    std::optional<TraceReader> golden;
-    const auto begin = [&]() -> Status {
-      auto opened = TraceReader::open(files_.trace("golden"), key);
-      if (!opened) return opened.error();
-      golden.emplace(std::move(*opened));
-      return Ok{};
-    };
-    std::vector<Fragment> expected;
-    const auto add_golden = [&](std::size_t most) -> Result<std::size_t> {
-      expected.clear();
-      const auto count = golden->read(expected, most);
-      if (count) rtl.add_golden(expected);
-      return count;
-    };
-    if (Status status = begin(); !status) return status.error();
-    const auto ran =
-        run_in_parts(runner, summary_.plan.key, files_.init(), first_vectors_, files_.trace("ghdl"), options,
-                     s_.threads, [&](std::span<const Fragment> fragments) -> Status {
-                       if (const auto read = add_golden(fragments.size()); !read) return read.error();
-                       rtl.add(fragments);
-                       return Ok{};
-                     });
-    if (!ran && ran.error().code != ExitCode::differs) return ran.error();
-    if (!ran) {
-      // What came before a fault is worth no more than the rest.
-      rtl = RtlStream(s_.size, scene_.background);
-      rtl.set_fault(ran.error().message);
-      if (Status status = begin(); !status) return status.error();
-    }
-    for (std::size_t count = 1; count != 0;) {
-      const auto read = add_golden(c_chunk);
-      if (!read) return read.error();
-      count = *read;
-    }
-    SimulatorRun run = rtl.finish("ghdl");
-    run.parts = first_vectors_.size();
-    if (ran) {
-      run.cycles = ran->cycles;
-      run.seconds = ran->seconds;
-    }
-    if (Status status = draw_pictures(run, rtl.assembler().frame()); !status) return status.error();
+    const auto golden = static_cast<double>(std::filesystem::file_size(files_.trace("golden"), ignored));
+    s_.on_progress(title(kind), std::min(1.0, static_cast<double>(bytes) / golden));
+  }
+
+  // While the pictures' library loads, 0.3 s, no thread can be made: so engines that draw late make theirs
+  // first.
+  void wait_for_threads() const {
+    for (const Drawing& drawing : drawings_)
+      while (drawing.frame.engine().draws_late() && !late_began_ &&
+             drawing.finished.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+      }
+  }
+
+  // What an engine leaves. A run that was broken off has no trace, which could pass for whole.
+  Result<SimulatorRun> keep(Drawing& drawing) const {
+    if (Status status = drawing.finished.get(); !status) return status.error();
+    SimulatorRun run = drawing.frame.result();
+    if (drawing.frame.alive())
+      if (Status status = drawing.trace->commit(run.cycles); !status) return status.error();
+    const Frame& frame = drawing.frame.assembler().frame();
+    if (Status status = write_png(files_.frame(run.simulator), frame); !status) return status.error();
+    if (Status status = show_difference(run, frame); !status) return status.error();
     return run;
   }
 
@@ -431,10 +338,9 @@ class Simulation {
   const SimulateSettings& s_;
   ResultFiles files_;
   FrameAssembler golden_;
-  std::vector<std::uint64_t> first_vectors_;           ///< of the parts in which GHDL draws
-  std::atomic<std::size_t> ghdl_begun_ = 0;            ///< parts that have begun
-  std::vector<std::pair<SimulatorRun, Frame>> drawn_;  ///< in this process
   SceneSummary summary_;
+  std::atomic<bool> late_began_ = false;  ///< to draw
+  std::vector<Drawing> drawings_;         ///< by s_.engines
 };
 
 }  // namespace

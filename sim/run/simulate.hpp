@@ -14,10 +14,11 @@
 #include "frame/metrics.hpp"
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
+#include "sim/engine/engine.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/ghdl/hardware_units.hpp"
 #include "sim/run/result_files.hpp"
-#include "sim/run/rtl_stream.hpp"
+#include "sim/run/rtl_frame.hpp"
 
 namespace halfway {
 
@@ -26,8 +27,7 @@ struct SimulateSettings {
   FrameSize size;
   SetupOptions setup;
   unsigned threads = 1;
-  bool ghdl = true, verilator = true;
-  bool lanes = false;            ///< too; they report no cycles
+  std::vector<EngineKind> engines{EngineKind::ghdl, EngineKind::verilator};  ///< in the order of EngineKind
   std::uint32_t stall_seed = 0;  ///< not 0: both streams stall at random
   std::filesystem::path out;
   SimulatorFolders folders;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "golden/processors_layout.hpp"
+#include "golden/processors_shader.hpp"
 #include "golden/word.hpp"
 
 namespace halfway {
@@ -13,12 +14,7 @@ constexpr std::size_t c_around = 2;
 
 // What the shading processors are told once, and what they keep of a line.
 bool is_load(const HardwareKey& key, std::span<const std::uint32_t> vector) {
-  using golden::Command;
-  if (key.shader != Shader::processors) return false;
-  const auto command =
-      static_cast<Command>(golden::get_bits(vector, golden::Exact::request_header_at::command));
-  return command == Command::new_frame || command == Command::define || command == Command::redefine ||
-         command == Command::remove;
+  return key.shader == Shader::processors && golden::ProcessorsShader<golden::Exact>::is_load(vector);
 }
 std::optional<std::uint64_t> line_of_objects(const HardwareKey& key, std::span<const std::uint32_t> vector) {
   if (key.shader != Shader::processors || !key.processors.shadows) return std::nullopt;

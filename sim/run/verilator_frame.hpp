@@ -12,7 +12,7 @@
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
-#include "sim/verilator/verilator_simulator.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
 
 namespace halfway {
 

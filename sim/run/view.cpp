@@ -17,7 +17,7 @@
 #include "scene/turntable.hpp"
 #include "setup/project.hpp"
 #include "setup/spherical_setup.hpp"
-#include "sim/compare/limits.hpp"
+#include "sim/run/open_engine.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/system/seconds.hpp"
@@ -43,25 +43,22 @@ struct DrawnFrame {
   bool covered = false;
   std::uint64_t in_view = 0;           ///< triangles
   std::uint64_t reference_pixels = 0;  ///< where no fragment was drawn
-  bool lanes_failed = false;           ///< Verilator drew
+  bool again = false;                  ///< Verilator drew it after the engine
   std::optional<ViewDifference> difference;
 };
 
-// Models of the hardware, and the scene that they draw from place to place.
+// An engine, and the scene that it draws from place to place.
 class Easel {
  public:
-  /// `lanes`: none where Verilator draws.
-  Easel(Scene scene, std::optional<VerilatorSimulator> verilator, std::optional<LaneSimulator> lanes,
-        const ViewSettings& settings, const SetupOptions& setup, const HardwareKey& key, unsigned threads)
+  Easel(Scene scene, std::shared_ptr<Engine> engine, const ViewSettings& settings, const SetupOptions& setup,
+        const HardwareKey& key, unsigned threads)
       : scene_(std::move(scene)),
         first_camera_(scene_.camera),
-        verilator_(std::move(verilator)),
-        lanes_(std::move(lanes)),
         s_(settings),
         setup_(setup),
         key_(key),
         threads_(threads),
-        rtl_(settings.size, scene_.background, settings.compare) {}
+        rtl_(frame_of(std::move(engine))) {}
 
   Result<DrawnFrame> draw(std::uint32_t number) {
     scene_.camera = turned(first_camera_, number, s_.frames);
@@ -70,37 +67,18 @@ class Easel {
           "{}: frame {} has no view: the camera's eye is too near its target, or to the axis through that",
           scene_.name, number));
     DrawnFrame drawn;
-    RtlStream& rtl = rtl_;
-    rtl.clear();
-    if (Status status = lanes_ ? draw_in_lanes(rtl, drawn) : draw_in_verilator(rtl, drawn); !status)
-      return status.error();
-    SimulatorRun run = finish(rtl, drawn, to_string(lanes_ ? RtlEngine::lanes : RtlEngine::verilator));
-    if (lanes_ && !run.equal()) {
-      // Verilator reports more: the cycle of a fault, and the fragments before it.
-      const SimulatorRun in_lanes = std::move(run);
-      drawn.lanes_failed = true;
-      rtl.clear();
-      if (Status status = draw_in_verilator(rtl, drawn); !status) return status.error();
-      run = finish(rtl, drawn, to_string(RtlEngine::verilator));
-      if (run.equal()) {
-        const std::string difference = in_lanes.mismatches == 0
-                                           ? in_lanes.fault
-                                           : fmt::format("{} fragments differ in lanes", in_lanes.mismatches);
-        return Error{ExitCode::differs,
-                     fmt::format("{}: frame {}: {}; Verilator draws it without a difference. The lanes are "
-                                 "wrong: please report it, and use --simulator verilator",
-                                 scene_.name, number, difference)};
-      }
-    }
-    drawn.fragments = run.fragments;
-    drawn.covered = run.fragments != 0;
+    auto run = draw_in(rtl_, drawn);
+    if (run && !run->equal() && rtl_.engine().kind() != EngineKind::verilator)
+      run = draw_again(number, *run, drawn);
+    if (!run) return run.error();
+    drawn.fragments = run->fragments;
+    drawn.covered = run->fragments != 0;
     if (!drawn.covered && s_.compare) drawn.reference_pixels = count_reference_pixels();
-    if (!run.equal()) drawn.difference = ViewDifference{number, scene_.camera, std::move(run)};
+    if (!run->equal()) drawn.difference = ViewDifference{number, scene_.camera, std::move(*run)};
 
     const double images_start = thread_seconds();
-    if (Status status = s_.on_drawn(number, rtl.assembler().frame()); !status) return status.error();
+    if (Status status = s_.on_drawn(number, frame_); !status) return status.error();
     drawn.seconds.images = thread_seconds() - images_start;
-    frame_ = rtl.assembler().frame();
     return drawn;
   }
   const Frame& frame() const { return frame_; }
@@ -111,77 +89,54 @@ class Easel {
                                                       {.frame = s_.size, .subpixel_bits = 4});
     return static_cast<std::uint64_t>(std::ranges::count(reference.mask, 1));
   }
-  Status draw_in_lanes(RtlStream& rtl, DrawnFrame& drawn) {
-    fed_ = {};
-    if (!s_.compare) {
-      LaneFeed feed(*lanes_, rtl);
-      return draw(drawn, false, [&](const Batch& batch) { return feed.add(batch.init_words); });
-    }
-    if (!golden_) golden_ = make_golden_model(key_);
-    LaneFeed feed(*lanes_, rtl, *golden_);
-    const Status status = draw(drawn, false, [&](const Batch& batch) { return feed.add(batch.init_words); });
-    const double golden = fed_.share(feed.golden_seconds());
-    drawn.seconds.golden += golden;
-    drawn.seconds.rtl -= golden;
-    return status;
-  }
-  Status draw_in_verilator(RtlStream& rtl, DrawnFrame& drawn) {
-    fed_ = {};
-    if (!verilator_) {
-      auto opened = VerilatorSimulator::open(key_, s_.folders, {.idle_limit = c_idle_limit});
-      if (!opened) return opened.error();
-      verilator_.emplace(std::move(*opened));
-    }
-    VerilatorFeed feed(*verilator_, rtl);
-    if (Status status = draw(drawn, s_.compare,
-                             [&](const Batch& batch) {
-                               rtl.add_golden(batch.golden);
-                               return feed.add(batch.init_words);
-                             });
-        !status)
-      return status;
-    return fed_.add([&] { return feed.finish(); });
+
+  RtlFrame frame_of(std::shared_ptr<Engine> engine) const {
+    return {std::move(engine),
+            s_.size,
+            scene_.background,
+            {.golden = make_golden_model(key_), .compare = s_.compare}};
   }
 
-  /// `golden`: batches hold the golden model's fragments.
-  template <class Feed>
-  Status draw(DrawnFrame& drawn, bool golden, const Feed& feed) {
+  Result<SimulatorRun> draw_in(RtlFrame& rtl, DrawnFrame& drawn) {
     const double setup_start = thread_seconds();
+    rtl.clear();
     const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, key_, setup_);
     drawn.notes = setup->notes();
     drawn.seconds.setup += thread_seconds() - setup_start;
     // With a thread a frame there is another frame to draw meanwhile.
-    SceneStream stream(*setup, key_, threads_, {.golden = golden, .ahead = threads_ > 1});
-    for (Batch batch; stream.next(batch);) {
-      if (Status status = check_shadow_counts(scene_, stream); !status) return status;
-      if (Status fed = fed_.add([&] { return feed(batch); }); !fed) return fed;
-    }
+    SceneStream stream(*setup, key_, threads_, {.golden = false, .ahead = threads_ > 1});
+    if (Status status = rtl.draw(scene_, stream); !status) return status.error();
     drawn.in_view = triangles_in_view(stream.counts());
-    drawn.seconds.setup += stream.setup_seconds();
-    drawn.seconds.golden += stream.golden_seconds();
-    return check_projection(scene_, stream);
+    const RtlFrame::Seconds seconds = rtl.seconds();
+    drawn.seconds += {stream.setup_seconds(), seconds.golden, seconds.rtl, seconds.compare, seconds.assemble};
+    frame_ = rtl.assembler().frame();
+    return rtl.result();
   }
 
-  SimulatorRun finish(RtlStream& rtl, DrawnFrame& drawn, const char* simulator) {
-    SimulatorRun run = fed_.add([&] { return rtl.finish(simulator); });
-    const double compare = fed_.share(rtl.compare_seconds()), assemble = fed_.share(rtl.assemble_seconds());
-    drawn.seconds.rtl += fed_.processor() - compare - assemble;
-    drawn.seconds.compare += compare;
-    drawn.seconds.assemble += assemble;
-    return run;
+  Result<SimulatorRun> draw_again(std::uint32_t number, const SimulatorRun& first, DrawnFrame& drawn) {
+    const char* const engine = title(rtl_.engine().kind());
+    auto verilator = open_engine(EngineKind::verilator, key_, s_.folders);
+    if (!verilator) return verilator.error();
+    RtlFrame rtl = frame_of(std::move(*verilator));
+    drawn.again = true;
+    auto run = draw_in(rtl, drawn);
+    if (!run || !run->equal()) return run;
+    const std::string difference = first.mismatches == 0
+                                       ? first.fault
+                                       : fmt::format("{} fragments differ in {}", first.mismatches, engine);
+    return Error{ExitCode::differs,
+                 fmt::format("{}: frame {}: {}; Verilator draws it without a difference. The {} are "
+                             "wrong: please report it, and use --simulator verilator",
+                             scene_.name, number, difference, engine)};
   }
 
   Scene scene_;
   Camera first_camera_;
-  std::optional<VerilatorSimulator> verilator_;
-  std::optional<LaneSimulator> lanes_;
-  std::unique_ptr<GoldenModel> golden_;  ///< beside lanes
-  Stretch fed_;                          ///< in which this frame's RTL draws, and all that hangs on it
   const ViewSettings& s_;
   const SetupOptions& setup_;
   const HardwareKey& key_;
   unsigned threads_;
-  RtlStream rtl_;
+  RtlFrame rtl_;
   Frame frame_;
 };
 
@@ -215,7 +170,7 @@ class Turn {
     if (!drawn->covered) ++bare_;
     summary_.in_view = std::max(summary_.in_view, drawn->in_view);
     summary_.reference_pixels = std::max(summary_.reference_pixels, drawn->reference_pixels);
-    if (drawn->lanes_failed) summary_.lanes_failed.push_back(number);
+    if (drawn->again) summary_.drawn_again.push_back(number);
     ++summary_.frames;
     ++taken_;
     if (drawn->difference) {  // the last, whatever later ones came to
@@ -270,12 +225,12 @@ class Turn {
 
 // "lanes", or "lanes, verilator in frames 3, 8".
 std::string who_drew(const ViewSummary& s) {
-  if (s.lanes_failed.empty()) return to_string(s.engine);
+  if (s.drawn_again.empty()) return to_string(s.engine);
   constexpr std::size_t c_named = 10;
-  const auto named = std::span(s.lanes_failed).first(std::min(c_named, s.lanes_failed.size()));
-  const std::size_t others = s.lanes_failed.size() - named.size();
+  const auto named = std::span(s.drawn_again).first(std::min(c_named, s.drawn_again.size()));
+  const std::size_t others = s.drawn_again.size() - named.size();
   return fmt::format("{}, verilator in frame{} {}{}", to_string(s.engine),
-                     s.lanes_failed.size() == 1 ? "" : "s", fmt::join(named, ", "),
+                     s.drawn_again.size() == 1 ? "" : "s", fmt::join(named, ", "),
                      others == 0 ? "" : fmt::format(" and {} others", others));
 }
 
@@ -301,56 +256,39 @@ Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
                       .compared = settings.compare,
                       .threads = settings.threads};
   const HardwareKey& key = summary.plan.key;
-  const auto in_lanes =
-      use_lanes(settings.engine, key,
-                double(settings.size.width) * double(settings.size.height) * double(settings.frames));
-  if (!in_lanes) return in_lanes.error();
-  summary.engine = *in_lanes ? RtlEngine::lanes : RtlEngine::verilator;
+  const double pixels = double(settings.size.width) * double(settings.size.height) * double(settings.frames);
+  summary.engine =
+      settings.engine.value_or(lanes_pay(key, pixels) ? EngineKind::lanes : EngineKind::verilator);
   settings.on_build(key.name(), summary.engine);
-  std::optional<VerilatorSimulator> verilator;
-  std::optional<LaneSimulator> lanes;
-  if (*in_lanes) {
-    auto opened = LaneSimulator::open(key, settings.folders, {.idle_limit = c_idle_limit});
-    if (!opened && settings.engine == RtlEngine::lanes) return opened.error();
-    if (opened) {
-      lanes.emplace(std::move(*opened));
-    } else {
-      summary.notes.push_back(fmt::format("{}: Verilator draws, for lanes cannot be had: {}", scene.name,
-                                          opened.error().message));
-      summary.engine = RtlEngine::verilator;
-      settings.on_build(key.name(), summary.engine);
-    }
+  auto engine = open_engine(summary.engine, key, settings.folders);
+  if (!engine && !settings.engine && summary.engine != EngineKind::verilator) {
+    summary.notes.push_back(fmt::format("{}: Verilator draws, for {} cannot be had: {}", scene.name,
+                                        title(summary.engine), engine.error().message));
+    summary.engine = EngineKind::verilator;
+    settings.on_build(key.name(), summary.engine);
+    engine = open_engine(summary.engine, key, settings.folders);
   }
-  if (!lanes) {
-    auto opened = VerilatorSimulator::open(key, settings.folders, {.idle_limit = c_idle_limit});
-    if (!opened) return opened.error();
-    verilator.emplace(std::move(*opened));
+  if (!engine) return engine.error();
+  const auto fit = static_cast<unsigned>(std::clamp<std::size_t>(
+      c_most_copied_bytes / std::max<std::size_t>(bytes(scene), 1), 1, settings.threads));
+  std::vector<std::shared_ptr<Engine>> engines{std::move(*engine)};
+  while (engines.size() < std::min({settings.threads, fit, settings.frames})) {
+    auto another = engines.front()->another();
+    if (!another) return another.error();
+    engines.push_back(std::move(*another));
   }
   if (Status status = settings.on_ready(); !status) return status.error();
 
   const Clock::time_point start = Clock::now();
-  const auto fit = static_cast<unsigned>(std::clamp<std::size_t>(
-      c_most_copied_bytes / std::max<std::size_t>(bytes(scene), 1), 1, settings.threads));
   SetupOptions setup = settings.setup;
   if (key.shader == Shader::spherical && key.preset == Preset::exact)
     setup.spherical.bells = std::make_shared<const Bells>(fitted_bells(scene));
-  const unsigned easels = std::min({settings.threads, fit, settings.frames});
+  const auto easels = static_cast<unsigned>(engines.size());
+  std::atomic<std::size_t> next = 0;
   Turn turn(settings, summary);
   work_on_threads(easels, [&] {
     try {
-      std::optional<VerilatorSimulator> own;
-      std::optional<LaneSimulator> own_lanes;
-      if (lanes) own_lanes.emplace(lanes->another());
-      if (verilator) {
-        auto model = verilator->another();
-        if (!model) {
-          turn.take(0, model.error(), {});
-          return;
-        }
-        own.emplace(std::move(*model));
-      }
-      Easel easel(scene, std::move(own), std::move(own_lanes), settings, setup, key,
-                  std::max(1U, settings.threads / easels));
+      Easel easel(scene, engines[next++], settings, setup, key, std::max(1U, settings.threads / easels));
       while (const auto number = turn.next()) {
         const auto drawn = easel.draw(*number);
         turn.take(*number, drawn, easel.frame());
@@ -390,7 +328,7 @@ std::string to_lines(const ViewSummary& s) {
   const auto ms = [&](double seconds) { return 1e3 * seconds / s.frames; };
   text += fmt::format("processor time a frame: setup {:.1f} ms, ", ms(s.parts.setup));
   if (s.compared) text += fmt::format("golden model {:.1f}, ", ms(s.parts.golden));
-  text += fmt::format("{} {:.1f}, ", s.engine == RtlEngine::lanes ? "lanes" : "Verilator", ms(s.parts.rtl));
+  text += fmt::format("{} {:.1f}, ", title(s.engine), ms(s.parts.rtl));
   if (s.compared) text += fmt::format("comparison {:.1f}, ", ms(s.parts.compare));
   return text + fmt::format("assembly {:.1f}, images {:.1f}\n", ms(s.parts.assemble), ms(s.parts.images));
 }

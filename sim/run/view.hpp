@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A turntable: one scene from all sides, by one piece of hardware, in Verilator or in lanes.
+// A turntable: one scene from all sides, by one piece of hardware.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
+#include "sim/engine/engine.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
-#include "sim/run/lane_feed.hpp"
-#include "sim/run/rtl_stream.hpp"
+#include "sim/run/rtl_frame.hpp"
 
 namespace halfway {
 
@@ -26,13 +26,13 @@ struct ViewSettings {
   FrameSize size;
   SetupOptions setup;
   unsigned threads = 1;
-  std::uint32_t frames = 36;  ///< of one turn; 1 to c_most_view_frames
-  bool compare = true;        ///< else the golden model does not draw
-  RtlEngine engine = RtlEngine::automatic;
+  std::uint32_t frames = 36;         ///< of one turn; 1 to c_most_view_frames
+  bool compare = true;               ///< else the golden model does not draw
+  std::optional<EngineKind> engine;  ///< none: lanes where they pay and can be had, else Verilator
   SimulatorFolders folders;
   /// Told the key before its hardware is built, and for what.
-  std::function<void(const std::string& key, RtlEngine engine)> on_build = [](const std::string&, RtlEngine) {
-  };
+  std::function<void(const std::string& key, EngineKind engine)> on_build = [](const std::string&,
+                                                                               EngineKind) {};
   /// Called once the hardware is there, before anything is drawn.
   std::function<Status()> on_ready = []() -> Status { return Ok{}; };
   /// Called with each frame once it is drawn: by several threads at once, in no order.
@@ -65,10 +65,10 @@ struct ViewSummary {
   std::uint32_t frames = 0;     ///< drawn; all, unless one differs
   std::uint64_t fragments = 0;  ///< of the RTL, in all frames
   bool compared = true;
-  std::uint64_t in_view = 0;                ///< triangles, the most in a frame
-  std::uint64_t reference_pixels = 0;       ///< in frames without a fragment, the most in one
-  RtlEngine engine = RtlEngine::verilator;  ///< which drew, but for the frames that follow
-  std::vector<std::uint32_t> lanes_failed;  ///< which Verilator drew
+  std::uint64_t in_view = 0;                  ///< triangles, the most in a frame
+  std::uint64_t reference_pixels = 0;         ///< in frames without a fragment, the most in one
+  EngineKind engine = EngineKind::verilator;  ///< which drew
+  std::vector<std::uint32_t> drawn_again;     ///< frames that Verilator drew after it
   unsigned threads = 1;
   double seconds = 0.0;  ///< from when the hardware was there until the last frame was taken
   ViewSeconds parts;
@@ -80,13 +80,13 @@ struct ViewSummary {
 };
 
 /// Draws the scene from `frames` places around its camera's target. Hardware is planned and built once: no
-/// effect depends on the camera. Threads draw whole frames, each on a model of its own, which is not reset
-/// between them; lanes where they pay, see use_lanes(), and can be had: else Verilator, with a note. A frame
-/// that differs in lanes, or in which they end with a fault, is drawn again in Verilator, which reports more:
-/// its cycles, and the fragments before a fault. If Verilator finds no difference, the lanes are wrong: an
-/// error with the exit code `differs`. Memory is bounded by the threads, by the frame, and by SceneStream,
-/// LaneSimulator and VerilatorFeed, not by the number of frames or of triangles. Ends after the first frame
-/// that differs, which is no error: see ViewSummary::difference.
+/// effect depends on the camera. Threads draw whole frames, each in an engine of its own, which is not reset
+/// between them. Where lanes would pay, see lanes_pay(), and cannot be had, Verilator draws, with a note. A
+/// frame that differs, or in which the engine ends with a fault, is drawn again in Verilator, unless that
+/// drew it: Verilator reports more, the cycle of a fault and the fragments before it. If Verilator finds no
+/// difference, the engine is wrong: an error with the exit code `differs`. Memory is bounded by the threads,
+/// by the frame, and by SceneStream and the engine, not by the number of frames or of triangles. Ends after
+/// the first frame that differs, which is no error: see ViewSummary::difference.
 Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings);
 
 /// Two lines: frames a second, mismatches; the parts of a frame's time.

@@ -66,9 +66,7 @@ TEST_P(Watertight, TheRtlDrawsEveryPixelOfAClosedSolidOnce) {
     auto rtl = VerilatorSimulator::open(key, folders);
     ASSERT_TRUE(rtl) << rtl.error().message;
     std::vector<Fragment> drawn;
-    for (Batch batch; stream.next(batch);)
-      ASSERT_TRUE(rtl->run(batch.init_words, batch.init_words.size() / ((setup->init_bits() + 31) / 32),
-                           drawn, 1 << 20));
+    for (Batch batch; stream.next(batch);) ASSERT_TRUE(rtl->run(batch.init_words, drawn, 1 << 20));
     ASSERT_TRUE(rtl->finish(drawn, 1 << 20));
     split += stream.counts().subdivided;
 

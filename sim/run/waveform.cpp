@@ -50,8 +50,7 @@ Status run_until(VerilatorSimulator& simulator, const ResultFiles& files, const 
     const auto vectors = file->read(words, c_vectors_a_read);
     if (!vectors) return vectors.error();
     const auto limit = static_cast<std::size_t>(fragments - count);
-    const Status status =
-        *vectors == 0 ? simulator.finish(drawn, limit) : simulator.run(words, *vectors, drawn, limit);
+    const Status status = *vectors == 0 ? simulator.finish(drawn, limit) : simulator.run(words, drawn, limit);
     if (!taken(status) || *vectors == 0) break;  // enough fragments, a hang, or the end
   }
   return Ok{};
@@ -116,7 +115,7 @@ Result<std::filesystem::path> write_mismatch_waveform(const HardwareKey& key, co
     auto first = VerilatorSimulator::open(key, folders, options);
     if (!first) return first.error();
     if (const Status status = run_until(*first, files, key.name(), fragments); !status) return status.error();
-    at = first->cycles();
+    at = first->cycles().value_or(0);
   }
   const auto scratch = TemporaryFolder::make(files.folder);
   if (!scratch) return scratch.error();

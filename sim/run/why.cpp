@@ -13,12 +13,11 @@
 #include "golden/word.hpp"
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
-#include "sim/compare/limits.hpp"
-#include "sim/run/rtl_stream.hpp"
+#include "sim/run/open_engine.hpp"
+#include "sim/run/rtl_frame.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/run/stages.hpp"
 #include "sim/run/vectors_around.hpp"
-#include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {
 namespace {
@@ -175,19 +174,18 @@ class Explainer {
 
   // The whole frame in Verilator, fragment by fragment.
   Status compare_frame() {
-    auto simulator = VerilatorSimulator::open(key_, s_.folders, {.idle_limit = c_idle_limit});
-    if (!simulator) return simulator.error();
+    auto engine = open_engine(EngineKind::verilator, key_, s_.folders);
+    if (!engine) return engine.error();
     SceneStream stream(*setup_, key_, s_.threads);
-    RtlStream rtl(s_.size, scene_.background);
-    VerilatorFeed feed(*simulator, rtl);
-    for (Batch batch; feed.alive() && stream.next(batch);) {
+    std::uint64_t golden = 0;
+    RtlFrame rtl(std::move(*engine), s_.size, scene_.background);
+    for (Batch batch; rtl.alive() && stream.next(batch);) {
       s_.on_progress(batch.done);
-      rtl.add_golden(batch.golden);
-      if (Status status = feed.add(batch.init_words); !status) return status;
+      golden += batch.golden.size();
+      if (Status status = rtl.add(batch.init_words, batch.golden); !status) return status;
     }
-    if (Status status = feed.finish(); !status) return status;
-    const std::uint64_t golden = rtl.golden_count();
-    const SimulatorRun run = rtl.finish("verilator");
+    if (Status status = rtl.finish(); !status) return status;
+    const SimulatorRun run = rtl.result();
     report_.fault = run.fault;
     if (run.first.empty()) return Ok{};
     report_.frame_difference = run.first.front();

@@ -48,6 +48,7 @@ class Stretch {
     return work();
   }
   double processor() const { return processor_; }
+  double clock() const { return clock_; }
   /// Processor seconds of a piece that took `clock_seconds` of elapsed time.
   double share(double clock_seconds) const {
     return clock_ > 0.0 ? processor_ * clock_seconds / clock_ : 0.0;

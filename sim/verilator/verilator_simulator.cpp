@@ -16,7 +16,7 @@
 namespace halfway {
 namespace {
 
-constexpr std::size_t kChunk = 1U << 11;  ///< fragments made room for at a time
+constexpr std::size_t kChunk = 1U << 11;  ///< fragments handed on at a time: they stay in the cache
 
 static_assert(sizeof(Fragment) == sizeof(HalfwayFragment));
 static_assert(offsetof(Fragment, triangle) == offsetof(HalfwayFragment, triangle));
@@ -49,6 +49,7 @@ struct VerilatorSimulator::State : Hardware {
   }
 
   std::string wave_path;
+  std::vector<Fragment> chunk = std::vector<Fragment>(kChunk);
   void* model = nullptr;
 };
 
@@ -117,54 +118,43 @@ Result<VerilatorSimulator> VerilatorSimulator::with_model(std::shared_ptr<State>
   return VerilatorSimulator(std::move(state));
 }
 
-Result<VerilatorSimulator> VerilatorSimulator::another() const {
+Result<std::shared_ptr<Engine>> VerilatorSimulator::another() const {
   auto state = std::make_shared<State>(static_cast<const Hardware&>(*state_));
   state->options.waves_path = nullptr;
-  return with_model(std::move(state));
+  return shared_engine(with_model(std::move(state)));
 }
 
-unsigned VerilatorSimulator::init_bits() const {
-  return state_->options.init_bits;
-}
-std::uint64_t VerilatorSimulator::cycles() const {
+std::optional<std::uint64_t> VerilatorSimulator::cycles() const {
   return state_->cycles(state_->model);
 }
 
-Status VerilatorSimulator::run(std::span<const std::uint32_t> init_words, std::size_t vector_count,
-                               std::vector<Fragment>& out, std::size_t max_fragments) {
-  const std::size_t words_per_vector = (state_->options.init_bits + 31) / 32;
-  if (init_words.size() != words_per_vector * vector_count) {
-    return bad_input(fmt::format("{}: {} words are not {} vectors of {} bits", state_->name,
-                                 init_words.size(), vector_count, state_->options.init_bits));
-  }
-  return advance(init_words.data(), vector_count, false, out, max_fragments);
+Status VerilatorSimulator::draw(std::span<const std::uint32_t> init_words, std::uint64_t most,
+                                const OnDrawn& on_drawn) {
+  return advance(init_words, false, most, on_drawn);
 }
 
-Status VerilatorSimulator::finish(std::vector<Fragment>& out, std::size_t max_fragments) {
-  return advance(nullptr, 0, true, out, max_fragments);
+Status VerilatorSimulator::drain(std::uint64_t most, const OnDrawn& on_drawn) {
+  return advance({}, true, most, on_drawn);
 }
 
-Status VerilatorSimulator::advance(const std::uint32_t* words, std::size_t vectors, bool drain,
-                                   std::vector<Fragment>& out, std::size_t max_fragments) {
-  HalfwayStreams streams{words, vectors, nullptr, 0, 0};
-  while (true) {
-    const std::size_t before = out.size();
-    if (before > max_fragments) {
-      return Error{ExitCode::differs,
-                   fmt::format("{} in Verilator: more than {} fragments", state_->name, max_fragments)};
-    }
-    // One more than allowed, to see whether there is one. resize writes zeros; a small chunk stays in the
-    // cache.
-    const std::size_t room = std::min(kChunk, max_fragments - before + 1);
-    out.resize(before + std::max<std::size_t>(room, 1));
-    streams.fragments = reinterpret_cast<HalfwayFragment*>(out.data() + before);
-    streams.capacity = out.size() - before;
+Status VerilatorSimulator::advance(std::span<const std::uint32_t> init_words, bool drain, std::uint64_t most,
+                                   const OnDrawn& on_drawn) {
+  State& s = *state_;
+  const std::size_t words_per_vector = (s.options.init_bits + 31) / 32;
+  if (init_words.size() % words_per_vector != 0)
+    return bad_input(fmt::format("{}: {} words are no whole vectors of {} bits", s.name, init_words.size(),
+                                 s.options.init_bits));
+  HalfwayStreams streams{init_words.data(), init_words.size() / words_per_vector, nullptr, 0, 0};
+  for (std::uint64_t left = most;; left -= streams.count) {
+    // One more than allowed, to see whether there is one.
+    streams.fragments = reinterpret_cast<HalfwayFragment*>(s.chunk.data());
+    streams.capacity = left < kChunk ? left + 1 : kChunk;
     streams.count = 0;
-    const int status = drain ? state_->drain(state_->model, &streams) : state_->run(state_->model, &streams);
-    out.resize(before + streams.count);
+    const int status = drain ? s.drain(s.model, &streams) : s.run(s.model, &streams);
+    if (streams.count != 0) on_drawn(std::span(s.chunk).first(streams.count));
     switch (status) {
       case HALFWAY_DONE:
-        if (out.size() <= max_fragments) return Ok{};
+        if (streams.count <= left) return Ok{};
         break;
       case HALFWAY_BUFFER_FULL:
         break;
@@ -173,20 +163,22 @@ Status VerilatorSimulator::advance(const std::uint32_t* words, std::size_t vecto
             ExitCode::differs,
             fmt::format("{} in Verilator: hang: nothing moved for {} cycles after {} cycles, with {} vectors "
                         "still to be taken",
-                        state_->name, state_->options.idle_limit, cycles(), streams.vectors)};
+                        s.name, s.options.idle_limit, s.cycles(s.model), streams.vectors)};
       case HALFWAY_CHANGED:
         return Error{
             ExitCode::differs,
             fmt::format("{} in Verilator: a fragment changed or was withdrawn while it was not taken, after "
                         "{} cycles",
-                        state_->name, cycles())};
+                        s.name, s.cycles(s.model))};
       case HALFWAY_FAULT:
         return Error{ExitCode::differs,
-                     fmt::format("{} in Verilator: a shadow counter left its range, by cycle {}",
-                                 state_->name, cycles())};
+                     fmt::format("{} in Verilator: a shadow counter left its range, by cycle {}", s.name,
+                                 s.cycles(s.model))};
       default:
-        return tool_failed(fmt::format("{} in Verilator: unknown status {}", state_->name, status));
+        return tool_failed(fmt::format("{} in Verilator: unknown status {}", s.name, status));
     }
+    if (streams.count > left)
+      return Error{ExitCode::differs, fmt::format("{} in Verilator: more than {} fragments", s.name, most)};
   }
 }
 

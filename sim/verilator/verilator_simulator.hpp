@@ -2,10 +2,10 @@
 // A shader's RTL in Verilator, in this process.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +13,7 @@
 #include "common/result.hpp"
 #include "frame/fragment.hpp"
 #include "plan/hardware_key.hpp"
+#include "sim/engine/engine.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
 namespace halfway {
@@ -29,35 +30,28 @@ struct VerilatorOptions {
   std::string netlist{};
 };
 
-class VerilatorSimulator {
+class VerilatorSimulator final : public Engine {
  public:
   /// Builds the model, or takes it from the cache, and resets it.
   static Result<VerilatorSimulator> open(const HardwareKey& key, const SimulatorFolders& folders,
                                          const VerilatorOptions& options = {});
-  /// Another model of the same hardware, reset, with the same options, for another thread; without
-  /// waveforms.
-  Result<VerilatorSimulator> another() const;
 
-  unsigned init_bits() const;
-
-  /// Feeds `vector_count` vectors and returns when the last is taken: its fragments, and more, may come with
-  /// the next call. Fragments are appended to `out`; more than `max_fragments` in `out` is an error. A fault
-  /// of the hardware (a hang, a payload that does not stand still) has the exit code `differs`.
-  Status run(std::span<const std::uint32_t> init_words, std::size_t vector_count, std::vector<Fragment>& out,
-             std::size_t max_fragments);
-  /// Goes on until the hardware is empty.
-  Status finish(std::vector<Fragment>& out, std::size_t max_fragments);
-
-  /// From the first vector taken to the last vector or fragment that moved, both counted, as in a trace.
-  std::uint64_t cycles() const;
+  EngineKind kind() const override { return EngineKind::verilator; }
+  /// Without waveforms.
+  Result<std::shared_ptr<Engine>> another() const override;
+  /// Returns when the last vector is taken. Another fault is a payload that does not stand still.
+  Status draw(std::span<const std::uint32_t> init_words, std::uint64_t most,
+              const OnDrawn& on_drawn) override;
+  Status drain(std::uint64_t most, const OnDrawn& on_drawn) override;
+  std::optional<std::uint64_t> cycles() const override;
 
  private:
   struct Hardware;  // what others of the same share
   struct State;
   static Result<VerilatorSimulator> with_model(std::shared_ptr<State> state);
   explicit VerilatorSimulator(std::shared_ptr<State> state) : state_(std::move(state)) {}
-  Status advance(const std::uint32_t* words, std::size_t vectors, bool drain, std::vector<Fragment>& out,
-                 std::size_t max_fragments);
+  Status advance(std::span<const std::uint32_t> init_words, bool drain, std::uint64_t most,
+                 const OnDrawn& on_drawn);
   std::shared_ptr<State> state_;
 };
 

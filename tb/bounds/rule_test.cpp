@@ -76,7 +76,7 @@ TEST(PublishedRule, FailsInVerilatorLikewise) {
   auto simulator = VerilatorSimulator::open(c_key, folders(), {});
   ASSERT_TRUE(simulator) << simulator.error().message;
   std::vector<Fragment> fragments;
-  const auto ran = simulator->run(rule.init, 1, fragments, 10'000);
+  const auto ran = simulator->run(rule.init, fragments, 10'000);
   ASSERT_TRUE(ran) << ran.error().message;
   const auto finished = simulator->finish(fragments, 10'000);
   ASSERT_TRUE(finished) << finished.error().message;

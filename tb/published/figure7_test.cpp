@@ -138,7 +138,7 @@ TEST(figure7, verilator) {
   ASSERT_TRUE(simulator) << simulator.error().message;
   std::vector<Fragment> fragments;
   const auto init = figures::figure7_init(figure);
-  const auto ran = simulator->run(init, 1, fragments, 1000);
+  const auto ran = simulator->run(init, fragments, 1000);
   ASSERT_TRUE(ran) << ran.error().message;
   const auto finished = simulator->finish(fragments, 1000);
   ASSERT_TRUE(finished) << finished.error().message;

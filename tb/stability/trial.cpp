@@ -155,13 +155,10 @@ Status Trial::run_verilator(const HardwareKey& key, unsigned init_bits, std::spa
     found = rtl_.verilated.emplace(key.name(), std::move(*opened)).first;
   }
   VerilatorSimulator& rtl = found->second;
-  const unsigned words_each = (init_bits + 31) / 32;
-  const auto run = [&](std::span<const std::uint32_t> stream) {
-    return rtl.run(stream, stream.size() / words_each, drawn, most);
-  };
   Status status = Ok{};
-  if (key.shader == Shader::processors) status = run(forget_lights(key, words_each));
-  if (status) status = run(words);
+  if (key.shader == Shader::processors)
+    status = rtl.run(forget_lights(key, (init_bits + 31) / 32), drawn, most);
+  if (status) status = rtl.run(words, drawn, most);
   if (status) status = rtl.finish(drawn, most);
   if (!status) rtl_.verilated.erase(found);  // its state is undefined
   return status;

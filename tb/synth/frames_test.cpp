@@ -55,11 +55,9 @@ TEST_P(MappedFrame, EqualsTheGoldenModels) {
   const auto setup = make_setup(*scene, c_frame, key, {});
   SceneStream stream(*setup, key, 1);
   std::vector<Fragment> golden, drawn;
-  const std::size_t words = (simulator->init_bits() + 31) / 32;
   for (Batch batch; stream.next(batch);) {
     golden.insert(golden.end(), batch.golden.begin(), batch.golden.end());
-    const Status ran = simulator->run(batch.init_words, batch.init_words.size() / words, drawn,
-                                      golden.size() + c_most_surplus);
+    const Status ran = simulator->run(batch.init_words, drawn, golden.size() + c_most_surplus);
     ASSERT_TRUE(ran) << ran.error().message;
   }
   const Status ended = simulator->finish(drawn, golden.size() + c_most_surplus);

@@ -19,6 +19,7 @@
 #include "golden_run/golden_run.hpp"
 #include "scene/scene.hpp"
 #include "sim/bench/workload.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
 #include "sim/system/must.hpp"
 
 namespace halfway {

@@ -11,6 +11,7 @@
 #include "sim/bench/program/bench.hpp"
 #include "sim/bench/yardstick.hpp"
 #include "sim/compare/stream_comparator.hpp"
+#include "sim/run/open_engine.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/threads.hpp"
 
@@ -56,10 +57,10 @@ void measure_cores(const char* shader, const InitBatches& s, Json& rows) {
   constexpr std::uint32_t c_yardstick_rounds = 1'000'000;  // about as long as a fifth of a frame
   const unsigned most = std::min(4U, std::thread::hardware_concurrency());
   const auto parts = fifths_of(s);
-  std::vector<RtlModel> models;
+  std::vector<std::shared_ptr<Engine>> engines;
   std::vector<std::unique_ptr<GoldenModel>> goldens;
   for (unsigned i = 0; i < most; ++i) {
-    models.push_back(must(RtlModel::open(s.key, c_folders, true)));
+    engines.push_back(must(open_engine(EngineKind::lanes, s.key, c_folders)));
     goldens.push_back(make_golden_model(s.key));
   }
   // The speed of a core changes with time: one thread is compared with several right after it. The best of
@@ -76,8 +77,9 @@ void measure_cores(const char* shader, const InitBatches& s, Json& rows) {
       const Shared took = share(threads, pieces, [&](unsigned own, std::size_t piece) {
         StreamComparator comparator;
         std::uint64_t drawn_here = 0;
-        must(models[own].draw(parts[piece % parts.size()], true, [&](auto words, auto drawn) {
-          comparator.add(goldens[own]->draw(words), drawn);
+        auto words = parts[piece % parts.size()];
+        must(engines[own]->draw(words, SIZE_MAX, [&](std::span<const Fragment> drawn) {
+          comparator.add(goldens[own]->draw_next(words, drawn.size()), drawn);
           drawn_here += drawn.size();
         }));
         comparator.finish();

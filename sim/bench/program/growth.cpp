@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "sim/bench/program/bench.hpp"
+#include "sim/run/open_engine.hpp"
 #include "sim/system/threads.hpp"
 
 namespace halfway {
@@ -75,7 +76,7 @@ std::string deviation(const Fit& fit) {
 struct Growth::Series {
   std::string heading, unit, note;
   Fitted fitted;
-  bool lanes = true;
+  EngineKind engine = EngineKind::lanes;
   std::vector<Point> points{};
 
   Json data(const Measurements& measurements, double best_pace) const;
@@ -200,7 +201,7 @@ Growth::Growth(Measurements& measurements, unsigned jobs) : measurements_(measur
     Series series{fmt::format("Lights, {}", lanes ? "spherical shader" : "shading processors"), "lights",
                   fmt::format("`spheres` at {}×{} under equal directional lights, hardware for as many.",
                               size.width, size.height),
-                  Fitted::all, lanes};
+                  Fitted::all, lanes ? EngineKind::lanes : EngineKind::verilator};
     for (const unsigned lights : {1U, 2U, 4U, 8U, 16U})
       series.points.push_back({fmt::format("lights/{}/{}", to_string(shader), lights),
                                static_cast<double>(lights), size,
@@ -210,28 +211,28 @@ Growth::Growth(Measurements& measurements, unsigned jobs) : measurements_(measur
   }
 
   // The largest hardware first: it takes longest to build.
-  std::map<std::string, std::shared_ptr<RtlModel>> models;
-  std::vector<std::pair<HardwareKey, bool>> keys;
+  std::map<std::string, std::shared_ptr<Engine>> engines;
+  std::vector<std::pair<HardwareKey, EngineKind>> keys;
   for (const Series& series : series_)
     for (const Point& point : series.points)
-      if (is_wanted(point.name) && models.try_emplace(point.key.name()).second)
-        keys.emplace_back(point.key, series.lanes);
+      if (is_wanted(point.name) && engines.try_emplace(point.key.name()).second)
+        keys.emplace_back(point.key, series.engine);
   std::reverse(keys.begin(), keys.end());
   must(for_each_on_threads(jobs, keys.size(), [&](std::size_t i) -> Status {
-    const auto& [key, lanes] = keys[i];
+    const auto& [key, kind] = keys[i];
     fmt::print(stderr, "building {}\n", key.name());
-    auto model = RtlModel::open(key, c_folders, lanes);
-    if (!model) return model.error();
-    models.at(key.name()) = std::make_shared<RtlModel>(std::move(*model));
+    auto engine = open_engine(kind, key, c_folders);
+    if (!engine) return engine.error();
+    engines.at(key.name()) = std::move(*engine);
     return Ok{};
   }));
   for (const Series& series : series_)
     for (const Point& point : series.points) {
       if (!is_wanted(point.name)) continue;
       measurements.add(point.name, point.repetitions,
-                       [point, &pace = measurements.pace().work(), rtl = models.at(point.key.name())] {
+                       [point, &pace = measurements.pace().work(), engine = engines.at(point.key.name())] {
                          const FrameCost cost =
-                             must(draw_frame(point.scene, point.size, point.key, *rtl, pace));
+                             must(draw_frame(point.scene, point.size, point.key, engine, pace));
                          if (cost.mismatches != 0)
                            throw Failure{{ExitCode::differs, point.name + ": the RTL differs"}};
                          return counters_of(cost);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "sim/bench/program/bench.hpp"
+#include "sim/run/open_engine.hpp"
 
 namespace halfway {
 
@@ -26,16 +27,17 @@ void measure_small_triangles(Json& speed) {
   for (const Shader shader : {Shader::quadratic, Shader::spherical, Shader::processors})
     for (const auto& [wanted, scene] : scenes) {
       const InitBatches all = must(make_batches(scene, c_frame, {.shader = shader}));
-      auto rtl = must(RtlModel::open(all.key, c_folders, false));
+      const auto engine = must(open_engine(EngineKind::verilator, all.key, c_folders));
       std::vector<Fragment> drawn;
-      must(rtl.draw(all.words, true, drawn));
+      must(engine->run(all.words, drawn, SIZE_MAX));
+      must(engine->finish(drawn, SIZE_MAX));
       if (drawn != all.golden) throw Failure{{ExitCode::differs, "small triangles: the RTL differs"}};
       const WalkCounts walk = count_walk(all);
       Json row = {to_string(shader), count(scene.triangles.size()),
                   figure(static_cast<double>(walk.pixels) / static_cast<double>(walk.headers))};
       for (const std::uint64_t n :
-           {rtl.cycles(), walk.pixels + walk.lost_to_lines + walk.lost_to_headers, walk.lost_to_lines,
-            walk.lost_to_headers, walk.headers,
+           {engine->cycles().value(), walk.pixels + walk.lost_to_lines + walk.lost_to_headers,
+            walk.lost_to_lines, walk.lost_to_headers, walk.headers,
             shader == Shader::spherical ? std::uint64_t{all.vectors()} - walk.headers : 0, walk.lines,
             walk.empty_lines})
         row.push_back(fmt::format("{:.3f}", static_cast<double>(n) / static_cast<double>(walk.pixels)));

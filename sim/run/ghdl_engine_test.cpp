@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stream in parts draws what it draws in one.
-#include "sim/run/ghdl_parts.hpp"
+#include "sim/run/ghdl_engine.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,6 @@
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/stream_files/init_file.hpp"
-#include "sim/stream_files/trace.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway {
@@ -109,24 +108,55 @@ TEST(GhdlParts, DrawWhatOneRunDraws) {
     ASSERT_TRUE(one) << one.error().message;
     // The second part ends where the third begins; the last one is a triangle.
     const std::uint64_t parts[] = {0, triangles[1], triangles[triangles.size() / 2], triangles.back()};
+    std::vector<Fragment> drawn;
+    const auto take = [&](std::span<const Fragment> part) {
+      drawn.insert(drawn.end(), part.begin(), part.end());
+    };
     for (const unsigned threads : {1U, 3U}) {
-      const auto run = run_in_parts(*runner, s.key, init, parts, trace, {}, threads);
-      ASSERT_TRUE(run) << run.error().message;
-      EXPECT_EQ(run->fragments, s.golden.size());
-      EXPECT_GE(run->cycles, one->cycles);
-      EXPECT_LE(run->cycles, one->cycles + 3 * 16);
-      const auto drawn = read_trace(trace, s.key.name());
-      ASSERT_TRUE(drawn) << drawn.error().message;
-      EXPECT_EQ(drawn->fragments, s.golden);
-      EXPECT_EQ(drawn->cycles, run->cycles);
+      drawn.clear();
+      const auto cycles = run_in_parts(*runner, s.key, init, parts, {}, threads, take);
+      ASSERT_TRUE(cycles) << cycles.error().message;
+      EXPECT_GE(*cycles, one->cycles);
+      EXPECT_LE(*cycles, one->cycles + 3 * 16);
+      EXPECT_EQ(drawn, s.golden);
     }
-    const auto too_many = run_in_parts(*runner, s.key, init, parts, trace, {.max_fragments = 10}, 2);
+    drawn.clear();
+    const auto too_many = run_in_parts(*runner, s.key, init, parts, {.max_fragments = 10}, 2, take);
     ASSERT_FALSE(too_many);
     EXPECT_EQ(too_many.error().code, ExitCode::differs);
     EXPECT_THAT(too_many.error().message, HasSubstr("of 4, from init vector "));
+    EXPECT_TRUE(drawn.empty());
   }
-  for (const auto& entry : std::filesystem::directory_iterator(scratch->path()))
-    EXPECT_THAT(entry.path().filename().string(), ::testing::AnyOf("init", "trace"));
+}
+
+// Frame after frame, and one without a vector.
+TEST(GhdlEngine, DrawsInDrainAlone) {
+  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
+  const Stream s = stream_of("spheres", Shader::quadratic, {64, 48});
+  auto engine = GhdlEngine::open(s.key, {source, source / "build" / "cache"}, 1, {});
+  ASSERT_TRUE(engine) << engine.error().message;
+  EXPECT_FALSE(engine->cycles());
+  std::uint64_t cycles = 0;
+  for (int frame = 1; frame <= 2; ++frame) {
+    std::vector<Fragment> drawn;
+    const std::size_t half = triangles_of(s)[40] * s.init.words_per_vector();
+    ASSERT_TRUE(engine->run(std::span(s.init.words).first(half), drawn, s.golden.size()));
+    ASSERT_TRUE(engine->run(std::span(s.init.words).subspan(half), drawn, s.golden.size()));
+    EXPECT_TRUE(drawn.empty());
+    const Status ended = engine->finish(drawn, s.golden.size());
+    ASSERT_TRUE(ended) << ended.error().message;
+    EXPECT_EQ(drawn, s.golden);
+    if (frame == 1) cycles = engine->cycles().value();
+    EXPECT_EQ(engine->cycles(), frame * cycles);
+    ASSERT_TRUE(engine->finish(drawn, s.golden.size()));
+    EXPECT_EQ(drawn, s.golden);
+  }
+  std::vector<Fragment> drawn;
+  ASSERT_TRUE(engine->run(s.init.words, drawn, 10));
+  const Status too_many = engine->finish(drawn, 10);
+  ASSERT_FALSE(too_many);
+  EXPECT_EQ(too_many.error().code, ExitCode::differs);
+  EXPECT_TRUE(drawn.empty());
 }
 
 }  // namespace

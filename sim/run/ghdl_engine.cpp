@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/run/ghdl_parts.hpp"
+#include "sim/run/ghdl_engine.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <mutex>
 #include <numeric>
-#include <optional>
 #include <utility>
 
-#include "sim/stream_files/init_file.hpp"
 #include "sim/stream_files/trace.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/seconds.hpp"
 #include "sim/system/threads.hpp"
 
 namespace halfway {
@@ -50,64 +45,17 @@ Status split(const std::filesystem::path& init_file, const std::string& key_name
   return Ok{};
 }
 
-Status read_trace_of(const std::filesystem::path& file, const std::string& key_name, const OnJoined& sink) {
-  auto reader = TraceReader::open(file, key_name);
+Status hand_on(const std::filesystem::path& trace_file, const std::string& key_name,
+               const Engine::OnDrawn& on_drawn) {
+  auto reader = TraceReader::open(trace_file, key_name);
   if (!reader) return reader.error();
   for (std::vector<Fragment> fragments;; fragments.clear()) {
     const auto count = reader->read(fragments, c_block);
     if (!count) return count.error();
     if (*count == 0) return Ok{};
-    if (Status status = sink(fragments); !status) return status;
+    on_drawn(fragments);
   }
 }
-
-// Puts the traces of parts together in order while others are drawn.
-class Joiner {
- public:
-  Joiner(TraceWriter writer, std::string key_name, const std::vector<std::filesystem::path>& part_files,
-         const OnJoined& on_joined)
-      : writer_(std::move(writer)),
-        key_name_(std::move(key_name)),
-        part_files_(part_files),
-        on_joined_(on_joined),
-        ended_(part_files.size(), false) {}
-
-  /// A part has ended: it is joined, and those that waited for it, unless another thread is at that.
-  Status add(std::size_t part) {
-    {
-      const std::scoped_lock lock(mutex_);
-      ended_[part] = true;
-      if (busy_) return Ok{};
-      busy_ = true;
-    }
-    while (const auto next = take()) {
-      const Status joined =
-          read_trace_of(part_files_[*next], key_name_, [&](std::span<const Fragment> fragments) -> Status {
-            writer_.write(fragments);
-            return on_joined_ ? on_joined_(fragments) : Status(Ok{});
-          });
-      if (!joined) return joined;  // still busy: nobody goes on
-    }
-    return Ok{};
-  }
-  Status commit(std::uint64_t cycles) { return writer_.commit(cycles); }
-
- private:
-  std::optional<std::size_t> take() {
-    const std::scoped_lock lock(mutex_);
-    busy_ = next_ < ended_.size() && ended_[next_];
-    return busy_ ? std::optional(next_++) : std::nullopt;
-  }
-
-  TraceWriter writer_;
-  std::string key_name_;
-  const std::vector<std::filesystem::path>& part_files_;
-  const OnJoined& on_joined_;
-  std::mutex mutex_;
-  std::vector<bool> ended_;
-  std::size_t next_ = 0;
-  bool busy_ = false;
-};
 
 }  // namespace
 
@@ -137,34 +85,22 @@ std::vector<std::uint64_t> Cuts::parts() const {
   }
 }
 
-Result<GhdlRun> run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
-                             const std::filesystem::path& init_file,
-                             std::span<const std::uint64_t> first_vectors,
-                             const std::filesystem::path& trace_file, const GhdlRunOptions& options,
-                             unsigned threads, const OnJoined& on_joined) {
+Result<std::uint64_t> run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
+                                   const std::filesystem::path& init_file,
+                                   std::span<const std::uint64_t> first_vectors,
+                                   const GhdlRunOptions& options, unsigned threads,
+                                   const Engine::OnDrawn& on_drawn) {
   const std::size_t parts = first_vectors.size();
-  if (parts < 2) {
-    auto run = runner.run(init_file, trace_file, options);
-    if (run && on_joined)
-      if (Status status = read_trace_of(trace_file, key.name(), on_joined); !status) return status.error();
-    return run;
-  }
-  const auto start = std::chrono::steady_clock::now();
-  const auto scratch = TemporaryFolder::make(std::filesystem::absolute(trace_file).parent_path());
-  if (!scratch) return scratch.error();
   std::vector<std::filesystem::path> inits, traces;
   for (std::size_t part = 0; part < parts; ++part) {
-    inits.push_back(scratch->path() / fmt::format("init-{}", part));
-    traces.push_back(scratch->path() / fmt::format("trace-{}", part));
+    inits.push_back(fmt::format("{}-{}", init_file.string(), part));
+    traces.push_back(inits.back().string() + ".trace");
   }
   if (Status status = split(init_file, key.name(), first_vectors, inits); !status) return status.error();
 
-  auto writer = TraceWriter::open(trace_file, key.name());
-  if (!writer) return writer.error();
-  Joiner joiner(std::move(*writer), key.name(), traces, on_joined);
   std::mutex mutex;
   std::vector<std::uintmax_t> bytes(parts, 0);
-  GhdlRun sum;
+  std::uint64_t cycles = 0;
   Status all = for_each_on_threads(threads, parts, [&](std::size_t part) -> Status {
     GhdlRunOptions of_part = options;
     if (options.on_progress)
@@ -174,20 +110,61 @@ Result<GhdlRun> run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
         options.on_progress(std::accumulate(bytes.begin(), bytes.end(), std::uintmax_t{0}));
       };
     const auto run = runner.run(inits[part], traces[part], of_part);
+    if (!run && parts == 1) return run.error();
     if (!run)
       return Error{run.error().code, fmt::format("{}, in part {} of {}, from init vector {} on",
                                                  run.error().message, part + 1, parts, first_vectors[part])};
-    {
-      const std::scoped_lock lock(mutex);
-      sum.fragments += run->fragments;
-      sum.cycles += run->cycles;
-    }
-    return joiner.add(part);
+    const std::scoped_lock lock(mutex);
+    cycles += run->cycles;
+    return Ok{};
   });
   if (!all) return all.error();
-  if (Status status = joiner.commit(sum.cycles); !status) return status.error();
-  sum.seconds = seconds_since(start);
-  return sum;
+  for (const std::filesystem::path& trace : traces)
+    if (Status status = hand_on(trace, key.name(), on_drawn); !status) return status.error();
+  return cycles;
+}
+
+Result<GhdlEngine> GhdlEngine::open(const HardwareKey& key, const SimulatorFolders& folders, unsigned threads,
+                                    const GhdlRunOptions& options) {
+  auto runner = GhdlRunner::open(key, folders);
+  if (!runner) return runner.error();
+  return GhdlEngine(key, *runner, folders.cache, threads, options);
+}
+
+Result<std::shared_ptr<Engine>> GhdlEngine::another() const {
+  return shared_engine(Result<GhdlEngine>(GhdlEngine(key_, runner_, cache_, threads_, options_)));
+}
+
+Status GhdlEngine::begin() {
+  if (init_) return Ok{};
+  auto folder = TemporaryFolder::make(cache_);
+  if (!folder) return folder.error();
+  folder_.emplace(std::move(*folder));
+  auto writer = InitFileWriter::open(init_file(), key_.name(), make_golden_model(key_)->init_bits());
+  if (!writer) return writer.error();
+  init_.emplace(std::move(*writer));
+  cuts_ = Cuts(key_);
+  return Ok{};
+}
+
+Status GhdlEngine::draw(std::span<const std::uint32_t> init_words, std::uint64_t, const OnDrawn&) {
+  if (Status status = begin(); !status) return status;
+  init_->write(init_words);
+  cuts_.add(init_words);
+  return Ok{};
+}
+
+Status GhdlEngine::drain(std::uint64_t most, const OnDrawn& on_drawn) {
+  if (Status status = begin(); !status) return status;
+  if (Status status = init_->commit(); !status) return status;
+  init_.reset();
+  const std::vector<std::uint64_t> first_vectors = cuts_.parts();
+  parts_ = first_vectors.size();
+  options_.max_fragments = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, 0x7fffffff));
+  const auto cycles = run_in_parts(runner_, key_, init_file(), first_vectors, options_, threads_, on_drawn);
+  if (!cycles) return cycles.error();
+  cycles_ = cycles_.value_or(0) + *cycles;
+  return Ok{};
 }
 
 }  // namespace halfway

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/run/open_engine.hpp"
+
+#include <fmt/format.h>
+
+#include "sim/compare/limits.hpp"
+#include "sim/lanes/lane_simulator.hpp"
+#include "sim/run/ghdl_engine.hpp"
+#include "sim/verilator/verilator_simulator.hpp"
+
+namespace halfway {
+namespace {
+
+bool has_avx512() {
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512vl");
+#else
+  return false;
+#endif
+}
+
+}  // namespace
+
+Result<std::shared_ptr<Engine>> open_engine(EngineKind kind, const HardwareKey& key,
+                                            const SimulatorFolders& folders, const EngineOptions& options) {
+  switch (kind) {
+    case EngineKind::ghdl:
+      return shared_engine(GhdlEngine::open(key, folders, options.threads,
+                                            {.idle_limit = c_idle_limit,
+                                             .stall_seed = options.stall_seed,
+                                             .on_progress = options.on_progress}));
+    case EngineKind::verilator:
+      return shared_engine(VerilatorSimulator::open(
+          key, folders, {.stall_seed = options.stall_seed, .idle_limit = c_idle_limit}));
+    case EngineKind::lanes:
+      break;
+  }
+  if (!LaneSimulator::refused(key).empty())
+    return bad_input(fmt::format("{}: no lanes for this hardware; leave --simulator out", key.name()));
+  return shared_engine(LaneSimulator::open(key, folders,
+                                           {.threads = options.threads,
+                                            .idle_limit = c_idle_limit,
+                                            .stall_seed = options.stall_seed,
+                                            .fast = options.fast}));
+}
+
+bool lanes_pay(const HardwareKey& key, double pixels) {
+  return LaneSimulator::refused(key).empty() && has_avx512() && pixels >= c_least_lane_pixels;
+}
+
+}  // namespace halfway

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/run/rtl_frame.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "sim/compare/limits.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr std::size_t c_chunk = 1 << 16;  // fragments
+
+}  // namespace
+
+RtlFrame::RtlFrame(std::shared_ptr<Engine> engine, FrameSize size, glm::dvec3 background,
+                   RtlFrameOptions options)
+    : engine_(std::move(engine)),
+      o_(std::move(options)),
+      assembler_(size, o_.tile.value_or(whole_frame(size)), background) {}
+
+void RtlFrame::clear() {
+  comparator_ = {};
+  assembler_.clear();
+  expected_ = count_ = 0;
+  stretch_ = {};
+  golden_clock_ = compare_clock_ = assemble_clock_ = 0.0;
+  fault_.clear();
+  alive_ = true;
+}
+
+Status RtlFrame::add(std::span<const std::uint32_t> init_words, std::span<const Fragment> golden) {
+  return stretch_.add([&]() -> Status {
+    words_ = init_words;
+    if (o_.golden_trace.empty()) given_ = golden;
+    expected_ += o_.golden ? o_.golden->all_pixels(init_words) : golden.size();
+    Status drawn = Ok{};
+    if (alive_) drawn = ended(engine_->draw(init_words, most(), [this](auto part) { take(part); }));
+    // Keep the golden fragments of what is still in the hardware, and of what a fault left out.
+    compare({}, SIZE_MAX);
+    return drawn;
+  });
+}
+
+Status RtlFrame::finish() {
+  return stretch_.add([&]() -> Status {
+    if (!o_.golden_trace.empty()) {
+      auto trace = TraceReader::open(o_.golden_trace, "");
+      if (!trace) return trace.error();
+      trace_.emplace(std::move(*trace));
+    }
+    if (alive_)
+      if (Status drawn = ended(engine_->drain(most(), [this](auto part) { take(part); })); !drawn)
+        return drawn;
+    // Add the golden fragments that the engine has not drawn.
+    while (trace_ && compare({}, c_chunk) != 0) {
+    }
+    if (error_) return *error_;
+    return Ok{};
+  });
+}
+
+Status RtlFrame::draw(const Scene& scene, SceneStream& stream) {
+  for (Batch batch; stream.next(batch);) {
+    if (Status status = add(batch.init_words, batch.golden); !status) return status;
+    if (Status status = check_shadow_counts(scene, stream, o_.golden && o_.golden->fault()); !status)
+      return status;
+  }
+  if (Status status = check_projection(scene, stream); !status) return status;
+  return finish();
+}
+
+// The fragments that may still come: those expected, and a surplus, past which a runaway is stopped.
+std::uint64_t RtlFrame::most() const {
+  return expected_ - std::min(expected_, count_) + c_most_surplus;
+}
+
+// A fault of the hardware ends the drawing; other errors are the caller's.
+Status RtlFrame::ended(const Status& drawn) {
+  if (error_) return *error_;
+  if (drawn || drawn.error().code != ExitCode::differs) return drawn;
+  fault_ = drawn.error().message;
+  alive_ = false;
+  return Ok{};
+}
+
+void RtlFrame::take(std::span<const Fragment> drawn) {
+  compare(drawn, drawn.size());
+  const auto start = Stretch::now();
+  count_ += drawn.size();
+  assemble(drawn);
+  if (o_.on_drawn) o_.on_drawn(drawn);
+  assemble_clock_ += seconds_since(start);
+}
+
+std::size_t RtlFrame::compare(std::span<const Fragment> drawn, std::size_t golden_count) {
+  const auto start = Stretch::now();
+  const std::span<const Fragment> golden = next_golden(golden_count);
+  const auto drew = Stretch::now();
+  if (o_.compare) comparator_.add(golden, drawn);
+  golden_clock_ += seconds_between(start, drew);
+  compare_clock_ += seconds_since(drew);
+  return golden.size();
+}
+
+std::span<const Fragment> RtlFrame::next_golden(std::size_t count) {
+  if (!o_.compare) return {};
+  if (o_.golden) return o_.golden->draw_next(words_, count);
+  if (trace_) {
+    read_.clear();
+    if (const auto read = trace_->read(read_, count); !read) error_ = read.error();
+    return read_;
+  }
+  const auto next = given_.first(std::min(count, given_.size()));
+  given_ = given_.subspan(next.size());
+  return next;
+}
+
+// Wrong hardware may draw anywhere; the frame then holds what it drew inside.
+void RtlFrame::assemble(std::span<const Fragment> fragments) {
+  while (!fragments.empty()) {
+    const std::uint64_t before = assembler_.fragments();
+    if (assembler_.add(fragments)) break;
+    if (fault_.empty()) fault_ = "a fragment lies outside the frame";
+    fragments = fragments.subspan(static_cast<std::size_t>(assembler_.fragments() - before));
+  }
+}
+
+RtlFrame::Seconds RtlFrame::seconds() const {
+  const double golden = stretch_.share(golden_clock_), compare = stretch_.share(compare_clock_),
+               assemble = stretch_.share(assemble_clock_);
+  return {stretch_.processor() - golden - compare - assemble, golden, compare, assemble};
+}
+
+SimulatorRun RtlFrame::result() {
+  comparator_.finish();
+  SimulatorRun run{.simulator = to_string(engine_->kind()),
+                   .fragments = count_,
+                   .mismatches = comparator_.mismatches(),
+                   .cycles = engine_->cycles(),
+                   .parts = engine_->parts(),
+                   .fault = fault_,
+                   .first = comparator_.first()};
+  if (alive_ || run.cycles) run.seconds = stretch_.clock() - golden_clock_ - compare_clock_ - assemble_clock_;
+  if (run.mismatches != 0) run.description = comparator_.describe(title(engine_->kind()));
+  return run;
+}
+
+}  // namespace halfway
