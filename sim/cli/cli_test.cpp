@@ -256,6 +256,12 @@ TEST_F(CliTest, ARunThatComparesNothingExitsOne) {
         EXPECT_THAT(outcome.output, Not(HasSubstr("nothing was compared")));
     }
     EXPECT_EQ(with_size({"view", scene, "--frames", "1", "--no-compare"}).exit_code, 0);
+    const Outcome why = run({"why", scene, "--pixel", "3,3", "--size", "8x8"});
+    EXPECT_EQ(why.exit_code, 1) << why.output;
+    EXPECT_THAT(why.output,
+                AllOf(HasSubstr(name + ": nothing was compared: " +
+                                (in_view ? "1 triangle is in view, but" : "no triangle is in view")),
+                      Not(HasSubstr("agree"))));
     EXPECT_EQ(run({"sim", scene, "--size", "640x480", "--simulator", "verilator", "--out", out()}).exit_code,
               name == "tiny" ? 1 : 0);
   }

@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "sim/cli/options.hpp"
+#include "sim/run/simulate.hpp"
 #include "sim/scene_files/load_scene.hpp"
 
 namespace halfway::cli {
@@ -123,6 +124,11 @@ int run(const Folders& folders, const WhyCommand& command) {
         "golden {}, "
         "RTL {}\n",
         d.stage, d.entity, d.cycle, d.triangle, d.y, d.x, d.value, d.golden, d.rtl);
+    return static_cast<int>(ExitCode::differs);
+  }
+  if (why->fragments == 0 && !why->frame_difference && why->fault.empty()) {
+    const auto nothing = nothing_compared(why->fragments, why->in_view, 0);
+    say(fmt::format("{}: {}", scene->name, nothing.value_or("nothing was compared: no triangle is in view")));
     return static_cast<int>(ExitCode::differs);
   }
   if (why->frame_difference)

@@ -16,6 +16,7 @@
 #include "sim/run/open_engine.hpp"
 #include "sim/run/rtl_frame.hpp"
 #include "sim/run/scene_stream.hpp"
+#include "sim/run/simulate.hpp"
 #include "sim/run/stages.hpp"
 #include "sim/run/vectors_around.hpp"
 
@@ -177,20 +178,20 @@ class Explainer {
     auto engine = open_engine(EngineKind::verilator, key_, s_.folders);
     if (!engine) return engine.error();
     SceneStream stream(*setup_, key_, s_.threads);
-    std::uint64_t golden = 0;
     RtlFrame rtl(std::move(*engine), s_.size, scene_.background);
     for (Batch batch; rtl.alive() && stream.next(batch);) {
       s_.on_progress(batch.done);
-      golden += batch.golden.size();
+      report_.fragments += batch.golden.size();
       if (Status status = rtl.add(batch.init_words, batch.golden); !status) return status;
     }
     if (Status status = rtl.finish(); !status) return status;
+    report_.in_view = triangles_in_view(stream.counts());
     const SimulatorRun run = rtl.result();
     report_.fault = run.fault;
     if (run.first.empty()) return Ok{};
     report_.frame_difference = run.first.front();
     // What comes after the last fragment is of the last triangle.
-    if (golden > 0) first_wrong_ = std::min(run.first.front().index, golden - 1);
+    if (report_.fragments > 0) first_wrong_ = std::min(run.first.front().index, report_.fragments - 1);
     return Ok{};
   }
 

@@ -69,6 +69,8 @@ struct WhyReport {
   std::optional<FirstDifference> first;
   std::optional<Mismatch> frame_difference;  ///< the first fragment of the frame that differs in Verilator
   std::string fault;                         ///< a hang or the like; empty: none
+  std::uint64_t fragments = 0;               ///< golden, in the frame
+  std::uint64_t in_view = 0;                 ///< triangles
 };
 
 Result<WhyReport> explain_pixel(const Scene& scene, const WhySettings& settings);
