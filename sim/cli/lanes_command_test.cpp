@@ -15,7 +15,7 @@ using ::testing::Not;
 
 class LanesCommand : public CommandTest {};
 
-TEST_F(LanesCommand, SimDrawsTheSameAndTellsNoCycles) {
+TEST_F(LanesCommand, SimDrawsTheSameWithoutCycles) {
   for (const std::string threads : {"1", "3"}) {
     const Outcome drawn = run(
         {"sim", "matte", "--size", "64x48", "--simulator", "lanes", "--threads", threads, "--out", "out"});
@@ -40,7 +40,7 @@ TEST_F(LanesCommand, SimDrawsTheSameWithStalls) {
       Ends(0, ContainsRegex("[1-9][0-9]* fragments \\| lanes: 0 mismatches, ")));
 }
 
-TEST_F(LanesCommand, WhatTheyDoNotKnowIsBadInput) {
+TEST_F(LanesCommand, UnsupportedHardwareIsBadInput) {
   EXPECT_THAT(run({"sim", "matte", "--simulator", "lanes", "--shader", "processors", "--size", "64x48",
                    "--out", "out"}),
               Ends(2, HasSubstr("no lanes for this hardware")));

@@ -78,7 +78,7 @@ TEST_F(PlanCommand, Table5OfTheLights) {
   EXPECT_THAT(run({"plan", "lights"}).output, Not(HasSubstr("table 5")));
 }
 
-TEST_F(PlanCommand, Table5OfTheProcessorsThatAreThere) {
+TEST_F(PlanCommand, Table5OfThePlannedProcessors) {
   const Outcome matte = run({"plan", "matte", "--rate", "30", "--size", "1000x1000"});
   EXPECT_EQ(matte.exit_code, 0) << matte.output;
   EXPECT_THAT(
@@ -179,7 +179,7 @@ TEST_F(PlanCommand, MeasuresShadingProcessors) {
 }
 
 // RTL with a fault that only appears in hardware with all effects: factors that should be zero are not.
-TEST_F(PlanCommand, MeasuringTellsFramesThatDiffer) {
+TEST_F(PlanCommand, MeasuringReportsFramesThatDiffer) {
   const std::filesystem::path copy = copy_checkout();
   const auto slice = copy / "rtl" / "illumination" / "specular_slice.vhd";
   const auto text = read_file(slice);

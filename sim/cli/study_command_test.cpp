@@ -32,7 +32,7 @@ class StudyCommandTest : public CommandTest {
   }
 };
 
-TEST_F(StudyCommandTest, RefusesWhatIsNoQuestion) {
+TEST_F(StudyCommandTest, RefusesInvalidQueries) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--error", "2%"}, "--error: '2%' is none"},
       {{"--psnr", "loud"}, "--psnr: 'loud' is none"},
@@ -67,7 +67,7 @@ TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
                             Not(HasSubstr("no clock")))));
 }
 
-TEST_F(StudyCommandTest, SoftwareAloneMeetsNoDemand) {
+TEST_F(StudyCommandTest, SoftwareMeetsNoDemand) {
   ASSERT_TRUE(write_file(folder_->path() / "software.toml",
                          "[[sweep]]\nmethod = [\"phong\", \"gouraud\"]\nsize = \"80x60\"\n"));
   EXPECT_THAT(run({"study", "--space", "software.toml", "--out", "out", "--error", "200"}),
@@ -88,7 +88,7 @@ TEST_F(StudyCommandTest, EndsWithTheFrontOfItsMainPicture) {
 }
 
 // The report shows the study's table. A query has its own points from the same records.
-TEST_F(StudyCommandTest, AQuestionLeavesTheStudysTable) {
+TEST_F(StudyCommandTest, AQueryKeepsTheStudysTable) {
   const std::filesystem::path out = folder_->path() / "out";
   EXPECT_THAT(study({"--error", "3"}), Ends(0, HasSubstr("out/question.csv: 3 points, 3 measured anew")));
   EXPECT_FALSE(std::filesystem::exists(out / "study.csv"));
@@ -105,7 +105,7 @@ TEST_F(StudyCommandTest, AQuestionLeavesTheStudysTable) {
 }
 
 // Damaged files found by a task are reported where the study was started, not only in the task's log.
-TEST_F(StudyCommandTest, WhatTasksFindDamagedIsTold) {
+TEST_F(StudyCommandTest, DamagedFilesFoundByTasksAreReported) {
   ASSERT_EQ(study({}).exit_code, 0);
   const std::filesystem::path points = folder_->path() / "out/points";
   std::filesystem::path frame;

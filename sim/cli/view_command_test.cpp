@@ -83,7 +83,7 @@ class ViewCommand : public CommandTest {
 const std::string c_copy = "for last; do :; done; echo \"$@\" >arguments; cat >\"$last\"\n";
 
 // Equal bit for bit, for each shader and any number of threads. The hardware is not reset between frames.
-TEST_F(ViewCommand, DrawsWhatSimDrawsFromEachPlace) {
+TEST_F(ViewCommand, DrawsTheFramesOfSimFromEachPosition) {
   const std::filesystem::path scenes = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes";
   const auto text = read_file(scenes / "matte.toml");
   ASSERT_TRUE(text);
@@ -164,7 +164,7 @@ TEST_F(ViewCommand, LoadsTheImageLibraryBeforeItDraws) {
   }
 }
 
-TEST_F(ViewCommand, LanesThatCannotBeHadAreBadInput) {
+TEST_F(ViewCommand, UnavailableLanesAreBadInput) {
   EXPECT_THAT(view({"matte", "--simulator", "ghdl"}),
               Ends(2, HasSubstr("--simulator: 'ghdl' is none of auto, verilator and lanes")));
   EXPECT_THAT(view({"matte", "--shader", "processors", "--simulator", "lanes"}),
@@ -211,7 +211,7 @@ TEST_F(ViewCommand, BadUsageExitsTwoAndSaysWhatToDo) {
   EXPECT_EQ(unwritable.exit_code, 2) << unwritable.output;
 }
 
-TEST_F(ViewCommand, AVideoIsEachFrameInItsOrder) {
+TEST_F(ViewCommand, AVideoHasEachFrameInOrder) {
   const Outcome drawn = view({"matte", "--frames", "5", "--threads", "3", "--video", "films/turn.mp4",
                               "--rate", "24", "--out", "turn", "--format", "ppm"},
                              path_with_ffmpeg(c_copy));
@@ -233,7 +233,7 @@ TEST_F(ViewCommand, NoFfmpegExitsThreeBeforeAnythingIsDrawn) {
 }
 
 // ffmpeg fails early, or only at the end. Its message is printed, and an older video stays.
-TEST_F(ViewCommand, AVideoThatFailsLeavesNoHalf) {
+TEST_F(ViewCommand, AFailedVideoLeavesNoPartialFile) {
   ASSERT_TRUE(write_file(at("films/turn.mp4"), "old"));
   for (const std::string& script :
        {std::string("echo no such encoder; exit 1\n"), c_copy + "echo no such encoder; exit 1\n"}) {
@@ -246,7 +246,7 @@ TEST_F(ViewCommand, AVideoThatFailsLeavesNoHalf) {
 }
 
 // With every ending that the error message offers.
-TEST_F(ViewCommand, AVideoByFfmpegItselfPlays) {
+TEST_F(ViewCommand, AVideoByTheRealFfmpegPlays) {
   ASSERT_FALSE(find_program("ffmpeg").empty()) << "no ffmpeg: apt-get install ffmpeg";
   const std::string refused = view({"matte", "--video", "turn.xyz"}).output, offer = "take one of ";
   ASSERT_THAT(refused, HasSubstr(offer));
@@ -273,7 +273,7 @@ TEST_F(ViewCommand, AVideoByFfmpegItselfPlays) {
   EXPECT_GT(played, 5);
 }
 
-TEST_F(ViewCommand, DoctorTellsWhetherFfmpegIsThere) {
+TEST_F(ViewCommand, DoctorReportsWhetherFfmpegIsInstalled) {
   const std::string setup = std::string(HALFWAY_SOURCE_DIR) + "/scripts/setup.sh";
   const bool there = !find_program("ffmpeg").empty();
   EXPECT_THAT(run_as({"sh", setup, "--doctor"}).output,
@@ -301,7 +301,7 @@ TEST_F(ViewCommand, DrawsInTheTerminal) {
 }
 
 // A signal between two frames or during one: every existing file is complete, and the shell sees the signal.
-TEST_F(ViewCommand, BrokenOffLeavesNoHalfFile) {
+TEST_F(ViewCommand, AnInterruptedRunLeavesNoPartialFile) {
   for (const std::string signal : {"INT", "TERM"}) {
     // With job control, because a shell without it ignores INT in background processes.
     const Outcome outcome = run_as(
@@ -326,7 +326,7 @@ TEST_F(ViewCommand, BrokenOffLeavesNoHalfFile) {
 }
 
 // Hardware with a fault that is visible in frame 2 only: before it the only triangle is back-facing.
-TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
+TEST_F(ViewCommand, ReportsTheFrameWhereTheRtlDiffers) {
   const std::filesystem::path copy = copy_checkout();
   spoil(copy / "rtl/interpolation/part_interpolator.vhd", "sum_of(value, addend", "sum_of(value, not addend");
   write_averted();
@@ -355,7 +355,7 @@ TEST_F(ViewCommand, TellsTheFrameWhereTheRtlDiffers) {
 }
 
 // Lanes that stop in the middle of frame 0's triangles. Verilator draws the frame without a fault.
-TEST_F(ViewCommand, AFaultOfLanesAloneIsAnError) {
+TEST_F(ViewCommand, AFaultOfTheLanesIsAnError) {
   const std::filesystem::path copy = copy_checkout();
   spoil(copy / "sim/lanes/lane_harness.cpp", "      const std::uint32_t moved = block();\n",
         "      const std::uint32_t moved = block();\n      static bool broken = false;\n"
@@ -372,7 +372,7 @@ TEST_F(ViewCommand, AFaultOfLanesAloneIsAnError) {
 }
 
 // Also with `auto`, which selects lanes for this amount of work.
-TEST_F(ViewCommand, WhereLanesCannotBeHadVerilatorDraws) {
+TEST_F(ViewCommand, VerilatorDrawsIfLanesAreUnavailable) {
   const std::filesystem::path copy = copy_checkout();
   ASSERT_TRUE(write_file(copy / "sim/lanes/lane_harness.cpp", "#error spoilt\n"));
   EXPECT_THAT(run({"--source", copy, "view", "matte", "--size", "64x48", "--simulator", "lanes"}),

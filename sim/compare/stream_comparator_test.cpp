@@ -10,7 +10,7 @@ namespace halfway {
 namespace {
 
 // Pairs and separate streams in pieces of any length give equal results.
-TEST(StreamComparator, PairsCompareAsStreamsDo) {
+TEST(StreamComparator, PairsAndStreamsGiveEqualResults) {
   std::vector<Fragment> golden(5000), rtl;
   for (std::uint32_t i = 0; i < golden.size(); ++i)
     golden[i] = {.triangle = i / 7, .z = i * i, .y = 3, .x = 4};

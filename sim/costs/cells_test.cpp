@@ -70,7 +70,7 @@ TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
   EXPECT_FALSE(count({.preset = Preset::published}));
 }
 
-TEST_F(CellsTest, AMissingYosysIsToldWithTheCommandThatBringsIt) {
+TEST_F(CellsTest, AMissingYosysIsReportedWithItsInstallCommand) {
   ::setenv("PATH", (folder_->path() / "empty").c_str(), 1);
   const auto none = count(grey_);
   ASSERT_FALSE(none);
@@ -79,7 +79,7 @@ TEST_F(CellsTest, AMissingYosysIsToldWithTheCommandThatBringsIt) {
 }
 
 // Another netlist is counted again, although the key is the same.
-TEST_F(CellsTest, ChangedRtlIsCountedAnew) {
+TEST_F(CellsTest, ChangedRtlIsCountedAgain) {
   put_yosys("[ $# = 1 ] || echo '{\"design\": {\"num_cells_by_type\": {\"$lut\": 1}}}' >cells.json\n");
   ASSERT_TRUE(count(grey_));
   ASSERT_TRUE(count(grey_));
@@ -103,7 +103,7 @@ TEST_F(CellsTest, ChangedRtlIsCountedAnew) {
 }
 
 // Only the shading processors, whose multipliers are wide and many.
-TEST_F(CellsTest, MultipliersOfTheShadingProcessorsAreNoLuts) {
+TEST_F(CellsTest, MultipliersOfTheShadingProcessorsAreNotLuts) {
   ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << kInstallYosys;
   HardwareKey key{.shader = Shader::processors, .preset = Preset::published, .channels = 1};
   const auto ambient = count(key);
@@ -131,7 +131,7 @@ TEST_F(CellsTest, MultipliersOfTheShadingProcessorsAreNoLuts) {
 
 // Operands in Yosys's JSON format, lowest bit first: with sign extension, with zero extension, and without
 // extension.
-TEST(MultiplierShapes, AreWithoutCopiesOfSigns) {
+TEST(MultiplierShapes, HaveNoRedundantSignBits) {
   const auto netlist = [](const std::string& a, const std::string& b) {
     const std::string cell = fmt::format(
         R"({{"type": "mul", "parameters": {{"A_SIGNED": "0", "B_SIGNED": "0"}},
@@ -161,7 +161,7 @@ TEST(MultiplierShapes, AreWithoutCopiesOfSigns) {
 }
 
 // Invalid results of Yosys and their error messages. They are removed from the cache.
-TEST_F(CellsTest, WhatIsNoCountOfLutsAndFlipFlopsIsRefused) {
+TEST_F(CellsTest, InvalidCountsAreRefused) {
   const auto stat = [](const std::string& cells) {
     return "[ $# = 1 ] || cat >cells.json <<'EOF'\n{\"design\": {\"num_cells_by_type\": {" + cells +
            "}}}\nEOF\n";

@@ -112,7 +112,7 @@ std::vector<Figure> figures() {
 }
 
 // All figures and claims that the papers print and the project reproduces.
-TEST(Figures, EveryFigureIsThereWithItsClaims) {
+TEST(Figures, HaveAllFiguresAndClaims) {
   std::set<std::string> ids;
   for (const Figure& f : figures()) {
     EXPECT_TRUE(ids.insert(f.id).second) << f.id;
@@ -143,7 +143,7 @@ std::vector<Entry> committed() {
 }
 
 // Changing the published number of each row changes every verdict.
-TEST(Figures, EveryVerdictCanGoTheOtherWay) {
+TEST(Figures, EveryVerdictCanChange) {
   int rows = 0;
   for (const Entry& entry : committed())
     for (const auto& [claim, measured] : entry.rows) {
@@ -185,7 +185,7 @@ TEST(Figures, TheTableHasNoEmptyCell) {
   EXPECT_THAT(table, testing::Not(HasSubstr("nan")));
 }
 
-TEST(Figures, MeasurementsComeBackFromJson) {
+TEST(Figures, MeasurementsAreReadBackFromJson) {
   const Claim number{"a", "1", {Kind::within, 1, 0.2}},
       text{.what = "b", .published = "1", .why_not = "why", .slow = true};
   const Figure figure{"x-1", "figure 1", "of \"x\"", "x", {number, text}, {}};
@@ -263,7 +263,7 @@ class Stale : public testing::Test {
   std::vector<Entry> whole_, quick_;
 };
 
-TEST_F(Stale, NothingIsWrongWithWhatWasJustWritten) {
+TEST_F(Stale, NewOutputHasNoDifferences) {
   EXPECT_THAT(found(), IsEmpty());
 }
 
@@ -307,12 +307,12 @@ TEST_F(Stale, AnotherCaptionIsFound) {
   EXPECT_THAT(found(), Contains("x-1: caption is another there, measured a caption"));
 }
 
-TEST_F(Stale, AFigureThatIsMissingIsFound) {
+TEST_F(Stale, AMissingFigureIsFound) {
   write({});
   EXPECT_THAT(found(), Contains("x-1: 'slow' has no row"));
 }
 
-TEST_F(Stale, AClaimThatNothingWasMeasuredForIsAnError) {
+TEST_F(Stale, AClaimWithoutMeasurementIsAnError) {
   figure_.claims.push_back({"forgotten", "1", {Kind::within, 1}});
   const auto entry = drawn(figure_, {.out = here_, .quick = true});
   ASSERT_FALSE(entry);
@@ -346,7 +346,7 @@ TEST(SixPointFit, GoesThroughTheSixPointsByOneDivision) {
   EXPECT_EQ(counts.divisions, 1);
 }
 
-TEST(TimingTrace, TakesTheTimesBetweenAnInputsMoveAndItsOwn) {
+TEST(TimingTrace, MeasuresTheTimeFromAnInputsChangeToItsOwn) {
   constexpr std::string_view c_vcd =
       "$timescale 1 fs $end\n$scope module interpolator_timing_tb $end\n$var reg 1 ! step $end\n$var reg 12 "
       "# "
@@ -376,7 +376,7 @@ TEST(Plot, ADataBlockIsGnuplots) {
             "Produced by GNUPLOT 5.4 patchlevel 4");
 }
 
-TEST(Sheet, PicturesStandBesideOneAnotherOnWhite) {
+TEST(Sheet, PicturesAreInColumnsOnWhite) {
   Frame a({2, 1}), b({2, 1});
   a.rgb = {1, 2, 3, 4, 5, 6};
   b.rgb = {7, 8, 9, 10, 11, 12};

@@ -21,7 +21,7 @@ using ::testing::Not;
 
 const fs::path c_source = HALFWAY_SOURCE_DIR;
 
-TEST(MadeTables, AreThoseThatAreCompiledIn) {
+TEST(MadeTables, EqualTheCompiledTables) {
   std::size_t compared = 0;
   for (const golden::CosineTable& table : golden::c_cosine_tables) {
     const CosineSize size{table.address_bits, table.data_bits};
@@ -40,7 +40,7 @@ TEST(MadeTables, AreThoseThatAreCompiledIn) {
   EXPECT_FALSE(compiled_in(true, {5, 4}));
 }
 
-TEST(MadeTables, TheRtlHasThemAndIsElseTheCheckouts) {
+TEST(MadeTables, AreTheOnlyChangeOfTheCopiedRtl) {
   auto cache = TemporaryFolder::make(fs::temp_directory_path());
   ASSERT_TRUE(cache) << cache.error().message;
   const auto folder = rtl_with_tables(false, {5, 4}, c_source, cache->path());
@@ -68,7 +68,7 @@ TEST(MadeTables, TheRtlHasThemAndIsElseTheCheckouts) {
   EXPECT_NE(*rtl_with_tables(true, {5, 4}, c_source, cache->path()), *folder);
 }
 
-TEST(MadeWords, AreInOnePresetAlone) {
+TEST(MadeWords, ChangeOnePresetOnly) {
   EXPECT_FALSE(WordLengths{}.any());
   const WordLengths words{.angle_bits = 12, .fraction_bits = 6, .seed_bits = 8, .newton = false};
   EXPECT_EQ(words.name(), "angle12-fraction6-seed8-plain");
@@ -88,7 +88,7 @@ TEST(MadeWords, AreInOnePresetAlone) {
   EXPECT_EQ(format(preset_formats(false, {.seed_bits = 8})[1], "root"), std::pair(0, 8));
 }
 
-TEST(MadeWords, TheRootsTableGoesWithItsSeed) {
+TEST(MadeWords, TheTableOfRootsHasTheSeedsSize) {
   const auto own = function_tables(), made = function_tables(true, {.seed_bits = 8});
   ASSERT_EQ(made.size(), own.size());
   for (std::size_t i = 0; i < made.size(); ++i) {
@@ -106,7 +106,7 @@ TEST(MadeWords, TheRootsTableGoesWithItsSeed) {
   EXPECT_EQ(vhdl_package(preset_formats(true, same)), vhdl_package(preset_formats()));
 }
 
-TEST(MadeWords, TheRtlHasThem) {
+TEST(MadeWords, AreInTheCopiedRtl) {
   auto cache = TemporaryFolder::make(fs::temp_directory_path());
   ASSERT_TRUE(cache) << cache.error().message;
   const auto folder = rtl_with(true, CosineSize{5, 4}, {.angle_bits = 12}, c_source, cache->path());

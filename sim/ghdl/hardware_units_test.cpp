@@ -129,7 +129,7 @@ TEST_F(HardwareUnits, OfEffectsOfTheProcessors) {
   EXPECT_EQ(powers.at("function_rom"), 2 * powers.at("power"));
 }
 
-TEST_F(HardwareUnits, ContainNothingThatTheSceneDoesNotCallFor) {
+TEST_F(HardwareUnits, ContainOnlyWhatTheSceneNeeds) {
   for (const Preset preset : {Preset::exact, Preset::published}) {
     const auto expect_none = [&](const HardwareKey& key, const std::vector<std::string>& entities) {
       for (const std::string& entity : entities)

@@ -27,7 +27,7 @@ class VcdTest : public ::testing::Test {
   std::filesystem::path file_ = folder_->path() / "t.vcd";
 };
 
-TEST_F(VcdTest, SamplesWhatStoodBeforeTheEdge) {
+TEST_F(VcdTest, SamplesTheValueBeforeTheEdge) {
   const auto sampled = sample_vcd(file_, "tb/clk", {"tb/d", "tb/dut/q"}, 10);
   ASSERT_TRUE(sampled) << sampled.error().message;
   EXPECT_EQ(sampled->edges, 2U);
@@ -36,7 +36,7 @@ TEST_F(VcdTest, SamplesWhatStoodBeforeTheEdge) {
   EXPECT_EQ(sample_vcd(file_, "tb/clk", {"tb/d"}, 1)->values.at("tb/d").size(), 1U);
 }
 
-TEST_F(VcdTest, TellsASignalThatIsNotThere) {
+TEST_F(VcdTest, ReportsAMissingSignal) {
   EXPECT_THAT(sample_vcd(file_, "tb/clk", {"tb/q"}, 1).error().message, HasSubstr("no signal tb/q"));
   EXPECT_THAT(sample_vcd(file_, "tb/clock", {"tb/d"}, 1).error().message, HasSubstr("no clock tb/clock"));
 }

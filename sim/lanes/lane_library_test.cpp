@@ -186,7 +186,7 @@ class Lanes : public testing::Test {
   std::optional<TemporaryFolder> scratch_;
 };
 
-TEST_F(Lanes, EveryOperationIsAsInVerilator) {
+TEST_F(Lanes, EveryOperationGivesVerilatorsResult) {
   std::string body = kEverything, rom;
   for (unsigned i = 0; i < 64; ++i) rom += fmt::format("    rom[{}] = 8'd{};\n", i, (i * i * 7 + 13) % 256);
   body.replace(body.find("ROM\n"), 4, rom);
@@ -233,7 +233,7 @@ std::string text_of(const SharedLibrary& lanes) {
   return text ? *text : text.error().message;
 }
 
-TEST_F(Lanes, WhatARegisterKeepsBecomesACondition) {
+TEST_F(Lanes, KeepingAValueBecomesACondition) {
   // A record of two fields with separate conditions.
   const auto record = open(
       "  reg [15:0] q;\n"
@@ -278,7 +278,7 @@ TEST_F(Lanes, OnePartOfASignalMayDependOnAnother) {
       "depends on itself");
 }
 
-TEST_F(Lanes, WhatTheyCannotDoIsRefused) {
+TEST_F(Lanes, UnsupportedConstructsAreRefused) {
   const auto respond = [](const std::string& expression) {
     return "  assign response = " + expression + ";\n";
   };

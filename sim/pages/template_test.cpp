@@ -38,7 +38,7 @@ TEST_F(Template, IsFilledWithTextsNumbersListsAndObjects) {
   EXPECT_EQ(*html, "&lt;|&gt; <|>");
 }
 
-TEST_F(Template, MustBeWholeAndNameWhatTheDataHas) {
+TEST_F(Template, MustBeCompleteAndUseOnlyExistingData) {
   const auto unknown = filled("{{#rows}}{{b}}{{/rows}}", {{"rows", {{{"a", 1}}}}});
   ASSERT_FALSE(unknown);
   EXPECT_THAT(unknown.error().message, testing::EndsWith("page.md.mustache: the data has no 'b'"));

@@ -42,7 +42,7 @@ class Image : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(Image, ComesBackAsItWasWritten) {
+TEST_F(Image, IsReadBackAsWritten) {
   unsigned seed = 0;
   for (const FrameSize size : {FrameSize{1, 1}, FrameSize{3, 2}, FrameSize{640, 7}, FrameSize{1, 4096}}) {
     const Frame frame = noise(size, ++seed);
@@ -77,7 +77,7 @@ TEST_F(Image, SameFrameGivesTheSameBytes) {
   EXPECT_EQ(bytes_of(folder_ / "a.png"), bytes_of(folder_ / "b.png"));
 }
 
-TEST_F(Image, AFolderThatCannotTakeItIsBadInput) {
+TEST_F(Image, AnUnwritableFolderIsBadInput) {
   const Frame frame({2, 2});
   const auto expect_refused = [&](const fs::path& path) {
     const Status status = write_png(path, frame);
@@ -97,7 +97,7 @@ TEST_F(Image, AFolderThatCannotTakeItIsBadInput) {
   }
 }
 
-TEST_F(Image, AFullDeviceIsAToolThatFailed) {
+TEST_F(Image, AFullDeviceIsToolFailed) {
   const Status status = write_png("/dev/full", Frame({2, 2}));
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, ExitCode::tool_failed);
@@ -124,7 +124,7 @@ TEST_F(Image, AWriteCutShortLeavesTheOldFile) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(Image, RefusesFramesThatAreNone) {
+TEST_F(Image, RefusesInvalidFrames) {
   Frame torn({4, 4});
   torn.rgb.pop_back();
   for (const Frame& frame : {Frame(), Frame({0, 5}), Frame({5, 0}), Frame({4097, 1}), torn}) {
@@ -135,7 +135,7 @@ TEST_F(Image, RefusesFramesThatAreNone) {
   EXPECT_EQ(files(), 0u);
 }
 
-TEST_F(Image, RefusesToReadWhatIsNoWholePicture) {
+TEST_F(Image, RefusesToReadIncompletePictures) {
   const fs::path path = folder_ / "a.png";
   const auto expect_refused = [&] {
     const auto frame = read_png(path);

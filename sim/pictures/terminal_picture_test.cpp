@@ -15,7 +15,7 @@ TEST(TerminalPicture, FitsAndNeverGrows) {
   EXPECT_TRUE((fitting_size({4096, 4096}, 1, 4096) == FrameSize{1, 1}));
 }
 
-TEST(TerminalPicture, HasTwoPixelsABlockAndAnOddLineAlone) {
+TEST(TerminalPicture, HasTwoPixelsPerBlockAndAnOddLastLine) {
   Frame frame({2, 3});
   frame.rgb = {1,   2, 3, 1, 2,   3,  //
                4,   5, 6, 7, 8,   9,  //
@@ -25,7 +25,7 @@ TEST(TerminalPicture, HasTwoPixelsABlockAndAnOddLineAlone) {
             "\033[38;2;250;0;0m\u2580\033[38;2;0;250;0m\u2580\033[0m\n");
 }
 
-TEST(TerminalPicture, AveragesWhatAPixelStandsFor) {
+TEST(TerminalPicture, AveragesTheCoveredPixels) {
   Frame frame({3, 2});
   frame.rgb = {10, 0, 0, 20, 0, 255, 33, 9, 9,  //
                30, 0, 0, 41, 0, 255, 34, 9, 9};
@@ -34,7 +34,7 @@ TEST(TerminalPicture, AveragesWhatAPixelStandsFor) {
             "\033[38;2;20;0;0m\u2580\033[38;2;32;5;132m\u2580\033[0m\n");
 }
 
-TEST(TerminalPicture, TakesTheNearestOf256Colours) {
+TEST(TerminalPicture, UsesTheNearestOf256Colours) {
   const auto index = [](std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
     Frame frame({1, 1});
     frame.rgb = {red, green, blue};

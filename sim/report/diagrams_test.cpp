@@ -70,7 +70,7 @@ TEST_P(Diagram, NamesTheEntitiesOfTheShader) {
   EXPECT_THAT(shown, ElementsAreArray(tree_of(name_ + "_shader")));
 }
 
-TEST_P(Diagram, LinksGoBetweenItsNodes) {
+TEST_P(Diagram, LinksConnectItsNodes) {
   const std::set<std::string> nodes = found(dot_, R"(\n\s*(\w+) \[[^\]]*label=)");
   for (const std::string& end : found(dot_, R"(-> (\w+))")) EXPECT_TRUE(nodes.contains(end)) << end;
   for (const std::string& end : found(dot_, R"((\w+) ->)")) EXPECT_TRUE(nodes.contains(end)) << end;

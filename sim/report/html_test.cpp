@@ -11,7 +11,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(Html, JsonEndsNoScript) {
+TEST(Html, JsonDoesNotEndTheScript) {
   EXPECT_EQ(script_safe("{\"a\": \"</script><!--\"}"), "{\"a\": \"\\u003c/script>\\u003c!--\"}");
 }
 
@@ -27,7 +27,7 @@ TEST(Html, MarkdownBecomesAPartOfThePage) {
   EXPECT_THAT(html, AllOf(Not(HasSubstr("SPDX")), Not(HasSubstr("README")), Not(HasSubstr("<img"))));
 }
 
-TEST(Html, SvgsLieBesideEachOther) {
+TEST(Html, SvgsBecomeElementsOfThePage) {
   const auto svg = inline_svg(
       "<?xml version=\"1.0\"?><!DOCTYPE svg><svg xmlns=\"http://www.w3.org/2000/svg\" width=\"20\" "
       "height=\"10\">"

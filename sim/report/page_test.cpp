@@ -151,7 +151,7 @@ class ReportPage : public CommandTest {
   std::unique_ptr<HeadlessBrowser> browser_;
 };
 
-TEST_F(ReportPage, FitsPhonesPaperAndTheDark) {
+TEST_F(ReportPage, FitsPhonesPaperAndDarkMode) {
   evaluate("document.querySelectorAll('details').forEach((d) => d.open = true)");
   for (const int width : {390, 1440}) {
     browser_->resize(width, 844);
@@ -180,7 +180,7 @@ TEST_F(ReportPage, FitsPhonesPaperAndTheDark) {
   EXPECT_NE(papers[0], papers[1]);
 }
 
-TEST_F(ReportPage, PrintsWhatIsFolded) {
+TEST_F(ReportPage, PrintsFoldedSections) {
   ASSERT_GT(evaluate("document.querySelectorAll('details').length").get<int>(), 2);
   ASSERT_EQ(evaluate("document.querySelectorAll('details[open]').length"), 0);
   const std::string printed = print();
@@ -196,7 +196,7 @@ TEST_F(ReportPage, PrintsWhatIsFolded) {
   EXPECT_EQ(evaluate("document.querySelector('main').textContent.split('" + word + "').length - 1"), whole);
 }
 
-TEST_F(ReportPage, FiguresHaveTheirRoomAndTheirWords) {
+TEST_F(ReportPage, FiguresHaveSizesAndTexts) {
   const std::string image = "document.querySelector('img.figure')";
   EXPECT_EQ(evaluate(image + ".getAttribute('width')"), "9");
   EXPECT_EQ(evaluate(image + ".getAttribute('height')"), "9");
@@ -205,7 +205,7 @@ TEST_F(ReportPage, FiguresHaveTheirRoomAndTheirWords) {
   EXPECT_EQ(evaluate("document.querySelector('#figures details code').textContent"), "lights");
 }
 
-TEST_F(ReportPage, BeginsWithAPixelOfABody) {
+TEST_F(ReportPage, StartsWithAPixelOfABody) {
   const auto reference = read_png(folder_->path() / "out/spheres/quadratic/reference.png");
   ASSERT_TRUE(reference);
   // no body is at the centre

@@ -42,7 +42,7 @@ class PlotTest : public ::testing::Test {
   Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
 };
 
-TEST_F(PlotTest, EachPointIsALinkInItsPlace) {
+TEST_F(PlotTest, EachPointIsALinkAtItsPosition) {
   Plot plot{.x_label = "clocks \"of\" a frame", .y_label = "error"};
   plot.points = {{10, 1, 2, 0, "far < below"}, {1000, 100, 0, 1, "above"}, {100, 10, 2, 2, "between", true}};
   plot.front = {{10, 1}, {1000, 100}};
@@ -61,7 +61,7 @@ TEST_F(PlotTest, EachPointIsALinkInItsPlace) {
   EXPECT_NEAR(between.second, (below.second + above.second) / 2, 1.0);
 }
 
-TEST_F(PlotTest, ZeroHasAPlaceOfItsOwn) {
+TEST_F(PlotTest, ZeroHasASeparatePosition) {
   Plot plot{.x_label = "evaluations", .y_label = "pixels seen"};
   plot.points = {{0, 5, 0, 0, "none on the host"},
                  {10, 1, 0, 1, "least"},

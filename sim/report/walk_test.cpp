@@ -25,7 +25,7 @@ std::string squeezed(const std::string& text) {
 
 class PixelWalk : public CommandTest {};
 
-TEST_F(PixelWalk, IsWhatWhyPrints) {
+TEST_F(PixelWalk, EqualsTheOutputOfWhy) {
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const std::string mark = "\n```\n$ halfway why ";
   for (const char* name : {"quadratic", "spherical", "processors"}) {

@@ -92,7 +92,7 @@ Streamed streamed(SceneStream& stream) {
 }
 
 // A frame's fragments would take 60 MB here. They are not all in memory at once.
-TEST(SceneStream, BatchesOfLargeTrianglesAreOfFew) {
+TEST(SceneStream, LargeTrianglesMakeBatchesOfFew) {
   const auto scene = load_scene("spheres", std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
   ASSERT_TRUE(scene) << scene.error().message;
   const HardwareKey key = key_of(*scene, Shader::quadratic);
@@ -110,7 +110,7 @@ TEST(SceneStream, BatchesOfLargeTrianglesAreOfFew) {
 
 // Many small triangles make large batches. After them, at most one large triangle per thread exceeds the
 // limit of a batch.
-TEST(SceneStream, LargeTrianglesBehindSmallOnesEndTheirBatch) {
+TEST(SceneStream, LargeTrianglesAfterSmallOnesEndTheirBatch) {
   constexpr FrameSize c_size{400, 400};
   constexpr int c_layers = 60;
   Scene scene;
@@ -163,7 +163,7 @@ Scene sheets(int count) {
   return scene;
 }
 
-TEST(SceneStream, MoreShadowVolumesThanAreCountedAreRefused) {
+TEST(SceneStream, TooManyShadowVolumesAreRefused) {
   for (const int count : {300, 600}) {
     const Scene scene = sheets(count);
     const HardwareKey key = key_of(scene, Shader::processors);

@@ -59,7 +59,7 @@ class Stages : public ::testing::TestWithParam<Case> {
   std::vector<Fragment> golden_;
 };
 
-TEST_P(Stages, HoldTheSameInGoldenModelAndRtl) {
+TEST_P(Stages, AreEqualInGoldenModelAndRtl) {
   const auto stages = make_stages(key_);
   std::vector<std::vector<GoldenEvent>> golden(stages->stages().size());
   for (GoldenEvent& event : stages->draw(vectors_.words)) golden[event.stage].push_back(std::move(event));

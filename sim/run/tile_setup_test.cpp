@@ -99,7 +99,7 @@ std::size_t expect_tiles_are_the_frame(const Scene& scene, const HardwareKey& ke
   return inside;
 }
 
-TEST(TileSetup, TilesPutTogetherAreTheFrame) {
+TEST(TileSetup, TilesTogetherEqualTheFrame) {
   for (const char* name : {"shadows", "spheres", "lights"})
     for (const Shader shader : c_shaders)
       for (const Preset preset : {Preset::exact, Preset::published}) {
@@ -113,7 +113,7 @@ TEST(TileSetup, TilesPutTogetherAreTheFrame) {
 
 // Intersecting solids in each other's shadow, from a distance and from the middle: triangles behind the eye,
 // clipped by the near plane, larger than the frame.
-TEST(TileSetup, WhateverTheScene) {
+TEST(TileSetup, TilesTogetherEqualTheFrameOfHardScenes) {
   RandomSolids random(9);
   std::size_t fragments = 0;
   for (int i = 0; i < 8; ++i) {
@@ -130,7 +130,7 @@ TEST(TileSetup, WhateverTheScene) {
 }
 
 // A triangle over four tiles is in each of them. A tile without triangles gets no vectors.
-TEST(TileSetup, TakesATriangleIntoEachTileThatItTouches) {
+TEST(TileSetup, ATriangleIsInEachTileThatItTouches) {
   Scene scene = scene_of("matte");
   scene.positions_world = {{-0.9, -0.9, 0.0}, {0.9, -0.9, 0.0}, {0.0, 0.9, 0.0}};
   scene.normals_world = {{0.0, 0.0, 1.0}};

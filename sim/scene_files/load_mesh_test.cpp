@@ -238,7 +238,7 @@ TEST_F(LoadMesh, PipesAndDevicesAreNeitherLibrariesNorBuffers) {
   }
 }
 
-TEST_F(LoadMesh, LinesEndSomewhere) {
+TEST_F(LoadMesh, LinesHaveALimit) {
   const std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3";
   EXPECT_EQ(error("m.obj", faces + std::string(std::size_t{15} << 20, ' ')), "loaded");
   expect_error("m.obj", faces + std::string(std::size_t{17} << 20, ' '),
@@ -248,7 +248,7 @@ TEST_F(LoadMesh, LinesEndSomewhere) {
   expect_error("m.obj", joined, "a line of more than 16 MiB");
 }
 
-TEST_F(LoadMesh, KeepsTheFilesNormalsAndMendsZeroOnes) {
+TEST_F(LoadMesh, KeepsTheFilesNormalsAndReplacesZeroOnes) {
   Result<LoadedMesh> loaded =
       load("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 1 0\nvn 0 0 0\nf 1//1 2//1 3//2\n");
   ASSERT_TRUE(loaded) << loaded.error().message;
@@ -384,7 +384,7 @@ void expect_error_or_sound(const Result<LoadedMesh>& loaded, const std::string& 
   }
 }
 
-TEST_F(LoadMesh, CutOffFilesAreErrors) {
+TEST_F(LoadMesh, TruncatedFilesAreErrors) {
   const std::pair<const char*, std::string> files[] = {{"p.ply", c_ply_ascii}, {"q.ply", ply_binary()},
                                                        {"p.stl", stl_ascii()}, {"q.stl", stl_binary()},
                                                        {"p.gltf", gltf()},     {"p.glb", glb()}};
@@ -426,7 +426,7 @@ TEST_F(LoadMesh, DamagedFilesAreErrorsOrMeshes) {
   }
 }
 
-TEST_F(LoadMesh, AFileThatBreaksTheReaderIsAnError) {
+TEST_F(LoadMesh, AFileThatCrashesTheReaderIsAnError) {
   // assimp's JSON reader uses stack for each bracket, without a limit.
   const std::string deep = std::string(2'000'000, '[') + std::string(2'000'000, ']');
   std::string text = gltf();

@@ -64,7 +64,7 @@ void expect_sound(const Scene& scene) {
   }
 }
 
-TEST_F(LoadScene, BuiltInScenesLoadAndLieWithinTheFrame) {
+TEST_F(LoadScene, BuiltInScenesLoadAndAreInsideTheFrame) {
   const std::pair<const char*, std::size_t> cases[] = {{"spheres", 2 * (168 + 374 + 690)},
                                                        {"highlights", 3 * 168},
                                                        {"teapot", 4032},
@@ -89,7 +89,7 @@ TEST_F(LoadScene, BuiltInScenesLoadAndLieWithinTheFrame) {
   }
 }
 
-TEST_F(LoadScene, BuiltInScenesShowWhatTheyAreFor) {
+TEST_F(LoadScene, BuiltInScenesHaveTheirEffects) {
   const Result<Scene> lights = load_scene("lights", c_scenes);
   ASSERT_TRUE(lights);
   EXPECT_EQ(lights->directional.size(), 5u);
@@ -418,7 +418,7 @@ TEST_F(LoadScene, FaultyFilesAreErrors) {
   EXPECT_NE(message_of(std::string(100000, 'x')), "loaded");
 }
 
-TEST_F(LoadScene, AMeshAloneGetsCameraLightAndMaterial) {
+TEST_F(LoadScene, AMeshFileGetsCameraLightAndMaterial) {
   const Result<Scene> scene = load_scene(
       write("tetra.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 1 2\n"),
       c_scenes);
@@ -436,7 +436,7 @@ TEST_F(LoadScene, AMeshAloneGetsCameraLightAndMaterial) {
   EXPECT_EQ(scene->notes[0], (folder_ / "tetra.obj").string() + ": 1 triangles of no area left out");
 }
 
-TEST_F(LoadScene, AMeshFileLiesBesideItsScene) {
+TEST_F(LoadScene, MeshFilesAreRelativeToTheScene) {
   std::filesystem::create_directory(folder_ / "sub");
   write("sub/t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Result<Scene> scene = load("[[mesh]]\nfile = \"sub/t.obj\"\ntranslate = [0, 0, 7]\n");

@@ -41,7 +41,7 @@ TEST_F(InitFile, WritesTheFormat) {
   EXPECT_EQ(*read_file(path_), "halfway-init 1 key 34\n289abcdef\n000000001\nend 2\n");
 }
 
-TEST_F(InitFile, ComesBackForEveryWidth) {
+TEST_F(InitFile, IsReadBackForEveryWidth) {
   std::mt19937 random(1);
   for (const unsigned bits : {1U, 4U, 31U, 32U, 33U, 64U, 65U, 305U, 1680U}) {
     InitStream stream{bits, {}};
@@ -81,7 +81,7 @@ TEST_F(InitFile, StreamsInPieces) {
   EXPECT_EQ(words[198], 99U);
 }
 
-TEST_F(InitFile, RefusesWhatIsNotWholeOrNotOurs) {
+TEST_F(InitFile, RefusesIncompleteAndForeignFiles) {
   expect_refused("", ":1", "empty");
   expect_refused("P6\n1 1\n", ":1", "no init file");
   expect_refused(std::string(100'000, 'x'), ":1", "more than");
@@ -106,7 +106,7 @@ TEST_F(InitFile, RefusesWhatIsNotWholeOrNotOurs) {
   expect_refused(header + "\nend 0\n", ":2", "9 hexadecimal digits");
 }
 
-TEST_F(InitFile, TellsOfAMissingFile) {
+TEST_F(InitFile, ReportsAMissingFile) {
   const auto read = read_init_file(path_.string() + ".none", "key");
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().code, ExitCode::bad_input);

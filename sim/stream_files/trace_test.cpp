@@ -45,7 +45,7 @@ TEST_F(TraceFile, WritesTheFormat) {
   EXPECT_EQ(*read_file(path_), "halfway-trace 1 key\nend 0\n");
 }
 
-TEST_F(TraceFile, ComesBack) {
+TEST_F(TraceFile, IsReadBack) {
   std::mt19937 random(1);
   Trace trace;
   for (int i = 0; i < 100'000; ++i) {
@@ -85,7 +85,7 @@ TEST_F(TraceFile, StreamsInPieces) {
   EXPECT_EQ(fragments, trace.fragments);
 }
 
-TEST_F(TraceFile, RefusesWhatIsNotWholeOrNotOurs) {
+TEST_F(TraceFile, RefusesIncompleteAndForeignFiles) {
   expect_refused("", ":1", "empty");
   expect_refused("GIF89a\n", ":1", "no trace");
   expect_refused(std::string(1000, 'x'), ":1", "more than");

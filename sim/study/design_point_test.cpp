@@ -36,7 +36,7 @@ TEST_F(SpaceTest, IsTheProductOfEachSweepsLists) {
   EXPECT_EQ(points->size(), 4U + 3U);
 }
 
-TEST_F(SpaceTest, HasNoPointTwice) {
+TEST_F(SpaceTest, HasNoDuplicates) {
   // Preset and threshold are ignored for software. The threshold is ignored for methods that never split.
   const auto points = read(
       "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\"]\npreset = [\"exact\", \"published\"]\nthreshold = "
@@ -59,7 +59,7 @@ TEST_F(SpaceTest, PutsPointsOfAPictureTogether) {
   EXPECT_EQ((*points)[2].picture(), (*points)[3].picture());
 }
 
-TEST_F(SpaceTest, HasWordLengthsWhereTheyMeanSomething) {
+TEST_F(SpaceTest, IgnoresWordLengthsOfOtherMethods) {
   const auto points = read(
       "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\", \"spherical\", \"processors-2\"]\nangle_bits = [22, "
       "16]\n"
@@ -83,7 +83,7 @@ TEST_F(SpaceTest, HasWordLengthsWhereTheyMeanSomething) {
 
 // The space for queries varies the tables' lengths. The full space varies every parameter of the other
 // spaces, including all word lengths.
-TEST(Spaces, HoldWhatTheyPromise) {
+TEST(Spaces, VaryTheExpectedParameters) {
   const std::filesystem::path studies = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/studies";
   const auto designs_of = [&](const char* file) {
     const auto points = read_space(studies / file);
@@ -101,7 +101,7 @@ TEST(Spaces, HoldWhatTheyPromise) {
       EXPECT_TRUE(full.contains(design)) << file << ": " << design;
 }
 
-TEST_F(SpaceTest, TellsFileAndLineOfWhatItCannotTake) {
+TEST_F(SpaceTest, ErrorsNameFileAndLine) {
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nexponent = 0.5\n"),
               HasSubstr("space.toml:3: exponent takes numbers from 1"));
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratc\"\n"),
@@ -120,7 +120,7 @@ TEST_F(SpaceTest, TellsFileAndLineOfWhatItCannotTake) {
   EXPECT_THAT(message_of("[[sweep]\n"), HasSubstr("space.toml:1:"));
 }
 
-TEST(DesignPoint, NamesAllThatTellsItFromOthers) {
+TEST(DesignPoint, NameContainsAllParameters) {
   DesignPoint point{
       .method = Method::spherical, .tables = TableSize{9, 8}, .threshold = 4.0, .exponent = 50.0};
   EXPECT_EQ(point.name(), "spherical exact 9x8, threshold 4, 320x240, exponent 50");

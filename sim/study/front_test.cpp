@@ -26,7 +26,7 @@ std::vector<Costs> random_points(std::mt19937& random) {
   return points;
 }
 
-TEST(Front, IsWhatNoOtherBeats) {
+TEST(Front, HasThePointsThatNoOtherBeats) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 500; ++trial) {
     const std::vector<Costs> points = random_points(random);

@@ -114,7 +114,7 @@ class HardwareFiguresTest : public ::testing::Test {
   std::vector<Record> records_;
 };
 
-TEST_F(HardwareFiguresTest, AClockIsThePinnedOneOfTheSameNetlistAlone) {
+TEST_F(HardwareFiguresTest, APinnedClockIsUsedForTheSameNetlistOnly) {
   const HardwareFigures none = figures(false);
   EXPECT_FALSE(none.mhz);
   EXPECT_EQ(none.clock, "not placed");
@@ -145,7 +145,7 @@ TEST_F(HardwareFiguresTest, AClockIsThePinnedOneOfTheSameNetlistAlone) {
   EXPECT_FALSE(figures(false).mhz);
 }
 
-TEST_F(HardwareFiguresTest, AClockIsTheMedianOfAllSeedsAndIsKept) {
+TEST_F(HardwareFiguresTest, AClockIsTheMedianOfAllSeedsAndIsCached) {
   const HardwareFigures placed = figures(true);
   // 102, 104, 101
   EXPECT_EQ(placed.mhz, 102.0);
@@ -159,7 +159,7 @@ TEST_F(HardwareFiguresTest, AClockIsTheMedianOfAllSeedsAndIsKept) {
   EXPECT_EQ(placements(), synth::kSeeds);
 }
 
-TEST_F(HardwareFiguresTest, WhatTheDeviceHasNoRoomForHasNoClockAndSaysWhy) {
+TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitHasAReasonInsteadOfAClock) {
   const auto why = [&](const char* flip_flops, const char* luts, const char* packed) {
     for (const char* made : {"yosys", "synth"}) fs::remove_all(folders_.cache / made);
     put_tools(flip_flops, luts, packed);
@@ -175,7 +175,7 @@ TEST_F(HardwareFiguresTest, WhatTheDeviceHasNoRoomForHasNoClockAndSaysWhy) {
   EXPECT_EQ(placements(), 0U);
 }
 
-TEST_F(HardwareFiguresTest, WhatIsPlacedCanBePinned) {
+TEST_F(HardwareFiguresTest, PlacedClocksCanBePinned) {
   const auto table = [&](bool place) {
     auto made = hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place});
     EXPECT_TRUE(made) << made.error().message;
@@ -223,7 +223,7 @@ TEST_F(HardwareFiguresTest, WhatIsPlacedCanBePinned) {
 }
 
 // The pinned clocks must match the netlists of the current RTL.
-TEST(StudyClocks, AreOfTheSmallStudysHardware) {
+TEST(StudyClocks, MatchTheSmallStudysHardware) {
   const auto pins = synth::read_pins(c_source / synth::kStudyPins);
   ASSERT_TRUE(pins) << pins.error().message;
   const auto points = read_space((c_source / "sim/studies/small.toml").string());
@@ -300,7 +300,7 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   EXPECT_THAT(open(), ElementsAre(0U, 1U, 2U));
 }
 
-TEST_F(HardwareFiguresTest, WhatHasNoRoomIsDoneAsAPiece) {
+TEST_F(HardwareFiguresTest, APieceThatDoesNotFitIsDone) {
   put_tools("4", "7681", "40");
   const StudySettings settings{
       .scene = scene_, .out = folder_->path() / "out", .folders = folders_, .placed = {point_}};

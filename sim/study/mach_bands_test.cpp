@@ -38,7 +38,7 @@ Frame roof(int steps) {
   return frame;
 }
 
-TEST(MachBands, AreTheSlopesJumpAcrossAnEdge) {
+TEST(MachBands, AreTheJumpOfTheSlopeAcrossAnEdge) {
   const Scene scene = square();
   const auto triangles = Projector(scene, c_size, {}).project_all();
   ASSERT_EQ(triangles.size(), 2U);
@@ -49,7 +49,7 @@ TEST(MachBands, AreTheSlopesJumpAcrossAnEdge) {
   EXPECT_NEAR(bands->rms, bands->largest, 1e-12);
 }
 
-TEST(MachBands, AreLessTheReferencesOwn) {
+TEST(MachBands, TheReferencesJumpsAreSubtracted) {
   const Scene scene = square();
   const auto triangles = Projector(scene, c_size, {}).project_all();
   const auto bands = mach_bands(roof(2), roof(2), scene, triangles);
@@ -58,7 +58,7 @@ TEST(MachBands, AreLessTheReferencesOwn) {
   EXPECT_EQ(bands->largest, 0.0);
 }
 
-TEST(MachBands, AreNotLookedForAcrossACrease) {
+TEST(MachBands, ACreaseIsNotEvaluated) {
   Scene scene = square();
   scene.triangles[1].normal = {1, 1, 1};
   const auto triangles = Projector(scene, c_size, {}).project_all();
@@ -67,7 +67,7 @@ TEST(MachBands, AreNotLookedForAcrossACrease) {
   EXPECT_EQ(bands->edges, 0U);
 }
 
-TEST(MachBands, AreNotLookedForBesideWhatIsHidden) {
+TEST(MachBands, HiddenTrianglesAreNotEvaluated) {
   Scene scene = square();
   // Cover part of one triangle.
   scene.positions_world.insert(scene.positions_world.end(), {{-1, -0.9, 0.5}, {1, 1, 0.5}, {-1, 1, 0.5}});

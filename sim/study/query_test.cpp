@@ -22,7 +22,7 @@ using ::testing::Not;
 
 constexpr double c_infinity = std::numeric_limits<double>::infinity();
 
-TEST(Demand, TakesNumbersWithTheirUnits) {
+TEST(Demand, ReadsNumbersWithUnits) {
   const auto demand = read_demand("2", "45 dB", "10ms");
   ASSERT_TRUE(demand) << demand.error().message;
   EXPECT_EQ(demand->largest_error, 2.0);
@@ -65,7 +65,7 @@ Offer random_offer(std::mt19937& random, bool clocks) {
 
 class RandomMarket : public ::testing::TestWithParam<bool> {};
 
-TEST_P(RandomMarket, AnswersAreWhatTheyAreCalled) {
+TEST_P(RandomMarket, AnswersAreCorrect) {
   std::mt19937 random(7);
   int met = 0, missed = 0;
   for (int trial = 0; trial < 1000; ++trial) {
@@ -175,7 +175,7 @@ class QueryTest : public ::testing::Test {
   HardwareTable hardware_;
 };
 
-TEST_F(QueryTest, HasAMarketAPictureAndNoSoftwareInIt) {
+TEST_F(QueryTest, HasOneMarketPerPictureWithoutSoftware) {
   const auto markets = markets_of(records_, hardware_, {});
   ASSERT_EQ(markets.size(), 2U);
   EXPECT_EQ(markets[0].picture, "320x240");
@@ -186,7 +186,7 @@ TEST_F(QueryTest, HasAMarketAPictureAndNoSoftwareInIt) {
   EXPECT_FALSE(markets[0].offers[2].seconds);
 }
 
-TEST_F(QueryTest, TellsTheCheapestItsNeighboursAndTheNextStepsCost) {
+TEST_F(QueryTest, PrintsTheCheapestItsNeighboursAndTheirCost) {
   EXPECT_EQ(
       ask({.largest_error = 2.0}),
       "320x240: largest error at most 2/255\n"
@@ -209,7 +209,7 @@ TEST_F(QueryTest, TellsTheCheapestItsNeighboursAndTheNextStepsCost) {
       "          1    59.50     10000      1005          -          5000  processors-2 exact\n");
 }
 
-TEST_F(QueryTest, TakesTimeByTheClockAlone) {
+TEST_F(QueryTest, TimeNeedsAClock) {
   // 1010 cycles are 10.1 us at 100 MHz.
   EXPECT_THAT(ask({.largest_error = 2.0, .seconds = 10.05e-6}, {100.0}),
               HasSubstr("cheapest       processors-2 exact: largest error 1/255, PSNR 59.50 dB, 10000 cells, "
@@ -222,7 +222,7 @@ TEST_F(QueryTest, TakesTimeByTheClockAlone) {
       HasSubstr("1 point would be accurate enough, but its clock is not known (--place, or --clock)"));
 }
 
-TEST_F(QueryTest, TakesTimeByTheHardwaresOwnClockBeforeAnyOther) {
+TEST_F(QueryTest, TheHardwaresOwnClockHasPriority) {
   hardware_["quadratic"].mhz = 50.0;
   const std::string mixed = ask({.largest_error = 2.0, .seconds = 20.3e-6}, {100.0});
   EXPECT_THAT(mixed, HasSubstr("1010 cycles (20.2 us)"));
@@ -246,7 +246,7 @@ TEST_F(QueryTest, TakesTimeByTheHardwaresOwnClockBeforeAnyOther) {
       HasSubstr("2 points would be accurate enough, but have no clock: the device has no room for them\n"));
 }
 
-TEST_F(QueryTest, WhatDoesNotFitTheDeviceIsSlowerThanWhatDoes) {
+TEST_F(QueryTest, HardwareThatDoesNotFitIsSlowerThanHardwareThatFits) {
   const std::vector<Offer> offers = {{.cells = 1.0, .cycles = 10.0, .seconds = 1.0},
                                      {.cells = 1.0, .cycles = 5.0, .seconds = 2.0},
                                      {.cells = 1.0, .cycles = 1.0, .fits = false},
@@ -257,7 +257,7 @@ TEST_F(QueryTest, WhatDoesNotFitTheDeviceIsSlowerThanWhatDoes) {
   EXPECT_EQ(found.fastest, 0U);
 }
 
-TEST_F(QueryTest, TellsTheBestOfWhatIsNotEnough) {
+TEST_F(QueryTest, PrintsTheBestIfNothingMeetsTheDemand) {
   const std::string text = ask({.largest_error = 0.0});
   EXPECT_THAT(text,
               HasSubstr("none of 3 points of hardware meets it\n  most accurate  processors-2 exact: "));
@@ -274,7 +274,7 @@ TEST_F(QueryTest, TellsTheBestOfWhatIsNotEnough) {
 }
 
 // If only a time is demanded, any accuracy suffices. The most accurate offer within that time is printed too.
-TEST_F(QueryTest, TellsTheMostAccurateInATime) {
+TEST_F(QueryTest, PrintsTheMostAccurateWithinATime) {
   const std::string text = ask({.seconds = 10.07e-6}, {100.0});
   EXPECT_THAT(text, HasSubstr("  cheapest       quadratic exact: "));
   EXPECT_THAT(text, HasSubstr("  most accurate  processors-2 exact: "));
@@ -283,7 +283,7 @@ TEST_F(QueryTest, TellsTheMostAccurateInATime) {
   EXPECT_THAT(ask({.seconds = 1.0}), HasSubstr("  3 points might be fast enough, but no clock"));
 }
 
-TEST_F(QueryTest, TellsWhichKnobsWereTurned) {
+TEST_F(QueryTest, PrintsTheVariedParameters) {
   const auto more = [&](const DesignPoint& point) { add(point, "quadratic", 3, 1000, 63600); };
   more({.method = Method::spherical});
   more({.method = Method::spherical, .tables = TableSize{6, 8}});
@@ -295,14 +295,14 @@ TEST_F(QueryTest, TellsWhichKnobsWereTurned) {
                       "data_bits; not turned: preset, fraction_bits, form, seed_bits, newton, angle_bits\n"));
 }
 
-TEST_F(QueryTest, WithoutADemandTellsTheFront) {
+TEST_F(QueryTest, PrintsTheFrontWithoutADemand) {
   const std::string text = ask({});
   EXPECT_THAT(text, AllOf(::testing::StartsWith("320x240\n  front          3 of 3 points"),
                           HasSubstr("  processors-2 exact\n"), Not(HasSubstr("looked at")),
                           Not(HasSubstr("cheapest"))));
 }
 
-TEST_F(QueryTest, WithoutCellsGoesByCyclesAndHost) {
+TEST_F(QueryTest, ComparesCyclesAndHostWithoutCells) {
   hardware_.clear();
   const std::string text = ask({.largest_error = 2.0});
   EXPECT_THAT(text, HasSubstr("cheapest       processors-2 exact"));
@@ -311,7 +311,7 @@ TEST_F(QueryTest, WithoutCellsGoesByCyclesAndHost) {
 
 // Setup evaluations of different shaders are not comparable. Host instructions are compared only if all
 // offers have them.
-TEST_F(QueryTest, ComparesTheHostByInstructionsThatAllHaveCounted) {
+TEST_F(QueryTest, ComparesTheHostIfAllInstructionsAreCounted) {
   // Equal to the quadratic shader except for the host: fewer evaluations, more instructions.
   Record record{{.method = Method::spherical}, records_[1].measured};
   record.measured.setup.shaded = 0;
@@ -329,7 +329,7 @@ TEST_F(QueryTest, ComparesTheHostByInstructionsThatAllHaveCounted) {
 }
 
 // Every number in the text is a number of an offer or the difference of two.
-TEST_F(QueryTest, EveryFigureIsTheData) {
+TEST_F(QueryTest, EveryNumberIsFromTheData) {
   std::mt19937 random(11);
   const std::regex number(R"([+-]?\d+(\.\d+)?)");
   for (int trial = 0; trial < 50; ++trial) {

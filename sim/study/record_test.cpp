@@ -108,7 +108,7 @@ class RecordsTest : public ::testing::Test {
   const Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
 };
 
-TEST_F(RecordsTest, AreFoundByWhatTheyWereMeasuredWithAlone) {
+TEST_F(RecordsTest, AreFoundByTheirProvenanceOnly) {
   const Provenance here{"scene", "1", "2", "3", "4"};
   Record record{{.method = Method::adaptive}, {}};
   record.measured.picture.psnr_db = std::numeric_limits<double>::infinity();
@@ -141,7 +141,7 @@ TEST_F(RecordsTest, AreFoundByWhatTheyWereMeasuredWithAlone) {
 }
 
 // Damage each file in turn while the other one is intact.
-TEST_F(RecordsTest, TellWhichFileIsDamaged) {
+TEST_F(RecordsTest, ReportTheDamagedFile) {
   const Records records(folder_->path(), {"scene", "1", "2", "3", "4"});
   Record record{{.method = Method::adaptive, .size = {40, 30}}, {}};
   const auto add = [&](const Frame& frame) {
@@ -172,7 +172,7 @@ TEST_F(RecordsTest, TellWhichFileIsDamaged) {
 }
 
 // Change one byte, or one file name, of a checkout's RTL.
-TEST_F(RecordsTest, ProvenanceIsOfEveryFileOfTheRtl) {
+TEST_F(RecordsTest, ProvenanceCoversEveryFileOfTheRtl) {
   const Scene scene = scene_of_everything();
   std::filesystem::create_directories(folder_->path() / "rtl/part");
   const auto write = [&](const char* name, const char* text) {
@@ -196,7 +196,7 @@ TEST_F(RecordsTest, ProvenanceIsOfEveryFileOfTheRtl) {
 }
 
 // A program with one byte more is another program; an identical copy is the same.
-TEST_F(RecordsTest, ProvenanceIsOfTheProgram) {
+TEST_F(RecordsTest, ProvenanceCoversTheProgram) {
   const auto mine = read_file("/proc/self/exe");
   ASSERT_TRUE(mine);
   const auto images = read_file(image_library_file());

@@ -11,7 +11,7 @@
 namespace halfway::study {
 namespace {
 
-TEST(Sealed, ComesBackUnlessAnyByteIsAnother) {
+TEST(Sealed, IsReadBackUnlessAByteChanged) {
   const nlohmann::ordered_json object = {
       {"name", "grey ± \"7\""}, {"none", nullptr}, {"rms", 0.1}, {"figures", {{"cycles", 121826}}}};
   const std::string text = sealed(object);

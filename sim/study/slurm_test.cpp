@@ -45,13 +45,13 @@ class JobScriptTest : public ::testing::Test {
   std::optional<TemporaryFolder> folder_;
 };
 
-TEST_F(JobScriptTest, HandsThePartToTheWorkerWordForWord) {
+TEST_F(JobScriptTest, PassesThePartToTheWorkerLiterally) {
   const ProcessEnd end = run({.worker = {"printf", "<%s>", "a b", "it's", "$HOME", "--"}, .parts = 8}, "0");
   EXPECT_TRUE(end.succeeded());
   EXPECT_EQ(end.output, "<a b><it's><$HOME><--><--part><3/8>");
 }
 
-TEST_F(JobScriptTest, HasSlurmTryAgainAFewTimes) {
+TEST_F(JobScriptTest, RequeuesAFailedTaskAFewTimes) {
   const JobArray array{.worker = {"sh", "-c", "exit 5"}, .parts = 8, .retries = 2};
   for (const char* restarts : {"", "0", "1"}) {
     const ProcessEnd end = run(array, restarts);
@@ -84,7 +84,7 @@ class JobArrayTest : public ::testing::Test {
   std::optional<TemporaryFolder> folder_;
 };
 
-TEST_F(JobArrayTest, WhatTasksNoteIsFound) {
+TEST_F(JobArrayTest, NotesOfTasksAreFound) {
   const JobArray noted = array("echo working; [ $2 = 4/8 ] || echo \"note: $2\" >&2; echo 'no note: here'");
   const Status ran = run_job_array(noted);
   ASSERT_TRUE(ran) << ran.error().message;
@@ -94,7 +94,7 @@ TEST_F(JobArrayTest, WhatTasksNoteIsFound) {
   EXPECT_THAT(notes_of(silent), IsEmpty());
 }
 
-TEST_F(JobArrayTest, ATaskThatFailsIsToldWithWhatItSaid) {
+TEST_F(JobArrayTest, AFailedTaskIsReportedWithItsOutput) {
   const JobArray broken = array("echo \"note: $2\"; [ $2 != 5/8 ] || { echo 'no such scene' >&2; exit 2; }");
   const Status ran = run_job_array(broken);
   ASSERT_FALSE(ran);

@@ -56,7 +56,7 @@ class StudyTest : public ::testing::Test {
   mutable std::vector<std::string> notes_;  // notes of the last study
 };
 
-TEST_F(StudyTest, MeasuresEachMethodAsWhatItIs) {
+TEST_F(StudyTest, MeasuresEachMethod) {
   const Study made = study();
   ASSERT_EQ(made.records.size(), 4U);
   EXPECT_EQ(made.measured, 4U);
@@ -79,7 +79,7 @@ TEST_F(StudyTest, MeasuresEachMethodAsWhatItIs) {
   EXPECT_GT(adaptive.setup.leaves, quadratic.setup.leaves);
 }
 
-TEST_F(StudyTest, GoesOnWhereItWasBrokenOff) {
+TEST_F(StudyTest, ContinuesAfterAnInterruption) {
   const std::string first = table_of(study());
   EXPECT_EQ(study().measured, 0U);
   // Remove one point's figures and another point's frame.
@@ -94,7 +94,7 @@ TEST_F(StudyTest, GoesOnWhereItWasBrokenOff) {
   EXPECT_EQ(table_of(again), first);
 }
 
-TEST_F(StudyTest, MeasuresAnewWhatIsDamagedOrOfAnotherScene) {
+TEST_F(StudyTest, MeasuresDamagedPointsAndOtherScenesAgain) {
   const std::string table = table_of(study());
   const std::string stem = folder_->path() / "points" / record_name(study().provenance, settings_.points[0]);
   for (const char* ending : {".json", ".png"}) {
@@ -114,7 +114,7 @@ TEST_F(StudyTest, MeasuresAnewWhatIsDamagedOrOfAnotherScene) {
   EXPECT_EQ(study().measured, 4U);
 }
 
-TEST_F(StudyTest, PartsAreTheWhole) {
+TEST_F(StudyTest, PartsTogetherEqualTheWhole) {
   settings_.parts = 3;
   std::vector<std::string> names;
   for (settings_.part = 0; settings_.part < settings_.parts; ++settings_.part)
@@ -166,7 +166,7 @@ class TiledStudyTest : public StudyTest {
   Study whole_;
 };
 
-TEST_F(TiledStudyTest, TilesAreTheWhole) {
+TEST_F(TiledStudyTest, TilesTogetherEqualTheWhole) {
   const Study tiled = study();
   EXPECT_EQ(tiled.measured, 4U);
   EXPECT_EQ(tiled.drawn_tiles, 4U * 4U);  // tiles of the reference and of all methods except phong
@@ -177,7 +177,7 @@ TEST_F(TiledStudyTest, TilesAreTheWhole) {
 }
 
 // A study that was interrupted before any point was assembled.
-class BrokenOffStudyTest : public TiledStudyTest {
+class InterruptedStudyTest : public TiledStudyTest {
  protected:
   void SetUp() override {
     TiledStudyTest::SetUp();
@@ -214,7 +214,7 @@ class BrokenOffStudyTest : public TiledStudyTest {
 };
 
 // Only lost tiles are drawn again.
-TEST_F(BrokenOffStudyTest, GoesOnTileByTile) {
+TEST_F(InterruptedStudyTest, ContinuesTileByTile) {
   EXPECT_TRUE(std::filesystem::remove(file(drawing_, "-tile-1.json")));
   EXPECT_TRUE(std::filesystem::remove(file(drawing_, "-tile-2-mask.png")));
   EXPECT_TRUE(std::filesystem::remove(file(reference_, "-tile-0.png")));
@@ -222,7 +222,7 @@ TEST_F(BrokenOffStudyTest, GoesOnTileByTile) {
 }
 
 // Drawings are removed after assembly. The reference's tiles stay for later points; losing them does no harm.
-TEST_F(BrokenOffStudyTest, LeavesOfTilesTheReferencesAlone) {
+TEST_F(InterruptedStudyTest, KeepsOnlyTheReferencesTiles) {
   expect_anew(0);
   std::size_t left = 0;
   for (const auto& entry : std::filesystem::directory_iterator(points()))
@@ -240,7 +240,7 @@ TEST_F(BrokenOffStudyTest, LeavesOfTilesTheReferencesAlone) {
 
 // A truncated tile, a changed byte, another tile or a file that is no picture: assembling the point draws the
 // tile again.
-TEST_F(BrokenOffStudyTest, DrawsADamagedTileAnew) {
+TEST_F(InterruptedStudyTest, DrawsADamagedTileAgain) {
   const auto cut = [](const std::filesystem::path& path) {
     const auto whole = read_file(path);
     return whole && write_file(path, whole->substr(0, whole->size() / 2));
@@ -283,7 +283,7 @@ TEST_F(BrokenOffStudyTest, DrawsADamagedTileAnew) {
   }
 }
 
-TEST_F(TiledStudyTest, PartsDrawTilesAndTheLastOneGathers) {
+TEST_F(TiledStudyTest, PartsDrawTilesAndTheLastOneAssembles) {
   settings_.parts = 5;
   std::size_t drawn = 0;
   const auto run_parts = [&](const std::vector<std::size_t>& parts) {
@@ -314,7 +314,7 @@ TEST_F(TiledStudyTest, PartsDrawTilesAndTheLastOneGathers) {
   expect_whole(all);
 }
 
-TEST_F(StudyTest, TellsThePointThatFails) {
+TEST_F(StudyTest, ReportsThePointThatFails) {
   settings_.scene = "lights";
   settings_.points = {{.method = Method::processors_1, .preset = Preset::published}};
   const auto made = run_study(settings_);
@@ -380,7 +380,7 @@ TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
   EXPECT_THAT(made.error().message, HasSubstr("the RTL differs from the golden model"));
 }
 
-TEST_F(StudyTest, LeavesOutWhatCannotDrawTheScene) {
+TEST_F(StudyTest, OmitsPointsThatCannotDrawTheScene) {
   const std::vector<DesignPoint> points = {{.method = Method::gouraud},
                                            {.method = Method::processors_1, .preset = Preset::published},
                                            {.method = Method::processors_2, .preset = Preset::published}};
@@ -398,7 +398,7 @@ TEST_F(StudyTest, LeavesOutWhatCannotDrawTheScene) {
   EXPECT_THAT(some.reasons[0], HasSubstr("processors-1: lights: version I"));
 }
 
-TEST_F(StudyTest, TheTableTellsTheFront) {
+TEST_F(StudyTest, TheTableContainsTheFront) {
   settings_.points.push_back({.method = Method::gouraud, .size = {160, 120}});
   const Study made = study();
   HardwareTable hardware;

@@ -109,7 +109,7 @@ struct Buffered {
 
 using Pins = std::map<std::string, int>;
 
-TEST(SynthGlobalBuffers, AreTheClocksAloneWithoutAnEnableOfFullSums) {
+TEST(SynthGlobalBuffers, AreForTheClockOnlyWithoutAnEnableOfFullSums) {
   Netlist netlist;
   netlist.enable("few", 7);
   const int partial = netlist.net();
@@ -124,7 +124,7 @@ TEST(SynthGlobalBuffers, AreTheClocksAloneWithoutAnEnableOfFullSums) {
   EXPECT_THAT(buffered.users(Netlist::kClock), IsEmpty());
 }
 
-TEST(SynthGlobalBuffers, AreOfTheFourLargestOfFiveEnables) {
+TEST(SynthGlobalBuffers, AreForTheFourLargestOfFiveEnables) {
   Netlist netlist;
   netlist.enable("a", 9);
   netlist.enable("b", 8);
@@ -135,7 +135,7 @@ TEST(SynthGlobalBuffers, AreOfTheFourLargestOfFiveEnables) {
             (Pins{{"clk_SB_GB", 50}, {"a_SB_GB", 9}, {"c_SB_GB", 10}, {"d_SB_GB", 12}, {"e_SB_GB", 11}}));
 }
 
-TEST(SynthGlobalBuffers, AreOfTheFirstByNameOfEqualEnables) {
+TEST(SynthGlobalBuffers, AreForTheFirstNameOfEqualEnables) {
   Netlist netlist;
   const int several = netlist.enable("z", 8);
   for (const char* name : {"e", "d", "c", "b"}) netlist.enable(name, 8);
@@ -146,7 +146,7 @@ TEST(SynthGlobalBuffers, AreOfTheFirstByNameOfEqualEnables) {
             (Pins{{"clk_SB_GB", 40}, {"a[1]_SB_GB", 8}, {"b_SB_GB", 8}, {"c_SB_GB", 8}, {"d_SB_GB", 8}}));
 }
 
-TEST(SynthGlobalBuffers, AreInFrontOfEveryRegisterOfAnEnableAndOfNothingElse) {
+TEST(SynthGlobalBuffers, DriveOnlyTheRegistersOfAnEnable) {
   Netlist netlist;
   const int enable = netlist.enable("enable", 8), other = netlist.enable("other", 3);
   netlist.registers(enable, 2, "00aa");
@@ -161,7 +161,7 @@ TEST(SynthGlobalBuffers, AreInFrontOfEveryRegisterOfAnEnableAndOfNothingElse) {
 
 // A hash over results of all cases above. If it changes, kBuffersRule must change too, because other hashes
 // contain only that name.
-TEST(SynthGlobalBuffers, AreAnotherRulesWhereTheResultIsAnother) {
+TEST(SynthGlobalBuffers, HaveANewRuleNameForANewResult) {
   Netlist many, few;
   many.enable("c", 12);
   const int several = many.enable("z", 8);
@@ -185,7 +185,7 @@ TEST(SynthGlobalBuffers, AreAnotherRulesWhereTheResultIsAnother) {
       << "give it another name, kBuffersRule, and then this hash; pin the clocks anew by make synth PIN=1";
 }
 
-TEST(SynthGlobalBuffers, AreRefusedToWhatHasNoClock) {
+TEST(SynthGlobalBuffers, ADesignWithoutClockIsRefused) {
   const std::string netlist = Netlist().text();
   ASSERT_TRUE(with_global_buffers(netlist));
   const auto without = [&](const char* path) {
@@ -243,7 +243,7 @@ begin
 end architecture;
 )";
 
-TEST(SynthGlobalBuffers, AreWhatNextpnrPacks) {
+TEST(SynthGlobalBuffers, AgreeWithNextpnrsPacking) {
   for (const char* tool : {"ghdl", "yosys", "nextpnr-ice40"})
     ASSERT_FALSE(find_program(tool).empty()) << "no " << tool << ": " << kInstallTools;
   auto folder = TemporaryFolder::make(fs::temp_directory_path());

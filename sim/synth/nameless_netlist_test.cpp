@@ -19,7 +19,7 @@ constexpr const char* kNetlist =
     "  assign sum = n12_o ? n7 : 8'b00000001; // (signal)\n"
     "endmodule\n";
 
-TEST(NamelessNetlist, HasNoCommentsAndNumbersOfItsOwn) {
+TEST(NamelessNetlist, HasNoCommentsAndIsRenumbered) {
   EXPECT_EQ(nameless(kNetlist),
             "module module$0\n"
             "  (input  clk,\n"
@@ -30,7 +30,7 @@ TEST(NamelessNetlist, HasNoCommentsAndNumbersOfItsOwn) {
             "endmodule\n");
 }
 
-TEST(NamelessNetlist, IsTheSameForOtherNumbersAndPlaces) {
+TEST(NamelessNetlist, IgnoresNumbersAndPositions) {
   const std::string other =
       "module top\n"
       "  (input  clk,\n"
@@ -44,7 +44,7 @@ TEST(NamelessNetlist, IsTheSameForOtherNumbersAndPlaces) {
   EXPECT_EQ(nameless(other), nameless(kNetlist));
 }
 
-TEST(NamelessNetlist, TellsOtherHardware) {
+TEST(NamelessNetlist, DistinguishesOtherHardware) {
   const auto with = [](const std::string& expression) {
     return nameless("assign sum = " + expression + ";");
   };
@@ -77,7 +77,7 @@ TEST(NamelessNetlist, KeepsNamesFromTheVhdl) {
   EXPECT_EQ(nameless("n1_o n22"), "n$0 n$1\n");
 }
 
-TEST(NamelessNetlist, TakesACommentWithoutAnEnd) {
+TEST(NamelessNetlist, AcceptsAnUnterminatedComment) {
   EXPECT_EQ(nameless("wire a; /* n1_o"), "wire a;\n");
   EXPECT_EQ(nameless("wire a; // n1_o"), "wire a;\n");
   EXPECT_EQ(nameless("a / b\n"), "a / b\n");

@@ -15,7 +15,7 @@ constexpr const char* kNetlist =
     "a,\n"
     "   output [1:0] sum,\n   output done);\nendmodule\n";
 
-TEST(SynthWrapper, RegistersEveryPortButTheClock) {
+TEST(SynthWrapper, RegistersEveryPortExceptTheClock) {
   const auto text = wrapper(kNetlist, "top", 256);
   ASSERT_TRUE(text) << text.error().message;
   EXPECT_THAT(*text, HasSubstr("reg [3:0] in;"));
@@ -26,14 +26,14 @@ TEST(SynthWrapper, RegistersEveryPortButTheClock) {
   EXPECT_THAT(*text, HasSubstr(".clk(clk)"));
 }
 
-TEST(SynthWrapper, SharesFlipFlopsInFrontOfWideInputs) {
+TEST(SynthWrapper, SharesFlipFlopsOfWideInputs) {
   const auto text = wrapper(kNetlist, "top", 3);
   ASSERT_TRUE(text) << text.error().message;
   EXPECT_THAT(*text, HasSubstr("reg [2:0] in;"));
   EXPECT_THAT(*text, HasSubstr("assign a = {in[0], in[2], in[1]};"));
 }
 
-TEST(SynthWrapper, RefusesWhatIsNotThere) {
+TEST(SynthWrapper, RefusesAMissingModuleOrOutput) {
   EXPECT_FALSE(wrapper(kNetlist, "absent", 256));
   EXPECT_FALSE(wrapper(kNetlist, "other", 256));  // no output
 }
@@ -78,7 +78,7 @@ TEST(SynthPlacement, RefusesWhatItCannotRead) {
   EXPECT_FALSE(read_placement(kReport, "{}", 1));
 }
 
-TEST(SynthPacking, ReadsWhatNextpnrSays) {
+TEST(SynthPacking, ReadsNextpnrsOutput) {
   const auto packing = read_packing(
       "Info: Packing..\nInfo: Device utilisation:\nInfo: \t         ICESTORM_LC:  2814/ 7680    36%\nInfo: "
       "\t        "

@@ -98,7 +98,7 @@ class SynthesizerTest : public StandInTools {
   const Design design_{.name = "wire", .entity = "wire", .generics = {{"g_bits", "3"}}};
 };
 
-TEST_F(SynthesizerTest, APlacementWithoutAnEndIsToldAndKept) {
+TEST_F(SynthesizerTest, AnUnfinishedPlacementIsReportedAndCached) {
   const auto synthesizer = open();
   ASSERT_TRUE(synthesizer) << synthesizer.error().message;
   for (int time = 0; time < 2; ++time) {
@@ -113,7 +113,7 @@ TEST_F(SynthesizerTest, APlacementWithoutAnEndIsToldAndKept) {
   EXPECT_EQ(lines("placed"), 2U);
 }
 
-TEST_F(SynthesizerTest, WhatHasNoRoomSaysWhy) {
+TEST_F(SynthesizerTest, ADesignThatDoesNotFitHasAReason) {
   EXPECT_EQ(no_room("\"SB_LUT4\": 7680, \"SB_RAM40_4K\": 32", 6912), "");
   EXPECT_EQ(no_room("\"SB_LUT4\": 7681", 1), "does not fit the HX8K: 7681 LUTs of 7680");
   EXPECT_EQ(no_room("\"SB_DFFE\": 7681", 1), "does not fit the HX8K: 7681 flip-flops of 7680");

@@ -41,7 +41,7 @@ TEST_F(TableTest, WritesWhatItReads) {
   EXPECT_EQ(again->rows, table.rows);
 }
 
-TEST_F(TableTest, TellsTheLineThatIsWrong) {
+TEST_F(TableTest, ErrorsNameTheLine) {
   EXPECT_THAT(read("a,b\n1,2\n1,2,3\n").error().message, HasSubstr("t.csv:3: has 3 values"));
   EXPECT_THAT(read("a,b\n\"1,2\n").error().message, HasSubstr("t.csv:2: "));
   EXPECT_THAT(read("").error().message, HasSubstr("t.csv:1: "));

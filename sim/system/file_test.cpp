@@ -55,7 +55,7 @@ TEST_F(File, WithoutCommitThereIsNoFile) {
   EXPECT_EQ(files(), 0U);
 }
 
-TEST_F(File, OfAFolderComeByName) {
+TEST_F(File, AreListedByName) {
   const auto& folder = folder_->path();
   ASSERT_TRUE(make_folders(folder / "b"));
   for (const char* name : {"c.vhd", "b/d.vhd", "b/a.txt", "a.vhd"})
@@ -116,7 +116,7 @@ TEST(ContentHash, SeparatesFields) {
   EXPECT_EQ(ContentHash().hex(), "6c62272e07bb014262b821756295c58d");  // FNV-1a's offset basis
 }
 
-TEST_F(File, TemporaryFolderGoesUnlessMoved) {
+TEST_F(File, TemporaryFolderIsRemovedUnlessMoved) {
   std::filesystem::path gone;
   {
     auto made = TemporaryFolder::make(*this / "x");
@@ -139,7 +139,7 @@ void age(const std::filesystem::path& path) {
                                    std::filesystem::file_time_type::clock::now() - std::chrono::minutes(5));
 }
 
-TEST_F(File, WhatKilledRunsLeftGoesAndWhatIsInUseStays) {
+TEST_F(File, LeftoversAreRemovedAndFilesInUseStay) {
   for (const char* name : {"x/.halfway-old", "x/.halfway-new", "x/other"})
     ASSERT_TRUE(make_folders(*this / name));
   ASSERT_TRUE(write_file(*this / "x/.halfway-old/f", "1"));

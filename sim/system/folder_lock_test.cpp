@@ -33,7 +33,7 @@ TEST(FolderLock, MakesTheSecondWaitForTheFirst) {
   EXPECT_TRUE(taken);
 }
 
-TEST(FolderLock, FailsWhereThereIsNoFolder) {
+TEST(FolderLock, FailsWithoutFolder) {
   const auto lock = FolderLock::take("/nonexistent/folder", [] {});
   ASSERT_FALSE(lock);
   EXPECT_NE(lock.error().message.find("/nonexistent/folder"), std::string::npos);

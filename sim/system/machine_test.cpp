@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 
-TEST(Machine, IsWhatTheSystemSays) {
+TEST(Machine, IsReadFromTheSystem) {
   const std::string text = machine();
   EXPECT_THAT(text, MatchesRegex("[1-9][0-9]* cores of [^,:]+, [1-9][0-9]* GiB"));
   const auto processors = read_file("/proc/cpuinfo");

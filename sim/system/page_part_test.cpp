@@ -15,7 +15,7 @@ constexpr std::string_view c_page =
     "# Page\n\n<!-- one: written by make one -->\n\nfirst\n\nsecond\n\n<!-- end of one -->\n\nrest\n"
     "<!-- two: none -->\n<!-- end of two -->\n";
 
-TEST(PagePart, IsWhatStandsBetweenItsLines) {
+TEST(PagePart, IsTheTextBetweenItsMarks) {
   const auto one = page_part(c_page, "one");
   ASSERT_TRUE(one) << one.error().message;
   EXPECT_EQ(*one, "first\n\nsecond\n");
@@ -24,7 +24,7 @@ TEST(PagePart, IsWhatStandsBetweenItsLines) {
   EXPECT_EQ(*two, "");
 }
 
-TEST(PagePart, IsPutInThePlaceOfTheOldAndNothingElseMoves) {
+TEST(PagePart, IsReplacedWithoutOtherChanges) {
   const auto page = with_page_part(c_page, "one", "new\n");
   ASSERT_TRUE(page) << page.error().message;
   EXPECT_EQ(*page,
@@ -36,7 +36,7 @@ TEST(PagePart, IsPutInThePlaceOfTheOldAndNothingElseMoves) {
   EXPECT_EQ(*again, *page);
 }
 
-TEST(PagePart, IsThereOnceAndEnds) {
+TEST(PagePart, ExistsOnceAndHasAnEnd) {
   for (const std::string& page : {std::string("# Page\n"), std::string("\n<!-- one: by make -->\ntext\n"),
                                   std::string("\n<!-- end of one -->\n<!-- one: by make -->\n"),
                                   std::string(c_page) + std::string(c_page)}) {
@@ -47,7 +47,7 @@ TEST(PagePart, IsThereOnceAndEnds) {
   }
 }
 
-TEST(PagePart, IsRewrittenInItsFileOrTheFileStays) {
+TEST(PagePart, IsRewrittenInItsFileOrTheFileIsUnchanged) {
   const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
   ASSERT_TRUE(folder) << folder.error().message;
   const std::filesystem::path path = folder->path() / "page.md";

@@ -23,7 +23,7 @@ ProcessEnd run(const Command& command) {
   return end ? *end : ProcessEnd{};
 }
 
-TEST(Subprocess, GivesStatusAndOutput) {
+TEST(Subprocess, ReturnsStatusAndOutput) {
   const auto end = run(shell("echo out; echo err >&2; exit 7"));
   EXPECT_EQ(end.exit_status, 7);
   EXPECT_FALSE(end.succeeded());
@@ -32,7 +32,7 @@ TEST(Subprocess, GivesStatusAndOutput) {
   EXPECT_TRUE(run(shell("true")).succeeded());
 }
 
-TEST(Subprocess, ReadsWhatItIsGiven) {
+TEST(Subprocess, ReadsItsStandardInput) {
   int ends[2];
   ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
   ASSERT_EQ(::write(ends[1], "frames", 6), 6);
@@ -49,14 +49,14 @@ TEST(Subprocess, ReadsWhatItIsGiven) {
   EXPECT_EQ(::fcntl(ends[0], F_GETFD), -1) << "left open";
 }
 
-TEST(Subprocess, TellsTheSignal) {
+TEST(Subprocess, ReportsTheSignal) {
   const auto end = run(shell("kill -SEGV $$"));
   EXPECT_EQ(end.signal, SIGSEGV);
   EXPECT_FALSE(end.succeeded());
   EXPECT_NE(end.how().find("signal 11"), std::string::npos);
 }
 
-TEST(Subprocess, TellsOfAMissingProgram) {
+TEST(Subprocess, ReportsAMissingProgram) {
   const auto end =
       run_process({.arguments = {"halfway-no-such-program"}, .working_folder = {}}, "apt-get install it");
   ASSERT_FALSE(end);
@@ -64,7 +64,7 @@ TEST(Subprocess, TellsOfAMissingProgram) {
   EXPECT_NE(end.error().message.find("apt-get install it"), std::string::npos);
 }
 
-TEST(Subprocess, TellsOfAFolderThatIsNotThere) {
+TEST(Subprocess, ReportsAMissingFolder) {
   Command command = shell("true");
   command.working_folder = "/no/such/folder";
   const auto end = run_process(command, "");
@@ -72,7 +72,7 @@ TEST(Subprocess, TellsOfAFolderThatIsNotThere) {
   EXPECT_EQ(end.error().code, ExitCode::tool_failed);
 }
 
-TEST(Subprocess, EndsAllOfWhatRunsTooLong) {
+TEST(Subprocess, EndsAllProcessesAtATimeout) {
   Command command = shell("sleep 100 & sleep 100; echo never");
   command.timeout = std::chrono::milliseconds(200);
   const auto start = std::chrono::steady_clock::now();
@@ -82,13 +82,13 @@ TEST(Subprocess, EndsAllOfWhatRunsTooLong) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
-TEST(Subprocess, DoesNotWaitForWhatIsLeftBehind) {
+TEST(Subprocess, DoesNotWaitForRemainingChildren) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_TRUE(run(shell("sleep 100 & echo done")).succeeded());
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
-TEST(Subprocess, KeepsBeginningAndEndOfLongOutput) {
+TEST(Subprocess, KeepsStartAndEndOfLongOutput) {
   const auto end = run(shell("echo first; yes 0123456789 | head -n 300000; echo last"));
   EXPECT_EQ(end.output.substr(0, 6), "first\n");
   EXPECT_EQ(end.output.substr(end.output.size() - 5), "last\n");
@@ -116,7 +116,7 @@ TEST(Subprocess, Polls) {
   EXPECT_GE(polls, 3);
 }
 
-TEST(Subprocess, ShowsCommandsAsTheShellTakesThem) {
+TEST(Subprocess, PrintsCommandsInShellSyntax) {
   EXPECT_EQ(to_string({.arguments = {"a-b", "c d", "it's", ""}, .working_folder = {}}),
             "a-b 'c d' 'it'\\''s' ''");
 }

@@ -13,7 +13,7 @@
 namespace halfway {
 namespace {
 
-TEST(WorkOnThreads, RunsOnAsManyAndWaitsForAll) {
+TEST(WorkOnThreads, RunsOnAllThreadsAndWaits) {
   std::atomic<int> ran = 0;
   work_on_threads(7, [&] { ++ran; });
   EXPECT_EQ(ran, 7);
@@ -21,7 +21,7 @@ TEST(WorkOnThreads, RunsOnAsManyAndWaitsForAll) {
   EXPECT_EQ(ran, 8);
 }
 
-TEST(WorkOnThreads, AnExceptionOfAnyThreadComesOut) {
+TEST(WorkOnThreads, AnExceptionOfAnyThreadIsRethrown) {
   std::atomic<int> ran = 0;
   const auto third_fails = [&] {
     if (++ran == 3) throw std::bad_alloc();
@@ -44,7 +44,7 @@ TEST(ForEachOnThreads, EachNumberOnceOnAnyNumberOfThreads) {
   EXPECT_TRUE(for_each_on_threads(4, 0, [](std::size_t) -> Status { return bad_input("called"); }));
 }
 
-TEST(ForEachOnThreads, TheSmallestNumbersFailureComesOutAndNoneIsBegunBehindIt) {
+TEST(ForEachOnThreads, ReturnsTheFailureOfTheSmallestNumberAndStartsNoMore) {
   const auto number = [](std::size_t i) { return bad_input(std::to_string(i)); };
   std::atomic<int> ran = 0;
   const Status alone = for_each_on_threads(1, 100, [&](std::size_t i) -> Status {
@@ -66,7 +66,7 @@ TEST(ForEachOnThreads, TheSmallestNumbersFailureComesOutAndNoneIsBegunBehindIt) 
   EXPECT_EQ(both.error().message, "0");
 }
 
-TEST(ForEachOnThreads, AnExceptionEndsAllAndComesOut) {
+TEST(ForEachOnThreads, AnExceptionEndsAllAndIsRethrown) {
   std::atomic<int> ran = 0;
   EXPECT_THROW((void)for_each_on_threads(1, 100,
                                          [&](std::size_t) -> Status {

@@ -55,7 +55,7 @@ TEST_F(TablesCommand, WritesWhatIsCommittedAndThenFindsItAsGenerated) {
   }
 }
 
-TEST_F(TablesCommand, SaysWhatEachTableCosts) {
+TEST_F(TablesCommand, PrintsTheCostOfEachTable) {
   for (const auto& arguments : {std::vector<std::string>{}, {"--check"}}) {
     const std::string output = run(arguments).output;
     EXPECT_THAT(
@@ -103,7 +103,7 @@ TEST_F(TablesCommand, TakesAddressAndDataBits) {
   EXPECT_EQ(run({"--check"}).exit_code, 0);
 }
 
-TEST_F(TablesCommand, ASizeIsForOnePresetAndStandsOnce) {
+TEST_F(TablesCommand, ASizeIsForOnePresetAndUnique) {
   const Outcome exact = run({"--address-bits", "12"});
   EXPECT_EQ(exact.exit_code, 0) << exact.output;
   EXPECT_THAT(exact.output, AllOf(ContainsRegex("exact +cos\\^16 +12/8 .* 32768 bits"),
@@ -116,7 +116,7 @@ TEST_F(TablesCommand, ASizeIsForOnePresetAndStandsOnce) {
 }
 
 // A preset has exactly one explicitly requested size. Tables of an earlier run are removed, with a message.
-TEST_F(TablesCommand, SaysWhichTablesGo) {
+TEST_F(TablesCommand, PrintsTheRemovedTables) {
   EXPECT_THAT(run({}).output, Not(HasSubstr(" go; "))) << "there were none";
   EXPECT_THAT(run({}).output, Not(HasSubstr(" go; ")));
   EXPECT_THAT(run({"--address-bits", "12"}).output,
@@ -134,7 +134,7 @@ TEST_F(TablesCommand, SaysWhichTablesGo) {
                     Not(HasSubstr("4/4 address/data bits go"))));
 }
 
-TEST_F(TablesCommand, RefusesWhatIsNoSizeAndWritesNothing) {
+TEST_F(TablesCommand, RefusesInvalidSizesAndWritesNothing) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--address-bits", "2"}, "--address-bits: '2' is not a whole number from 3 to 12"},
       {{"--address-bits", "13"}, "--address-bits: '13' is not a whole number from 3 to 12"},

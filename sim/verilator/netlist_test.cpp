@@ -6,7 +6,7 @@
 namespace halfway {
 namespace {
 
-TEST(Netlist, KnowsThePortsWidths) {
+TEST(Netlist, ReadsPortWidths) {
   const std::string text =
       "module inner\n  (input  [7:0] init_data,\n   output o);\nendmodule\n"
       "module top\n  (input  clk,\n   input  [1679:0] init_data,\n   output [868:0] data);\n  wire [3:0] "
@@ -19,13 +19,13 @@ TEST(Netlist, KnowsThePortsWidths) {
   EXPECT_EQ(port_bits(text, "none", "clk"), 0U);
 }
 
-TEST(Netlist, MendsWideConstantsAndUndrivenBits) {
+TEST(Netlist, RepairsWideConstantsAndUndrivenBits) {
   EXPECT_EQ(*mend_netlist(
                 "  assign a = b + \"1010\";\n  assign c = {d, 3'bZ};\n  assign e = \"XU-0\"; // \"note\"\n"),
             "  assign a = b + 4'b1010;\n  assign c = {d, 3'bx};\n  assign e = 4'bxxx0; \n");
 }
 
-TEST(Netlist, RefusesWhatItCannotMend) {
+TEST(Netlist, RefusesWhatItCannotRepair) {
   for (const char* line : {
            "  assign a = \"1012\";",
            "  assign a = \"101",
