@@ -46,7 +46,7 @@ class Checker {
     if (value >= count) fail(fmt::format("{} is {}, but there are {}", of, value, count));
   }
   void fail(std::string what) {
-    if (!fault_) fault_ = bad_input(fmt::format("{}: {}; mend the scene", scene_.name, what));
+    if (!fault_) fault_ = bad_input(fmt::format("{}: {}; correct the scene", scene_.name, what));
   }
   Status status() const {
     if (fault_) return *fault_;

@@ -97,17 +97,19 @@ Result<GLuint> make_shader(GLenum kind, const std::string& text) {
 class Picture {
  public:
   static Result<Picture> make(const Scene& scene, FrameSize size) {
-    if (scene.shadows) return bad_input("OpenGL draws no shadows here: take a scene without them");
+    if (scene.shadows) return bad_input("halfway_mesa draws no shadows; take a scene without them");
     std::size_t lights = 0;
     Status drawn = Ok{};
     for_each_light(scene, [&](const Light& light) {
       ++lights;
       if (light.cone)
-        drawn = bad_input(fmt::format("{}: OpenGL draws no cone here: leave it out", name_of(light.ref)));
+        drawn =
+            bad_input(fmt::format("{}: halfway_mesa draws no spot lights; remove it", name_of(light.ref)));
     });
     if (!drawn) return drawn.error();
     for (const Material& m : scene.materials)
-      if (m.brdf != Brdf::blinn) return bad_input(fmt::format("material '{}': Blinn's alone here", m.name));
+      if (m.brdf != Brdf::blinn)
+        return bad_input(fmt::format("material '{}': halfway_mesa draws highlights of blinn only", m.name));
     Picture picture(scene, size);
     const auto vertex = make_shader(GL_VERTEX_SHADER, c_vertex_shader);
     if (!vertex) return vertex.error();

@@ -405,7 +405,7 @@ TEST_F(CliTest, CompareSaysWhatIsNotThere) {
   ASSERT_EQ(run(verilator_alone).exit_code, 0);
   const Outcome one = run(compare);
   EXPECT_EQ(one.exit_code, 0) << one.output;
-  EXPECT_THAT(one.output, AllOf(ContainsRegex("one +ghdl +not compared: it was not asked to draw\n"),
+  EXPECT_THAT(one.output, AllOf(ContainsRegex("one +ghdl +not compared: it was not run\n"),
                                 ContainsRegex("one +verilator +quadratic_shader.* 0 mismatches")));
 
   ASSERT_EQ(run(sim).exit_code, 0);
@@ -423,7 +423,7 @@ TEST_F(CliTest, CompareSaysWhatIsNotThere) {
   EXPECT_EQ(broken_off.exit_code, 2) << broken_off.output;
   EXPECT_THAT(
       broken_off.output,
-      HasSubstr("a run here was broken off, or has not come to it yet; run `make sim SCENE=one OUT="));
+      HasSubstr("the run was interrupted, or has not reached this scene yet; run `make sim SCENE=one OUT="));
   auto json = nlohmann::json::parse(*summary);
   json["runs"][0]["fault"] = "it hangs";
   ASSERT_TRUE(write_file(folder / "summary.json", json.dump()));

@@ -79,7 +79,7 @@ std::string make_sim(const std::string& scene, const CompareCommand& command) {
 // Compare all results of a scene. False if something differs or nothing was drawn.
 Result<bool> compare_scene(const std::string& scene, const CompareCommand& command, Shader shader) {
   if (const std::string name = result_name(scene); name.empty() || name == "." || name == "..")
-    return bad_input(fmt::format("'{}' is no scene's name", scene));
+    return bad_input(fmt::format("'{}' is not the name of a scene", scene));
   const ResultFiles files = ResultFiles::of(command.out, result_name(scene),
                                             {.shader = shader, .all_effects = command.all_effects});
   const auto none = [&](const char* what) {
@@ -91,7 +91,7 @@ Result<bool> compare_scene(const std::string& scene, const CompareCommand& comma
   const auto lock = FolderLock::take(files.folder, [&] { say_waiting(files.folder); });
   if (!lock) return lock.error();
   if (!std::filesystem::exists(files.summary(), error))
-    return none("a run here was broken off, or has not come to it yet");
+    return none("the run was interrupted, or has not reached this scene yet");
   const auto left = read_summary(files.summary());
   if (!left) return left.error();
 
@@ -101,7 +101,7 @@ Result<bool> compare_scene(const std::string& scene, const CompareCommand& comma
     const auto fault = left->faults.find(simulator);
     if (fault == left->faults.end()) {
       if (simulator == "lanes") continue;
-      fmt::print("{:<12} {:<10} not compared: it was not asked to draw\n", result_name(scene), simulator);
+      fmt::print("{:<12} {:<10} not compared: it was not run\n", result_name(scene), simulator);
       continue;
     }
     if (!fault->second.empty()) {
@@ -158,12 +158,12 @@ int run(const Folders& folders, const CompareCommand& command) {
 }  // namespace
 
 void add_compare(CLI::App& app, const Folders& folders, int& exit_code) {
-  CLI::App* sub =
-      app.add_subcommand("compare", "compare what sim left: traces field by field, frames pixel by pixel");
+  CLI::App* sub = app.add_subcommand(
+      "compare", "compare the results of sim: traces field by field, frames pixel by pixel");
   auto command = std::make_shared<CompareCommand>();
   sub->add_option("scene", command->scenes, "as for sim; none: all built-in scenes");
   sub->add_option("--shader", command->shader, c_shader_names)->capture_default_str();
-  sub->add_flag("--all-effects", command->all_effects, "what sim --all-effects left");
+  sub->add_flag("--all-effects", command->all_effects, "the results of sim --all-effects");
   sub->add_option("--out", command->out, "folder of results")->capture_default_str();
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }

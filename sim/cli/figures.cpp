@@ -29,7 +29,7 @@ std::vector<figures::Figure> chosen(std::vector<figures::Figure> all, const std:
   for (const std::string& name : only)
     if (std::ranges::none_of(names, [&](const std::string& id) { return id.starts_with(name); }))
       throw Failure{bad_input(
-          fmt::format("'{}' is no figure; take the beginning of one of {}", name, fmt::join(names, ", ")))};
+          fmt::format("'{}' is not a figure; give the start of one of {}", name, fmt::join(names, ", ")))};
   if (!only.empty())
     std::erase_if(all, [&](const figures::Figure& f) {
       return std::ranges::none_of(only, [&](const std::string& name) { return f.id.starts_with(name); });
@@ -105,7 +105,7 @@ int run(const Folders& folders, const FiguresCommand& command) try {
   write_texts(folders, context.out, entries);
   fmt::print("{}: {} figures, {} rows, {} agree, {} differ\n", context.out.string(), entries.size(), rows,
              agreeing, rows - agreeing);
-  if (!wrong.empty()) return report_all(wrong, "sim/figures/claims.toml does not say what was measured");
+  if (!wrong.empty()) return report_all(wrong, "sim/figures/claims.toml does not match the measurements");
   if (!command.page.empty()) copy_into(folders, command.page, context.out, entries);
   return static_cast<int>(ExitCode::equal);
 } catch (const Failure& failure) {
@@ -116,7 +116,7 @@ int run(const Folders& folders, const FiguresCommand& command) try {
 
 void add_figures(CLI::App& app, const Folders& folders, int& exit_code) {
   CLI::App* sub =
-      app.add_subcommand("figures", "draw what the papers print, and hold their numbers against ours");
+      app.add_subcommand("figures", "draw the papers' figures, and compare their numbers with ours");
   auto command = std::make_shared<FiguresCommand>();
   sub->add_option("figure", command->only, "such as spherical-05, or spherical (default: all)");
   sub->add_option("--out", command->out, "folder for pictures, README.md and figures.json")

@@ -32,7 +32,7 @@ TEST_F(FiguresCommand, WritesThePageAndItsDataOfWhatIsAskedFor) {
 
 TEST_F(FiguresCommand, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(run({"figures", "spherical-8"}),
-              Ends(2, AllOf(HasSubstr("'spherical-8' is no figure"), HasSubstr("spherical-16"))));
+              Ends(2, AllOf(HasSubstr("'spherical-8' is not a figure"), HasSubstr("spherical-16"))));
   EXPECT_EQ(run({"figures", "--check", "--page", "there"}).exit_code, 2);
   EXPECT_EQ(run({"figures", "--check", "spherical"}).exit_code, 2);
 }

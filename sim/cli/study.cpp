@@ -61,17 +61,17 @@ Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
   if (!demand) return demand.error();
   plan.demand = *demand;
   if (command.clock_mhz && !(*command.clock_mhz > 0)) return bad_input("--clock: takes MHz above 0");
-  if (command.pin && !command.place) return bad_input("--pin: needs --place: what is placed is pinned");
+  if (command.pin && !command.place) return bad_input("--pin: needs --place, which makes the clocks to pin");
   if (command.place && (find_program("yosys").empty() || find_program("nextpnr-ice40").empty()))
     return tool_failed(
         fmt::format("--place: yosys or nextpnr-ice40 is not found; install both: {}", synth::kInstallTools));
   if (command.executor != "local" && command.executor != "slurm")
-    return bad_input("--executor: '" + command.executor + "' is no executor; take local or slurm");
+    return bad_input("--executor: '" + command.executor + "' is not an executor; take local or slurm");
   study::StudySettings& settings = plan.settings;
   if (!command.part.empty() &&
       (std::sscanf(command.part.c_str(), "%zu/%zu", &settings.part, &settings.parts) != 2 ||
        settings.part >= settings.parts))
-    return bad_input("--part: '" + command.part + "' is no part; take I/N, I from 0 to N - 1");
+    return bad_input("--part: '" + command.part + "' is not a part; take I/N, I from 0 to N - 1");
   if (command.parts == 0) return bad_input("--parts: takes 1 or more");
   settings.scene = command.scene.empty() ? (studies / "sphere.toml").string() : command.scene;
   settings.out = command.out;
@@ -144,7 +144,8 @@ int set_up(const study::StudySettings& settings, const std::string& names) {
   if (const auto scene = load_scene(settings.scene, scenes); !scene) return report(scene.error());
   const Status done = study::in_processes(names, [&](const std::string& name) -> Status {
     const auto point = std::ranges::find(settings.points, name, &study::DesignPoint::name);
-    if (point == settings.points.end()) return bad_input("--set-up: '" + name + "' is no point of the space");
+    if (point == settings.points.end())
+      return bad_input("--set-up: '" + name + "' is not a point of the space");
     const auto scene = study::drawn_scene(settings.scene, scenes, *point);
     if (!scene) return scene.error();
     const auto hardware = study::drawing_hardware_of(*point, *scene, settings.folders);
@@ -191,7 +192,7 @@ int conclude(const StudyPlan& plan, const study::Study& made, const study::Hardw
   const std::filesystem::path table =
       plan.settings.out / (plan.demand.any() ? c_question_table : c_study_table);
   if (Status written = write_file(table, csv); !written) return report(written.error());
-  fmt::print("{}: {} points, {} measured anew\n", table.string(), made.records.size(), made.measured);
+  fmt::print("{}: {} points, {} measured in this run\n", table.string(), made.records.size(), made.measured);
   if (plan.demand.any() && markets.empty()) {
     fmt::print("nothing meets it: none of the points is hardware\n");
     return static_cast<int>(ExitCode::differs);
@@ -232,7 +233,7 @@ int run(const Folders& folders, const StudyCommand& command) {
   std::optional<Interruption> interruption;
   if (command.part.empty())
     interruption.emplace([&] {
-      say(fmt::format("\nbroken off; what was measured is kept in {}, and the same command goes on there",
+      say(fmt::format("\ninterrupted; finished measurements are kept in {}; the same command continues there",
                       (settings.out / "points").string()));
     });
   const auto study = study::run_study(settings);
@@ -243,7 +244,7 @@ int run(const Folders& folders, const StudyCommand& command) {
   if (!study) return report(study.error());
   if (writing) writing.unlock();
   if (!command.part.empty()) {
-    fmt::print("part {}: {} points, {} measured anew, {} tiles drawn, {} placements\n", command.part,
+    fmt::print("part {}: {} points, {} measured in this run, {} tiles drawn, {} placements\n", command.part,
                study->records.size(), study->measured, study->drawn_tiles, study->placements);
     return 0;
   }
@@ -275,15 +276,15 @@ void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
   study->add_option("--tile", command->tile,
                     "WIDTHxHEIGHT: larger frames are drawn in tiles of this size (the space's, or 1280x960)");
   study->add_option("--error", command->error,
-                    "asks for the cheapest hardware with at most this largest error, in steps of 1/255");
-  study->add_option("--psnr", command->psnr, "asks for at least this PSNR, in dB");
-  study->add_option("--time", command->time, "asks for a frame in at most this time, such as 10ms");
-  study->add_option("--clock", command->clock_mhz,
-                    "MHz that hardware is taken to run at whose clock is not known");
+                    "query: the cheapest hardware with at most this largest error, in steps of 1/255");
+  study->add_option("--psnr", command->psnr, "query: at least this PSNR, in dB");
+  study->add_option("--time", command->time, "query: a frame in at most this time, such as 10ms");
+  study->add_option("--clock", command->clock_mhz, "clock in MHz assumed for hardware without a known clock");
   study->add_flag("--place", command->place,
-                  "place and route the hardware whose clock is not known: minutes for each design");
-  study->add_flag("--pin", command->pin,
-                  fmt::format("write what is placed, or has no room, into {}", synth::kStudyPins));
+                  "place and route hardware without a known clock: minutes for each design");
+  study->add_flag(
+      "--pin", command->pin,
+      fmt::format("write placed clocks, and hardware that does not fit, into {}", synth::kStudyPins));
   study
       ->add_option("--out", command->out,
                    fmt::format("folder for results: the table {}, of a question {}, and points/",
@@ -294,7 +295,7 @@ void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
       ->capture_default_str();
   study->add_option("--parts", command->parts, "slurm: tasks of the array")->capture_default_str();
   study->add_option("--slurm-option", command->slurm_options,
-                    "slurm: one more of sbatch's, such as --partition=short");
+                    "slurm: an additional option of sbatch, such as --partition=short");
   study->add_option(
       "--part", command->part,
       "I/N: measures this part of the points, with --place of placements too, and writes no table");

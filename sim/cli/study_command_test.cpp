@@ -36,7 +36,7 @@ TEST_F(StudyCommandTest, RefusesInvalidQueries) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--error", "2%"}, "--error: '2%' is none"},
       {{"--psnr", "loud"}, "--psnr: 'loud' is none"},
-      {{"--time", "10"}, "--time: '10' is none; take a time with its unit"},
+      {{"--time", "10"}, "--time: '10' is not valid; take a time with its unit"},
       {{"--clock", "0"}, "--clock: takes MHz above 0"},
       {{"--size", "huge"}, "--size: 'huge'"},
       {{"--executor", "cloud"}, "--executor: 'cloud'"},
@@ -49,19 +49,19 @@ TEST_F(StudyCommandTest, RefusesInvalidQueries) {
 }
 
 TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
-  EXPECT_THAT(
-      study({"--error", "3"}),
-      Ends(0, AllOf(HasSubstr("3 points, 3 measured anew"), HasSubstr("160x120: largest error at most 3/255"),
-                    HasSubstr("cheapest       adaptive exact, threshold 2: largest error"),
-                    HasSubstr("cheaper        quadratic exact: largest error"),
-                    HasSubstr("more accurate  nothing is"))));
+  EXPECT_THAT(study({"--error", "3"}),
+              Ends(0, AllOf(HasSubstr("3 points, 3 measured in this run"),
+                            HasSubstr("160x120: largest error at most 3/255"),
+                            HasSubstr("cheapest       adaptive exact, threshold 2: largest error"),
+                            HasSubstr("cheaper        quadratic exact: largest error"),
+                            HasSubstr("more accurate  none"))));
   EXPECT_THAT(study({"--error", "3", "--psnr", "99"}),
-              Ends(1, AllOf(HasSubstr("3 points, 0 measured anew"),
+              Ends(1, AllOf(HasSubstr("3 points, 0 measured in this run"),
                             HasSubstr("none of 2 points of hardware meets it"),
                             HasSubstr("most accurate  adaptive exact"))));
   // With three channels; these are pinned as not fitting the device.
   EXPECT_THAT(study({"spheres", "--time", "1s"}),
-              Ends(1, HasSubstr("2 points have no clock: the device has no room for them")));
+              Ends(1, HasSubstr("2 points have no clock: they do not fit the device")));
   EXPECT_THAT(study({"--time", "1s", "--clock", "50"}),
               Ends(0, AllOf(HasSubstr("cheapest       quadratic exact"), HasSubstr("us)"),
                             Not(HasSubstr("no clock")))));
@@ -90,9 +90,10 @@ TEST_F(StudyCommandTest, EndsWithTheFrontOfItsMainPicture) {
 // The report shows the study's table. A query has its own points from the same records.
 TEST_F(StudyCommandTest, AQueryKeepsTheStudysTable) {
   const std::filesystem::path out = folder_->path() / "out";
-  EXPECT_THAT(study({"--error", "3"}), Ends(0, HasSubstr("out/question.csv: 3 points, 3 measured anew")));
+  EXPECT_THAT(study({"--error", "3"}),
+              Ends(0, HasSubstr("out/question.csv: 3 points, 3 measured in this run")));
   EXPECT_FALSE(std::filesystem::exists(out / "study.csv"));
-  EXPECT_THAT(study({}), Ends(0, HasSubstr("out/study.csv: 3 points, 0 measured anew")));
+  EXPECT_THAT(study({}), Ends(0, HasSubstr("out/study.csv: 3 points, 0 measured in this run")));
   const auto table = read_file(out / "study.csv"), same = read_file(out / "question.csv");
   ASSERT_TRUE(table && same);
   EXPECT_EQ(*table, *same);
@@ -118,8 +119,8 @@ TEST_F(StudyCommandTest, DamagedFilesFoundByTasksAreReported) {
   study::put_slurm(folder_->path());
   const std::string path = folder_->path().string() + ":" + std::getenv("PATH");
   EXPECT_THAT(study({"--executor", "slurm"}, {{"PATH", path}}),
-              Ends(0, AllOf(HasSubstr(frame.filename().string() + ": damaged; the point is measured anew\n"),
-                            HasSubstr("3 points, 0 measured anew"))));
+              Ends(0, AllOf(HasSubstr(frame.filename().string() + ": damaged; the point is measured again\n"),
+                            HasSubstr("3 points, 0 measured in this run"))));
 }
 
 }  // namespace

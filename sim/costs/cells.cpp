@@ -44,7 +44,8 @@ Result<Json> read_design(const std::filesystem::path& path) {
   const auto json = Json::parse(*text, nullptr, false);
   auto design = json.is_object() ? json.value("design", Json()) : Json();
   if (design.is_object() && design.value("num_cells_by_type", Json()).is_object()) return design;
-  return tool_failed(fmt::format("{}: not what Yosys's stat writes; delete it and try again", path.string()));
+  return tool_failed(
+      fmt::format("{}: not the output of Yosys's stat; delete it and try again", path.string()));
 }
 
 // Number of highest bits that are redundant: copies of the sign, or zeros if unsigned.

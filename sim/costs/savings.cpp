@@ -148,7 +148,7 @@ Result<std::vector<Savings>> read_savings(const std::filesystem::path& csv) {
       if (right) number = static_cast<std::uint64_t>(*value);
     });
     if (!right)
-      return bad_input(fmt::format("{}:{}: wants a line '{},…'; write it anew with make savings",
+      return bad_input(fmt::format("{}:{}: expected a line '{},…'; make savings writes the file",
                                    csv.string(), row + 2, fmt::join(begin, ",")));
     cost.key = table->text(row, "hardware");
   }

@@ -68,7 +68,7 @@ TEST(Savings, ComeBackFromTheirFile) {
   EXPECT_THAT(refused(""), HasSubstr("savings.csv:"));
   EXPECT_THAT(refused(csv.substr(0, csv.rfind(','))), HasSubstr("savings.csv:17: has 9 values"));
   EXPECT_THAT(refused(csv.substr(0, csv.size() - 1) + ",7\n"), HasSubstr("savings.csv:17: has 11 values"));
-  EXPECT_THAT(refused(csv.substr(0, csv.find("spheres"))), HasSubstr("wants a line 'spheres,"));
+  EXPECT_THAT(refused(csv.substr(0, csv.find("spheres"))), HasSubstr("expected a line 'spheres,"));
 }
 
 TEST(Savings, AreDrawnAsSharesAndPairs) {

@@ -45,7 +45,7 @@ void compare_pictures(const std::filesystem::path& committed, const std::filesys
       return;
     }
   }
-  if (!same) wrong.push_back(fmt::format("{} is not what is drawn", name));
+  if (!same) wrong.push_back(fmt::format("{} is not up to date", name));
 }
 
 }  // namespace

@@ -298,7 +298,7 @@ TEST_F(Stale, AnotherPictureIsFound) {
   frame.rgb[5] = 1;
   Drawing ignored;
   save_picture({.out = there_}, "x-1", frame, "", ignored);
-  EXPECT_THAT(found(), ElementsAre("x-1.png is not what is drawn"));
+  EXPECT_THAT(found(), ElementsAre("x-1.png is not up to date"));
 }
 
 TEST_F(Stale, AnotherCaptionIsFound) {

@@ -37,10 +37,10 @@ Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& 
   const auto sources = format_sources_hash(source);
   if (!sources) return sources.error();
   if (*sources != built_from())
-    return bad_input(
-        fmt::format("{}: not what this program was built from, and word lengths other than the preset's take "
-                    "parts of both: build it anew with make program",
-                    (source / "model").lexically_normal().string()));
+    return bad_input(fmt::format(
+        "{}: the program was built from other sources; word lengths other than the preset's need the "
+        "same sources: run make program",
+        (source / "model").lexically_normal().string()));
   const bool exact = key.preset == Preset::exact;
   const tables::WordLengths& words = key.words;
   const std::string formats = tables::cpp_header(tables::preset_formats(exact, words));

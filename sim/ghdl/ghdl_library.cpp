@@ -41,7 +41,7 @@ Status check_choices(const std::string& entity, std::string_view vhdl) {
     const std::size_t where = vhdl.rfind("  -- ", at);
     const std::string_view place = vhdl.substr(where + 5, vhdl.find('\n', where) - where - 5);
     return tool_failed(
-        fmt::format("{}: synthesis of {}: GHDL's Verilog forgets what stands under `when others`; "
+        fmt::format("{}: synthesis of {}: GHDL's Verilog omits `when others`; "
                     "write every choice out and 'X' under others, or if and elsif",
                     place, entity));
   }

@@ -126,7 +126,7 @@ class GraphBuilder {
     if (op == "arraysel") return element(node);
     if (op == "sel") {
       const auto low = number(second), count = number(second.next_sibling());
-      if (!low || !count) return fail(line_of(node) + ": a slice whose place is not constant");
+      if (!low || !count) return fail(line_of(node) + ": a slice with a position that is not constant");
       return part(first, static_cast<unsigned>(*low), static_cast<unsigned>(*count));
     }
     const Bits a = value(first);
@@ -143,7 +143,7 @@ class GraphBuilder {
     if (op == "negate") return ops_.difference(ops_.zeros(width), a);
     if (op == "replicate") {
       const auto count = number(second);
-      if (!count) return fail(line_of(node) + ": a replication whose count is not constant");
+      if (!count) return fail(line_of(node) + ": a replication with a count that is not constant");
       Bits bits;
       if (width_of(a) == 1) return ops_.whole(ops_.to_mask(a), static_cast<unsigned>(*count));
       for (std::uint64_t i = 0; i < *count; ++i) ops_.append(bits, a);
@@ -266,7 +266,7 @@ class GraphBuilder {
     const Bits address = value(node.last_child());
     const unsigned width = width_of(address);
     if (width > 16 || rom->second.data.size() != std::size_t{1} << width)
-      return fail(fmt::format("{}: {}: an address that may lie outside", line_of(node), name));
+      return fail(fmt::format("{}: {}: an address that may be out of range", line_of(node), name));
     // Use the first of equal tables.
     const auto first = std::find_if(netlist_.roms.begin(), netlist_.roms.end(),
                                     [&](const auto& other) { return other.second.data == rom->second.data; });
@@ -283,7 +283,7 @@ class GraphBuilder {
       return fail(fmt::format("{}: {}: a memory of {} places: lanes have up to {}", line_of(node), name,
                               memory.places, kMostPlaces));
     if (memory.places != std::size_t{1} << width_of(address))
-      return fail(fmt::format("{}: {}: an address that may lie outside", line_of(node), name));
+      return fail(fmt::format("{}: {}: an address that may be out of range", line_of(node), name));
     return address;
   }
 

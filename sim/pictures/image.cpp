@@ -76,7 +76,7 @@ Status check_picture(const std::string& path, const Frame& frame) {
   if (frame.size.width == 0 || frame.size.height == 0 || frame.size.width > c_max_frame_side ||
       frame.size.height > c_max_frame_side || frame.rgb.size() != 3 * frame.pixels())
     return bad_input(fmt::format(
-        "{}: a frame of {}x{} with {} bytes is no picture; render 1x1 to {}x{} pixels", path,
+        "{}: a frame of {}x{} with {} bytes is not a valid picture; render 1x1 to {}x{} pixels", path,
         frame.size.width, frame.size.height, frame.rgb.size(), c_max_frame_side, c_max_frame_side));
   return Ok{};
 }

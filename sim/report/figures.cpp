@@ -35,7 +35,7 @@ Result<std::pair<int, int>> size_of(const std::filesystem::path& picture) {
   double width = 0.0, height = 0.0;
   if (std::sscanf(document.child("svg").attribute("viewBox").value(), "%*f %*f %lf %lf", &width, &height) !=
       2)
-    return bad_input(picture.string() + ": is no SVG with a viewBox; run make figures again");
+    return bad_input(picture.string() + ": not an SVG with a viewBox; run make figures again");
   return std::pair(static_cast<int>(std::lround(width)), static_cast<int>(std::lround(height)));
 }
 

@@ -89,7 +89,7 @@ Result<std::string> inline_svg(const std::string& svg, const std::string& prefix
   pugi::xml_document document;
   const auto parsed = document.load_string(svg.c_str(), pugi::parse_default | pugi::parse_ws_pcdata);
   pugi::xml_node root = document.child("svg");
-  if (!parsed || !root) return bad_input(prefix + ": is no SVG: " + parsed.description());
+  if (!parsed || !root) return bad_input(prefix + ": not an SVG: " + parsed.description());
   for (const pugi::xpath_node& found : root.select_nodes("descendant-or-self::*/@*")) {
     pugi::xml_attribute attribute = found.attribute();
     const std::string_view key = attribute.name();

@@ -387,7 +387,7 @@ function makePoints() {
   function tellCrowd(numbers) {
     crowd.hidden = numbers.length < 2;
     crowd.open = false;
-    crowd.replaceChildren(element("summary", { textContent: `${numbers.length} points lie here` }),
+    crowd.replaceChildren(element("summary", { textContent: `${numbers.length} points are at this place` }),
       element("ul", {}, ...numbers.map((number) =>
         element("li", {}, element("a", { href: `#point-${number}`, textContent: data.points[number].name })))));
   }

@@ -104,7 +104,7 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
       AllOf(HasSubstr("aria-label=\"Q: time of the frame, ns 292712, rms error, steps of 1/255 0.5\""),
             HasSubstr("href=\"#point-3\""), Not(HasSubstr("href=\"#point-4\"")),
             HasSubstr("PLACE=1</code> finds: 1 of processors-2; 1 of spherical; in all 2"),
-            HasSubstr("the device has no room for their hardware: 1 of processors-1; in all 1"),
+            HasSubstr("their hardware does not fit the device: 1 of processors-1; in all 1"),
             HasSubstr("gouraud (software)"), HasSubstr("phong (software)")));
   // All hardware has a number of clocks. Software has none, so it is not a point.
   EXPECT_THAT(plot("rms-clocks"), AllOf(HasSubstr("href=\"#point-6\""), Not(HasSubstr("not here")),
@@ -122,8 +122,8 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
     return part("<td><a href=\"#point-" + point + "\">", "</tr>");
   };
   EXPECT_THAT(part("Points of the study</caption>", "</thead>"),
-              AllOf(HasSubstr("on the front"), HasSubstr("ns a frame"), HasSubstr("cells"), HasSubstr("PSNR"),
-                    HasSubstr("99th percentile")));
+              AllOf(HasSubstr("on the front"), HasSubstr("ns per frame"), HasSubstr("cells"),
+                    HasSubstr("PSNR"), HasSubstr("99th percentile")));
   EXPECT_THAT(row("1"),
               AllOf(HasSubstr("G</a></td><td>–</td><td>–</td><td>–</td><td>–</td><td>–</td><td>4.5</td>"),
                     HasSubstr("<td>33.1</td>")));
@@ -138,7 +138,7 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
   EXPECT_THAT(page(), HasSubstr(other));
   EXPECT_THAT(outcome.output, HasSubstr(other));
   // A point's panel gives the reason for a missing clock.
-  EXPECT_THAT(page(), AllOf(HasSubstr("[\"where that clock is from\",\"not placed\"]"),
+  EXPECT_THAT(page(), AllOf(HasSubstr("[\"origin of that clock\",\"not placed\"]"),
                             HasSubstr("[\"99th percentile of errors, /255\",\"25\"]"),
                             HasSubstr("[\"on the front\",\"no\"]")));
 }

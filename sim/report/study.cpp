@@ -42,7 +42,7 @@ constexpr std::array c_axes = {
     Axes{"largest-time", c_time, {"largest_error", "largest error, steps of 1/255"}},
     Axes{"highlight-time", c_time, {"highlight_rms", "rms error in highlights, steps of 1/255"}},
     Axes{"perceived-time", c_time, {"perceived_pixels", "pixels seen to differ (Yee)"}},
-    Axes{"mach-time", c_time, {"mach_rms", "rms of Mach bands, steps of 1/255 a pixel"}},
+    Axes{"mach-time", c_time, {"mach_rms", "rms of Mach bands, steps of 1/255 per pixel"}},
     Axes{"rms-clocks", c_clocks, c_rms},
     Axes{"rms-cells", {"cells", "cells: LUTs (multipliers among them), flip-flops, memory"}, c_rms},
     Axes{"rms-host", {"host_instructions", "instructions of setup on the host"}, c_rms},
@@ -61,8 +61,8 @@ constexpr std::array c_told = {
     std::pair{"multiplier_luts", "LUTs of the multipliers"},
     std::pair{"cells", "cells in all"},
     std::pair{"clock_mhz", "clock, MHz"},
-    std::pair{"clock", "where that clock is from"},
-    std::pair{"frame_ns", "ns a frame"},
+    std::pair{"clock", "origin of that clock"},
+    std::pair{"frame_ns", "ns per frame"},
     std::pair{"fragment_ns", "ns a fragment"},
     std::pair{"rms", "rms error, /255"},
     std::pair{"largest_error", "largest error, /255"},
@@ -83,7 +83,7 @@ constexpr std::array c_told = {
 // Columns of the table of all points.
 constexpr std::array c_columns = {
     std::pair{"front", "on the front"},
-    std::pair{"frame_ns", "ns a frame"},
+    std::pair{"frame_ns", "ns per frame"},
     std::pair{"cycles", "clocks"},
     std::pair{"cells", "cells"},
     std::pair{"host_instructions", "instructions on the host"},
@@ -280,7 +280,7 @@ Status add_study(Page& page) {
                 along.column == c_time.column
                     ? "no clock of their hardware is known, which <code>make study PLACE=1</code> finds"
                     : "this was not measured of them");
-    add_missing(of, too_large, "the device has no room for their hardware");
+    add_missing(of, too_large, "their hardware does not fit the device");
   }
   Json legend = Json::array(), columns = Json::array(), rows = Json::array();
   for (std::size_t s = 0; s < series.size(); ++s) {

@@ -130,8 +130,8 @@ class StagesOf : public ShaderStages {
     begin_stage({"fragment", "the shader's output", {"frame_tb/fragment_valid", "frame_tb/fragment_ready"}});
     for (std::size_t i = 0; i < c_ports.size(); ++i)
       add(std::string(c_fragment_fields[i]), {c_bits[i]},
-          i < 4 ? "the register behind the shader" : fmt::format("{}, or the register behind it", colours),
-          {}, {fmt::format("frame_tb/fragment_{}", c_ports[i])});
+          i < 4 ? "the register after the shader" : fmt::format("{}, or the register after it", colours), {},
+          {fmt::format("frame_tb/fragment_{}", c_ports[i])});
   }
 
  private:

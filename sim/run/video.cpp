@@ -43,10 +43,10 @@ Result<TemporaryFolder> temporary_beside(const std::filesystem::path& file) {
 Status VideoWriter::check(const std::filesystem::path& file) {
   if (!file.has_filename() || !file.has_extension())
     return bad_input(
-        fmt::format("--video: '{}' names no video; give a file such as turn.mp4", file.string()));
+        fmt::format("--video: '{}' is not the name of a video; give a file such as turn.mp4", file.string()));
   if (!is_ending(file.extension().string()))
-    return bad_input(fmt::format("--video: '{}' does not end as a video; take one of {}", file.string(),
-                                 fmt::join(c_endings, " ")));
+    return bad_input(fmt::format("--video: '{}' does not have the ending of a video; take one of {}",
+                                 file.string(), fmt::join(c_endings, " ")));
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     return bad_input(fmt::format("--video: {} is a folder; name a file", file.string()));
@@ -119,7 +119,7 @@ Status VideoWriter::add(const Frame& frame) {
     if (sent < 0 && errno == EINTR) continue;
     if (sent < 0) {
       if (Status status = finish(); !status) return status;
-      return tool_failed("ffmpeg: took no more frames, and did not say why");
+      return tool_failed("ffmpeg: stopped reading frames without a message");
     }
     bytes += sent;
     left -= static_cast<std::size_t>(sent);

@@ -187,7 +187,7 @@ class ObjCheck {
                                Range{"texture coordinate", greatest_texel_, texels_},
                                Range{"normal", greatest_normal_, normals_}}) {
       if (range.greatest.index > range.count) {
-        return bad_input(fmt::format("{}:{}: a face names {} {}, but the file has {}; mend the index",
+        return bad_input(fmt::format("{}:{}: a face names {} {}, but the file has {}; correct the index",
                                      path_.string(), range.greatest.line, range.what, range.greatest.index,
                                      range.count));
       }
@@ -214,11 +214,11 @@ class ObjCheck {
     for (std::string_view word = lines_.word(); !word.empty() && word.front() != '#'; word = lines_.word()) {
       const std::string fault = number_fault(word);
       if (!fault.empty()) {
-        return lines_.error(fmt::format("{} {}: {}; mend the coordinate", what, number, fault));
+        return lines_.error(fmt::format("{} {}: {}; correct the coordinate", what, number, fault));
       }
       // A fourth number divides the first three.
       if (++count == 4 && needed == 3 && word.find_first_of("123456789") == std::string_view::npos) {
-        return lines_.error(fmt::format("{} {} has the weight zero; mend the coordinate", what, number));
+        return lines_.error(fmt::format("{} {} has the weight zero; correct the coordinate", what, number));
       }
     }
     if (count < needed) {
@@ -251,7 +251,7 @@ class ObjCheck {
           return lines_.error(fmt::format("{} is not a corner of a face", quoted(whole)));
         }
         if (index == 0 || (index < 0 && static_cast<std::uint64_t>(-(index + 1)) >= count)) {
-          return lines_.error(fmt::format("a face names {} {}, but the file has {} so far; mend the index",
+          return lines_.error(fmt::format("a face names {} {}, but the file has {} so far; correct the index",
                                           what, index, count));
         }
         if (index > 0 && static_cast<std::uint64_t>(index) > greatest->index) {
@@ -300,7 +300,7 @@ Result<MeshFileSummary> check_ascii_stl(const std::filesystem::path& path) {
         const std::string_view word = lines.word();
         const std::string fault = word.empty() ? "a coordinate is missing" : number_fault(word);
         if (!fault.empty()) {
-          return lines.error(fmt::format("vertex {}: {}; mend the coordinate", vertices, fault));
+          return lines.error(fmt::format("vertex {}: {}; correct the coordinate", vertices, fault));
         }
       }
     } else if (keyword == "endfacet") {
@@ -316,7 +316,7 @@ Result<MeshFileSummary> check_ascii_stl(const std::filesystem::path& path) {
       ended = false;
     }
   }
-  if (in_facet || !ended) return lines.error("the file ends before its endsolid; it is cut off");
+  if (in_facet || !ended) return lines.error("the file ends before its endsolid; it is truncated");
   if (Status ok = too_many_triangles(path, facets); !ok) return ok.error();
   summary.polygons = facets;
   summary.vertices = 3 * facets;
@@ -341,9 +341,10 @@ Result<MeshFileSummary> check_stl(const std::filesystem::path& path) {
     // A binary header may start with "solid" too, but text contains no zero byte.
     if (start.starts_with("solid") && start.find('\0') == std::string_view::npos)
       return check_ascii_stl(path);
-    if (size < c_header) return bad_input(path.string() + ": not an STL file, or cut off within its header");
+    if (size < c_header)
+      return bad_input(path.string() + ": not an STL file, or truncated within its header");
     return bad_input(fmt::format(
-        "{}: not an STL file, or damaged: its header calls for {} facets and so {} bytes, it has {}",
+        "{}: not an STL file, or damaged: its header requires {} facets and so {} bytes, it has {}",
         path.string(), facets, c_header + c_facet * facets, size));
   }
   if (Status ok = too_many_triangles(path, facets); !ok) return ok.error();
@@ -403,7 +404,7 @@ class PlyCheck {
     for (const PlyElement& element : elements_) {
       // Each item takes at least one byte, so a count above the file's size is wrong.
       if (element.count > size) {
-        return bad_input(fmt::format("{}: its header calls for {} items of '{}', more than the file can hold",
+        return bad_input(fmt::format("{}: its header requires {} items of '{}', more than the file can hold",
                                      path_.string(), element.count, element.name));
       }
       // Items without properties take no bytes, so the file could request any number.
@@ -468,7 +469,7 @@ class PlyCheck {
         elements_.back().properties.push_back(std::move(property));
       }
     }
-    return lines_.error("the PLY header has no end_header; the file is cut off");
+    return lines_.error("the PLY header has no end_header; the file is truncated");
   }
 
   static bool is_index_list(const PlyElement& element, const PlyProperty& property) {
@@ -479,7 +480,7 @@ class PlyCheck {
   Status check_index(double index, std::uint64_t face) const {
     if (index >= 0.0 && index < static_cast<double>(vertices_)) return Ok{};
     return bad_input(
-        fmt::format("{}: face {} names vertex {}, but the file has {}, counted from 0; mend the index",
+        fmt::format("{}: face {} names vertex {}, but the file has {}, counted from 0; correct the index",
                     path_.string(), face, index, vertices_));
   }
 
@@ -494,7 +495,7 @@ class PlyCheck {
       std::string_view word;
       do {  // empty lines and comments between items
         if (!lines_.next_joined()) {
-          return lines_.error(fmt::format("the file ends at item {} of {} of '{}'; it is cut off", item,
+          return lines_.error(fmt::format("the file ends at item {} of {} of '{}'; it is truncated", item,
                                           element.count, element.name));
         }
         word = lines_.word();
@@ -516,14 +517,14 @@ class PlyCheck {
           }
           const std::string fault_text = number_fault(word);
           if (!fault_text.empty()) {
-            return lines_.error(fmt::format("{} {}: {}; mend it", element.name, item, fault_text));
+            return lines_.error(fmt::format("{} {}: {}; correct it", element.name, item, fault_text));
           }
           if (!is_index) continue;
           double index = 0.0;
           std::from_chars(word.data(), word.data() + word.size(), index);
           if (Status ok = check_index(index, item); !ok) {
             return lines_.error(
-                fmt::format("a face names vertex {}, but the file has {}, counted from 0; mend the index",
+                fmt::format("a face names vertex {}, but the file has {}, counted from 0; correct the index",
                             index, vertices_));
           }
         }
@@ -557,7 +558,7 @@ class PlyCheck {
       for (const PlyProperty& property : element.properties) {
         double values = 1.0;
         const auto cut_off = [&] {
-          return bad_input(fmt::format("{}: the file ends at item {} of {} of '{}'; it is cut off",
+          return bad_input(fmt::format("{}: the file ends at item {} of {} of '{}'; it is truncated",
                                        path_.string(), item, element.count, element.name));
         };
         const bool is_index = is_index_list(element, property);
@@ -570,7 +571,7 @@ class PlyCheck {
           double value = 0.0;
           if (!read_value(property, value)) return cut_off();
           if (!std::isfinite(value) || std::abs(value) > std::numeric_limits<float>::max()) {
-            return bad_input(fmt::format("{}: {} {}: '{}' is not finite, or too large; mend it",
+            return bad_input(fmt::format("{}: {} {}: '{}' is not finite, or too large; correct it",
                                          path_.string(), element.name, item, property.name));
           }
           if (!is_index) continue;
@@ -609,7 +610,7 @@ Result<std::string> gltf_json(const std::filesystem::path& path) {
     std::memcpy(&whole, header.data() + 8, sizeof whole);
     std::memcpy(&length, header.data() + 12, sizeof length);
     if (whole > size || length > size - header.size()) {
-      return bad_input(fmt::format("{}: its header calls for {} bytes, it has {}; it is cut off",
+      return bad_input(fmt::format("{}: its header requires {} bytes, it has {}; it is truncated",
                                    path.string(), std::max<std::uint64_t>(whole, 20ull + length), size));
     }
     size = length;
@@ -653,8 +654,9 @@ Result<MeshFileSummary> check_gltf(const std::filesystem::path& path) {
       }
       if (!accessor) continue;
       if (*accessor >= accessors.size()) {
-        return bad_input(fmt::format("{}: a primitive names accessor {}, but the file has {}; mend the index",
-                                     path.string(), *accessor, accessors.size()));
+        return bad_input(
+            fmt::format("{}: a primitive names accessor {}, but the file has {}; correct the index",
+                        path.string(), *accessor, accessors.size()));
       }
       const std::uint64_t count = number_at(accessors[*accessor], "count").value_or(0);
       const std::uint64_t mode = number_at(primitive, "mode").value_or(4);

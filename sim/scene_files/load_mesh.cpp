@@ -67,7 +67,7 @@ Result<File> run_reader(const std::filesystem::path& path, const MeshFileSummary
   if (end->exit_status == c_not_linked)
     return tool_failed(fmt::format("{}: the reader cannot start: {}", name, end->output));
   if (!end->succeeded())
-    return bad_input(name + ": the reader broke on it; the file is damaged, export it anew");
+    return bad_input(name + ": the reader crashed; the file is damaged, export it again");
   return reply;
 }
 
@@ -156,7 +156,7 @@ Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
   }
   for (const std::string& library : summary->missing_libraries) {
     loaded.notes.push_back(
-        fmt::format("{}: material library {} cannot be read; what it would colour is grey", name, library));
+        fmt::format("{}: material library {} cannot be read; its materials are grey", name, library));
   }
   for (auto left = source.get<std::uint32_t>(); left > 0 && !source.failed(); --left) {
     loaded.notes.push_back(name + ": " + source.get_text());
@@ -164,7 +164,7 @@ Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
   for (auto left = source.get<std::uint32_t>(); left > 0 && !source.failed(); --left) {
     append_instance(source, loaded.mesh);
   }
-  if (source.failed()) return tool_failed(name + ": the reader's reply is cut off");
+  if (source.failed()) return tool_failed(name + ": the reader's reply is truncated");
   if (loaded.mesh.materials.empty()) {
     loaded.mesh.materials.emplace_back();
     loaded.mesh.materials.back().name = "default";

@@ -324,7 +324,7 @@ TEST_F(LoadMesh, PlyFaultsAreErrors) {
   binary[data + 60 + 4] = '\xff';
   expect_error("a.ply", binary, "a.ply: face 0 names vertex -16777211");
   expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nend_header\n",
-               "calls for 99999999999 items");
+               "requires 99999999999 items");
   expect_error("a.ply", "nonsense\n", "a.ply:1: not a PLY file");
   // Items without a property take no bytes, so any number of them could be requested.
   expect_error("e.ply",
@@ -340,7 +340,7 @@ TEST_F(LoadMesh, StlFaultsAreErrors) {
   expect_error("a.stl", binary, "a.stl: vertex 5 of mesh");
   binary = stl_binary();
   binary[81] = 1;
-  expect_error("a.stl", binary, "its header calls for 262 facets");
+  expect_error("a.stl", binary, "its header requires 262 facets");
   expect_error("a.stl", std::string(80, ' ') + std::string(4, '\0'), "no faces");
   expect_error("a.stl", "solid x\nendsolid x\n", "no faces");
   std::string text = stl_ascii();

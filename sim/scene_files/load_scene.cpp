@@ -333,7 +333,7 @@ class SceneReader {
       }
       return fit;
     }
-    if (camera.has("direction")) camera.fail("direction", "needs fit = true; else give eye and target");
+    if (camera.has("direction")) camera.fail("direction", "needs fit = true; otherwise give eye and target");
     result.eye_world = camera.vector("eye");
     result.target_world = camera.vector("target", result.target_world);
     if (!has_view({.eye_world = result.eye_world,
@@ -558,8 +558,8 @@ class SceneReader {
     if (has_view(scene.camera)) return Ok{};
     return bad_input(
         what +
-        ": the scene is too small for where it lies, or too large, to fit a camera to; move it to the "
-        "origin, or scale it");
+        ": a camera cannot be fitted, because the scene is too small for its distance from the origin, or "
+        "too large; move it to the origin, or scale it");
   }
 
   /// Add a mesh in world space to a scene, with valid normals and materials. `what` is the prefix of

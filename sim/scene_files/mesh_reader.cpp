@@ -138,13 +138,13 @@ Material material_of(const aiMaterial& source, bool is_gltf, std::vector<std::st
   for (const glm::dvec3& part : {material.colour, material.specular_colour}) {
     for (int channel = 0; channel < 3; ++channel) {
       if (!std::isfinite(part[channel]) || part[channel] < 0.0) {
-        throw Refused(
-            fmt::format("material '{}' has a colour that is negative or not finite; mend it", material.name));
+        throw Refused(fmt::format("material '{}' has a colour that is negative or not finite; correct it",
+                                  material.name));
       }
     }
   }
   if (!std::isfinite(exponent)) {
-    throw Refused(fmt::format("material '{}' has an exponent that is not finite; mend it", material.name));
+    throw Refused(fmt::format("material '{}' has an exponent that is not finite; correct it", material.name));
   }
   material.exponent = std::max(exponent, 1.0);
   if (exponent < 1.0 && material.specular > 0.0) {
@@ -193,7 +193,7 @@ void import_file(const std::filesystem::path& path, const MeshFileSummary& summa
       }
       for (unsigned i = 0; i < corners; ++i) {
         if (mesh.mFaces[f].mIndices[i] >= mesh.mNumVertices) {
-          throw Refused(fmt::format("face {} names vertex {}, but the mesh has {}; mend the index", f,
+          throw Refused(fmt::format("face {} names vertex {}, but the mesh has {}; correct the index", f,
                                     mesh.mFaces[f].mIndices[i], mesh.mNumVertices));
         }
       }
@@ -201,11 +201,11 @@ void import_file(const std::filesystem::path& path, const MeshFileSummary& summa
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
       const aiVector3D& position = mesh.mVertices[v];
       if (std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z)) continue;
-      throw Refused(fmt::format("vertex {} of mesh '{}' has a coordinate that is not finite; mend it", v + 1,
-                                mesh.mName.C_Str()));
+      throw Refused(fmt::format("vertex {} of mesh '{}' has a coordinate that is not finite; correct it",
+                                v + 1, mesh.mName.C_Str()));
     }
     if (mesh.HasVertexColors(0)) notes.push_back("vertex colours are left out");
-    if (mesh.HasBones()) notes.push_back("bones are left out: the mesh stands in its bind pose");
+    if (mesh.HasBones()) notes.push_back("bones are omitted: the mesh is in its bind pose");
   }
   if (polygons == 0) throw Refused("the mesh has no faces");
   if (triangles_expected > c_max_triangles) {

@@ -128,7 +128,7 @@ Result<std::size_t> InitFileReader::read(std::vector<std::uint32_t>& words, std:
     }
     if (bad != 0 || (kDigitValues[static_cast<unsigned char>(line[0])] >> top_bits) != 0) {
       words.resize(first);
-      return reader_.at(bad != 0 ? std::string("a character that is no hexadecimal digit")
+      return reader_.at(bad != 0 ? std::string("a character that is not a hexadecimal digit")
                                  : fmt::format("a value of more than {} bits", bits_));
     }
     ++got;

@@ -99,7 +99,7 @@ TEST_F(InitFile, RefusesIncompleteAndForeignFiles) {
   expect_refused(header + "000000001\nend \n", ":3", "end 1");
   expect_refused(header + "00000001\nend 1\n", ":2", "9 hexadecimal digits");
   expect_refused(header + "0000000001\nend 1\n", ":2", "9 hexadecimal digits");
-  expect_refused(header + "00000000g\nend 1\n", ":2", "no hexadecimal digit");
+  expect_refused(header + "00000000g\nend 1\n", ":2", "not a hexadecimal digit");
   expect_refused(header + "000000001\r\nend 1\n", ":2", "9 hexadecimal digits");
   expect_refused(header + "400000000\nend 1\n", ":2", "more than 34 bits");
   expect_refused(header + "end 0\nmore\n", ":3", "follows");

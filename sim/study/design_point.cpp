@@ -39,7 +39,7 @@ class Sweep {
   void allow(const std::vector<std::string_view>& keys) const {
     for (const auto& [key, node] : table_)
       if (std::ranges::find(keys, key.str()) == keys.end())
-        fail(key.str(), fmt::format("is no key here; those are {}", fmt::join(keys, ", ")));
+        fail(key.str(), fmt::format("is not a key here; the keys are {}", fmt::join(keys, ", ")));
   }
 
   // Replace each point by one copy per value of the key (one value or a list). If the key is missing, leave
@@ -135,11 +135,11 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
     p.tables = TableSize{address, 0};
   });
   lengths("data_bits", c_least.data_bits, c_most.data_bits, [&](DesignPoint& p, int data) {
-    if (!p.tables) sweep.fail("data_bits", "goes with address_bits alone");
+    if (!p.tables) sweep.fail("data_bits", "is only allowed with address_bits");
     p.tables->data_bits = data;
   });
   if (std::ranges::any_of(points, [](const DesignPoint& p) { return p.tables && p.tables->data_bits == 0; }))
-    sweep.fail("data_bits", "goes with address_bits alone");
+    sweep.fail("data_bits", "is only allowed with address_bits");
   // A word length applies to some methods only. The preset's own length counts as not given.
   const auto length = [&](std::string_view key, tables::Range range, bool (*has)(Method),
                           std::optional<int> tables::WordLengths::*word, int exact, int published) {
@@ -164,7 +164,7 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
     if (!newton) sweep.fail("newton", "takes true or false");
     if (!is_processors(p.method)) return;
     // In preset published, a square has no more bits than the table's entries are accurate for.
-    if (*newton && p.preset == Preset::published) sweep.fail("newton", "goes with preset exact alone");
+    if (*newton && p.preset == Preset::published) sweep.fail("newton", "is only allowed in preset exact");
     if (*newton != (p.preset == Preset::exact)) p.words.newton = newton;
   });
   for (const DesignPoint& p : points)

@@ -76,7 +76,7 @@ TEST_F(SpaceTest, IgnoresWordLengthsOfOtherMethods) {
       message_of("[[sweep]]\nmethod = \"spherical\"\naddress_bits = 10\ndata_bits = 8\nangle_bits = 9\n"),
       HasSubstr("space.toml:5: angle_bits must be 10 at least"));
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"processors-2\"\npreset = \"published\"\nnewton = true\n"),
-              HasSubstr("space.toml:4: newton goes with preset exact alone"));
+              HasSubstr("space.toml:4: newton is only allowed in preset exact"));
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nfraction_bits = 60\n"),
               HasSubstr("space.toml:3: fraction_bits takes numbers from 2 to 40"));
 }
@@ -107,7 +107,7 @@ TEST_F(SpaceTest, ErrorsNameFileAndLine) {
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratc\"\n"),
               HasSubstr("space.toml:2: method takes phong"));
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nexponents = 5\n"),
-              HasSubstr("space.toml:3: exponents is no key here"));
+              HasSubstr("space.toml:3: exponents is not a key here"));
   EXPECT_THAT(message_of("[[sweep]]\nexponent = 5\n"), HasSubstr("space.toml:1: method is missing"));
   EXPECT_THAT(message_of("[[sweep]]\nmethod = []\n"), HasSubstr("space.toml:2: method is an empty list"));
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"spherical\"\naddress_bits = 6\n"), HasSubstr("data_bits"));

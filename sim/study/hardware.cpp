@@ -46,7 +46,7 @@ Result<PointHardware> hardware_of(const DesignPoint& point, const Scene& scene) 
     ProcessorUnits& units = hardware.key.processors;
     if (point.method == Method::processors_1 && units.positional + units.spots > 0)
       return bad_input(scene.name +
-                       ": version I of the processors has no lights with a place; take version II");
+                       ": version I of the processors has directional lights only; take version II");
     units.normalize = point.method == Method::processors_2 && units.lights() > 0;
   }
   return hardware;

@@ -31,7 +31,7 @@ std::optional<Quantity> read_quantity(const std::string& text) {
 }
 
 Error bad_option(const char* option, const std::string& text, const char* what) {
-  return bad_input(fmt::format("{}: '{}' is none; {}", option, text, what));
+  return bad_input(fmt::format("{}: '{}' is not valid; {}", option, text, what));
 }
 
 std::string time_text(double seconds) {
@@ -102,7 +102,7 @@ std::string offer_text(const Offer& o) {
   if (o.cells) text += fmt::format(", {:.0f} cells", *o.cells);
   text += fmt::format(", {:.0f} cycles", o.cycles);
   if (o.seconds) text += fmt::format(" ({})", time_text(*o.seconds));
-  if (o.host) text += fmt::format(", {:.0f} host instructions a triangle", *o.host);
+  if (o.host) text += fmt::format(", {:.0f} host instructions per triangle", *o.host);
   return text;
 }
 
@@ -112,8 +112,8 @@ const char* time_scale(Scales scales) {
 }
 
 const char* host_scale(Scales scales) {
-  return scales.host ? "the host's work in instructions a triangle"
-                     : "the host's work not compared: its instructions are not counted (that takes Valgrind)";
+  return scales.host ? "the host's work in instructions per triangle"
+                     : "the host's work not compared: its instructions are not counted (this needs Valgrind)";
 }
 
 // The difference of the costs of `there` and `here`.
@@ -131,7 +131,7 @@ std::string difference_text(const Offer& here, const Offer& there) {
     texts.push_back(fmt::format("{}{} ({:+.3g} %)", *there.seconds < *here.seconds ? '-' : '+',
                                 time_text(std::fabs(*there.seconds - *here.seconds)),
                                 100.0 * (*there.seconds / *here.seconds - 1.0)));
-  if (here.host && there.host) add(*here.host, *there.host, "host instructions a triangle");
+  if (here.host && there.host) add(*here.host, *there.host, "host instructions per triangle");
   return texts.empty() ? "no other cost" : fmt::format("{}", fmt::join(texts, ", "));
 }
 
@@ -180,8 +180,8 @@ std::string knobs_text(const Market& market, std::span<const Record> records) {
   std::vector<std::string> turned, left;
   for (const auto& [name, of] : values) (of.size() > 1 ? turned : left).push_back(name);
   std::string text = fmt::format("  {:<14} {} points of hardware", "looked at", market.offers.size());
-  if (!turned.empty()) text += fmt::format("; turned: {}", fmt::join(turned, ", "));
-  if (!left.empty()) text += fmt::format("; not turned: {}", fmt::join(left, ", "));
+  if (!turned.empty()) text += fmt::format("; varied: {}", fmt::join(turned, ", "));
+  if (!left.empty()) text += fmt::format("; not varied: {}", fmt::join(left, ", "));
   return text + "\n";
 }
 
@@ -192,7 +192,7 @@ std::string front_text(const Market& market, const Answer& answer, const Demand&
   std::string text =
       fmt::format("  {:<14} {} of {} points of hardware, time in {}, {}\n", "front", answer.front.size(),
                   market.offers.size(), time_scale(scales), host_scale(scales));
-  text += fmt::format("  of it what is more accurate (by {}) than all that is cheaper:\n",
+  text += fmt::format("  its steps, each more accurate (by {}) than all cheaper points:\n",
                       by_psnr(demand) ? "PSNR" : "largest error");
   text += fmt::format("  {:>9} {:>8}  {:>8} {:>9} {:>10} {:>13}  {}\n", "error/255", "PSNR, dB", "cells",
                       "cycles", "time", "host/triangle", "design");
@@ -339,7 +339,7 @@ std::string to_text(const Market& market, const Answer& answer, const Demand& de
     text += fmt::format("  none of {} points of hardware meets it\n", market.offers.size());
     if (answer.best) line("most accurate", *answer.best, "");
     if (answer.fastest)
-      line("fastest", *answer.fastest, scales.cycles ? "; of those whose clock is known" : "");
+      line("fastest", *answer.fastest, scales.cycles ? "; among those with a known clock" : "");
     if (answer.fewest_cycles && scales.cycles) line("fewest cycles", *answer.fewest_cycles, "");
   } else if (!demand.accuracy()) {
     line("cheapest", *answer.cheapest, "");
@@ -352,18 +352,18 @@ std::string to_text(const Market& market, const Answer& answer, const Demand& de
       else
         text += fmt::format("  {:<14} {}\n", what, none);
     };
-    neighbour("cheaper", answer.cheaper, "nothing is");
-    neighbour("more accurate", answer.accurate, demand.seconds ? "nothing is, in that time" : "nothing is");
+    neighbour("cheaper", answer.cheaper, "none");
+    neighbour("more accurate", answer.accurate, demand.seconds ? "none within that time" : "none");
   }
   if (answer.unknown > 0)
     text += fmt::format("  {} {}, but {} known (--place, or --clock)\n", points_text(answer.unknown),
                         demand.accuracy() ? "would be accurate enough" : "might be fast enough",
-                        answer.unknown == 1 ? "its clock is not" : "no clock of theirs is");
+                        answer.unknown == 1 ? "its clock is not" : "their clocks are not");
   if (answer.no_room > 0)
     text += fmt::format("  {}{} {}\n", points_text(answer.no_room),
                         demand.accuracy() ? " would be accurate enough, but" : "",
-                        answer.no_room == 1 ? "has no clock: the device has no room for it"
-                                            : "have no clock: the device has no room for them");
+                        answer.no_room == 1 ? "has no clock: it does not fit the device"
+                                            : "have no clock: they do not fit the device");
   return text + knobs_text(market, records) + front_text(market, answer, demand, records);
 }
 

@@ -169,7 +169,7 @@ Result<std::optional<Record>> Records::find(const DesignPoint& point) const {
   const auto text = read_file(file(point));
   if (!text || !std::filesystem::exists(picture(point))) return std::optional<Record>();
   const auto damaged = [](const std::filesystem::path& path) {
-    return bad_input(path.string() + ": damaged; the point is measured anew");
+    return bad_input(path.string() + ": damaged; the point is measured again");
   };
   const std::optional<Json> json = unsealed(*text);
   if (!json) return damaged(file(point));

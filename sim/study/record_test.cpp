@@ -161,7 +161,7 @@ TEST_F(RecordsTest, ReportTheDamagedFile) {
       ASSERT_TRUE(write_file(file, text));
       const auto found = records.find(record.point);
       ASSERT_FALSE(found) << text;
-      EXPECT_EQ(found.error().message, file.string() + ": damaged; the point is measured anew");
+      EXPECT_EQ(found.error().message, file.string() + ": damaged; the point is measured again");
     }
     ASSERT_TRUE(write_file(file, *whole));
     EXPECT_TRUE(records.find(record.point));

@@ -119,7 +119,7 @@ class Bench {
 
   TileRecords::Redraw redraw(const DesignPoint& point, PieceKind kind, Made& made) const {
     return [this, &point, kind, &made](std::size_t tile, const std::filesystem::path& damaged) {
-      made.notes.push_back(damaged.string() + ": damaged; the tile is drawn anew");
+      made.notes.push_back(damaged.string() + ": damaged; the tile is drawn again");
       return make_tile(point, kind, tile, made);
     };
   }

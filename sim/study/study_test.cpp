@@ -105,7 +105,7 @@ TEST_F(StudyTest, MeasuresDamagedPointsAndOtherScenesAgain) {
     ASSERT_TRUE(write_file(file, *text));
     const Study again = study();
     EXPECT_EQ(again.measured, 1U);
-    EXPECT_THAT(notes_, ::testing::ElementsAre(file + ": damaged; the point is measured anew"));
+    EXPECT_THAT(notes_, ::testing::ElementsAre(file + ": damaged; the point is measured again"));
     EXPECT_EQ(table_of(again), table);
     study();
     EXPECT_TRUE(notes_.empty());
@@ -277,7 +277,7 @@ TEST_F(InterruptedStudyTest, DrawsADamagedTileAgain) {
     const Study again = study();
     EXPECT_EQ(again.drawn_tiles, 1U) << path;
     EXPECT_EQ(again.measured, 4U) << path;
-    EXPECT_THAT(notes_, ::testing::ElementsAre(path.string() + ": damaged; the tile is drawn anew"));
+    EXPECT_THAT(notes_, ::testing::ElementsAre(path.string() + ": damaged; the tile is drawn again"));
     EXPECT_EQ(table_of(again), table_);
     expect_whole(again);
   }

@@ -73,7 +73,8 @@ Result<Pins> read_pins(const std::filesystem::path& path) {
     if (!figures || words >> more || !(pin.netlist.empty() || is_hash(pin.netlist)) ||
         !(seeds.empty() || read_seeds(seeds, pin.seeds)))
       return reader->at(
-          "not a name, four numbers of cells, a clock, a netlist's hash and a number of seeds; write it anew "
+          "not a name, four numbers of cells, a clock, a netlist's hash and a number of seeds; write the "
+          "file again "
           "with make synth PIN=1, or make study PLACE=1 PIN=1");
     pin.line = reader->line_number();
     if (!pins.emplace(name, pin).second) return reader->at("a second line of this name");

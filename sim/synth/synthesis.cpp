@@ -159,7 +159,8 @@ Result<json> read_types(const std::filesystem::path& path) {
     json types = whole.value("design", json::object()).value("num_cells_by_type", json());
     if (types.is_object()) return types;
   }
-  return tool_failed(fmt::format("{}: not what Yosys's stat writes; delete it and try again", path.string()));
+  return tool_failed(
+      fmt::format("{}: not the output of Yosys's stat; delete it and try again", path.string()));
 }
 
 Error unknown_cells(const Design& design, const std::string& type) {

@@ -72,16 +72,16 @@ Result<Table> read_csv(const std::filesystem::path& path) {
     if (next == LineReader::Next::end_of_file) break;
     if (line.ends_with('\r')) line.remove_suffix(1);
     auto values = values_of(line);
-    if (!values) return reader->at("a value's second quote is missing; make the table anew");
+    if (!values) return reader->at("a value's second quote is missing; make the table again");
     if (table.columns.empty())
       table.columns = std::move(*values);
     else if (values->size() != table.columns.size())
-      return reader->at(fmt::format("has {} values, the first line names {} columns; make the table anew",
+      return reader->at(fmt::format("has {} values, the first line names {} columns; make the table again",
                                     values->size(), table.columns.size()));
     else
       table.rows.push_back(std::move(*values));
   }
-  if (table.columns.empty()) return bad_input(path.string() + ":1: names no columns; make the table anew");
+  if (table.columns.empty()) return bad_input(path.string() + ":1: names no columns; make the table again");
   return table;
 }
 

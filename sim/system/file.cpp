@@ -302,12 +302,14 @@ LineReader::Next LineReader::next(std::string_view& line) {
       begin_ = last ? end_ : line_end + 1;
       ++line_number_;
       if (line.size() <= longest_line_) return Next::line;
-      error_ = at(fmt::format("a line of more than {} characters; this is no file of ours", longest_line_));
+      error_ = at(fmt::format("a line of more than {} characters; this is not a file of this project",
+                              longest_line_));
       return Next::failed;
     }
     if (end_ - begin_ > longest_line_) {
       ++line_number_;
-      error_ = at(fmt::format("a line of more than {} characters; this is no file of ours", longest_line_));
+      error_ = at(fmt::format("a line of more than {} characters; this is not a file of this project",
+                              longest_line_));
       return Next::failed;
     }
     std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);

@@ -139,12 +139,14 @@ int run(const Folders& folders, const TablesOptions& options) {
 
 void add_tables(CLI::App& app, const Folders& folders, int& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "tables", "write the generated VHDL and C++ (formats, cosine tables) anew; print what the tables cost");
+      "tables",
+      "write the generated VHDL and C++ (formats, cosine tables) again; print the cost of the tables");
   auto options = std::make_shared<TablesOptions>();
   CLI::Option* check = command->add_flag("--check", options->check,
                                          "write nothing; exit 1 if a file is not as it would be written");
   command
-      ->add_option("--preset", options->preset, "whose cosine tables the sizes are for: exact or published")
+      ->add_option("--preset", options->preset,
+                   "preset of the cosine tables with these sizes: exact or published")
       ->capture_default_str();
   const tables::CosineSizes sizes;
   const auto add_bits = [&](const char* name, const char* what, std::optional<std::string>& text,

@@ -58,7 +58,7 @@ while [ -f "$scratch/out/matte/quadratic/summary.json" ] && kill -0 $run 2>/dev/
 status=$?
 kill -0 $run 2>/dev/null || fail 'the run was over before it could be looked at'
 [ "$status" = 2 ] || fail "compare of a scene yet to be drawn: exit code $status"
-grep -q 'has not come to it yet' "$scratch/log-compare" || fail "compare says $(cat "$scratch/log-compare")"
+grep -q 'has not reached this scene yet' "$scratch/log-compare" || fail "compare says $(cat "$scratch/log-compare")"
 wait $run || fail "the run: $(cat "$scratch/log")"
 "$halfway" compare spheres matte --out "$scratch/out" >/dev/null || fail 'compare after the run'
 exit "$failed"

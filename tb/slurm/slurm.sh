@@ -220,17 +220,17 @@ study=(--source "$checkout" study --space "$scratch/space.toml")
 on_slurm=("${study[@]}" --executor slurm --parts 3)
 run_local local "${study[@]}"
 run_with_a_task_killed array "${on_slurm[@]}"
-grep -q '6 points, 0 measured anew' "$scratch/array.log" || fail "what tasks measured was not gathered: $(cat "$scratch/array.log")"
+grep -q '6 points, 0 measured in this run' "$scratch/array.log" || fail "what tasks measured was not gathered: $(cat "$scratch/array.log")"
 same_table array local
 note "job array, a task killed and tried again by Slurm: $(cat "$scratch/array.log")"
 run_until_killed resumed 6 '"figures":' "${on_slurm[@]}"
-go_on resumed 6 'measured anew' "${on_slurm[@]}"
+go_on resumed 6 'measured in this run' "${on_slurm[@]}"
 same_table resumed local
 damaged=$(find "$scratch/resumed/points" -name '*.png' | head -n 1)
 printf x | dd of="$damaged" bs=1 seek=2000 conv=notrunc status=none
 "$halfway" "${on_slurm[@]}" --out "$scratch/resumed" >"$scratch/resumed.log" 2>&1 ||
   fail "a damaged frame: exit code $?: $(cat "$scratch/resumed.log")"
-grep -q "note: $damaged: damaged; the point is measured anew" "$scratch/resumed.log" ||
+grep -q "note: $damaged: damaged; the point is measured again" "$scratch/resumed.log" ||
   fail "a task found a damaged frame, which was not told: $(cat "$scratch/resumed.log")"
 same_table resumed local
 
@@ -319,7 +319,7 @@ same_frames() { # name, name
 same_frames tiles whole
 
 run_with_a_task_killed tiles-array "${on_slurm[@]}"
-grep -q '4 points, 0 measured anew' "$scratch/tiles-array.log" ||
+grep -q '4 points, 0 measured in this run' "$scratch/tiles-array.log" ||
   fail "what tasks drew was not put together by tasks: $(cat "$scratch/tiles-array.log")"
 same_table tiles-array tiles
 same_frames tiles-array whole
