@@ -46,7 +46,6 @@ struct Proof {
   std::vector<Format> formats{};         ///< narrower formats, where the solver needs them
   std::vector<Format> fault_formats{};   ///< the same, for faults
   bool any_products = false;             ///< products are arbitrary words
-  bool split_small_registers = false;    ///< Yosys splits registers below 8 bits and merges equal bits
   std::vector<std::string> contracts{};  ///< in tb/proofs/: architectures that replace those of the RTL and
                                          ///< put out anything that their entity's contract allows
   std::vector<std::uint64_t> table{};    ///< entries of the golden model's table, for `$entries` in the unit

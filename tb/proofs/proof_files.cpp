@@ -26,8 +26,8 @@ constexpr std::array<std::string_view, 5> kMethods = {"induction", "bounded", "b
 
 // Keys that a [[proof]] has, or the file for all of its proofs that do not have them.
 const std::vector<std::string_view> kSharedKeys = {
-    "method",        "clocks",       "fault_clocks",          "quick",     "generics",     "formats",
-    "fault_formats", "any_products", "split_small_registers", "contracts", "golden_table", "faults"};
+    "method",        "clocks",       "fault_clocks", "quick",        "generics", "formats",
+    "fault_formats", "any_products", "contracts",    "golden_table", "faults"};
 const std::vector<std::string_view> kFaultKeys = {"file", "old", "new", "occurs"};
 
 std::vector<std::string_view> with_shared_keys(std::vector<std::string_view> keys) {
@@ -205,8 +205,6 @@ class ProofFile {
     if (Where node = required(table, "faults")) proof.faults = read_faults(node);
     if (Where node = find(table, "generics")) proof.generics = read_generics(node);
     if (Where node = find(table, "any_products")) proof.any_products = flag(node, "any_products");
-    if (Where node = find(table, "split_small_registers"))
-      proof.split_small_registers = flag(node, "split_small_registers");
     if (Where node = find(table, "contracts")) proof.contracts = read_contracts(node);
     if (Where node = find(table, "golden_table")) read_golden_table(node, proof);
     read_clocks(table, proof);

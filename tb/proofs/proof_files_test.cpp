@@ -66,7 +66,7 @@ TEST_F(ProofFiles, ReadsEveryKey) {
       "= 5\n"
       "quick = true\ngenerics = { g_bits = 4, g_exact = true }\nformats = { depth = [4, 2] }\nany_products = "
       "true\n"
-      "split_small_registers = true\ncontracts = [\"raster/any.psl\"]\n"
+      "contracts = [\"raster/any.psl\"]\n"
       "faults = [\n{ old = \"a\", new = \"b\" },\n{ file = \"x/y.vhd\", occurs = 2, old = \"c\", new = \"d\" "
       "}]\n");
   ASSERT_TRUE(proofs) << proofs.error().message;
@@ -78,7 +78,7 @@ TEST_F(ProofFiles, ReadsEveryKey) {
   EXPECT_EQ(proof.method, Method::bounded);
   EXPECT_EQ(proof.clocks, 3);
   EXPECT_EQ(proof.fault_clocks, 5);
-  EXPECT_TRUE(proof.quick && proof.any_products && proof.split_small_registers);
+  EXPECT_TRUE(proof.quick && proof.any_products);
   EXPECT_THAT(proof.generics, testing::ElementsAre(std::pair("g_bits", "4"), std::pair("g_exact", "true")));
   for (const auto& formats : {proof.formats, proof.fault_formats}) {
     ASSERT_EQ(formats.size(), 1U);
@@ -94,7 +94,7 @@ TEST_F(ProofFiles, ReadsEveryKey) {
   EXPECT_EQ(proof.faults[0].occurrences, 1);
   EXPECT_EQ(proof.faults[1].file, "x/y.vhd");
   EXPECT_EQ(proof.faults[1].occurrences, 2);
-  EXPECT_EQ(proof.faults[1].where, "tb/proofs/raster/box.toml:15");
+  EXPECT_EQ(proof.faults[1].where, "tb/proofs/raster/box.toml:14");
 }
 
 TEST_F(ProofFiles, TakesValuesOfTheFileUnlessAProofHasItsOwn) {

@@ -181,10 +181,9 @@ bool uses_abc(const Proof& proof, const Fault* fault) {
 
 std::string yosys_script(const Proof& proof, const Fault* fault, std::string_view top) {
   const std::string prepare = fmt::format(
-      "read_verilog -formal formal.v; prep -flatten -top {}; {}setundef -undriven -anyseq; opt -full; {}"
+      "read_verilog -formal formal.v; prep -flatten -top {}; {}setundef -undriven -anyseq; opt -full; "
       "opt_clean -purge; async2sync; dffunmap; opt_clean; ",
-      top, proof.any_products ? "cutpoint t:$mul; " : "",
-      proof.split_small_registers ? "simplemap t:$dff r:WIDTH<8 %i; opt -full; " : "");
+      top, proof.any_products ? "cutpoint t:$mul; " : "");
   if (uses_abc(proof, fault))
     return prepare +
            "delete -output; techmap; opt -fast; memory_map; techmap; opt -full; dffunmap; abc -g AND -fast; "
