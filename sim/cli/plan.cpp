@@ -13,7 +13,6 @@
 #include <set>
 #include <tuple>
 
-#include "common/printable.hpp"
 #include "common/to_integer.hpp"
 #include "plan/processor_clocks.hpp"
 #include "plan/processor_count.hpp"
@@ -21,6 +20,7 @@
 #include "sim/costs/cells.hpp"
 #include "sim/costs/simulation_cost.hpp"
 #include "sim/ghdl/hardware_units.hpp"
+#include "sim/program/printable.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/threads.hpp"
 

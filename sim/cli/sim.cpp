@@ -10,10 +10,10 @@
 #include <new>
 #include <thread>
 
-#include "common/printable.hpp"
 #include "common/to_integer.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/formats/compiled_sizes.hpp"
+#include "sim/program/printable.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/tables/generated_files.hpp"

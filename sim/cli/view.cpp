@@ -16,12 +16,12 @@
 #include <regex>
 #include <string_view>
 
-#include "common/printable.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/formats/compiled_sizes.hpp"
 #include "sim/pictures/image.hpp"
 #include "sim/pictures/image_library.hpp"
 #include "sim/pictures/terminal_picture.hpp"
+#include "sim/program/printable.hpp"
 #include "sim/run/result_files.hpp"
 #include "sim/run/video.hpp"
 #include "sim/scene_files/load_scene.hpp"

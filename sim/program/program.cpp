@@ -9,7 +9,7 @@
 #include <exception>
 #include <new>
 
-#include "common/printable.hpp"
+#include "sim/program/printable.hpp"
 
 namespace halfway::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/printable.hpp"
+#include "sim/program/printable.hpp"
 
 #include <gtest/gtest.h>
 
