@@ -27,7 +27,7 @@ takes_lint := FILES JOBS
 takes_sanitize := TESTS JOBS
 takes_fuzz := SECONDS TARGET JOBS
 takes_kills := JOBS
-takes_mutate := JOBS
+takes_mutate := DESIGN FULL JOBS
 takes_prove := PROOF JOBS
 takes_stability := JOBS
 takes_search := TRIANGLES SEED JOBS
@@ -57,7 +57,7 @@ about_PIXEL := x,y of the pixel that make why explains
 about_MEASURE := 1: count cells by Yosys, and cycles and seconds by simulation
 about_OBJECTS := objects per pixel that the shading processors draw
 about_SPACE := a TOML file of designs
-about_FULL := 1: the whole space of designs
+about_FULL := 1: make study: the whole space of designs; make mutate: all faults
 about_TILE := larger frames are drawn in tiles of WIDTHxHEIGHT   (default: 1280x960)
 about_ERROR := the cheapest hardware within so many steps of 1/255
 about_PSNR := the cheapest hardware of at least so many dB
@@ -222,10 +222,11 @@ fuzz: setup ## libFuzzer on every kind of input (SECONDS each; TARGET: one alone
 kills: build ## the long form of the tests with kill -9: 60 moments in place of a few
 	@tb/robustness/kill.sh build/halfway build/halfway_generator . build/tb/kills 60
 
-mutate: configure ## thousands of small faults in the hardware, which the tests must find
+mutate: configure ## small faults in the hardware, which the tests must find: a sample, or thousands (FULL=1)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_mutants halfway_vectors
 	@build/tb/halfway_vectors all build/tb/vectors
-	@build/tb/halfway_mutants --jobs "$(jobs)" --page docs/results/mutants.md . build/tb/vectors build/tb/mutants
+	@build/tb/halfway_mutants --step "$$(case "$$FULL$$DESIGN" in ('' | 0) echo 10 ;; (*) echo 1 ;; esac)" --jobs "$(jobs)" \
+	  $$([ -n "$$DESIGN" ] || echo --page docs/results/mutants.md) . build/tb/vectors build/tb/mutants $${DESIGN:+"$$DESIGN"}
 
 prove: configure ## formal proofs on the RTL, each with faults that it must refute (PROOF: only some, and no page)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_proofs

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <chrono>
-
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
@@ -13,9 +11,7 @@
 namespace halfway::mutants {
 namespace {
 
-constexpr std::chrono::seconds c_time{600};
-
-/// The path of the entity's testbench, relative to the project's root.
+/// The testbench of the entity, from the project's root.
 Result<std::string> testbench_of(const std::string& entity, const std::filesystem::path& source) {
   const auto files = files_below(source / "tb", ".vhd");
   if (!files) return files.error();
@@ -68,8 +64,8 @@ Result<std::string> with_fault(const SourceFault& fault, const std::string& text
   return changed;
 }
 
-Result<bool> fails(const SourceFault& fault, const std::filesystem::path& source,
-                   const std::filesystem::path& vectors, const std::filesystem::path& scratch) {
+Result<TestEnd> run_testbench(const SourceFault& fault, const std::filesystem::path& source,
+                              const std::filesystem::path& vectors, const std::filesystem::path& scratch) {
   auto folder = TemporaryFolder::make(scratch / "sources");
   if (!folder) return folder.error();
   // Copy the sources that the testbench may need, the faulty one with its fault.
@@ -94,7 +90,7 @@ Result<bool> fails(const SourceFault& fault, const std::filesystem::path& source
     if (auto s = write_file(folder->path() / one.name, one.content); !s) return s.error();
     import.push_back(one.name);
   }
-  // Link to the vectors; copy only the faulty file.
+  // Link to the vectors, but to a faulty copy of the faulty file.
   std::error_code error;
   const auto its_vectors = folder->path() / "vectors";
   std::filesystem::create_directory(its_vectors, error);
@@ -112,10 +108,12 @@ Result<bool> fails(const SourceFault& fault, const std::filesystem::path& source
   }
   if (error) return tool_failed(fmt::format("{}: {}", its_vectors.string(), error.message()));
   const std::string top = fault.test + "_tb";
-  for (const auto& arguments : {import, std::vector<std::string>{"ghdl", "-m", "--std=08", top}}) {
-    const auto end = run_process(
-        {.arguments = arguments, .working_folder = folder->path(), .timeout = c_time}, kInstallGhdl);
+  for (const auto& arguments : {import, std::vector<std::string>{"ghdl", "-m", "-O2", "--std=08", top}}) {
+    const auto end =
+        run_process({.arguments = arguments, .working_folder = folder->path(), .timeout = c_testbench_time},
+                    kInstallGhdl);
     if (!end) return end.error();
+    if (end->timed_out) return TestEnd::unfinished;
     if (!end->succeeded())
       return bad_input(
           fmt::format("{}: \"{}\": GHDL does not accept it: {}", fault.file, fault.new_text, end->output));
@@ -123,10 +121,12 @@ Result<bool> fails(const SourceFault& fault, const std::filesystem::path& source
   const auto end = run_process({.arguments = {"ghdl", "-r", "--std=08", top, "-gg_folder=vectors",
                                               "--ieee-asserts=disable", "--assert-level=error"},
                                 .working_folder = folder->path(),
-                                .timeout = c_time},
+                                .timeout = c_testbench_time},
                                kInstallGhdl);
   if (!end) return end.error();
-  return !end->succeeded() || end->output.find(top + ": passed") == std::string::npos;
+  if (end->timed_out) return TestEnd::unfinished;
+  const bool passed = end->succeeded() && end->output.find(top + ": passed") != std::string::npos;
+  return passed ? TestEnd::passes : TestEnd::fails;
 }
 
 }  // namespace halfway::mutants

@@ -2,6 +2,7 @@
 // Faults in the text of the sources and of the vector files. A testbench in GHDL must detect them.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -26,9 +27,12 @@ Result<std::vector<SourceFault>> read_source_faults(const std::filesystem::path&
 /// does not have the word.
 Result<std::string> with_fault(const SourceFault& fault, const std::string& text);
 
-/// Whether the testbench of `fault.test` fails, in a copy of the sources and vectors. Without a file the copy
-/// has no fault.
-Result<bool> fails(const SourceFault& fault, const std::filesystem::path& source,
-                   const std::filesystem::path& vectors, const std::filesystem::path& scratch);
+enum class TestEnd { passes, fails, unfinished };
+
+/// Runs the testbench of `fault.test` in a copy of the sources and vectors. Without a file the copy has no
+/// fault. A testbench whose analysis or run takes longer than `c_testbench_time` is unfinished.
+Result<TestEnd> run_testbench(const SourceFault& fault, const std::filesystem::path& source,
+                              const std::filesystem::path& vectors, const std::filesystem::path& scratch);
+inline constexpr std::chrono::seconds c_testbench_time{900};
 
 }  // namespace halfway::mutants

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
+
 #include "golden/angle_address.hpp"
 #include "golden/multiplier.hpp"
 #include "golden/saturate.hpp"
@@ -136,17 +139,39 @@ Status write_sum_of(const std::filesystem::path& folder, int terms, int term_bit
       add();
     }
   } else {
-    const std::uint64_t one = std::uint64_t{1} << fraction_bits, full = one << result_bits;
-    for (int i = 0; i < 3000; ++i) {
-      // Any words, all at their largest, or about as many whole steps together as the result holds.
-      const auto kind = random.between(0, 9);
-      for (std::uint64_t& value : values) {
-        const std::uint64_t word =
-            kind == 0   ? ~std::uint64_t{0}
-            : kind < 3  ? random.word(term_bits)
-            : kind == 3 ? full / values.size() + static_cast<std::uint64_t>(random.between(-2, 2))
-                        : random.bits(64) % (2 * full / values.size());
-        value = golden::low_bits(word, term_bits);
+    const std::uint64_t largest = golden::low_bits(~std::uint64_t{0}, term_bits);
+    const int sum_bits = static_cast<int>(std::bit_width(largest * values.size()));
+    for (int i = 0; i < 4000; ++i) {
+      switch (random.between(0, 7)) {
+        case 0:
+          std::ranges::fill(values, largest);
+          break;
+        case 1:
+          for (std::uint64_t& value : values) value = random.word(term_bits);
+          break;
+        case 2:
+        case 3:
+        case 4: {
+          // On a step of the result, or just below: a lower bit that is wrong changes the result.
+          std::uint64_t rest = random.bits(result_bits) << fraction_bits;
+          if (rest > 0) rest -= random.bits(1);
+          for (std::size_t left = values.size(); left > 0; --left) {
+            const std::uint64_t value = left == 1 ? rest : random.bits(64) % (2 * rest / left + 1);
+            values[left - 1] = std::min(value, largest);
+            rest -= values[left - 1];
+          }
+          break;
+        }
+        default: {
+          // A power of two and a little more, in full terms: a higher bit that is wrong changes the result.
+          std::uint64_t rest =
+              (std::uint64_t{1} << random.between(0, sum_bits - 1)) + random.bits(fraction_bits);
+          std::ranges::fill(values, 0);
+          for (std::size_t at = random.bits(64) % values.size(); rest > 0 && at < values.size(); ++at) {
+            values[at] = std::min(rest, largest);
+            rest -= values[at];
+          }
+        }
       }
       add();
     }

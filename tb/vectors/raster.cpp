@@ -247,15 +247,22 @@ Status write_objects(const std::filesystem::path& folder) {
       std::uint32_t x, z, triangle;
     };
     std::vector<Span> drawn;
+    const auto triangle = static_cast<std::uint32_t>(random.bits(32));
     for (std::int64_t i = 0; i < objects; ++i) {
       // Depths that meet, and such as differ in their highest or lowest bit alone.
       constexpr std::uint32_t c_depths[] = {0, 1, 0x7fffff, 0x800000, 0xffffff};
       const std::uint32_t z = random.one_in(3) ? static_cast<std::uint32_t>(random.word(Preset::c_depth_bits))
                                                : c_depths[random.between(0, 4)];
       drawn.push_back({static_cast<std::uint32_t>(first + random.between(0, columns - 1)), z,
-                       static_cast<std::uint32_t>(random.between(0, 3)) << (random.one_in(2) ? 30 : 0)});
+                       // The same one, or another in a single bit.
+                       triangle ^ (random.one_in(3) ? 0 : 1U << random.between(0, 31))});
     }
-    for (const Span& s : drawn) put(Command::depth, s.x, s.z, s.triangle);
+    // Often each object is drawn right behind its depth.
+    const bool at_once = random.one_in(3);
+    for (const Span& s : drawn) {
+      put(Command::depth, s.x, s.z, s.triangle);
+      if (at_once) put(Command::draw, s.x, s.z, s.triangle);
+    }
     for (std::int64_t i = random.between(0, 20); i > 0; --i) {
       const Span& s = drawn[static_cast<std::size_t>(random.between(0, objects - 1))];
       put(Command::shadow, s.x, (s.z + static_cast<std::uint32_t>(random.between(-1, 1))) & 0xffffff,
