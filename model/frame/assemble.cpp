@@ -14,8 +14,8 @@ constexpr std::uint32_t c_empty = std::numeric_limits<std::uint32_t>::max();
 
 Error refusal(const Fragment& f, std::uint64_t number, const std::string& why) {
   return {ExitCode::differs,
-          fmt::format("fragments:{}: fragment of triangle {} at pixel {},{} with z {}: {}; the stream "
-                      "that it comes from is wrong",
+          fmt::format("fragments:{}: fragment of triangle {} at pixel {},{} with z {}: {}; the source "
+                      "of the stream is wrong",
                       number, f.triangle, f.x, f.y, f.z, why)};
 }
 
@@ -35,7 +35,7 @@ void FrameAssembler::clear() {
   for (auto pixel = frame_.rgb.begin(); pixel != frame_.rgb.end();)
     pixel = std::copy(background.begin(), background.end(), pixel);
   std::fill(z_.begin(), z_.end(), c_empty);
-  fragments_ = beside_ = covered_pixels_ = 0;
+  fragments_ = outside_ = covered_pixels_ = 0;
 }
 
 Status FrameAssembler::add(std::span<const Fragment> fragments) {
@@ -46,7 +46,7 @@ Status FrameAssembler::add(std::span<const Fragment> fragments) {
       return refusal(f, fragments_, "it lies outside the frame of " + to_string(size_));
     if (f.z > c_greatest_z) return refusal(f, fragments_, "z has more than 24 bits");
     if (!inside) {
-      ++beside_;
+      ++outside_;
       continue;
     }
     const std::size_t rgb = frame_.offset(f.x - tile_.x, f.y - tile_.y);

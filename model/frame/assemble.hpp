@@ -39,7 +39,7 @@ class FrameAssembler {
   /// Depth of a pixel; empty without a fragment.
   std::optional<std::uint32_t> depth(std::uint32_t x, std::uint32_t y) const;
   std::uint64_t fragments() const { return fragments_; }
-  std::uint64_t fragments_inside() const { return fragments_ - beside_; }  ///< inside the tile
+  std::uint64_t fragments_inside() const { return fragments_ - outside_; }  ///< inside the tile
   std::uint64_t covered_pixels() const { return covered_pixels_; }
 
  private:
@@ -48,7 +48,7 @@ class FrameAssembler {
   std::array<std::uint8_t, 3> background_;
   Frame frame_;
   std::vector<std::uint32_t> z_;
-  std::uint64_t fragments_ = 0, beside_ = 0, covered_pixels_ = 0;
+  std::uint64_t fragments_ = 0, outside_ = 0, covered_pixels_ = 0;
 };
 
 }  // namespace halfway

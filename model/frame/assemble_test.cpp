@@ -26,7 +26,7 @@ TEST(Assemble, SmallerZWinsAndTheFirstOfEqualOnesStays) {
   EXPECT_EQ(assembler.covered_pixels(), 3u);
 }
 
-TEST(Assemble, RefusesWhatLiesOutside) {
+TEST(Assemble, RefusesFragmentsOutside) {
   for (const Fragment& bad : {fragment(3, 0, 1, 1), fragment(0, 2, 1, 1), fragment(65535, 65535, 1, 1),
                               fragment(0, 0, 1u << 24, 1), fragment(0, 0, 0xffffffff, 1)}) {
     FrameAssembler assembler({3, 2}, {});
@@ -39,7 +39,7 @@ TEST(Assemble, RefusesWhatLiesOutside) {
   }
 }
 
-TEST(Assemble, KeepsATileAlone) {
+TEST(Assemble, KeepsOnlyATile) {
   FrameAssembler assembler({8, 8}, {2, 1, {2, 2}}, {});
   ASSERT_TRUE(assembler.add(std::array{fragment(2, 1, 5, 10), fragment(3, 2, 6, 20), fragment(1, 1, 1, 30),
                                        fragment(4, 1, 1, 31), fragment(2, 0, 1, 32), fragment(2, 3, 1, 33)}));

@@ -17,7 +17,7 @@ Status same_size(const Frame& a, const Frame& b) {
     return bad_input(fmt::format("frames: {}x{} and {}x{} cannot be compared; render both at one size",
                                  a.size.width, a.size.height, b.size.width, b.size.height));
   if (a.rgb.size() != 3 * a.pixels() || b.rgb.size() != 3 * b.pixels())
-    return bad_input("frames: a frame does not hold three bytes a pixel; render it again");
+    return bad_input("frames: a frame does not have three bytes per pixel; render it again");
   return Ok{};
 }
 

@@ -22,7 +22,7 @@ TEST(Metrics, EqualFramesHaveNoDistance) {
   EXPECT_EQ(d->percentile99, 0u);
 }
 
-TEST(Metrics, UpToTwoStepsArePassedAsClose) {
+TEST(Metrics, DifferencesUpToTwoStepsAreClose) {
   Frame a({2, 1}), b({2, 1});
   b.rgb = {2, 2, 2, 0, 3, 0};
   EXPECT_EQ(frame_distance(a, b)->off, 1u);
@@ -51,7 +51,7 @@ TEST(Metrics, CountsDifferencesInTheMaskOnly) {
   EXPECT_TRUE(std::isinf(none->psnr_db));
 }
 
-TEST(Metrics, The99thPercentileLetsOneInAHundredPass) {
+TEST(Metrics, The99thPercentileIgnoresOneInAHundred) {
   Frame a({100, 1}), b({100, 1});
   b.rgb[0] = b.rgb[100] = b.rgb[299] = 9;  // 3 of 300
   EXPECT_EQ(frame_distance(a, b)->percentile99, 0u);

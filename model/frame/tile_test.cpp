@@ -8,7 +8,7 @@
 namespace halfway {
 namespace {
 
-TEST(Tiles, HaveEachPixelOnce) {
+TEST(Tiles, CoverEachPixelOnce) {
   const std::vector<std::pair<FrameSize, FrameSize>> cases = {{{64, 48}, {20, 20}},
                                                               {{64, 48}, {64, 48}},
                                                               {{64, 48}, {100, 7}},
@@ -36,7 +36,7 @@ TEST(Tiles, OverlapWhereTheyShareAPixel) {
   EXPECT_FALSE(overlap(tile, {22, 12, {0, 0}}));
 }
 
-TEST(Tiles, PutTogetherAreTheFrame) {
+TEST(Tiles, AssembleToTheFrame) {
   constexpr FrameSize c_frame{7, 5};
   Frame frame(c_frame);
   for (std::size_t i = 0; i < frame.rgb.size(); ++i) frame.rgb[i] = static_cast<std::uint8_t>(i);

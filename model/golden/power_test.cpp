@@ -65,7 +65,7 @@ TEST(Power, RisesWithItsBase) {
 }
 
 // Cells of 1/64 of a power of two: the kind of table in the paper, and its errors in sharp highlights.
-TEST(Power, WhatPublishedMeasures) {
+TEST(Power, ErrorsOfPresetPublished) {
   for (const auto& [m, expected] :
        {std::pair{1U, 1.99}, {10U, 9.81}, {50U, 45.04}, {100U, 83.12}, {500U, 213.47}}) {
     long double largest = 0;

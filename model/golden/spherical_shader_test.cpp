@@ -181,7 +181,7 @@ void expect_illumination(const SphericalConfig& config, unsigned seed) {
   }
 }
 
-TEST(SphericalShader, IlluminatesAsTheFormulasSay) {
+TEST(SphericalShader, MatchesTheFormulas) {
   for (unsigned seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto [a, d] = c_exact_cosine_size;
@@ -246,7 +246,7 @@ TEST(SphericalShader, GroupHoldsARecordForEveryLine) {
 }
 
 // A line without pixels has a record, which is skipped. Each pixel is checked stage by stage.
-TEST(SphericalShader, PassesOverTheRecordsOfEmptyLines) {
+TEST(SphericalShader, SkipsTheRecordsOfEmptyLines) {
   const auto [a, b] = c_exact_cosine_size;
   Drawing<Exact> d({1, 1, true, false, 1, 2, a, b}, 3, 2, false);
   using At = Exact::init_header_at;
@@ -302,7 +302,7 @@ TEST(AngleAddress, IsTheCellOfTheMagnitude) {
 }
 
 // The upper bits of a word select its cell. The address of the table is signed and wraps.
-TEST(AngleAddress, GoesRoundInPresetPublished) {
+TEST(AngleAddress, WrapsInPresetPublished) {
   using Angle = Word<Published::c_angle_bits>;
   for (int v = -2048; v < 2048; ++v) {
     const auto at = angle_address<Published>(Angle::from_bits(static_cast<std::uint64_t>(v)), 6);
@@ -311,7 +311,7 @@ TEST(AngleAddress, GoesRoundInPresetPublished) {
   }
 }
 
-TEST(SaturatingSum, NeitherWrapsNorPassesTheLargest) {
+TEST(SaturatingSum, NeitherWrapsNorExceedsTheLargest) {
   SaturatingSum sum;
   for (int i = 0; i < 255; ++i) sum.add(1 << 16);
   sum.add((1 << 16) - 1);

@@ -39,7 +39,7 @@ TEST(StreamRegister, LosesAndRepeatsNothing) {
   }
 }
 
-TEST(StreamRegister, MovesAWordAClock) {
+TEST(StreamRegister, TransfersOneWordPerClock) {
   StreamRegister<int> stage;
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(stage.in_ready(true));

@@ -31,7 +31,7 @@ long double power_of_two(double exponent) {
   return std::exp2(static_cast<long double>(exponent));
 }
 
-TEST(ReciprocalRoot, TheErrorOfPresetExactOverAllOfIt) {
+TEST(ReciprocalRoot, TheErrorOfPresetExactOverTheWholeRange) {
   // x is truncated to 22 fraction bits: the largest error is at one end of each interval with equal truncated
   // x.
   constexpr int c_cut = Exact::c_square_fraction_bits - 22;
@@ -46,7 +46,7 @@ TEST(ReciprocalRoot, TheErrorOfPresetExactOverAllOfIt) {
   EXPECT_GT(range.high, power_of_two(-19.9));
 }
 
-TEST(ReciprocalRoot, TheErrorOfPresetPublishedOverAllOfIt) {
+TEST(ReciprocalRoot, TheErrorOfPresetPublishedOverTheWholeRange) {
   Range range;
   constexpr std::uint32_t c_one = 1U << Published::c_square_fraction_bits;
   for (std::uint32_t x = c_one; x < 4 * c_one; ++x) range.add(root_error<Published>(x));
@@ -55,7 +55,7 @@ TEST(ReciprocalRoot, TheErrorOfPresetPublishedOverAllOfIt) {
   EXPECT_LT(range.low, -power_of_two(-6.95));
 }
 
-TEST(ReciprocalRoot, BelowOneItIsTwiceThatOfFourTimesTheSquare) {
+TEST(ReciprocalRoot, BelowOneItIsTwiceTheRootOfFourTimesTheSquare) {
   EXPECT_EQ(ReciprocalRoot<Exact>::reciprocal(1U << 27), 2 * ReciprocalRoot<Exact>::root(1U << 29));
   EXPECT_EQ(ReciprocalRoot<Exact>::reciprocal(1U << 28), ReciprocalRoot<Exact>::root(1U << 28));
   EXPECT_EQ(ReciprocalRoot<Exact>::reciprocal((1U << 28) - 1),

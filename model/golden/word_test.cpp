@@ -62,7 +62,7 @@ TEST(Word, SumsWrapAtEveryWidth) {
   (std::make_integer_sequence<int, 64>());
 }
 
-TEST(Word, LowBitsKeepsWhatItSays) {
+TEST(Word, LowBitsKeepsTheLowestBits) {
   for (int bits = 1; bits <= 64; ++bits) {
     const mpz_class modulus = mpz_class(1) << bits;
     for (std::uint64_t v : {~std::uint64_t{0}, std::uint64_t{0x0123456789abcdef}, std::uint64_t{1} << 63})
@@ -116,7 +116,7 @@ TEST(Saturate, EverySixteenBitWord) {
   expect_saturates<10, 4>();
 }
 
-TEST(Saturate, BothPresetsRoundAndHoldTheColour) {
+TEST(Saturate, BothPresetsRoundAndClampTheColour) {
   const auto exact = [](double steps) {
     const double word = steps * (1 << Exact::c_intensity_fraction_bits);
     return saturate<Exact::c_intensity_bits, Exact::c_intensity_fraction_bits, Exact::c_colour_bits>(

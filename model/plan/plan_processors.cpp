@@ -57,7 +57,7 @@ Status check_highlights(const Scene& scene) {
     const bool phong = m.brdf == Brdf::phong;
     return bad_input(fmt::format(
         "{}: material '{}' is {}, and the shading processors' highlights are blinn's, powers of N.H; make it "
-        "blinn{}, or take the {} shader",
+        "blinn{}, or use the {} shader",
         scene.name, m.name, phong ? "phong" : "cook_torrance",
         phong ? " with about four times the exponent" : "", phong ? "quadratic or spherical" : "quadratic"));
   }
@@ -100,54 +100,54 @@ class Planner {
       case Effect::diffuse:
         o.diffuse = !p.diffuse;
         if (o.lights() == 0) o.directional = 1;
-        return in_hardware(effect, "a processor a light", p.diffuse, other);
+        return in_hardware(effect, "one processor per light", p.diffuse, other);
       case Effect::specular:
         o.specular = !p.specular;
         if (o.lights() == 0) o.directional = 1;
-        return in_hardware(effect, "a processor a light", p.specular, other);
+        return in_hardware(effect, "one processor per light", p.specular, other);
       case Effect::highlight_colour:
         if (!p.specular) return in_hardware(effect, "");
         other.channels = key_.channels == 1 ? 3 : 1;
-        return in_hardware(effect, "the channels of all colours", key_.channels == 3, other);
+        return in_hardware(effect, "separate channels for all colours", key_.channels == 3, other);
       case Effect::exponents: {
-        PlannedEffect out = in_hardware(effect, "any exponent, a material at a time");
+        PlannedEffect out = in_hardware(effect, "any exponent, set per material");
         out.elaborated = p.specular;
         return out;
       }
       case Effect::directional:
         return lights_of(effect, LightKind::directional, "");
       case Effect::positional:
-        return lights_of(effect, LightKind::positional, "the way to it, normalized");
+        return lights_of(effect, LightKind::positional, "the vector to it, normalized");
       case Effect::spot:
-        return lights_of(effect, LightKind::spot, "as a positional one, and its cone");
+        return lights_of(effect, LightKind::spot, "like a positional light, and its cone");
       case Effect::shadow:
         o.shadows = !p.shadows;
         if (o.lights() == 0) o.directional = 1;
         if (!o.diffuse && !o.specular) o.diffuse = true;
-        return in_hardware(effect, "volumes counted by every processor of a light", p.shadows, other);
+        return in_hardware(effect, "shadow volumes counted by each processor of a light", p.shadows, other);
       case Effect::normalization: {
         o.normalize = !p.normalize;
         if (o.lights() == 0) o.directional = 1;
         if (!o.diffuse && !o.specular) o.diffuse = true;
-        PlannedEffect out = in_hardware(effect, "of N, by the first processor", p.normalize, other);
+        PlannedEffect out = in_hardware(effect, "N, by the first processor", p.normalize, other);
         out.called_for = normalize_.called_for;
         out.why = normalize_.why;
         return out;
       }
       case Effect::colour:
         other.channels = key_.channels == 1 ? 3 : 1;
-        return in_hardware(effect, "vectors of channels", key_.channels == 3, other);
+        return in_hardware(effect, "separate channels", key_.channels == 3, other);
       case Effect::subdivision: {
         PlannedEffect out = planned(calls_, effect, DoneBy::nobody, "not needed");
         out.called_for = false;
-        out.why = "every pixel is shaded by itself";
+        out.why = "each pixel is shaded separately";
         return out;
       }
       case Effect::perspective:
         break;
     }
-    if (exact) return planned(calls_, effect, DoneBy::host, "planes of what is linear on the screen");
-    return planned(calls_, effect, DoneBy::nobody, "as published, N and P go straight across the screen");
+    if (exact) return planned(calls_, effect, DoneBy::host, "planes of values that are linear on the screen");
+    return planned(calls_, effect, DoneBy::nobody, "as published, N and P are linear on the screen");
   }
 
  private:
@@ -194,7 +194,7 @@ Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const 
     return bad_input("--address-bits, --data-bits: only the spherical shader has cosine tables");
   if (calls.lights.size() > c_most_lights)
     return bad_input(fmt::format(
-        "{}: {} lights; the shading processors take up to {}: leave some out, or take the quadratic shader",
+        "{}: {} lights; the shading processors support up to {}: remove some, or use the quadratic shader",
         scene.name, calls.lights.size(), c_most_lights));
   const auto lights = static_cast<unsigned>(calls.lights.size());
   const Call normalize = call_normalize(scene, calls, request.preset);

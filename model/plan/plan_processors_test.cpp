@@ -66,7 +66,7 @@ TEST(PlanProcessors, LightsByTheirKinds) {
   EXPECT_THAT(refusal(with_lights(8, 8, 1)), AllOf(HasSubstr("17 lights"), HasSubstr("up to 16")));
 }
 
-TEST(PlanProcessors, NoProcessorsForWhatNoMaterialReflects) {
+TEST(PlanProcessors, NoProcessorsForTermsThatNoMaterialReflects) {
   Scene scene = with_lights(1, 1);
   scene.materials[0].specular = 0.0;
   EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.1.0-d-unrolled");
@@ -78,7 +78,7 @@ TEST(PlanProcessors, NoProcessorsForWhatNoMaterialReflects) {
   EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.1.0-s-shadows-unrolled");
 }
 
-TEST(PlanProcessors, NormalizesWhereNormalsDifferOrAsPublishedForLightsWithAPlace) {
+TEST(PlanProcessors, NormalizesIfNormalsDifferOrAsPublishedForLightsWithAPlace) {
   Scene curved = with_lights(1);
   curved.triangles.push_back({{0, 1, 2}, {0, 1, 2}, 0});
   for (const Preset preset : {Preset::exact, Preset::published}) {
@@ -114,7 +114,7 @@ TEST(PlanProcessors, ShadowsWhereALightIsReflected) {
   EXPECT_FALSE(planned(scene).key.processors.shadows);
 }
 
-TEST(PlanProcessors, EveryHighlightIsBlinns) {
+TEST(PlanProcessors, OnlyBlinnHighlightsAreSupported) {
   for (const Brdf brdf : {Brdf::phong, Brdf::cook_torrance}) {
     Scene scene = with_lights(1);
     scene.materials.push_back({.name = "other", .brdf = brdf});
@@ -131,7 +131,7 @@ TEST(PlanProcessors, EveryHighlightIsBlinns) {
   }
 }
 
-TEST(PlanProcessors, AllEffectsAreSpotsForEveryLightAndAllElse) {
+TEST(PlanProcessors, AllEffectsUsesSpotHardwareForEveryLight) {
   for (const Preset preset : {Preset::exact, Preset::published}) {
     const std::string begin = fmt::format("processors_shader-{}-c3-l0.0.", to_string(preset));
     const auto all = [&](const Scene& scene, std::optional<unsigned> lights = {}) {
@@ -159,7 +159,7 @@ TEST(PlanProcessors, TwoForms) {
   EXPECT_THAT(refusal(flat_scene(), {.tables = TableSize{6, 6}}), HasSubstr("only the spherical shader"));
 }
 
-TEST(PlanProcessors, EveryEffectSaysWhatItIsAndWhatItTakes) {
+TEST(PlanProcessors, EveryEffectStatesItsReasonAndHardware) {
   Scene shaded = with_lights(1, 1, 1);
   shaded.shadows = true;
   shaded.triangles[0].normal = {0, 1, 2};

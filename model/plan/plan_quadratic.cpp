@@ -19,11 +19,11 @@ PlannedEffect effect_of(const SceneCalls& calls, Effect effect, const HardwareKe
     case Effect::perspective:
       return planned(calls, effect, DoneBy::host, "at each sample");
     case Effect::subdivision:
-      return planned(calls, effect, DoneBy::host, "triangles split in four past a threshold");
+      return planned(calls, effect, DoneBy::host, "triangles split into four above a threshold");
     case Effect::shadow:
       break;
     case Effect::colour: {
-      PlannedEffect out = planned(calls, effect, DoneBy::hardware, "an interpolator a channel");
+      PlannedEffect out = planned(calls, effect, DoneBy::hardware, "one interpolator per channel");
       out.elaborated = key.channels == 3;
       HardwareKey other = key;
       other.channels = out.elaborated ? 1 : 3;

@@ -53,7 +53,7 @@ Result<unsigned> powers_of(const Scene& scene, Preset preset) {
     if (m.brdf == Brdf::cook_torrance)
       return bad_input(fmt::format(
           "{}: material '{}' is cook_torrance, and the spherical shader's highlights are powers of a cosine; "
-          "make it blinn or phong, or take the quadratic shader",
+          "make it blinn or phong, or use the quadratic shader",
           scene.name, m.name));
     // Each power is a power of two, and so equal to its bit of the mask.
     powers |= preset == Preset::exact ? static_cast<unsigned>(fitted_bell(m.exponent).power) : c_squared;
@@ -101,54 +101,54 @@ class Planner {
     SphericalUnits& o = other.spherical;
     switch (effect) {
       case Effect::ambient:
-        return always_elaborated(calls_, effect, "its word rounds the colours too");
+        return always_elaborated(calls_, effect, "its word also contains the rounding of the colours");
       case Effect::depth:
         return always_elaborated(calls_, effect, "");
       case Effect::diffuse:
         o.diffuse = !s.diffuse;
         o.lights = std::max(s.lights, 1U);
-        return in_hardware(effect, "a slice a light", s.diffuse, other);
+        return in_hardware(effect, "one slice per light", s.diffuse, other);
       case Effect::specular:
         o.specular = !s.specular;
         o.lights = std::max(s.lights, 1U);
         if (o.specular) o.powers = c_squared;
-        return in_hardware(effect, "a slice a light", s.specular, other);
+        return in_hardware(effect, "one slice per light", s.specular, other);
       case Effect::highlight_colour:
         if (!s.specular) return in_hardware(effect, "");
         o.highlight_channels = s.highlight_channels == 1 ? 3 : 1;
         other.channels = std::max(key_.channels, o.highlight_channels);
-        return in_hardware(effect, "a multiplier a channel", s.highlight_channels == 3, other);
+        return in_hardware(effect, "one multiplier per channel", s.highlight_channels == 3, other);
       case Effect::exponents: {
         if (!exact)
           return planned(calls_, effect, DoneBy::host, "one table, cos^2; the exponent scales its angle");
         if (!s.specular) return in_hardware(effect, "");
         const bool several = std::popcount(s.powers) > 1;
         o.powers = several ? std::bit_floor(s.powers) : c_every_power;
-        PlannedEffect out = in_hardware(effect, "a table each, and a choice", several, other);
+        PlannedEffect out = in_hardware(effect, "one table each, and a selection", several, other);
         // One table may serve several exponents.
         out.called_for = std::popcount(called_for_.powers) > 1;
         if (called_for_.specular) out.why += ": " + names(called_for_.powers);
         return out;
       }
       case Effect::directional:
-        return lights_of(effect, LightKind::directional, "vectors to it by the host");
+        return lights_of(effect, LightKind::directional, "the host computes the vectors to it");
       case Effect::positional:
-        return lights_of(effect, LightKind::positional, "vectors to it by the host");
+        return lights_of(effect, LightKind::positional, "the host computes the vectors to it");
       case Effect::spot:
-        return lights_of(effect, LightKind::spot, "vectors to it and its cone by the host");
+        return lights_of(effect, LightKind::spot, "the host computes the vectors to it and its cone");
       case Effect::normalization:
         return planned(calls_, effect, DoneBy::host,
-                       exact ? "at both ends of a span" : "at the vertices; angles need no more");
+                       exact ? "at both ends of a span" : "only at the vertices, angles need no others");
       case Effect::colour:
         other.channels = key_.channels == 1 ? 3 : 1;
-        return in_hardware(effect, "multipliers and a sum a channel", key_.channels == 3, other);
+        return in_hardware(effect, "multipliers and one sum per channel", key_.channels == 3, other);
       case Effect::subdivision:
         if (!exact) break;
-        return planned(calls_, effect, DoneBy::host, "triangles cut into columns past a threshold");
+        return planned(calls_, effect, DoneBy::host, "triangles split into columns above a threshold");
       case Effect::perspective:
         return planned(
             calls_, effect, DoneBy::host,
-            exact ? "at both ends of a span" : "at the vertices alone: between them, as published, none");
+            exact ? "at both ends of a span" : "only at the vertices, none between them, as published");
       case Effect::shadow:
         break;
     }
@@ -194,7 +194,7 @@ Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const P
   if (!tables) return tables.error();
   if (calls.lights.size() > c_most_lights)
     return bad_input(fmt::format(
-        "{}: {} lights; the spherical shader takes up to {}: leave some out, or take the quadratic shader",
+        "{}: {} lights; the spherical shader supports up to {}: remove some, or use the quadratic shader",
         scene.name, calls.lights.size(), c_most_lights));
   const auto lights = static_cast<unsigned>(calls.lights.size());
 

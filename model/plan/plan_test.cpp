@@ -62,7 +62,7 @@ const PlannedEffect& effect(const Plan& plan, Effect which) {
   return none;
 }
 
-TEST(Plan, OneChannelWhereEverythingSeenIsGrey) {
+TEST(Plan, OneChannelIfEverythingVisibleIsGrey) {
   for (const Shader shader : {Shader::quadratic, Shader::spherical})
     for (const Preset preset : {Preset::exact, Preset::published}) {
       const PlanRequest request{.shader = shader, .preset = preset};
@@ -136,14 +136,14 @@ TEST(Plan, NamesEveryEffectOnceWithItsReason) {
         }
 }
 
-TEST(Plan, ShadowsAreCalledForWhereThereIsLightToKeepOut) {
+TEST(Plan, ShadowsAreNeededOnlyWithReflectedLight) {
   for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
     const auto shadow = [&](const Scene& scene) {
       return effect(planned(scene, {.shader = shader}), Effect::shadow);
     };
     Scene scene = lit_scene();
     EXPECT_FALSE(shadow(scene).called_for);
-    EXPECT_EQ(shadow(scene).why, "the scene does without");
+    EXPECT_EQ(shadow(scene).why, "the scene has no shadows");
     scene.shadows = true;
     EXPECT_TRUE(shadow(scene).called_for);
     EXPECT_EQ(shadow(scene).by, DoneBy::nobody);
@@ -286,7 +286,7 @@ TEST(Plan, EffectsThatNoMaterialShowsAreLeftOut) {
   EXPECT_EQ(effect(spherical(scene), Effect::directional).why, "no material reflects them");
 }
 
-TEST(Plan, CookTorranceIsRefusedWhereItsHighlightWouldShow) {
+TEST(Plan, CookTorranceIsRefusedIfItsHighlightIsVisible) {
   Scene scene = lit_scene();
   wear(scene, {.name = "copper", .brdf = Brdf::cook_torrance});
   for (const Preset preset : {Preset::exact, Preset::published}) {
@@ -302,7 +302,7 @@ TEST(Plan, CookTorranceIsRefusedWhereItsHighlightWouldShow) {
   for (const Scene& s : {matt, unworn, unlit}) EXPECT_TRUE(plan_scene(s, {.shader = Shader::spherical}));
 }
 
-TEST(Plan, WhiteHighlightsTakeOneMultiplier) {
+TEST(Plan, WhiteHighlightsUseOneMultiplier) {
   const auto highlight_channels = [](const Scene& scene) {
     const Plan plan = spherical(scene);
     EXPECT_EQ(effect(plan, Effect::highlight_colour).called_for, plan.key.spherical.highlight_channels != 1);
@@ -362,7 +362,7 @@ TEST(Plan, PowersAreThoseOfTheExponentsInUse) {
   EXPECT_EQ(powers({1.0, 300.0}, Preset::published), 2U);
 }
 
-TEST(Plan, TablesAreThePresetsOrThoseThatAreThere) {
+TEST(Plan, TablesAreThePresetsOrOtherExistingOnes) {
   for (const Preset preset : {Preset::exact, Preset::published}) {
     const bool exact = preset == Preset::exact;
     const golden::CosineSize usual = exact ? golden::c_exact_cosine_size : golden::c_published_cosine_size;
@@ -431,7 +431,7 @@ TEST(Plan, OtherKeysDifferInOneEffect) {
       }
 }
 
-TEST(Plan, AllEffectsAreAllThatTheShaderHas) {
+TEST(Plan, AllEffectsSelectsAllOfTheShadersHardware) {
   using Lights = std::optional<unsigned>;
   const auto key = [](const Scene& scene, Preset preset, Lights lights = {}) {
     const Plan plan = planned(
@@ -506,7 +506,7 @@ TEST(HardwareKey, DifferentHardwareHasDifferentNamesAndGenerics) {
   EXPECT_GT(keys.size(), 2000U);
 }
 
-TEST(HardwareKey, GenericsAreTheKey) {
+TEST(HardwareKey, GenericsMatchTheKey) {
   const HardwareKey key{.shader = Shader::spherical,
                         .preset = Preset::exact,
                         .channels = 3,

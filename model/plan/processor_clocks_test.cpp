@@ -20,7 +20,7 @@ namespace {
 using golden::Term;
 
 // tb.table4 checks that these values equal the RTL's.
-TEST(Table4, PublishedIsThePapers) {
+TEST(Table4, PublishedEqualsThePaper) {
   int printed = 0;
   for (const ProcessorClocks& row : c_processor_clocks) {
     if (!row.paper) continue;
@@ -31,7 +31,7 @@ TEST(Table4, PublishedIsThePapers) {
   EXPECT_EQ(printed, 7);
 }
 
-TEST(Table4, ARowForEachWork) {
+TEST(Table4, OneRowPerOperation) {
   std::set<std::tuple<std::optional<Term>, std::optional<LightKind>, bool, bool>> works;
   for (const ProcessorClocks& row : c_processor_clocks) {
     EXPECT_TRUE(works.emplace(row.term, row.light, row.normalize, row.view).second) << row.what;

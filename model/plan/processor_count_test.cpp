@@ -25,7 +25,7 @@ TEST(Table5, WorkedExample) {
   EXPECT_EQ(count.processors(), 1239U);
 }
 
-TEST(Table5, FormulasAreThePapers) {
+TEST(Table5, FormulasEqualThePapers) {
   constexpr double c_cycle = 50e-9;
   for (const std::uint64_t pixels : {1ULL, 307'200ULL, 1'000'000ULL, 4096ULL * 4096})
     for (const std::uint64_t frames : {1U, 25U, 30U, 60U, 144U})

@@ -34,7 +34,7 @@ Scene loose(RandomSolids& random, int triangles, double size, const glm::dvec3& 
   return scene;
 }
 
-TEST(ShadowRays, FindWhatASearchFinds) {
+TEST(ShadowRays, AgreeWithALinearSearch) {
   RandomSolids random(1);
   int blocked = 0, rays_cast = 0;
   for (int round = 0; round < 60; ++round) {
@@ -85,7 +85,7 @@ TEST(ShadowRays, RaysWithinTheSidesOfBoxes) {
         }
 }
 
-TEST(ShadowRays, ManyTrianglesInOnePlaceAreStillATree) {
+TEST(ShadowRays, ManyTrianglesInOnePlaceStillFormATree) {
   Scene scene;
   scene.positions_world = {{-1, 0, -1}, {2, 0, -1}, {-1, 0, 2}};
   scene.normals_world = {{0, -1, 0}};
@@ -136,7 +136,7 @@ TEST(ShadowRays, AConvexSolidNeverShadowsItsLitSide) {
   EXPECT_GT(dark, 50'000);
 }
 
-TEST(ShadowRays, AShadowOnTheGroundIsWhereGeometryPutsIt) {
+TEST(ShadowRays, AShadowOnTheGroundHasTheExpectedOutline) {
   Scene scene;
   scene.positions_world = {{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}};
   scene.normals_world = {{0, 1, 0}};

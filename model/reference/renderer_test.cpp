@@ -106,7 +106,7 @@ TEST(Renderer, ShadesTheNearestTriangleAtEachCentre) {
 }
 
 // For each pixel, searches all triangles.
-TEST(Renderer, InASceneWithShadowsALightGivesNothingWhereItDoesNotReach) {
+TEST(Renderer, BlockedLightsContributeNothing) {
   RandomSolids random(5);
   int shadowed = 0, lit = 0;
   for (int round = 0; round < 6; ++round) {

@@ -145,7 +145,7 @@ glm::dvec3 expected(const Scene& scene, const SphericalMethod& method,
   return sum;
 }
 
-TEST(SphericalRenderer, DrawsWhatTheFormulasSay) {
+TEST(SphericalRenderer, MatchesTheFormulas) {
   std::mt19937 random(1);
   std::uint64_t pixels = 0, lit = 0;
   for (int i = 0; i < 60; ++i) {
@@ -237,7 +237,7 @@ Scene hard_scene() {
   return scene;
 }
 
-TEST(SphericalRenderer, CoverageIsTheReferences) {
+TEST(SphericalRenderer, CoverageEqualsTheReferences) {
   for (const char* name : {"spheres", "matte"}) {
     const Scene scene = builtin(name);
     const auto triangles = Projector(scene, c_frame, {}).project_all();
@@ -342,7 +342,7 @@ TEST(SphericalRenderer, FixedAgainstBoth) {
 }
 
 // A directional light and its N.L: only N turns, and both schemes are equal.
-TEST(SphericalRenderer, SchemesAreOneWhereOneVectorStandsStill) {
+TEST(SphericalRenderer, SchemesAreEqualIfOneVectorIsConstant) {
   for (const char* name : {"spheres", "teapot"}) {
     Scene scene = builtin(name);
     for (Material& m : scene.materials) m.specular = 0.0;

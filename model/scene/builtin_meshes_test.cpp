@@ -223,7 +223,7 @@ TEST(Box, IsClosedAndFlatOnItsFaces) {
   }
 }
 
-TEST(OpenEdges, AreThoseWithoutANeighbourAgainstThem) {
+TEST(OpenEdges, AreEdgesWithoutAnOppositeEdge) {
   EXPECT_EQ(halfway::open_edges(make_uv_sphere(12, 8, 1.0).triangles), 0u);
   EXPECT_EQ(halfway::open_edges(make_box({1, 2, 3}, 3).triangles), 0u);
   EXPECT_EQ(halfway::open_edges(make_teapot(5).triangles), 16u * 5u);

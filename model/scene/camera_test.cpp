@@ -32,7 +32,7 @@ TEST(ViewBasis, IsOrthonormalAndRightHanded) {
   EXPECT_GT(glm::dot(basis.backward_world, camera.eye_world - camera.target_world), 0.0);
 }
 
-TEST(HasView, NeedsTwoPointsAndAnUpThatIsNotAlongThem) {
+TEST(HasView, NeedsTwoPointsAndAnUpNotParallelToThem) {
   EXPECT_TRUE(has_view({}));
   EXPECT_FALSE(has_view({.eye_world = {1.0, 2.0, 3.0}, .target_world = {1.0, 2.0, 3.0}}));
   EXPECT_FALSE(has_view({.eye_world = {0.0, 7.0, 0.0}}));
@@ -40,7 +40,7 @@ TEST(HasView, NeedsTwoPointsAndAnUpThatIsNotAlongThem) {
   EXPECT_TRUE(has_view({.eye_world = {0.0, 7.0, 0.0}, .up_world = {0.0, 0.0, 1.0}}));
 }
 
-TEST(FitCamera, FillsTheNarrowerSideButForTheMargin) {
+TEST(FitCamera, FillsTheNarrowerSideExceptTheMargin) {
   for (const double fov : {5.0, 40.0, 100.0, 170.0}) {
     const Scene scene = sphere_scene({3.0, -2.0, 7.0}, 2.0);
     const BoundingSphere sphere = bounding_sphere(scene);
@@ -63,7 +63,7 @@ TEST(FitCamera, FillsTheNarrowerSideButForTheMargin) {
   }
 }
 
-TEST(DepthRange, HoldsTheSceneBeforeTheEye) {
+TEST(DepthRange, ContainsTheSceneInFrontOfTheEye) {
   const Scene scene = sphere_scene({0.0, 0.0, 0.0}, 1.0);
   const DepthRange range = depth_range({.eye_world = {0.0, 0.0, 5.0}}, bounding_sphere(scene));
   EXPECT_LT(range.near, 4.0);

@@ -33,14 +33,14 @@ class Checker {
     if (value >= least && value <= greatest) return;
     fail(std::isfinite(value)
              ? fmt::format("{} is {:g}, but must be {:g} to {:g}", of, value, least, greatest)
-             : fmt::format("{} is {}, no finite number", of, value));
+             : fmt::format("{} is {}, not a finite number", of, value));
   }
   void vector(std::string_view of, glm::dvec3 v, double least = -c_largest) {
     for (int i = 0; i < 3; ++i) number(of, v[i], least);
   }
   void direction(std::string_view of, glm::dvec3 v) {
     vector(of, v);
-    if (!is_unit(v)) fail(fmt::format("{} is ({:g}, {:g}, {:g}), not unit", of, v.x, v.y, v.z));
+    if (!is_unit(v)) fail(fmt::format("{} is ({:g}, {:g}, {:g}), not a unit vector", of, v.x, v.y, v.z));
   }
   void index(std::string_view of, std::size_t value, std::size_t count) {
     if (value >= count) fail(fmt::format("{} is {}, but there are {}", of, value, count));
@@ -108,7 +108,7 @@ Status check_numbers(const Scene& scene) {
   for (const glm::dvec3& n : scene.normals_world) {
     check.vector("a normal's component", n);
     if (!is_unit(n) && !(glm::length(n) <= c_shortest_normal))
-      check.fail(fmt::format("a normal is ({:g}, {:g}, {:g}), not unit", n.x, n.y, n.z));
+      check.fail(fmt::format("a normal is ({:g}, {:g}, {:g}), not a unit vector", n.x, n.y, n.z));
   }
   for (const SceneTriangle& t : scene.triangles) {
     check.index("a triangle's material", t.material, scene.materials.size());

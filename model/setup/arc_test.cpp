@@ -44,7 +44,7 @@ void record(const std::string& name, double value) {
   testing::Test::RecordProperty(name, fmt::format("{:.3g}", value));
 }
 
-TEST(Arc, AnyDirectionsWithOneHeldFixed) {
+TEST(Arc, AnyDirectionsWithOneFixed) {
   Directions random(1);
   double largest = 0.0;
   for (int i = 0; i < 1'000'000; ++i) {
@@ -78,7 +78,7 @@ TEST(Arc, AnyPairsOfDirections) {
   EXPECT_LT(ends, c_bound);
 }
 
-TEST(Arc, SlerpGoesByEighths) {
+TEST(Arc, SlerpMatchesEighths) {
   Directions random(3);
   for (int i = 0; i < 20'000; ++i) {
     const glm::dvec3 u1 = random.any();
@@ -137,7 +137,7 @@ TEST(Arc, OpposedEndsTurnThroughTheMiddle) {
   EXPECT_GT(opposed, 10'000);
 }
 
-TEST(Arc, OpposedEndsWithoutAMiddleTakeOneWayForAll) {
+TEST(Arc, OpposedEndsWithoutAMiddleUseOnePlaneForAll) {
   Directions random(9);
   for (int i = 0; i < 100'000; ++i) {
     glm::dvec3 u1 = random.any();
@@ -162,7 +162,7 @@ TEST(Arc, OpposedEndsWithoutAMiddleTakeOneWayForAll) {
   }
 }
 
-TEST(Arc, AmplitudeZeroWhereTheVectorIsAcrossThePlane) {
+TEST(Arc, AmplitudeIsZeroIfTheVectorIsPerpendicularToThePlane) {
   const glm::dvec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   for (const glm::dvec3& v : {z, -z}) {
     const CosineArc arc = cosine_arc(x, y, v);
@@ -241,7 +241,7 @@ TEST(Arc, OnePixelSpans) {
 
 // The angle itself decides whether a light is above the horizon: it is within +-pi/2 or not, without
 // multiples of 2 pi.
-TEST(Arc, HighlightBehindTheLightsHorizon) {
+TEST(Arc, HighlightBelowTheLightsHorizon) {
   Directions random(13);
   int behind = 0, turned = 0;
   for (int i = 0; i < 200'000; ++i) {
@@ -265,7 +265,7 @@ TEST(Arc, HighlightBehindTheLightsHorizon) {
   EXPECT_GT(turned, 1'000);
 }
 
-TEST(Arc, TurnedRoundItIsTheSame) {
+TEST(Arc, ReversedEndsGiveTheSameResult) {
   Directions random(15);
   for (int i = 0; i < 100'000; ++i) {
     const glm::dvec3 u1 = random.any(), u2 = random.any(), v1 = random.any(), v2 = random.any();

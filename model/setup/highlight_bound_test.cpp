@@ -205,15 +205,16 @@ Outcome outcome(Brdf brdf, unsigned seed, int cases, bool grazing = false) {
       o.worst_centroid = std::max(o.worst_centroid, error);
     }
   }
-  std::cout << o.cases << " triangles, a quadratic follows " << o.followed << "; the test passes " << o.passed
-            << ", the worst off by " << o.worst << " thresholds, and splits " << o.split_in_vain
-            << " in vain; the published test alone passes " << o.passed_centroid << ", " << o.wrong_centroid
-            << " past twice the threshold, the worst off by " << o.worst_centroid << " steps\n";
+  std::cout << o.cases << " triangles, a quadratic follows " << o.followed << "; the test accepts "
+            << o.passed << ", greatest error " << o.worst << " thresholds, and splits " << o.split_in_vain
+            << " unnecessarily; the published test alone accepts " << o.passed_centroid << ", "
+            << o.wrong_centroid << " with an error above twice the threshold, greatest error "
+            << o.worst_centroid << " steps\n";
   return o;
 }
 
 // Accepted triangles have an error of at most twice the threshold. The test must not split everything.
-TEST(HighlightTest, WhatPassesIsWithinTwiceTheThreshold) {
+TEST(HighlightTest, AcceptedTrianglesAreWithinTwiceTheThreshold) {
   for (const Brdf brdf : {Brdf::blinn, Brdf::phong}) {
     const Outcome o = outcome(brdf, 1, 25000);
     EXPECT_LE(o.worst, 2.0);
@@ -285,8 +286,8 @@ TEST(HighlightTest, ThePublishedTestAloneMissesHighlightsThatThisOneFinds) {
             << degrees << " degrees, n = " << exponent << ", off by " << error;
       }
     }
-    std::cout << degrees << " degrees, n = " << exponent << ": the published test alone lets pass " << worst
-              << " steps\n";
+    std::cout << degrees << " degrees, n = " << exponent << ": the published test alone accepts errors up to "
+              << worst << " steps\n";
     EXPECT_GE(worst, at_least) << degrees << " degrees, n = " << exponent;
   }
 }
@@ -386,7 +387,7 @@ TEST(HighlightTest, CentroidErrorIsTheQuadraticsAgainstTheRadiance) {
   EXPECT_EQ(centroid_error(t, glm::dvec3(7.0)), 0.0) << "over-exposed is over-exposed";
 }
 
-TEST(HighlightTest, NothingIsMissedWithoutLightAndWhereNoneComes) {
+TEST(HighlightTest, BoundIsZeroWithoutLightAndInTheDark) {
   Case c = sphere_patch(20, 100, {0.3, 0.5, 0.2});
   const SampledTriangle t = sampled(c, c_whole);
   EXPECT_GT(missed_highlight_bound(c.scene, c.scene.materials[0], t), 50.0);

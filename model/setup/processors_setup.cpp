@@ -49,7 +49,7 @@ double largest_value(const golden::Field& f) {
 }
 
 // Rounds and clamps to the format.
-std::int64_t held(double value, const golden::Field& f) {
+std::int64_t clamped(double value, const golden::Field& f) {
   const double most = static_cast<double>(largest(f)), least = f.is_signed ? -most - 1.0 : 0.0;
   const double rounded = std::floor(std::ldexp(value, f.fraction_bits) + 0.5);
   return to_integer<std::int64_t>(std::clamp(rounded, least, most));
@@ -162,7 +162,7 @@ class ProcessorsSetup final : public Setup {
         normalizes_(has_places_ || options.normalize) {
     set_scales();
     for (const Material& m : scene.materials) materials_.push_back(material_words(m));
-    note_what_is_held();
+    note_clamped_values();
     if (config_.shadows) index_lines();
   }
 
@@ -289,20 +289,20 @@ class ProcessorsSetup final : public Setup {
 
   void put_colour(InitVector& init, glm::dvec3 light_intensity) const {
     for (int c = 0; c < config_.channels; ++c)
-      init.put(P::light_colour_channel_at::intensity, held(light_intensity[c] * c_white, c_intensity),
+      init.put(P::light_colour_channel_at::intensity, clamped(light_intensity[c] * c_white, c_intensity),
                layout_.light_colour_low(c));
   }
 
   void put_axis_vector(InitVector& init, const golden::Field& field, glm::dvec3 v) const {
     for (int axis = 0; axis < c_axes; ++axis)
-      init.put(field, held(v[axis], field), layout_.light_axis_low(axis));
+      init.put(field, clamped(v[axis], field), layout_.light_axis_low(axis));
   }
 
   // Writes a unit vector into the field of the place.
   void put_towards(InitVector& init, glm::dvec3 to_light_view) const {
     constexpr int c_below = P::c_light_place_fraction_bits - P::c_direction_fraction_bits;
     for (int axis = 0; axis < c_axes; ++axis)
-      init.put(Axis::place, held(to_light_view[axis], c_direction) * (std::int64_t{1} << c_below),
+      init.put(Axis::place, clamped(to_light_view[axis], c_direction) * (std::int64_t{1} << c_below),
                layout_.light_axis_low(axis));
   }
 
@@ -333,9 +333,9 @@ class ProcessorsSetup final : public Setup {
     if (!light.cone) return;
     init.put(Axes::spot, 1, low);
     put_axis_vector(init, Axis::axis, view_.direction(light.cone->axis_world));
-    init.put(Axes::outer, held(light.cone->cos_outer, Axes::outer), low);
+    init.put(Axes::outer, clamped(light.cone->cos_outer, Axes::outer), low);
     const double width = light.cone->cos_inner - light.cone->cos_outer;
-    init.put(Axes::slope, width > 0.0 ? held(1.0 / width, Axes::slope) : largest(Axes::slope), low);
+    init.put(Axes::slope, width > 0.0 ? clamped(1.0 / width, Axes::slope) : largest(Axes::slope), low);
   }
 
   void put_place(InitVector& init, glm::dvec3 place, int shift) const {
@@ -347,12 +347,12 @@ class ProcessorsSetup final : public Setup {
   }
 
   MaterialWords material_words(const Material& m) const {
-    MaterialWords w{.exponent = held(m.exponent, c_exponent)};
+    MaterialWords w{.exponent = clamped(m.exponent, c_exponent)};
     for (int c = 0; c < 3; ++c) {
       const auto i = static_cast<std::size_t>(c);
-      w.ambient[i] = held(m.ambient * m.colour[c], c_coefficient);
-      w.diffuse[i] = held(m.diffuse * m.colour[c], c_coefficient);
-      w.specular[i] = held(m.specular * m.specular_colour[c], c_coefficient);
+      w.ambient[i] = clamped(m.ambient * m.colour[c], c_coefficient);
+      w.diffuse[i] = clamped(m.diffuse * m.colour[c], c_coefficient);
+      w.specular[i] = clamped(m.specular * m.specular_colour[c], c_coefficient);
     }
     return w;
   }
@@ -546,11 +546,11 @@ class ProcessorsSetup final : public Setup {
           std::max(counts.deepest_shadow, over[light].most() + (opens ? volumes_[light].around_eye : 0));
   }
 
-  void note_what_is_held() {
+  void note_clamped_values() {
     const auto note_light = [&](const std::string& name, glm::dvec3 light_intensity) {
       const double most = largest_component(light_intensity);
       if (!holds(most * c_white, c_intensity))
-        notes_.push_back(fmt::format("the {} is {:.4g} times white and was held at {:.4g}", name, most,
+        notes_.push_back(fmt::format("the {} is {:.4g} times white and was clamped to {:.4g}", name, most,
                                      largest_value(c_intensity) / c_white));
     };
     note_light("ambient light", scene_.ambient);
@@ -563,13 +563,12 @@ class ProcessorsSetup final : public Setup {
       const std::optional<int> shift = light_shift(place_view(light));
       if (!shift)
         notes_.push_back(
-            fmt::format("{} is so far away that it was drawn as a directional one", name_of(light)));
+            fmt::format("{} is so far away that it was drawn as a directional light", name_of(light)));
       if constexpr (!c_exact)
         if (shift && !holds(std::ldexp(1.0, -scale_exponent_), Axis::half))
           notes_.push_back(
-              fmt::format("{}: the scene is so small that the eye's vector, which the published highlight "
-                          "adds to the way to the "
-                          "light, was held at {:.4g} times its size",
+              fmt::format("{}: the scene is so small that the unit vector to the eye, which the published "
+                          "highlight adds to the vector to the light, was clamped to {:.4g} times its size",
                           name_of(light), largest_value(Axis::half)));
       if (const auto& cone = light_of(scene_, light).cone) note_cone(light, *cone);
     }
@@ -579,8 +578,8 @@ class ProcessorsSetup final : public Setup {
     const double cos_outer = cone.cos_outer;
     if (1.0 - cos_outer >= c_least_cone * c_cosine_error) return;
     notes_.push_back(fmt::format(
-        "{}: its cone of {:.2g} degrees is so narrow that its light is rough: the cosine of an angle is only "
-        "good to {:.1g}",
+        "{}: its cone of {:.2g} degrees is so narrow that its light is noisy: the error of a cosine is up to "
+        "{:.1g}",
         name_of(light), 2.0 * glm::degrees(std::acos(cos_outer)), c_cosine_error));
   }
 
@@ -595,17 +594,17 @@ class ProcessorsSetup final : public Setup {
     for (const Term& term : terms) {
       const double most = largest_component(term.k);
       if (most > 0.0 && !holds(most, c_coefficient))
-        notes_.push_back(fmt::format("material '{}': its {} of {:.4g} was held at {:.4g}", m.name, term.name,
-                                     most, largest_value(c_coefficient)));
+        notes_.push_back(fmt::format("material '{}': its {} of {:.4g} was clamped to {:.4g}", m.name,
+                                     term.name, most, largest_value(c_coefficient)));
     }
     if (has_specular(m) && !lights_.empty() && !holds(m.exponent, c_exponent))
-      notes_.push_back(fmt::format("material '{}': its exponent {:.6g} was held at {:.6g}", m.name,
+      notes_.push_back(fmt::format("material '{}': its exponent {:.6g} was clamped to {:.6g}", m.name,
                                    m.exponent, largest_value(c_exponent)));
     const auto note_reflected = [&](const Term& term, const std::string& light, glm::dvec3 light_intensity) {
       const double most = largest_component(term.k * light_intensity);
       if (!holds(most * c_white, c_reflected))
         notes_.push_back(
-            fmt::format("material '{}': its {} times the {} is {:.4g} times white and is held at {:.4g}",
+            fmt::format("material '{}': its {} times the {} is {:.4g} times white and is clamped to {:.4g}",
                         m.name, term.name, light, most, largest_value(c_reflected) / c_white));
     };
     note_reflected(terms[0], "ambient light", scene_.ambient);

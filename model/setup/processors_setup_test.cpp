@@ -167,7 +167,7 @@ TEST(ProcessorsSetup, NarrowSpotsAreNoted) {
 }
 
 // A flat triangle with zero normals uses its own normal.
-TEST(ProcessorsSetup, OneZeroNormalIsTheTrianglesOwn) {
+TEST(ProcessorsSetup, ZeroNormalsUseTheTrianglesOwn) {
   Scene scene = ball();
   scene.directional = {{glm::normalize(glm::dvec3(0.2, 0.3, 1.0)), glm::dvec3(1.0)}};
   scene.normals_world = {glm::dvec3(0.0)};
@@ -181,7 +181,7 @@ std::vector<std::string> notes(const Scene& scene, Preset preset) {
   return make_setup(scene, c_frame, key_of(scene, preset), {})->notes();
 }
 
-TEST(ProcessorsSetup, WhatIsHeldIsNoted) {
+TEST(ProcessorsSetup, ClampedValuesAreNoted) {
   Scene scene = ball();
   scene.directional = {{.intensity = glm::dvec3(64.0)}};
   scene.ambient = glm::dvec3(64.0);
@@ -191,9 +191,9 @@ TEST(ProcessorsSetup, WhatIsHeldIsNoted) {
   EXPECT_THAT(notes(scene, Preset::exact), IsEmpty());
   // Colour steps, k and exponents as published.
   EXPECT_THAT(notes(scene, Preset::published),
-              UnorderedElementsAre(HasSubstr("ambient light is 64 times white and was held at 1"),
-                                   HasSubstr("directional light 1 is 64 times white and was held at 1"),
-                                   HasSubstr("'clay': its exponent 8000 was held at 1023"),
+              UnorderedElementsAre(HasSubstr("ambient light is 64 times white and was clamped to 1"),
+                                   HasSubstr("directional light 1 is 64 times white and was clamped to 1"),
+                                   HasSubstr("'clay': its exponent 8000 was clamped to 1023"),
                                    HasSubstr("its k_a times the ambient light is 57.6 times white"),
                                    HasSubstr("its k_d times the directional light 1 is 57.6 times white"),
                                    HasSubstr("its k_s times the directional light 1 is 32 times white")));
@@ -201,12 +201,13 @@ TEST(ProcessorsSetup, WhatIsHeldIsNoted) {
   scene.materials[0].diffuse = 20.0;
   scene.positional = {{{0.0, 0.0, 1e30}, glm::dvec3(100.0)}};
   scene.materials[0].exponent = 1e5;
-  EXPECT_THAT(notes(scene, Preset::exact),
-              UnorderedElementsAre(HasSubstr("positional light 1 is 100 times white and was held at 64.25"),
-                                   HasSubstr("'clay': its k_d of 18 was held at 16"),
-                                   HasSubstr("its exponent 100000 was held at 8192"),
-                                   HasSubstr("its k_d times the positional light 1 is 1800 times white"),
-                                   HasSubstr("so far away that it was drawn as a directional one")));
+  EXPECT_THAT(
+      notes(scene, Preset::exact),
+      UnorderedElementsAre(HasSubstr("positional light 1 is 100 times white and was clamped to 64.25"),
+                           HasSubstr("'clay': its k_d of 18 was clamped to 16"),
+                           HasSubstr("its exponent 100000 was clamped to 8192"),
+                           HasSubstr("its k_d times the positional light 1 is 1800 times white"),
+                           HasSubstr("so far away that it was drawn as a directional light")));
   // The resulting colours are the largest.
   for (const Preset preset : {Preset::exact, Preset::published})
     for (const Fragment& f : draw(scene, key_of(scene, preset)).fragments)
@@ -216,7 +217,7 @@ TEST(ProcessorsSetup, WhatIsHeldIsNoted) {
 }
 
 // With hardware for shadows the stream is ordered by lines. Each pixel is shaded as without shadows.
-TEST(ProcessorsSetup, LinesDrawWhatTrianglesDraw) {
+TEST(ProcessorsSetup, LineOrderDrawsTheSameAsTriangleOrder) {
   RandomScenes random(3);
   for (const Preset preset : {Preset::exact, Preset::published})
     for (int i = 0; i < 30; ++i) {
@@ -320,7 +321,7 @@ void for_each_vector(const std::vector<std::uint32_t>& words, unsigned bits, Vec
 
 // On each line: all depths, then shadows (opening ones first), then all triangles to shade, the same as in
 // the depth part.
-TEST(ProcessorsSetup, ALineIsDepthsShadowsAndSurfaces) {
+TEST(ProcessorsSetup, ALineHasDepthsThenShadowsThenSurfaces) {
   std::uint64_t opening = 0, closing = 0, before_near = 0;
   RandomSolids random(11);
   for (int i = 0; i < 3; ++i) {
@@ -369,7 +370,7 @@ TEST(ProcessorsSetup, ALineIsDepthsShadowsAndSurfaces) {
 }
 
 // A triangle with one normal uses it as N, each component rounded once.
-TEST(ProcessorsSetup, AnUnchangingNormalIsRoundedOnce) {
+TEST(ProcessorsSetup, AConstantNormalIsRoundedOnce) {
   Scene scene = ball();
   scene.directional = {{.to_light_world = {0.0, 0.0, 1.0}}};
   for (SceneTriangle& t : scene.triangles) t.normal = {t.normal[0], t.normal[0], t.normal[0]};
@@ -446,7 +447,7 @@ glm::dvec3 published_radiance(const Scene& scene, const ScreenTriangle& t, glm::
   return 255.0 * glm::min(sum, glm::dvec3(1.0));
 }
 
-TEST(ProcessorsSetup, PublishedDrawsWhatIsPublished) {
+TEST(ProcessorsSetup, PublishedMatchesThePublishedModel) {
   RandomScenes random(12);
   for (const auto kind : {RandomScenes::directional, RandomScenes::positional}) {
     std::uint64_t fragments = 0, far = 0;

@@ -130,7 +130,7 @@ TEST(Project, WithoutSubpixelsAVertexIsThePixelItFallsIn) {
   EXPECT_EQ(triangles[0].vertex[2].x, 63);
 }
 
-TEST(Project, CountsWhyNothingIsSeen) {
+TEST(Project, CountsTheReasonsIfNothingIsVisible) {
   const auto counts_of = [](std::array<glm::dvec3, 3> corners) {
     const Scene scene = one_triangle(corners);
     ProjectionCounts counts;
@@ -151,7 +151,7 @@ TEST(Project, CountsWhyNothingIsSeen) {
     EXPECT_EQ(counts_of({{{0, 0, 0}, {1, 0, 0}, {0, bad, 0}}}).unrepresentable, 1u) << bad;
 }
 
-TEST(Project, ACornerNearInfinityIsCutWhereItShould) {
+TEST(Project, ACornerNearInfinityIsCutCorrectly) {
   // A band of 45 degrees from the middle of the frame up to one of its corners, and its mirror image.
   const FrameSize frame{64, 64};
   for (const bool to_the_left : {false, true}) {
@@ -177,7 +177,7 @@ TEST(Project, ACornerNearInfinityIsCutWhereItShould) {
   EXPECT_EQ(counts.unrepresentable, 1u);
 }
 
-TEST(Project, ACameraWithoutAViewDrawsNothingAndSaysSo) {
+TEST(Project, ACameraWithoutAViewDrawsNothingAndReportsIt) {
   Scene scene = one_triangle({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}});
   scene.camera.up_world = {0, 0, 1};  // along the viewing axis
   ProjectionCounts counts;
@@ -302,7 +302,7 @@ TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
   EXPECT_GT(clipped_at_near, 100);
 }
 
-TEST(Project, TwoSidedIsTheSameWithTheBacks) {
+TEST(Project, TwoSidedAddsTheBackFaces) {
   const FrameSize frame{160, 120};
   for (unsigned seed = 0; seed < 8; ++seed) {
     const Scene scene = sphere_scene(3, seed);

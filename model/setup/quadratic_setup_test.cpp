@@ -130,7 +130,7 @@ constexpr std::array<FrameSize, 5> c_frames = {{{160, 120}, {37, 91}, {320, 64},
 
 // Triangles split or not, with split or unsplit neighbours, partly outside the frame: each triangle of the
 // scene draws its own pixels exactly once.
-TEST(QuadraticSetup, EachTriangleDrawsItsPixelsOnceHoweverItIsSplit) {
+TEST(QuadraticSetup, EachTriangleDrawsItsPixelsOnceForEverySplit) {
   std::vector<Scene> scenes = {teapot_scene()};
   for (unsigned seed = 0; seed < 3; ++seed) scenes.push_back(sphere_scene(seed, 0.1, 0.15));
   scenes.push_back(sphere_scene(9, 0.1, 0.15));
@@ -229,7 +229,7 @@ TEST(QuadraticSetup, DepthDoesNotDependOnSplitting) {
   }
 }
 
-TEST(QuadraticSetup, OneChannelIsAnyOfThreeWhereTheSceneIsGrey) {
+TEST(QuadraticSetup, OneChannelEqualsEachOfThreeInAGreyScene) {
   for (const Preset preset : {Preset::exact, Preset::published}) {
     Scene scene = sphere_scene(3, 0.1, 0.0);
     scene.materials[0].colour = glm::dvec3(0.7);
@@ -249,7 +249,7 @@ TEST(QuadraticSetup, OneChannelIsAnyOfThreeWhereTheSceneIsGrey) {
 }
 
 // Unlimited light: samples are clamped, so that no control point leaves the format.
-TEST(QuadraticSetup, OverexposureIsHeldAndCounted) {
+TEST(QuadraticSetup, OverexposureIsClampedAndCounted) {
   Scene scene = sphere_scene(1, 0.0, 0.0);
   const FrameSize frame{160, 120};
   EXPECT_EQ(draw(scene, frame, c_whole).counts.overexposed, 0u);
@@ -265,7 +265,7 @@ TEST(QuadraticSetup, OverexposureIsHeldAndCounted) {
   }
 }
 
-TEST(QuadraticSetup, CountsSayWhatWasDone) {
+TEST(QuadraticSetup, CountsAreCorrect) {
   const Scene scene = sphere_scene(5, 0.0, 0.0);
   const FrameSize frame{160, 120};
   const SetupCounts whole = draw(scene, frame, c_whole).counts, split = draw(scene, frame, c_split).counts;
@@ -290,7 +290,7 @@ TEST(QuadraticSetup, CountsSayWhatWasDone) {
 // The papers' walk: lines and spans include both ends, and the edges have real slopes. It draws every pixel
 // inside, none more than one pixel outside, and all in the frame. It repeats pixels along shared edges, as
 // published.
-TEST(QuadraticSetup, PublishedWalkCoversTheInsideAndStaysBesideTheEdges) {
+TEST(QuadraticSetup, PublishedWalkCoversTheInsideAndStaysCloseToTheEdges) {
   std::vector<Scene> scenes = {teapot_scene(), sphere_scene(6, 0.1, 0.1), sphere_scene(7, 0.1, 0.1)};
   scenes[2].camera.eye_world = {0.3, 0.2, 1.3};
   for (const Scene& scene : scenes)

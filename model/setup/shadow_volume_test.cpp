@@ -99,7 +99,7 @@ void expect_volumes_are_where_no_light_is(const Scene& scene, RandomSolids& rand
   }
 }
 
-TEST(ShadowVolume, OfSolidsIsWhereNoLightIs) {
+TEST(ShadowVolume, OfSolidsMatchesTheShadow) {
   RandomSolids random(1);
   Agreement sum;
   for (int round = 0; round < 40; ++round) {
@@ -112,7 +112,7 @@ TEST(ShadowVolume, OfSolidsIsWhereNoLightIs) {
   EXPECT_EQ(sum.in_doubt, 0);
 }
 
-TEST(ShadowVolume, OfALampBesideAndWithinSolids) {
+TEST(ShadowVolume, OfALampNextToAndInsideSolids) {
   RandomSolids random(2);
   Agreement sum;
   for (int round = 0; round < 40; ++round) {
@@ -168,7 +168,7 @@ TEST(ShadowVolume, OfAnyTrianglesIsClosed) {
   EXPECT_EQ(sum.in_doubt, 0);
 }
 
-TEST(ShadowVolume, SidesStandOnTheSilhouetteAlone) {
+TEST(ShadowVolume, SidesStartOnlyAtTheSilhouette) {
   Scene scene;
   add_mesh(scene, make_box(glm::dvec3(2.0), 3));
   const std::vector<LightRef> sun{{LightKind::directional, 0}};
@@ -199,7 +199,7 @@ TEST(ShadowVolume, SidesStandOnTheSilhouetteAlone) {
   EXPECT_EQ(unmatched_edges(closed_surface(scene, volumes)), 0u);
 }
 
-TEST(ShadowVolume, StaysWithinReason) {
+TEST(ShadowVolume, CoordinatesStayInRange) {
   RandomSolids random(5);
   for (int round = 0; round < 100; ++round) {
     Scene scene = random.scene(2);
@@ -348,7 +348,7 @@ Scene on_a_floor(RandomSolids& random, int solids) {
   return scene;
 }
 
-TEST(ShadowCount, StartsAtAnEyeWithinVolumes) {
+TEST(ShadowCount, IncludesVolumesAroundTheEye) {
   RandomSolids random(8);
   Figures figures;
   int within = 0;
@@ -378,7 +378,7 @@ TEST(ShadowCount, StartsAtAnEyeWithinVolumes) {
 }
 
 // The near plane cuts volumes and cuts solids open; the eye is in a solid; meshes are open.
-TEST(ShadowCount, AgreesWhereInsidesShow) {
+TEST(ShadowCount, AgreesWhereInsidesAreVisible) {
   RandomSolids random(9);
   Figures figures;
   for (int round = 0; round < 60; ++round) {

@@ -72,7 +72,7 @@ std::array<Crossing, 2> crossings(const ScreenTriangle& triangle, int subpixel_b
   return side;
 }
 
-double held_exponent(const Material& material) {
+double clamped_exponent(const Material& material) {
   return std::min(material.exponent, c_largest_exponent);
 }
 
@@ -80,7 +80,7 @@ double held_exponent(const Material& material) {
 
 Bells fitted_bells(const Scene& scene) {
   std::vector<double> exponents;
-  for (const Material& m : scene.materials) exponents.push_back(held_exponent(m));
+  for (const Material& m : scene.materials) exponents.push_back(clamped_exponent(m));
   return fitted_bells(exponents);
 }
 
@@ -104,8 +104,8 @@ SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const Hardwa
   if (preset_ == Preset::exact && !options_.bells)
     options_.bells = std::make_shared<const Bells>(fitted_bells(scene));
   for (const Material& m : scene.materials)
-    bells_.push_back(preset_ == Preset::exact ? options_.bells->at(held_exponent(m))
-                                              : Bell{2, published_scale(held_exponent(m))});
+    bells_.push_back(preset_ == Preset::exact ? options_.bells->at(clamped_exponent(m))
+                                              : Bell{2, published_scale(clamped_exponent(m))});
 }
 
 PointVectors SphericalSetup::vectors_at(const Material& material, const SurfacePoint& point) const {

@@ -355,8 +355,8 @@ struct Figures {
 std::ostream& operator<<(std::ostream& out, const Figures& f) {
   return out << f.fragments << " fragments, " << f.terms << " terms; largest part of the bound: diffuse "
              << f.diffuse << ", specular " << f.specular << ", fragment " << f.fragment << "; "
-             << f.behind_horizon << " behind a light's horizon, " << f.either << " at it; " << f.outside_bell
-             << " past a bell's ends; " << f.unknown_arcs << " arcs lost in rounding; " << f.cut
+             << f.behind_horizon << " below a light's horizon, " << f.either << " at it; " << f.outside_bell
+             << " outside a bell; " << f.unknown_arcs << " arcs lost in rounding; " << f.cut
              << " triangles cut; " << f.overexposed << " over-exposed";
 }
 
@@ -456,11 +456,11 @@ void expect_specification(const Scene& scene, FrameSize frame, const HardwareKey
                 const int channel = config.highlight_channels == 1 ? 0 : c;
                 if (horizon == Horizon::beyond) {
                   ++figures.behind_horizon;
-                  ASSERT_FALSE(lit) << where() << ": lit behind the horizon";
+                  ASSERT_FALSE(lit) << where() << ": lit below the horizon";
                   continue;
                 }
                 figures.either += horizon == Horizon::either;
-                ASSERT_TRUE(lit || horizon == Horizon::either) << where() << ": dark before the horizon";
+                ASSERT_TRUE(lit || horizon == Horizon::either) << where() << ": dark above the horizon";
                 figures.outside_bell += term.value == 0;
                 if (lit) check(term, specular[l].product(channel, lit) / one, figures.specular);
                 low += horizon == Horizon::either ? 0 : term.value - term.bound;
@@ -507,7 +507,7 @@ Scene random_scene(RandomScenes& random) {
 
 const SphericalSetupOptions c_never_cut = {.threshold = 1e9}, c_cut = {};
 
-TEST(SphericalSetup, ExactIsThePapersFormulasWithinEveryRounding) {
+TEST(SphericalSetup, ExactMatchesThePapersFormulasWithinTheRounding) {
   RandomScenes random(1);
   Figures figures;
   for (int i = 0; i < 160; ++i) {
@@ -531,7 +531,7 @@ TEST(SphericalSetup, ExactIsThePapersFormulasWithinEveryRounding) {
   EXPECT_GT(figures.fragment, 0.9);
 }
 
-TEST(SphericalSetup, VectorsSlerpedAlongTheEdgesAreTheFormulasToo) {
+TEST(SphericalSetup, VectorsSlerpedAlongTheEdgesMatchTheFormulas) {
   RandomScenes random(2);
   Figures figures;
   for (int i = 0; i < 80; ++i) {
@@ -546,7 +546,7 @@ TEST(SphericalSetup, VectorsSlerpedAlongTheEdgesAreTheFormulasToo) {
   EXPECT_EQ(figures.cut, 0u) << "cutting does not change what lies along the edges";
 }
 
-TEST(SphericalSetup, PublishedIsThePapersFormulasModuloItsRegisters) {
+TEST(SphericalSetup, PublishedMatchesThePapersFormulasModuloItsRegisters) {
   RandomScenes random(3);
   Figures figures;
   for (int i = 0; i < 120; ++i) {
@@ -619,7 +619,7 @@ Scene lit_mesh(RandomScenes& random, int kind, RandomScenes::Lights lights) {
 
 // Lines are checked at a few places. Between them the error is not bounded, so pixels above the bound are
 // counted.
-TEST(SphericalSetup, ExactIsWithinItsPromiseOfTheIlluminationModel) {
+TEST(SphericalSetup, ExactIsWithinItsBoundOfTheIlluminationModel) {
   RandomScenes random(4);
   for (const auto& [name, lights] : {std::pair{"directional", RandomScenes::directional},
                                      {"positional", RandomScenes::positional},
@@ -634,7 +634,7 @@ TEST(SphericalSetup, ExactIsWithinItsPromiseOfTheIlluminationModel) {
               << ", " << whole.counts.vectors << " vectors, " << whole.counts.records << " records, "
               << whole.counts.shaded << " shaded\n"
               << name << ", cut: PSNR " << cut.psnr() << " dB, largest error " << cut.largest << ", "
-              << cut.past << " of " << cut.pixels << " pixels past the promise, by up to " << cut.largest_past
+              << cut.past << " of " << cut.pixels << " pixels above the bound, by up to " << cut.largest_past
               << "; " << cut.counts.subdivided << " of " << cut.counts.triangles << " triangles cut, "
               << cut.counts.leaves << " columns, " << cut.counts.vectors << " vectors, " << cut.counts.records
               << " records, " << cut.counts.shaded << " shaded\n";
@@ -709,7 +709,7 @@ TEST(SphericalSetup, NarrowSpotsAreNotMissed) {
     measure(scene, {320, 240}, c_cut, cut);
   }
   std::cout << "PSNR " << whole.psnr() << " dB uncut, " << cut.psnr() << " dB cut, " << cut.past
-            << " pixels past the promise\n";
+            << " pixels above the bound\n";
   EXPECT_GT(whole.largest, 100.0);
   EXPECT_GT(cut.psnr(), 60.0);
   EXPECT_EQ(cut.past, 0u);
@@ -717,7 +717,7 @@ TEST(SphericalSetup, NarrowSpotsAreNotMissed) {
 
 // Normals that turn by any angle along slivers and triangles of every kind, with a light and a spot close to
 // them.
-TEST(SphericalSetup, WildNormalsAreCutToo) {
+TEST(SphericalSetup, ArbitraryNormalsAreSplit) {
   RandomScenes random(14);
   RandomTriangles triangles(14);
   Accuracy cut;
@@ -730,7 +730,7 @@ TEST(SphericalSetup, WildNormalsAreCutToo) {
         add_on_screen(scene, triangles.next(kind, c_exact_subpixel_bits, frame), frame, random);
         measure(scene, frame, c_cut, cut);
       }
-  std::cout << cut.past << " of " << cut.pixels << " pixels past the promise, by up to " << cut.largest_past
+  std::cout << cut.past << " of " << cut.pixels << " pixels above the bound, by up to " << cut.largest_past
             << '\n';
   EXPECT_GT(cut.pixels, 100'000u);
   EXPECT_LE(cut.past, 2u);
@@ -759,7 +759,7 @@ Pixels drawn_pixels(const Drawn& drawn) {
   return pixels;
 }
 
-TEST(SphericalSetup, EachTriangleDrawsItsPixelsOnceHoweverItIsCut) {
+TEST(SphericalSetup, EachTriangleDrawsItsPixelsOnceForEverySplit) {
   RandomScenes random(5);
   std::uint64_t cut = 0, pixels = 0;
   for (int i = 0; i < 18; ++i) {
@@ -802,7 +802,7 @@ TEST(SphericalSetup, AnyTriangleDrawsItsPixelsOnce) {
   EXPECT_GT(pixels, 100'000u);
 }
 
-TEST(SphericalSetup, DepthIsThePlanesHoweverTheTriangleIsCut) {
+TEST(SphericalSetup, DepthIsThatOfThePlaneForEverySplit) {
   const FrameSize frame{320, 240};
   for (const double threshold : {1e9, 0.05}) {
     RandomScenes random(6);
@@ -821,7 +821,7 @@ TEST(SphericalSetup, DepthIsThePlanesHoweverTheTriangleIsCut) {
   }
 }
 
-TEST(SphericalSetup, OneChannelIsAnyOfThreeWhereTheSceneIsGrey) {
+TEST(SphericalSetup, OneChannelEqualsEachOfThreeInAGreyScene) {
   RandomScenes random(7);
   for (const Preset preset : {Preset::exact, Preset::published})
     for (int i = 0; i < 6; ++i) {
@@ -842,7 +842,7 @@ TEST(SphericalSetup, OneChannelIsAnyOfThreeWhereTheSceneIsGrey) {
 }
 
 // A scene without some effect on hardware that has it gives the same picture.
-TEST(SphericalSetup, HardwareThatASceneDoesNotCallForAddsNothing) {
+TEST(SphericalSetup, UnusedHardwareAddsNothing) {
   RandomScenes random(8);
   for (const Preset preset : {Preset::exact, Preset::published})
     for (const bool diffuse : {true, false}) {
@@ -896,7 +896,7 @@ TEST(SphericalSetup, MaterialsDoNotMix) {
   }
 }
 
-TEST(SphericalSetup, CountsSayWhatWasDone) {
+TEST(SphericalSetup, CountsAreCorrect) {
   RandomScenes random(10);
   const Scene scene = lit_mesh(random, 1, RandomScenes::positional);
   const FrameSize frame{160, 120};
@@ -943,7 +943,7 @@ TEST(SphericalSetup, WithoutLightsThereAreNoRecords) {
   }
 }
 
-TEST(SphericalSetup, WhereTheEyeIsTheNormalStandsForItsDirection) {
+TEST(SphericalSetup, AtTheEyeTheNormalIsUsedAsItsDirection) {
   Scene scene = stage();
   add_side_lights(scene);
   const SphericalSetup setup(scene, c_stage_frame, spherical_key(scene), {});
@@ -974,7 +974,7 @@ std::string notes(const Scene& scene, Preset preset = Preset::exact) {
   return all;
 }
 
-TEST(SphericalSetup, ExponentsPastTheLargestAreHeldAndNoted) {
+TEST(SphericalSetup, TooLargeExponentsAreClampedAndNoted) {
   Scene steep = stage({{{0.003, 0.001, 1}, {-0.003, 0.002, 1}, {0, -0.003, 1}}});
   move_eye_away(steep);
   steep.directional.push_back({{0, 0, 1}, glm::dvec3(0.9)});

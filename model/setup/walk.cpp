@@ -9,11 +9,11 @@ namespace {
 
 // Position of an edge's pixel on the lines of an interval. Outside the frame it is clamped to the frame's
 // side.
-enum class Held { left, no, right };
+enum class Clamped { left, no, right };
 
 struct Interval {
   std::int64_t begin, end;  // lines
-  Held held;
+  Clamped clamped;
   const Edge* edge;
 };
 
@@ -41,15 +41,15 @@ void split(const Edge& edge, std::int64_t begin, std::int64_t end, std::int64_t 
   const auto last = [&](std::int64_t y) { return to_right ? right(y) : left(y); };
   const std::int64_t a = first_where(begin, end, first);
   const std::int64_t b = first_where(a, end, last);
-  if (begin < a) out.push_back({begin, a, to_right ? Held::left : Held::right, &edge});
-  if (a < b) out.push_back({a, b, Held::no, &edge});
-  if (b < end) out.push_back({b, end, to_right ? Held::right : Held::left, &edge});
+  if (begin < a) out.push_back({begin, a, to_right ? Clamped::left : Clamped::right, &edge});
+  if (a < b) out.push_back({a, b, Clamped::no, &edge});
+  if (b < end) out.push_back({b, end, to_right ? Clamped::right : Clamped::left, &edge});
 }
 
 EdgeSection section(const Interval& interval, std::int64_t begin, std::int64_t end, std::int64_t width) {
   EdgeSection s;
-  if (interval.held != Held::no) {
-    s.pixel = interval.held == Held::left ? 0 : width;
+  if (interval.clamped != Clamped::no) {
+    s.pixel = interval.clamped == Clamped::left ? 0 : width;
     return s;
   }
   const Edge::State at = interval.edge->at(begin);
@@ -121,8 +121,8 @@ std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> p, int unit_bits, FrameS
   for (std::size_t i = 0, j = 0; i < starts.size() && j < stops.size();) {
     const std::int64_t run_begin = std::max(starts[i].begin, stops[j].begin);
     const std::int64_t run_end = std::min(starts[i].end, stops[j].end);
-    const bool beside = starts[i].held != Held::no && starts[i].held == stops[j].held;
-    if (!beside) runs.push_back({run_begin, run_end, &starts[i], &stops[j]});
+    const bool outside = starts[i].clamped != Clamped::no && starts[i].clamped == stops[j].clamped;
+    if (!outside) runs.push_back({run_begin, run_end, &starts[i], &stops[j]});
     if (starts[i].end == run_end) ++i;
     if (stops[j].end == run_end) ++j;
   }

@@ -174,7 +174,7 @@ TEST(Walk, OrderOfThePointsDoesNotMatter) {
 }
 
 // A single line of a walk has the same span and sums as in the walk.
-TEST(Walk, ALineOfItIsThatLine) {
+TEST(Walk, ASingleLineEqualsTheLineOfTheWalk) {
   RandomTriangles random(17);
   std::uint64_t lines = 0, carries = 0;
   for (const TriangleKind kind : c_triangle_kinds)

@@ -15,7 +15,7 @@ namespace {
 constexpr double c_half_pi = std::numbers::pi / 2;
 constexpr std::array c_powers = {1, 2, 4, 8, 16};
 
-double held(double exponent) {
+double clamped(double exponent) {
   return std::max(1.0, std::min(exponent, 1e15));  // in this order NaN gives 1
 }
 
@@ -99,7 +99,7 @@ Fit fit(double exponent, const SampledLobe& truth, int power) {
 }  // namespace
 
 Bell fitted_bell(double exponent) {
-  exponent = held(exponent);
+  exponent = clamped(exponent);
   const SampledLobe truth = sampled_lobe(exponent);
   Bell best{};
   double least = std::numeric_limits<double>::infinity();
@@ -122,7 +122,7 @@ double published_scale(double exponent) {
   // With t = pi/4a and q = pi/2 the right side of the equation is (q^2 sin^2 t - t^2)/(q^2 - t^2). This form
   // has no cancellation for large a. It is 0/0 at a = 1/2, t = q, that is at n = 0. It increases with t: as
   // 0.60 t^2 for small t and as 0.41 t^2 at q.
-  const double target = 1.0 / (held(exponent) + 1.0);
+  const double target = 1.0 / (clamped(exponent) + 1.0);
   double low = std::sqrt(target), high = c_half_pi * low;
   double t = std::midpoint(low, high);
   while (low < t && t < high) {
@@ -135,7 +135,7 @@ double published_scale(double exponent) {
 }
 
 double fit_error(double exponent, const Bell& bell) {
-  exponent = held(exponent);
+  exponent = clamped(exponent);
   struct Point {
     double x, truth, bell;
     double error() const { return std::abs(truth - bell); }

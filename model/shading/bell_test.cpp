@@ -318,7 +318,7 @@ TEST(FittedBell, FollowsTheRootOfALargeExponent) {
   }
 }
 
-TEST(Bell, ExponentsOutOfRangeAreHeld) {
+TEST(Bell, ExponentsOutOfRangeAreClamped) {
   constexpr double c_infinity = std::numeric_limits<double>::infinity();
   const auto expect_same = [](double n, double held) {
     const Bell a = fitted_bell(n), b = fitted_bell(held);
@@ -343,7 +343,7 @@ std::vector<Bell> bells_to_bound(double n, Random& random) {
   return bells;
 }
 
-TEST(FitError, BoundsWhatIsSampledAndNotMuchMore) {
+TEST(FitError, IsSlightlyAboveTheSampledError) {
   Random random(2);
   std::vector<double> exponents = {1.0, 1.0001, 1.01, 1.5, 1.99, 2.0, 2.0001, 3.0, 4.0, 16.0, 1000.0};
   for (int i = 0; i < 60; ++i) exponents.push_back(random.log_uniform(1.0, i % 2 == 0 ? 20.0 : 1e6));

@@ -14,24 +14,24 @@ bool is_black(glm::dvec3 colour) {
 }
 
 // Materials in use.
-using Worn = std::vector<const Material*>;
+using Materials = std::vector<const Material*>;
 
-Worn worn_of(const Scene& scene) {
-  const std::vector<bool> worn = worn_materials(scene);
-  Worn materials;
-  for (std::size_t i = 0; i < worn.size(); ++i)
-    if (worn[i]) materials.push_back(&scene.materials[i]);
+Materials materials_in_use(const Scene& scene) {
+  const std::vector<bool> in_use = worn_materials(scene);
+  Materials materials;
+  for (std::size_t i = 0; i < in_use.size(); ++i)
+    if (in_use[i]) materials.push_back(&scene.materials[i]);
   return materials;
 }
 
 // The first material that passes the test, or null.
-const Material* first(const Worn& materials, bool (*test)(const Material&)) {
+const Material* first(const Materials& materials, bool (*test)(const Material&)) {
   const auto it =
       std::find_if(materials.begin(), materials.end(), [&](const Material* m) { return test(*m); });
   return it == materials.end() ? nullptr : *it;
 }
 
-bool reflects(const Worn& materials) {
+bool reflects(const Materials& materials) {
   return first(materials, has_diffuse) != nullptr || first(materials, has_specular) != nullptr;
 }
 
@@ -51,51 +51,51 @@ std::string first_coloured_light(const Scene& scene) {
   return {};
 }
 
-Call call_ambient(const Scene& scene, const Worn& worn) {
+Call call_ambient(const Scene& scene, const Materials& in_use) {
   if (is_black(scene.ambient)) return {false, "the ambient light is 0"};
-  const Material* m = first(worn, has_ambient);
+  const Material* m = first(in_use, has_ambient);
   if (m == nullptr) return {false, "every k_a is 0"};
   return {true, fmt::format("material '{}' has k_a {:g}", m->name, m->ambient)};
 }
 
-Call call_colour(const Scene& scene, const Worn& worn) {
+Call call_colour(const Scene& scene, const Materials& in_use) {
   if (!is_grey(scene.ambient)) return {true, "the ambient light is coloured"};
   if (std::string light = first_coloured_light(scene); !light.empty()) return {true, std::move(light)};
-  if (const Material* m = first(worn, is_coloured))
+  if (const Material* m = first(in_use, is_coloured))
     return {true, fmt::format("material '{}' is coloured", m->name)};
   return {false, "every light and material is grey"};
 }
 
 const char* c_no_light = "no light shines";
 
-Call call_diffuse(const Worn& worn, bool lit) {
+Call call_diffuse(const Materials& in_use, bool lit) {
   if (!lit) return {false, c_no_light};
-  const Material* m = first(worn, has_diffuse);
+  const Material* m = first(in_use, has_diffuse);
   if (m == nullptr) return {false, "every k_d is 0"};
   return {true, fmt::format("material '{}' has k_d {:g}", m->name, m->diffuse)};
 }
 
-Call call_specular(const Worn& worn, bool lit) {
+Call call_specular(const Materials& in_use, bool lit) {
   if (!lit) return {false, c_no_light};
-  const Material* m = first(worn, has_specular);
+  const Material* m = first(in_use, has_specular);
   if (m == nullptr) return {false, "every k_s is 0"};
   return {true, fmt::format("material '{}' has k_s {:g}", m->name, m->specular)};
 }
 
 const char* c_no_highlight = "there is no highlight";
 
-Call call_highlight_colour(const Scene& scene, const Worn& worn, const Call& specular) {
+Call call_highlight_colour(const Scene& scene, const Materials& in_use, const Call& specular) {
   if (!specular.called_for) return {false, c_no_highlight};
   if (std::string light = first_coloured_light(scene); !light.empty()) return {true, std::move(light)};
-  if (const Material* m = first(worn, has_coloured_highlight))
+  if (const Material* m = first(in_use, has_coloured_highlight))
     return {true, fmt::format("the highlights of material '{}' are coloured", m->name)};
   return {false, "every highlight is white"};
 }
 
-Call call_exponents(const Worn& worn, const Call& specular) {
+Call call_exponents(const Materials& in_use, const Call& specular) {
   if (!specular.called_for) return {false, c_no_highlight};
   std::set<double> exponents;
-  for (const Material* m : worn)
+  for (const Material* m : in_use)
     if (has_specular(*m) && m->brdf != Brdf::cook_torrance) exponents.insert(m->exponent);
   if (exponents.empty()) return {false, "no highlight has an exponent"};
   if (exponents.size() == 1) return {false, fmt::format("every exponent is {:g}", *exponents.begin())};
@@ -123,13 +123,13 @@ std::vector<LightRef> shining_lights(const Scene& scene) {
 }
 
 std::vector<LightRef> reflected_lights(const Scene& scene) {
-  return reflects(worn_of(scene)) ? shining_lights(scene) : std::vector<LightRef>();
+  return reflects(materials_in_use(scene)) ? shining_lights(scene) : std::vector<LightRef>();
 }
 
 std::vector<bool> worn_materials(const Scene& scene) {
-  std::vector<bool> worn(scene.materials.size(), false);
-  for (const SceneTriangle& t : scene.triangles) worn[t.material] = true;
-  return worn;
+  std::vector<bool> in_use(scene.materials.size(), false);
+  for (const SceneTriangle& t : scene.triangles) in_use[t.material] = true;
+  return in_use;
 }
 
 bool has_diffuse(const Material& m) {
@@ -160,16 +160,16 @@ std::size_t SceneCalls::count(LightKind kind) const {
 }
 
 SceneCalls calls_of(const Scene& scene) {
-  const Worn worn = worn_of(scene);
+  const Materials in_use = materials_in_use(scene);
   SceneCalls calls;
   calls.lights = reflected_lights(scene);
   const auto at = [&](Effect effect) -> Call& { return calls.call[static_cast<std::size_t>(effect)]; };
   const bool lit = !shining_lights(scene).empty();
-  at(Effect::ambient) = call_ambient(scene, worn);
-  at(Effect::diffuse) = call_diffuse(worn, lit);
-  at(Effect::specular) = call_specular(worn, lit);
-  at(Effect::highlight_colour) = call_highlight_colour(scene, worn, at(Effect::specular));
-  at(Effect::exponents) = call_exponents(worn, at(Effect::specular));
+  at(Effect::ambient) = call_ambient(scene, in_use);
+  at(Effect::diffuse) = call_diffuse(in_use, lit);
+  at(Effect::specular) = call_specular(in_use, lit);
+  at(Effect::highlight_colour) = call_highlight_colour(scene, in_use, at(Effect::specular));
+  at(Effect::exponents) = call_exponents(in_use, at(Effect::specular));
   at(Effect::directional) = call_lights(scene, LightKind::directional, calls);
   at(Effect::positional) = call_lights(scene, LightKind::positional, calls);
   at(Effect::spot) = call_lights(scene, LightKind::spot, calls);
@@ -177,13 +177,13 @@ SceneCalls calls_of(const Scene& scene) {
     if (calls.lights.empty()) return {false, lit ? "no material reflects a light" : c_no_light};
     return {true, why};
   };
-  at(Effect::shadow) = {false, "the scene does without"};
-  if (scene.shadows) at(Effect::shadow) = where_reflected("surfaces keep light from one another");
-  at(Effect::normalization) = where_reflected("lights are reflected by cosines of unit vectors");
-  at(Effect::colour) = call_colour(scene, worn);
+  at(Effect::shadow) = {false, "the scene has no shadows"};
+  if (scene.shadows) at(Effect::shadow) = where_reflected("surfaces cast shadows");
+  at(Effect::normalization) = where_reflected("reflection uses cosines between unit vectors");
+  at(Effect::colour) = call_colour(scene, in_use);
   at(Effect::depth) = {true, "the z test needs every fragment's depth"};
-  at(Effect::subdivision) = where_reflected("a reflection may be finer than a triangle");
-  at(Effect::perspective) = {true, "every camera sees in perspective"};
+  at(Effect::subdivision) = where_reflected("details of a reflection may be smaller than a triangle");
+  at(Effect::perspective) = {true, "every camera has perspective"};
   return calls;
 }
 

@@ -26,7 +26,7 @@ std::pair<int, int> hits(const Triangles& triangles, const LightRay& ray) {
   return {enters, leaves};
 }
 
-TEST(LightRay, TakesEachKindOfLight) {
+TEST(LightRay, SupportsEachKindOfLight) {
   Scene scene;
   scene.directional = {{{0, 1, 0}, {}}, {{0, 0, -1}, {}}};
   scene.positional = {{{3, 4, 5}, {}}};
@@ -37,7 +37,7 @@ TEST(LightRay, TakesEachKindOfLight) {
   EXPECT_EQ(light_of(scene, {LightKind::spot, 0}).point.way_from(point), glm::dvec3(5, 6, 7));
 }
 
-TEST(LightRay, AvertedIsWhatLooksAway) {
+TEST(LightRay, AvertedTrianglesFaceAwayFromTheLight) {
   const CornersWorld up{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}};
   EXPECT_FALSE(is_averted(up, {{0, 1, 0}, 0.0}));
   EXPECT_TRUE(is_averted(up, {{0, -1, 0}, 0.0}));
@@ -47,7 +47,7 @@ TEST(LightRay, AvertedIsWhatLooksAway) {
   EXPECT_FALSE(is_averted({{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}}}, {{1, 2, 3}, 0.0}));
 }
 
-TEST(LightRay, SaysWhereAndWhichWay) {
+TEST(LightRay, ReportsDistanceAndDirection) {
   const CornersWorld up{{{-1, 2, -1}, {0, 2, 2}, {2, 2, -1}}};
   const LightRay from_below({0, 0, 0}, {{0, 8, 0}, 1.0}), from_above({0, 8, 0}, {{0, -1, 0}, 0.0});
   EXPECT_EQ(from_below.hit(up).crossing, Crossing::leaves);

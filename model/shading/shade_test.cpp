@@ -140,7 +140,7 @@ TEST(Shade, CookTorranceFromOppositeHorizonsIsBounded) {
   EXPECT_EQ(specular_factor(material, c_up, {1, 0, 0}, {-1, 0, 0}), 0.0);
 }
 
-TEST(Shade, NothingShinesFromBelowTheHorizon) {
+TEST(Shade, LightsBelowTheHorizonContributeNothing) {
   for (Brdf brdf : {Brdf::blinn, Brdf::phong, Brdf::cook_torrance}) {
     Material material = cook_torrance(0.9, 0.9);
     material.brdf = brdf;
@@ -227,7 +227,7 @@ TEST(Shade, RadianceSumsTheTermsOfEachLight) {
   EXPECT_EQ(radiance(scene, material, {}, -c_up), ambient);
 }
 
-TEST(Shade, ALightThatDoesNotReachGivesNothing) {
+TEST(Shade, ABlockedLightContributesNothing) {
   Scene scene;
   scene.ambient = {0.5, 0.25, 0.125};
   // Each light has its own colour channel. The second light of each kind has the weight of the next digit.
@@ -252,7 +252,7 @@ TEST(Shade, ALightThatDoesNotReachGivesNothing) {
   }
 }
 
-TEST(Shade, RadianceIsFiniteWhateverTheScene) {
+TEST(Shade, RadianceIsFiniteForEveryScene) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const auto pick = [&](const std::vector<double>& values) { return values[random() % values.size()]; };

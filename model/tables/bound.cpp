@@ -19,7 +19,7 @@ class Formula {
 
   double value() {
     const double sum = this->sum();
-    if (next() != '\0') fail("something is left over");
+    if (next() != '\0') fail("unexpected text");
     return sum;
   }
 
@@ -93,7 +93,7 @@ class Formula {
   }
   double bracketed() {
     const double value = sum();
-    if (!take(')')) fail("a bracket stays open");
+    if (!take(')')) fail("a closing bracket is missing");
     return value;
   }
 

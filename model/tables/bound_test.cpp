@@ -29,14 +29,14 @@ TEST(Bound, FormulasAreReadAsTheyAreWritten) {
   EXPECT_EQ(value("(1 + k + k * (k - 1) / 2) * u / 2"), (1 + 4095 + 4095 * 4094 / 2) * 0x1p-21);
 }
 
-TEST(Bound, WhatIsNoFormulaIsRefused) {
+TEST(Bound, InvalidFormulasAreRefused) {
   const Quantity quantities[] = {{"k", 1}};
   for (const std::string_view formula :
        {"", "1 +", "(1", "1)", "1 2", "m", "kk", "sqrt 4", "sqrt(4", "2 ** 3", "#", "1 + $"})
     EXPECT_THROW(evaluated(formula, quantities), std::logic_error) << formula;
 }
 
-TEST(Bound, IsSaidInOneLine) {
+TEST(Bound, IsPrintedInOneLine) {
   EXPECT_EQ(to_string(at_most(4095, "frame - 1")), "at most 4095: frame - 1");
   EXPECT_EQ(to_string(at_most(1, "1")), "at most 1");
   EXPECT_EQ(to_string(off_by(0.15, "colour steps", "k * u")), "off by at most 0.15 colour steps: k * u");
@@ -49,7 +49,7 @@ void expect_near(double stated, double derived, const std::string& name) {
   EXPECT_GE(derived, stated * 0.8) << name;
 }
 
-TEST(Bound, EveryFormatStatesOneThatItsDerivationComesTo) {
+TEST(Bound, EveryFormatsBoundMatchesItsDerivation) {
   for (const PresetFormats& preset : preset_formats())
     for (const Format& format : preset.formats) {
       const std::string name = std::string(preset.name) + " " + std::string(format.name);
@@ -58,12 +58,12 @@ TEST(Bound, EveryFormatStatesOneThatItsDerivationComesTo) {
     }
 }
 
-TEST(Bound, EveryFunctionTableStatesOne) {
+TEST(Bound, EveryFunctionTableHasABound) {
   for (const FunctionTable& table : function_tables())
     expect_near(table.error.value, derived(table), "a table");
 }
 
-TEST(Bound, ABitLessBreaksWhatIsStatedOfARounding) {
+TEST(Bound, OneBitLessViolatesARoundingBound) {
   for (PresetFormats preset : preset_formats())
     for (Format& format : preset.formats) {
       --format.fraction_bits;

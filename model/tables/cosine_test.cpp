@@ -108,7 +108,7 @@ TEST(Cosine, ThereAreNoOtherSizesAndPowers) {
   EXPECT_THROW(cosine_table(false, 4, 6, 6), std::invalid_argument);
 }
 
-TEST(Cosine, TheExactTableFallsFromItsPeakToNearZero) {
+TEST(Cosine, TheExactTableFallsFromItsPeakToNearlyZero) {
   for (const int power : c_exact_powers) {
     const CosineTable table = cosine_table(true, power, 9, 8);
     EXPECT_EQ(table.entries.front(), 255U) << name_of(table);
@@ -207,7 +207,7 @@ TEST(Cosine, ErrorsOfSquaredCosine) {
         << address_bits << "/" << data_bits;
 }
 
-TEST(Cosine, TheGeneratedTablesAreEachThereOnce) {
+TEST(Cosine, EachGeneratedTableExistsOnce) {
   std::vector<std::string> names;
   for (const CosineTable& table : cosine_tables()) names.push_back(name_of(table));
   EXPECT_THAT(
@@ -226,7 +226,7 @@ std::string committed(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(Cosine, TheCommittedFilesAreTheGeneratorsOwn) {
+TEST(Cosine, TheCommittedFilesEqualTheGenerators) {
   EXPECT_TRUE(cosine_vhdl_package() == committed("rtl/tables/cosine_pkg.vhd")) << "run `make tables`";
   EXPECT_TRUE(cosine_cpp_header() == committed("model/golden/cosine_tables.hpp")) << "run `make tables`";
 }

@@ -21,7 +21,7 @@ std::string committed(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(Formats, TheCommittedFilesAreTheTablesOwn) {
+TEST(Formats, TheCommittedFilesEqualTheGenerators) {
   const auto presets = preset_formats();
   EXPECT_TRUE(vhdl_package(presets) == committed("rtl/tables/formats_pkg.vhd")) << "run `make tables`";
   EXPECT_TRUE(cpp_header(presets) == committed("model/golden/formats.hpp")) << "run `make tables`";
@@ -107,7 +107,7 @@ double stated(const PresetFormats& preset, std::string_view name, std::string_vi
 }
 
 // Checks that the bounds are sufficient for the use of the formats.
-TEST(Formats, BoundsSufficeForWhatTheFormatsServe) {
+TEST(Formats, BoundsAreSufficientForTheUseOfTheFormats) {
   using golden::Exact;
   const auto presets = preset_formats();
   const PresetFormats& exact = presets[0];

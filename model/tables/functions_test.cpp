@@ -112,7 +112,7 @@ TEST(Functions, TheRootsEntryHasItsFormat) {
   expect_formats<golden::Published>();
 }
 
-TEST(Functions, TheCommittedFilesAreTheGeneratorsOwn) {
+TEST(Functions, TheCommittedFilesEqualTheGenerators) {
   for (const auto& [name, text] : {std::pair{"rtl/tables/function_pkg.vhd", function_vhdl_package()},
                                    {"model/golden/function_tables.hpp", function_cpp_header()}}) {
     const auto committed = read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / name);
@@ -139,7 +139,7 @@ std::vector<std::uint32_t> numbers_of(const std::string& text, const std::string
 
 // The testbench of the tables and its vectors list the functions by hand. A missing function would not be
 // tested.
-TEST(Functions, TheTestbenchReadsEveryOne) {
+TEST(Functions, TheTestbenchReadsEveryFunction) {
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const auto testbench = read_file(source / "tb/tables/function_rom_tb.vhd");
   const auto vectors = read_file(source / "tb/vectors/shading.cpp");

@@ -40,7 +40,7 @@ TEST_F(PlanCommand, ListsEveryEffectAndWhatIsLeftOut) {
                     ContainsRegex("\nspecular +no +hardware +every k_s is 0\n +left out: .*1 specular_slice"),
                     ContainsRegex("\nhighlight colour +no +hardware +there is no highlight\n"),
                     ContainsRegex("\npositional +no +hardware +the scene has no positional light\n"),
-                    ContainsRegex("\nshadow +no +- +the scene does without; not by this shader\n"),
+                    ContainsRegex("\nshadow +no +- +the scene has no shadows; not by this shader\n"),
                     ContainsRegex("\nperspective correction +yes +host .*; at both ends of a span\n"),
                     ContainsRegex("\n  specular_slice +0 +1 +100 %\n"), Not(HasSubstr("measured"))));
   EXPECT_THAT(run({"plan", "lights"}).output,
@@ -50,7 +50,7 @@ TEST_F(PlanCommand, ListsEveryEffectAndWhatIsLeftOut) {
   const Outcome all = run({"plan", "matte", "--shader", "spherical", "--all-effects", "--lights", "4"});
   EXPECT_THAT(all.output,
               AllOf(HasSubstr("all effects    spherical_shader-exact-c3-l4-d-s3-cos1.2.4.8.16-rom9x8\n"),
-                    ContainsRegex("\nspecular +no +hardware +every k_s is 0; a slice a light\n"
+                    ContainsRegex("\nspecular +no +hardware +every k_s is 0; one slice per light\n"
                                   " +there all the same: .*4 specular_slice")));
 }
 
