@@ -203,7 +203,7 @@ TEST_F(CliTest, RenderingTheGoldenModelSaysWhatWasHeld) {
   const Outcome golden = run(
       {"render", scene, "--method", "golden", "--shader", "processors", "--size", "20x15", "--file", image});
   EXPECT_EQ(golden.exit_code, 0) << golden.output;
-  EXPECT_THAT(golden.output, HasSubstr("directional light 1 is 100 times white and was held"));
+  EXPECT_THAT(golden.output, HasSubstr("directional light 1 is 100 times white and was clamped"));
 }
 
 TEST_F(CliTest, CameraInsideTheMeshOrBehindItStillDraws) {

@@ -23,13 +23,9 @@ struct ReportCommand {
 };
 
 Status tell_front(const Table& front, const std::string& readme) {
-  const auto plot = report::readme_front(front), shaders = report::readme_shaders(front);
-  if (!plot) return plot.error();
-  if (!shaders) return shaders.error();
-  return rewrite_page(readme, [&](const std::string& page) -> Result<std::string> {
-    const auto with_plot = with_page_part(page, "front", *plot);
-    return with_plot ? with_page_part(*with_plot, "shaders", *shaders) : with_plot;
-  });
+  const auto words = report::readme_front(front);
+  if (!words) return words.error();
+  return rewrite_page(readme, [&](const std::string& page) { return with_page_part(page, "front", *words); });
 }
 
 int write_front(const ReportCommand& command) {

@@ -165,7 +165,7 @@ int run(const Folders& folders, const SimOptions& options) {
   // Frames are equal wherever no fragment needs what was changed: a wrong entry of a table, say, at an angle
   // that no scene has.
   bool equal = true;
-  for (const std::string& message : tables::stale_files(folders.source, tables::compiled_sizes())) {
+  for (const std::string& message : tables::stale_files(folders.source, tables::compiled_sizes(), false)) {
     board.clear();
     fmt::print(stderr, "{}\n", message);
     equal = false;

@@ -34,8 +34,8 @@ class StudyCommandTest : public CommandTest {
 
 TEST_F(StudyCommandTest, RefusesInvalidQueries) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {{"--error", "2%"}, "--error: '2%' is none"},
-      {{"--psnr", "loud"}, "--psnr: 'loud' is none"},
+      {{"--error", "2%"}, "--error: '2%' is not valid"},
+      {{"--psnr", "loud"}, "--psnr: 'loud' is not valid"},
       {{"--time", "10"}, "--time: '10' is not valid; take a time with its unit"},
       {{"--clock", "0"}, "--clock: takes MHz above 0"},
       {{"--size", "huge"}, "--size: 'huge'"},

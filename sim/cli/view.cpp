@@ -333,7 +333,7 @@ int run(const Folders& folders, const ViewCommand& command) {
   if (!equal) return report(equal.error());
   bool right = *equal;
   // As for sim: frames are equal wherever no fragment needs what was changed.
-  for (const std::string& message : tables::stale_files(folders.source, tables::compiled_sizes())) {
+  for (const std::string& message : tables::stale_files(folders.source, tables::compiled_sizes(), false)) {
     fmt::print(stderr, "{}\n", message);
     right = false;
   }

@@ -28,7 +28,7 @@ using testing::IsEmpty;
 
 using Kind = Criterion::Kind;
 
-const std::filesystem::path c_source = HALFWAY_SOURCE_DIR, c_folder = c_source / "sim" / "figures";
+const std::filesystem::path c_source = HALFWAY_SOURCE_DIR, c_folder = c_source / "docs/results/figures";
 
 TEST(Figures, ACriterionHoldsUpToItsLimit) {
   const auto holds = [](Criterion criterion, double value) { return criterion.holds(value); };

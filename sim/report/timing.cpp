@@ -26,9 +26,9 @@ constexpr std::size_t c_read = 200;      // clocks read to find the first vector
 enum class Shown { wire, decimal, hexadecimal };
 struct ShownSignal {
   const char* label;
-  const char* path;  // in the testbench's hierarchy
+  std::string path;  // in the testbench's hierarchy
   Shown as;
-  const char* valid = nullptr;  // name of a wire: the value is valid only while it is 1
+  std::string valid{};  // name of a wire: the value is valid only while it is 1; empty: always
 };
 
 // In the order of the data flow: inputs at the top, outputs at the bottom.
@@ -36,19 +36,21 @@ std::vector<ShownSignal> signals_of(Shader shader) {
   const bool stalls =
       // stages after the walker stall too; in the other shaders only the walker stalls
       shader == Shader::processors;
-  const char* const walked = stalls ? "dut/drawn" : "dut/span_step";
+  const std::string front = stalls ? "dut/rasterizer/" : "dut/";
+  const std::string walking = stalls ? "dut/drawing" : "dut/walking";
+  const std::string walked = stalls ? "dut/drawn_valid" : "dut/span_step";
   std::vector<ShownSignal> signals = {
       {"init_valid", "init_valid", Shown::wire},
       {"init_ready", "init_ready", Shown::wire},
-      {"line_load", "dut/line_load", Shown::wire},
-      {"line_step", "dut/line_step", Shown::wire},
-      {"line_y", "dut/walker/line_y", Shown::decimal, "dut/walking"},
-      {"line_start", "dut/walker/line_start", Shown::decimal, "dut/walking"},
-      {"line_stop", "dut/walker/line_stop", Shown::decimal, "dut/walking"},
-      {"span_load", "dut/span_load", Shown::wire},
-      {"span_step", "dut/span_step", Shown::wire},
-      {"y", "dut/y", Shown::decimal, walked},
-      {"x", "dut/x", Shown::decimal, walked},
+      {"line_load", front + "line_load", Shown::wire},
+      {"line_step", front + "line_step", Shown::wire},
+      {"line_y", front + "walker/line_y", Shown::decimal, walking},
+      {"line_start", front + "walker/line_start", Shown::decimal, walking},
+      {"line_stop", front + "walker/line_stop", Shown::decimal, walking},
+      {"span_load", front + "span_load", Shown::wire},
+      {"span_step", front + "span_step", Shown::wire},
+      {"y", front + "y", Shown::decimal, walked},
+      {"x", front + "x", Shown::decimal, walked},
   };
   if (!stalls) signals.push_back({"pixel_valid", "dut/pixel_valid", Shown::wire});  // input of the queue
   if (shader == Shader::processors) {
@@ -62,8 +64,8 @@ std::vector<ShownSignal> signals_of(Shader shader) {
   return signals;
 }
 
-std::string in_testbench(const char* path) {
-  return std::string("frame_tb/") + path;
+std::string in_testbench(const std::string& path) {
+  return "frame_tb/" + path;
 }
 
 // At most 32 bits. A value with metavalues is '?'.
@@ -111,7 +113,7 @@ Result<TimingDiagram> draw_shader_timing(Shader shader, const SimulatorFolders& 
   std::vector<std::string> paths;
   for (const ShownSignal& signal : signals) {
     paths.push_back(in_testbench(signal.path));
-    if (signal.valid != nullptr) paths.push_back(in_testbench(signal.valid));
+    if (!signal.valid.empty()) paths.push_back(in_testbench(signal.valid));
   }
   std::ranges::sort(paths);
   paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
@@ -133,8 +135,7 @@ Result<TimingDiagram> draw_shader_timing(Shader shader, const SimulatorFolders& 
     Lane lane{signal.label, signal.as == Shown::wire, {}};
     const auto& values = sampled->values.at(in_testbench(signal.path));
     for (std::size_t edge = first; edge < last; ++edge) {
-      const bool counts =
-          signal.valid == nullptr || sampled->values.at(in_testbench(signal.valid))[edge] == "1";
+      const bool counts = signal.valid.empty() || sampled->values.at(in_testbench(signal.valid))[edge] == "1";
       lane.values.push_back(counts ? shown(values[edge], signal.as) : "");
     }
     lanes.push_back(std::move(lane));

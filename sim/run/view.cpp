@@ -121,9 +121,9 @@ class Easel {
     drawn.again = true;
     auto run = draw_in(rtl, drawn);
     if (!run || !run->equal()) return run;
-    const std::string difference = first.mismatches == 0
-                                       ? first.fault
-                                       : fmt::format("{} fragments differ in {}", first.mismatches, engine);
+    const std::string difference = first.fault.empty()
+                                       ? fmt::format("{} fragments differ in {}", first.mismatches, engine)
+                                       : first.fault;
     return Error{ExitCode::differs,
                  fmt::format("{}: frame {}: {}; Verilator draws it without a difference. The {} are "
                              "wrong: please report it, and use --simulator verilator",

@@ -200,7 +200,7 @@ TEST_F(QueryTest, PrintsTheCheapestItsNeighboursAndTheirCost) {
       "-13208 host instructions per triangle (-72.5 %)\n"
       "  looked at      3 points of hardware; varied: method; not varied: preset, fraction_bits, threshold, "
       "form, seed_bits, newton\n"
-      "  front          3 of 3 points of hardware, time in cycles, the host's work in instructions a "
+      "  front          3 of 3 points of hardware, time in cycles, the host's work in instructions per "
       "triangle\n"
       "  its steps, each more accurate (by largest error) than all cheaper points:\n"
       "  error/255 PSNR, dB     cells    cycles       time host/triangle  design\n"
