@@ -86,7 +86,7 @@ begin
       fault             => open
       );
 
-  -- Offer one vector after the other.
+    -- Offer one vector after the other.
   combinational : process (all)
     variable v : reg_t;
   begin

@@ -57,7 +57,7 @@ package processors_pkg is
   constant c_default_config : config_t := (
     exact => true, channels => 3, directional => 1, positional => 0, spots => 0, diffuse => true, specular => true,
     normalize => true, shadows => false
-  );
+    );
 
   function lights (c : config_t) return natural;
 

@@ -123,7 +123,7 @@ begin
       out_data  => init
       );
 
-  -- The command has the same position in a request and in a token.
+    -- The command has the same position in a request and in a token.
   command <= command_of(g_exact, init);
   loads   <= '1' when command = c_new_frame or command = c_define or command = c_redefine or command = c_delete else '0';
 

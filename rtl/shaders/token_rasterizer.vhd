@@ -148,7 +148,7 @@ begin
           value      => value
           );
 
-      -- The host has added half a step of the dropped bits.
+        -- The host has added half a step of the dropped bits.
       vectors((plane + 1) * c_vector_bits - 1 downto plane * c_vector_bits) <=
         value(c_sum_bits - 1 downto c_sum_bits - c_vector_bits);
 
