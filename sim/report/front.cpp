@@ -7,10 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
-#include <string_view>
 
 #include "sim/study/front.hpp"
 #include "sim/system/file.hpp"
@@ -23,32 +21,12 @@ constexpr const char* c_cycles = "cycles";
 
 // Columns of a study's table that the front contains.
 constexpr std::array c_columns = {
-    "scene",         "scene_hash",    "tools",     "point",        "method",   "preset", "address_bits",
-    "data_bits",     "form",          "threshold", "exponent",     "width",    "height", "angle_bits",
-    "fraction_bits", "seed_bits",     "newton",    "tessellation", "hardware", c_cells,  c_cycles,
-    "rms",           "largest_error", "psnr_db",   "clock_mhz",    "frame_ns"};
+    "scene",  "scene_hash",   "tools",    "point", "method", "preset",     "address_bits",  "data_bits",
+    "form",   "threshold",    "exponent", "width", "height", "angle_bits", "fraction_bits", "seed_bits",
+    "newton", "tessellation", "hardware", c_cells, c_cycles, "rms",        "largest_error", "psnr_db"};
 
 bool is_hardware(const Table& table, std::size_t row) {
   return !table.text(row, "hardware").empty();
-}
-
-// A row of README's table of shaders, and the start of its design's name.
-struct ShaderRow {
-  const char *shader, *preset, *point;
-};
-constexpr std::array c_shader_rows = {
-    ShaderRow{"quadratic", "`published`", "quadratic published,"},
-    ShaderRow{"quadratic", "`exact`", "adaptive exact, threshold 2,"},
-    ShaderRow{"spherical", "`published`", "spherical published,"},
-    ShaderRow{"spherical", "`exact`", "spherical exact, threshold 2,"},
-    ShaderRow{"shading processors", "`published`", "processors-2 published,"},
-    ShaderRow{"shading processors", "`exact`", "processors-2 exact,"},
-};
-
-std::optional<std::size_t> row_of(const Table& front, std::string_view point) {
-  for (std::size_t row = 0; row < front.rows.size(); ++row)
-    if (front.text(row, "point").starts_with(point)) return row;
-  return std::nullopt;
 }
 
 // Error against cells; against clocks if cells were not counted.
@@ -161,23 +139,6 @@ Result<std::string> readme_front(const Table& front) {
       "[the table](docs/results/gallery/front.csv) and draws the plot.*\n",
       plot.points.size(), plot.points.size(), fmt::join(joined, ";\n"),
       hidden.empty() ? "" : fmt::format("\nDesigns with equal figures: {}.", fmt::join(hidden, "; ")));
-}
-
-Result<std::string> readme_shaders(const Table& front) {
-  std::string text =
-      "| shader | preset | rms error | largest error | cells | clock, MHz | ms per frame |\n"
-      "| --- | --- | --- | --- | --- | --- | --- |\n";
-  for (const ShaderRow& which : c_shader_rows) {
-    const auto row = row_of(front, which.point);
-    if (!row) return bad_input(fmt::format("front: has no design '{}'", which.point));
-    const auto frame = front.number(*row, "frame_ns");
-    const std::string& clock = front.text(*row, "clock_mhz");
-    text += fmt::format("| {} | {} | {:.2f} | {} | {} | {} | {} |\n", which.shader, which.preset,
-                        front.number(*row, "rms").value_or(0), front.text(*row, "largest_error"),
-                        front.text(*row, c_cells), clock.empty() ? "does not fit" : clock,
-                        frame ? fmt::format("{:.2f}", *frame / 1e6) : "–");
-  }
-  return text;
 }
 
 Result<std::size_t> write_front(const Table& study, const std::filesystem::path& folder,

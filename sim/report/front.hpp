@@ -31,9 +31,6 @@ Table front_of(const Table& study);
 Result<std::string> draw_front(const Table& front, const std::filesystem::path& scratch);
 /// README's part "front": the picture with what its line joins, in words. Bad input where not all is counted.
 Result<std::string> readme_front(const Table& front);
-/// README's part "shaders": one row per shader and preset, of the same picture. Bad input if a design is
-/// missing.
-Result<std::string> readme_shaders(const Table& front);
 /// Writes front.csv and, drawn from it, front.svg; neither where there is nothing to plot. How many designs.
 Result<std::size_t> write_front(const Table& study, const std::filesystem::path& folder,
                                 const std::filesystem::path& scratch);
