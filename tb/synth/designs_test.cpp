@@ -41,6 +41,14 @@ TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
     for (std::sregex_iterator it(source.content.begin(), source.content.end(), entity), end; it != end; ++it)
       there.insert((*it)[1]);
   for (const ListedDesign& design : all_designs()) listed.insert(design.design.entity);
+  // These are measured inside the shading processors: a generic of record type has no value on GHDL's command
+  // line.
+  for (const char* inside :
+       {"ambient_term", "cosine_power", "fragment_output", "half_vector", "light_state", "light_term",
+        "light_vector", "light_weight", "radiance_sum", "reflected_term", "shading_sequence", "shared_adder",
+        "shared_dot_product", "shared_multiplier", "shared_normalizer", "shared_weight", "token_order",
+        "token_rasterizer", "token_register"})
+    EXPECT_TRUE(listed.insert(inside).second) << inside;
   EXPECT_THAT(listed, ::testing::ContainerEq(there));
   EXPECT_GT(there.size(), 30U);
 }
