@@ -99,7 +99,7 @@ class RtlFrame {
   std::span<const Fragment> given_;       ///< of this call, not compared yet
   std::optional<TraceReader> trace_;
   std::vector<Fragment> read_;
-  std::uint64_t expected_ = 0, count_ = 0;  ///< fragments, of the vectors so far
+  std::uint64_t expected_ = 0, count_ = 0, golden_count_ = 0;  ///< fragments, of the vectors so far
   Stretch stretch_;
   double golden_clock_ = 0.0, compare_clock_ = 0.0, assemble_clock_ = 0.0;  ///< parts of it
   std::string fault_;
