@@ -137,8 +137,11 @@ std::vector<ListedDesign> all_designs() {
     if (exact) add("shadow_counter", {});
     for (const char* entity : {"shading_processor", "unrolled_shading_processor"}) {
       const Generics light = {is_exact, {"g_directional", "1"}, {"g_light", "1"}};
-      add(entity, with(light, {{"g_kind", std::to_string(1)}}), false, "_diffuse");
-      add(entity, with(light, {{"g_kind", std::to_string(2)}}), false, "_specular");
+      // Those of preset exact do not fit the device.
+      for (const auto& [kind, suffix] : {std::pair{"1", "_diffuse"}, {"2", "_specular"}}) {
+        add(entity, with(light, {{"g_kind", kind}}), false, suffix);
+        all.back().ice40 = !exact;
+      }
     }
     add("shading_pipeline", {is_exact, {"g_directional", "1"}});
     all.back().ice40 = !exact;
