@@ -9,6 +9,7 @@
 #include <regex>
 #include <utility>
 
+#include "common/to_integer.hpp"
 #include "sim/pictures/image.hpp"
 #include "sim/report/html.hpp"
 #include "sim/report/section.hpp"
@@ -36,7 +37,7 @@ Result<std::pair<int, int>> size_of(const std::filesystem::path& picture) {
   if (std::sscanf(document.child("svg").attribute("viewBox").value(), "%*f %*f %lf %lf", &width, &height) !=
       2)
     return bad_input(picture.string() + ": not an SVG with a viewBox; run make figures again");
-  return std::pair(static_cast<int>(std::lround(width)), static_cast<int>(std::lround(height)));
+  return std::pair(to_integer<int>(std::round(width)), to_integer<int>(std::round(height)));
 }
 
 }  // namespace
