@@ -28,6 +28,8 @@ class ProofProgram : public ::testing::Test {
     constexpr auto all = std::filesystem::copy_options::recursive;
     std::filesystem::copy(c_source / "rtl", source() / "rtl", all);
     std::filesystem::copy(c_source / "tb/proofs", source() / "tb/proofs", all);
+    std::filesystem::create_directories(source() / "docs/results");
+    std::filesystem::copy(c_source / "docs/results/proofs.md", page());
   }
   std::filesystem::path source() const { return folder_->path() / "source"; }
 

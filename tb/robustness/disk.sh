@@ -96,13 +96,13 @@ done
 
 # Tables: the files as they were.
 new_disk 4096 4096
-mkdir -p "$disk/rtl/tables" "$disk/model/golden"
+mkdir -p "$disk/rtl/tables" "$disk/model/golden" "$disk/docs/rtl"
 "$generator" --source "$disk" tables >/dev/null || fail 'tables with room'
-before=$(cd "$disk" && cksum rtl/tables/* model/golden/*)
+before=$(cd "$disk" && cksum rtl/tables/* model/golden/* docs/rtl/*)
 head -c 4194304 /dev/zero >"$disk/ballast" 2>/dev/null
-expect_full tables '/(rtl/tables|model/golden)/[a-z_]*\.[a-z]*$' "$generator" --source "$disk" tables \
+expect_full tables '/(rtl/tables|model/golden|docs/rtl)/[a-z_-]*\.[a-z]*$' "$generator" --source "$disk" tables \
   --preset published --address-bits 5 --data-bits 6
-[ "$before" = "$(cd "$disk" && cksum rtl/tables/* model/golden/*)" ] || fail 'tables: a file has changed'
+[ "$before" = "$(cd "$disk" && cksum rtl/tables/* model/golden/* docs/rtl/*)" ] || fail 'tables: a file has changed'
 umount "$disk"
 
 # A folder that may not be written is bad usage, not a full disk. Root may write everywhere but here.

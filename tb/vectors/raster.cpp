@@ -294,9 +294,10 @@ Status write_edge_walker(const std::filesystem::path& folder) {
   for (int i = 0; i < 6000; ++i) {
     if (edges.empty()) {
       for (const Walk& walk : random_walks(random))
-        for (const EdgeSection* section : {&walk.start, &walk.upper, &walk.lower})
+        for (const EdgeSection* section : {&walk.start, &walk.upper, &walk.lower}) {
           edges.push_back(edge_start(*section));
-      edges.push_back(garbage_edge(random));
+          edges.push_back(garbage_edge(random));
+        }
     }
     const EdgeStart& e = edges.back();
     const bool load = i == 0 || waits || random.one_in(16), step = i == 0 || !random.one_in(5);
